@@ -1,0 +1,2 @@
+//! The `framewright` command.
+fn main() {}

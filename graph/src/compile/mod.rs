@@ -1,0 +1,1 @@
+//! One file per stage, each a function from data to data.

@@ -1,0 +1,232 @@
+//! What a shader uses, as data: read off its SPIR-V by a backend, needed by `check` without any device.
+
+use crate::frame::Draw;
+use crate::vocabulary::Stages;
+
+/// Everything that a shader (all its stages together) uses.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ShaderInterface {
+    /// Resources by set and binding.
+    pub bindings: Vec<Binding>,
+    /// Vertex attributes that the vertex stage reads.
+    pub vertex_inputs: Vec<VertexInput>,
+    /// Colour outputs of the fragment stage.
+    pub outputs: Vec<FragmentOutput>,
+    /// Whether the fragment stage may discard fragments.
+    pub discards: bool,
+    /// Whether the fragment stage reads `gl_FragCoord`.
+    pub uses_frag_coord: bool,
+    /// Whether the fragment stage takes screen-space derivatives, implicit ones included.
+    pub uses_derivatives: bool,
+    /// Whether the fragment stage runs once a sample.
+    pub per_sample: bool,
+    /// Whether the fragment stage writes its own depth.
+    pub writes_depth: bool,
+}
+
+/// The set whose bindings belong to the pass: its sampled and storage images, and one block of parameters. Sets from 1
+/// on belong to whoever draws.
+pub const PASS_SET: u32 = 0;
+
+/// One resource.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Binding {
+    /// Descriptor set.
+    pub set: u32,
+    /// Binding number in its set.
+    pub binding: u32,
+    /// Name in the shader: of the variable, or for a block without instance name, of the block.
+    pub name: String,
+    /// Kind and shape.
+    pub kind: BindingKind,
+    /// Stages that use it.
+    pub stages: Stages,
+}
+
+/// Kind and shape of a resource.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BindingKind {
+    /// A combined image sampler.
+    SampledImage(ImageShape),
+    /// A storage image.
+    StorageImage {
+        /// Dimension and component type.
+        shape: ImageShape,
+        /// Whether the shader may read it.
+        readable: bool,
+        /// Whether the shader may write it.
+        writable: bool,
+    },
+    /// A uniform block.
+    UniformBlock(Block),
+    /// A storage block.
+    StorageBlock {
+        /// Whether the shader may write it.
+        writable: bool,
+    },
+    /// Anything else (separate samplers, texel buffers, input attachments, …), in words: not supported.
+    Other(String),
+}
+
+/// The shape of an image in a shader.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ImageShape {
+    /// Dimension.
+    pub dimension: Dimension,
+    /// Whether it is an array of layers.
+    pub arrayed: bool,
+    /// Whether single samples are read.
+    pub multisampled: bool,
+    /// What a component is.
+    pub component: Component,
+}
+
+/// Image dimension.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// One.
+    D1,
+    /// Two.
+    D2,
+    /// Three.
+    D3,
+    /// Six square faces.
+    Cube,
+    /// A texel buffer.
+    Buffer,
+}
+
+/// What a component is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Component {
+    /// Floating point (UNORM and SRGB formats too).
+    Float,
+    /// Signed integer.
+    Int,
+    /// Unsigned integer.
+    Uint,
+}
+
+/// A uniform block.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Block {
+    /// Bytes it takes (std140).
+    pub bytes: u32,
+    /// Members in order.
+    pub members: Vec<Member>,
+}
+
+/// A member of a block.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Member {
+    /// Name.
+    pub name: String,
+    /// Offset in bytes.
+    pub offset: u32,
+    /// Type, as GLSL writes it: `float`, `int`, `uint`, `bool`, `vec4`, `mat4`, …; `bool` members read as `uint`.
+    pub ty: String,
+}
+
+/// A vertex attribute.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct VertexInput {
+    /// Location.
+    pub location: u32,
+    /// Name in the shader.
+    pub name: String,
+    /// Type, as GLSL writes it.
+    pub ty: String,
+}
+
+/// A colour output.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FragmentOutput {
+    /// Location.
+    pub location: u32,
+    /// Name in the shader.
+    pub name: String,
+    /// What a component is.
+    pub component: Component,
+    /// Number of components.
+    pub components: u32,
+}
+
+/// Why a shader has no interface. Text from files inside is not yet escaped.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ShaderProblem {
+    /// No such shader.
+    Missing {
+        /// Where it was looked for.
+        looked_in: Vec<String>,
+        /// Names that exist.
+        known: Vec<String>,
+    },
+    /// It doesn't compile.
+    DoesNotCompile {
+        /// The compiler's words, with the shader's own file and line.
+        messages: Vec<String>,
+    },
+    /// It uses something that can't be bound.
+    Unsupported {
+        /// In words.
+        what: String,
+    },
+}
+
+/// Where shader interfaces come from: a compiler and reflection over files on disk, or a table in a test.
+pub trait ShaderInterfaces {
+    /// The interface of the shader `name` when it draws `draw`.
+    ///
+    /// # Errors
+    /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
+    fn draw_shader(&mut self, name: &str, draw: Draw) -> Result<ShaderInterface, ShaderProblem>;
+
+    /// What whoever draws `draw` brings along.
+    fn brought_along(&self, draw: Draw) -> DrawInterface;
+}
+
+/// What whoever draws brings along for one kind of draw: vertex attributes, and resources in sets from 1 on.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct DrawInterface {
+    /// Bytes from vertex to vertex; 0 if there is no vertex buffer.
+    pub vertex_stride: u32,
+    /// Vertex attributes, all 32-bit floats, by the name that shaders give them.
+    pub attributes: Vec<Attribute>,
+    /// Resources that are bound.
+    pub supplied: Vec<Supplied>,
+}
+
+/// A vertex attribute that is brought along.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Attribute {
+    /// Name in shaders.
+    pub name: &'static str,
+    /// Number of 32-bit float components, 1 to 4.
+    pub components: u32,
+    /// Offset in a vertex, in bytes.
+    pub offset: u32,
+}
+
+/// A resource that is brought along.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Supplied {
+    /// Descriptor set, from 1.
+    pub set: u32,
+    /// Binding number.
+    pub binding: u32,
+    /// Name in shaders.
+    pub name: &'static str,
+    /// Kind.
+    pub kind: SuppliedKind,
+}
+
+/// Kind of a resource that is brought along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SuppliedKind {
+    /// A uniform block.
+    UniformBlock,
+    /// A storage block, read only.
+    StorageBlock,
+    /// A combined image sampler, two-dimensional, float.
+    SampledImage,
+}

@@ -1,0 +1,17 @@
+//! A pipeline file says *what* a frame is made of; this crate finds out *how*: no GPU, no unsafe code.
+//!
+//! ```text
+//! pipeline.ron ─► describe ─► expand ─► compile ─► Plan ─► verify
+//! ```
+
+pub mod compile;
+pub mod describe;
+pub mod device;
+pub mod expand;
+pub mod format;
+pub mod frame;
+pub mod interface;
+pub mod plan;
+pub mod source;
+pub mod verify;
+pub mod vocabulary;

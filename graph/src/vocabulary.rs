@@ -1,0 +1,232 @@
+//! Vulkan's own words as plain data: pipeline stages, accesses, layouts, usages, load and store operations.
+//!
+//! Bit values and names are those of the Vulkan 1.3 specification (`VK_PIPELINE_STAGE_2_*_BIT` and so on, without prefix
+//! and suffix), so that a backend converts them without a table and a reader looks them up without a dictionary.
+
+use bitflags::bitflags;
+use serde::{Deserialize, Serialize};
+
+bitflags! {
+    /// Pipeline stages (`VkPipelineStageFlagBits2`).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(transparent)]
+    pub struct Stages: u64 {
+        /// Reading of indirect draw and dispatch parameters.
+        const DRAW_INDIRECT = 0x2;
+        /// Fetch of indices and vertex attributes.
+        const VERTEX_INPUT = 0x4;
+        /// Vertex shading.
+        const VERTEX_SHADER = 0x8;
+        /// Fragment shading.
+        const FRAGMENT_SHADER = 0x80;
+        /// Depth and stencil tests before the fragment shader, and the load operations of depth attachments.
+        const EARLY_FRAGMENT_TESTS = 0x100;
+        /// Depth and stencil tests after the fragment shader, and the store operations of depth attachments.
+        const LATE_FRAGMENT_TESTS = 0x200;
+        /// Writing and blending of colour, load, store and resolve operations of colour attachments, and every
+        /// resolve at the end of a rendering scope (depth too).
+        const COLOR_ATTACHMENT_OUTPUT = 0x400;
+        /// Compute shading.
+        const COMPUTE_SHADER = 0x800;
+        /// Accesses of the host.
+        const HOST = 0x4000;
+        /// Everything a queue does.
+        const ALL_COMMANDS = 0x1_0000;
+        /// `vkCmdCopy*`.
+        const COPY = 0x1_0000_0000;
+        /// `vkCmdResolveImage2`.
+        const RESOLVE = 0x2_0000_0000;
+        /// `vkCmdBlitImage2`.
+        const BLIT = 0x4_0000_0000;
+        /// `vkCmdClear*Image`.
+        const CLEAR = 0x8_0000_0000;
+    }
+}
+
+bitflags! {
+    /// Kinds of memory access (`VkAccessFlagBits2`).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(transparent)]
+    pub struct Accesses: u64 {
+        /// Indirect parameters.
+        const INDIRECT_COMMAND_READ = 0x1;
+        /// Indices.
+        const INDEX_READ = 0x2;
+        /// Vertex attributes.
+        const VERTEX_ATTRIBUTE_READ = 0x4;
+        /// Uniform buffers.
+        const UNIFORM_READ = 0x8;
+        /// Blending, load operations.
+        const COLOR_ATTACHMENT_READ = 0x80;
+        /// Colour writes, clear and don't-care loads, stores, resolves.
+        const COLOR_ATTACHMENT_WRITE = 0x100;
+        /// Depth and stencil tests, load operations.
+        const DEPTH_STENCIL_ATTACHMENT_READ = 0x200;
+        /// Depth and stencil writes, clear and don't-care loads, stores.
+        const DEPTH_STENCIL_ATTACHMENT_WRITE = 0x400;
+        /// Source of a copy, blit or resolve.
+        const TRANSFER_READ = 0x800;
+        /// Destination of a copy, blit, resolve or clear.
+        const TRANSFER_WRITE = 0x1000;
+        /// Host reads.
+        const HOST_READ = 0x2000;
+        /// Host writes.
+        const HOST_WRITE = 0x4000;
+        /// Any read.
+        const MEMORY_READ = 0x8000;
+        /// Any write.
+        const MEMORY_WRITE = 0x1_0000;
+        /// Sampled images.
+        const SHADER_SAMPLED_READ = 0x1_0000_0000;
+        /// Reads of storage images and buffers.
+        const SHADER_STORAGE_READ = 0x2_0000_0000;
+        /// Writes of storage images and buffers.
+        const SHADER_STORAGE_WRITE = 0x4_0000_0000;
+    }
+}
+
+impl Accesses {
+    /// Every access that changes memory.
+    pub const WRITES: Accesses = Accesses::COLOR_ATTACHMENT_WRITE
+        .union(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE)
+        .union(Accesses::TRANSFER_WRITE)
+        .union(Accesses::HOST_WRITE)
+        .union(Accesses::MEMORY_WRITE)
+        .union(Accesses::SHADER_STORAGE_WRITE);
+
+    /// The writes among these accesses.
+    #[must_use]
+    pub const fn writes(self) -> Accesses {
+        self.intersection(Accesses::WRITES)
+    }
+}
+
+bitflags! {
+    /// What an image may be used for (`VkImageUsageFlagBits`).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(transparent)]
+    pub struct Usage: u32 {
+        /// Source of copies, blits and resolves.
+        const TRANSFER_SRC = 0x1;
+        /// Destination of copies, blits, resolves and clears.
+        const TRANSFER_DST = 0x2;
+        /// Sampled in shaders.
+        const SAMPLED = 0x4;
+        /// Read and written in shaders without sampling.
+        const STORAGE = 0x8;
+        /// Colour or resolve attachment.
+        const COLOR_ATTACHMENT = 0x10;
+        /// Depth attachment.
+        const DEPTH_STENCIL_ATTACHMENT = 0x20;
+        /// Never leaves its rendering scope: may live in lazily allocated memory.
+        const TRANSIENT_ATTACHMENT = 0x40;
+    }
+}
+
+bitflags! {
+    /// Planes of an image (`VkImageAspectFlagBits`).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(transparent)]
+    pub struct Aspects: u32 {
+        /// Colour.
+        const COLOR = 0x1;
+        /// Depth.
+        const DEPTH = 0x2;
+        /// Stencil.
+        const STENCIL = 0x4;
+    }
+}
+
+/// How an image's texels lie in memory (`VkImageLayout`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum Layout {
+    /// Contents are not kept.
+    Undefined,
+    /// Any use; storage images need it.
+    General,
+    /// Colour attachment.
+    ColorAttachmentOptimal,
+    /// Depth attachment, written.
+    DepthStencilAttachmentOptimal,
+    /// Depth attachment only tested, and sampled at the same time if need be.
+    DepthStencilReadOnlyOptimal,
+    /// Sampled.
+    ShaderReadOnlyOptimal,
+    /// Source of copies, blits and resolves.
+    TransferSrcOptimal,
+    /// Destination of copies, blits, resolves and clears.
+    TransferDstOptimal,
+    /// Presented.
+    PresentSrcKhr,
+}
+
+/// What happens to an attachment's contents when a rendering scope begins (`VkAttachmentLoadOp`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum LoadOp {
+    /// Kept.
+    Load,
+    /// Set to the clear value.
+    Clear,
+    /// Undefined. Counts as a write.
+    DontCare,
+}
+
+/// What happens to an attachment's contents when a rendering scope ends (`VkAttachmentStoreOp`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum StoreOp {
+    /// Kept. Counts as a write.
+    Store,
+    /// Undefined. Counts as a write.
+    DontCare,
+    /// Left alone: contents from before the scope stay. Not a write.
+    None,
+}
+
+/// How samples become one value (`VkResolveModeFlagBits`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum ResolveMode {
+    /// Mean of all samples.
+    Average,
+    /// The first sample.
+    SampleZero,
+    /// The least.
+    Min,
+    /// The greatest.
+    Max,
+}
+
+/// How texels between samples are found (`VkFilter`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum Filter {
+    /// The nearest texel.
+    Nearest,
+    /// Weighted mean of the four around.
+    Linear,
+}
+
+/// Depth comparison (`VkCompareOp`). Depth is reversed: nearer is greater.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum CompareOp {
+    /// Never passes.
+    Never,
+    /// Passes if less.
+    Less,
+    /// Passes if equal.
+    Equal,
+    /// Passes if less or equal.
+    LessOrEqual,
+    /// Passes if greater.
+    Greater,
+    /// Passes if different.
+    NotEqual,
+    /// Passes if greater or equal.
+    GreaterOrEqual,
+    /// Always passes.
+    Always,
+}
