@@ -1,1 +1,9 @@
-//! Framewright.
+//! What the shipped passes draw: the scene, the sky, full-screen effects; and the twins that their shaders are held against.
+//!
+//! - [`shipped`]: the shaders, carried within the binary.
+//! - [`draw`]: what a draw brings along, and the draw source that draws a scene.
+//! - [`twin`]: the shaders' closed formulas in 64-bit floating point.
+
+pub mod draw;
+pub mod shipped;
+pub mod twin;

@@ -1,0 +1,54 @@
+//! What every kind of draw brings along: vertex attributes, and the resources of `shaders/include/scene.glsl` and
+//! `shaders/include/material.glsl`.
+
+use framewright_graph::frame::Draw;
+use framewright_graph::interface::{Attribute, DrawInterface, Supplied, SuppliedKind};
+
+/// The set of what stays the same for a whole frame.
+pub const FRAME_SET: u32 = 1;
+/// The set of what changes from material to material.
+pub const MATERIAL_SET: u32 = 2;
+/// Binding of the camera, in [`FRAME_SET`].
+pub const VIEW_BINDING: u32 = 0;
+/// Binding of sun, sky and point lights, in [`FRAME_SET`].
+pub const LIGHTS_BINDING: u32 = 1;
+/// Binding of matrices and material factors by object, in [`FRAME_SET`].
+pub const OBJECTS_BINDING: u32 = 2;
+/// Binding of the base colour's texture, in [`MATERIAL_SET`].
+pub const BASE_COLOR_TEXTURE_BINDING: u32 = 0;
+
+/// What whoever draws `draw` with the shipped draw source finds bound. Known without any device, so `check` can hold
+/// shaders against it.
+///
+/// The sky is given the same frame set as objects, so that one bind group serves both; a full-screen draw is given nothing
+/// but what its pass samples.
+#[must_use]
+pub fn interface(draw: Draw) -> DrawInterface {
+    let frame = |binding, name, kind| Supplied { set: FRAME_SET, binding, name, kind };
+    let mut supplied = vec![
+        frame(VIEW_BINDING, "view", SuppliedKind::UniformBlock),
+        frame(LIGHTS_BINDING, "lights", SuppliedKind::StorageBlock),
+        frame(OBJECTS_BINDING, "objects", SuppliedKind::StorageBlock),
+    ];
+    match draw {
+        Draw::Objects(_) => {
+            supplied.push(Supplied {
+                set: MATERIAL_SET,
+                binding: BASE_COLOR_TEXTURE_BINDING,
+                name: "base_color_texture",
+                kind: SuppliedKind::SampledImage,
+            });
+            DrawInterface {
+                vertex_stride: 32,
+                attributes: vec![
+                    Attribute { name: "position", components: 3, offset: 0 },
+                    Attribute { name: "normal", components: 3, offset: 12 },
+                    Attribute { name: "uv", components: 2, offset: 24 },
+                ],
+                supplied,
+            }
+        }
+        Draw::Sky => DrawInterface { supplied, ..DrawInterface::default() },
+        Draw::FullScreen => DrawInterface::default(),
+    }
+}

@@ -1,0 +1,4 @@
+//! CPU twins of the shaders' closed formulas, in 64-bit floating point: what the GPU is held against.
+
+pub mod radiance;
+pub mod tone_mapping;

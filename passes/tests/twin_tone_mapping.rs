@@ -1,0 +1,102 @@
+//! Claims about the tone mapping curves (IQ-21), over everything that the guard lets through.
+
+use framewright_passes::twin::radiance::{LARGEST_HALF, guard_radiance};
+use framewright_passes::twin::tone_mapping::{modified_reinhard, reinhard};
+
+/// Every finite half float from 0 on, smallest first.
+fn halves() -> impl Iterator<Item = f64> {
+    (0_u32..0x7c00).map(|bits| {
+        let (exponent, mantissa) = (bits >> 10, f64::from(bits & 0x3ff));
+        if exponent == 0 {
+            mantissa * 2_f64.powi(-24)
+        } else {
+            (1024.0 + mantissa) * 2_f64.powi(exponent.cast_signed() - 25)
+        }
+    })
+}
+
+#[test]
+fn the_range_runs_from_zero_to_the_largest_half() {
+    assert_eq!(halves().next(), Some(0.0));
+    assert_eq!(halves().last(), Some(LARGEST_HALF));
+}
+
+#[test]
+fn zero_stays_exactly_zero() {
+    assert_eq!(reinhard(0.0), 0.0);
+    for white_point in [1.0, 4.0, 100.0, f64::INFINITY] {
+        assert_eq!(modified_reinhard(0.0, white_point), 0.0);
+    }
+}
+
+#[test]
+fn the_curves_rise_and_stay_between_zero_and_one() {
+    let mut before = [-1.0; 4];
+    for radiance in halves() {
+        let now = [
+            reinhard(radiance),
+            modified_reinhard(radiance, 1.0),
+            modified_reinhard(radiance, 4.0),
+            modified_reinhard(radiance, 100.0),
+        ];
+        for (now, before) in now.iter().zip(before) {
+            assert!((0.0..=1.0).contains(now) && *now >= before, "{radiance} becomes {now} after {before}");
+        }
+        before = now;
+    }
+}
+
+#[test]
+fn radiance_one_becomes_one_half_under_reinhard() {
+    assert_eq!(reinhard(1.0), 0.5);
+}
+
+#[test]
+fn reinhard_approaches_one_and_never_overflows() {
+    let brightest = reinhard(LARGEST_HALF);
+    assert!(brightest < 1.0 && brightest > 0.9999);
+}
+
+#[test]
+fn the_white_point_becomes_one_and_everything_brighter_stays_there() {
+    for white_point in [1.0, 2.0, 4.0, 10.0, 100.0] {
+        assert!((modified_reinhard(white_point, white_point) - 1.0).abs() < 1e-15);
+        for radiance in halves().filter(|radiance| *radiance > white_point) {
+            assert!((modified_reinhard(radiance, white_point) - 1.0).abs() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn a_white_point_of_one_is_the_identity_on_zero_to_one() {
+    for radiance in halves().filter(|radiance| *radiance <= 1.0) {
+        let mapped = modified_reinhard(radiance, 1.0);
+        assert!((mapped - radiance).abs() <= 2.0 * f64::EPSILON * radiance, "{radiance} became {mapped}");
+    }
+}
+
+#[test]
+fn a_white_point_below_one_counts_as_one() {
+    for white_point in [0.5, 0.0, -3.0, f64::NEG_INFINITY] {
+        assert_eq!(modified_reinhard(0.75, white_point), modified_reinhard(0.75, 1.0));
+    }
+}
+
+#[test]
+fn an_endless_white_point_is_reinhard() {
+    for radiance in halves() {
+        assert_eq!(modified_reinhard(radiance, f64::INFINITY), reinhard(radiance));
+        // The difference is c²/(1 + c)/w², less than c/w².
+        assert!((modified_reinhard(radiance, 1e12) - reinhard(radiance)).abs() <= radiance * 1e-24 + f64::EPSILON);
+    }
+}
+
+#[test]
+fn behind_the_guard_no_input_becomes_nan() {
+    for radiance in [f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, -0.0, 5e-324] {
+        let guarded = guard_radiance(radiance);
+        for mapped in [reinhard(guarded), modified_reinhard(guarded, 1.0), modified_reinhard(guarded, 100.0)] {
+            assert!((0.0..=1.0).contains(&mapped), "{radiance} became {mapped}");
+        }
+    }
+}

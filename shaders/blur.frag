@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/radiance.glsl"
+
+layout(set = 0, binding = 0) uniform sampler2D source;
+layout(set = 0, binding = 1) uniform Params {
+    // From tap to tap, in texels of the source: (1, 0) and (0, 1) in two passes make a round blur.
+    float direction_x;
+    float direction_y;
+} params;
+
+layout(location = 0) in vec2 uv;
+
+layout(location = 0) out vec4 color;
+
+// Taps to each side, and the standard deviation, in steps of `direction`: the taps end at two deviations.
+const int RADIUS = 4;
+const float DEVIATION = 2.0;
+
+// One axis of a Gaussian, its weights scaled to add up to 1.
+void main() {
+    const vec2 step_uv = vec2(params.direction_x, params.direction_y) / vec2(textureSize(source, 0));
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+    for (int tap = -RADIUS; tap <= RADIUS; ++tap) {
+        const float distance = float(tap) / DEVIATION;
+        const float weight = exp(-0.5 * distance * distance);
+        sum += weight * guard_color(textureLod(source, uv + float(tap) * step_uv, 0.0));
+        weights += weight;
+    }
+    color = guard_color(sum / weights);
+}

@@ -1,0 +1,10 @@
+#version 460
+
+// 0 to 1 across the target, from its upper left corner.
+layout(location = 0) out vec2 uv;
+
+// One triangle that covers every pixel.
+void main() {
+    uv = vec2((gl_VertexIndex << 1) & 2, gl_VertexIndex & 2);
+    gl_Position = vec4(uv * 2.0 - 1.0, 0.0, 1.0);
+}

@@ -1,0 +1,59 @@
+// What the shipped draw source binds: set 1 for the frame, set 2 for the material. The same table for the CPU:
+// passes/src/draw/interface.rs.
+//
+// World space here has the axes of the scene but its origin at the camera: differences to the camera are taken on the CPU
+// in 64 bits, so that a scene a million units from its origin doesn't shake.
+#ifndef FRAMEWRIGHT_SCENE
+#define FRAMEWRIGHT_SCENE
+
+struct Object {
+    // Object space to world space.
+    mat4 object_to_world;
+    // Inverse transpose of the upper left of object_to_world, scaled to a determinant of about 1.
+    mat3 normal_to_world;
+    // Linear colour and alpha by which the texture is multiplied.
+    vec4 base_color;
+    // Emitted radiance.
+    vec3 emissive;
+    // Masked materials discard fragments whose alpha is below.
+    float alpha_cutoff;
+    // 1 if alpha says how much of what is behind stays hidden, 0 if alpha is to be ignored.
+    uint transparent;
+};
+
+struct PointLight {
+    // In world space.
+    vec3 position;
+    // Distance at which its light has faded to nothing.
+    float range;
+    // Radiance that a white, rough surface facing it shows at distance 1.
+    vec3 intensity;
+};
+
+layout(set = 1, binding = 0, std140) uniform View {
+    // Reversed depth: 1 at the near plane, 0 infinitely far.
+    mat4 world_to_clip;
+    mat4 clip_to_world;
+    // Where the camera stands in the scene's own coordinates.
+    vec3 camera_position;
+} view;
+
+layout(set = 1, binding = 1, std430) readonly buffer Lights {
+    // Unit vector towards the sun.
+    vec3 sun_direction;
+    uint point_light_count;
+    // Radiance that a white, rough surface facing the sun shows.
+    vec3 sun_radiance;
+    // Radiance from straight above, from the horizon, and from below.
+    vec3 zenith_radiance;
+    vec3 horizon_radiance;
+    vec3 ground_radiance;
+    PointLight point_lights[];
+} lights;
+
+layout(set = 1, binding = 2, std430) readonly buffer Objects {
+    // By gl_InstanceIndex.
+    Object object[];
+} objects;
+
+#endif

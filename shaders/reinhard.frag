@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/radiance.glsl"
+#include "include/tone_mapping.glsl"
+
+layout(set = 0, binding = 0) uniform sampler2D source;
+
+layout(location = 0) in vec2 uv;
+
+layout(location = 0) out vec4 color;
+
+void main() {
+    color = vec4(reinhard(guard_radiance(textureLod(source, uv, 0.0).rgb)), 1.0);
+}

@@ -1,0 +1,21 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/radiance.glsl"
+
+layout(set = 0, binding = 0) uniform sampler2D sharp;
+layout(set = 0, binding = 1) uniform sampler2D soft;
+layout(set = 0, binding = 2) uniform Params {
+    // 0 shows the sharp image alone, 1 the soft one.
+    float strength;
+} params;
+
+layout(location = 0) in vec2 uv;
+
+layout(location = 0) out vec4 color;
+
+void main() {
+    const vec4 focused = guard_color(textureLod(sharp, uv, 0.0));
+    const vec4 blurred = guard_color(textureLod(soft, uv, 0.0));
+    color = guard_color(mix(focused, blurred, clamp(params.strength, 0.0, 1.0)));
+}
