@@ -1,9 +1,11 @@
 //! What the shipped passes draw: the scene, the sky, full-screen effects; and the twins that their shaders are held against.
 //!
+//! - [`scene`]: scenes as plain data, read from our own RON format or from GLB.
 //! - [`shipped`]: the shaders, carried within the binary.
 //! - [`draw`]: what a draw brings along, and the draw source that draws a scene.
 //! - [`twin`]: the shaders' closed formulas in 64-bit floating point.
 
 pub mod draw;
+pub mod scene;
 pub mod shipped;
 pub mod twin;

@@ -1,0 +1,51 @@
+//! Boxes around things.
+
+use glam::{DVec3, Mat4, Vec3};
+
+/// An axis-aligned box, borders included.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// Smallest coordinates, metres.
+    pub min: Vec3,
+    /// Largest coordinates, metres; nowhere less than `min`.
+    pub max: Vec3,
+}
+
+impl Bounds {
+    /// The smallest box that holds every point; `None` without points.
+    #[must_use]
+    pub fn of(points: &[[f32; 3]]) -> Option<Bounds> {
+        points.iter().map(|point| Bounds { min: Vec3::from(*point), max: Vec3::from(*point) }).reduce(Bounds::union)
+    }
+
+    /// The smallest box that holds both.
+    #[must_use]
+    pub fn union(self, other: Bounds) -> Bounds {
+        Bounds { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    /// The smallest box that holds this one moved by an affine transform.
+    #[must_use]
+    pub fn transformed(self, transform: Mat4) -> Bounds {
+        let transform = transform.as_dmat4();
+        let corners = (0..8).map(|corner| {
+            let pick = |axis: usize| if corner >> axis & 1 == 0 { self.min[axis] } else { self.max[axis] };
+            transform.transform_point3(DVec3::new(pick(0).into(), pick(1).into(), pick(2).into()))
+        });
+        let (min, max) =
+            corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), at| (min.min(at), max.max(at)));
+        Bounds { min: min.as_vec3(), max: max.as_vec3() }
+    }
+
+    /// The middle.
+    #[must_use]
+    pub fn center(self) -> Vec3 {
+        self.min * 0.5 + self.max * 0.5
+    }
+
+    /// Half the length of the diagonal: the radius of the sphere around the box, metres.
+    #[must_use]
+    pub fn radius(self) -> f64 {
+        (self.max.as_dvec3() - self.min.as_dvec3()).length() * 0.5
+    }
+}

@@ -1,0 +1,126 @@
+//! A scene as plain data: meshes, materials, textures, objects, lights, a sky and a camera.
+//!
+//! Space is glTF's: right-handed, y up, metres; front faces are counter-clockwise seen from outside. Colours are linear
+//! with Rec. 709 primaries unless said otherwise.
+//!
+//! Light has no absolute unit; one rule ties everything to the picture. The radiance that leaves a surface of base
+//! colour `c` with unit normal `n` is
+//!
+//! ```text
+//! emissive + c · (ambient + sun.color · max(n · −sun.direction, 0) + Σ light.arriving(distance) · max(n · l, 0))
+//! ```
+//!
+//! so a white surface that faces a sun of colour 1 gives 1: there is no division by π.
+
+mod bounds;
+mod camera;
+mod light;
+mod material;
+
+pub use bounds::Bounds;
+pub use camera::Camera;
+pub use light::{PointLight, Sky, Sun};
+pub use material::{AlphaMode, Material, Sampler, Texture, Wrap};
+
+use framewright_graph::expand::Facts;
+use glam::{DMat3, Mat3, Mat4};
+
+/// Everything that a frame is drawn from. Every index in it is valid and every number finite.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Triangle meshes.
+    pub meshes: Vec<Mesh>,
+    /// Materials.
+    pub materials: Vec<Material>,
+    /// Base colour textures.
+    pub textures: Vec<Texture>,
+    /// What is drawn, in the file's order.
+    pub objects: Vec<Object>,
+    /// The one light that is infinitely far away.
+    pub sun: Sun,
+    /// Light that arrives from everywhere alike, linear.
+    pub ambient: [f32; 3],
+    /// Lights with a position.
+    pub point_lights: Vec<PointLight>,
+    /// What is seen where no object is.
+    pub sky: Sky,
+    /// From where it is seen.
+    pub camera: Camera,
+    /// What the file holds that isn't drawn, each a sentence without final stop ("mesh 2: vertex colours are ignored").
+    /// Names in it are escaped.
+    pub notes: Vec<String>,
+}
+
+/// A list of triangles. `positions`, `normals` and `uvs` have the same length, at least 3.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// Positions in the mesh's own space, metres.
+    pub positions: Vec<[f32; 3]>,
+    /// Unit normals.
+    pub normals: Vec<[f32; 3]>,
+    /// Texture coordinates, `(0, 0)` the top left corner of the texture; zeros where the file has none.
+    pub uvs: Vec<[f32; 2]>,
+    /// Three a triangle, counter-clockwise seen from the front; each less than the number of positions.
+    pub indices: Vec<u32>,
+    /// The box around the positions.
+    pub bounds: Bounds,
+}
+
+/// A mesh with a material, somewhere.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Object {
+    /// Name for people; need not be unique and may hold any character.
+    pub name: String,
+    /// Index into [`Scene::meshes`].
+    pub mesh: usize,
+    /// Index into [`Scene::materials`].
+    pub material: usize,
+    /// From the mesh's space to the world's; affine (its last row is 0 0 0 1).
+    pub transform: Mat4,
+}
+
+impl Object {
+    /// Whether the transform turns the mesh inside out (an odd number of negative scales): its front faces are then
+    /// clockwise.
+    #[must_use]
+    pub fn mirrored(&self) -> bool {
+        DMat3::from_mat4(self.transform.as_dmat4()).determinant() < 0.0
+    }
+
+    /// Takes normals from the mesh's space to the world's, up to their length: the matrix of cofactors, which is the
+    /// inverse transpose times the determinant, with the determinant's sign taken out so that normals of mirrored objects
+    /// still point outwards. Unlike the inverse it exists for flattened objects (a scale of 0) too.
+    #[must_use]
+    pub fn normal_matrix(&self) -> Mat3 {
+        let m = DMat3::from_mat4(self.transform.as_dmat4());
+        let cofactors = DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+        let largest = cofactors.to_cols_array().iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let sign = if m.determinant() < 0.0 { -1.0 } else { 1.0 };
+        let scale = if largest > 0.0 { sign / largest } else { sign };
+        (cofactors * scale).as_mat3()
+    }
+}
+
+impl Scene {
+    /// What conditions in pipeline files may ask: which of the three draw lists hold anything.
+    #[must_use]
+    pub fn facts(&self) -> Facts {
+        let any = |wanted: fn(&AlphaMode) -> bool| {
+            self.objects.iter().any(|object| wanted(&self.materials[object.material].alpha))
+        };
+        Facts {
+            has_opaque: any(|alpha| matches!(alpha, AlphaMode::Opaque)),
+            has_alpha_clip: any(|alpha| matches!(alpha, AlphaMode::Mask { .. })),
+            has_transparent: any(|alpha| matches!(alpha, AlphaMode::Blend)),
+        }
+    }
+
+    /// The box around all objects, in the world; `None` if there are none.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.objects
+            .iter()
+            .map(|object| self.meshes[object.mesh].bounds.transformed(object.transform))
+            .reduce(Bounds::union)
+    }
+}
