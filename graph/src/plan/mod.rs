@@ -19,9 +19,12 @@ use crate::vocabulary::{Accesses, Aspects, CompareOp, Filter, Layout, LoadOp, Re
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
+mod json;
+pub(crate) mod names;
 mod totals;
 mod tree;
 
+pub use json::PlanError;
 pub use totals::Totals;
 
 /// The version of the JSON form that this library writes and reads.
@@ -501,14 +504,6 @@ impl Plan {
     #[must_use]
     pub fn image(&self, id: ImageId) -> &Image {
         &self.images[id.0 as usize]
-    }
-
-    /// The stable JSON form, indented, with a final line break.
-    ///
-    /// # Errors
-    /// If a value has no JSON form (a number that isn't finite).
-    pub fn to_json(&self) -> Result<String, serde_json::Error> {
-        serde_json::to_string_pretty(self).map(|text| text + "\n")
     }
 
     /// The tree form for people.

@@ -1,5 +1,6 @@
 //! Sums over a Plan.
 
+use super::{Cause, Pass, Step, Work};
 use serde::{Deserialize, Serialize};
 
 /// Sums over a Plan.
@@ -32,4 +33,48 @@ pub struct Totals {
     pub live_peak_bytes: u64,
     /// Bytes of output images.
     pub output_bytes: u64,
+}
+
+impl Totals {
+    /// Everything that the steps alone tell. Bytes are left at 0: they take images, heaps and memory needs.
+    #[must_use]
+    pub fn count(steps: &[Step]) -> Totals {
+        let mut totals = Totals::default();
+        for step in steps {
+            totals.barriers(step);
+            match &step.work {
+                Work::Render(scope) => {
+                    totals.scopes += 1;
+                    scope.passes.iter().for_each(|pass| totals.pass(pass));
+                    let folded =
+                        scope.color.iter().chain(&scope.depth).filter(|target| target.resolve.is_some()).count();
+                    totals.folded_resolves += length(folded);
+                    totals.resolves += length(folded);
+                }
+                Work::Dispatch(pass) => totals.pass(pass),
+                Work::Resolve(_) => totals.resolves += 1,
+                Work::Copy(_) => totals.copies += 1,
+                Work::Export => {}
+            }
+        }
+        totals
+    }
+
+    fn barriers(&mut self, step: &Step) {
+        self.image_barriers += length(step.image_barriers.len());
+        self.memory_barriers += length(step.memory_barriers.len());
+        self.barrier_calls += u32::from(!step.image_barriers.is_empty() || !step.memory_barriers.is_empty());
+    }
+
+    fn pass(&mut self, pass: &Pass) {
+        match pass.cause {
+            Cause::Written(_) => self.passes += 1,
+            Cause::Inserted { .. } => self.inserted_passes += 1,
+        }
+    }
+}
+
+/// Lists as long as 2³² don't fit into memory.
+fn length(entries: usize) -> u32 {
+    u32::try_from(entries).unwrap_or(u32::MAX)
 }

@@ -1,0 +1,68 @@
+//! How people read a Plan's parts: steps, parts of images, Vulkan's words. Text that came from files is escaped.
+
+use super::{ImageId, Plan, StepId, Subresources, Work};
+use serde::Serialize;
+use std::fmt::{self, Display, Formatter, Write};
+
+/// Text from a file, without raw control characters.
+pub(crate) struct Shown<'t>(pub(crate) &'t str);
+
+impl Display for Shown<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for letter in self.0.chars() {
+            match letter {
+                '\'' | '"' => f.write_char(letter)?,
+                _ => write!(f, "{}", letter.escape_debug())?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Vulkan's own name of an enumerant or set of flags, as the JSON form writes it.
+pub(crate) fn vulkan(value: &impl Serialize) -> String {
+    match serde_json::to_value(value) {
+        Ok(serde_json::Value::String(name)) if !name.is_empty() => name,
+        _ => "NONE".to_owned(),
+    }
+}
+
+impl Display for Subresources {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let part = |f: &mut Formatter<'_>, name: &str, base: u32, count: u32| match count {
+            1 => write!(f, ", {name} {base}"),
+            _ => write!(f, ", {name}s {base}–{}", u64::from(base) + u64::from(count.max(1)) - 1),
+        };
+        f.write_str(&vulkan(&self.aspects))?;
+        part(f, "mip", self.base_mip, self.mips)?;
+        part(f, "layer", self.base_layer, self.layers)
+    }
+}
+
+impl Plan {
+    /// What people call a step: its passes' names, or what it moves. Escaped; empty if there is no such step.
+    pub(crate) fn step_name(&self, step: StepId) -> String {
+        const MOST: usize = 3;
+        let image = |id: ImageId| self.images.get(id.0 as usize).map_or("", |image| &*image.name);
+        match self.steps.get(step.0 as usize).map(|step| &step.work) {
+            None => String::new(),
+            Some(Work::Render(scope)) => {
+                let names: Vec<_> =
+                    scope.passes.iter().take(MOST).map(|pass| format!("`{}`", Shown(&pass.name))).collect();
+                match scope.passes.len() {
+                    0 => "without passes".to_owned(),
+                    more if more > MOST => format!("{} and {} more", names.join(", "), more - MOST),
+                    _ => names.join(", "),
+                }
+            }
+            Some(Work::Dispatch(pass)) => format!("`{}`", Shown(&pass.name)),
+            Some(Work::Resolve(transfer)) => {
+                format!("resolve `{}` to `{}`", Shown(image(transfer.source)), Shown(image(transfer.target)))
+            }
+            Some(Work::Copy(transfer)) => {
+                format!("copy `{}` to `{}`", Shown(image(transfer.source)), Shown(image(transfer.target)))
+            }
+            Some(Work::Export) => "export".to_owned(),
+        }
+    }
+}
