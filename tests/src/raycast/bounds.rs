@@ -49,7 +49,7 @@ enum Node {
 
 /// The tree.
 #[derive(Debug)]
-pub struct BoundsTree {
+pub(super) struct BoundsTree {
     order: Vec<u32>,
     root: Option<Node>,
 }
@@ -57,7 +57,7 @@ pub struct BoundsTree {
 impl BoundsTree {
     /// A tree over `triangles`, known by their place in the slice.
     #[must_use]
-    pub fn new(triangles: &[[DVec3; 3]]) -> Self {
+    pub(super) fn new(triangles: &[[DVec3; 3]]) -> Self {
         let mut order: Vec<u32> = (0..).take(triangles.len()).collect();
         let root = (!order.is_empty()).then(|| split(triangles, &mut order, 0));
         Self { order, root }
@@ -65,7 +65,7 @@ impl BoundsTree {
 
     /// Calls `try_triangle` with every triangle that `ray` may meet before the limit that the last call returned, at first
     /// without limit.
-    pub fn walk(&self, ray: &Ray, mut try_triangle: impl FnMut(u32) -> f64) {
+    pub(super) fn walk(&self, ray: &Ray, mut try_triangle: impl FnMut(u32) -> f64) {
         let mut limit = f64::INFINITY;
         let mut waiting: Vec<&Node> = self.root.iter().collect();
         while let Some(node) = waiting.pop() {
