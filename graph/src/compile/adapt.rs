@@ -1,0 +1,372 @@
+//! `adapt`: samples, sizes and formats are made to meet. Resolves, copies and second images are inserted, each with its
+//! cause; passes that are off forward what they would have replaced.
+//!
+//! A resolve belongs to a *version* of an image and is shared by all its readers.
+
+use super::cull::Live;
+use super::link::covers;
+use super::model::{Adapted, Op, OpKind, Role, Samples, Start, Store, StoreIndex, Use};
+use crate::describe::Diagnostic;
+use crate::device::ImageDescriptor;
+use crate::frame::{Frame, ImageIndex, Pass, Sampled, Work};
+use crate::plan::{Cause, Note, Stage};
+use crate::source::{Place, Span};
+use crate::vocabulary::{Filter, ResolveMode, Usage};
+use std::sync::Arc;
+
+pub(super) fn adapt(frame: &Frame, live: &Live, samples: &Samples) -> Result<Adapted, Vec<Diagnostic>> {
+    let mut adapter = Adapter {
+        frame,
+        live,
+        samples,
+        store_of: vec![None; frame.images.len()],
+        resolved_of: vec![None; frame.images.len()],
+        resolves_of: vec![0; frame.images.len()],
+        noted: vec![false; frame.images.len()],
+        adapted: Adapted::default(),
+        errors: Vec::new(),
+    };
+    adapter.adapted.ops.reserve(live.passes.len());
+    adapter.adapted.uses.reserve(live.passes.len() * 4);
+    for pass in &live.passes {
+        adapter.pass(*pass);
+    }
+    for output in &frame.outputs {
+        adapter.output(output.image, output.span);
+    }
+    if adapter.errors.is_empty() { Ok(adapter.adapted) } else { Err(adapter.errors) }
+}
+
+struct Adapter<'a> {
+    frame: &'a Frame,
+    live: &'a Live,
+    samples: &'a Samples,
+    /// The physical image that holds each image's current version.
+    store_of: Vec<Option<StoreIndex>>,
+    /// The single-sample copy of each image's current version, if there is one.
+    resolved_of: Vec<Option<StoreIndex>>,
+    /// How many resolved copies each image has had: they need distinct names.
+    resolves_of: Vec<u32>,
+    /// Images of which was said that they need no resolve.
+    noted: Vec<bool>,
+    adapted: Adapted,
+    errors: Vec<Diagnostic>,
+}
+
+impl Adapter<'_> {
+    fn pass(&mut self, number: u32) {
+        let frame = self.frame;
+        let pass = &frame.passes[number as usize];
+        if let Work::Forward { from, to, because } = &pass.work {
+            return self.forward(number, pass, *from, *to, because);
+        }
+        let mut uses = Vec::with_capacity(pass.sampled.len() + pass.storage.len() + pass.color.len() + 1);
+        for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
+            if let Some(store) = self.sampled(pass, sampled) {
+                uses.push(Use { store, role: Role::Sampled { entry, stages: sampled.stages } });
+            }
+        }
+        for (entry, storage) in (0_u32..).zip(&pass.storage) {
+            let store = match storage.write {
+                true => self.target(pass, storage.image, storage.span, storage.read),
+                false => self.current(storage.image),
+            };
+            let role = Role::Storage { entry, stages: storage.stages, read: storage.read, write: storage.write };
+            uses.push(Use { store, role });
+        }
+        for (entry, target) in (0_u32..).zip(&pass.color) {
+            let start = match target.clear {
+                Some(value) => Start::Clear(value),
+                None if covers(pass, target) => Start::Discard,
+                None => Start::Keep,
+            };
+            let store = self.target(pass, target.image, target.span, start == Start::Keep);
+            uses.push(Use { store, role: Role::Color { entry, start, blends: target.blend != Default::default() } });
+        }
+        if let Some(depth) = &pass.depth {
+            let start = depth.clear.map_or(Start::Keep, |value| Start::Clear([value, 0.0, 0.0, 0.0]));
+            let store = if depth.write || depth.clear.is_some() {
+                self.written(depth.image, start == Start::Keep)
+            } else {
+                self.current(depth.image)
+            };
+            self.refuse_depth_feedback(pass, depth.image, depth.write || depth.clear.is_some());
+            uses.push(Use { store, role: Role::Depth { start, write: depth.write } });
+        }
+        let kind =
+            if matches!(pass.work, Work::Dispatch { .. }) { OpKind::Dispatch(number) } else { OpKind::Draw(number) };
+        self.push(kind, &uses);
+    }
+
+    fn push(&mut self, kind: OpKind, uses: &[Use]) {
+        let start = self.adapted.uses.len() as u32;
+        self.adapted.uses.extend_from_slice(uses);
+        self.adapted.ops.push(Op { kind, uses: start..start + uses.len() as u32 });
+    }
+
+    fn place(&self, span: Span) -> Option<Place> {
+        self.frame.sources.place(span)
+    }
+
+    fn note(&mut self, subject: &Arc<str>, text: String, span: Span) {
+        let at = self.place(span);
+        self.adapted.notes.push(Note { stage: Stage::Adapt, subject: subject.clone(), text, at });
+    }
+
+    /// The physical image with the current version; there is one, since `link` saw a version.
+    fn current(&mut self, image: ImageIndex) -> StoreIndex {
+        match self.store_of[image.0 as usize] {
+            Some(store) => store,
+            None => self.first_store(image),
+        }
+    }
+
+    /// The physical image that takes the next version.
+    fn written(&mut self, image: ImageIndex, keeps: bool) -> StoreIndex {
+        debug_assert!(!keeps || self.store_of[image.0 as usize].is_some(), "link saw a version to keep");
+        self.resolved_of[image.0 as usize] = None;
+        self.current(image)
+    }
+
+    fn first_store(&mut self, image: ImageIndex) -> StoreIndex {
+        let declared = &self.frame.images[image.0 as usize];
+        let cause = Cause::Written(self.place(declared.span));
+        self.new_store(image, declared.name.clone(), cause, self.samples.of(image))
+    }
+
+    /// Adds a physical image and makes it the image's current one.
+    fn new_store(&mut self, image: ImageIndex, name: Arc<str>, cause: Cause, samples: u32) -> StoreIndex {
+        let store = self.add_store(image, name, cause, samples);
+        self.store_of[image.0 as usize] = Some(store);
+        store
+    }
+
+    fn add_store(&mut self, image: ImageIndex, name: Arc<str>, cause: Cause, samples: u32) -> StoreIndex {
+        let declared = &self.frame.images[image.0 as usize];
+        let descriptor = ImageDescriptor {
+            format: declared.format,
+            extent: declared.extent,
+            mips: declared.mips,
+            layers: declared.layers,
+            samples,
+            usage: Usage::empty(),
+        };
+        self.adapted.stores.push(Store { name, cause, descriptor, output: false });
+        self.adapted.stores.len() as StoreIndex - 1
+    }
+
+    /// The physical image that a sampling pass reads.
+    fn sampled(&mut self, pass: &Pass, sampled: &Sampled) -> Option<StoreIndex> {
+        let declared = &self.frame.images[sampled.image.0 as usize];
+        let count = self.samples.of(sampled.image);
+        if sampled.per_sample {
+            if count == 1 {
+                let message =
+                    format!("`{}` reads single samples of `{}`, which has one sample", pass.name, declared.name);
+                let help = format!(
+                    "sample it as `sampler2D` where its sample count is 1 ({} were asked for)",
+                    declared.samples
+                );
+                self.errors.push(Diagnostic::new(sampled.span, message).help(help));
+                return None;
+            }
+            return Some(self.current(sampled.image));
+        }
+        if count > 1 {
+            let because = format!("`{}` samples `{}` and it has {count} samples", pass.name, declared.name);
+            return self.resolved(sampled.image, because, sampled.span);
+        }
+        if matches!(pass.work, Work::Draw { .. }) && !std::mem::replace(&mut self.noted[sampled.image.0 as usize], true)
+        {
+            let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
+            self.note(&declared.name, text, sampled.span);
+        }
+        self.version_before(pass, sampled)
+    }
+
+    /// A pass that samples an image it also writes reads the version before itself.
+    fn version_before(&mut self, pass: &Pass, sampled: &Sampled) -> Option<StoreIndex> {
+        let image = sampled.image;
+        let declared = &self.frame.images[image.0 as usize];
+        let before = self.current(image);
+        let kept =
+            pass.color.iter().any(|target| target.image == image && target.clear.is_none() && !covers(pass, target))
+                || pass.storage.iter().any(|storage| storage.image == image && storage.write && storage.read);
+        if !kept {
+            return Some(before);
+        }
+        let because = format!("`{}` samples `{}` while it draws into it", pass.name, declared.name);
+        let at = self.place(sampled.span);
+        let cause = Cause::Inserted { because: because.clone(), at: at.clone() };
+        let name = self.next_name(image, "copy");
+        let copy = self.add_store(image, name, cause, 1);
+        let uses = [Use { store: before, role: Role::Source }, Use { store: copy, role: Role::Target }];
+        self.push(OpKind::Copy { because, at }, &uses);
+        Some(copy)
+    }
+
+    /// The physical image that a pass writes; a second one if the pass also samples what it replaces.
+    fn target(&mut self, pass: &Pass, image: ImageIndex, span: Span, keeps: bool) -> StoreIndex {
+        let samples_it = pass
+            .sampled
+            .iter()
+            .any(|sampled| sampled.image == image && (sampled.per_sample || self.samples.of(image) == 1));
+        if samples_it && !keeps && self.store_of[image.0 as usize].is_some() {
+            let declared = &self.frame.images[image.0 as usize];
+            let because = format!("`{}` samples `{}` while it replaces it", pass.name, declared.name);
+            let cause = Cause::Inserted { because, at: self.place(span) };
+            let name = self.next_name(image, "next");
+            self.resolved_of[image.0 as usize] = None;
+            return self.new_store(image, name, cause, self.samples.of(image));
+        }
+        self.written(image, keeps)
+    }
+
+    fn refuse_depth_feedback(&mut self, pass: &Pass, image: ImageIndex, writes: bool) {
+        if writes && let Some(sampled) = pass.sampled.iter().find(|sampled| sampled.image == image) {
+            let name = &self.frame.images[image.0 as usize].name;
+            let message = format!("`{}` samples the depth `{name}` that it also writes", pass.name);
+            self.errors.push(Diagnostic::new(sampled.span, message).help("test it without writing: `write: false`"));
+        }
+    }
+
+    fn next_name(&mut self, image: ImageIndex, what: &str) -> Arc<str> {
+        let count = &mut self.resolves_of[image.0 as usize];
+        *count += 1;
+        let name = &self.frame.images[image.0 as usize].name;
+        if *count == 1 { format!("{name} ({what})").into() } else { format!("{name} ({what} {count})").into() }
+    }
+
+    /// The single-sample copy of an image's current version.
+    fn resolved(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
+        if let Some(resolved) = self.resolved_of[image.0 as usize] {
+            return Some(resolved);
+        }
+        let declared = &self.frame.images[image.0 as usize];
+        if declared.format.is_depth() {
+            let message = format!("{because}; resolving depth is not supported yet");
+            let help = format!("sample it as `sampler2DMS`, or give `{}` 1 sample", declared.name);
+            self.errors.push(Diagnostic::new(span, message).help(help));
+            return None;
+        }
+        let mode = if declared.format.is_integer() { ResolveMode::SampleZero } else { ResolveMode::Average };
+        let source = self.current(image);
+        let at = self.place(span);
+        let cause = Cause::Inserted { because: because.clone(), at: at.clone() };
+        let name = self.next_name(image, "resolved");
+        let target = self.add_store(image, name, cause, 1);
+        let uses = [Use { store: source, role: Role::Source }, Use { store: target, role: Role::Target }];
+        self.push(OpKind::Resolve { mode, because, at }, &uses);
+        self.resolved_of[image.0 as usize] = Some(target);
+        Some(target)
+    }
+
+    /// `to` takes what `from` holds: as the same image if nothing tells them apart, else by a copy or a draw.
+    fn forward(&mut self, number: u32, pass: &Pass, from: ImageIndex, to: ImageIndex, because: &str) {
+        let frame = self.frame;
+        let (source_image, target_image) = (&frame.images[from.0 as usize], &frame.images[to.0 as usize]);
+        let resolves = self.samples.of(from) > 1 && self.samples.of(to) == 1;
+        let why = format!(
+            "`{}` is off ({because}) and forwards `{}` to `{}`",
+            pass.name, source_image.name, target_image.name
+        );
+        let source = if resolves {
+            let why = format!("{why}; `{}` has {} samples", source_image.name, self.samples.of(from));
+            match self.resolved(from, why, pass.span) {
+                Some(source) => source,
+                None => return,
+            }
+        } else {
+            self.current(from)
+        };
+        let same = {
+            let held = self.adapted.stores[source as usize].descriptor;
+            (held.format, held.extent, held.mips, held.layers, held.samples)
+                == (
+                    target_image.format,
+                    target_image.extent,
+                    target_image.mips,
+                    target_image.layers,
+                    self.samples.of(to),
+                )
+        };
+        if same && self.may_share(number, source, to) {
+            let name = target_image.name.clone();
+            let store = &mut self.adapted.stores[source as usize];
+            if !resolves {
+                store.cause = Cause::Inserted { because: why.clone(), at: frame.sources.place(pass.span) };
+            }
+            store.name = name.clone();
+            self.store_of[to.0 as usize] = Some(source);
+            self.resolved_of[to.0 as usize] = None;
+            let what = if resolves { "the resolve goes straight into it" } else { "they are one image" };
+            return self.note(&name, format!("{why}: {what}"), pass.span);
+        }
+        if same {
+            let target = self.written(to, false);
+            let uses = [Use { store: source, role: Role::Source }, Use { store: target, role: Role::Target }];
+            let at = self.place(pass.span);
+            let because = format!("{why}; one of them is used again later");
+            return self.push(OpKind::Copy { because, at }, &uses);
+        }
+        self.forward_by_draw(number, pass, source, to, why);
+    }
+
+    fn forward_by_draw(&mut self, number: u32, pass: &Pass, source: StoreIndex, to: ImageIndex, why: String) {
+        let held = self.adapted.stores[source as usize].descriptor;
+        let target_image = &self.frame.images[to.0 as usize];
+        let drawable = |depth: bool, integer: bool| !depth && !integer;
+        if !drawable(held.format.is_depth(), held.format.is_integer())
+            || !drawable(target_image.format.is_depth(), target_image.format.is_integer())
+            || held.samples > 1
+        {
+            let message = format!("{why}, but {} can't be drawn into {}", held.format, target_image.format);
+            self.errors.push(Diagnostic::new(pass.span, message).help("give both the same format, size and samples"));
+            return;
+        }
+        let filter = if held.extent == target_image.extent { Filter::Nearest } else { Filter::Linear };
+        let differ = match (held.format == target_image.format, held.extent == target_image.extent) {
+            (false, true) => format!("formats differ ({} and {})", held.format, target_image.format),
+            (true, false) => "sizes differ".to_owned(),
+            (false, false) => "formats and sizes differ".to_owned(),
+            (true, true) => "sample counts differ".to_owned(),
+        };
+        let target = self.written(to, false);
+        let uses = [
+            Use { store: source, role: Role::Sampled { entry: 0, stages: crate::vocabulary::Stages::FRAGMENT_SHADER } },
+            Use { store: target, role: Role::Color { entry: 0, start: Start::Discard, blends: false } },
+        ];
+        self.push(OpKind::ForwardDraw { pass: number, filter, because: format!("{why}; {differ}") }, &uses);
+    }
+
+    /// Whether `to` may live in `store` from pass `number` on: nobody must be able to tell. That holds unless somebody
+    /// writes the store under one name while it is still used under another.
+    fn may_share(&self, number: u32, store: StoreIndex, to: ImageIndex) -> bool {
+        let is_output = |image: usize| self.frame.outputs.iter().any(|output| output.image.0 as usize == image);
+        let later = |pass: Option<u32>| pass.is_some_and(|pass| pass > number);
+        let holders =
+            || (0..self.store_of.len()).filter(|image| self.store_of[*image] == Some(store)).chain([to.0 as usize]);
+        let readers = (0..self.store_of.len()).filter(|image| self.resolved_of[*image] == Some(store)).chain(holders());
+        let used: Vec<usize> =
+            readers.filter(|image| later(self.live.last_access[*image]) || is_output(*image)).collect();
+        let both_leave = used.iter().filter(|image| is_output(**image)).count() > 1;
+        let told_apart =
+            holders().any(|writer| later(self.live.last_write[writer]) && used.iter().any(|other| *other != writer));
+        !both_leave && !told_apart
+    }
+
+    fn output(&mut self, image: ImageIndex, span: Span) {
+        let declared = &self.frame.images[image.0 as usize];
+        let count = self.samples.of(image);
+        let store = if count > 1 {
+            let because = format!("`{}` is an output and has {count} samples", declared.name);
+            self.resolved(image, because, span)
+        } else {
+            Some(self.current(image))
+        };
+        if let Some(store) = store {
+            self.adapted.stores[store as usize].output = true;
+            self.adapted.outputs.push(store);
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! First part of `adapt`: sample counts, formats and sizes meet what the device has.
+
+use super::model::Samples;
+use crate::describe::Diagnostic;
+use crate::device::Profile;
+use crate::format::Format;
+use crate::frame::{Frame, ImageIndex, Pass, Work};
+use crate::plan::{Note, Stage};
+use crate::vocabulary::Usage;
+use petgraph::unionfind::UnionFind;
+use std::collections::BTreeMap;
+
+/// Lowers each sample count to the highest that every image attached together with it supports.
+pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result<Samples, Vec<Diagnostic>> {
+    let mut together = UnionFind::<u32>::new(frame.images.len());
+    let mut usage = vec![Usage::empty(); frame.images.len()];
+    let mut errors = Vec::new();
+    for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
+        note_usage(pass, &mut usage);
+        let attached = attachments(pass);
+        for pair in attached.windows(2) {
+            together.union(pair[0].0, pair[1].0);
+        }
+        errors.extend(disagreement(frame, pass, &attached));
+    }
+    let mut groups: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (image, used) in usage.iter().enumerate().filter(|(_, used)| !used.is_empty()) {
+        check_support(frame, image, *used, device, &mut errors);
+        if frame.images[image].samples > 1 {
+            groups.entry(together.find(image as u32)).or_default().push(image);
+        }
+    }
+    let mut samples = Samples { of: frame.images.iter().map(|image| image.samples).collect(), notes: Vec::new() };
+    for group in groups.values() {
+        lower(frame, group, device, &mut samples);
+    }
+    if errors.is_empty() { Ok(samples) } else { Err(errors) }
+}
+
+fn attachments(pass: &Pass) -> Vec<ImageIndex> {
+    pass.color.iter().map(|target| target.image).chain(pass.depth.as_ref().map(|depth| depth.image)).collect()
+}
+
+fn note_usage(pass: &Pass, usage: &mut [Usage]) {
+    let mut add = |image: ImageIndex, used: Usage| usage[image.0 as usize] |= used;
+    pass.sampled.iter().for_each(|sampled| add(sampled.image, Usage::SAMPLED));
+    pass.storage.iter().for_each(|storage| add(storage.image, Usage::STORAGE));
+    pass.color.iter().for_each(|target| add(target.image, Usage::COLOR_ATTACHMENT));
+    pass.depth.iter().for_each(|depth| add(depth.image, Usage::DEPTH_STENCIL_ATTACHMENT));
+    if let Work::Forward { from, to, .. } = pass.work {
+        add(from, Usage::SAMPLED);
+        add(to, Usage::COLOR_ATTACHMENT);
+    }
+}
+
+/// Attachments of one pass must have one size and one sample count.
+fn disagreement(frame: &Frame, pass: &Pass, attached: &[ImageIndex]) -> Option<Diagnostic> {
+    let (first, rest) = attached.split_first()?;
+    let shape = |image: &ImageIndex| {
+        let image = &frame.images[image.0 as usize];
+        (image.extent, image.samples)
+    };
+    let other = rest.iter().find(|other| shape(other) != shape(first))?;
+    let words = |image: &ImageIndex| {
+        let image = &frame.images[image.0 as usize];
+        format!("{}×{} with {} samples", image.extent[0], image.extent[1], image.samples)
+    };
+    let (a, b) = (&frame.images[first.0 as usize], &frame.images[other.0 as usize]);
+    Some(
+        Diagnostic::new(
+            pass.span,
+            format!("`{}` draws into `{}` and `{}`, which differ in size or samples", pass.name, a.name, b.name),
+        )
+        .label(a.span, words(first))
+        .label(b.span, words(other))
+        .help(format!("let one follow the other: `size: Like(\"{}\"), samples: Like(\"{}\")`", a.name, a.name)),
+    )
+}
+
+fn check_support(frame: &Frame, image: usize, used: Usage, device: &Profile, errors: &mut Vec<Diagnostic>) {
+    let declared = &frame.images[image];
+    let largest = declared.extent[0].max(declared.extent[1]);
+    if largest > device.max_attachment_extent || declared.extent.contains(&0) {
+        let [width, height, _] = declared.extent;
+        let message = format!("`{}` is {width}×{height}", declared.name);
+        let limit =
+            format!("`{}` has images from 1×1 to {limit}×{limit}", device.name, limit = device.max_attachment_extent);
+        errors.push(Diagnostic::new(declared.span, message).help(limit));
+    }
+    let supported = device.format(declared.format).map_or(Usage::empty(), |support| support.usage);
+    if !supported.contains(used) {
+        let missing = used.difference(supported).iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
+        let message = format!("`{}` can't be {} on `{}`: no {missing}", declared.name, declared.format, device.name);
+        errors.push(Diagnostic::new(declared.span, message).help("choose another format"));
+    }
+}
+
+fn lower(frame: &Frame, group: &[usize], device: &Profile, samples: &mut Samples) {
+    let wanted = group.iter().map(|image| frame.images[*image].samples).max().unwrap_or(1);
+    let counts = |format: Format| device.format(format).map_or(&[][..], |support| &support.samples);
+    let supported = |count: u32| group.iter().all(|image| counts(frame.images[*image].format).contains(&count));
+    let chosen = (1..=wanted).rev().find(|count| supported(*count)).unwrap_or(1);
+    for image in group {
+        samples.of[*image] = chosen;
+    }
+    if chosen != wanted {
+        let first = &frame.images[group[0]];
+        let formats = group.iter().map(|image| frame.images[*image].format.name()).collect::<Vec<_>>().join(" with ");
+        samples.notes.push(Note {
+            stage: Stage::Adapt,
+            subject: first.name.clone(),
+            text: format!(
+                "{wanted} samples were asked for, {chosen} are used: the most, up to {wanted}, that `{}` has for {formats}",
+                device.name
+            ),
+            at: frame.sources.place(first.span),
+        });
+    }
+}

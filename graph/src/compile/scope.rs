@@ -1,0 +1,296 @@
+//! `scope`: neighbouring raster passes become one rendering scope where nothing forbids it and something gains; resolves
+//! fold into the scope that wrote last.
+
+use super::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
+use crate::frame::Frame;
+use crate::plan::{Note, Stage};
+use std::sync::Arc;
+
+/// Steps in execution order.
+#[derive(Debug)]
+pub(super) struct Scoped {
+    pub(super) steps: Vec<Step>,
+    /// Why a pass shares its scope with the pass before it, for each operation.
+    pub(super) merged: Vec<Option<String>>,
+}
+
+/// One step.
+#[derive(Debug)]
+pub(super) enum Step {
+    /// A rendering scope.
+    Scope(Scope),
+    /// One operation that is not drawn.
+    Single(u32),
+    /// The promised state of the outputs.
+    Export,
+}
+
+/// A rendering scope.
+#[derive(Debug, Default)]
+pub(super) struct Scope {
+    /// Colour attachments by location.
+    pub(super) color: Vec<StoreIndex>,
+    pub(super) depth: Option<StoreIndex>,
+    /// Operations that draw.
+    pub(super) ops: Vec<u32>,
+    /// For each colour attachment the resolve operation that it carries.
+    pub(super) resolves: Vec<Option<u32>>,
+}
+
+/// The name of an operation's pass.
+pub(super) fn op_name<'f>(frame: &'f Frame, adapted: &Adapted, op: u32) -> Option<&'f Arc<str>> {
+    match &adapted.ops[op as usize].kind {
+        OpKind::Draw(pass) | OpKind::Dispatch(pass) | OpKind::ForwardDraw { pass, .. } => {
+            Some(&frame.passes[*pass as usize].name)
+        }
+        OpKind::Resolve { .. } | OpKind::Copy { .. } => None,
+    }
+}
+
+pub(super) fn scope(frame: &Frame, adapted: &mut Adapted, order: &[u32]) -> Scoped {
+    let mut builder = Builder {
+        frame,
+        adapted,
+        steps: Vec::with_capacity(order.len() + 1),
+        merged: vec![None; 0],
+        last_scope_of: Vec::new(),
+        notes: Vec::new(),
+    };
+    builder.merged.resize(builder.adapted.ops.len(), None);
+    builder.last_scope_of.resize(builder.adapted.stores.len(), None);
+    for op in order {
+        builder.op(*op);
+    }
+    builder.steps.push(Step::Export);
+    let Builder { steps, merged, notes, .. } = builder;
+    adapted.notes.extend(notes);
+    Scoped { steps, merged }
+}
+
+struct Builder<'a> {
+    frame: &'a Frame,
+    adapted: &'a Adapted,
+    steps: Vec<Step>,
+    merged: Vec<Option<String>>,
+    /// For each store the scope that wrote it last as a colour attachment, as an index into `steps`.
+    last_scope_of: Vec<Option<usize>>,
+    notes: Vec<Note>,
+}
+
+impl Builder<'_> {
+    fn op(&mut self, op: u32) {
+        match self.adapted.ops[op as usize].kind {
+            OpKind::Draw(_) | OpKind::ForwardDraw { .. } => self.draw(op),
+            OpKind::Resolve { .. } if self.fold(op) => {}
+            OpKind::Resolve { .. } | OpKind::Copy { .. } | OpKind::Dispatch(_) => self.steps.push(Step::Single(op)),
+        }
+    }
+
+    fn draw(&mut self, op: u32) {
+        let adapted = self.adapted;
+        let uses = adapted.uses(op);
+        let neighbour = match self.steps.last() {
+            Some(Step::Scope(scope)) => Some(scope.compare(adapted, uses)),
+            _ => None,
+        };
+        match neighbour {
+            Some(Meeting::Merge) => {
+                let text = self.gain(uses);
+                let Some(Step::Scope(scope)) = self.steps.last_mut() else { return };
+                scope.depth = scope.depth.or_else(|| depth_of(uses));
+                scope.ops.push(op);
+                self.merged[op as usize] = Some(text);
+            }
+            Some(Meeting::Apart(why)) => {
+                if let Some(why) = why {
+                    self.refuse(op, why);
+                }
+                self.open(op);
+            }
+            None => self.open(op),
+        }
+        let at = self.steps.len() - 1;
+        for used in uses.iter().filter(|used| matches!(used.role, Role::Color { .. })) {
+            self.last_scope_of[used.store as usize] = Some(at);
+        }
+    }
+
+    fn open(&mut self, op: u32) {
+        let uses = self.adapted.uses(op);
+        let color = colors_of(uses);
+        let resolves = vec![None; color.len()];
+        self.steps.push(Step::Scope(Scope { color, depth: depth_of(uses), ops: vec![op], resolves }));
+    }
+
+    /// Why sharing a scope pays.
+    fn gain(&self, uses: &[Use]) -> String {
+        let Some(Step::Scope(scope)) = self.steps.last() else { return String::new() };
+        let before = scope.ops.last().and_then(|op| op_name(self.frame, self.adapted, *op));
+        let shared: Vec<&Use> =
+            uses.iter().filter(|used| scope.color.contains(&used.store) || scope.depth == Some(used.store)).collect();
+        let bytes: u64 = shared
+            .iter()
+            .map(|used| {
+                let descriptor = &self.adapted.stores[used.store as usize].descriptor;
+                let texels = descriptor.extent.iter().fold(1_u64, |area, side| area.saturating_mul(u64::from(*side)));
+                texels.saturating_mul(descriptor.format.texel_bytes()).saturating_mul(u64::from(descriptor.samples))
+            })
+            .fold(0, u64::saturating_add);
+        let names: Vec<String> =
+            shared.iter().map(|used| format!("`{}`", self.adapted.stores[used.store as usize].name)).collect();
+        let before = before.map_or("", |name| name);
+        format!("draws into {} like `{before}`: storing and loading {bytes} bytes is saved", names.join(" and "))
+    }
+
+    fn refuse(&mut self, op: u32, why: Refusal) {
+        let Some(name) = op_name(self.frame, self.adapted, op) else { return };
+        let store = |store: StoreIndex| &self.adapted.stores[store as usize].name;
+        let why = match why {
+            Refusal::OtherAttachments => "its attachments are not the same".to_owned(),
+            Refusal::Clears(image) => format!("it starts by clearing `{}`", store(image)),
+            Refusal::Uses(image) => format!("it uses `{}`, which the scope before it writes", store(image)),
+            Refusal::Writes(image) => format!("it writes `{}`, which the scope before it uses", store(image)),
+            Refusal::Resolved(image) => format!("the scope before it ends with the resolve of `{}`", store(image)),
+        };
+        let OpKind::Draw(pass) = self.adapted.ops[op as usize].kind else { return };
+        self.notes.push(Note {
+            stage: Stage::Scope,
+            subject: name.clone(),
+            text: format!("opens a rendering scope of its own: {why}"),
+            at: self.frame.sources.place(self.frame.passes[pass as usize].span),
+        });
+    }
+
+    /// Lets the scope that wrote the source last carry the resolve, if it can.
+    fn fold(&mut self, op: u32) -> bool {
+        let [source, target] = self.adapted.uses(op) else { return false };
+        let (source, target) = (source.store, target.store);
+        let (from, to) =
+            (&self.adapted.stores[source as usize].descriptor, &self.adapted.stores[target as usize].descriptor);
+        let simple = (from.format, from.extent, from.layers, from.mips) == (to.format, to.extent, to.layers, 1)
+            && to.layers == 1;
+        let Some(at) = self.last_scope_of[source as usize].filter(|_| simple) else { return false };
+        let Step::Scope(scope) = &mut self.steps[at] else { return false };
+        let Some(location) = scope.color.iter().position(|color| *color == source) else { return false };
+        if scope.resolves[location].is_some() || self.touched_since(at, source, target) {
+            return false;
+        }
+        let Step::Scope(scope) = &mut self.steps[at] else { return false };
+        scope.resolves[location] = Some(op);
+        true
+    }
+
+    /// Whether a step from number `at` on already uses the target, or one after it writes the source.
+    fn touched_since(&self, at: usize, source: StoreIndex, target: StoreIndex) -> bool {
+        let touches = |op: &u32| self.adapted.uses(*op).iter().any(|used| used.store == target);
+        let rewrites = |op: &u32| self.adapted.uses(*op).iter().any(|used| used.store == source && used.role.writes());
+        self.steps[at..].iter().enumerate().any(|(distance, step)| {
+            let ops = step.ops();
+            ops.iter().any(touches) || (distance > 0 && ops.iter().any(rewrites))
+        })
+    }
+}
+
+impl Step {
+    /// The operations that it runs, without folded resolves.
+    pub(super) fn ops(&self) -> &[u32] {
+        match self {
+            Step::Scope(scope) => &scope.ops,
+            Step::Single(op) => std::slice::from_ref(op),
+            Step::Export => &[],
+        }
+    }
+}
+
+/// What comes of a scope and the pass after it.
+enum Meeting {
+    Merge,
+    Apart(Option<Refusal>),
+}
+
+/// Why they stay apart.
+enum Refusal {
+    OtherAttachments,
+    Clears(StoreIndex),
+    Uses(StoreIndex),
+    Writes(StoreIndex),
+    Resolved(StoreIndex),
+}
+
+impl Scope {
+    fn compare(&self, adapted: &Adapted, uses: &[Use]) -> Meeting {
+        let attached = |store: StoreIndex| self.color.contains(&store) || self.depth == Some(store);
+        let shares = uses.iter().any(|used| used.role.is_attachment() && attached(used.store));
+        let refuse = |why| Meeting::Apart(Some(why));
+        if let Some(used) = uses.iter().find(|used| !used.role.is_attachment() && attached(used.store)) {
+            return refuse(Refusal::Uses(used.store));
+        }
+        if let Some(store) = self.carried(adapted).find(|store| uses.iter().any(|used| used.store == *store)) {
+            return refuse(Refusal::Uses(store));
+        }
+        if !shares {
+            return Meeting::Apart(None);
+        }
+        let same_depth = match (self.depth, depth_of(uses)) {
+            (Some(a), Some(b)) => a == b,
+            _ => true,
+        };
+        let color = colors_of(uses);
+        if color != self.color || !same_depth || !self.same_area(adapted, uses) {
+            return refuse(Refusal::OtherAttachments);
+        }
+        let inside = |op: &u32| adapted.uses(*op).iter();
+        for used in uses {
+            let starts_over = match used.role {
+                Role::Color { start, .. } | Role::Depth { start, .. } => start != Start::Keep,
+                _ => false,
+            };
+            if starts_over && attached(used.store) {
+                return refuse(Refusal::Clears(used.store));
+            }
+            let clashes = |other: &Use| {
+                other.store == used.store && (other.role.is_attachment() != used.role.is_attachment())
+                    || other.store == used.store
+                        && !used.role.is_attachment()
+                        && (used.role.writes()
+                            || other.role.writes()
+                            || std::mem::discriminant(&used.role) != std::mem::discriminant(&other.role))
+            };
+            if self.ops.iter().flat_map(inside).any(clashes) {
+                return refuse(if used.role.writes() {
+                    Refusal::Writes(used.store)
+                } else {
+                    Refusal::Uses(used.store)
+                });
+            }
+        }
+        match self.resolves.iter().position(Option::is_some) {
+            Some(location) => refuse(Refusal::Resolved(self.color[location])),
+            None => Meeting::Merge,
+        }
+    }
+
+    /// Targets of the resolves that it carries.
+    fn carried<'a>(&'a self, adapted: &'a Adapted) -> impl Iterator<Item = StoreIndex> + 'a {
+        self.resolves.iter().flatten().filter_map(|op| adapted.uses(*op).get(1)).map(|target| target.store)
+    }
+
+    fn same_area(&self, adapted: &Adapted, uses: &[Use]) -> bool {
+        let shape = |store: StoreIndex| {
+            let descriptor = &adapted.stores[store as usize].descriptor;
+            (descriptor.extent, descriptor.samples)
+        };
+        let first = self.color.first().copied().or(self.depth);
+        first.is_none_or(|first| {
+            uses.iter().filter(|used| used.role.is_attachment()).all(|used| shape(used.store) == shape(first))
+        })
+    }
+}
+
+fn colors_of(uses: &[Use]) -> Vec<StoreIndex> {
+    uses.iter().filter(|used| matches!(used.role, Role::Color { .. })).map(|used| used.store).collect()
+}
+
+fn depth_of(uses: &[Use]) -> Option<StoreIndex> {
+    uses.iter().find(|used| matches!(used.role, Role::Depth { .. })).map(|used| used.store)
+}

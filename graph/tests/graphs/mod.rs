@@ -1,0 +1,196 @@
+//! The graphs that the compiler is measured on, built in memory, and a device that has everything.
+
+use framewright_graph::device::{FormatSupport, MemoryModel, Profile};
+use framewright_graph::format::Format;
+use framewright_graph::frame::{Frame, Image, ImageIndex, Output, Pass, Sampled, Storage, Work};
+use framewright_graph::source::Span;
+use framewright_graph::vocabulary::{Filter, Stages, Usage};
+use std::sync::Arc;
+
+/// A device that has every format at 1, 4 and 8 samples and adds nothing to an image's bytes.
+pub(crate) fn device() -> Profile {
+    let everything = Usage::all().difference(Usage::TRANSIENT_ATTACHMENT);
+    let support = |format: &Format| FormatSupport {
+        format: *format,
+        usage: everything,
+        linear_filter: true,
+        blend: true,
+        samples: vec![1, 4, 8],
+    };
+    Profile {
+        name: "a device for tests".to_owned(),
+        source: "built in memory".to_owned(),
+        max_attachment_extent: 16384,
+        max_color_attachments: 8,
+        lazily_allocated_memory: false,
+        formats: Format::ALL.iter().map(support).collect(),
+        memory: MemoryModel { alignment: 256, row_texels: 1, rows: 1 },
+    }
+}
+
+/// Builds a frame of compute passes.
+#[derive(Default)]
+pub(crate) struct Builder {
+    frame: Frame,
+    sampled: Option<Arc<str>>,
+    stored: Option<Arc<str>>,
+}
+
+impl Builder {
+    /// An image of one mip and one layer.
+    pub(crate) fn image(&mut self, name: &str, format: Format, width: u32, height: u32) -> ImageIndex {
+        let image = Image {
+            name: name.into(),
+            span: Span::NONE,
+            format,
+            extent: [width, height, 1],
+            mips: 1,
+            layers: 1,
+            samples: 1,
+        };
+        self.frame.images.push(image);
+        ImageIndex(self.frame.images.len() as u32 - 1)
+    }
+
+    /// A compute pass that samples `reads`, and writes `writes` as storage: whole, or on top of what is there.
+    pub(crate) fn pass(&mut self, name: &str, reads: &[ImageIndex], writes: &[(ImageIndex, bool)]) {
+        let sampled = self.sampled.get_or_insert_with(|| "source".into()).clone();
+        let stored = self.stored.get_or_insert_with(|| "target".into()).clone();
+        let stages = Stages::COMPUTE_SHADER;
+        let sample = |image: &ImageIndex| Sampled {
+            binding: sampled.clone(),
+            image: *image,
+            span: Span::NONE,
+            per_sample: false,
+            filter: Filter::Nearest,
+            stages,
+        };
+        let store = |(image, read): &(ImageIndex, bool)| Storage {
+            binding: stored.clone(),
+            image: *image,
+            span: Span::NONE,
+            read: *read,
+            write: true,
+            stages,
+        };
+        self.frame.passes.push(Pass {
+            name: name.into(),
+            span: Span::NONE,
+            work: Work::Dispatch { shader: sampled.clone() },
+            sampled: reads.iter().map(sample).collect(),
+            storage: writes.iter().map(store).collect(),
+            color: Vec::new(),
+            depth: None,
+            params: Vec::new(),
+        });
+    }
+
+    /// The frame, made for `output`.
+    pub(crate) fn output(mut self, output: ImageIndex) -> Frame {
+        self.frame.outputs.push(Output { image: output, span: Span::NONE });
+        self.frame
+    }
+}
+
+/// Pass i reads image i−1 and writes image i.
+pub(crate) fn chain(passes: u32) -> Frame {
+    let mut builder = Builder::default();
+    let mut before: Option<ImageIndex> = None;
+    for number in 0..passes {
+        let image = builder.image(&format!("image{number}"), Format::R8G8B8A8_UNORM, 256, 256);
+        builder.pass(&format!("pass{number}"), before.as_slice(), &[(image, false)]);
+        before = Some(image);
+    }
+    builder.output(ImageIndex(passes - 1))
+}
+
+/// Pass i reads three random images among those before it, `window` at most back, and writes image i. Every image that
+/// nobody reads goes into the last pass, so that all passes stay.
+fn random(passes: u32, window: u64) -> Frame {
+    let mut builder = Builder::default();
+    let mut state = 12345_u64;
+    let mut read = vec![false; passes as usize];
+    for number in 0..passes {
+        let image = builder.image(&format!("image{number}"), Format::R8G8B8A8_UNORM, 256, 256);
+        let mut reads = Vec::new();
+        let among = u64::from(number).min(window);
+        for _ in 0..if number == 0 { 0 } else { 3 } {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let back = ((state >> 33) % among) as u32;
+            let source = ImageIndex(number - 1 - back);
+            if !reads.contains(&source) {
+                reads.push(source);
+                read[source.0 as usize] = true;
+            }
+        }
+        if number == passes - 1 {
+            let unread = (0..number).filter(|image| !read[*image as usize]).map(ImageIndex);
+            reads.extend(unread.filter(|image| !reads.contains(image)).collect::<Vec<_>>());
+        }
+        builder.pass(&format!("pass{number}"), &reads, &[(image, false)]);
+    }
+    builder.output(ImageIndex(passes - 1))
+}
+
+/// Three random earlier images.
+pub(crate) fn wide(passes: u32) -> Frame {
+    random(passes, u64::MAX)
+}
+
+/// Three random images among the last 32.
+pub(crate) fn local(passes: u32) -> Frame {
+    random(passes, 32)
+}
+
+/// A deferred frame of 25 passes and 26 transient images at 1920×1080.
+pub(crate) fn deferred() -> Frame {
+    use Format::{D32_SFLOAT, R8_UNORM, R8G8B8A8_UNORM, R16G16_SFLOAT, R16G16B16A16_SFLOAT};
+    let (width, height) = (1920, 1080);
+    let mut builder = Builder::default();
+    let cascades: Vec<ImageIndex> =
+        (0..4).map(|number| builder.image(&format!("cascade{number}"), D32_SFLOAT, 2048, 2048)).collect();
+    let depth = builder.image("depth", D32_SFLOAT, width, height);
+    let albedo = builder.image("albedo", R8G8B8A8_UNORM, width, height);
+    let normal = builder.image("normal", R16G16B16A16_SFLOAT, width, height);
+    let material = builder.image("material", R8G8B8A8_UNORM, width, height);
+    let motion = builder.image("motion", R16G16_SFLOAT, width, height);
+    let occlusion = builder.image("occlusion", R8_UNORM, width, height);
+    let occlusion_blurred = builder.image("occlusion_blurred", R8_UNORM, width, height);
+    let lit = builder.image("lit", R16G16B16A16_SFLOAT, width, height);
+    let bloom = |builder: &mut Builder, way: &str, level: u32| {
+        builder.image(
+            &format!("bloom_{way}{level}"),
+            R16G16B16A16_SFLOAT,
+            (width >> level).max(1),
+            (height >> level).max(1),
+        )
+    };
+    let down: Vec<ImageIndex> = (1..=6).map(|level| bloom(&mut builder, "down", level)).collect();
+    let up: Vec<ImageIndex> = (0..6).map(|level| bloom(&mut builder, "up", level)).collect();
+    let mapped = builder.image("mapped", R8G8B8A8_UNORM, width, height);
+    let smooth = builder.image("smooth", R8G8B8A8_UNORM, width, height);
+
+    for (number, cascade) in cascades.iter().enumerate() {
+        builder.pass(&format!("cascade{number}"), &[], &[(*cascade, false)]);
+    }
+    builder.pass("depth", &[], &[(depth, false)]);
+    let targets = [albedo, normal, material, motion].map(|target| (target, false));
+    builder.pass("g_buffer", &[], &[&targets[..], &[(depth, true)]].concat());
+    builder.pass("occlusion", &[depth, normal], &[(occlusion, false)]);
+    builder.pass("occlusion_blur", &[occlusion], &[(occlusion_blurred, false)]);
+    let shading = [&[albedo, normal, material, depth, occlusion_blurred][..], &cascades[..]].concat();
+    builder.pass("lighting", &shading, &[(lit, false)]);
+    builder.pass("transparents", &[&[depth][..], &cascades[..]].concat(), &[(lit, true)]);
+    for level in 0..6 {
+        let source = if level == 0 { lit } else { down[level - 1] };
+        builder.pass(&format!("bloom_down{level}"), &[source], &[(down[level], false)]);
+    }
+    for level in (0..6).rev() {
+        let sources = if level == 5 { vec![down[5]] } else { vec![up[level + 1], down[level]] };
+        builder.pass(&format!("bloom_up{level}"), &sources, &[(up[level], false)]);
+    }
+    builder.pass("tone_map", &[lit, up[0]], &[(mapped, false)]);
+    builder.pass("smooth", &[mapped, motion], &[(smooth, false)]);
+    builder.pass("interface", &[], &[(smooth, true)]);
+    builder.output(smooth)
+}
