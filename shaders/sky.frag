@@ -21,5 +21,5 @@ void main() {
     // No sun shines from below the horizon.
     const float above = smoothstep(-0.02, 0.02, towards.y);
     const float sun = above * (GLOW_SHARE * pow(sunward, GLOW_EXPONENT) + DISC_SHARE * pow(sunward, DISC_EXPONENT));
-    color = vec4(guard_radiance(sky_radiance(towards.y) + sun * lights.sun_radiance), 1.0);
+    color = vec4(guard_radiance(sky_radiance(towards) + sun * lights.sun_radiance), 1.0);
 }

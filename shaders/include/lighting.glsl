@@ -17,51 +17,47 @@ vec3 direction_of(vec3 v) {
     return squared > 0.0 ? v * inversesqrt(squared) : vec3(0.0);
 }
 
-// Light scattered back by the surface, and light mirrored by it (not coloured by the surface, not dimmed by its alpha).
+// Blinn-Phong highlight, normalised by (n + 8) / 8, with Schlick's Fresnel term (T. Akenine-Möller et al., "Real-Time
+// Rendering", 3rd edition, section 7.6): the share of arriving light that is mirrored.
+float highlight(vec3 normal, vec3 to_camera, vec3 to_light) {
+    const vec3 halfway = direction_of(to_light + to_camera);
+    const float grazing = pow(1.0 - clamp(dot(to_camera, halfway), 0.0, 1.0), 5.0);
+    const float tightness = (SHININESS + 8.0) / 8.0 * pow(clamp(dot(normal, halfway), 0.0, 1.0), SHININESS);
+    return mix(HEAD_ON_REFLECTANCE, 1.0, grazing) * tightness;
+}
+
+// The share of a point light's intensity that arrives: 1/d², brought to zero at its range by 1 − (d/range)⁴ (glTF
+// extension KHR_lights_punctual, "Range Property").
+float falloff(float distance_squared, float inverse_range) {
+    const float squared = max(distance_squared, NEAREST_POINT_LIGHT * NEAREST_POINT_LIGHT);
+    const float share = squared * inverse_range * inverse_range;
+    return clamp(1.0 - share * share, 0.0, 1.0) / squared;
+}
+
+// Light scattered back by a white surface, and light mirrored by any surface.
 struct Reflected {
     vec3 diffuse;
     vec3 specular;
 };
 
-// Lambert's cosine law (in units in which a white surface facing the light shows `radiance`), and a Blinn-Phong highlight
-// normalised by (n + 8) / 8 with Schlick's Fresnel term (T. Akenine-Möller et al., "Real-Time Rendering", 3rd edition,
-// section 7.6).
-void add_light(inout Reflected reflected, vec3 normal, vec3 to_camera, vec3 to_light, vec3 radiance) {
-    const vec3 arriving = radiance * max(dot(normal, to_light), 0.0);
-    const vec3 halfway = direction_of(to_light + to_camera);
-    const float fresnel =
-        HEAD_ON_REFLECTANCE + (1.0 - HEAD_ON_REFLECTANCE) * pow(1.0 - clamp(dot(to_camera, halfway), 0.0, 1.0), 5.0);
-    const float highlight = (SHININESS + 8.0) / 8.0 * pow(clamp(dot(normal, halfway), 0.0, 1.0), SHININESS);
-    reflected.diffuse += arriving;
-    reflected.specular += arriving * fresnel * highlight;
-}
-
-// Inverse square, brought to zero at `range` by (1 − (d/range)⁴)² (B. Karis, "Real Shading in Unreal Engine 4", SIGGRAPH
-// 2013 course notes, equation 9).
-float falloff(float distance_squared, float range) {
-    const float share = distance_squared / (range * range);
-    const float window = clamp(1.0 - share * share, 0.0, 1.0);
-    return window * window / max(distance_squared, NEAREST_POINT_LIGHT * NEAREST_POINT_LIGHT);
-}
-
-// Radiance of the sky (above) and the ground (below) in a direction whose share of "up" is `up`, −1…1.
-vec3 sky_radiance(float up) {
-    const vec3 end = up < 0.0 ? lights.ground_radiance : lights.zenith_radiance;
-    return mix(lights.horizon_radiance, end, smoothstep(0.0, 1.0, abs(up)));
-}
-
-// What a surface at `position` (world space) reflects. Without ambient light's highlights: the sky is smooth.
+// What a surface at `position` (world space) reflects: ambient light and Lambert's cosine law, in units in which a white
+// surface that faces a light shows its radiance. Only the sun is mirrored.
 Reflected reflect_light(vec3 position, vec3 normal) {
-    const vec3 to_camera = direction_of(-position);
-    Reflected reflected = Reflected(mix(lights.ground_radiance, lights.zenith_radiance, normal.y * 0.5 + 0.5), vec3(0.0));
-    add_light(reflected, normal, to_camera, lights.sun_direction, lights.sun_radiance);
+    const vec3 from_sun = lights.sun_radiance * max(dot(normal, lights.sun_direction), 0.0);
+    vec3 diffuse = lights.ambient_radiance + from_sun;
     for (uint i = 0u; i < lights.point_light_count; ++i) {
         const PointLight light = lights.point_lights[i];
         const vec3 towards = light.position - position;
-        add_light(reflected, normal, to_camera, direction_of(towards),
-                  light.intensity * falloff(dot(towards, towards), light.range));
+        const float facing = max(dot(normal, direction_of(towards)), 0.0);
+        diffuse += light.intensity * (facing * falloff(dot(towards, towards), light.inverse_range));
     }
-    return reflected;
+    return Reflected(diffuse, from_sun * highlight(normal, direction_of(-position), lights.sun_direction));
+}
+
+// Radiance of the sky towards a unit vector, without the sun.
+vec3 sky_radiance(vec3 towards) {
+    return towards.y < 0.0 ? mix(lights.horizon_radiance, lights.ground_radiance, sqrt(-towards.y))
+                           : mix(lights.horizon_radiance, lights.zenith_radiance, towards.y);
 }
 
 #endif

@@ -9,7 +9,7 @@
 struct Object {
     // Object space to world space.
     mat4 object_to_world;
-    // Inverse transpose of the upper left of object_to_world, scaled to a determinant of about 1.
+    // Takes normals to world space, up to their length.
     mat3 normal_to_world;
     // Linear colour and alpha by which the texture is multiplied.
     vec4 base_color;
@@ -24,8 +24,8 @@ struct Object {
 struct PointLight {
     // In world space.
     vec3 position;
-    // Distance at which its light has faded to nothing.
-    float range;
+    // 1 over the distance at which its light has faded to nothing; 0 if it reaches everywhere.
+    float inverse_range;
     // Radiance that a white, rough surface facing it shows at distance 1.
     vec3 intensity;
 };
@@ -44,7 +44,9 @@ layout(set = 1, binding = 1, std430) readonly buffer Lights {
     uint point_light_count;
     // Radiance that a white, rough surface facing the sun shows.
     vec3 sun_radiance;
-    // Radiance from straight above, from the horizon, and from below.
+    // Radiance that a white surface shows without any of these lights.
+    vec3 ambient_radiance;
+    // Radiance of the sky straight up, at eye level and straight down.
     vec3 zenith_radiance;
     vec3 horizon_radiance;
     vec3 ground_radiance;

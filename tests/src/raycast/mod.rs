@@ -1,0 +1,117 @@
+//! A CPU ray-caster in 64 bits: which object a pixel shows, and its base colour.
+//!
+//! It judges what the GPU drew, so it shares no code with the drawing: rays come from the camera's place, axes and field of
+//! view and not from a projection matrix, facing from the corners' order along the ray, texels from its own filter.
+
+mod bounds;
+pub mod texture;
+pub mod triangle;
+
+use bounds::BoundsTree;
+use framewright_passes::scene::{AlphaMode, Scene};
+use glam::{DVec2, DVec3};
+use triangle::{Meeting, Ray, meet};
+
+/// What a ray meets first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// Index of the object in the scene.
+    pub object: u32,
+    /// Linear base colour with alpha: factor times texture.
+    pub base_color: [f64; 4],
+    /// Distance along the camera's axis, metres.
+    pub depth: f64,
+}
+
+/// A scene made ready for rays.
+#[derive(Debug)]
+pub struct RayCaster<'scene> {
+    scene: &'scene Scene,
+    /// In world space.
+    triangles: Vec<[DVec3; 3]>,
+    /// Object of each triangle, and where its indices begin in the mesh.
+    origins: Vec<(u32, usize)>,
+    tree: BoundsTree,
+}
+
+impl<'scene> RayCaster<'scene> {
+    /// Makes a scene ready.
+    #[must_use]
+    pub fn new(scene: &'scene Scene) -> Self {
+        let (mut triangles, mut origins) = (Vec::new(), Vec::new());
+        for (object_index, object) in (0..).zip(&scene.objects) {
+            let mesh = &scene.meshes[object.mesh];
+            let columns = object.transform.to_cols_array_2d().map(|column| column.map(f64::from));
+            let place = |index: u32| {
+                let [x, y, z] = mesh.positions[index as usize].map(f64::from);
+                let axis =
+                    |row: usize| columns[0][row] * x + columns[1][row] * y + columns[2][row] * z + columns[3][row];
+                DVec3::new(axis(0), axis(1), axis(2))
+            };
+            for (first, corners) in mesh.indices.chunks_exact(3).enumerate() {
+                triangles.push([place(corners[0]), place(corners[1]), place(corners[2])]);
+                origins.push((object_index, first * 3));
+            }
+        }
+        let tree = BoundsTree::new(&triangles);
+        Self { scene, triangles, origins, tree }
+    }
+
+    /// The ray through a point of a picture, `at` counted from its upper left corner (0, 0) to its lower right (1, 1).
+    /// `aspect` is width over height. The direction's part along the camera's axis is 1, so distances are depths.
+    #[must_use]
+    pub fn camera_ray(&self, at: DVec2, aspect: f64) -> Ray {
+        let camera = &self.scene.camera;
+        let columns = camera.transform.to_cols_array_2d().map(|[x, y, z, _]| DVec3::new(x.into(), y.into(), z.into()));
+        let [right, up, back, origin] = columns;
+        let half_height = (f64::from(camera.vertical_fov) / 2.0).tan();
+        let across = (2.0 * at.x - 1.0) * half_height * aspect;
+        let upwards = (1.0 - 2.0 * at.y) * half_height;
+        Ray { origin, direction: right * across + up * upwards - back }
+    }
+
+    /// What `ray` meets first from the near plane on: front faces, back faces of double-sided materials, and no holes of
+    /// masked ones. Transparent objects count as whole.
+    #[must_use]
+    pub fn cast(&self, ray: &Ray) -> Option<Hit> {
+        let near = f64::from(self.scene.camera.near);
+        let mut nearest: Option<Hit> = None;
+        self.tree.walk(ray, |triangle| {
+            let limit = nearest.map_or(f64::INFINITY, |hit| hit.depth);
+            let meeting = meet(ray, &self.triangles[triangle as usize]);
+            if let Some(meeting) = meeting.filter(|meeting| (near..limit).contains(&meeting.distance)) {
+                nearest = self.shown(triangle, &meeting).or(nearest);
+            }
+            nearest.map_or(f64::INFINITY, |hit| hit.depth)
+        });
+        nearest
+    }
+
+    /// What a triangle shows where it is met, unless that side or place of it shows nothing.
+    fn shown(&self, triangle: u32, meeting: &Meeting) -> Option<Hit> {
+        let (object_index, first) = self.origins[triangle as usize];
+        let object = &self.scene.objects[object_index as usize];
+        let material = &self.scene.materials[object.material];
+        let [x, y, z, _] = object.transform.as_dmat4().to_cols_array_2d().map(|[x, y, z, _]| DVec3::new(x, y, z));
+        let turned_inside_out = x.dot(y.cross(z)) < 0.0;
+        if !material.double_sided && meeting.counter_clockwise == turned_inside_out {
+            return None;
+        }
+        let mesh = &self.scene.meshes[object.mesh];
+        let [second, third] = meeting.weights;
+        let uv = [1.0 - second - third, second, third].iter().zip(&mesh.indices[first..first + 3]).fold(
+            DVec2::ZERO,
+            |uv, (weight, index)| {
+                let [u, v] = mesh.uvs[*index as usize];
+                uv + DVec2::new(u.into(), v.into()) * *weight
+            },
+        );
+        let texel =
+            material.base_color_texture.map_or([1.0; 4], |texture| texture::sample(&self.scene.textures[texture], uv));
+        let base_color = std::array::from_fn(|i| f64::from(material.base_color[i]) * texel[i]);
+        match material.alpha {
+            AlphaMode::Mask { cutoff } if base_color[3] < f64::from(cutoff) => None,
+            _ => Some(Hit { object: object_index, base_color, depth: meeting.distance }),
+        }
+    }
+}
