@@ -25,6 +25,7 @@ pub(super) fn adapt(frame: &Frame, live: &Live, samples: &Samples) -> Result<Ada
         noted: vec![false; frame.images.len()],
         adapted: Adapted::default(),
         errors: Vec::new(),
+        scratch: Vec::new(),
     };
     adapter.adapted.ops.reserve(live.passes.len());
     adapter.adapted.uses.reserve(live.passes.len() * 4);
@@ -51,6 +52,8 @@ struct Adapter<'a> {
     noted: Vec<bool>,
     adapted: Adapted,
     errors: Vec<Diagnostic>,
+    /// Uses of the pass at hand.
+    scratch: Vec<Use>,
 }
 
 impl Adapter<'_> {
@@ -60,7 +63,8 @@ impl Adapter<'_> {
         if let Work::Forward { from, to, because } = &pass.work {
             return self.forward(number, pass, *from, *to, because);
         }
-        let mut uses = Vec::with_capacity(pass.sampled.len() + pass.storage.len() + pass.color.len() + 1);
+        let mut uses = std::mem::take(&mut self.scratch);
+        uses.clear();
         for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
             if let Some(store) = self.sampled(pass, sampled) {
                 uses.push(Use { store, role: Role::Sampled { entry, stages: sampled.stages } });
@@ -96,6 +100,7 @@ impl Adapter<'_> {
         let kind =
             if matches!(pass.work, Work::Dispatch { .. }) { OpKind::Dispatch(number) } else { OpKind::Draw(number) };
         self.push(kind, &uses);
+        self.scratch = uses;
     }
 
     fn push(&mut self, kind: OpKind, uses: &[Use]) {

@@ -267,11 +267,16 @@ impl Emitter<'_> {
             OpKind::Resolve { .. } | OpKind::Copy { .. } => 0,
         };
         let pass = &parts.frame.passes[number as usize];
+        let (draw, shader) = match &pass.work {
+            FrameWork::Draw { draw, shader, .. } => (Some(*draw), shader.clone()),
+            FrameWork::Dispatch { shader } => (None, shader.clone()),
+            FrameWork::Forward { .. } => (Some(Draw::FullScreen), COPY_SHADER.into()),
+        };
         let mut planned = Pass {
             name: pass.name.clone(),
             cause,
-            draw: None,
-            shader: Arc::from(COPY_SHADER),
+            draw,
+            shader,
             blend: vec![Blend::Replace; colors],
             depth: None,
             bindings: Vec::new(),
@@ -280,17 +285,8 @@ impl Emitter<'_> {
             merged,
         };
         if let OpKind::ForwardDraw { filter, .. } = parts.adapted.ops[op as usize].kind {
-            planned.draw = Some(Draw::FullScreen);
             planned.bindings.extend(self.binding(&uses[0], at, COPY_SOURCE.into(), Some(filter)));
             return planned;
-        }
-        match &pass.work {
-            FrameWork::Draw { draw, shader, .. } => {
-                planned.draw = Some(*draw);
-                planned.shader = shader.clone();
-            }
-            FrameWork::Dispatch { shader } => planned.shader = shader.clone(),
-            FrameWork::Forward { .. } => {}
         }
         for (blend, target) in planned.blend.iter_mut().zip(&pass.color) {
             *blend = target.blend;

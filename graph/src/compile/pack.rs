@@ -40,9 +40,8 @@ pub(super) fn live_peak(blocks: &[Block]) -> u64 {
     peak
 }
 
-/// The lowest of several packings.
-pub(super) fn pack(blocks: &[Block]) -> Packing {
-    let bound = live_peak(blocks);
+/// The lowest of several packings; `bound` is the blocks' [`live_peak`].
+pub(super) fn pack(blocks: &[Block], bound: u64) -> Packing {
     let mut best = sweep(blocks);
     if best.height <= bound || blocks.len() > EXHAUSTIVE_BLOCKS {
         return best;
@@ -225,7 +224,7 @@ mod tests {
     #[test]
     fn a_chain_needs_two_blocks() {
         let chain: Vec<Block> = blocks(&(0..1000).map(|step| (step, step + 1, 64)).collect::<Vec<_>>());
-        let packing = pack(&chain);
+        let packing = pack(&chain, live_peak(&chain));
         assert_disjoint(&chain, &packing);
         assert_eq!(packing.height, 128);
     }
@@ -245,7 +244,7 @@ mod tests {
                     Block { first, last: first + next(12) as u32, bytes: (1 + next(50)) * alignment, alignment }
                 })
                 .collect();
-            let packing = pack(&list);
+            let packing = pack(&list, live_peak(&list));
             assert_disjoint(&list, &packing);
             assert!(packing.height <= live_peak(&list) * 3 / 2, "{} over {}", packing.height, live_peak(&list));
         }

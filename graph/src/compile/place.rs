@@ -63,9 +63,10 @@ pub(super) fn place(
     }
     for (heap, members) in placed.heaps.iter_mut().zip(&members) {
         let blocks: Vec<Block> = members.iter().map(|(_, block)| *block).collect();
-        let packing = if options.alias { pack::pack(&blocks) } else { side_by_side(&blocks) };
+        let live_peak = pack::live_peak(&blocks);
+        let packing = if options.alias { pack::pack(&blocks, live_peak) } else { side_by_side(&blocks) };
         heap.bytes = packing.height;
-        placed.live_peak_bytes = placed.live_peak_bytes.saturating_add(pack::live_peak(&blocks));
+        placed.live_peak_bytes = placed.live_peak_bytes.saturating_add(live_peak);
         for ((store, _), offset) in members.iter().zip(packing.offsets) {
             if let Some(placement) = &mut placed.placements[*store as usize] {
                 placement.offset = offset;

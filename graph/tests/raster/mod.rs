@@ -1,0 +1,103 @@
+//! Raster frames built in memory.
+
+#[path = "../graphs/mod.rs"]
+#[allow(dead_code, reason = "the measured graphs are used elsewhere")]
+mod graphs;
+
+use framewright_graph::format::Format;
+use framewright_graph::frame::{
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Image, ImageIndex, Output, Pass, Sampled, Work,
+};
+use framewright_graph::source::Span;
+use framewright_graph::vocabulary::{CompareOp, Filter, Stages};
+pub(crate) use graphs::device;
+
+/// Builds a frame of raster passes, all images 64×64.
+#[derive(Default)]
+pub(crate) struct Raster(Frame);
+
+impl Raster {
+    pub(crate) fn image(&mut self, name: &str, format: Format, samples: u32) -> ImageIndex {
+        let extent = [64, 64, 1];
+        self.0.images.push(Image { name: name.into(), span: Span::NONE, format, extent, mips: 1, layers: 1, samples });
+        ImageIndex(self.0.images.len() as u32 - 1)
+    }
+
+    fn pass(&mut self, name: &str, work: Work) -> Added<'_> {
+        self.0.passes.push(Pass {
+            name: name.into(),
+            span: Span::NONE,
+            work,
+            sampled: Vec::new(),
+            storage: Vec::new(),
+            color: Vec::new(),
+            depth: None,
+            params: Vec::new(),
+        });
+        Added(self.0.passes.last_mut().expect("one was just added"))
+    }
+
+    pub(crate) fn objects(&mut self, name: &str) -> Added<'_> {
+        self.pass(name, Work::Draw { draw: Draw::Objects(DrawList::Opaque), shader: name.into(), discards: false })
+    }
+
+    pub(crate) fn full_screen(&mut self, name: &str) -> Added<'_> {
+        self.pass(name, Work::Draw { draw: Draw::FullScreen, shader: name.into(), discards: false })
+    }
+
+    pub(crate) fn forward(&mut self, name: &str, from: ImageIndex, to: ImageIndex) {
+        self.pass(name, Work::Forward { from, to, because: "a switch = false".to_owned() });
+    }
+
+    pub(crate) fn output(self, image: ImageIndex) -> Frame {
+        self.outputs(&[image])
+    }
+
+    pub(crate) fn outputs(mut self, images: &[ImageIndex]) -> Frame {
+        self.0.outputs = images.iter().map(|image| Output { image: *image, span: Span::NONE }).collect();
+        self.0
+    }
+}
+
+/// A pass that was just added.
+pub(crate) struct Added<'a>(&'a mut Pass);
+
+impl Added<'_> {
+    fn target(self, image: ImageIndex, clear: Option<[f32; 4]>, blend: Blend) -> Self {
+        self.0.color.push(ColorTarget { image, span: Span::NONE, clear, blend });
+        self
+    }
+
+    pub(crate) fn clear(self, image: ImageIndex) -> Self {
+        self.target(image, Some([0.0; 4]), Blend::Replace)
+    }
+
+    pub(crate) fn color(self, image: ImageIndex, blend: Blend) -> Self {
+        self.target(image, None, blend)
+    }
+
+    fn depth(self, image: ImageIndex, clear: Option<f32>, write: bool) -> Self {
+        self.0.depth = Some(DepthTarget { image, span: Span::NONE, clear, test: CompareOp::GreaterOrEqual, write });
+        self
+    }
+
+    pub(crate) fn clear_depth(self, image: ImageIndex) -> Self {
+        self.depth(image, Some(0.0), true)
+    }
+
+    pub(crate) fn test_depth(self, image: ImageIndex) -> Self {
+        self.depth(image, None, false)
+    }
+
+    pub(crate) fn sample(self, image: ImageIndex) -> Self {
+        self.0.sampled.push(Sampled {
+            binding: format!("source{}", self.0.sampled.len()).into(),
+            image,
+            span: Span::NONE,
+            per_sample: false,
+            filter: Filter::Linear,
+            stages: Stages::FRAGMENT_SHADER,
+        });
+        self
+    }
+}
