@@ -1,1 +1,37 @@
-//! Framewright.
+//! Executes Plans on Vulkan 1.3.
+//!
+//! The contract: a [`Plan`](framewright_graph::plan::Plan) says everything, and this crate decides nothing. It makes the
+//! images that the Plan lists at the offsets that it lists, records the steps in its order with its barriers, and asks a
+//! [`DrawSource`] for the draws of objects and sky. What a shader needs is matched by name with what its pass and the
+//! draw source give it.
+//!
+//! This crate alone is unsafe inside; its interface is safe.
+
+mod caches;
+mod capabilities;
+mod convert;
+mod descriptors;
+mod device;
+mod error;
+mod image;
+mod instance;
+mod labels;
+pub mod layer;
+mod memory;
+mod pipeline;
+mod recorder;
+mod resources;
+pub mod shaders;
+mod submit;
+mod validation;
+
+pub use caches::{AddressMode, SamplerDescriptor, TexelFilter};
+pub use capabilities::MINIMUM_VERSION;
+pub use descriptors::{BindGroup, Resource};
+pub use device::{Device, DeviceChoice, DeviceOptions, DeviceSummary};
+pub use error::{Blame, Error, INSTALL};
+pub use memory::LiveMemory;
+pub use recorder::{CullMode, DrawSource, FrontFace, IndexType, Recorder};
+pub use resources::{Buffer, BufferUsage, Texture};
+pub use shaders::ShaderLibrary;
+pub use validation::{Message, MessageKind, Messages, Severity};

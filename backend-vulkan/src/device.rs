@@ -1,0 +1,329 @@
+//! Choosing, opening and sharing a device.
+
+use crate::capabilities::{self, Features};
+use crate::error::Error;
+use crate::instance::Instance;
+use crate::memory::LiveMemory;
+use crate::validation::Messages;
+use ash::{ext, vk};
+use framewright_graph::device::{ImageDescriptor, MemoryNeeds, Profile};
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+use std::ffi::{CStr, FromBytesUntilNulError};
+use std::mem::ManuallyDrop;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Which device to open.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub enum DeviceChoice {
+    /// lavapipe, the software driver that gives the same picture on every machine; where it isn't installed, the first
+    /// device that meets the minimum.
+    #[default]
+    Default,
+    /// By its number in [`Device::list`].
+    Index(usize),
+    /// By name: the device's own, or else the first device in whose name or driver's name the text occurs. `lavapipe`
+    /// is Mesa's software driver, which calls itself llvmpipe.
+    Name(String),
+}
+
+/// How to open a device.
+#[derive(Debug, Clone, Default)]
+pub struct DeviceOptions {
+    /// Which one.
+    pub choice: DeviceChoice,
+    /// Whether the validation layer watches, synchronisation included. See [`crate::layer`] for how it is found.
+    pub validation: bool,
+}
+
+/// A device that exists.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DeviceSummary {
+    /// Its number.
+    pub index: usize,
+    /// Its own name.
+    pub name: String,
+    /// Its driver's name and version.
+    pub driver: String,
+    /// `cpu`, `integrated`, `discrete`, `virtual` or `other`.
+    pub kind: &'static str,
+    /// Its Vulkan version.
+    pub vulkan: String,
+    /// What it lacks of the minimum; empty if it can be opened.
+    pub missing: Vec<String>,
+    driver_id: vk::DriverId,
+}
+
+/// An open device. Clones share it; it closes when the last clone and the last thing made from it are gone.
+#[derive(Clone)]
+pub struct Device {
+    pub(crate) shared: Arc<Shared>,
+}
+
+/// What all that is made from a device holds on to.
+pub(crate) struct Shared {
+    pub(crate) raw: ash::Device,
+    pub(crate) physical: vk::PhysicalDevice,
+    pub(crate) limits: vk::PhysicalDeviceLimits,
+    pub(crate) labels: Option<ext::debug_utils::Device>,
+    pub(crate) queue_family: u32,
+    pub(crate) timestamp_bits: u32,
+    pub(crate) summary: DeviceSummary,
+    pub(crate) caches: crate::caches::Caches,
+    queue: Mutex<vk::Queue>,
+    allocator: ManuallyDrop<Mutex<Allocator>>,
+    abandoned: AtomicBool,
+    pub(crate) instance: ManuallyDrop<Instance>,
+}
+
+impl Device {
+    /// Every device that the loader finds.
+    ///
+    /// # Errors
+    /// [`Error::NoLoader`], or [`Error::NoDevice`] if there is none.
+    pub fn list() -> Result<Vec<DeviceSummary>, Error> {
+        let instance = Instance::new(false)?;
+        Ok(devices(&instance)?.into_iter().map(|(_, summary)| summary).collect())
+    }
+
+    /// Opens a device.
+    ///
+    /// # Errors
+    /// No loader, no device, none of that name, less than the minimum, no validation layer.
+    pub fn open(options: &DeviceOptions) -> Result<Device, Error> {
+        let instance = Instance::new(options.validation)?;
+        let (physical, summary) = choose(devices(&instance)?, &options.choice)?;
+        if !summary.missing.is_empty() {
+            return Err(Error::Lacking { device: summary.name, missing: summary.missing });
+        }
+        let (queue_family, timestamp_bits) =
+            capabilities::graphics_family(&instance.raw, physical).ok_or(Error::NoDevice)?;
+        let mut features = Features::minimum();
+        let (core, v1_3) = features.parts();
+        let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
+        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_features(core).push_next(v1_3);
+        // SAFETY: `physical` belongs to the instance and has these features and this queue family.
+        let raw = unsafe { instance.raw.create_device(physical, &info, None) }
+            .map_err(Error::vulkan("opening the device"))?;
+        // SAFETY: the device was created with one queue of this family; `physical` belongs to the instance.
+        let (queue, properties) =
+            unsafe { (raw.get_device_queue(queue_family, 0), instance.raw.get_physical_device_properties(physical)) };
+        let allocator = Allocator::new(&AllocatorCreateDesc {
+            instance: instance.raw.clone(),
+            device: raw.clone(),
+            physical_device: physical,
+            debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
+            buffer_device_address: false,
+            allocation_sizes: gpu_allocator::AllocationSizes::default(),
+        });
+        let allocator = match allocator {
+            Ok(allocator) => allocator,
+            Err(error) => {
+                // SAFETY: nothing was made from the device yet.
+                unsafe { raw.destroy_device(None) };
+                return Err(Error::OutOfMemory { what: "the device".into(), bytes: 0, reason: error.to_string() });
+            }
+        };
+        let labels = instance.labels.then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
+        let shared = Shared {
+            physical,
+            limits: properties.limits,
+            labels,
+            queue_family,
+            timestamp_bits,
+            summary,
+            caches: crate::caches::Caches::default(),
+            queue: Mutex::new(queue),
+            allocator: ManuallyDrop::new(Mutex::new(allocator)),
+            abandoned: AtomicBool::new(false),
+            raw,
+            instance: ManuallyDrop::new(instance),
+        };
+        Ok(Device { shared: Arc::new(shared) })
+    }
+
+    /// What the device can do, as far as Plans depend on it.
+    #[must_use]
+    pub fn profile(&self) -> Profile {
+        let source = format!("{}, Vulkan {}, live", self.shared.summary.driver, self.shared.summary.vulkan);
+        let needs = |descriptor: &ImageDescriptor| self.shared.memory_needs(descriptor);
+        capabilities::profile(&self.shared.instance.raw, self.shared.physical, source, needs)
+    }
+
+    /// What images take of this device's memory, for [`framewright_graph::compile`].
+    #[must_use]
+    pub fn memory(&self) -> LiveMemory {
+        LiveMemory::new(self)
+    }
+
+    /// Which device this is.
+    #[must_use]
+    pub fn summary(&self) -> &DeviceSummary {
+        &self.shared.summary
+    }
+
+    /// What the validation layer said so far; empty without validation. The list stays readable after the device is
+    /// gone, when it also holds what closing it brought up.
+    #[must_use]
+    pub fn messages(&self) -> Messages {
+        self.shared.instance.validation.as_ref().map_or_else(Messages::default, |it| it.messages.clone())
+    }
+
+    /// The validation layer that watches, in words.
+    #[must_use]
+    pub fn validation_layer(&self) -> Option<&str> {
+        self.shared.instance.validation.as_ref().map(|it| it.layer.shown.as_str())
+    }
+}
+
+impl Shared {
+    /// The queue, for one thread at a time.
+    pub(crate) fn queue(&self) -> MutexGuard<'_, vk::Queue> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The allocator, for one thread at a time.
+    pub(crate) fn allocator(&self) -> MutexGuard<'_, Allocator> {
+        self.allocator.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Notes that the device didn't finish in time. It may still be using anything, so nothing is freed from now on.
+    pub(crate) fn abandon(&self) {
+        self.abandoned.store(true, Ordering::Release);
+    }
+
+    /// Whether things may still be in use although nobody waits for them.
+    pub(crate) fn is_abandoned(&self) -> bool {
+        self.abandoned.load(Ordering::Acquire)
+    }
+
+    /// What an image of this description needs of memory.
+    pub(crate) fn memory_needs(&self, descriptor: &ImageDescriptor) -> MemoryNeeds {
+        let create = crate::image::create_info(descriptor);
+        let info = vk::DeviceImageMemoryRequirements::default().create_info(&create);
+        let mut needs = vk::MemoryRequirements2::default();
+        // SAFETY: maintenance4 is on, and both structures outlive the call.
+        unsafe { self.raw.get_device_image_memory_requirements(&info, &mut needs) };
+        let vk::MemoryRequirements { size, alignment, memory_type_bits } = needs.memory_requirements;
+        MemoryNeeds { bytes: size, alignment, type_bits: memory_type_bits }
+    }
+}
+
+impl Drop for Shared {
+    fn drop(&mut self) {
+        if self.is_abandoned() {
+            return;
+        }
+        // SAFETY: everything made from the device held on to it and is gone. The allocator frees its blocks before the
+        // device closes, the device closes before its instance, and none of them is touched again.
+        unsafe {
+            self.caches.destroy(&self.raw);
+            ManuallyDrop::drop(&mut self.allocator);
+            self.raw.destroy_device(None);
+            ManuallyDrop::drop(&mut self.instance);
+        }
+    }
+}
+
+/// Every device with its summary, in the loader's order.
+fn devices(instance: &Instance) -> Result<Vec<(vk::PhysicalDevice, DeviceSummary)>, Error> {
+    // SAFETY: the instance lives.
+    let found = unsafe { instance.raw.enumerate_physical_devices() }.map_err(Error::vulkan("listing devices"))?;
+    if found.is_empty() {
+        return Err(Error::NoDevice);
+    }
+    Ok((0..).zip(found).map(|(index, physical)| (physical, summary(instance, index, physical))).collect())
+}
+
+fn summary(instance: &Instance, index: usize, physical: vk::PhysicalDevice) -> DeviceSummary {
+    // SAFETY: `physical` belongs to the instance.
+    let properties = unsafe { instance.raw.get_physical_device_properties(physical) };
+    let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    if properties.api_version >= vk::API_VERSION_1_2 {
+        let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+        // SAFETY: `physical` belongs to the instance, and the chained structure outlives the call.
+        unsafe { instance.raw.get_physical_device_properties2(physical, &mut all) };
+    }
+    let (driver_name, driver_info) = (text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));
+    DeviceSummary {
+        index,
+        name: text(properties.device_name_as_c_str()),
+        driver: format!("{driver_name} {driver_info}").trim().to_owned(),
+        kind: match properties.device_type {
+            vk::PhysicalDeviceType::CPU => "cpu",
+            vk::PhysicalDeviceType::INTEGRATED_GPU => "integrated",
+            vk::PhysicalDeviceType::DISCRETE_GPU => "discrete",
+            vk::PhysicalDeviceType::VIRTUAL_GPU => "virtual",
+            _ => "other",
+        },
+        vulkan: capabilities::version(properties.api_version),
+        missing: capabilities::missing(&instance.raw, physical),
+        driver_id: driver.driver_id,
+    }
+}
+
+/// The device that is asked for.
+fn choose(
+    devices: Vec<(vk::PhysicalDevice, DeviceSummary)>,
+    choice: &DeviceChoice,
+) -> Result<(vk::PhysicalDevice, DeviceSummary), Error> {
+    let usable = |it: &DeviceSummary| it.missing.is_empty();
+    let is_lavapipe = |it: &DeviceSummary| it.driver_id == vk::DriverId::MESA_LLVMPIPE;
+    let position = |test: &dyn Fn(&DeviceSummary) -> bool| devices.iter().position(|(_, it)| test(it));
+    let (at, wanted) = match choice {
+        DeviceChoice::Default => {
+            let found = position(&|it| is_lavapipe(it) && usable(it)).or_else(|| position(&usable));
+            // Where none meets the minimum, the first one's lacks are told.
+            (found.or(Some(0)), String::new())
+        }
+        DeviceChoice::Index(index) => ((*index < devices.len()).then_some(*index), format!("number {index}")),
+        DeviceChoice::Name(name) => {
+            let wanted = name.to_lowercase();
+            let occurs = |it: &DeviceSummary| {
+                it.name.to_lowercase().contains(&wanted)
+                    || it.driver.to_lowercase().contains(&wanted)
+                    || (wanted == "lavapipe" && is_lavapipe(it))
+            };
+            let found = position(&|it| it.name == *name);
+            (found.or_else(|| position(&|it| !wanted.is_empty() && occurs(it))), format!("named {name}"))
+        }
+    };
+    let known: Vec<String> = devices.iter().map(|(_, it)| format!("{}: {}", it.index, it.name)).collect();
+    let near = match choice {
+        DeviceChoice::Name(name) => nearest(name, devices.iter().map(|(_, it)| it.name.as_str())),
+        _ => None,
+    };
+    at.and_then(|at| devices.into_iter().nth(at)).ok_or(Error::UnknownDevice { wanted, near, known })
+}
+
+/// The name one of whose words is at most a third of `wanted` away from it.
+fn nearest<'n>(wanted: &str, names: impl Iterator<Item = &'n str>) -> Option<String> {
+    let wanted = wanted.to_lowercase();
+    let near = |name: &str| {
+        let words = name.to_lowercase();
+        words.split_whitespace().map(|word| edits(&wanted, word)).min().unwrap_or(usize::MAX)
+    };
+    let nearest = names.map(|name| (near(name), name)).min()?;
+    (nearest.0 <= wanted.chars().count() / 3).then(|| nearest.1.to_owned())
+}
+
+/// Letters to insert, remove or replace to get from `a` to `b` (Levenshtein's distance).
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, letter) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, other) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(letter != *other);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+/// A text of Vulkan's, as far as it is UTF-8.
+pub(crate) fn text(text: Result<&CStr, FromBytesUntilNulError>) -> String {
+    text.map_or_else(|_| String::new(), |text| text.to_string_lossy().into_owned())
+}

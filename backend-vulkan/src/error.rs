@@ -1,0 +1,226 @@
+//! Everything that can go wrong here, as data; the sentence is made where it is shown.
+
+use ash::vk;
+use framewright_graph::device::MemoryNeeds;
+use framewright_graph::interface::ShaderProblem;
+
+/// The packages that bring a loader, a driver that needs no graphics card, and a validation layer.
+pub const INSTALL: &str =
+    "apt-get install --no-install-recommends libvulkan1 mesa-vulkan-drivers vulkan-validationlayers chromium-common";
+
+/// What went wrong. Names that come from files stand in it unescaped; [`std::fmt::Display`] escapes them.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// There is no Vulkan loader, or it can't be loaded.
+    #[error("no Vulkan loader: {reason}; mend it with: {INSTALL}")]
+    NoLoader {
+        /// The system's words.
+        reason: String,
+    },
+    /// The loader found no driver, or no driver has a device.
+    #[error("no Vulkan driver with a device; mend it with: {INSTALL} (or unset VK_DRIVER_FILES and VK_ICD_FILENAMES)")]
+    NoDevice,
+    /// No device fits the name or number that was asked for.
+    #[error("no device {}{}; there are: {}", wanted.escape_debug(), did_you_mean(near), list(known))]
+    UnknownDevice {
+        /// What was asked for.
+        wanted: String,
+        /// The nearest name.
+        near: Option<String>,
+        /// The devices that exist, by number.
+        known: Vec<String>,
+    },
+    /// The device is less than the minimum.
+    #[error("{} lacks {}; choose another with --device, or install a newer driver: {INSTALL}", device.escape_debug(), missing.join(", "))]
+    Lacking {
+        /// The device.
+        device: String,
+        /// All that it lacks.
+        missing: Vec<String>,
+    },
+    /// Validation was asked for and there is no validation layer.
+    #[error("no layer VK_LAYER_KHRONOS_validation{}; mend it with: {INSTALL}", looked(layer_path))]
+    NoValidationLayer {
+        /// `VK_LAYER_PATH`, if it is set.
+        layer_path: Option<String>,
+    },
+    /// The validation layer didn't report a mistake that was made on purpose: its silence would prove nothing.
+    #[error("the validation layer {} did not report {planted}, which was planted to test it: check VK_LAYER_SETTINGS_PATH, VK_LAYER_PATH and vk_layer_settings.txt", layer.escape_debug())]
+    LayerIsBlind {
+        /// The layer.
+        layer: String,
+        /// What was planted.
+        planted: &'static str,
+    },
+    /// A file of this crate's own can't be written (the layer's manifest).
+    #[error("can't write {}: {reason}", path.escape_debug())]
+    CantWrite {
+        /// Which file.
+        path: String,
+        /// The system's words.
+        reason: String,
+    },
+    /// A Vulkan call failed.
+    #[error("{doing} failed: {result:?}")]
+    Vulkan {
+        /// What was being done.
+        doing: &'static str,
+        /// Vulkan's own result.
+        result: vk::Result,
+    },
+    /// The device is lost.
+    #[error("the device was lost while {doing}: the driver gave up; the system's log may say why")]
+    DeviceLost {
+        /// What was being done.
+        doing: &'static str,
+    },
+    /// The device didn't finish in time.
+    #[error("the device did not finish {doing} within {seconds} s")]
+    Timeout {
+        /// What was being done.
+        doing: &'static str,
+        /// How long it was waited for.
+        seconds: u64,
+    },
+    /// There is not enough memory, or none of the right kind.
+    #[error("no memory for {}, {bytes} bytes: {reason}", what.escape_debug())]
+    OutOfMemory {
+        /// For what.
+        what: String,
+        /// How much.
+        bytes: u64,
+        /// The allocator's words.
+        reason: String,
+    },
+    /// A resource can't be made of what was given.
+    #[error("{what}")]
+    BadResource {
+        /// Which and why.
+        what: String,
+    },
+    /// A shader has no usable form.
+    #[error("shader `{}`: {}", name.escape_debug(), problem_text(problem))]
+    Shader {
+        /// Its name.
+        name: String,
+        /// Why.
+        problem: ShaderProblem,
+    },
+    /// A shader doesn't fit what its pass gives it.
+    #[error("pass `{}`: {}", pass.escape_debug(), what.escape_debug())]
+    Mismatch {
+        /// The pass.
+        pass: String,
+        /// What doesn't fit.
+        what: String,
+    },
+    /// A Plan can't be executed as it is.
+    #[error("the Plan can't be executed: {}", what.escape_debug())]
+    BadPlan {
+        /// Why.
+        what: String,
+    },
+    /// A Plan breaks rules of the Vulkan memory model.
+    #[error("the Plan is wrong: {}", list(violations))]
+    Violations {
+        /// Each in plain words.
+        violations: Vec<String>,
+    },
+    /// An image takes other memory here than the Plan assumes.
+    #[error("image `{}` needs {actual:?} on {}, and the Plan, made for {}, gives it {planned:?}: compile it for this device", image.escape_debug(), device.escape_debug(), planned_for.escape_debug())]
+    OtherMemoryNeeds {
+        /// The image.
+        image: String,
+        /// This device.
+        device: String,
+        /// The device that the Plan was made for.
+        planned_for: String,
+        /// What it needs here.
+        actual: MemoryNeeds,
+        /// What the Plan gives it.
+        planned: MemoryNeeds,
+    },
+    /// Whoever draws misused the recorder.
+    #[error("pass `{}`, while recording: {what}", pass.escape_debug())]
+    Recording {
+        /// The pass.
+        pass: String,
+        /// What was wrong.
+        what: String,
+    },
+    /// Whoever draws gave up.
+    #[error("{}", what.escape_debug())]
+    DrawSource {
+        /// Its own words.
+        what: String,
+    },
+}
+
+/// Who can mend an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Blame {
+    /// The user's files or choices.
+    Files,
+    /// The machine: driver, layer, device, memory.
+    Environment,
+    /// A program that uses this library.
+    Program,
+}
+
+impl Error {
+    /// Who can mend it.
+    #[must_use]
+    pub fn blame(&self) -> Blame {
+        match self {
+            Error::NoLoader { .. }
+            | Error::NoDevice
+            | Error::UnknownDevice { .. }
+            | Error::Lacking { .. }
+            | Error::NoValidationLayer { .. }
+            | Error::LayerIsBlind { .. }
+            | Error::CantWrite { .. }
+            | Error::Vulkan { .. }
+            | Error::DeviceLost { .. }
+            | Error::Timeout { .. }
+            | Error::OutOfMemory { .. } => Blame::Environment,
+            Error::Shader { .. } | Error::Mismatch { .. } | Error::BadResource { .. } | Error::DrawSource { .. } => {
+                Blame::Files
+            }
+            Error::BadPlan { .. }
+            | Error::Violations { .. }
+            | Error::OtherMemoryNeeds { .. }
+            | Error::Recording { .. } => Blame::Program,
+        }
+    }
+
+    /// A failed Vulkan call, for `map_err`.
+    pub(crate) fn vulkan(doing: &'static str) -> impl FnOnce(vk::Result) -> Error {
+        move |result| match result {
+            vk::Result::ERROR_DEVICE_LOST => Error::DeviceLost { doing },
+            result => Error::Vulkan { doing, result },
+        }
+    }
+}
+
+fn did_you_mean(near: &Option<String>) -> String {
+    near.as_ref().map_or_else(String::new, |near| format!(" (did you mean {}?)", near.escape_debug()))
+}
+
+fn looked(layer_path: &Option<String>) -> String {
+    layer_path.as_ref().map_or_else(String::new, |path| format!(" in VK_LAYER_PATH={}", path.escape_debug()))
+}
+
+fn list(texts: &[String]) -> String {
+    texts.iter().map(|text| text.escape_debug().to_string()).collect::<Vec<_>>().join("; ")
+}
+
+fn problem_text(problem: &ShaderProblem) -> String {
+    match problem {
+        ShaderProblem::Missing { looked_in, known } => {
+            format!("not found in {}; known shaders: {}", list(looked_in), list(known))
+        }
+        ShaderProblem::DoesNotCompile { messages } => format!("doesn't compile: {}", list(messages)),
+        ShaderProblem::Unsupported { what } => format!("can't be used: {}", what.escape_debug()),
+    }
+}

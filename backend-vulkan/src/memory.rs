@@ -1,0 +1,104 @@
+//! Device memory: blocks out of gpu-allocator, and what images need.
+
+use crate::device::{Device, Shared};
+use crate::error::Error;
+use ash::vk;
+use framewright_graph::device::{ImageDescriptor, MemoryNeeds, MemoryProvider};
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+use std::sync::Arc;
+
+/// The memory needs of a device that is here: exact.
+pub struct LiveMemory {
+    shared: Arc<Shared>,
+}
+
+impl LiveMemory {
+    pub(crate) fn new(device: &Device) -> LiveMemory {
+        LiveMemory { shared: device.shared.clone() }
+    }
+}
+
+impl MemoryProvider for LiveMemory {
+    fn exact(&self) -> bool {
+        true
+    }
+
+    fn image(&mut self, descriptor: &ImageDescriptor) -> MemoryNeeds {
+        self.shared.memory_needs(descriptor)
+    }
+}
+
+/// A block of memory, given back when dropped.
+pub(crate) struct Memory {
+    shared: Arc<Shared>,
+    allocation: Option<Allocation>,
+}
+
+/// What memory is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Images.
+    Images,
+    /// A buffer that the host fills and the device reads.
+    Upload,
+    /// A buffer that the device fills and the host reads.
+    Readback,
+}
+
+impl Memory {
+    /// A block for `requirements`.
+    pub(crate) fn new(
+        shared: &Arc<Shared>,
+        name: &str,
+        requirements: vk::MemoryRequirements,
+        kind: Kind,
+    ) -> Result<Memory, Error> {
+        let description = AllocationCreateDesc {
+            name,
+            requirements,
+            location: match kind {
+                Kind::Images => MemoryLocation::GpuOnly,
+                Kind::Upload => MemoryLocation::CpuToGpu,
+                Kind::Readback => MemoryLocation::GpuToCpu,
+            },
+            linear: kind != Kind::Images,
+            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+        };
+        let allocation = shared.allocator().allocate(&description).map_err(|error| Error::OutOfMemory {
+            what: name.to_owned(),
+            bytes: requirements.size,
+            reason: error.to_string(),
+        })?;
+        Ok(Memory { shared: shared.clone(), allocation: Some(allocation) })
+    }
+
+    /// Vulkan's memory object and the offset in it at which this block begins.
+    pub(crate) fn place(&self) -> (vk::DeviceMemory, u64) {
+        self.allocation.as_ref().map_or((vk::DeviceMemory::null(), 0), |allocation| {
+            // SAFETY: the handle is used only to bind resources that are destroyed before this block is freed.
+            (unsafe { allocation.memory() }, allocation.offset())
+        })
+    }
+
+    /// The bytes, if the host can see them.
+    pub(crate) fn bytes(&self) -> &[u8] {
+        self.allocation.as_ref().and_then(Allocation::mapped_slice).unwrap_or(&[])
+    }
+
+    /// The bytes, to be written, if the host can see them.
+    pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
+        self.allocation.as_mut().and_then(Allocation::mapped_slice_mut).unwrap_or(&mut [])
+    }
+}
+
+impl Drop for Memory {
+    fn drop(&mut self) {
+        if let Some(allocation) = self.allocation.take()
+            && !self.shared.is_abandoned()
+        {
+            // Freeing fails only for an allocation of another allocator.
+            let _ = self.shared.allocator().free(allocation);
+        }
+    }
+}

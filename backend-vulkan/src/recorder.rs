@@ -1,0 +1,221 @@
+//! How whoever draws records its draws.
+
+use crate::descriptors::BindGroup;
+use crate::device::Shared;
+use crate::error::Error;
+use crate::resources::Buffer;
+use ash::vk;
+use framewright_graph::frame::Draw;
+use std::ops::Range;
+
+/// Whoever draws the objects and the sky. An engine supplies its own.
+pub trait DrawSource {
+    /// Records the draws of `draw` and returns how many draw calls it made.
+    ///
+    /// It is called once for each pass that draws, in the frame's order; never for full-screen draws. Pipeline, viewport
+    /// and the pass's own set are bound already; face culling is off and the front face is counter-clockwise.
+    ///
+    /// # Errors
+    /// Whatever keeps it from drawing; [`Error::DrawSource`] is for its own reasons.
+    fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error>;
+}
+
+/// Which faces are left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum CullMode {
+    /// None.
+    None,
+    /// Those seen from the front.
+    Front,
+    /// Those seen from behind.
+    Back,
+}
+
+/// The direction in which the vertices of a face go round, seen from its front.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum FrontFace {
+    /// Counter-clockwise, as in glTF.
+    CounterClockwise,
+    /// Clockwise: counter-clockwise mirrored.
+    Clockwise,
+}
+
+/// What an index takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum IndexType {
+    /// Two bytes.
+    U16,
+    /// Four bytes.
+    U32,
+}
+
+/// Records the draws of one pass.
+///
+/// No method fails at once: the first misuse is kept, what follows is ignored, and [`crate::Executor::frame`] returns it
+/// as [`Error::Recording`].
+pub struct Recorder<'f> {
+    shared: &'f Shared,
+    commands: vk::CommandBuffer,
+    pass: &'f PassState,
+    extent: [u32; 2],
+    bound: Vec<bool>,
+    vertices: Option<u64>,
+    indices: Option<u64>,
+    draws: u32,
+    misuse: Option<String>,
+}
+
+/// What a recorder must know of the pass's pipeline.
+pub(crate) struct PassState {
+    pub(crate) layout: vk::PipelineLayout,
+    /// Layouts of the sets from 1 on, and whether the shader reads them.
+    pub(crate) supplied: Vec<(vk::DescriptorSetLayout, bool)>,
+    /// Bytes from vertex to vertex; 0 if the pipeline reads no vertex buffer.
+    pub(crate) vertex_stride: u32,
+}
+
+impl<'f> Recorder<'f> {
+    pub(crate) fn new(
+        shared: &'f Shared,
+        commands: vk::CommandBuffer,
+        pass: &'f PassState,
+        extent: [u32; 2],
+    ) -> Recorder<'f> {
+        let bound = pass.supplied.iter().map(|(_, needed)| !needed).collect();
+        Recorder { shared, commands, pass, extent, bound, vertices: None, indices: None, draws: 0, misuse: None }
+    }
+
+    /// Width and height of what is drawn into.
+    #[must_use]
+    pub fn extent(&self) -> [u32; 2] {
+        self.extent
+    }
+
+    /// Binds a group to the set number `set`, from 1 on.
+    pub fn bind_group(&mut self, set: u32, group: &BindGroup) {
+        let index = (set as usize).wrapping_sub(1);
+        match self.pass.supplied.get(index) {
+            None => self.misused(|| format!("the draw interface has no set {set}")),
+            Some((layout, _)) if *layout != group.0.set.layout => {
+                self.misused(|| {
+                    format!("the bind group was made for another set than {set}, or another draw interface")
+                });
+            }
+            Some(_) => {
+                self.bound[index] = true;
+                let sets = [group.0.set.raw];
+                // SAFETY: the set has the layout that the pipeline's layout has at this number.
+                unsafe {
+                    let graphics = vk::PipelineBindPoint::GRAPHICS;
+                    let (device, layout) = (&self.shared.raw, self.pass.layout);
+                    device.cmd_bind_descriptor_sets(self.commands, graphics, layout, set, &sets, &[]);
+                }
+            }
+        }
+    }
+
+    /// Binds the vertices.
+    pub fn bind_vertex_buffer(&mut self, buffer: &Buffer) {
+        if !buffer.0.usage.contains(vk::BufferUsageFlags::VERTEX_BUFFER) {
+            return self.misused(|| "the buffer was not made for vertices".to_owned());
+        }
+        self.vertices = Some(buffer.bytes());
+        // SAFETY: the command buffer is being recorded, and the buffer was made for vertices.
+        unsafe { self.shared.raw.cmd_bind_vertex_buffers(self.commands, 0, &[buffer.0.raw], &[0]) };
+    }
+
+    /// Binds the indices.
+    pub fn bind_index_buffer(&mut self, buffer: &Buffer, ty: IndexType) {
+        if !buffer.0.usage.contains(vk::BufferUsageFlags::INDEX_BUFFER) {
+            return self.misused(|| "the buffer was not made for indices".to_owned());
+        }
+        let (ty, bytes) = match ty {
+            IndexType::U16 => (vk::IndexType::UINT16, 2),
+            IndexType::U32 => (vk::IndexType::UINT32, 4),
+        };
+        self.indices = Some(buffer.bytes() / bytes);
+        // SAFETY: the command buffer is being recorded, and the buffer was made for indices.
+        unsafe { self.shared.raw.cmd_bind_index_buffer(self.commands, buffer.0.raw, 0, ty) };
+    }
+
+    /// Says which faces are left out from now on.
+    pub fn set_cull_mode(&mut self, mode: CullMode) {
+        let mode = match mode {
+            CullMode::None => vk::CullModeFlags::NONE,
+            CullMode::Front => vk::CullModeFlags::FRONT,
+            CullMode::Back => vk::CullModeFlags::BACK,
+        };
+        // SAFETY: the command buffer is being recorded, and the state is dynamic in every pipeline.
+        unsafe { self.shared.raw.cmd_set_cull_mode(self.commands, mode) };
+    }
+
+    /// Says which side is the front from now on, after the projection, which flips y.
+    pub fn set_front_face(&mut self, face: FrontFace) {
+        let face = match face {
+            FrontFace::CounterClockwise => vk::FrontFace::COUNTER_CLOCKWISE,
+            FrontFace::Clockwise => vk::FrontFace::CLOCKWISE,
+        };
+        // SAFETY: the command buffer is being recorded, and the state is dynamic in every pipeline.
+        unsafe { self.shared.raw.cmd_set_front_face(self.commands, face) };
+    }
+
+    /// Draws triangles of consecutive vertices. `instances` begins at what shaders see as the first `gl_InstanceIndex`.
+    pub fn draw(&mut self, vertices: Range<u32>, instances: Range<u32>) {
+        let stride = u64::from(self.pass.vertex_stride);
+        let reach = u64::from(vertices.end) * stride;
+        if stride > 0 && self.vertices.is_some_and(|bytes| bytes < reach) {
+            return self.misused(|| format!("vertices {vertices:?} lie beyond the vertex buffer"));
+        }
+        if self.may_draw() {
+            let count = vertices.end.saturating_sub(vertices.start);
+            let instance_count = instances.end.saturating_sub(instances.start);
+            // SAFETY: everything that the pipeline reads is bound and large enough.
+            unsafe {
+                let (device, commands) = (&self.shared.raw, self.commands);
+                device.cmd_draw(commands, count, instance_count, vertices.start, instances.start);
+            }
+        }
+    }
+
+    /// Draws triangles of indexed vertices; `base_vertex` is added to each index.
+    pub fn draw_indexed(&mut self, indices: Range<u32>, base_vertex: i32, instances: Range<u32>) {
+        match self.indices {
+            None => return self.misused(|| "an indexed draw without index buffer".to_owned()),
+            Some(held) if held < u64::from(indices.end) => {
+                return self.misused(|| format!("indices {indices:?} lie beyond the index buffer, which holds {held}"));
+            }
+            Some(_) => {}
+        }
+        if self.may_draw() {
+            let count = indices.end.saturating_sub(indices.start);
+            let instance_count = instances.end.saturating_sub(instances.start);
+            // SAFETY: everything that the pipeline reads is bound, the indices exist, and with robustBufferAccess an
+            // index beyond the vertices reads no foreign memory.
+            unsafe {
+                let (device, commands) = (&self.shared.raw, self.commands);
+                device.cmd_draw_indexed(commands, count, instance_count, indices.start, base_vertex, instances.start);
+            }
+        }
+    }
+
+    /// Whether everything that the pipeline reads is bound; counts the draw.
+    fn may_draw(&mut self) -> bool {
+        if let Some(missing) = self.bound.iter().position(|bound| !bound) {
+            self.misused(|| format!("a draw without a bind group for set {}", missing + 1));
+        }
+        if self.pass.vertex_stride > 0 && self.vertices.is_none() {
+            self.misused(|| "a draw without vertex buffer".to_owned());
+        }
+        self.draws += 1;
+        self.misuse.is_none()
+    }
+
+    fn misused(&mut self, what: impl FnOnce() -> String) {
+        self.misuse.get_or_insert_with(what);
+    }
+
+    /// The number of draws, or the first misuse.
+    pub(crate) fn finish(self) -> Result<u32, String> {
+        self.misuse.map_or(Ok(self.draws), Err)
+    }
+}

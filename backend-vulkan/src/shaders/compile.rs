@@ -1,0 +1,68 @@
+//! GLSL to SPIR-V through shaderc.
+
+use super::files::{Found, ShaderFiles};
+use shaderc::{
+    CompileOptions, Compiler, EnvVersion, GlslProfile, OptimizationLevel, ResolvedInclude, ShaderKind, SourceLanguage,
+    SpirvVersion, TargetEnv,
+};
+use std::cell::Cell;
+
+/// A file may include others this deep.
+const MAX_INCLUDE_DEPTH: usize = 16;
+/// A shader may include this many files, repetitions counted.
+const MAX_INCLUDES: usize = 256;
+
+/// A shader stage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Stage {
+    /// Vertex shading.
+    Vertex,
+    /// Fragment shading.
+    Fragment,
+}
+
+/// Compiles one stage: GLSL 4.60 to SPIR-V for Vulkan 1.3.
+///
+/// Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs.
+///
+/// # Errors
+/// The compiler's messages, each with the file and line that it is about.
+pub(super) fn compile(
+    compiler: &Compiler,
+    stage: Stage,
+    source: &Found,
+    files: &ShaderFiles,
+) -> Result<Vec<u32>, Vec<String>> {
+    let included = Cell::new(0);
+    let mut options = CompileOptions::new().map_err(|error| vec![error.to_string()])?;
+    options.set_source_language(SourceLanguage::GLSL);
+    options.set_forced_version_profile(460, GlslProfile::Core);
+    options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_3 as u32);
+    options.set_target_spirv(SpirvVersion::V1_6);
+    options.set_optimization_level(OptimizationLevel::Zero);
+    options.set_suppress_warnings();
+    options.set_include_callback(|requested, _, _, depth| {
+        included.set(included.get() + 1);
+        if depth > MAX_INCLUDE_DEPTH || included.get() > MAX_INCLUDES {
+            return Err(format!("more than {MAX_INCLUDE_DEPTH} includes deep or {MAX_INCLUDES} in all: a circle?"));
+        }
+        match files.find(requested)? {
+            Some(Found { shown, text }) => Ok(ResolvedInclude { resolved_name: shown, content: text }),
+            None => Err(format!("looked for it in {}", files.places().join(", "))),
+        }
+    });
+    let kind = match stage {
+        Stage::Vertex => ShaderKind::Vertex,
+        Stage::Fragment => ShaderKind::Fragment,
+    };
+    match compiler.compile_into_spirv(&source.text, kind, &source.shown, "main", Some(&options)) {
+        Ok(artifact) => Ok(artifact.as_binary().to_vec()),
+        Err(shaderc::Error::CompilationError(_, text)) => Err(lines(&text)),
+        Err(error) => Err(vec![format!("{}: {error}", source.shown)]),
+    }
+}
+
+/// The messages in the compiler's text.
+fn lines(text: &str) -> Vec<String> {
+    text.lines().map(str::trim_end).filter(|line| !line.is_empty()).map(str::to_owned).collect()
+}

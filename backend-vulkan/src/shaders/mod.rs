@@ -1,0 +1,9 @@
+//! Shaders by name: GLSL from folders or shipped with the program, compiled to SPIR-V and reflected. Needs no device.
+
+mod compile;
+mod files;
+mod library;
+mod module;
+mod reflect;
+
+pub use library::{CompiledShader, ShaderLibrary, Spirv};

@@ -1,0 +1,290 @@
+//! What one shader stage uses, read off its SPIR-V.
+
+use super::compile::Stage;
+use super::module::{Indexed, id, number};
+use framewright_graph::interface::{
+    Binding, BindingKind, Block, Component, Dimension, FragmentOutput, ImageShape, Member, PASS_SET, ShaderInterface,
+    VertexInput,
+};
+use framewright_graph::vocabulary::Stages;
+use rspirv::dr::{Instruction, Operand};
+use rspirv::spirv::{BuiltIn, Decoration, Dim, ExecutionMode, ExecutionModel, Op, StorageClass};
+use std::collections::HashSet;
+
+/// What a stage uses, and what it takes from or hands to the other stage.
+#[derive(Debug)]
+pub(super) struct StageInterface {
+    /// Its share of the shader's interface.
+    pub(super) interface: ShaderInterface,
+    /// Values that come in by location (vertex attributes, or what the vertex stage hands over).
+    pub(super) inputs: Vec<Varying>,
+    /// Values that go out by location.
+    pub(super) outputs: Vec<Varying>,
+}
+
+/// A value at a location.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Varying {
+    pub(super) location: u32,
+    pub(super) name: String,
+    pub(super) ty: String,
+}
+
+/// Reads the interface of `stage` off `spirv`.
+///
+/// # Errors
+/// In words: what it uses that can't be bound.
+pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, String> {
+    let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
+    let module = Indexed::new(&module);
+    let model = match stage {
+        Stage::Vertex => ExecutionModel::Vertex,
+        Stage::Fragment => ExecutionModel::Fragment,
+    };
+    let entry = module.entry_point(model).ok_or("no entry point `main`")?;
+    let code = module.reachable(entry);
+    let used: HashSet<u32> =
+        code.iter().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
+    let fragment = stage == Stage::Fragment;
+    let inputs = varyings(&module, StorageClass::Input, &used);
+    let outputs = varyings(&module, StorageClass::Output, &used);
+    let interface = ShaderInterface {
+        bindings: bindings(&module, stage, &used)?,
+        vertex_inputs: if fragment { Vec::new() } else { inputs.iter().cloned().map(vertex_input).collect() },
+        outputs: if fragment { fragment_outputs(&module) } else { Vec::new() },
+        discards: code
+            .iter()
+            .any(|it| matches!(it.class.opcode, Op::Kill | Op::TerminateInvocation | Op::DemoteToHelperInvocation)),
+        uses_frag_coord: built_in_used(&module, &used, &[BuiltIn::FragCoord]),
+        uses_derivatives: fragment && code.iter().any(|it| takes_derivatives(it.class.opcode)),
+        per_sample: fragment && per_sample(&module, &used),
+        writes_depth: module
+            .module
+            .execution_modes
+            .iter()
+            .any(|it| matches!(&it.operands[..], [_, Operand::ExecutionMode(ExecutionMode::DepthReplacing), ..])),
+    };
+    Ok(StageInterface { interface, inputs, outputs })
+}
+
+/// The resources. In the pass's own set every declared one counts, since that is what a pipeline file binds; in the
+/// others only what is used, since include libraries declare more than one shader needs.
+fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) -> Result<Vec<Binding>, String> {
+    let stages = match stage {
+        Stage::Vertex => Stages::VERTEX_SHADER,
+        Stage::Fragment => Stages::FRAGMENT_SHADER,
+    };
+    let mut bindings = Vec::new();
+    for (variable, instruction) in module.variables() {
+        if storage_class(instruction) == Some(StorageClass::PushConstant) && used.contains(&variable) {
+            return Err("push constants: parameters come in the uniform block `params`".to_owned());
+        }
+        let set = module.decoration_number(variable, Decoration::DescriptorSet);
+        let binding = module.decoration_number(variable, Decoration::Binding);
+        let (Some(set), Some(binding)) = (set, binding) else { continue };
+        if set != PASS_SET && !used.contains(&variable) {
+            continue;
+        }
+        let Some(ty) = module.pointee(instruction) else { continue };
+        let kind = kind(module, variable, instruction, ty);
+        let own = module.name(variable);
+        let name = if own.is_empty() { ty.result_id.map_or("", |ty| module.name(ty)) } else { own };
+        bindings.push(Binding { set, binding, name: name.to_owned(), kind, stages });
+    }
+    bindings.sort_by_key(|it| (it.set, it.binding));
+    if let Some(pair) =
+        bindings.windows(2).find(|pair| (pair[0].set, pair[0].binding) == (pair[1].set, pair[1].binding))
+    {
+        let Binding { set, binding, name, .. } = &pair[0];
+        return Err(format!("`{name}` and `{}` at the same place: set {set}, binding {binding}", pair[1].name));
+    }
+    Ok(bindings)
+}
+
+/// Kind and shape of a resource of type `ty`.
+fn kind(module: &Indexed<'_>, variable: u32, instruction: &Instruction, ty: &Instruction) -> BindingKind {
+    let other = |what: &str| BindingKind::Other(what.to_owned());
+    match (ty.class.opcode, storage_class(instruction)) {
+        (Op::TypeArray | Op::TypeRuntimeArray, _) => other("an array of resources"),
+        (Op::TypeSampledImage, _) => match id(ty, 0).and_then(|image| module.global(image)) {
+            Some(image) if image.operands.get(2).and_then(number) == Some(1) => other("a sampler that compares depth"),
+            Some(image) => image_shape(module, image)
+                .filter(|shape| shape.dimension != Dimension::Buffer)
+                .map_or_else(|| other("a texel buffer"), BindingKind::SampledImage),
+            None => other("an image of unknown type"),
+        },
+        (Op::TypeImage, _) => match (image_shape(module, ty), ty.operands.get(5).and_then(number)) {
+            (Some(ImageShape { dimension: Dimension::Buffer, .. }), _) => other("a texel buffer"),
+            (Some(shape), Some(2)) => BindingKind::StorageImage {
+                shape,
+                readable: module.decoration(variable, Decoration::NonReadable).is_none(),
+                writable: module.decoration(variable, Decoration::NonWritable).is_none(),
+            },
+            (Some(_), _) => other("an image without sampler"),
+            (None, _) => other("an input attachment"),
+        },
+        (Op::TypeSampler, _) => other("a sampler without image"),
+        (Op::TypeStruct, Some(StorageClass::Uniform)) => BindingKind::UniformBlock(block(module, ty)),
+        (Op::TypeStruct, Some(StorageClass::StorageBuffer)) => {
+            let read_only = |member| module.member_decoration(ty.result_id?, member, Decoration::NonWritable);
+            let members = u32::try_from(ty.operands.len()).unwrap_or(0);
+            let writable = module.decoration(variable, Decoration::NonWritable).is_none()
+                && !(0..members).all(|member| read_only(member).is_some());
+            BindingKind::StorageBlock { writable }
+        }
+        (opcode, _) => BindingKind::Other(format!("{opcode:?}")),
+    }
+}
+
+/// Shape of an image type; `None` for input attachments.
+fn image_shape(module: &Indexed<'_>, image: &Instruction) -> Option<ImageShape> {
+    let [Operand::IdRef(component), Operand::Dim(dim), _, arrayed, multisampled, ..] = &image.operands[..] else {
+        return None;
+    };
+    let dimension = match dim {
+        Dim::Dim1D => Dimension::D1,
+        Dim::Dim2D => Dimension::D2,
+        Dim::Dim3D => Dimension::D3,
+        Dim::DimCube => Dimension::Cube,
+        Dim::DimBuffer => Dimension::Buffer,
+        _ => return None,
+    };
+    Some(ImageShape {
+        dimension,
+        arrayed: number(arrayed) == Some(1),
+        multisampled: number(multisampled) == Some(1),
+        component: component_of(&module.type_name(*component)),
+    })
+}
+
+/// What a scalar or vector with the GLSL name `ty` is made of.
+fn component_of(ty: &str) -> Component {
+    match ty.as_bytes().first() {
+        Some(b'i') => Component::Int,
+        Some(b'u') => Component::Uint,
+        _ => Component::Float,
+    }
+}
+
+/// A uniform block's members, and its size rounded up to 16 bytes as std140 does.
+fn block(module: &Indexed<'_>, structure: &Instruction) -> Block {
+    let Some(structure_id) = structure.result_id else { return Block::default() };
+    let mut block = Block::default();
+    for (index, operand) in (0_u32..).zip(&structure.operands) {
+        let Some(ty) = operand.id_ref_any() else { continue };
+        let member_number =
+            |decoration| module.member_decoration(structure_id, index, decoration).flatten().and_then(number);
+        let offset = member_number(Decoration::Offset).unwrap_or(0);
+        let bytes = bytes_of(module, ty, member_number(Decoration::MatrixStride).unwrap_or(16));
+        block.bytes = block.bytes.max(offset.saturating_add(bytes));
+        let name = module.member_name(structure_id, index).to_owned();
+        block.members.push(Member { name, offset, ty: module.type_name(ty) });
+    }
+    block.bytes = block.bytes.checked_next_multiple_of(16).unwrap_or(u32::MAX);
+    block
+}
+
+/// Bytes that a block member of type `ty` spans.
+fn bytes_of(module: &Indexed<'_>, ty: u32, matrix_stride: u32) -> u32 {
+    let Some(it) = module.global(ty) else { return 0 };
+    let element = id(it, 0).unwrap_or(0);
+    match it.class.opcode {
+        Op::TypeVector => bytes_of(module, element, matrix_stride).saturating_mul(module.components(ty)),
+        Op::TypeMatrix => matrix_stride.saturating_mul(it.operands.get(1).and_then(number).unwrap_or(0)),
+        Op::TypeArray => {
+            let stride = module.decoration_number(ty, Decoration::ArrayStride).unwrap_or(16);
+            stride.saturating_mul(module.array_length(it))
+        }
+        Op::TypeStruct => block(module, it).bytes,
+        _ => it.operands.first().and_then(number).unwrap_or(32) / 8,
+    }
+}
+
+/// The variables of one storage class that have a location.
+fn varyings(module: &Indexed<'_>, class: StorageClass, used: &HashSet<u32>) -> Vec<Varying> {
+    let mut varyings: Vec<Varying> = module
+        .variables()
+        .filter(|(id, it)| storage_class(it) == Some(class) && used.contains(id))
+        .filter_map(|(id, it)| {
+            let location = module.decoration_number(id, Decoration::Location)?;
+            let ty = module.type_name(module.pointee(it)?.result_id?);
+            Some(Varying { location, name: module.name(id).to_owned(), ty })
+        })
+        .collect();
+    varyings.sort_by_key(|it| it.location);
+    varyings
+}
+
+fn vertex_input(Varying { location, name, ty }: Varying) -> VertexInput {
+    VertexInput { location, name, ty }
+}
+
+/// Colour outputs by location; an array takes a location for each element.
+fn fragment_outputs(module: &Indexed<'_>) -> Vec<FragmentOutput> {
+    let mut outputs = Vec::new();
+    for (id_of, it) in module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Output)) {
+        let Some(location) = module.decoration_number(id_of, Decoration::Location) else { continue };
+        let Some(mut ty) = module.pointee(it) else { continue };
+        let mut elements = 1;
+        while ty.class.opcode == Op::TypeArray {
+            elements *= module.array_length(ty);
+            let Some(element) = id(ty, 0).and_then(|element| module.global(element)) else { break };
+            ty = element;
+        }
+        let Some(ty) = ty.result_id else { continue };
+        outputs.extend((0..elements).map(|element| FragmentOutput {
+            location: location + element,
+            name: module.name(id_of).to_owned(),
+            component: component_of(&module.type_name(ty)),
+            components: module.components(ty),
+        }));
+    }
+    outputs.sort_by_key(|output| output.location);
+    outputs
+}
+
+/// Whether the code uses one of these built-in variables.
+fn built_in_used(module: &Indexed<'_>, used: &HashSet<u32>, wanted: &[BuiltIn]) -> bool {
+    module.variables().filter(|(id, _)| used.contains(id)).any(|(id, _)| {
+        matches!(module.decoration(id, Decoration::BuiltIn), Some(Some(Operand::BuiltIn(found))) if wanted.contains(found))
+    })
+}
+
+/// Vulkan runs a fragment stage once a sample if it reads the sample's number or place, or an input marked `sample`.
+fn per_sample(module: &Indexed<'_>, used: &HashSet<u32>) -> bool {
+    built_in_used(module, used, &[BuiltIn::SampleId, BuiltIn::SamplePosition])
+        || module.variables().any(|(id, it)| {
+            storage_class(it) == Some(StorageClass::Input)
+                && used.contains(&id)
+                && module.decoration(id, Decoration::Sample).is_some()
+        })
+}
+
+/// Whether an instruction compares neighbouring fragments, to differentiate or to choose a mip level.
+fn takes_derivatives(opcode: Op) -> bool {
+    matches!(
+        opcode,
+        Op::DPdx
+            | Op::DPdy
+            | Op::Fwidth
+            | Op::DPdxFine
+            | Op::DPdyFine
+            | Op::FwidthFine
+            | Op::DPdxCoarse
+            | Op::DPdyCoarse
+            | Op::FwidthCoarse
+            | Op::ImageSampleImplicitLod
+            | Op::ImageSampleDrefImplicitLod
+            | Op::ImageSampleProjImplicitLod
+            | Op::ImageSampleProjDrefImplicitLod
+            | Op::ImageQueryLod
+    )
+}
+
+/// Storage class of a variable.
+fn storage_class(variable: &Instruction) -> Option<StorageClass> {
+    match variable.operands.first() {
+        Some(Operand::StorageClass(class)) => Some(*class),
+        _ => None,
+    }
+}

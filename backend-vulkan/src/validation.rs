@@ -1,0 +1,201 @@
+//! What the validation layer says: messages collected as data, and the settings that make it look closely.
+
+use ash::ext::validation_features;
+use ash::{ext, vk};
+use std::borrow::Cow;
+use std::ffi::{CStr, c_void};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, ThreadId};
+
+/// Name of the layer.
+pub(crate) const LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
+
+/// How grave a message is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// May be a mistake.
+    Warning,
+    /// Breaks the specification.
+    Error,
+}
+
+/// What a message is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum MessageKind {
+    /// The loader's or a driver's own matters.
+    General,
+    /// The specification's rules.
+    Validation,
+    /// Use that is right but slow.
+    Performance,
+}
+
+/// One message.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Message {
+    /// How grave.
+    pub severity: Severity,
+    /// About what.
+    pub kind: MessageKind,
+    /// The rule's name (`VUID-…`, `SYNC-HAZARD-…`). It differs between versions of the layer.
+    pub id: String,
+    /// The layer's words.
+    pub text: String,
+}
+
+impl Message {
+    /// Whether it says that something is wrong, rather than slow or none of this program's business.
+    #[must_use]
+    pub fn is_finding(&self) -> bool {
+        self.kind == MessageKind::Validation
+    }
+}
+
+/// The messages of one device, readable also after it is gone.
+#[derive(Debug, Clone, Default)]
+pub struct Messages(Arc<Mutex<Collected>>);
+
+#[derive(Debug, Default)]
+struct Collected {
+    messages: Vec<Message>,
+    /// While a thread plants mistakes, its messages go here.
+    diverted: Option<(ThreadId, Vec<Message>)>,
+}
+
+impl Messages {
+    /// All messages so far, those of the canary left out.
+    #[must_use]
+    pub fn list(&self) -> Vec<Message> {
+        self.lock().messages.clone()
+    }
+
+    /// The messages that this thread causes while `work` runs, kept apart from the others.
+    pub(crate) fn apart<T>(&self, work: impl FnOnce() -> T) -> (T, Vec<Message>) {
+        self.lock().diverted = Some((thread::current().id(), Vec::new()));
+        let result = work();
+        let diverted = self.lock().diverted.take();
+        (result, diverted.map_or_else(Vec::new, |(_, messages)| messages))
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Collected> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The pointer that the messenger hands to [`receive`]: valid as long as `self`.
+    fn as_user_data(&self) -> *mut c_void {
+        Arc::as_ptr(&self.0).cast_mut().cast()
+    }
+
+    /// How a messenger is created that collects into `self`, which must outlive it.
+    pub(crate) fn messenger(&self) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
+        use vk::DebugUtilsMessageSeverityFlagsEXT as Severity;
+        use vk::DebugUtilsMessageTypeFlagsEXT as Type;
+        vk::DebugUtilsMessengerCreateInfoEXT::default()
+            .message_severity(Severity::ERROR | Severity::WARNING)
+            .message_type(Type::GENERAL | Type::VALIDATION | Type::PERFORMANCE)
+            .pfn_user_callback(Some(receive))
+            .user_data(self.as_user_data())
+    }
+}
+
+/// Vulkan's callback.
+///
+/// # Safety
+/// `data` must point to a valid message, and `user` must come from a living [`Messages`].
+unsafe extern "system" fn receive(
+    severity: vk::DebugUtilsMessageSeverityFlagsEXT,
+    types: vk::DebugUtilsMessageTypeFlagsEXT,
+    data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
+    user: *mut c_void,
+) -> vk::Bool32 {
+    // SAFETY: the messenger was made with a pointer into a `Messages` that outlives it.
+    let collected = unsafe { &*user.cast::<Mutex<Collected>>().cast_const() };
+    // SAFETY: Vulkan hands over a valid structure whose strings end in zero or are null.
+    let (id, text) = unsafe { (lossy((*data).p_message_id_name), lossy((*data).p_message)) };
+    let severity = if severity.contains(vk::DebugUtilsMessageSeverityFlagsEXT::ERROR) {
+        Severity::Error
+    } else {
+        Severity::Warning
+    };
+    let kind = if types.contains(vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION) {
+        MessageKind::Validation
+    } else if types.contains(vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE) {
+        MessageKind::Performance
+    } else {
+        MessageKind::General
+    };
+    let message = Message { severity, kind, id: id.into_owned(), text: text.into_owned() };
+    let mut collected = collected.lock().unwrap_or_else(PoisonError::into_inner);
+    match &mut collected.diverted {
+        Some((thread, diverted)) if *thread == thread::current().id() => diverted.push(message),
+        _ => collected.messages.push(message),
+    }
+    vk::FALSE
+}
+
+/// # Safety
+/// `text` must be null or point to a string that ends in zero and lives as long as the result is used.
+unsafe fn lossy<'a>(text: *const std::ffi::c_char) -> Cow<'a, str> {
+    if text.is_null() {
+        return Cow::Borrowed("");
+    }
+    // SAFETY: the caller's promise.
+    unsafe { CStr::from_ptr(text) }.to_string_lossy()
+}
+
+/// The validation layer that the loader found.
+#[derive(Debug, Clone)]
+pub(crate) struct Layer {
+    /// Description and version, for people.
+    pub(crate) shown: String,
+    /// Whether it takes settings through `VK_EXT_layer_settings`: then it is of the generation that checks the
+    /// synchronisation of dynamic rendering too.
+    pub(crate) current: bool,
+}
+
+impl Layer {
+    /// The layer, if the loader finds it.
+    pub(crate) fn find(entry: &ash::Entry) -> Option<Layer> {
+        // SAFETY: the loader is loaded.
+        let layers = unsafe { entry.enumerate_instance_layer_properties() }.ok()?;
+        let found = layers.iter().find(|layer| layer.layer_name_as_c_str() == Ok(LAYER))?;
+        // SAFETY: the loader is loaded.
+        let extensions = unsafe { entry.enumerate_instance_extension_properties(Some(LAYER)) }.unwrap_or_default();
+        let current = extensions.iter().any(|it| it.extension_name_as_c_str() == Ok(ext::layer_settings::NAME));
+        let version = crate::capabilities::version(found.spec_version);
+        let description = crate::device::text(found.description_as_c_str());
+        Some(Layer { shown: format!("{description} ({version})"), current })
+    }
+
+    /// Extensions that come from the layer itself.
+    pub(crate) fn extensions(&self) -> &'static [&'static CStr] {
+        &[validation_features::NAME]
+    }
+}
+
+/// The validation features that are switched on, in the form that every generation of the layer knows.
+pub(crate) const FEATURES: [vk::ValidationFeatureEnableEXT; 1] =
+    [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
+
+const ON: &vk::Bool32 = &vk::TRUE;
+const OFF: &vk::Bool32 = &vk::FALSE;
+
+/// Settings of the current layer. Without them it ignores what draws read, repeated contents of attachments, and every
+/// message after an id's tenth.
+pub(crate) fn settings() -> [vk::LayerSettingEXT<'static>; 5] {
+    [
+        (c"validate_sync", ON),
+        (c"syncval_full_validation", ON),
+        (c"syncval_shader_accesses_heuristic", ON),
+        (c"syncval_load_op_after_store_op_validation", ON),
+        (c"enable_message_limit", OFF),
+    ]
+    .map(|(name, value): (&CStr, &'static vk::Bool32)| vk::LayerSettingEXT {
+        p_layer_name: LAYER.as_ptr(),
+        p_setting_name: name.as_ptr(),
+        ty: vk::LayerSettingTypeEXT::BOOL32,
+        value_count: 1,
+        p_values: std::ptr::from_ref(value).cast(),
+        ..Default::default()
+    })
+}
