@@ -1,5 +1,7 @@
 //! What the tests of the whole share. The tests themselves are in `tests/tests`.
 //!
-//! - [`raycast`]: a second, slow and simple way to a picture, for judging what the GPU drew.
+//! - [`raycast`]: a second, slow and simple way to a picture.
+//! - [`agreement`]: what the GPU drew, held against it.
 
+pub mod agreement;
 pub mod raycast;

@@ -1,7 +1,15 @@
 //! What a draw brings along, and the draw source that draws a scene.
 
+mod block;
+mod frame_data;
+mod geometry;
 mod interface;
+mod lists;
+mod source;
+mod textures;
 
 pub use interface::{
     BASE_COLOR_TEXTURE_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING, VIEW_BINDING, interface,
 };
+pub use lists::draw_order;
+pub use source::{MOST_POINT_LIGHTS, SceneDrawSource};

@@ -1,0 +1,74 @@
+//! What stays the same for a whole frame, as the blocks of `shaders/include/scene.glsl`.
+//!
+//! The shaders' world space has its origin at the camera. The shift is taken here in 64 bits, so that a scene far from its
+//! own origin doesn't shake.
+
+use super::block::Block;
+use crate::scene::{AlphaMode, Camera, Scene};
+use glam::{DMat3, DMat4, DVec3, Mat4, Vec3};
+
+/// Clip space from the shaders' world space, and back. `aspect` is width over height.
+///
+/// Depth is reversed without a far plane: 1 on the near plane, 0 infinitely far. Clip space is Vulkan's: y down.
+pub(super) fn view_block(camera: &Camera, aspect: f64) -> Vec<u8> {
+    let rotation = DMat4::from_mat3(DMat3::from_mat4(camera.transform.as_dmat4()).inverse());
+    let world_to_clip = camera.projection(aspect).as_dmat4() * rotation;
+    let mut block = Block::default();
+    block.mat4(world_to_clip.as_mat4());
+    block.mat4(world_to_clip.inverse().as_mat4());
+    block.vec3(camera.position().to_array());
+    block.bytes()
+}
+
+/// Sun, ambient light, sky and point lights.
+pub(super) fn lights_block(scene: &Scene) -> Vec<u8> {
+    let mut block = Block::default();
+    block.vec3((-Vec3::from(scene.sun.direction)).to_array());
+    block.uint(u32::try_from(scene.point_lights.len()).unwrap_or(u32::MAX));
+    block.vec3(scene.sun.color);
+    block.vec3(scene.ambient);
+    block.vec3(scene.sky.zenith);
+    block.vec3(scene.sky.horizon);
+    block.vec3(scene.sky.ground);
+    block.align();
+    for light in &scene.point_lights {
+        block.vec3(from_camera(&scene.camera, Vec3::from(light.position).as_dvec3()).as_vec3().to_array());
+        block.float(light.range.map_or(0.0, f32::recip));
+        block.vec3(light.color.map(|channel| channel * light.intensity));
+        block.align();
+    }
+    block.bytes()
+}
+
+/// Matrices and material factors of every object, in the scene's order.
+pub(super) fn objects_block(scene: &Scene) -> Vec<u8> {
+    let mut block = Block::default();
+    for object in &scene.objects {
+        let material = &scene.materials[object.material];
+        let (alpha_cutoff, transparent) = match material.alpha {
+            AlphaMode::Opaque => (0.0, 0),
+            AlphaMode::Mask { cutoff } => (cutoff, 0),
+            AlphaMode::Blend => (0.0, 1),
+        };
+        block.mat4(object_to_world(&scene.camera, object.transform));
+        block.mat3(object.normal_matrix());
+        block.vec4(material.base_color);
+        block.vec3(material.emissive);
+        block.float(alpha_cutoff);
+        block.uint(transparent);
+        block.align();
+    }
+    block.bytes()
+}
+
+/// A place as seen from where the camera stands, axes unturned.
+fn from_camera(camera: &Camera, place: DVec3) -> DVec3 {
+    place - camera.position().as_dvec3()
+}
+
+/// An object's transform into the shaders' world space.
+fn object_to_world(camera: &Camera, transform: Mat4) -> Mat4 {
+    let mut shifted = transform.as_dmat4();
+    shifted.w_axis = from_camera(camera, shifted.w_axis.truncate()).extend(1.0);
+    shifted.as_mat4()
+}

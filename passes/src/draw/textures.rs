@@ -1,0 +1,55 @@
+//! The textures of a scene as bind groups.
+
+use super::interface::{BASE_COLOR_TEXTURE_BINDING, MATERIAL_SET};
+use crate::scene::{Sampler, Texture, Wrap};
+use framewright_graph::format::Format;
+use framewright_graph::interface::DrawInterface;
+use framewright_graph::vocabulary::Filter;
+use framewright_vulkan::{AddressMode, BindGroup, Device, Error, Resource, SamplerDescriptor, TexelFilter};
+
+/// Bind groups by texture. Factors live with the objects, so materials of one texture share its group.
+pub(super) struct Textures {
+    by_index: Vec<BindGroup>,
+    white: BindGroup,
+}
+
+impl Textures {
+    /// Uploads textures, and a white one for materials without.
+    ///
+    /// # Errors
+    /// Too little memory, or a texture larger than the device takes.
+    pub(super) fn new(device: &Device, objects: &DrawInterface, textures: &[Texture]) -> Result<Textures, Error> {
+        let group = |texture: &Texture| {
+            let (sampler, mips) = (sampler(texture.sampler), texture.sampler.mip.is_some());
+            let Texture { width, height, rgba8, .. } = texture;
+            let texture = device.texture(*width, *height, Format::R8G8B8A8_SRGB, rgba8, &sampler, mips)?;
+            device.bind_group(objects, MATERIAL_SET, &[(BASE_COLOR_TEXTURE_BINDING, Resource::Texture(&texture))])
+        };
+        let white =
+            Texture { name: "white".to_owned(), width: 1, height: 1, rgba8: vec![255; 4], sampler: Sampler::default() };
+        Ok(Textures { by_index: textures.iter().map(group).collect::<Result<_, _>>()?, white: group(&white)? })
+    }
+
+    /// The bind group for a material's texture.
+    pub(super) fn group(&self, texture: Option<usize>) -> &BindGroup {
+        texture.and_then(|index| self.by_index.get(index)).unwrap_or(&self.white)
+    }
+}
+
+fn sampler(sampler: Sampler) -> SamplerDescriptor {
+    let filter = |filter| match filter {
+        Filter::Nearest => TexelFilter::Nearest,
+        Filter::Linear => TexelFilter::Linear,
+    };
+    let address = |wrap| match wrap {
+        Wrap::Repeat => AddressMode::Repeat,
+        Wrap::MirroredRepeat => AddressMode::MirroredRepeat,
+        Wrap::ClampToEdge => AddressMode::ClampToEdge,
+    };
+    SamplerDescriptor {
+        magnify: filter(sampler.magnify),
+        minify: filter(sampler.minify),
+        mip: filter(sampler.mip.unwrap_or(Filter::Nearest)),
+        address: [address(sampler.wrap_u), address(sampler.wrap_v)],
+    }
+}

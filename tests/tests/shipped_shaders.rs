@@ -1,0 +1,121 @@
+//! Claims about every shipped shader, as the shader library sees it. No device is needed.
+
+use framewright_graph::frame::{Draw, DrawList};
+use framewright_graph::interface::{BindingKind, Dimension, PASS_SET, ShaderInterface, ShaderInterfaces, SuppliedKind};
+use framewright_passes::draw::interface;
+use framewright_passes::shipped::SHADERS;
+use framewright_vulkan::ShaderLibrary;
+use std::error::Error;
+
+const OPAQUE: Draw = Draw::Objects(DrawList::Opaque);
+const MASKED: Draw = Draw::Objects(DrawList::Masked);
+const TRANSPARENT: Draw = Draw::Objects(DrawList::Transparent);
+
+/// Every shipped fragment shader with a draw that it is made for.
+const DRAWN: &[(&str, Draw)] = &[
+    ("blur", Draw::FullScreen),
+    ("copy", Draw::FullScreen),
+    ("downsample", Draw::FullScreen),
+    ("lit", OPAQUE),
+    ("lit", TRANSPARENT),
+    ("lit_masked", MASKED),
+    ("reinhard", Draw::FullScreen),
+    ("sky", Draw::Sky),
+    ("soft_focus", Draw::FullScreen),
+    ("tone_map", Draw::FullScreen),
+];
+
+fn library() -> ShaderLibrary {
+    ShaderLibrary::new(Vec::new(), SHADERS, interface)
+}
+
+fn reflected(name: &str, draw: Draw) -> Result<ShaderInterface, Box<dyn Error>> {
+    library().draw_shader(name, draw).map_err(|problem| format!("{name}: {problem:?}").into())
+}
+
+/// Names of the images that a shader samples for its pass, and of its parameters.
+fn wanted(name: &str, draw: Draw) -> Result<(Vec<String>, Vec<String>), Box<dyn Error>> {
+    let (mut images, mut params) = (Vec::new(), Vec::new());
+    for binding in reflected(name, draw)?.bindings.into_iter().filter(|binding| binding.set == PASS_SET) {
+        match binding.kind {
+            BindingKind::UniformBlock(block) => {
+                assert_eq!(binding.name, "params");
+                params.extend(block.members.into_iter().map(|member| member.name));
+            }
+            _ => images.push(binding.name),
+        }
+    }
+    Ok((images, params))
+}
+
+#[test]
+fn the_table_here_names_every_shipped_fragment_shader() {
+    for (file, _) in SHADERS {
+        if let Some(name) = file.strip_suffix(".frag") {
+            assert!(DRAWN.iter().any(|(drawn, _)| *drawn == name), "{name}");
+        }
+    }
+}
+
+#[test]
+fn every_shipped_shader_compiles_and_finds_what_its_draw_brings_along() -> Result<(), Box<dyn Error>> {
+    let mut library = library();
+    for &(name, draw) in DRAWN {
+        let shader = library.draw_shader(name, draw).map_err(|problem| format!("{name}: {problem:?}"))?;
+        let brought = interface(draw);
+        for binding in shader.bindings.iter().filter(|binding| binding.set != PASS_SET) {
+            let kind = match &binding.kind {
+                BindingKind::UniformBlock(_) => SuppliedKind::UniformBlock,
+                BindingKind::StorageBlock { writable: false } => SuppliedKind::StorageBlock,
+                BindingKind::SampledImage(shape) if shape.dimension == Dimension::D2 => SuppliedKind::SampledImage,
+                other => return Err(format!("{name}: {} is a {other:?}", binding.name).into()),
+            };
+            let fits = brought.supplied.iter().any(|supplied| {
+                let place = (supplied.set, supplied.binding, supplied.name, supplied.kind);
+                place == (binding.set, binding.binding, binding.name.as_str(), kind)
+            });
+            assert!(fits, "{name}: {binding:?}");
+        }
+        for input in &shader.vertex_inputs {
+            let attribute = brought.attributes.iter().find(|attribute| attribute.name == input.name);
+            let ty = attribute.map(|attribute| format!("vec{}", attribute.components));
+            assert_eq!(ty.as_deref(), Some(input.ty.as_str()), "{name}: {}", input.name);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
+    for &(name, draw) in DRAWN {
+        assert_eq!(reflected(name, draw)?.discards, draw == MASKED, "{name}");
+    }
+    Ok(())
+}
+
+#[test]
+fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Result<(), Box<dyn Error>> {
+    let cases: [(&str, &[&str], &[&str]); 6] = [
+        ("blur", &["source"], &["direction_x", "direction_y"]),
+        ("copy", &["source"], &[]),
+        ("downsample", &["source"], &[]),
+        ("reinhard", &["source"], &[]),
+        ("soft_focus", &["sharp", "soft"], &["strength"]),
+        ("tone_map", &["source"], &["white_point"]),
+    ];
+    for (name, images, params) in cases {
+        let (found_images, found_params) = wanted(name, Draw::FullScreen)?;
+        assert_eq!(found_images, images, "{name}");
+        assert_eq!(found_params, params, "{name}");
+    }
+    Ok(())
+}
+
+#[test]
+fn full_screen_shaders_are_safe_to_rotate() -> Result<(), Box<dyn Error>> {
+    for &(name, draw) in DRAWN.iter().filter(|(_, draw)| *draw == Draw::FullScreen) {
+        let shader = reflected(name, draw)?;
+        assert!(!shader.uses_frag_coord && !shader.uses_derivatives && !shader.per_sample, "{name}");
+    }
+    Ok(())
+}
