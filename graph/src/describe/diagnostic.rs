@@ -1,6 +1,6 @@
 //! What is wrong with a file, where, and what to do about it.
 
-use crate::source::{Sources, Span};
+use crate::source::Span;
 
 /// One mistake.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -51,10 +51,4 @@ impl Diagnostic {
         self.help = Some(text.into());
         self
     }
-}
-
-/// Renders mistakes as text: `error: …`, `file:line:column`, the offending text underlined, what to do.
-#[must_use]
-pub fn render(_sources: &Sources, _diagnostics: &[Diagnostic]) -> String {
-    String::new()
 }

@@ -1,5 +1,224 @@
 //! What a file can say: one type per concept, names with source spans, diagnostics.
+//!
+//! ```text
+//! bytes ─► text ─► RON, cut into leaves (leaf, reader) ─► settings, images, passes (one file each) ─► Pipeline
+//! ```
+//! Whatever can be judged by the file alone is judged here, and everything that is wrong is reported at once. What
+//! depends on chosen settings, the scene, the view and the shaders comes in [`crate::expand`].
 
+mod bindings;
+mod circles;
+mod condition;
 mod diagnostic;
+mod images;
+mod json;
+mod leaf;
+mod names;
+mod passes;
+mod pipeline;
+mod reader;
+mod render;
+mod reword;
+mod settings;
+mod suggest;
+mod targets;
 
-pub use diagnostic::{Diagnostic, Label, render};
+pub use diagnostic::{Diagnostic, Label};
+pub(crate) use images::{LARGEST_SIZE, SAMPLE_COUNTS};
+pub use json::to_json;
+pub use pipeline::{
+    Color, Condition, Depth, Face, Fact, Format, Forward, Image, ImageRef, Name, Param, ParamValue, Pass, Pipeline,
+    Sample, Samples, Setting, SettingKind, SettingRef, Size, Spanned, Subject, Term, Value,
+};
+pub use render::{escape, render};
+pub use suggest::{help as suggestion, nearest};
+
+use crate::source::{Sources, Span};
+use leaf::Leaf;
+use names::{Names, Scope};
+use reader::Reader;
+use serde::Deserialize;
+use std::collections::HashMap;
+
+/// The version of the language that this library reads.
+pub const LANGUAGE_VERSION: i64 = 1;
+
+/// A pipeline file has at most this many bytes (16 MiB).
+pub const LARGEST_FILE: usize = 16 << 20;
+
+#[derive(Deserialize)]
+#[serde(rename = "Pipeline", deny_unknown_fields)]
+struct PipelineFields<'src> {
+    #[serde(borrow, rename = "version")]
+    _version: Leaf<'src>,
+    settings: Option<Leaf<'src>>,
+    images: Leaf<'src>,
+    passes: Leaf<'src>,
+    outputs: Leaf<'src>,
+}
+
+/// The version alone, whatever else the file says.
+#[derive(Deserialize)]
+#[serde(rename = "Pipeline")]
+struct VersionField<'src> {
+    #[serde(borrow)]
+    version: Leaf<'src>,
+}
+
+/// An entry's name alone, whatever else it says.
+#[derive(Deserialize)]
+struct NameField<'src> {
+    #[serde(borrow)]
+    name: Leaf<'src>,
+}
+
+/// Reads a pipeline file's bytes; `shown` and `relative` are as in [`read`].
+///
+/// # Errors
+/// What [`read`] reports, and bytes that are no text.
+pub fn read_bytes(
+    sources: &mut Sources,
+    shown: &str,
+    relative: &str,
+    bytes: Vec<u8>,
+) -> Result<Pipeline, Vec<Diagnostic>> {
+    if bytes.len() > LARGEST_FILE {
+        return Err(vec![too_large(shown, bytes.len())]);
+    }
+    match String::from_utf8(bytes) {
+        Ok(text) => read(sources, shown, relative, text),
+        Err(error) => {
+            let valid = error.utf8_error().valid_up_to();
+            let mut bytes = error.into_bytes();
+            let odd = bytes.get(valid).copied().unwrap_or_default();
+            bytes.truncate(valid);
+            let file = sources.add(shown, relative, String::from_utf8_lossy(&bytes).into_owned());
+            let at = u32::try_from(valid).unwrap_or(u32::MAX);
+            let message = format!("this is not a text file: byte {valid} is 0x{odd:02X}, which is not UTF-8");
+            Err(vec![Diagnostic::new(Span::new(file, at, at), message).help("a pipeline is RON text in UTF-8")])
+        }
+    }
+}
+
+/// Reads a pipeline file's text, which is added to `sources`. `shown` is the path as the user named it; `relative` is
+/// the path from the pipeline's own folder, usually the file's name, which stands in Plans.
+///
+/// # Errors
+/// Everything that is wrong with the file by itself, in the order of the file.
+pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) -> Result<Pipeline, Vec<Diagnostic>> {
+    if text.len() > LARGEST_FILE {
+        return Err(vec![too_large(shown, text.len())]);
+    }
+    let file = sources.add(shown, relative, text);
+    let text = sources.file(file as usize).map_or("", |file| file.text.as_str());
+    let mut reader = Reader::new(file, text);
+    let pipeline = whole(&mut reader, text);
+    let mut errors = reader.errors;
+    match pipeline {
+        Some(pipeline) if errors.is_empty() => Ok(pipeline),
+        _ => {
+            errors.sort_by_key(|error| error.labels.first().map_or(0, |label| label.span.start));
+            Err(errors)
+        }
+    }
+}
+
+fn too_large(shown: &str, bytes: usize) -> Diagnostic {
+    Diagnostic {
+        message: format!("`{shown}` has {bytes} bytes; a pipeline file has at most {LARGEST_FILE}"),
+        labels: Vec::new(),
+        help: None,
+    }
+}
+
+/// The whole file. `None` if errors were reported.
+fn whole<'src>(reader: &mut Reader<'src>, text: &'src str) -> Option<Pipeline> {
+    let all = Leaf(text);
+    if text.trim().is_empty() {
+        reader.wrong(all, "the file is empty", "a pipeline begins with `Pipeline(version: 1,`");
+        return None;
+    }
+    if text.starts_with('\u{feff}') {
+        reader.wrong(Leaf(&text[..3]), "the file begins with a byte order mark", "save it as UTF-8 without one");
+        return None;
+    }
+    let version = reader.probe::<VersionField<'_>>(all).map(|fields| fields.version);
+    if let Some(version) = version {
+        let number = reader.integer(version)?;
+        if number != LANGUAGE_VERSION {
+            let message = format!("this file is written in version {number} of the language");
+            reader.wrong(version, message, &format!("this program reads version {LANGUAGE_VERSION}"));
+            return None;
+        }
+    }
+    let fields: PipelineFields<'_> = reader.read(all, "the pipeline")?;
+
+    let mut setting_names = Names::new("setting");
+    let kinds: Vec<Option<Setting>> = match fields.settings {
+        Some(list) => entries(reader, list, "`settings`", "setting", &mut setting_names)
+            .iter()
+            .map(|fields| fields.as_ref().and_then(|fields| settings::lower(reader, fields)))
+            .collect(),
+        None => Vec::new(),
+    };
+    let mut image_names = Names::new("image");
+    let images = entries(reader, fields.images, "`images`", "image", &mut image_names);
+    let scope = Scope { settings: &setting_names, kinds: &kinds, images: &image_names };
+    let images: Vec<Option<Image>> =
+        images.iter().map(|fields| fields.as_ref().and_then(|fields| images::lower(reader, &scope, fields))).collect();
+    circles::find(&images, &mut reader.errors);
+    let passes: Vec<Option<Pass>> = entries(reader, fields.passes, "`passes`", "pass", &mut Names::new("pass"))
+        .iter()
+        .map(|fields| fields.as_ref().and_then(|fields| passes::lower(reader, &scope, fields)))
+        .collect();
+    let outputs = outputs(reader, &scope, fields.outputs)?;
+    Some(Pipeline {
+        settings: kinds.into_iter().collect::<Option<_>>()?,
+        images: images.into_iter().collect::<Option<_>>()?,
+        passes: passes.into_iter().collect::<Option<_>>()?,
+        outputs,
+    })
+}
+
+/// Tells the fields of each entry of a list apart, and takes down the entries' names.
+fn entries<'src, T: Deserialize<'src>>(
+    reader: &mut Reader<'src>,
+    list: Leaf<'src>,
+    field: &str,
+    what: &'static str,
+    names: &mut Names,
+) -> Vec<Option<T>> {
+    let Some(leaves) = reader.read::<Vec<Leaf<'_>>>(list, field) else {
+        // Whatever is looked for may be in the list that couldn't be read.
+        names.give(reader, None);
+        return Vec::new();
+    };
+    leaves
+        .into_iter()
+        .map(|leaf| {
+            let name = reader.probe::<NameField<'_>>(leaf).and_then(|fields| reader.probe_name(fields.name));
+            let known = name.as_ref().map_or_else(|| format!("this {what}"), |name| format!("{what} `{}`", name.text));
+            names.give(reader, name);
+            reader.read(leaf, &known)
+        })
+        .collect()
+}
+
+/// The images that leave the frame, each once.
+fn outputs<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, list: Leaf<'src>) -> Option<Vec<ImageRef>> {
+    let leaves: Vec<Leaf<'_>> = reader.read(list, "`outputs`")?;
+    if leaves.is_empty() {
+        reader.wrong(list, "a frame without outputs shows nothing", "name the image that is shown: `outputs: [\"…\"]`");
+        return None;
+    }
+    let images: Vec<Option<ImageRef>> = leaves.into_iter().map(|leaf| scope.image(reader, leaf)).collect();
+    let images: Vec<ImageRef> = images.into_iter().collect::<Option<_>>()?;
+    let mut first = HashMap::new();
+    for image in &images {
+        if let Some(first) = first.insert(image.index, image.span) {
+            let twice = Diagnostic::new(image.span, "this image is an output twice");
+            reader.report(twice.remark("again here").label(first, "first here"));
+        }
+    }
+    Some(images)
+}

@@ -1,5 +1,7 @@
 //! What a scene is made of, as far as conditions may ask.
 
+use crate::describe::Fact;
+
 /// Facts of a scene, named `scene.…` in conditions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Facts {
@@ -14,4 +16,14 @@ pub struct Facts {
 impl Facts {
     /// What is assumed of a scene that isn't there: it may hold everything.
     pub const UNKNOWN: Facts = Facts { has_opaque: true, has_alpha_clip: true, has_transparent: true };
+
+    /// Whether `fact` holds.
+    #[must_use]
+    pub const fn holds(&self, fact: Fact) -> bool {
+        match fact {
+            Fact::HasOpaque => self.has_opaque,
+            Fact::HasAlphaClip => self.has_alpha_clip,
+            Fact::HasTransparent => self.has_transparent,
+        }
+    }
 }

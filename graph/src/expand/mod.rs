@@ -1,5 +1,139 @@
 //! Settings, conditions, facts and sizes are put in: a pipeline becomes one flat frame.
+//!
+//! ```text
+//! Pipeline ─► settings ─► images (sizes, formats, samples) ─► conditions ─► passes (targets, shader) ─► order ─► Frame
+//! ```
+//! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
+mod conditions;
 mod facts;
+mod images;
+mod order;
+mod params;
+mod passes;
+mod settings;
+mod shader;
+mod supplied;
 
 pub use facts::Facts;
+
+use crate::describe::{self, Diagnostic, LARGEST_SIZE, Pipeline, suggestion};
+use crate::frame::{Frame, ImageIndex, Output, Pass, SwitchedOff, Work};
+use crate::interface::ShaderInterfaces;
+use crate::source::{Sources, Span};
+use std::sync::Arc;
+
+/// What a pipeline is put together with.
+#[derive(Debug, Clone, Copy)]
+pub struct Inputs<'a> {
+    /// Chosen settings, name and value as the user wrote them; of several values for one setting the last counts.
+    pub set: &'a [(String, String)],
+    /// What is known about the scene.
+    pub facts: Facts,
+    /// Whether there is a scene at all; if not, every fact counts as true.
+    pub facts_known: bool,
+    /// Width and height of the frame, in texels, 1 to 16384 each.
+    pub output_extent: [u32; 2],
+    /// Names of further images that leave the frame.
+    pub dump: &'a [String],
+}
+
+/// What expansion asks everywhere: the pipeline, and the values of its settings.
+struct Chosen<'a> {
+    pipeline: &'a Pipeline,
+    values: Vec<settings::SettingValue>,
+    facts: Facts,
+}
+
+/// Puts settings, facts and sizes into a pipeline and checks it against its shaders. `sources` are those that the
+/// pipeline was read into.
+///
+/// # Errors
+/// Everything that is wrong with these inputs, with the order of passes, and between passes and shaders.
+pub fn expand(
+    pipeline: &Pipeline,
+    sources: Arc<Sources>,
+    inputs: &Inputs<'_>,
+    shaders: &mut dyn ShaderInterfaces,
+) -> Result<Frame, Vec<Diagnostic>> {
+    let mut errors = Vec::new();
+    let facts = if inputs.facts_known { inputs.facts } else { Facts::UNKNOWN };
+    let chosen = Chosen { pipeline, values: settings::choose(pipeline, inputs.set, &mut errors), facts };
+    if inputs.output_extent.iter().any(|extent| !(1..=LARGEST_SIZE).contains(extent)) {
+        let [width, height] = inputs.output_extent;
+        errors.push(nowhere(format!("the frame can't be {width}×{height}: 1 to {LARGEST_SIZE} texels are allowed")));
+        return Err(errors);
+    }
+    let images = images::resolve(&chosen, inputs.output_extent, &mut errors);
+
+    let mut checked = shader::Checked::new(shaders);
+    let mut states = Vec::with_capacity(pipeline.passes.len());
+    let mut passes = Vec::new();
+    let mut switched_off = Vec::new();
+    for pass in &pipeline.passes {
+        passes::targets_fit(&chosen, &images, pass, &mut errors);
+        let because = pass.when.as_ref().and_then(|condition| conditions::failing(&chosen, condition));
+        let mut state = order::State { pass, off: because.clone(), discards: false };
+        match (because, &pass.when) {
+            (Some(because), Some(condition)) => {
+                let name = pass.name.text.clone();
+                switched_off.push(SwitchedOff { name, span: condition.span, because: because.clone() });
+                passes.extend(passes::stand_in(pass, because));
+            }
+            _ => {
+                let lowered = passes::lower(&chosen, &images, pass, &mut checked, &mut errors);
+                if let Some(Pass { work: Work::Draw { discards, .. }, .. }) = &lowered {
+                    state.discards = *discards;
+                }
+                passes.extend(lowered);
+            }
+        }
+        states.push(state);
+    }
+    let outputs = outputs(pipeline, inputs.dump, &mut errors);
+    order::check(pipeline, &states, &outputs, &mut errors);
+
+    match images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>() {
+        Some(images) if errors.is_empty() => {
+            let settings = settings::shown(pipeline, &chosen.values);
+            Ok(Frame { sources, settings, images, passes, outputs, switched_off })
+        }
+        _ => {
+            errors.sort_by_key(|error| error.labels.first().map_or(0, |label| label.span.start));
+            Err(errors)
+        }
+    }
+}
+
+/// The pipeline's outputs, then dumped images that aren't among them.
+fn outputs(pipeline: &Pipeline, dump: &[String], errors: &mut Vec<Diagnostic>) -> Vec<Output> {
+    let mut outputs: Vec<Output> =
+        pipeline.outputs.iter().map(|image| Output { image: image.index, span: image.span }).collect();
+    for name in dump {
+        let Some(index) = pipeline.images.iter().position(|image| *image.name.text == **name) else {
+            let help = suggestion(name, pipeline.images.iter().map(|image| &*image.name.text));
+            errors.push(Diagnostic { help, ..nowhere(format!("there is no image named `{name}` to dump")) });
+            continue;
+        };
+        let Ok(index) = u32::try_from(index).map(ImageIndex) else { continue };
+        if outputs.iter().all(|output| output.image != index) {
+            outputs.push(Output { image: index, span: Span::NONE });
+        }
+    }
+    outputs
+}
+
+/// A mistake that stands in no file.
+fn nowhere(message: String) -> Diagnostic {
+    Diagnostic { message, labels: Vec::new(), help: None }
+}
+
+impl<'a> Chosen<'a> {
+    fn image(&self, index: ImageIndex) -> &'a describe::Image {
+        &self.pipeline.images[index.0 as usize]
+    }
+
+    fn setting(&self, reference: describe::SettingRef) -> (&'a describe::Setting, settings::SettingValue) {
+        (&self.pipeline.settings[reference.index], self.values[reference.index])
+    }
+}

@@ -1,0 +1,194 @@
+//! `images`: format, size and samples, each its own or another image's.
+
+use super::leaf::{Leaf, Shape};
+use super::names::Scope;
+use super::pipeline::{Format, Image, ImageRef, Samples, SettingKind, Size, Value};
+use super::reader::Reader;
+use crate::format;
+use serde::Deserialize;
+
+/// Largest width and height that a file may ask for.
+pub(crate) const LARGEST_SIZE: u32 = 16384;
+
+/// Sample counts that a file may ask for.
+pub(crate) const SAMPLE_COUNTS: [i64; 5] = [1, 2, 4, 8, 16];
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ImageFields<'src> {
+    #[serde(borrow)]
+    name: Leaf<'src>,
+    format: Leaf<'src>,
+    size: Leaf<'src>,
+    samples: Option<Leaf<'src>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ColorFields<'src> {
+    #[serde(borrow)]
+    hdr: Option<Leaf<'src>>,
+}
+
+const FORMATS: &str = "a format is `Color(hdr: …)`, `Depth`, `Output`, `Like(\"image\")` or one of Vulkan's, such as `R16G16B16A16_SFLOAT`";
+const SIZES: &str =
+    "a size is `Output`, `Scaled(0.5)`, `Scaled(0.5, \"image\")`, `Fixed(640, 480)` or `Like(\"image\")`";
+const COUNTS: &str = "sample counts are 1, 2, 4, 8, 16, the name of a setting, or `Like(\"image\")`";
+
+/// An image, once its fields are told apart.
+pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, fields: &ImageFields<'src>) -> Option<Image> {
+    let name = reader.name(fields.name, "an image");
+    let format = format(reader, scope, fields.format);
+    let size = size(reader, scope, fields.size);
+    let samples = match fields.samples {
+        Some(leaf) => samples(reader, scope, leaf).map(|samples| reader.spanned(leaf, samples)),
+        None => name.as_ref().map(|name| super::Spanned { value: Samples::Count(Value::Constant(1)), span: name.span }),
+    };
+    Some(Image {
+        name: name?,
+        format: reader.spanned(fields.format, format?),
+        size: reader.spanned(fields.size, size?),
+        samples: samples?,
+    })
+}
+
+/// `("image")`, what stands behind `Like`.
+fn like<'src>(
+    reader: &mut Reader<'src>,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    rest: Option<Leaf<'src>>,
+) -> Option<ImageRef> {
+    let (image,): (Leaf<'_>,) = reader.inside(leaf, rest, "Like(\"image\")")?;
+    scope.image(reader, image)
+}
+
+fn format<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Format> {
+    let known: Vec<&str> =
+        ["Color", "Depth", "Output", "Like"].into_iter().chain(format::Format::ALL.iter().map(|f| f.name())).collect();
+    let (word, rest) = reader.word(leaf, "a format", &known, FORMATS)?;
+    match word {
+        "Color" => {
+            let hdr = match rest {
+                Some(_) => reader.inside::<ColorFields<'_>>(leaf, rest, "Color(hdr: …)")?.hdr,
+                None => None,
+            };
+            let Some(hdr) = hdr else { return Some(Format::Color { hdr: Value::Constant(false) }) };
+            let hdr = match hdr.shape() {
+                Shape::Text => Value::Setting(scope.setting(
+                    reader,
+                    hdr,
+                    |kind| matches!(kind, SettingKind::Bool { .. }),
+                    "`true` or `false`",
+                )?),
+                Shape::Word("true" | "false", None) => Value::Constant(reader.truth(hdr)?),
+                _ => {
+                    reader.expected(hdr, "`true`, `false` or the name of a setting in quotes");
+                    return None;
+                }
+            };
+            Some(Format::Color { hdr })
+        }
+        "Depth" => reader.bare(word, rest).map(|()| Format::Depth),
+        "Output" => reader.bare(word, rest).map(|()| Format::Output),
+        "Like" => like(reader, scope, leaf, rest).map(Format::Like),
+        vulkan => {
+            reader.bare(word, rest)?;
+            format::Format::from_name(vulkan).map(Format::Named)
+        }
+    }
+}
+
+fn size<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Size> {
+    let (word, rest) = reader.word(leaf, "a size", &["Output", "Scaled", "Fixed", "Like"], SIZES)?;
+    match word {
+        "Output" => reader.bare(word, rest).map(|()| Size::Output),
+        "Like" => like(reader, scope, leaf, rest).map(Size::Like),
+        "Fixed" => {
+            let (width, height): (Leaf<'_>, Leaf<'_>) = reader.inside(leaf, rest, "Fixed(width, height)")?;
+            let (width, height) = (extent(reader, width), extent(reader, height));
+            Some(Size::Fixed([width?, height?]))
+        }
+        _ => {
+            let both: Option<(Leaf<'_>, Leaf<'_>)> = rest.and_then(|rest| reader.probe(rest));
+            let (by, of) = match both {
+                Some((by, of)) => (by, Some(scope.image(reader, of))),
+                None => {
+                    let (by,): (Leaf<'_>,) = reader.inside(leaf, rest, "Scaled(0.5)` or `Scaled(0.5, \"image\")")?;
+                    (by, None)
+                }
+            };
+            let by = scale(reader, scope, by);
+            match of {
+                Some(of) => Some(Size::Scaled { by: by?, of: Some(of?) }),
+                None => Some(Size::Scaled { by: by?, of: None }),
+            }
+        }
+    }
+}
+
+fn extent<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<u32> {
+    let extent = reader.integer(leaf)?;
+    match u32::try_from(extent) {
+        Ok(extent @ 1..=LARGEST_SIZE) => Some(extent),
+        _ => {
+            reader.wrong(leaf, format!("{extent} is no size: 1 to {LARGEST_SIZE} texels are allowed"), "");
+            None
+        }
+    }
+}
+
+fn scale<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Value<f64>> {
+    if let Shape::Text = leaf.shape() {
+        let setting = scope.setting(reader, leaf, |kind| !matches!(kind, SettingKind::Bool { .. }), "a number")?;
+        let least = match scope.kinds.get(setting.index)?.as_ref().map(|setting| &setting.kind)? {
+            SettingKind::Number { min, .. } => *min,
+            #[allow(clippy::cast_precision_loss, reason = "only the sign matters")]
+            SettingKind::Integer { min, .. } => *min as f64,
+            #[allow(clippy::cast_precision_loss, reason = "only the sign matters")]
+            SettingKind::OneOf { of, .. } => of.iter().min().map_or(0.0, |least| *least as f64),
+            SettingKind::Bool { .. } => return None,
+        };
+        if least <= 0.0 {
+            let message = format!("a scale is greater than 0, but this setting allows {least}");
+            reader.wrong(leaf, message, "let the setting begin above 0");
+            return None;
+        }
+        return Some(Value::Setting(setting));
+    }
+    let by = reader.number(leaf)?;
+    if by <= 0.0 {
+        reader.wrong(leaf, format!("a scale is greater than 0, found {by}"), "");
+        return None;
+    }
+    Some(Value::Constant(by))
+}
+
+fn samples<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Samples> {
+    match leaf.shape() {
+        Shape::Text => {
+            let whole = |kind: &SettingKind| matches!(kind, SettingKind::OneOf { .. } | SettingKind::Integer { .. });
+            let setting = scope.setting(reader, leaf, whole, "a whole number")?;
+            if let Some(SettingKind::OneOf { of, .. }) =
+                scope.kinds.get(setting.index)?.as_ref().map(|setting| &setting.kind)
+                && let Some(odd) = of.iter().find(|count| !SAMPLE_COUNTS.contains(count))
+            {
+                reader.wrong(leaf, format!("this setting allows {odd}, which is no sample count"), COUNTS);
+                return None;
+            }
+            Some(Samples::Count(Value::Setting(setting)))
+        }
+        Shape::Number => {
+            let count = reader.integer(leaf)?;
+            if !SAMPLE_COUNTS.contains(&count) {
+                reader.wrong(leaf, format!("{count} is no sample count"), COUNTS);
+                return None;
+            }
+            u32::try_from(count).ok().map(|count| Samples::Count(Value::Constant(count)))
+        }
+        _ => {
+            let (_, rest) = reader.word(leaf, "a sample count", &["Like"], COUNTS)?;
+            like(reader, scope, leaf, rest).map(Samples::Like)
+        }
+    }
+}

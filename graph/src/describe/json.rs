@@ -1,0 +1,51 @@
+//! Mistakes as JSON, for editors and other programs.
+
+use super::{Diagnostic, Label};
+use crate::source::{Sources, Span};
+use serde_json::{Value, json};
+use std::ops::Range;
+
+/// Mistakes as a JSON list. Each has `message`, `help` (or null) and `labels`, and of its primary place, unless no file
+/// is involved, `file` as the user named it, `line` and `column` from 1, and `end` with `line` and `column` of the first
+/// character after it. Columns count characters.
+#[must_use]
+pub fn to_json(sources: &Sources, diagnostics: &[Diagnostic]) -> Value {
+    diagnostics.iter().map(|diagnostic| one(sources, diagnostic)).collect()
+}
+
+fn one(sources: &Sources, diagnostic: &Diagnostic) -> Value {
+    let labels: Vec<Value> = diagnostic
+        .labels
+        .iter()
+        .map(|label| {
+            let mut value = place(sources, label);
+            value["text"] = json!(label.text);
+            value
+        })
+        .collect();
+    let mut value = diagnostic.labels.first().map_or_else(|| json!({}), |label| place(sources, label));
+    value["message"] = json!(diagnostic.message);
+    value["help"] = json!(diagnostic.help);
+    value["labels"] = json!(labels);
+    value
+}
+
+fn place(sources: &Sources, label: &Label) -> Value {
+    let file = label.span.file().and_then(|file| sources.file(file));
+    let (Some(file), Some(start)) = (file, sources.place(label.span)) else { return json!({}) };
+    let length = file.text[within_line(&file.text, label.span)].chars().count();
+    json!({
+        "file": file.shown,
+        "line": start.line,
+        "column": start.column,
+        "end": { "line": start.line, "column": start.column as usize + length },
+    })
+}
+
+/// The bytes of a span that stand on its first line, moved to whole characters.
+pub(super) fn within_line(text: &str, span: Span) -> Range<usize> {
+    let start = text.floor_char_boundary((span.start as usize).min(text.len()));
+    let end = text.ceil_char_boundary((span.end as usize).clamp(start, text.len()));
+    let line = text[start..end].find(['\n', '\r']).map_or(end, |at| start + at);
+    start..line
+}

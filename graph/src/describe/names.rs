@@ -1,0 +1,117 @@
+//! The names that a file gives, each once, and the search for those that it refers to.
+
+use super::Diagnostic;
+use super::leaf::Leaf;
+use super::pipeline::{ImageRef, Name, Setting, SettingKind, SettingRef};
+use super::reader::Reader;
+use crate::frame::ImageIndex;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Names of one kind of thing, in file order.
+pub(super) struct Names {
+    what: &'static str,
+    given: Vec<Option<Name>>,
+    index: HashMap<Arc<str>, usize>,
+    /// Whether every name could be read.
+    complete: bool,
+}
+
+impl Names {
+    pub(super) fn new(what: &'static str) -> Names {
+        Names { what, given: Vec::new(), index: HashMap::new(), complete: true }
+    }
+
+    /// Gives the next thing its name; `None` if it couldn't be read. Reports a name that is given twice.
+    pub(super) fn give(&mut self, reader: &mut Reader<'_>, name: Option<Name>) {
+        if let Some(name) = &name {
+            match self.index.get(&name.text).and_then(|first| self.given[*first].as_ref()) {
+                Some(first) => reader.report(
+                    Diagnostic::new(name.span, format!("there are two {}s named `{}`", self.what, name.text))
+                        .remark("again here")
+                        .label(first.span, "first here"),
+                ),
+                None => {
+                    self.index.insert(name.text.clone(), self.given.len());
+                }
+            }
+        }
+        self.complete &= name.is_some();
+        self.given.push(name);
+    }
+
+    /// The index of the thing named `name`. Reports a name that doesn't exist, unless some name couldn't be read: it
+    /// may be that one.
+    pub(super) fn find(&self, reader: &mut Reader<'_>, name: &Name) -> Option<usize> {
+        if let Some(index) = self.index.get(&name.text) {
+            return Some(*index);
+        }
+        if self.complete {
+            let unknown = Diagnostic::new(name.span, format!("there is no {} named `{}`", self.what, name.text));
+            let help = reader.near(&name.text, self.index_order());
+            reader.report(Diagnostic { help, ..unknown });
+        }
+        None
+    }
+
+    /// Known names in file order.
+    fn index_order(&self) -> impl Iterator<Item = &str> {
+        self.given.iter().flatten().map(|name| &*name.text)
+    }
+}
+
+/// What the rest of the file may refer to.
+pub(super) struct Scope<'a> {
+    pub(super) settings: &'a Names,
+    /// Settings by index; `None` where one couldn't be read.
+    pub(super) kinds: &'a [Option<Setting>],
+    pub(super) images: &'a Names,
+}
+
+impl Scope<'_> {
+    /// An image that is referred to.
+    pub(super) fn image<'src>(&self, reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<ImageRef> {
+        let name = reader.reference(leaf, "an image")?;
+        let index = self.images.find(reader, &name)?;
+        Some(ImageRef { index: ImageIndex(u32::try_from(index).ok()?), span: name.span })
+    }
+
+    /// A setting that is referred to, of whatever type.
+    pub(super) fn any_setting<'src>(&self, reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<SettingRef> {
+        let name = reader.reference(leaf, "a setting")?;
+        let index = self.settings.find(reader, &name)?;
+        Some(SettingRef { index, span: name.span })
+    }
+
+    /// A setting that is referred to, which must be of a kind that `fits`; `wanted` says which.
+    pub(super) fn setting<'src>(
+        &self,
+        reader: &mut Reader<'src>,
+        leaf: Leaf<'src>,
+        fits: impl Fn(&SettingKind) -> bool,
+        wanted: &str,
+    ) -> Option<SettingRef> {
+        let reference = self.any_setting(reader, leaf)?;
+        self.fitting(reader, reference, fits, wanted)
+    }
+
+    /// Checks the kind of a setting.
+    pub(super) fn fitting(
+        &self,
+        reader: &mut Reader<'_>,
+        reference: SettingRef,
+        fits: impl Fn(&SettingKind) -> bool,
+        wanted: &str,
+    ) -> Option<SettingRef> {
+        let setting = self.kinds.get(reference.index)?.as_ref()?;
+        if fits(&setting.kind) {
+            return Some(reference);
+        }
+        let (name, kind) = (&setting.name.text, setting.kind.words());
+        reader.report(
+            Diagnostic::new(reference.span, format!("setting `{name}` is {kind}; {wanted} is needed here"))
+                .label(setting.name.span, "declared here"),
+        );
+        None
+    }
+}

@@ -1,0 +1,133 @@
+//! Mistakes as text: `error: …`, `file:line:column`, the offending text underlined, what to do.
+
+use super::Diagnostic;
+use crate::source::Sources;
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use std::fmt::Write as _;
+use std::ops::Range;
+
+/// At most this many mistakes are shown; the rest are counted.
+const MOST_SHOWN: usize = 100;
+
+/// Labels further apart than this many bytes are shown apart; the text of a longer line is not shown.
+const LARGEST_WINDOW: usize = 8192;
+
+/// Text from a file, fit to be shown: control characters and other invisible ones are escaped, all others stay.
+#[must_use]
+pub fn escape(text: &str) -> String {
+    text.chars().fold(String::with_capacity(text.len()), |mut escaped, c| {
+        match c {
+            '"' | '\'' | '\\' => escaped.push(c),
+            _ => escaped.extend(c.escape_debug()),
+        }
+        escaped
+    })
+}
+
+/// Escapes line by line: line breaks stay.
+fn escape_lines(text: &str) -> String {
+    text.lines().map(escape).collect::<Vec<_>>().join("\n")
+}
+
+/// Renders mistakes as text: `error: …`, `file:line:column`, the offending text underlined, what to do. Ends with a
+/// line break unless there is nothing to say.
+#[must_use]
+pub fn render(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
+    let mut text = String::new();
+    for diagnostic in diagnostics.iter().take(MOST_SHOWN) {
+        if !text.is_empty() {
+            text.push('\n');
+        }
+        text.push_str(&block(sources, diagnostic));
+        text.push('\n');
+    }
+    if let Some(more @ 1..) = diagnostics.len().checked_sub(MOST_SHOWN) {
+        // Writing to a text can't fail.
+        let _ = writeln!(text, "\n… and {more} more");
+    }
+    text
+}
+
+fn block(sources: &Sources, diagnostic: &Diagnostic) -> String {
+    let mut group = Group::with_title(Level::ERROR.primary_title(escape(&diagnostic.message)));
+    for window in windows(sources, diagnostic) {
+        if window.lines.len() > LARGEST_WINDOW {
+            let origin = Origin::path(window.path).line(window.line).char_column(window.column);
+            group = group.element(origin);
+            let remarks = window.labels.into_iter().filter(|label| !label.text.is_empty());
+            group = group.elements(remarks.map(|label| Level::NOTE.message(label.text)));
+            continue;
+        }
+        let labels = window.labels.into_iter().map(|label| {
+            let kind = if label.primary { AnnotationKind::Primary } else { AnnotationKind::Context };
+            kind.span(label.range).label((!label.text.is_empty()).then_some(label.text))
+        });
+        let snippet = Snippet::source(window.lines).line_start(window.line).path(window.path);
+        group = group.element(snippet.annotations(labels));
+    }
+    if let Some(help) = &diagnostic.help {
+        group = group.element(Level::HELP.message(escape_lines(help)));
+    }
+    Renderer::plain().render(&[group])
+}
+
+/// Whole lines of one file, and what is said about them.
+struct Window<'s> {
+    path: String,
+    /// Number of the first line, from 1.
+    line: usize,
+    /// Where the first label begins in its line, from 1.
+    column: usize,
+    start: usize,
+    lines: &'s str,
+    labels: Vec<ShownLabel>,
+}
+
+struct ShownLabel {
+    range: Range<usize>,
+    text: String,
+    primary: bool,
+}
+
+/// The lines that labels stand on. Labels share a window unless that would grow too large.
+fn windows<'s>(sources: &'s Sources, diagnostic: &Diagnostic) -> Vec<Window<'s>> {
+    let mut windows: Vec<Window<'s>> = Vec::new();
+    for (position, label) in diagnostic.labels.iter().enumerate() {
+        let Some(file) = label.span.file().and_then(|file| sources.file(file)) else { continue };
+        let Some(place) = sources.place(label.span) else { continue };
+        let range = super::json::within_line(&file.text, label.span);
+        let line_start = file.text[..range.start].rfind('\n').map_or(0, |at| at + 1);
+        let line_end = file.text[range.end..].find('\n').map_or(file.text.len(), |at| range.end + at);
+        let mut window = Window {
+            path: escape(&file.shown),
+            line: place.line as usize,
+            column: place.column as usize,
+            start: line_start,
+            lines: &file.text[line_start..line_end],
+            labels: Vec::new(),
+        };
+        let shown = ShownLabel { range, text: escape(&label.text), primary: position == 0 };
+        let joined = windows.iter_mut().find_map(|earlier| {
+            let start = earlier.start.min(window.start);
+            let end = (earlier.start + earlier.lines.len()).max(line_end);
+            (earlier.path == window.path && end - start <= LARGEST_WINDOW).then_some((earlier, start, end))
+        });
+        match joined {
+            Some((earlier, start, end)) => {
+                earlier.line = earlier.line.min(window.line);
+                (earlier.start, earlier.lines) = (start, &file.text[start..end]);
+                earlier.labels.push(shown);
+            }
+            None => {
+                window.labels.push(shown);
+                windows.push(window);
+            }
+        }
+    }
+    for window in &mut windows {
+        for label in &mut window.labels {
+            label.range = label.range.start - window.start..label.range.end - window.start;
+        }
+    }
+    windows
+}

@@ -1,0 +1,34 @@
+//! Near names for misspelt ones.
+
+/// Longer names are not compared: the comparison takes time that grows with the square of the length.
+const LONGEST: usize = 64;
+
+/// The known name nearest to `name`, if it is near enough to have been meant.
+#[must_use]
+pub fn nearest<'k>(name: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
+    let length = name.chars().count();
+    if length > LONGEST {
+        return None;
+    }
+    let allowed = (length / 3).max(1);
+    let lower = name.to_lowercase();
+    known
+        .into_iter()
+        .filter(|known| known.len() <= 4 * LONGEST && known.chars().count().abs_diff(length) <= allowed)
+        .map(|known| (strsim::osa_distance(&lower, &known.to_lowercase()), known))
+        .filter(|(distance, _)| *distance <= allowed)
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, known)| known)
+}
+
+/// What to say about an unknown name: the near one, or the few that there are.
+#[must_use]
+pub fn help<'k>(name: &str, known: impl IntoIterator<Item = &'k str> + Clone) -> Option<String> {
+    if let Some(near) = nearest(name, known.clone()) {
+        return Some(format!("did you mean `{near}`?"));
+    }
+    let mut all = known.into_iter();
+    let first: Vec<String> = all.by_ref().take(12).map(|name| format!("`{name}`")).collect();
+    let more = if all.next().is_some() { ", …" } else { "" };
+    (!first.is_empty()).then(|| format!("there are {}{more}", first.join(", ")))
+}

@@ -1,0 +1,153 @@
+//! `color` and `depth`: what a pass draws into, and how.
+
+use super::leaf::{Leaf, Shape};
+use super::names::Scope;
+use super::pipeline::{Color, Depth};
+use super::reader::Reader;
+use crate::frame::Blend;
+use crate::vocabulary::CompareOp;
+use serde::Deserialize;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ColorFields<'src> {
+    #[serde(borrow)]
+    image: Leaf<'src>,
+    clear: Option<Leaf<'src>>,
+    blend: Option<Leaf<'src>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DepthFields<'src> {
+    #[serde(borrow)]
+    image: Leaf<'src>,
+    clear: Option<Leaf<'src>>,
+    test: Option<Leaf<'src>>,
+    write: Option<Leaf<'src>>,
+}
+
+const BLENDS: [(&str, Blend); 4] = [
+    ("Replace", Blend::Replace),
+    ("Alpha", Blend::Alpha),
+    ("Premultiplied", Blend::Premultiplied),
+    ("Additive", Blend::Additive),
+];
+
+const TESTS: [(&str, CompareOp); 8] = [
+    ("Never", CompareOp::Never),
+    ("Less", CompareOp::Less),
+    ("Equal", CompareOp::Equal),
+    ("LessOrEqual", CompareOp::LessOrEqual),
+    ("Greater", CompareOp::Greater),
+    ("NotEqual", CompareOp::NotEqual),
+    ("GreaterOrEqual", CompareOp::GreaterOrEqual),
+    ("Always", CompareOp::Always),
+];
+
+/// The list of colour targets.
+pub(super) fn color<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Color>> {
+    let entries: Vec<Leaf<'_>> = reader.read(leaf, "`color`")?;
+    let targets: Vec<Option<Color>> = entries.into_iter().map(|entry| color_target(reader, scope, entry)).collect();
+    targets.into_iter().collect()
+}
+
+fn color_target<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Color> {
+    let replace = reader.spanned(leaf, Blend::Replace);
+    match leaf.shape() {
+        Shape::Text => Some(Color { image: scope.image(reader, leaf)?, clear: None, blend: replace }),
+        Shape::Parentheses => {
+            let fields: ColorFields<'_> = reader.read(leaf, "a colour target")?;
+            let image = scope.image(reader, fields.image);
+            let clear = match fields.clear {
+                Some(clear) => clear_color(reader, clear).map(Some),
+                None => Some(None),
+            };
+            let blend = match fields.blend {
+                Some(blend) => choice(reader, blend, "a blend", &BLENDS).map(|value| reader.spanned(blend, value)),
+                None => Some(replace),
+            };
+            Some(Color { image: image?, clear: clear?, blend: blend? })
+        }
+        _ => {
+            reader
+                .expected(leaf, "a colour target: `\"image\"` or `(image: \"image\", clear: (r, g, b, a), blend: …)`");
+            None
+        }
+    }
+}
+
+/// The depth target.
+pub(super) fn depth<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Depth> {
+    let (test, write) = (CompareOp::GreaterOrEqual, true);
+    match leaf.shape() {
+        Shape::Text => Some(Depth { image: scope.image(reader, leaf)?, clear: None, test, write }),
+        Shape::Parentheses => {
+            let fields: DepthFields<'_> = reader.read(leaf, "a depth target")?;
+            let image = scope.image(reader, fields.image);
+            let clear = match fields.clear {
+                Some(clear) => clear_depth(reader, clear).map(Some),
+                None => Some(None),
+            };
+            let test = match fields.test {
+                Some(test) => choice(reader, test, "a depth test", &TESTS),
+                None => Some(test),
+            };
+            let write = match fields.write {
+                Some(write) => reader.truth(write),
+                None => Some(write),
+            };
+            Some(Depth { image: image?, clear: clear?, test: test?, write: write? })
+        }
+        _ => {
+            reader.expected(leaf, "a depth target: `\"image\"` or `(image: \"image\", clear: 0.0, test: …, write: …)`");
+            None
+        }
+    }
+}
+
+/// One of a few words.
+fn choice<'src, T: Copy>(
+    reader: &mut Reader<'src>,
+    leaf: Leaf<'src>,
+    what: &str,
+    choices: &[(&'static str, T)],
+) -> Option<T> {
+    let words: Vec<&'static str> = choices.iter().map(|(word, _)| *word).collect();
+    let forms = format!("write {}", words.join(", "));
+    let (word, rest) = reader.word(leaf, what, &words, &forms)?;
+    reader.bare(word, rest)?;
+    choices.iter().find(|(choice, _)| *choice == word).map(|(_, value)| *value)
+}
+
+fn clear_color<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<[f32; 4]> {
+    if !matches!(leaf.shape(), Shape::Parentheses) {
+        reader.expected(leaf, "a colour `(red, green, blue, alpha)`");
+        return None;
+    }
+    let parts: (Leaf<'_>, Leaf<'_>, Leaf<'_>, Leaf<'_>) = reader.read(leaf, "a colour `(red, green, blue, alpha)`")?;
+    let parts = [parts.0, parts.1, parts.2, parts.3].map(|part| component(reader, part));
+    Some([parts[0]?, parts[1]?, parts[2]?, parts[3]?])
+}
+
+fn component<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<f32> {
+    let number = reader.number(leaf)?;
+    #[allow(clippy::cast_possible_truncation, reason = "a colour is stored in single precision")]
+    let component = number as f32;
+    if component.is_finite() {
+        return Some(component);
+    }
+    reader.wrong(leaf, format!("{number:e} is too large for a colour"), "32-bit floating point reaches about 3.4e38");
+    None
+}
+
+fn clear_depth<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<f32> {
+    let depth = reader.number(leaf)?;
+    if !(0.0..=1.0).contains(&depth) {
+        let help = "depth is reversed: 0 is infinitely far, 1 is nearest";
+        reader.wrong(leaf, format!("depth lies from 0 to 1, found {depth}"), help);
+        return None;
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]
+    Some(depth as f32)
+}

@@ -1,0 +1,86 @@
+//! Parameters of a pass meet the members of its shader's block.
+
+use super::shader::PARAMS;
+use super::{Chosen, settings};
+use crate::describe::{self, Diagnostic, suggestion};
+use crate::frame::ParamValue;
+use crate::interface::{BindingKind, Block, PASS_SET, ShaderInterface};
+use std::sync::Arc;
+
+/// Values for the members of the shader's block, in the pass's order, each of its member's type.
+pub(super) fn give(
+    chosen: &Chosen<'_>,
+    pass: &describe::Pass,
+    interface: &ShaderInterface,
+    errors: &mut Vec<Diagnostic>,
+) -> Vec<(Arc<str>, ParamValue)> {
+    let shader = &pass.shader.text;
+    let none = Block::default();
+    let block = block(interface).unwrap_or(&none);
+    let mut given = Vec::new();
+    for param in &pass.params {
+        let name = &param.name.text;
+        let Some(member) = block.members.iter().find(|member| member.name == **name) else {
+            let unknown = format!("shader `{shader}` has no parameter named `{name}`");
+            let help = suggestion(name, block.members.iter().map(|member| &*member.name))
+                .or_else(|| Some(format!("shader `{shader}` has no block named `{PARAMS}` in set {PASS_SET}")));
+            errors.push(Diagnostic { help, ..Diagnostic::new(param.name.span, unknown) });
+            continue;
+        };
+        let (value, shown) = value(chosen, param);
+        match convert(value, &member.ty) {
+            Some(value) => given.push((name.clone(), value)),
+            None => {
+                let message =
+                    format!("parameter `{name}` of shader `{shader}` is a `{}`, which can't be {shown}", member.ty);
+                errors.push(Diagnostic::new(param.value.span, message));
+            }
+        }
+    }
+    for member in &block.members {
+        if pass.params.iter().all(|param| *param.name.text != *member.name) {
+            let (name, ty) = (&member.name, &member.ty);
+            let message =
+                format!("shader `{shader}` needs the parameter `{name}`, which pass `{}` doesn't give", pass.name.text);
+            let help = format!("add `params: {{\"{name}\": …}}`; it is a `{ty}`");
+            errors.push(Diagnostic::new(pass.shader.span, message).help(help));
+        }
+    }
+    given
+}
+
+fn block(interface: &ShaderInterface) -> Option<&Block> {
+    interface.bindings.iter().find_map(|binding| match &binding.kind {
+        BindingKind::UniformBlock(block) if binding.set == PASS_SET && binding.name == PARAMS => Some(block),
+        _ => None,
+    })
+}
+
+/// A parameter's value, and how it is shown.
+fn value(chosen: &Chosen<'_>, param: &describe::Param) -> (ParamValue, String) {
+    let constant = |value| (value, format!("`{}`", settings::show(value)));
+    match param.value.value {
+        describe::ParamValue::Bool(value) => constant(ParamValue::Bool(value)),
+        describe::ParamValue::Integer(value) => constant(ParamValue::Integer(value)),
+        describe::ParamValue::Number(value) => constant(ParamValue::Number(value)),
+        describe::ParamValue::Setting(reference) => {
+            let (setting, value) = chosen.setting(reference);
+            (value, format!("`{}` (setting `{}`)", settings::show(value), setting.name.text))
+        }
+    }
+}
+
+/// The value as the member's type has it; `None` if it doesn't fit.
+fn convert(value: ParamValue, ty: &str) -> Option<ParamValue> {
+    #[allow(clippy::cast_possible_truncation, reason = "the test is whether single precision can hold it")]
+    let finite = |number: f64| (number as f32).is_finite().then_some(ParamValue::Number(number));
+    match (ty, value) {
+        ("float", ParamValue::Number(number)) => finite(number),
+        #[allow(clippy::cast_precision_loss, reason = "the shader's number has fewer bits anyway")]
+        ("float", ParamValue::Integer(number)) => finite(number as f64),
+        ("int", ParamValue::Integer(number)) => i32::try_from(number).ok().map(|_| value),
+        ("uint", ParamValue::Integer(number)) => u32::try_from(number).ok().map(|_| value),
+        ("int" | "uint" | "bool", ParamValue::Bool(_)) => Some(value),
+        _ => None,
+    }
+}

@@ -1,0 +1,78 @@
+//! A shader meets whoever draws: vertex attributes, and the resources of sets from 1 on.
+
+use super::shader::Checked;
+use crate::describe::{self, Diagnostic, suggestion};
+use crate::interface::{
+    Binding, BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterface, Supplied,
+    SuppliedKind,
+};
+
+/// Reports what the shader wants and whoever draws doesn't bring along.
+pub(super) fn check(
+    shaders: &mut Checked<'_>,
+    pass: &describe::Pass,
+    interface: &ShaderInterface,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let Some(brought) = shaders.brought_along_first(pass) else { return };
+    attributes(pass, interface, &brought, errors);
+    for binding in interface.bindings.iter().filter(|binding| binding.set != PASS_SET) {
+        resource(pass, binding, &brought.supplied, errors);
+    }
+}
+
+fn attributes(
+    pass: &describe::Pass,
+    interface: &ShaderInterface,
+    brought: &DrawInterface,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let shader = &pass.shader.text;
+    for input in &interface.vertex_inputs {
+        let (name, ty) = (&input.name, &input.ty);
+        if !brought.attributes.iter().any(|attribute| attribute.name == name) {
+            let message = format!("shader `{shader}` reads the vertex attribute `{name}`, which doesn't exist");
+            let help = suggestion(name, brought.attributes.iter().map(|attribute| attribute.name))
+                .or_else(|| Some("what this pass draws has no vertex attributes".to_owned()));
+            errors.push(Diagnostic { help, ..Diagnostic::new(pass.shader.span, message) });
+        } else if !matches!(&**ty, "float" | "vec2" | "vec3" | "vec4") {
+            let message = format!("shader `{shader}` reads the vertex attribute `{name}` as `{ty}`");
+            let help = "vertex attributes are floating point: `float`, `vec2`, `vec3` or `vec4`";
+            errors.push(Diagnostic::new(pass.shader.span, message).help(help));
+        }
+    }
+}
+
+fn resource(pass: &describe::Pass, binding: &Binding, supplied: &[Supplied], errors: &mut Vec<Diagnostic>) {
+    let (shader, name) = (&pass.shader.text, &binding.name);
+    let wanted = format!("shader `{shader}` uses `{name}` (set {}, binding {})", binding.set, binding.binding);
+    let here = |message: String| Diagnostic::new(pass.shader.span, message);
+    let Some(there) = supplied.iter().find(|there| there.name == name) else {
+        let help = suggestion(name, supplied.iter().map(|there| there.name))
+            .or_else(|| Some(format!("images and parameters of a pass belong into set {PASS_SET}")));
+        let unknown = here(format!("{wanted}, which whoever draws doesn't bring along"));
+        errors.push(Diagnostic { help, ..unknown });
+        return;
+    };
+    if (there.set, there.binding) != (binding.set, binding.binding) {
+        let message = format!("{wanted}, but `{name}` is at set {}, binding {}", there.set, there.binding);
+        errors.push(here(message).help(format!("write `layout(set = {}, binding = {})`", there.set, there.binding)));
+        return;
+    }
+    let plain =
+        ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: false, component: Component::Float };
+    let (fits, what) = match there.kind {
+        SuppliedKind::UniformBlock => (matches!(binding.kind, BindingKind::UniformBlock(_)), "a uniform block"),
+        SuppliedKind::StorageBlock => (
+            matches!(binding.kind, BindingKind::StorageBlock { writable: false }),
+            "a storage block that is only read (`readonly buffer`)",
+        ),
+        SuppliedKind::SampledImage => (
+            matches!(binding.kind, BindingKind::SampledImage(shape) if shape == plain),
+            "a two-dimensional floating-point image (`sampler2D`)",
+        ),
+    };
+    if !fits {
+        errors.push(here(format!("{wanted} as something else than it is: {what}")));
+    }
+}

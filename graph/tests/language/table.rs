@@ -1,0 +1,173 @@
+//! What the tests of the language share: shader interfaces out of a table, and the way from a file to a frame.
+
+use framewright_graph::describe::{self, Diagnostic};
+use framewright_graph::expand::{Facts, Inputs, expand};
+use framewright_graph::frame::{Draw, DrawList, Frame};
+use framewright_graph::interface::{
+    Attribute, Binding, BindingKind, Block, Component, Dimension, DrawInterface, FragmentOutput, ImageShape, Member,
+    ShaderInterface, ShaderInterfaces, ShaderProblem, Supplied, SuppliedKind, VertexInput,
+};
+use framewright_graph::source::Sources;
+use framewright_graph::vocabulary::Stages;
+use std::sync::Arc;
+
+/// Shader interfaces out of a table.
+pub(crate) struct Table;
+
+fn texture(name: &str, binding: u32, multisampled: bool, component: Component) -> Binding {
+    let shape = ImageShape { dimension: Dimension::D2, arrayed: false, multisampled, component };
+    let kind = BindingKind::SampledImage(shape);
+    Binding { set: 0, binding, name: name.to_owned(), kind, stages: Stages::FRAGMENT_SHADER }
+}
+
+fn params(members: &[(&str, &str)]) -> Binding {
+    let members = members.iter().zip(0..).map(|((name, ty), at)| Member {
+        name: (*name).to_owned(),
+        offset: 4 * at,
+        ty: (*ty).to_owned(),
+    });
+    let block = Block { bytes: 16, members: members.collect() };
+    let kind = BindingKind::UniformBlock(block);
+    Binding { set: 0, binding: 9, name: "params".to_owned(), kind, stages: Stages::FRAGMENT_SHADER }
+}
+
+fn outputs(count: u32, component: Component, components: u32) -> Vec<FragmentOutput> {
+    (0..count)
+        .map(|location| FragmentOutput { location, name: format!("color_{location}"), component, components })
+        .collect()
+}
+
+/// A full-screen shader with one colour output.
+fn full_screen(bindings: Vec<Binding>) -> ShaderInterface {
+    ShaderInterface { bindings, outputs: outputs(1, Component::Float, 4), ..ShaderInterface::default() }
+}
+
+fn lit(discards: bool) -> ShaderInterface {
+    let frame = |binding, name: &str, kind| Binding {
+        set: 1,
+        binding,
+        name: name.to_owned(),
+        kind,
+        stages: Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER,
+    };
+    let view = frame(0, "view", BindingKind::UniformBlock(Block::default()));
+    let objects = frame(2, "objects", BindingKind::StorageBlock { writable: false });
+    let texture = Binding { set: 2, ..texture("base_color_texture", 0, false, Component::Float) };
+    let input = |location, name: &str, ty: &str| VertexInput { location, name: name.to_owned(), ty: ty.to_owned() };
+    ShaderInterface {
+        bindings: vec![view, objects, texture],
+        vertex_inputs: vec![input(0, "position", "vec3"), input(1, "normal", "vec3")],
+        outputs: outputs(1, Component::Float, 4),
+        discards,
+        ..ShaderInterface::default()
+    }
+}
+
+const NAMES: &[&str] = &["blur", "downsample", "lit", "lit_masked", "reinhard", "sky", "soft_focus", "tone_map"];
+
+impl ShaderInterfaces for Table {
+    fn draw_shader(&mut self, name: &str, draw: Draw) -> Result<ShaderInterface, ShaderProblem> {
+        let float = Component::Float;
+        let source = || texture("source", 0, false, float);
+        Ok(match name {
+            "lit" => lit(false),
+            "lit_masked" => lit(true),
+            "sky" | "plain" => full_screen(vec![]),
+            "tone_map" => full_screen(vec![source(), params(&[("white_point", "float")])]),
+            "downsample" | "reinhard" => full_screen(vec![source()]),
+            "blur" => full_screen(vec![source(), params(&[("direction_x", "float"), ("direction_y", "float")])]),
+            "soft_focus" => full_screen(vec![
+                texture("sharp", 0, false, float),
+                texture("soft", 1, false, float),
+                params(&[("strength", "float")]),
+            ]),
+            "custom_resolve" => full_screen(vec![texture("source", 0, true, float)]),
+            "count" => full_screen(vec![texture("source", 0, false, Component::Uint)]),
+            "typed" => full_screen(vec![params(&[("a", "float"), ("b", "uint"), ("c", "int"), ("d", "vec4")])]),
+            "cube" => {
+                let mut interface = full_screen(vec![source()]);
+                if let BindingKind::SampledImage(shape) = &mut interface.bindings[0].kind {
+                    shape.dimension = Dimension::Cube;
+                }
+                interface
+            }
+            "holes" => ShaderInterface { discards: true, ..full_screen(vec![]) },
+            "no_color" => ShaderInterface::default(),
+            "vec3" => ShaderInterface { outputs: outputs(1, float, 3), ..ShaderInterface::default() },
+            "odd_set" => full_screen(vec![Binding {
+                set: 0,
+                binding: 0,
+                name: "tiles".to_owned(),
+                kind: BindingKind::StorageBlock { writable: true },
+                stages: Stages::FRAGMENT_SHADER,
+            }]),
+            "misplaced" => {
+                let mut interface = lit(false);
+                interface.bindings[0].binding = 7;
+                interface.bindings[1].kind = BindingKind::StorageBlock { writable: true };
+                interface.bindings[2].name = "base_colour_texture".to_owned();
+                interface.vertex_inputs[0].name = "positions".to_owned();
+                interface.vertex_inputs[1].ty = "ivec3".to_owned();
+                interface
+            }
+            "broken" => {
+                let message = "shaders/broken.frag:3: error: 'colr' : undeclared identifier".to_owned();
+                return Err(ShaderProblem::DoesNotCompile { messages: vec![message] });
+            }
+            "exotic" => return Err(ShaderProblem::Unsupported { what: "input attachment `previous`".to_owned() }),
+            _ => {
+                let known = NAMES.iter().map(|name| (*name).to_owned()).collect();
+                let looked_in = vec!["shaders".to_owned(), "the shipped shaders".to_owned()];
+                let _ = draw;
+                return Err(ShaderProblem::Missing { looked_in, known });
+            }
+        })
+    }
+
+    fn brought_along(&self, draw: Draw) -> DrawInterface {
+        let supplied = |set, binding, name, kind| Supplied { set, binding, name, kind };
+        let view = supplied(1, 0, "view", SuppliedKind::UniformBlock);
+        match draw {
+            Draw::Objects(DrawList::Opaque | DrawList::Masked | DrawList::Transparent) => DrawInterface {
+                vertex_stride: 32,
+                attributes: vec![
+                    Attribute { name: "position", components: 3, offset: 0 },
+                    Attribute { name: "normal", components: 3, offset: 12 },
+                    Attribute { name: "uv", components: 2, offset: 24 },
+                ],
+                supplied: vec![
+                    view,
+                    supplied(1, 1, "lights", SuppliedKind::StorageBlock),
+                    supplied(1, 2, "objects", SuppliedKind::StorageBlock),
+                    supplied(2, 0, "base_color_texture", SuppliedKind::SampledImage),
+                ],
+            },
+            Draw::Sky => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
+            Draw::FullScreen => DrawInterface::default(),
+        }
+    }
+}
+
+/// What a test puts a pipeline together with.
+pub(crate) const INPUTS: Inputs<'static> =
+    Inputs { set: &[], facts: Facts::UNKNOWN, facts_known: false, output_extent: [640, 360], dump: &[] };
+
+/// The text of a shipped pipeline.
+pub(crate) fn shipped(name: &str) -> String {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/pipelines").join(name);
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Expands a pipeline's text; if it fails, with the mistakes as they are shown.
+pub(crate) fn frame(text: &str, inputs: &Inputs<'_>) -> Result<Frame, String> {
+    let mut sources = Sources::default();
+    let pipeline = describe::read(&mut sources, "test.ron", "test.ron", text.to_owned());
+    let sources = Arc::new(sources);
+    let expanded = pipeline.and_then(|pipeline| expand(&pipeline, sources.clone(), inputs, &mut Table));
+    expanded.map_err(|errors: Vec<Diagnostic>| describe::render(&sources, &errors))
+}
+
+/// `--set` values.
+pub(crate) fn set(values: &[(&str, &str)]) -> Vec<(String, String)> {
+    values.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect()
+}
