@@ -37,6 +37,13 @@ impl Bounds {
         Bounds { min: min.as_vec3(), max: max.as_vec3() }
     }
 
+    /// Whether every coordinate is a number and no further than `limit` from 0.
+    #[must_use]
+    pub fn within(self, limit: f64) -> bool {
+        let fits = |corner: Vec3| corner.to_array().iter().all(|at| f64::from(*at).abs() <= limit);
+        fits(self.min) && fits(self.max)
+    }
+
     /// The middle.
     #[must_use]
     pub fn center(self) -> Vec3 {

@@ -19,29 +19,49 @@ impl Camera {
     /// `None` where these leave the direction open or aren't finite.
     #[must_use]
     pub fn look_at(position: DVec3, target: DVec3, up: DVec3, vertical_fov: f32, near: f32) -> Option<Camera> {
-        let back = (position - target).try_normalize()?;
-        let right = up.cross(back).try_normalize()?;
-        let columns = [right, back.cross(right), back].map(|axis| axis.extend(0.0));
-        let transform = DMat4::from_cols(columns[0], columns[1], columns[2], position.extend(1.0)).as_mat4();
+        Camera::facing(position, target - position, up, vertical_fov, near)
+    }
+
+    /// A camera at `position` that looks along `forward` (any length), with `up` upwards in the picture; see
+    /// [`Camera::look_at`].
+    #[must_use]
+    pub fn facing(position: DVec3, forward: DVec3, up: DVec3, vertical_fov: f32, near: f32) -> Option<Camera> {
+        let back = (-forward).try_normalize()?;
+        let right = up.try_normalize()?.cross(back);
+        let right = if right.length() > 1e-6 { right.normalize() } else { return None };
+        let axes = [right, back.cross(right), back].map(|axis| axis.extend(0.0));
+        let transform = DMat4::from_cols(axes[0], axes[1], axes[2], position.extend(1.0)).as_mat4();
         transform.is_finite().then_some(Camera { transform, vertical_fov, near })
     }
 
-    /// Frames a box: seen from the front right, somewhat above, with a little air around it. An empty box is seen from
-    /// 1 m away.
+    /// Frames a box: seen from the front right, somewhat above. The sphere around the box touches the picture's upper and
+    /// lower border where the picture is at least as wide as high. A box without size is seen from about 1 m away.
     #[must_use]
     pub fn framing(bounds: Bounds) -> Camera {
         let radius = if bounds.radius() > 0.0 { bounds.radius() } else { 0.5 };
-        let half = FRAMING_FOV * 0.5;
-        let distance = radius * FRAMING_AIR / half.sin();
-        let center = bounds.center().as_dvec3();
-        let from = DVec3::new(0.6, 0.42, 1.0).normalize();
-        let columns = Camera::look_at(center + from * distance, center, DVec3::Y, FRAMING_FOV as f32, 1.0);
-        let transform = columns.map_or(Mat4::from_translation(center.as_vec3()), |camera| camera.transform);
+        let distance = radius / (FRAMING_FOV * 0.5).sin();
+        let target = bounds.center().as_dvec3();
+        let back = DVec3::new(0.6, 0.42, 1.0).normalize();
+        let right = DVec3::Y.cross(back).normalize();
+        let axes = [right, back.cross(right), back].map(|axis| axis.extend(0.0));
+        let position = (target + back * distance).extend(1.0);
         Camera {
-            transform,
+            transform: DMat4::from_cols(axes[0], axes[1], axes[2], position).as_mat4(),
             vertical_fov: FRAMING_FOV as f32,
-            near: ((distance - radius) * 0.1).max(f64::from(f32::MIN_POSITIVE)) as f32,
+            near: (radius * FRAMING_NEAR).max(f64::from(f32::MIN_POSITIVE)) as f32,
         }
+    }
+
+    /// Whether a vertical field of view in radians can be drawn: 10⁻⁴ to 3.1 (177.6°).
+    #[must_use]
+    pub fn allows_fov(radians: f64) -> bool {
+        (1e-4..3.1).contains(&radians)
+    }
+
+    /// Whether a near distance in metres can be drawn: 10⁻⁶ to 10⁹.
+    #[must_use]
+    pub fn allows_near(metres: f64) -> bool {
+        (1e-6..=1e9).contains(&metres)
     }
 
     /// Where the camera stands, in the world.
@@ -74,5 +94,6 @@ impl Camera {
 /// Vertical field of view of a camera that was framed automatically: 40°.
 const FRAMING_FOV: f64 = 40.0 * std::f64::consts::PI / 180.0;
 
-/// How much further away than needed a framed camera stands.
-const FRAMING_AIR: f64 = 1.0;
+/// Its near distance, as a share of the radius of what it frames. Depth is reversed floating point, so a small one costs
+/// no precision.
+const FRAMING_NEAR: f64 = 0.01;

@@ -7,23 +7,33 @@
 //! colour `c` with unit normal `n` is
 //!
 //! ```text
-//! emissive + c · (ambient + sun.color · max(n · −sun.direction, 0) + Σ light.arriving(distance) · max(n · l, 0))
+//! emissive + c · (ambient + sun.color · max(n · −sun.direction, 0) + Σ color · intensity · falloff(d) · max(n · l, 0))
 //! ```
 //!
-//! so a white surface that faces a sun of colour 1 gives 1: there is no division by π.
+//! with `d` and `l` the distance and direction to each point light; so a white surface that faces a sun of colour 1 gives
+//! 1: there is no division by π. What a surface mirrors comes on top and is the shader's own.
 
 mod bounds;
 mod camera;
+mod defaults;
+pub mod glb;
 mod light;
+pub mod limits;
+mod load;
 mod material;
+mod mesh;
+mod notes;
 
 pub use bounds::Bounds;
 pub use camera::Camera;
 pub use light::{PointLight, Sky, Sun};
 pub use material::{AlphaMode, Material, Sampler, Texture, Wrap};
+pub use mesh::Mesh;
 
 use framewright_graph::expand::Facts;
 use glam::{DMat3, Mat3, Mat4};
+pub use load::{SceneError, load};
+use notes::Notes;
 
 /// Everything that a frame is drawn from. Every index in it is valid and every number finite.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,21 +59,6 @@ pub struct Scene {
     /// What the file holds that isn't drawn, each a sentence without final stop ("mesh 2: vertex colours are ignored").
     /// Names in it are escaped.
     pub notes: Vec<String>,
-}
-
-/// A list of triangles. `positions`, `normals` and `uvs` have the same length, at least 3.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Mesh {
-    /// Positions in the mesh's own space, metres.
-    pub positions: Vec<[f32; 3]>,
-    /// Unit normals.
-    pub normals: Vec<[f32; 3]>,
-    /// Texture coordinates, `(0, 0)` the top left corner of the texture; zeros where the file has none.
-    pub uvs: Vec<[f32; 2]>,
-    /// Three a triangle, counter-clockwise seen from the front; each less than the number of positions.
-    pub indices: Vec<u32>,
-    /// The box around the positions.
-    pub bounds: Bounds,
 }
 
 /// A mesh with a material, somewhere.

@@ -1,0 +1,241 @@
+//! Typed data out of the binary chunk. Every range is checked before a byte is read.
+
+use super::document::{Document, SparsePart, follow};
+use super::problem::{GlbError, Problem};
+use crate::scene::limits;
+
+/// The document with its binary data.
+pub(super) struct Data<'a> {
+    pub(super) document: &'a Document,
+    pub(super) binary: Option<&'a [u8]>,
+}
+
+/// What one element of an accessor is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Element {
+    component: Component,
+    components: u64,
+    normalized: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Component {
+    I8,
+    U8,
+    I16,
+    U16,
+    U32,
+    F32,
+}
+
+impl Component {
+    fn from_code(code: u32) -> Option<Component> {
+        Some(match code {
+            5120 => Component::I8,
+            5121 => Component::U8,
+            5122 => Component::I16,
+            5123 => Component::U16,
+            5125 => Component::U32,
+            5126 => Component::F32,
+            _ => return None,
+        })
+    }
+
+    fn bytes(self) -> u64 {
+        match self {
+            Component::I8 | Component::U8 => 1,
+            Component::I16 | Component::U16 => 2,
+            Component::U32 | Component::F32 => 4,
+        }
+    }
+}
+
+impl Data<'_> {
+    /// Vectors of 32-bit floats; coordinates of textures may be normalised integers too.
+    pub(super) fn vectors<const N: usize>(
+        &self,
+        index: u64,
+        role: &'static str,
+        user: &str,
+    ) -> Result<Vec<[f32; N]>, GlbError> {
+        let (element, bytes) = self.elements(index, user)?;
+        let texture = role == TEXTURE_COORDINATES;
+        let scale = match element {
+            Element { component: Component::F32, .. } => None,
+            Element { component: Component::U8, normalized: true, .. } if texture => Some(255.0),
+            Element { component: Component::U16, normalized: true, .. } if texture => Some(65535.0),
+            _ => Some(0.0),
+        };
+        if element.components != N as u64 || scale == Some(0.0) {
+            let expected = match N {
+                2 => "VEC2 of 32-bit floats, or normalised 8-bit or 16-bit unsigned integers",
+                _ => "VEC3 of 32-bit floats",
+            };
+            return Err(self.wrong_type(index, role, expected));
+        }
+        let value = |part: &[u8]| match (part, scale) {
+            ([a, b, c, d], _) => f32::from_le_bytes([*a, *b, *c, *d]),
+            ([a, b], Some(scale)) => f32::from(u16::from_le_bytes([*a, *b])) / scale,
+            ([a], Some(scale)) => f32::from(*a) / scale,
+            _ => 0.0,
+        };
+        let values: Vec<f32> = bytes.chunks_exact(element.component.bytes() as usize).map(value).collect();
+        if values.iter().any(|value| !value.is_finite()) {
+            return Err(GlbError { at: format!("accessor {index}"), problem: Problem::NotFinite(role) });
+        }
+        Ok(values.as_chunks::<N>().0.to_vec())
+    }
+
+    /// Indices of 8, 16 or 32 bits.
+    pub(super) fn indices(&self, index: u64, user: &str) -> Result<Vec<u32>, GlbError> {
+        let (element, bytes) = self.elements(index, user)?;
+        let unsigned = matches!(element.component, Component::U8 | Component::U16 | Component::U32);
+        if element.components != 1 || !unsigned {
+            return Err(self.wrong_type(index, "indices", "SCALAR of 8, 16 or 32-bit unsigned integers"));
+        }
+        Ok(integers(&bytes, element.component))
+    }
+
+    /// The bytes of a buffer view, with its stride.
+    pub(super) fn view(&self, index: u64, user: &str) -> Result<(&[u8], Option<u64>), GlbError> {
+        let view = follow(&self.document.buffer_views, index, "buffer view", user)?;
+        let at = format!("buffer view {index}");
+        let buffer = follow(&self.document.buffers, view.buffer, "buffer", &at)?;
+        let buffer_at = format!("buffer {}", view.buffer);
+        if let Some(uri) = &buffer.uri {
+            // Only the beginning: an URI may hold all the data.
+            let shown: String = uri.chars().take(40).flat_map(char::escape_debug).collect();
+            return Err(GlbError { at: buffer_at, problem: Problem::External(shown) });
+        }
+        let (0, Some(binary)) = (view.buffer, self.binary) else {
+            return Err(GlbError { at: buffer_at, problem: Problem::NoData });
+        };
+        let binary = range(binary, 0, buffer.byte_length, &buffer_at, || "the binary chunk".into())?;
+        let bytes = range(binary, view.byte_offset, view.byte_length, &at, || buffer_at)?;
+        Ok((bytes, view.byte_stride))
+    }
+
+    /// All elements of an accessor without gaps, sparse ones put in place.
+    fn elements(&self, index: u64, user: &str) -> Result<(Element, Vec<u8>), GlbError> {
+        let accessor = follow(&self.document.accessors, index, "accessor", user)?;
+        let at = format!("accessor {index}");
+        let fail = |problem| GlbError { at: at.clone(), problem };
+        let component = Component::from_code(accessor.component_type).ok_or_else(|| {
+            let is = accessor.component_type.to_string();
+            fail(Problem::Word { what: "component type", is, expected: "5120, 5121, 5122, 5123, 5125 or 5126" })
+        })?;
+        let components = match accessor.kind.as_str() {
+            "SCALAR" => 1,
+            "VEC2" => 2,
+            "VEC3" => 3,
+            "VEC4" | "MAT2" => 4,
+            "MAT3" => 9,
+            "MAT4" => 16,
+            other => {
+                let is = other.escape_debug().to_string();
+                let expected = "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4";
+                return Err(fail(Problem::Word { what: "type", is, expected }));
+            }
+        };
+        let element = Element { component, components, normalized: accessor.normalized };
+        let size = component.bytes() * components;
+        if accessor.count == 0 {
+            return Err(fail(Problem::NoElements));
+        }
+        // Elements without a view are zeros that the file needn't hold.
+        let is = accessor.count.saturating_mul(size);
+        if is > limits::FILE_BYTES {
+            return Err(fail(Problem::TooMuch { what: "bytes", is, limit: limits::FILE_BYTES }));
+        }
+        let mut bytes = match accessor.buffer_view {
+            Some(view) => self.packed(view, accessor.byte_offset, accessor.count, size, &at)?,
+            None => vec![0; is as usize],
+        };
+        if let Some(sparse) = &accessor.sparse {
+            let places = self.sparse_indices(&sparse.indices, sparse.count, accessor.count, &at)?;
+            let values = self.packed(sparse.values.buffer_view, sparse.values.byte_offset, sparse.count, size, &at)?;
+            let size = size as usize;
+            for (place, value) in places.iter().zip(values.chunks_exact(size)) {
+                let start = *place as usize * size;
+                bytes[start..start + size].copy_from_slice(value);
+            }
+        }
+        Ok((element, bytes))
+    }
+
+    /// Where sparse values go: ascending, each less than `count`.
+    fn sparse_indices(&self, part: &SparsePart, len: u64, count: u64, at: &str) -> Result<Vec<u32>, GlbError> {
+        let fail = |problem| GlbError { at: at.into(), problem };
+        if len == 0 {
+            return Err(fail(Problem::NoElements));
+        }
+        if len > count {
+            return Err(fail(Problem::TooMuch { what: "sparse elements", is: len, limit: count }));
+        }
+        let code = part.component_type.unwrap_or_default();
+        let component = Component::from_code(code)
+            .filter(|component| matches!(component, Component::U8 | Component::U16 | Component::U32))
+            .ok_or_else(|| {
+                let expected = "5121, 5123 or 5125";
+                fail(Problem::Word { what: "component type of sparse indices", is: code.to_string(), expected })
+            })?;
+        let places = integers(&self.packed(part.buffer_view, part.byte_offset, len, component.bytes(), at)?, component);
+        let count = count as usize;
+        let ascends = |at: usize| at == 0 || places[at] > places[at - 1];
+        match (0..places.len()).find(|number| !ascends(*number) || places[*number] as usize >= count) {
+            Some(number) => Err(fail(Problem::SparseIndex { at: number, index: places[number], count })),
+            None => Ok(places),
+        }
+    }
+
+    /// `count` elements of `size` bytes from `offset` in a view, copied without gaps.
+    fn packed(&self, view: u64, offset: u64, count: u64, size: u64, at: &str) -> Result<Vec<u8>, GlbError> {
+        let (bytes, stride) = self.view(view, at)?;
+        let stride = match stride {
+            Some(stride) if stride < size || !(4..=252).contains(&stride) => {
+                return Err(GlbError { at: format!("buffer view {view}"), problem: Problem::Stride { stride, size } });
+            }
+            Some(stride) => stride,
+            None => size,
+        };
+        let length = (count - 1).saturating_mul(stride).saturating_add(size);
+        let bytes = range(bytes, offset, length, at, || format!("buffer view {view}"))?;
+        Ok(bytes.chunks(stride as usize).flat_map(|element| &element[..size as usize]).copied().collect())
+    }
+
+    fn wrong_type(&self, index: u64, role: &'static str, expected: &'static str) -> GlbError {
+        let found = follow(&self.document.accessors, index, "accessor", "").map_or_else(
+            |_| String::new(),
+            |accessor| {
+                let normalized = if accessor.normalized { "normalised " } else { "" };
+                format!("{} of {normalized}component type {}", accessor.kind.escape_debug(), accessor.component_type)
+            },
+        );
+        GlbError { at: format!("accessor {index}"), problem: Problem::ElementType { role, found, expected } }
+    }
+}
+
+/// The role of texture coordinates, the only vectors that may be integers.
+pub(super) const TEXTURE_COORDINATES: &str = "texture coordinates";
+
+fn integers(bytes: &[u8], component: Component) -> Vec<u32> {
+    let integer = |part: &[u8]| part.iter().rev().fold(0, |value, byte| value << 8 | u32::from(*byte));
+    bytes.chunks_exact(component.bytes() as usize).map(integer).collect()
+}
+
+/// `length` bytes from `start`, or what they are outside of.
+fn range<'b>(
+    bytes: &'b [u8],
+    start: u64,
+    length: u64,
+    at: &str,
+    holder: impl FnOnce() -> String,
+) -> Result<&'b [u8], GlbError> {
+    let end = start.saturating_add(length);
+    let inside =
+        usize::try_from(start).ok().zip(usize::try_from(end).ok()).and_then(|(start, end)| bytes.get(start..end));
+    inside.ok_or_else(|| GlbError {
+        at: at.into(),
+        problem: Problem::Range { start, end, holder: holder(), has: bytes.len() as u64 },
+    })
+}

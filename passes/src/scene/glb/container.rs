@@ -1,0 +1,60 @@
+//! The GLB container (glTF 2.0, section 4): a header, a JSON chunk, perhaps a binary chunk.
+
+use super::problem::{GlbError, Problem};
+use crate::scene::limits;
+
+/// The two chunks that matter.
+pub(super) struct Container<'a> {
+    pub(super) json: &'a [u8],
+    pub(super) binary: Option<&'a [u8]>,
+}
+
+pub(super) fn split(bytes: &[u8]) -> Result<Container<'_>, GlbError> {
+    let whole = |problem| GlbError { at: String::new(), problem };
+    if !bytes.starts_with(b"glTF") {
+        return Err(whole(Problem::NotGlb));
+    }
+    let (Some(version), Some(length)) = (word(bytes, 4), word(bytes, 8)) else {
+        return Err(whole(Problem::CutShort { has: bytes.len(), says: HEADER as u64 }));
+    };
+    if version != 2 {
+        return Err(whole(Problem::Version(version)));
+    }
+    // Bytes after the announced length are not part of the file.
+    let Some(bytes) = bytes.get(..length as usize) else {
+        return Err(whole(Problem::CutShort { has: bytes.len(), says: length.into() }));
+    };
+    let (json, rest) =
+        chunk(bytes.get(HEADER..).unwrap_or(&[]), "JSON chunk")?.ok_or_else(|| whole(Problem::NoJson))?;
+    if json.kind != *b"JSON" {
+        return Err(whole(Problem::NoJson));
+    }
+    if json.data.len() > limits::JSON_BYTES {
+        let (is, limit) = (json.data.len() as u64, limits::JSON_BYTES as u64);
+        return Err(GlbError { at: "JSON chunk".into(), problem: Problem::TooMuch { what: "bytes", is, limit } });
+    }
+    let binary = chunk(rest, "binary chunk")?.filter(|(chunk, _)| chunk.kind == *b"BIN\0").map(|(chunk, _)| chunk.data);
+    Ok(Container { json: json.data, binary })
+}
+
+const HEADER: usize = 12;
+
+struct Chunk<'a> {
+    kind: [u8; 4],
+    data: &'a [u8],
+}
+
+/// The first chunk and what follows it; `None` at the end.
+fn chunk<'a>(bytes: &'a [u8], name: &str) -> Result<Option<(Chunk<'a>, &'a [u8])>, GlbError> {
+    let (Some(says), Some(kind), Some(rest)) = (word(bytes, 0), word(bytes, 4), bytes.get(8..)) else {
+        return Ok(None);
+    };
+    match rest.split_at_checked(says as usize) {
+        Some((data, rest)) => Ok(Some((Chunk { kind: kind.to_le_bytes(), data }, rest))),
+        None => Err(GlbError { at: name.into(), problem: Problem::ChunkCutShort { has: rest.len(), says } }),
+    }
+}
+
+fn word(bytes: &[u8], at: usize) -> Option<u32> {
+    bytes.get(at..at + 4)?.try_into().ok().map(u32::from_le_bytes)
+}

@@ -1,0 +1,77 @@
+//! Lights of `KHR_lights_punctual`.
+
+use super::document::{Document, follow};
+use super::nodes::Placed;
+use super::problem::{GlbError, Problem};
+use crate::scene::{Notes, PointLight, Sun, defaults, limits};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+pub(super) struct Lights {
+    pub(super) sun: Sun,
+    pub(super) points: Vec<PointLight>,
+}
+
+/// The lights of the scene; the default sun where the file has neither a directional nor a point light.
+pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Result<Lights, GlbError> {
+    let mut sun = None;
+    let mut points = Vec::new();
+    for Placed { number, node, to_world } in placed {
+        let Some(reference) = &node.extensions.light else { continue };
+        let light = follow(&document.lights, reference.light, "light", &format!("node {number}"))?;
+        let at = format!("light {}", reference.light);
+        let within = |what, is: f64| {
+            let problem = Problem::OutOfRange { what, is: is.to_string(), expected: "0 to 1e9" };
+            let fits = (0.0..=limits::RADIANCE).contains(&is);
+            if fits { Ok(is) } else { Err(GlbError { at: at.clone(), problem }) }
+        };
+        let mut color = light.color.unwrap_or([1.0; 3]);
+        for part in &mut color {
+            *part = within("its colour", *part)?;
+        }
+        // In glTF a white surface scatters 1/π of the light that arrives; here it is 1.
+        let intensity = within("its intensity", light.intensity.unwrap_or(1.0))? / PI;
+        match light.kind.as_str() {
+            "directional" => {
+                let direction = (-to_world.z_axis.truncate()).try_normalize().unwrap_or(DVec3::NEG_Y);
+                let color = color.map(|part| (part * intensity).min(limits::RADIANCE) as f32);
+                if sun.is_none() {
+                    sun = Some(Sun { direction: direction.as_vec3().to_array(), color });
+                } else {
+                    notes.add(format!("{at}: only one directional light is used"));
+                }
+            }
+            "point" => {
+                let range = light.range.map(|range| within("its range", range)).transpose()?;
+                if range == Some(0.0) {
+                    continue;
+                }
+                let position = to_world.w_axis.truncate();
+                if position.abs().max_element() > limits::COORDINATE {
+                    let is = format!("{position:?}");
+                    let problem = Problem::OutOfRange { what: "its place in the world", is, expected: "at most 1e9 m" };
+                    return Err(GlbError { at, problem });
+                }
+                points.push(PointLight {
+                    position: position.as_vec3().to_array(),
+                    color: color.map(|part| part as f32),
+                    intensity: intensity as f32,
+                    range: range.map(|range| (range as f32).max(f32::MIN_POSITIVE)),
+                });
+            }
+            "spot" => notes.add(format!("{at}: spot lights are not used")),
+            other => {
+                let is = other.escape_debug().to_string();
+                let problem = Problem::Word { what: "type", is, expected: "directional, point or spot" };
+                return Err(GlbError { at, problem });
+            }
+        }
+    }
+    if points.len() > limits::POINT_LIGHTS {
+        let (is, limit) = (points.len() as u64, limits::POINT_LIGHTS as u64);
+        return Err(GlbError { at: String::new(), problem: Problem::TooMuch { what: "point lights", is, limit } });
+    }
+    let dark = Sun { direction: defaults::SUN.direction, color: [0.0; 3] };
+    let sun = sun.unwrap_or(if points.is_empty() { defaults::SUN } else { dark });
+    Ok(Lights { sun, points })
+}

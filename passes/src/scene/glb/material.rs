@@ -1,0 +1,71 @@
+//! glTF's materials (glTF 2.0, section 3.9), as far as they are drawn.
+
+use super::accessor::Data;
+use super::document;
+use super::picture::Textures;
+use super::problem::{GlbError, Problem};
+use crate::scene::{AlphaMode, Material, Notes, limits};
+
+pub(super) fn read(
+    data: &Data<'_>,
+    material: &document::Material,
+    at: &str,
+    textures: &mut Textures,
+    notes: &mut Notes,
+) -> Result<Material, GlbError> {
+    let pbr = &material.pbr_metallic_roughness;
+    let within = |what, is: f64, most: f64, expected| {
+        if (0.0..=most).contains(&is) {
+            return Ok(is as f32);
+        }
+        Err(GlbError { at: at.into(), problem: Problem::OutOfRange { what, is: is.to_string(), expected } })
+    };
+    let mut base_color = [1.0; 4];
+    for (place, factor) in base_color.iter_mut().zip(pbr.base_color_factor.unwrap_or([1.0; 4])) {
+        *place = within("a base colour factor", factor, 1.0, "0 to 1")?;
+    }
+    let strength = material.extensions.emissive_strength.as_ref().and_then(|it| it.emissive_strength).unwrap_or(1.0);
+    let strength = within("the emissive strength", strength, limits::RADIANCE, "0 to 1e9")?;
+    let mut emissive = [0.0; 3];
+    for (place, factor) in emissive.iter_mut().zip(material.emissive_factor.unwrap_or([0.0; 3])) {
+        *place = within("an emissive factor", factor, 1.0, "0 to 1")? * strength;
+    }
+    if material.emissive_texture.is_some() && emissive != [0.0; 3] {
+        // Without its texture the whole surface would glow.
+        emissive = [0.0; 3];
+        notes.add(format!("{at}: its emissive texture is not supported, so it gives no light of its own"));
+    }
+    let ignored = [
+        (material.normal_texture.is_some(), "normal"),
+        (material.occlusion_texture.is_some(), "occlusion"),
+        (pbr.metallic_roughness_texture.is_some(), "metallic-roughness"),
+    ];
+    for (_, which) in ignored.iter().filter(|(present, _)| *present) {
+        notes.add(format!("{at}: its {which} texture is ignored"));
+    }
+    let base_color_texture = match &pbr.base_color_texture {
+        Some(texture) => {
+            if texture.extensions.transform.is_some() {
+                notes.add(format!("{at}: the transform of its base colour texture is ignored"));
+            }
+            textures.place(data, texture.index, at)?
+        }
+        None => None,
+    };
+    let alpha = match material.alpha_mode.as_deref().unwrap_or("OPAQUE") {
+        "OPAQUE" => AlphaMode::Opaque,
+        "BLEND" => AlphaMode::Blend,
+        "MASK" => {
+            let cutoff = material.alpha_cutoff.unwrap_or(0.5);
+            AlphaMode::Mask { cutoff: within("the alpha cut-off", cutoff, limits::RADIANCE, "at least 0")? }
+        }
+        other => {
+            let is = other.escape_debug().to_string();
+            let problem = Problem::Word { what: "alpha mode", is, expected: "OPAQUE, MASK or BLEND" };
+            return Err(GlbError { at: at.into(), problem });
+        }
+    };
+    let name = material.name.clone().unwrap_or_else(|| at.to_owned());
+    let double_sided = material.double_sided;
+    Ok(Material { name, base_color, base_color_texture, emissive, alpha, double_sided })
+}

@@ -1,0 +1,187 @@
+//! glTF 2.0 in its binary form, one file with everything in it.
+//!
+//! Read are: triangles (lists, strips, fans) with positions, normals (computed flat where missing), one set of texture
+//! coordinates (the one that the base colour texture names; zeros where missing) and indices of 8, 16 or 32 bits or none;
+//! sparse accessors; base colour factor and texture (PNG or JPEG); emissive factor and strength
+//! (`KHR_materials_emissive_strength`); alpha modes; double-sided materials; node hierarchies with matrices or
+//! translation, rotation and scale; the first perspective camera; directional and point lights (`KHR_lights_punctual`: the
+//! first directional light is the sun; candela and lux are divided by π, see [`crate::scene`]).
+//!
+//! Not drawn, and noted in [`Scene::notes`]: points and lines, vertex colours, emissive, normal, occlusion and
+//! metallic-roughness textures, texture transforms, skins, morph targets, animations, orthographic cameras, spot lights,
+//! further suns. A file that *requires* an extension other than the two named is refused. Data outside the file is refused.
+//!
+//! A file may lie about everything. Each reference, range, count and number is checked where it is used.
+
+mod accessor;
+mod container;
+mod document;
+mod lights;
+mod material;
+mod nodes;
+mod picture;
+mod primitive;
+mod problem;
+
+pub use problem::{GlbError, Problem};
+
+use super::{Bounds, Camera, Material, Mesh, Notes, Object, Scene, defaults, limits};
+use accessor::Data;
+use document::{Document, follow};
+use glam::{DMat4, DVec3};
+use nodes::Placed;
+use picture::Textures;
+
+/// Reads a scene from the bytes of a GLB file.
+///
+/// # Errors
+/// [`GlbError`] says which thing in the file is wrong.
+pub fn read(bytes: &[u8]) -> Result<Scene, GlbError> {
+    let container = container::split(bytes)?;
+    let document = Document::read(container.json)?;
+    let data = Data { document: &document, binary: container.binary };
+    let mut notes = Notes::default();
+    if document.animated {
+        notes.add("animations are ignored".into());
+    }
+    let mut textures = Textures::default();
+    let mut materials = Vec::with_capacity(document.materials.len() + 1);
+    for (number, material) in document.materials.iter().enumerate() {
+        materials.push(material::read(&data, material, &format!("material {number}"), &mut textures, &mut notes)?);
+    }
+    let (meshes, groups) = meshes(&data, &mut materials, &mut notes)?;
+    let placed = nodes::walk(&document)?;
+    let (objects, bounds) = objects(&document, &placed, &meshes, &groups, &mut notes)?;
+    let bounds = bounds.ok_or(GlbError { at: String::new(), problem: Problem::Nothing })?;
+    let lights = lights::read(&document, &placed, &mut notes)?;
+    let camera = camera(&document, &placed, &mut notes)?.unwrap_or_else(|| Camera::framing(bounds));
+    Ok(Scene {
+        meshes,
+        materials,
+        textures: textures.decoded,
+        objects,
+        sun: lights.sun,
+        ambient: defaults::AMBIENT,
+        point_lights: lights.points,
+        sky: defaults::SKY,
+        camera,
+        notes: notes.finish(),
+    })
+}
+
+/// One primitive of a glTF mesh: a mesh and a material of the scene.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    mesh: usize,
+    material: usize,
+}
+
+/// The scene's meshes, and of which of them each glTF mesh is made.
+fn meshes(
+    data: &Data<'_>,
+    materials: &mut Vec<Material>,
+    notes: &mut Notes,
+) -> Result<(Vec<Mesh>, Vec<Vec<Part>>), GlbError> {
+    let mut meshes = Vec::new();
+    let mut groups = Vec::with_capacity(data.document.meshes.len());
+    let mut budget = primitive::Budget::default();
+    let mut default_material = None;
+    for (number, group) in data.document.meshes.iter().enumerate() {
+        let mut parts = Vec::new();
+        for (part, primitive) in group.primitives.iter().enumerate() {
+            let at = format!("mesh {number}, primitive {part}");
+            let material = match primitive.material {
+                Some(material) => {
+                    follow(&data.document.materials, material, "material", &at)?;
+                    material as usize
+                }
+                None => *default_material.get_or_insert_with(|| {
+                    materials.push(defaults::material());
+                    materials.len() - 1
+                }),
+            };
+            if let Some(mesh) = primitive::read(data, primitive, &at, &mut budget, notes)? {
+                parts.push(Part { mesh: meshes.len(), material });
+                meshes.push(mesh);
+            }
+        }
+        groups.push(parts);
+    }
+    Ok((meshes, groups))
+}
+
+/// One object for each primitive of each placed mesh, and the box around them all.
+fn objects(
+    document: &Document,
+    placed: &[Placed<'_>],
+    meshes: &[Mesh],
+    groups: &[Vec<Part>],
+    notes: &mut Notes,
+) -> Result<(Vec<Object>, Option<Bounds>), GlbError> {
+    let mut objects: Vec<Object> = Vec::new();
+    let mut all: Option<Bounds> = None;
+    for Placed { number, node, to_world } in placed {
+        let Some(group) = node.mesh else { continue };
+        let at = format!("node {number}");
+        let parts = follow(groups, group, "mesh", &at)?;
+        if node.skin.is_some() {
+            notes.add(format!("{at}: its skin is ignored; the mesh stands as it was modelled"));
+        }
+        let is = objects.len() + parts.len();
+        if is > limits::OBJECTS {
+            let (is, limit) = (is as u64, limits::OBJECTS as u64);
+            return Err(GlbError { at, problem: Problem::TooMuch { what: "objects up to here", is, limit } });
+        }
+        let mesh_name = document.meshes.get(group as usize).and_then(|mesh| mesh.name.clone());
+        let name = node.name.clone().or(mesh_name).unwrap_or_else(|| at.clone());
+        for (index, part) in parts.iter().enumerate() {
+            let transform = to_world.as_mat4();
+            let bounds = meshes[part.mesh].bounds.transformed(transform);
+            if !bounds.within(limits::COORDINATE) {
+                let is = format!("{:?} to {:?}", bounds.min.to_array(), bounds.max.to_array());
+                let problem = Problem::OutOfRange { what: "its place in the world", is, expected: "at most 1e9 m" };
+                return Err(GlbError { at, problem });
+            }
+            all = Some(all.map_or(bounds, |all| all.union(bounds)));
+            let name = if index == 0 { name.clone() } else { format!("{name}, primitive {index}") };
+            objects.push(Object { name, mesh: part.mesh, material: part.material, transform });
+        }
+    }
+    Ok((objects, all))
+}
+
+/// The first perspective camera, without the scale of its node.
+fn camera(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Result<Option<Camera>, GlbError> {
+    for Placed { number, node, to_world } in placed {
+        let Some(index) = node.camera else { continue };
+        let camera = follow(&document.cameras, index, "camera", &format!("node {number}"))?;
+        let at = format!("camera {index}");
+        let perspective = match (camera.kind.as_str(), &camera.perspective) {
+            ("perspective", Some(perspective)) => perspective,
+            _ => {
+                notes.add(format!("{at}: only perspective cameras are used"));
+                continue;
+            }
+        };
+        let check = |what, is: f64, ok: bool, expected| {
+            let problem = Problem::OutOfRange { what, is: is.to_string(), expected };
+            if ok { Ok(is as f32) } else { Err(GlbError { at: at.clone(), problem }) }
+        };
+        let (fov, near) = (perspective.yfov, perspective.znear);
+        let fov = check("the vertical field of view", fov, Camera::allows_fov(fov), "1e-4 to 3.1 radians")?;
+        let near = check("the near distance", near, Camera::allows_near(near), "1e-6 to 1e9 m")?;
+        match looking(*to_world, fov, near) {
+            Some(camera) => return Ok(Some(camera)),
+            None => notes.add(format!("{at}: its node gives it no direction, so it is not used")),
+        }
+    }
+    Ok(None)
+}
+
+fn looking(to_world: DMat4, vertical_fov: f32, near: f32) -> Option<Camera> {
+    let position = to_world.w_axis.truncate();
+    let back = to_world.z_axis.truncate().try_normalize()?;
+    let near_enough = position.abs().max_element() <= limits::COORDINATE;
+    let up: DVec3 = to_world.y_axis.truncate();
+    Camera::facing(position, -back, up, vertical_fov, near).filter(|_| near_enough)
+}

@@ -1,0 +1,116 @@
+//! The tree of nodes, walked without recursion.
+
+use super::document::{Document, Node, follow};
+use super::problem::{GlbError, Problem};
+use glam::{DMat4, DQuat, DVec3};
+
+/// A node with its place in the world.
+pub(super) struct Placed<'d> {
+    pub(super) number: usize,
+    pub(super) node: &'d Node,
+    pub(super) to_world: DMat4,
+}
+
+/// Every node of the scene that is shown, parents before children, siblings in the file's order.
+pub(super) fn walk(document: &Document) -> Result<Vec<Placed<'_>>, GlbError> {
+    let parents = parents(document)?;
+    let mut waiting: Vec<(usize, DMat4)> =
+        roots(document, &parents)?.into_iter().rev().map(|root| (root, DMat4::IDENTITY)).collect();
+    let mut placed = Vec::new();
+    while let Some((number, parent_to_world)) = waiting.pop() {
+        let node = &document.nodes[number];
+        let at = format!("node {number}");
+        let to_world = parent_to_world * local(node, &at)?;
+        if !to_world.is_finite() {
+            return Err(GlbError { at, problem: Problem::NotFinite("its place and those of its ancestors together") });
+        }
+        // `parents` has checked that every child exists and has no other parent.
+        waiting.extend(node.children.iter().rev().map(|child| (*child as usize, to_world)));
+        placed.push(Placed { number, node, to_world });
+    }
+    Ok(placed)
+}
+
+/// The parent of every node. Each node has at most one, and none is its own ancestor.
+fn parents(document: &Document) -> Result<Vec<Option<usize>>, GlbError> {
+    let nodes = &document.nodes;
+    let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
+    for (number, node) in nodes.iter().enumerate() {
+        for child in &node.children {
+            follow(nodes, *child, "node", &format!("node {number}"))?;
+            let child = *child as usize;
+            if let Some(other) = parents[child].replace(number) {
+                return Err(GlbError { at: format!("node {child}"), problem: Problem::TwoParents(other, number) });
+            }
+        }
+    }
+    let mut tried_from = vec![usize::MAX; nodes.len()];
+    for start in 0..nodes.len() {
+        let mut next = Some(start);
+        while let Some(node) = next.filter(|node| tried_from[*node] == usize::MAX) {
+            tried_from[node] = start;
+            next = parents[node];
+        }
+        if let Some(node) = next.filter(|node| tried_from[*node] == start) {
+            return Err(GlbError { at: format!("node {node}"), problem: Problem::Loop });
+        }
+    }
+    Ok(parents)
+}
+
+/// The nodes at the top of the scene that the file shows; without any scene, of the file.
+fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, GlbError> {
+    let tops = |number: &usize| parents[*number].is_none();
+    if document.scenes.is_empty() && document.scene.is_none() {
+        return Ok((0..document.nodes.len()).filter(tops).collect());
+    }
+    let number = document.scene.unwrap_or(0);
+    let scene = follow(&document.scenes, number, "scene", "")?;
+    let at = format!("scene {number}");
+    let mut listed = vec![false; document.nodes.len()];
+    scene
+        .nodes
+        .iter()
+        .map(|root| {
+            follow(&document.nodes, *root, "node", &at)?;
+            let number = *root as usize;
+            if parents[number].is_some() || std::mem::replace(&mut listed[number], true) {
+                return Err(GlbError { at: at.clone(), problem: Problem::NotRoot(*root) });
+            }
+            Ok(number)
+        })
+        .collect()
+}
+
+/// From the node's space to its parent's.
+fn local(node: &Node, at: &str) -> Result<DMat4, GlbError> {
+    let fail = |problem| GlbError { at: at.into(), problem };
+    let Some(matrix) = node.matrix else {
+        let scale = node.scale.map_or(DVec3::ONE, DVec3::from);
+        let translation = node.translation.map_or(DVec3::ZERO, DVec3::from);
+        let rotation = match node.rotation {
+            Some(rotation) => {
+                let length = DQuat::from_array(rotation).length();
+                if !(length > 0.0 && length.is_finite()) {
+                    let is = format!("{rotation:?}");
+                    return Err(fail(Problem::OutOfRange { what: "its rotation", is, expected: "a unit quaternion" }));
+                }
+                DQuat::from_array(rotation.map(|part| part / length))
+            }
+            None => DQuat::IDENTITY,
+        };
+        return Ok(DMat4::from_scale_rotation_translation(scale, rotation, translation));
+    };
+    if node.translation.is_some() || node.rotation.is_some() || node.scale.is_some() {
+        return Err(fail(Problem::MatrixAndParts));
+    }
+    let mut matrix = DMat4::from_cols_array(&matrix);
+    // Exporters round; what they meant is exact.
+    if !matrix.row(3).abs_diff_eq(glam::DVec4::W, 1e-4) {
+        return Err(fail(Problem::NotAffine));
+    }
+    for (column, last) in [0.0, 0.0, 0.0, 1.0].into_iter().enumerate() {
+        matrix.col_mut(column).w = last;
+    }
+    Ok(matrix)
+}

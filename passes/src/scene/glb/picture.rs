@@ -1,0 +1,101 @@
+//! Textures out of embedded images.
+
+use super::accessor::Data;
+use super::document::{self, follow};
+use super::problem::{GlbError, Problem};
+use crate::scene::{Sampler, Texture, Wrap, limits};
+use framewright_graph::vocabulary::Filter;
+use image::{DynamicImage, ImageFormat, ImageReader};
+use std::io::Cursor;
+
+/// Decodes textures when a material first asks for them.
+#[derive(Debug, Default)]
+pub(super) struct Textures {
+    pub(super) decoded: Vec<Texture>,
+    /// glTF's number of each decoded texture.
+    numbers: Vec<u64>,
+    bytes: u64,
+}
+
+impl Textures {
+    /// The place of glTF's texture `number` in the scene's list; `None` if it has no image.
+    pub(super) fn place(&mut self, data: &Data<'_>, number: u64, user: &str) -> Result<Option<usize>, GlbError> {
+        if let Some(place) = self.numbers.iter().position(|known| *known == number) {
+            return Ok(Some(place));
+        }
+        let texture = follow(&data.document.textures, number, "texture", user)?;
+        let at = format!("texture {number}");
+        let Some(source) = texture.source else { return Ok(None) };
+        let image = follow(&data.document.images, source, "image", &at)?;
+        let sampler = match texture.sampler {
+            Some(sampler) => {
+                let sampler_at = format!("sampler {sampler}");
+                read_sampler(follow(&data.document.samplers, sampler, "sampler", &at)?, &sampler_at)?
+            }
+            None => Sampler::default(),
+        };
+        let decoded = self.decode(data, image, &format!("image {source}"))?;
+        let name = image.name.clone().unwrap_or_else(|| format!("image {source}"));
+        let (width, height) = (decoded.width(), decoded.height());
+        self.decoded.push(Texture { name, width, height, rgba8: decoded.into_rgba8().into_raw(), sampler });
+        self.numbers.push(number);
+        Ok(Some(self.decoded.len() - 1))
+    }
+
+    fn decode(&mut self, data: &Data<'_>, image: &document::Image, at: &str) -> Result<DynamicImage, GlbError> {
+        let fail = |problem| GlbError { at: at.into(), problem };
+        if let Some(uri) = &image.uri {
+            return Err(fail(Problem::External(uri.chars().take(40).flat_map(char::escape_debug).collect())));
+        }
+        let (bytes, _) = data.view(image.buffer_view.ok_or_else(|| fail(Problem::NoData))?, at)?;
+        // What the bytes are counts, not what the file says about them.
+        let format = match image::guess_format(bytes) {
+            Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
+            _ => return Err(fail(Problem::ImageKind)),
+        };
+        let undecodable = |error: image::ImageError| fail(Problem::Image(error.to_string().escape_debug().to_string()));
+        let (width, height) =
+            ImageReader::with_format(Cursor::new(bytes), format).into_dimensions().map_err(undecodable)?;
+        let side = width.max(height);
+        let limit = limits::TEXTURE_SIDE;
+        if side > limit {
+            let problem = Problem::TooMuch { what: "texels along a side", is: side.into(), limit: limit.into() };
+            return Err(fail(problem));
+        }
+        self.bytes += u64::from(width) * u64::from(height) * 4;
+        if self.bytes > limits::TEXTURE_BYTES {
+            let (is, limit) = (self.bytes, limits::TEXTURE_BYTES);
+            return Err(fail(Problem::TooMuch { what: "bytes of all textures up to here", is, limit }));
+        }
+        ImageReader::with_format(Cursor::new(bytes), format).decode().map_err(undecodable)
+    }
+}
+
+/// glTF 2.0, section 5.26: OpenGL's numbers.
+fn read_sampler(sampler: &document::Sampler, at: &str) -> Result<Sampler, GlbError> {
+    let unknown = |what, is: u64, expected| GlbError {
+        at: at.into(),
+        problem: Problem::Word { what, is: is.to_string(), expected },
+    };
+    let wrap = |code: Option<u64>| match code.unwrap_or(10497) {
+        10497 => Ok(Wrap::Repeat),
+        33071 => Ok(Wrap::ClampToEdge),
+        33648 => Ok(Wrap::MirroredRepeat),
+        other => Err(unknown("wrap mode", other, "10497, 33071 or 33648")),
+    };
+    let (minify, mip) = match sampler.min_filter.unwrap_or(9987) {
+        9728 => (Filter::Nearest, None),
+        9729 => (Filter::Linear, None),
+        9984 => (Filter::Nearest, Some(Filter::Nearest)),
+        9985 => (Filter::Linear, Some(Filter::Nearest)),
+        9986 => (Filter::Nearest, Some(Filter::Linear)),
+        9987 => (Filter::Linear, Some(Filter::Linear)),
+        other => return Err(unknown("minification filter", other, "9728, 9729 or 9984 to 9987")),
+    };
+    let magnify = match sampler.mag_filter.unwrap_or(9729) {
+        9728 => Filter::Nearest,
+        9729 => Filter::Linear,
+        other => return Err(unknown("magnification filter", other, "9728 or 9729")),
+    };
+    Ok(Sampler { wrap_u: wrap(sampler.wrap_s)?, wrap_v: wrap(sampler.wrap_t)?, magnify, minify, mip })
+}

@@ -1,0 +1,139 @@
+//! A primitive becomes a list of triangles.
+
+use super::accessor::{Data, TEXTURE_COORDINATES};
+use super::document::{Document, Primitive};
+use super::problem::{GlbError, Problem};
+use crate::scene::mesh::flat_shaded;
+use crate::scene::{Bounds, Mesh, Notes, limits};
+
+/// What all primitives together have taken so far.
+#[derive(Debug, Default)]
+pub(super) struct Budget {
+    vertices: usize,
+    indices: usize,
+}
+
+impl Budget {
+    fn take(&mut self, vertices: usize, indices: usize, at: &str) -> Result<(), GlbError> {
+        self.vertices = self.vertices.saturating_add(vertices);
+        self.indices = self.indices.saturating_add(indices);
+        let fits = |what, is: usize, limit: usize| {
+            let problem = Problem::TooMuch { what, is: is as u64, limit: limit as u64 };
+            if is > limit { Err(GlbError { at: at.into(), problem }) } else { Ok(()) }
+        };
+        fits("vertices of all meshes up to here", self.vertices, limits::VERTICES)?;
+        fits("indices of all meshes up to here", self.indices, limits::INDICES)
+    }
+}
+
+/// Reads a primitive; `None` if it has no triangles (points and lines aren't drawn).
+pub(super) fn read(
+    data: &Data<'_>,
+    primitive: &Primitive,
+    at: &str,
+    budget: &mut Budget,
+    notes: &mut Notes,
+) -> Result<Option<Mesh>, GlbError> {
+    let fail = |problem| GlbError { at: at.into(), problem };
+    let mode = Mode::of(primitive, at)?;
+    let Some(mode) = mode else {
+        notes.add(format!("{at}: points and lines are not drawn"));
+        return Ok(None);
+    };
+    if !primitive.targets.is_empty() {
+        notes.add(format!("{at}: morph targets are ignored"));
+    }
+    if primitive.attributes.keys().any(|name| name.starts_with("COLOR_")) {
+        notes.add(format!("{at}: vertex colours are ignored"));
+    }
+    let positions = *primitive.attributes.get("POSITION").ok_or_else(|| fail(Problem::NoPositions))?;
+    let positions = data.vectors::<3>(positions, "positions", at)?;
+    let vertices = positions.len();
+    let corners = match primitive.indices {
+        Some(indices) => data.indices(indices, at)?,
+        None => (0..vertices as u32).collect(),
+    };
+    if let Some((number, index)) = corners.iter().enumerate().find(|(_, index)| **index as usize >= vertices) {
+        let at = primitive.indices.map_or_else(String::new, |accessor| format!("accessor {accessor}"));
+        return Err(GlbError { at, problem: Problem::Index { at: number, index: *index, vertices } });
+    }
+    let indices = mode.triangles(&corners).ok_or_else(|| fail(Problem::Corners(corners.len())))?;
+    let normals = match primitive.attributes.get("NORMAL") {
+        Some(accessor) => unit(per_vertex(data.vectors::<3>(*accessor, "normals", at)?, vertices, *accessor)?),
+        None => None,
+    };
+    if normals.is_none() && primitive.attributes.contains_key("NORMAL") {
+        notes.add(format!("{at}: some normals have no length, so all are computed"));
+    }
+    let uvs = match texture_coordinates(data.document, primitive).and_then(|name| primitive.attributes.get(&name)) {
+        Some(accessor) => per_vertex(data.vectors::<2>(*accessor, TEXTURE_COORDINATES, at)?, vertices, *accessor)?,
+        None => vec![[0.0; 2]; vertices],
+    };
+    let bounds = Bounds::of(&positions).ok_or_else(|| fail(Problem::NoPositions))?;
+    let taken = if normals.is_some() { vertices } else { indices.len() };
+    budget.take(taken, indices.len(), at)?;
+    Ok(Some(match normals {
+        Some(normals) => Mesh { positions, normals, uvs, indices, bounds },
+        None => flat_shaded(&positions, &uvs, &indices, bounds),
+    }))
+}
+
+/// How corners make triangles.
+#[derive(Debug, Clone, Copy)]
+enum Mode {
+    Triangles,
+    Strip,
+    Fan,
+}
+
+impl Mode {
+    /// The primitive's mode; `None` for points and lines.
+    fn of(primitive: &Primitive, at: &str) -> Result<Option<Mode>, GlbError> {
+        match primitive.mode.unwrap_or(4) {
+            0..=3 => Ok(None),
+            4 => Ok(Some(Mode::Triangles)),
+            5 => Ok(Some(Mode::Strip)),
+            6 => Ok(Some(Mode::Fan)),
+            other => {
+                let problem = Problem::Word { what: "mode", is: other.to_string(), expected: "0 to 6" };
+                Err(GlbError { at: at.into(), problem })
+            }
+        }
+    }
+
+    /// Three indices a triangle (glTF 2.0, section 3.7.2.1); `None` where the corners don't make whole triangles.
+    fn triangles(self, corners: &[u32]) -> Option<Vec<u32>> {
+        let count = corners.len();
+        if count < 3 || matches!(self, Mode::Triangles) && !count.is_multiple_of(3) {
+            return None;
+        }
+        Some(match self {
+            Mode::Triangles => corners.to_vec(),
+            Mode::Strip => {
+                (0..count - 2).flat_map(|i| [corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]]).collect()
+            }
+            Mode::Fan => (1..count - 1).flat_map(|i| [corners[i], corners[i + 1], corners[0]]).collect(),
+        })
+    }
+}
+
+/// The attribute that the material's texture asks for.
+fn texture_coordinates(document: &Document, primitive: &Primitive) -> Option<String> {
+    let material = document.materials.get(usize::try_from(primitive.material?).ok()?)?;
+    let texture = material.pbr_metallic_roughness.base_color_texture.as_ref()?;
+    Some(format!("TEXCOORD_{}", texture.tex_coord))
+}
+
+fn per_vertex<T>(values: Vec<T>, vertices: usize, accessor: u64) -> Result<Vec<T>, GlbError> {
+    if values.len() == vertices {
+        return Ok(values);
+    }
+    let problem = Problem::Count { count: values.len(), vertices };
+    Err(GlbError { at: format!("accessor {accessor}"), problem })
+}
+
+/// Normals at length 1; `None` if one has no direction.
+fn unit(normals: Vec<[f32; 3]>) -> Option<Vec<[f32; 3]>> {
+    let normalize = |normal| glam::Vec3::from_array(normal).as_dvec3().try_normalize();
+    normals.into_iter().map(|normal| normalize(normal).map(|unit| unit.as_vec3().to_array())).collect()
+}

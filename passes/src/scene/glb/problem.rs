@@ -1,0 +1,199 @@
+//! What can be wrong with a GLB file.
+
+use std::fmt;
+
+/// A mistake in a GLB file. Written `accessor 3: …`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct GlbError {
+    /// The thing in the file that is wrong: "accessor 3". Empty for the file as a whole.
+    pub at: String,
+    /// What is wrong with it.
+    pub problem: Problem,
+}
+
+impl fmt::Display for GlbError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.at.is_empty() { self.problem.fmt(f) } else { write!(f, "{}: {}", self.at, self.problem) }
+    }
+}
+
+impl std::error::Error for GlbError {}
+
+/// What is wrong with a thing in a GLB file.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Problem {
+    /// The first four bytes aren't `glTF`.
+    #[error("this is not a GLB file: it doesn't begin with `glTF`")]
+    NotGlb,
+    /// A container version other than 2.
+    #[error("version {0} of GLB is not supported; only version 2 is")]
+    Version(u32),
+    /// The file is shorter than it says.
+    #[error("the file is cut short: it has {has} bytes and says that it has {says}")]
+    CutShort {
+        /// Bytes that are there.
+        has: usize,
+        /// Bytes that the header announces.
+        says: u64,
+    },
+    /// A chunk is longer than the file.
+    #[error("says that it has {says} bytes, but only {has} are left in the file")]
+    ChunkCutShort {
+        /// Bytes that are left.
+        has: usize,
+        /// Bytes that the chunk announces.
+        says: u32,
+    },
+    /// There is no JSON chunk at the start.
+    #[error("the first chunk is not JSON")]
+    NoJson,
+    /// Something is larger than the loader takes.
+    #[error("{what}: {is}; at most {limit} is allowed")]
+    TooMuch {
+        /// What is counted.
+        what: &'static str,
+        /// How much there is.
+        is: u64,
+        /// How much is allowed.
+        limit: u64,
+    },
+    /// The JSON is not what the specification says; the parser's words, escaped.
+    #[error("{0}")]
+    Json(String),
+    /// An asset version other than 2.x; escaped.
+    #[error("glTF version `{0}` is not supported; only 2.x is")]
+    AssetVersion(String),
+    /// A required extension that isn't known; escaped.
+    #[error("the file requires the extension `{0}`, which is not supported")]
+    Extension(String),
+    /// Something refers to a thing that isn't there.
+    #[error("refers to {kind} {index}, but there are only {count}")]
+    Missing {
+        /// What kind of thing.
+        kind: &'static str,
+        /// Its number.
+        index: u64,
+        /// How many there are.
+        count: usize,
+    },
+    /// Data stands in another file.
+    #[error("its data stands outside the file (`{0}`); only data packed into the GLB is read")]
+    External(String),
+    /// A buffer that has no data.
+    #[error("it has no data: only the first buffer can be the file's binary chunk, and only if there is one")]
+    NoData,
+    /// A range reaches beyond what holds it.
+    #[error("bytes {start} to {end} are outside {holder}, which has {has}")]
+    Range {
+        /// First byte.
+        start: u64,
+        /// One past the last byte, saturating.
+        end: u64,
+        /// What should hold them.
+        holder: String,
+        /// Bytes that it has.
+        has: u64,
+    },
+    /// A count of 0.
+    #[error("it holds no elements")]
+    NoElements,
+    /// A byte stride that the specification forbids.
+    #[error("a stride of {stride} bytes doesn't fit elements of {size} bytes; 4 to 252, and no less than an element")]
+    Stride {
+        /// The stride.
+        stride: u64,
+        /// Bytes of an element.
+        size: u64,
+    },
+    /// An accessor of the wrong type.
+    #[error("{role} are {found}, which is not supported; expected {expected}")]
+    ElementType {
+        /// What it is used for.
+        role: &'static str,
+        /// What it is; escaped.
+        found: String,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// An accessor with another number of elements than the positions.
+    #[error("it has {count} elements for {vertices} vertices")]
+    Count {
+        /// Elements.
+        count: usize,
+        /// Vertices.
+        vertices: usize,
+    },
+    /// An index beyond the vertices.
+    #[error("index number {at} is {index}, but there are only {vertices} vertices")]
+    Index {
+        /// Which of the indices.
+        at: usize,
+        /// Its value.
+        index: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A sparse accessor's indices don't ascend or are too large.
+    #[error("sparse index number {at} is {index}; they must ascend and be less than {count}")]
+    SparseIndex {
+        /// Which of the sparse indices.
+        at: usize,
+        /// Its value.
+        index: u32,
+        /// Elements of the accessor.
+        count: usize,
+    },
+    /// A primitive without positions.
+    #[error("it has no POSITION attribute")]
+    NoPositions,
+    /// Corners that don't make whole triangles.
+    #[error("{0} corners don't make whole triangles")]
+    Corners(usize),
+    /// A number is NaN or infinite.
+    #[error("{0} hold a number that is not finite")]
+    NotFinite(&'static str),
+    /// A number is outside its range.
+    #[error("{what} is {is}; expected {expected}")]
+    OutOfRange {
+        /// What the number is.
+        what: &'static str,
+        /// Its value.
+        is: String,
+        /// Its range.
+        expected: &'static str,
+    },
+    /// A word that the specification doesn't know; escaped.
+    #[error("{what} `{is}` is not known; expected {expected}")]
+    Word {
+        /// What the word is.
+        what: &'static str,
+        /// The word.
+        is: String,
+        /// What it may be.
+        expected: &'static str,
+    },
+    /// An image that can't be decoded; the decoder's words, escaped.
+    #[error("the image can't be decoded: {0}")]
+    Image(String),
+    /// An image that is neither PNG nor JPEG.
+    #[error("the image is neither PNG nor JPEG")]
+    ImageKind,
+    /// Both a matrix and a translation, rotation or scale.
+    #[error("it has both a matrix and a translation, rotation or scale")]
+    MatrixAndParts,
+    /// A matrix whose last row isn't 0 0 0 1.
+    #[error("its matrix is not affine: the last row must be 0 0 0 1")]
+    NotAffine,
+    /// A node below itself.
+    #[error("it is its own ancestor")]
+    Loop,
+    /// A node in two places.
+    #[error("it is a child of both node {0} and node {1}")]
+    TwoParents(usize, usize),
+    /// A scene lists a node that isn't at the top, or lists it twice.
+    #[error("it lists node {0}, which is not at the top or is listed twice")]
+    NotRoot(u64),
+    /// Nothing in the scene has triangles.
+    #[error("the file holds no triangles to draw")]
+    Nothing,
+}

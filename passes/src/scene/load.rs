@@ -1,0 +1,90 @@
+//! Scenes from files.
+
+use super::{Scene, glb, limits};
+use framewright_graph::describe::{Diagnostic, render};
+use framewright_graph::source::Sources;
+use std::path::{Path, PathBuf};
+
+/// Why a file is no scene. The sentences name the file as it was given, escaped.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// The name ends in neither `.glb` nor `.ron`.
+    #[error("{}: a scene is a .glb or a .ron file", shown(path))]
+    Kind {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It can't be read.
+    #[error("{}: {source}", shown(path))]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// It is too large.
+    #[error("{}: a scene of this kind has at most {limit} bytes; this has more", shown(path))]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Bytes allowed.
+        limit: u64,
+    },
+    /// A `.ron` file that isn't text.
+    #[error("{}: this is not UTF-8 text: byte {at} can't be read", shown(path))]
+    NotText {
+        /// The file.
+        path: PathBuf,
+        /// The first byte that isn't text.
+        at: usize,
+    },
+    /// A `.ron` file with mistakes; rendered with their places.
+    #[error("{}", render(sources, mistakes))]
+    Text {
+        /// The text that the mistakes point into.
+        sources: Sources,
+        /// At least one.
+        mistakes: Vec<Diagnostic>,
+    },
+    /// A `.glb` file with a mistake.
+    #[error("{}: {error}", shown(path))]
+    Glb {
+        /// The file.
+        path: PathBuf,
+        /// The mistake.
+        error: glb::GlbError,
+    },
+}
+
+/// Reads the scene in a file: GLB ([`super::glb`]) where its name ends in `.glb`, our own format ([`super::text`]) where it
+/// ends in `.ron`.
+///
+/// # Errors
+/// [`SceneError`] says what is wrong with the file, and where in it.
+pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    let extension = path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
+    match extension.as_deref() {
+        Some("glb") => {
+            let bytes = bytes(path, limits::FILE_BYTES)?;
+            glb::read(&bytes).map_err(|error| SceneError::Glb { path: path.into(), error })
+        }
+        _ => Err(SceneError::Kind { path: path.into() }),
+    }
+}
+
+/// The whole file, if it isn't larger than `limit`. Pipes and devices too: what counts is what comes out of them.
+fn bytes(path: &Path, limit: u64) -> Result<Vec<u8>, SceneError> {
+    use std::io::Read;
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)
+        .and_then(|file| file.take(limit + 1).read_to_end(&mut bytes))
+        .map_err(|source| SceneError::Unreadable { path: path.into(), source })?;
+    if bytes.len() as u64 > limit {
+        return Err(SceneError::TooLarge { path: path.into(), limit });
+    }
+    Ok(bytes)
+}
+
+fn shown(path: &Path) -> String {
+    path.to_string_lossy().escape_debug().to_string()
+}
