@@ -7,11 +7,14 @@ use std::fmt;
 
 /// The text of one value, without the blanks and comments around it. It is a slice of the file, so it knows its place.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Leaf<'src>(pub(super) &'src str);
+pub struct Leaf<'src>(
+    /// The slice.
+    pub &'src str,
+);
 
 /// What a value looks like, told by how it begins.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Shape<'src> {
+pub enum Shape<'src> {
     /// `"text"`
     Text,
     /// `1`, `-0.5`
@@ -30,7 +33,8 @@ pub(super) enum Shape<'src> {
 
 impl Shape<'_> {
     /// What it is called in messages.
-    pub(super) fn words(self) -> String {
+    #[must_use]
+    pub fn words(self) -> String {
         match self {
             Shape::Text => "a text in quotes".to_owned(),
             Shape::Number => "a number".to_owned(),
@@ -46,7 +50,9 @@ impl Shape<'_> {
 }
 
 impl<'src> Leaf<'src> {
-    pub(super) fn shape(self) -> Shape<'src> {
+    /// What it looks like.
+    #[must_use]
+    pub fn shape(self) -> Shape<'src> {
         let text = self.0;
         match text.bytes().next() {
             Some(b'"') => Shape::Text,

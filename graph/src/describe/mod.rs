@@ -33,6 +33,13 @@ pub use pipeline::{
 pub use render::{escape, render};
 pub use suggest::{help as suggestion, nearest};
 
+/// What readers of RON files are made of: pipelines here, scenes elsewhere.
+pub mod text {
+    pub use super::leaf::{Leaf, Shape};
+    pub use super::names::Names;
+    pub use super::reader::Reader;
+}
+
 use crate::source::{Sources, Span};
 use leaf::Leaf;
 use names::{Names, Scope};

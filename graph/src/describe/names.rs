@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Names of one kind of thing, in file order.
-pub(super) struct Names {
+pub struct Names {
     what: &'static str,
     given: Vec<Option<Name>>,
     index: HashMap<Arc<str>, usize>,
@@ -18,12 +18,14 @@ pub(super) struct Names {
 }
 
 impl Names {
-    pub(super) fn new(what: &'static str) -> Names {
+    /// No names yet, of things called `what`.
+    #[must_use]
+    pub fn new(what: &'static str) -> Names {
         Names { what, given: Vec::new(), index: HashMap::new(), complete: true }
     }
 
     /// Gives the next thing its name; `None` if it couldn't be read. Reports a name that is given twice.
-    pub(super) fn give(&mut self, reader: &mut Reader<'_>, name: Option<Name>) {
+    pub fn give(&mut self, reader: &mut Reader<'_>, name: Option<Name>) {
         if let Some(name) = &name {
             match self.index.get(&name.text).and_then(|first| self.given[*first].as_ref()) {
                 Some(first) => reader.report(
@@ -42,7 +44,7 @@ impl Names {
 
     /// The index of the thing named `name`. Reports a name that doesn't exist, unless some name couldn't be read: it
     /// may be that one.
-    pub(super) fn find(&self, reader: &mut Reader<'_>, name: &Name) -> Option<usize> {
+    pub fn find(&self, reader: &mut Reader<'_>, name: &Name) -> Option<usize> {
         if let Some(index) = self.index.get(&name.text) {
             return Some(*index);
         }

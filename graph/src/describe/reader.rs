@@ -12,45 +12,50 @@ const LONGEST_NAME: usize = 64;
 /// After this many mistakes near names are no longer looked for: that would take long in a large file.
 const MANY_MISTAKES: usize = 100;
 
-pub(super) struct Reader<'src> {
+/// Reads the values of one text and keeps what is wrong with them.
+pub struct Reader<'src> {
     file: u32,
     text: &'src str,
     options: ron::Options,
-    pub(super) errors: Vec<Diagnostic>,
+    /// What was reported, in the order of reading.
+    pub errors: Vec<Diagnostic>,
 }
 
 impl<'src> Reader<'src> {
-    pub(super) fn new(file: u32, text: &'src str) -> Reader<'src> {
+    /// A reader of `text`, which is the file numbered `file`.
+    #[must_use]
+    pub fn new(file: u32, text: &'src str) -> Reader<'src> {
         let options = ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
         Reader { file, text, options, errors: Vec::new() }
     }
 
     /// Where a slice of the file's text stands. Only addresses are compared.
-    pub(super) fn span(&self, part: &str) -> Span {
+    pub fn span(&self, part: &str) -> Span {
         let start = (part.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize).min(self.text.len());
         let end = (start + part.len()).min(self.text.len());
         let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
         Span::new(self.file, offset(start), offset(end))
     }
 
-    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+    /// Keeps a mistake.
+    pub fn report(&mut self, diagnostic: Diagnostic) {
         self.errors.push(diagnostic);
     }
 
     /// Reports `message` at `leaf`.
-    pub(super) fn wrong(&mut self, leaf: Leaf<'src>, message: impl Into<String>, help: &str) {
+    pub fn wrong(&mut self, leaf: Leaf<'src>, message: impl Into<String>, help: &str) {
         let diagnostic = Diagnostic::new(self.span(leaf.0), message);
         self.report(if help.is_empty() { diagnostic } else { diagnostic.help(help) });
     }
 
     /// Reports that `leaf` has the wrong shape.
-    pub(super) fn expected(&mut self, leaf: Leaf<'src>, expected: &str) {
+    pub fn expected(&mut self, leaf: Leaf<'src>, expected: &str) {
         let found = leaf.shape().words();
         self.wrong(leaf, format!("expected {expected}, found {found}"), "");
     }
 
     /// Reads a value as a whole, or reports why it can't be. `what` names it in messages: "pass `sky`".
-    pub(super) fn read<T: Deserialize<'src>>(&mut self, leaf: Leaf<'src>, what: &str) -> Option<T> {
+    pub fn read<T: Deserialize<'src>>(&mut self, leaf: Leaf<'src>, what: &str) -> Option<T> {
         match self.options.from_str(leaf.0) {
             Ok(value) => Some(value),
             Err(error) => {
@@ -62,7 +67,7 @@ impl<'src> Reader<'src> {
     }
 
     /// Reads a value without reporting anything.
-    pub(super) fn probe<T: Deserialize<'src>>(&self, leaf: Leaf<'src>) -> Option<T> {
+    pub fn probe<T: Deserialize<'src>>(&self, leaf: Leaf<'src>) -> Option<T> {
         self.options.from_str(leaf.0).ok()
     }
 
@@ -75,7 +80,7 @@ impl<'src> Reader<'src> {
     }
 
     /// A text in quotes, with or without escapes.
-    pub(super) fn words(&mut self, leaf: Leaf<'src>, what: &str) -> Option<String> {
+    pub fn words(&mut self, leaf: Leaf<'src>, what: &str) -> Option<String> {
         let Shape::Text = leaf.shape() else {
             self.expected(leaf, &format!("{what} in quotes"));
             return None;
@@ -87,7 +92,7 @@ impl<'src> Reader<'src> {
     }
 
     /// A name that refers to something: quoted, not empty, without escapes and control characters.
-    pub(super) fn reference(&mut self, leaf: Leaf<'src>, what: &str) -> Option<Name> {
+    pub fn reference(&mut self, leaf: Leaf<'src>, what: &str) -> Option<Name> {
         let Shape::Text = leaf.shape() else {
             self.expected(leaf, &format!("the name of {what} in quotes"));
             return None;
@@ -133,7 +138,7 @@ impl<'src> Reader<'src> {
     }
 
     /// `Word` or `Word(…)`, one of `known`; `forms` shows them all.
-    pub(super) fn word(
+    pub fn word(
         &mut self,
         leaf: Leaf<'src>,
         what: &str,
@@ -154,7 +159,7 @@ impl<'src> Reader<'src> {
     }
 
     /// A word that stands alone; `Word()` is accepted too.
-    pub(super) fn bare(&mut self, word: &str, rest: Option<Leaf<'src>>) -> Option<()> {
+    pub fn bare(&mut self, word: &str, rest: Option<Leaf<'src>>) -> Option<()> {
         let Some(rest) = rest else { return Some(()) };
         let inside = rest.0.trim_start_matches('(').trim_end_matches(')').trim();
         if inside.is_empty() {
@@ -165,7 +170,7 @@ impl<'src> Reader<'src> {
     }
 
     /// What stands in the parentheses after a word.
-    pub(super) fn inside<T: Deserialize<'src>>(
+    pub fn inside<T: Deserialize<'src>>(
         &mut self,
         leaf: Leaf<'src>,
         rest: Option<Leaf<'src>>,
@@ -188,7 +193,7 @@ impl<'src> Reader<'src> {
     }
 
     /// The near name, "did you mean".
-    pub(super) fn near<'k>(&self, name: &str, known: impl IntoIterator<Item = &'k str>) -> Option<String> {
+    pub fn near<'k>(&self, name: &str, known: impl IntoIterator<Item = &'k str>) -> Option<String> {
         if self.errors.len() > MANY_MISTAKES {
             return None;
         }
@@ -196,7 +201,7 @@ impl<'src> Reader<'src> {
     }
 
     /// `true` or `false`.
-    pub(super) fn truth(&mut self, leaf: Leaf<'src>) -> Option<bool> {
+    pub fn truth(&mut self, leaf: Leaf<'src>) -> Option<bool> {
         match leaf.shape() {
             Shape::Word("true", None) => Some(true),
             Shape::Word("false", None) => Some(false),
@@ -208,7 +213,7 @@ impl<'src> Reader<'src> {
     }
 
     /// A finite number.
-    pub(super) fn number(&mut self, leaf: Leaf<'src>) -> Option<f64> {
+    pub fn number(&mut self, leaf: Leaf<'src>) -> Option<f64> {
         match leaf.shape() {
             Shape::Number => {}
             Shape::Word("NaN" | "inf", None) => {
@@ -233,7 +238,7 @@ impl<'src> Reader<'src> {
     }
 
     /// A whole number.
-    pub(super) fn integer(&mut self, leaf: Leaf<'src>) -> Option<i64> {
+    pub fn integer(&mut self, leaf: Leaf<'src>) -> Option<i64> {
         let Shape::Number = leaf.shape() else {
             self.expected(leaf, "a whole number");
             return None;

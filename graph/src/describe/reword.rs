@@ -1,4 +1,4 @@
-//! What the RON reader says, in a pipeline author's words and at the right place.
+//! What the RON reader says, in an author's words and at the right place.
 
 use super::{Diagnostic, suggest};
 use crate::source::Span;
@@ -31,7 +31,7 @@ pub(super) fn reword(error: &SpannedError, text: &str, what: &str, span: impl Fn
             at(format!("expected `{name}(…)`")).help(format!("{what} is written `(field: value, …)`"))
         }
         Error::ExceededRecursionLimit => {
-            at("brackets are nested too deeply".to_owned()).help("a pipeline file needs no more than a dozen levels")
+            at("brackets are nested too deeply".to_owned()).help("no file needs more than a dozen levels")
         }
         Error::Eof | Error::ExpectedStringEnd => {
             at("the file ends in the middle of a value".to_owned()).help("is a bracket or a quote left open?")
@@ -39,7 +39,7 @@ pub(super) fn reword(error: &SpannedError, text: &str, what: &str, span: impl Fn
         Error::IntegerOutOfBounds => at("this whole number is too large".to_owned()),
         Error::InvalidValueForType { expected, found } => at(format!("expected {expected}, found {found}")),
         Error::UnexpectedChar(c) => at(format!("unexpected character `{}`", c.escape_debug())),
-        Error::TrailingCharacters => at("something stands after the end of the pipeline".to_owned()),
+        Error::TrailingCharacters => at("something stands after the end of the file".to_owned()),
         Error::ExpectedComma => at("expected a comma".to_owned()),
         Error::ExpectedMapColon => at("expected a colon".to_owned()),
         Error::ExpectedMap => at("expected a map".to_owned()).help("a map is written `{\"name\": value, …}`"),
