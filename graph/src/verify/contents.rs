@@ -1,0 +1,143 @@
+//! Whether what is read was ever written, and not lost since.
+//!
+//! Whether a draw covers its attachment isn't judged, with one exception: after a `DONT_CARE` load *over contents that the
+//! frame had written*, only a full-screen draw without blending or depth test makes the image whole again.
+
+use super::cells::{Contents, Lost};
+use super::violation::{Loss, Rule, StepName};
+use super::walk::Walk;
+use super::{Finding, scopes::PairSet};
+use crate::frame::{Blend, Draw};
+use crate::plan::{Attachment, ImageId, Pass, RenderScope, Step, StepId, Subresources, Transfer, Work};
+use crate::vocabulary::{LoadOp, StoreOp};
+
+impl Walk<'_, '_> {
+    /// What the work of a step reads and writes.
+    pub(super) fn contents(&mut self, id: StepId, step: &Step) {
+        match &step.work {
+            Work::Render(scope) => self.render_contents(id, scope),
+            Work::Dispatch(pass) => self.pass_contents(id, pass, &[]),
+            Work::Resolve(transfer) | Work::Copy(transfer) => {
+                self.read(id, transfer.source, transfer.source_range);
+                if self.covers(transfer) {
+                    self.fill(id, transfer.target, transfer.target_range);
+                }
+            }
+            Work::Export => {}
+        }
+    }
+
+    fn render_contents(&mut self, id: StepId, scope: &RenderScope) {
+        let attachments = || scope.color.iter().chain(&scope.depth);
+        for attachment in attachments() {
+            match attachment.load {
+                LoadOp::Load => self.read(id, attachment.image, attachment.range),
+                LoadOp::Clear => self.fill(id, attachment.image, attachment.range),
+                LoadOp::DontCare => self.lose(id, attachment, Lost::NotLoaded),
+            }
+        }
+        for pass in &scope.passes {
+            self.pass_contents(id, pass, &scope.color);
+        }
+        for attachment in attachments() {
+            if let Some(resolve) = &attachment.resolve {
+                self.read(id, attachment.image, attachment.range);
+                self.fill(id, resolve.image, resolve.range);
+            }
+        }
+        for attachment in attachments() {
+            match attachment.store {
+                StoreOp::Store => {}
+                StoreOp::DontCare => self.lose(id, attachment, Lost::NotStored),
+                StoreOp::None => self.lose_unstored(id, attachment),
+            }
+        }
+    }
+
+    fn pass_contents(&mut self, id: StepId, pass: &Pass, color: &[Attachment]) {
+        for access in &pass.accesses {
+            let pairs = PairSet::of(access.stages, access.accesses);
+            if !pairs.reads().is_empty() {
+                self.read(id, access.image, access.range);
+            }
+            if pairs.writes().is_empty() {
+                continue;
+            }
+            let mut targets = color.iter().zip(&pass.blend);
+            let replaces = targets.any(|(target, blend)| target.image == access.image && *blend == Blend::Replace);
+            let whole = pass.draw.is_none() || pass.draw == Some(Draw::FullScreen) && pass.depth.is_none() && replaces;
+            let now = self.now(id);
+            for index in self.cells.cover(access.image, access.range) {
+                let cell = self.cells.at(index);
+                if whole || cell.contents != Contents::Lost(Lost::NotLoaded, now) {
+                    cell.contents = Contents::Defined;
+                    cell.filled = now;
+                }
+            }
+        }
+    }
+
+    /// Something reads a part of an image.
+    pub(super) fn read(&mut self, step: StepId, image: ImageId, range: Subresources) {
+        for index in self.cells.cover(image, range) {
+            let contents = std::mem::replace(&mut self.cells.at(index).contents, Contents::Defined);
+            let (rule, other) = match contents {
+                Contents::Defined => continue,
+                Contents::Unwritten => {
+                    let first = self.touched[image.0 as usize].map(|[first, _]| StepId(first));
+                    let other = first.filter(|first| *first != step);
+                    (Rule::Uninitialised, other.map(|first| StepName::new(self.plan, first, false)))
+                }
+                Contents::Lost(lost, time) => (Rule::LostWrite { loss: self.loss(lost) }, self.name_at(time, image)),
+            };
+            let range = Some(self.cells.range(self.plan.image(image), index));
+            self.found.push(Finding { rule, step, other, image, range, bytes: None });
+        }
+    }
+
+    fn loss(&self, lost: Lost) -> Loss {
+        match lost {
+            Lost::Forgotten => Loss::Forgotten,
+            Lost::NotLoaded => Loss::NotLoaded,
+            Lost::NotStored => Loss::NotStored,
+            Lost::Taken(by) => Loss::Taken { by: self.plan.image(by).name.clone() },
+        }
+    }
+
+    fn fill(&mut self, id: StepId, image: ImageId, range: Subresources) {
+        let now = self.now(id);
+        for index in self.cells.cover(image, range) {
+            let cell = self.cells.at(index);
+            cell.contents = Contents::Defined;
+            cell.filled = now;
+        }
+    }
+
+    fn lose(&mut self, id: StepId, attachment: &Attachment, lost: Lost) {
+        let now = self.now(id);
+        for index in self.cells.cover(attachment.image, attachment.range) {
+            let cell = self.cells.at(index);
+            if cell.contents == Contents::Defined {
+                cell.contents = Contents::Lost(lost, now);
+            }
+        }
+    }
+
+    /// A store operation `NONE` keeps what was there before the scope, but not what the scope wrote.
+    fn lose_unstored(&mut self, id: StepId, attachment: &Attachment) {
+        let now = self.now(id);
+        for index in self.cells.cover(attachment.image, attachment.range) {
+            let cell = self.cells.at(index);
+            if cell.contents == Contents::Defined && cell.filled == now {
+                cell.contents = Contents::Lost(Lost::NotStored, now);
+            }
+        }
+    }
+
+    /// Whether a copy or resolve reaches every texel of its target's mip level.
+    fn covers(&self, transfer: &Transfer) -> bool {
+        let image = self.plan.image(transfer.target);
+        let whole = image.extent.map(|texels| (texels >> transfer.target_range.base_mip.min(31)).max(1));
+        transfer.extent == whole
+    }
+}

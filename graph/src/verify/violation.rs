@@ -1,0 +1,236 @@
+//! What the checker reports: data first, a sentence where it is shown.
+
+use crate::plan::names::{Shown, vulkan};
+use crate::plan::{Plan, StepId, Subresources};
+use crate::vocabulary::{Accesses, Layout, Stages};
+use std::fmt::{self, Display, Formatter};
+use std::sync::Arc;
+
+/// One mistake in a Plan.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Violation {
+    /// Which rule is broken, and how.
+    pub rule: Rule,
+    /// The step where it shows: for the state of outputs, the last one; `None`: the Plan as a whole.
+    pub step: Option<StepName>,
+    /// The step that it collides with, or that should have been waited for.
+    pub other: Option<StepName>,
+    /// The image.
+    pub image: Option<Arc<str>>,
+    /// The part of the image.
+    pub range: Option<Subresources>,
+    /// First byte and one past the last byte in the image's heap, where memory is the matter.
+    pub bytes: Option<[u64; 2]>,
+}
+
+/// A step as people call it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StepName {
+    /// Which step.
+    pub step: StepId,
+    /// Its passes, or what it moves; escaped.
+    pub name: String,
+    /// Whether it ran in the frame before.
+    pub frame_before: bool,
+}
+
+/// The rules of a Plan.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Rule {
+    /// Parts of the Plan disagree with each other or with Vulkan.
+    Structure {
+        /// What is wrong, as a sentence without final stop; names are escaped.
+        what: String,
+    },
+    /// The image is in another layout than the access or barrier names.
+    Layout {
+        /// The layout it is in.
+        found: Layout,
+        /// The layout that was named.
+        needed: Layout,
+    },
+    /// No execution dependency orders two accesses, of which one writes.
+    Execution {
+        /// The earlier one.
+        earlier: Touched,
+        /// The later one.
+        later: Touched,
+    },
+    /// They are ordered, but the write isn't made available.
+    Availability {
+        /// The write.
+        earlier: Touched,
+        /// The later access.
+        later: Touched,
+    },
+    /// The write is available, but not visible to the later access.
+    Visibility {
+        /// The write.
+        earlier: Touched,
+        /// The later access.
+        later: Touched,
+    },
+    /// A read of contents that no step of the frame wrote.
+    Uninitialised,
+    /// A read of contents that were written, but lost since.
+    LostWrite {
+        /// How.
+        loss: Loss,
+    },
+    /// Two images use the same bytes at the same time.
+    Overlap {
+        /// The other image.
+        with: Arc<str>,
+    },
+    /// Memory changes hands before its last occupant is done.
+    HandOver {
+        /// The last occupant.
+        from: Arc<str>,
+        /// Its access.
+        earlier: Touched,
+        /// Whether the access is waited for, but the write not made available.
+        waited: bool,
+    },
+    /// An image is used outside the lifetime that the Plan states.
+    Lifetime {
+        /// The stated first and last step.
+        stated: [StepId; 2],
+    },
+    /// A sum is wrong.
+    Total {
+        /// Its field.
+        field: &'static str,
+        /// What the Plan says.
+        stated: u64,
+        /// What its steps, images and heaps say.
+        counted: u64,
+    },
+}
+
+/// What touched an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Touched {
+    /// An access.
+    By(Stages, Accesses),
+    /// Any read in a stage.
+    Read(Stages),
+    /// A barrier that changes the layout, which counts as a write.
+    LayoutChange,
+    /// Nothing more than waiting.
+    Wait(Stages),
+}
+
+/// How contents were lost.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Loss {
+    /// A barrier from `UNDEFINED`.
+    Forgotten,
+    /// A `DONT_CARE` load over them, and no draw since that is sure to cover the image.
+    NotLoaded,
+    /// A `DONT_CARE` store, or `NONE` after a write.
+    NotStored,
+    /// Another image took their memory.
+    Taken {
+        /// That image.
+        by: Arc<str>,
+    },
+}
+
+impl StepName {
+    pub(super) fn new(plan: &Plan, step: StepId, frame_before: bool) -> StepName {
+        StepName { step, name: plan.step_name(step), frame_before }
+    }
+}
+
+impl Display for StepName {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "step {} {}", self.step.0, self.name)?;
+        if self.frame_before { f.write_str(" of the frame before") } else { Ok(()) }
+    }
+}
+
+impl Display for Touched {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Touched::By(stages, accesses) => write!(f, "{} in {}", vulkan(accesses), vulkan(stages)),
+            Touched::Read(stages) => write!(f, "the read in {}", vulkan(stages)),
+            Touched::LayoutChange => f.write_str("the layout change"),
+            Touched::Wait(stages) => vulkan(stages).fmt(f),
+        }
+    }
+}
+
+impl Display for Violation {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match &self.step {
+            Some(step) => step.fmt(f)?,
+            None => f.write_str("the Plan")?,
+        }
+        if let Some(image) = &self.image {
+            write!(f, ": `{}`", Shown(image))?;
+        }
+        match (&self.range, &self.bytes) {
+            (Some(range), None) => write!(f, " ({range})")?,
+            (Some(range), Some([start, end])) => write!(f, " ({range}; bytes {start}–{end})")?,
+            (None, Some([start, end])) => write!(f, " (bytes {start}–{end})")?,
+            (None, None) => {}
+        }
+        f.write_str(": ")?;
+        let other = Other(self.other.as_ref());
+        match &self.rule {
+            Rule::Structure { what } => match &self.other {
+                Some(other) => write!(f, "{what} ({other})"),
+                None => f.write_str(what),
+            },
+            Rule::Layout { found, needed } => {
+                write!(f, "named in layout {}, but it is in {} since {other}", vulkan(needed), vulkan(found))
+            }
+            Rule::Execution { earlier, later } => {
+                write!(f, "{later} doesn't wait for {earlier} by {other}")
+            }
+            Rule::Availability { earlier, later } => {
+                write!(f, "{later} comes after {earlier} by {other}, but no barrier makes that write available")
+            }
+            Rule::Visibility { earlier, later } => {
+                write!(f, "{later} comes after {earlier} by {other}, but no barrier makes that write visible to it")
+            }
+            Rule::Uninitialised => match &self.other {
+                Some(other) => write!(f, "read, but nothing in the frame has written it ({other} only prepares it)"),
+                None => f.write_str("read, but nothing in the frame has written it"),
+            },
+            Rule::LostWrite { loss } => match loss {
+                Loss::Forgotten => write!(f, "read, but a barrier from UNDEFINED before {other} lost its contents"),
+                Loss::NotLoaded => write!(f, "needed, but the DONT_CARE load of {other} lost its contents"),
+                Loss::NotStored => write!(f, "read, but {other} doesn't store its contents"),
+                Loss::Taken { by } => write!(f, "read, but `{}` took its memory before {other}", Shown(by)),
+            },
+            Rule::Overlap { with } => {
+                write!(f, "takes memory that `{}` still needs in {other}", Shown(with))
+            }
+            Rule::HandOver { from, earlier, waited: false } => {
+                write!(f, "takes the memory of `{}`, but doesn't wait for {earlier} by {other}", Shown(from))
+            }
+            Rule::HandOver { from, earlier, waited: true } => {
+                write!(f, "takes the memory of `{}`, but {earlier} by {other} isn't made available first", Shown(from))
+            }
+            Rule::Lifetime { stated: [first, last] } => {
+                write!(f, "used outside its stated lifetime, steps {} to {} (nearest: {other})", first.0, last.0)
+            }
+            Rule::Total { field, stated, counted } => {
+                write!(f, "totals.{field} is {stated}, its parts add up to {counted}")
+            }
+        }
+    }
+}
+
+/// The other step, or what stands for it.
+struct Other<'v>(Option<&'v StepName>);
+
+impl Display for Other<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(step) => step.fmt(f),
+            None => f.write_str("before the frame"),
+        }
+    }
+}

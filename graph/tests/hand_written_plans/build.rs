@@ -1,0 +1,193 @@
+//! Short forms for what the Plans have in common.
+
+use super::lifetime;
+use framewright_graph::format::Format;
+use framewright_graph::frame::{Blend, Draw};
+use framewright_graph::plan::*;
+use framewright_graph::source::Place;
+use framewright_graph::vocabulary::{Accesses, Filter, Layout, LoadOp, Stages, StoreOp, Usage};
+
+/// A stage, an access and a layout.
+pub(crate) type State = (Stages, Accesses, Layout);
+
+pub(crate) const SIZE: [u32; 3] = [64, 32, 1];
+pub(crate) const HEAP_ALIGNMENT: u64 = 4096;
+
+pub(crate) const UNDEFINED: Layout = Layout::Undefined;
+pub(crate) const COLOR: State =
+    (Stages::COLOR_ATTACHMENT_OUTPUT, Accesses::COLOR_ATTACHMENT_WRITE, Layout::ColorAttachmentOptimal);
+pub(crate) const SAMPLED: State =
+    (Stages::FRAGMENT_SHADER, Accesses::SHADER_SAMPLED_READ, Layout::ShaderReadOnlyOptimal);
+pub(crate) const READ_BACK: State = (Stages::COPY, Accesses::TRANSFER_READ, Layout::TransferSrcOptimal);
+pub(crate) const TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
+
+pub(crate) fn at(line: u32) -> Cause {
+    Cause::Written(Some(Place { file: "pipeline.ron".into(), line, column: 9 }))
+}
+
+pub(crate) fn transient(
+    id: u32,
+    name: &str,
+    format: Format,
+    samples: u32,
+    usage: Usage,
+    [offset, bytes]: [u64; 2],
+    [first, last]: [u32; 2],
+) -> Image {
+    let lifetime = lifetime(first, last);
+    let placement = Placement { heap: 0, offset, bytes, alignment: 256, type_bits: 0b11, lifetime };
+    Image { role: Role::Transient(placement), samples, ..output(id, name, format, usage) }
+}
+
+/// An output that is read back by a copy after each frame.
+pub(crate) fn output(id: u32, name: &str, format: Format, usage: Usage) -> Image {
+    let (stages, accesses, layout) = READ_BACK;
+    Image {
+        id: ImageId(id),
+        name: name.into(),
+        cause: at(4 + id),
+        format,
+        extent: SIZE,
+        mips: 1,
+        layers: 1,
+        samples: 1,
+        usage,
+        role: Role::Output {
+            before: ImageState { stages: Stages::COPY, accesses: Accesses::empty(), layout: UNDEFINED },
+            after: ImageState { stages, accesses, layout },
+        },
+    }
+}
+
+pub(crate) fn range(format: Format) -> Subresources {
+    Subresources::all(format, 1, 1)
+}
+
+pub(crate) fn barrier(
+    image: &Image,
+    (src_stages, src_accesses): (Stages, Accesses),
+    old_layout: Layout,
+    (dst_stages, dst_accesses, new_layout): State,
+    hazard: Hazard,
+    after: Option<u32>,
+) -> ImageBarrier {
+    ImageBarrier {
+        image: image.id,
+        range: range(image.format),
+        src_stages,
+        src_accesses,
+        dst_stages,
+        dst_accesses,
+        old_layout,
+        new_layout,
+        hazard,
+        after: after.map(StepId),
+    }
+}
+
+/// A barrier after everything that `from` stands for.
+pub(crate) fn between(image: &Image, from: State, to: State, hazard: Hazard, after: u32) -> ImageBarrier {
+    barrier(image, (from.0, from.1), from.2, to, hazard, Some(after))
+}
+
+pub(crate) fn access(image: &Image, (stages, accesses, layout): State) -> Access {
+    Access { image: image.id, range: range(image.format), stages, accesses, layout }
+}
+
+pub(crate) fn bound(name: &str, image: &Image, layout: Layout, filter: Option<Filter>) -> Binding {
+    Binding { name: name.into(), image: image.id, range: range(image.format), layout, filter }
+}
+
+pub(crate) fn attachment(image: &Image, layout: Layout, load: LoadOp, store: StoreOp, because: &str) -> Attachment {
+    Attachment {
+        image: image.id,
+        range: range(image.format),
+        layout,
+        load,
+        store,
+        clear: (load == LoadOp::Clear).then_some([0.0; 4]),
+        resolve: None,
+        because: because.to_owned(),
+    }
+}
+
+pub(crate) fn draw(
+    name: &str,
+    line: u32,
+    draw: Draw,
+    blend: &[Blend],
+    depth: Option<DepthState>,
+    accesses: Vec<Access>,
+) -> Pass {
+    Pass {
+        name: name.into(),
+        cause: at(line),
+        draw: Some(draw),
+        shader: name.into(),
+        blend: blend.to_vec(),
+        depth,
+        bindings: Vec::new(),
+        params: Vec::new(),
+        accesses,
+        merged: None,
+    }
+}
+
+pub(crate) fn dispatch(name: &str, line: u32, bindings: Vec<Binding>, accesses: Vec<Access>) -> Pass {
+    Pass { draw: None, bindings, ..draw(name, line, Draw::Sky, &[], None, accesses) }
+}
+
+pub(crate) fn scope(samples: u32, color: Vec<Attachment>, depth: Option<Attachment>, passes: Vec<Pass>) -> Work {
+    Work::Render(RenderScope { extent: [SIZE[0], SIZE[1]], layers: 1, samples, color, depth, passes })
+}
+
+pub(crate) fn step(image_barriers: Vec<ImageBarrier>, work: Work) -> Step {
+    Step { queue: Queue::Graphics, memory_barriers: Vec::new(), image_barriers, work }
+}
+
+/// Samples `source` and covers the output, which the next step, the last, leaves to be read back.
+pub(crate) fn tone_map(source: &Image, written: State, screen: &Image, step_number: u32) -> [Step; 2] {
+    let mut pass = draw(
+        "tonemap",
+        40,
+        Draw::FullScreen,
+        &[Blend::Replace],
+        None,
+        vec![access(source, SAMPLED), access(screen, COLOR)],
+    );
+    pass.bindings = vec![bound("source", source, SAMPLED.2, Some(Filter::Nearest))];
+    pass.params = vec![Param { name: "white_point".into(), value: framewright_graph::frame::ParamValue::Number(0.1) }];
+    let covered = attachment(screen, COLOR.2, LoadOp::DontCare, StoreOp::Store, "`tonemap` covers it; it is an output");
+    let barriers = vec![
+        between(source, written, SAMPLED, Hazard::ReadAfterWrite, step_number - 1),
+        barrier(screen, (Stages::COPY, Accesses::empty()), UNDEFINED, COLOR, Hazard::FirstUse, None),
+    ];
+    [
+        step(barriers, scope(1, vec![covered], None, vec![pass])),
+        step(vec![between(screen, COLOR, READ_BACK, Hazard::Export, step_number)], Work::Export),
+    ]
+}
+
+pub(crate) fn plan(images: Vec<Image>, heap_bytes: u64, steps: Vec<Step>) -> Plan {
+    let outputs =
+        images.iter().filter(|image| matches!(image.role, Role::Output { .. })).map(|image| image.id).collect();
+    let heap = Heap { bytes: heap_bytes, alignment: HEAP_ALIGNMENT, type_bits: 0b1, lazily_allocated: false };
+    let mut plan = Plan {
+        format_version: FORMAT_VERSION,
+        device: DeviceUsed { name: "made up".to_owned(), exact_memory: false },
+        settings: vec![SettingUsed { name: "msaa".into(), value: "4".to_owned() }],
+        images,
+        heaps: vec![heap],
+        steps,
+        outputs,
+        notes: vec![Note {
+            stage: Stage::Scope,
+            subject: "tonemap".into(),
+            text: "begins a scope of its own: it samples what the scope before it writes".to_owned(),
+            at: Some(Place { file: "pipeline.ron".into(), line: 40, column: 9 }),
+        }],
+        totals: Totals { output_bytes: 8192, ..Totals::default() },
+    };
+    super::recount(&mut plan);
+    plan
+}

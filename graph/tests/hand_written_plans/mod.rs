@@ -1,0 +1,44 @@
+//! Three correct Plans, written by hand: every mask holds exactly what is needed, so that every bit can be missed.
+
+mod build;
+mod compute_chain;
+mod multisampled;
+mod read_only_depth;
+
+use framewright_graph::plan::{Image, Placement, Plan, Role, StepId, Totals};
+
+/// All of them.
+pub(crate) fn all() -> [(&'static str, Plan); 3] {
+    [
+        ("multisampled", multisampled::plan()),
+        ("compute chain", compute_chain::plan()),
+        ("read-only depth", read_only_depth::plan()),
+    ]
+}
+
+/// Makes the totals right again after a change, so that they don't give it away.
+pub(crate) fn recount(plan: &mut Plan) {
+    let placements: Vec<&Placement> = plan.images.iter().filter_map(placement).collect();
+    let live = |step: u32| {
+        let alive = |placement: &&&Placement| (placement.lifetime[0].0..=placement.lifetime[1].0).contains(&step);
+        placements.iter().filter(alive).map(|placement| placement.bytes).sum::<u64>()
+    };
+    plan.totals = Totals {
+        transient_bytes: placements.iter().map(|placement| placement.bytes).sum(),
+        placed_bytes: plan.heaps.iter().map(|heap| heap.bytes).sum(),
+        live_peak_bytes: (0..plan.steps.len() as u32).map(live).max().unwrap_or(0),
+        output_bytes: plan.totals.output_bytes,
+        ..Totals::count(&plan.steps)
+    };
+}
+
+pub(crate) fn placement(image: &Image) -> Option<&Placement> {
+    match &image.role {
+        Role::Transient(placement) => Some(placement),
+        Role::Output { .. } => None,
+    }
+}
+
+pub(crate) fn lifetime(first: u32, last: u32) -> [StepId; 2] {
+    [StepId(first), StepId(last)]
+}

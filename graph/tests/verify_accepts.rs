@@ -1,0 +1,67 @@
+//! The checker accepts correct Plans, and shares nothing with the compiler.
+
+mod hand_written_plans;
+
+use framewright_graph::plan::{ImageBarrier, MemoryBarrier, Plan};
+use framewright_graph::verify::verify;
+use framewright_graph::vocabulary::{Accesses, Layout, Stages};
+use std::path::Path;
+
+fn accept(name: &str, plan: &Plan) {
+    let violations: Vec<String> = verify(plan).iter().map(ToString::to_string).collect();
+    assert!(violations.is_empty(), "{name}:\n{}", violations.join("\n"));
+}
+
+/// The first Plan, with two barriers that wait for what was waited for before.
+fn with_redundant_barriers() -> Plan {
+    let [(_, mut plan), ..] = hand_written_plans::all();
+    let step = &mut plan.steps[1];
+    step.memory_barriers.push(MemoryBarrier {
+        src_stages: Stages::ALL_COMMANDS,
+        src_accesses: Accesses::MEMORY_WRITE,
+        dst_stages: Stages::ALL_COMMANDS,
+        dst_accesses: Accesses::MEMORY_READ | Accesses::MEMORY_WRITE,
+        hand_overs: Vec::new(),
+    });
+    let again = ImageBarrier { old_layout: Layout::TransferSrcOptimal, ..plan.steps[2].image_barriers[0].clone() };
+    let mut step = plan.steps[2].clone();
+    step.image_barriers = vec![again];
+    plan.steps.push(step);
+    hand_written_plans::recount(&mut plan);
+    plan
+}
+
+#[test]
+fn plans_written_by_hand_are_accepted() {
+    for (name, plan) in hand_written_plans::all() {
+        accept(name, &plan);
+    }
+}
+
+#[test]
+fn redundant_barriers_are_accepted() {
+    accept("redundant", &with_redundant_barriers());
+}
+
+#[test]
+fn a_plan_survives_its_json_form() {
+    for (name, plan) in hand_written_plans::all() {
+        let text = plan.to_json().unwrap();
+        let again = Plan::from_json(&text).unwrap();
+        assert_eq!(again, plan, "{name}");
+        assert_eq!(again.to_json().unwrap(), text, "{name}");
+    }
+}
+
+#[test]
+fn the_checker_shares_nothing_with_the_compiler() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/verify");
+    let mut files = 0;
+    for entry in std::fs::read_dir(&folder).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(!text.contains("compile"), "{} mentions the compiler", path.display());
+        files += 1;
+    }
+    assert!(files > 5, "{files} files in {}", folder.display());
+}
