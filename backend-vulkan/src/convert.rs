@@ -4,7 +4,7 @@ use ash::vk;
 use framewright_graph::format::Format;
 use framewright_graph::plan::Subresources;
 use framewright_graph::vocabulary::{
-    Accesses, Aspects, CompareOp, Filter, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage,
+    Accesses, Aspects, CompareOp, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage,
 };
 
 pub(crate) fn format(format: Format) -> vk::Format {
@@ -87,13 +87,6 @@ pub(crate) fn resolve(mode: ResolveMode) -> vk::ResolveModeFlags {
         ResolveMode::SampleZero => vk::ResolveModeFlags::SAMPLE_ZERO,
         ResolveMode::Min => vk::ResolveModeFlags::MIN,
         ResolveMode::Max => vk::ResolveModeFlags::MAX,
-    }
-}
-
-pub(crate) fn filter(filter: Filter) -> vk::Filter {
-    match filter {
-        Filter::Nearest => vk::Filter::NEAREST,
-        Filter::Linear => vk::Filter::LINEAR,
     }
 }
 

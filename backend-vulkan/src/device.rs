@@ -6,6 +6,7 @@ use crate::instance::Instance;
 use crate::memory::LiveMemory;
 use crate::validation::Messages;
 use ash::{ext, vk};
+use framewright_graph::describe::nearest;
 use framewright_graph::device::{ImageDescriptor, MemoryNeeds, Profile};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::ffi::{CStr, FromBytesUntilNulError};
@@ -290,37 +291,17 @@ fn choose(
     };
     let known: Vec<String> = devices.iter().map(|(_, it)| format!("{}: {}", it.index, it.name)).collect();
     let near = match choice {
-        DeviceChoice::Name(name) => nearest(name, devices.iter().map(|(_, it)| it.name.as_str())),
+        DeviceChoice::Name(name) => near(name, &devices),
         _ => None,
     };
     at.and_then(|at| devices.into_iter().nth(at)).ok_or(Error::UnknownDevice { wanted, near, known })
 }
 
-/// The name one of whose words is at most a third of `wanted` away from it.
-fn nearest<'n>(wanted: &str, names: impl Iterator<Item = &'n str>) -> Option<String> {
-    let wanted = wanted.to_lowercase();
-    let near = |name: &str| {
-        let words = name.to_lowercase();
-        words.split_whitespace().map(|word| edits(&wanted, word)).min().unwrap_or(usize::MAX)
-    };
-    let nearest = names.map(|name| (near(name), name)).min()?;
-    (nearest.0 <= wanted.chars().count() / 3).then(|| nearest.1.to_owned())
-}
-
-/// Letters to insert, remove or replace to get from `a` to `b` (Levenshtein's distance).
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, letter) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, other) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(letter != *other);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
+/// The device one of whose name's words is nearly `wanted`.
+fn near(wanted: &str, devices: &[(vk::PhysicalDevice, DeviceSummary)]) -> Option<String> {
+    let words = || devices.iter().flat_map(|(_, it)| it.name.split_whitespace());
+    let word = nearest(wanted, words())?;
+    devices.iter().find(|(_, it)| it.name.split_whitespace().any(|found| found == word)).map(|(_, it)| it.name.clone())
 }
 
 /// A text of Vulkan's, as far as it is UTF-8.

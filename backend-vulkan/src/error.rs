@@ -1,8 +1,10 @@
 //! Everything that can go wrong here, as data; the sentence is made where it is shown.
 
 use ash::vk;
+use framewright_graph::describe::escape;
 use framewright_graph::device::MemoryNeeds;
 use framewright_graph::interface::ShaderProblem;
+use framewright_graph::verify::Violation;
 
 /// The packages that bring a loader, a driver that needs no graphics card, and a validation layer.
 pub const INSTALL: &str =
@@ -22,7 +24,7 @@ pub enum Error {
     #[error("no Vulkan driver with a device; mend it with: {INSTALL} (or unset VK_DRIVER_FILES and VK_ICD_FILENAMES)")]
     NoDevice,
     /// No device fits the name or number that was asked for.
-    #[error("no device {}{}; there are: {}", wanted.escape_debug(), did_you_mean(near), list(known))]
+    #[error("no device {}{}; there are: {}", escape(wanted), did_you_mean(near), list(known))]
     UnknownDevice {
         /// What was asked for.
         wanted: String,
@@ -32,7 +34,7 @@ pub enum Error {
         known: Vec<String>,
     },
     /// The device is less than the minimum.
-    #[error("{} lacks {}; choose another with --device, or install a newer driver: {INSTALL}", device.escape_debug(), missing.join(", "))]
+    #[error("{} lacks {}; choose another with --device, or install a newer driver: {INSTALL}", escape(device), missing.join(", "))]
     Lacking {
         /// The device.
         device: String,
@@ -46,7 +48,10 @@ pub enum Error {
         layer_path: Option<String>,
     },
     /// The validation layer didn't report a mistake that was made on purpose: its silence would prove nothing.
-    #[error("the validation layer {} did not report {planted}, which was planted to test it: check VK_LAYER_SETTINGS_PATH, VK_LAYER_PATH and vk_layer_settings.txt", layer.escape_debug())]
+    #[error(
+        "the validation layer {} did not report {planted}, which was planted to test it: check VK_LAYER_SETTINGS_PATH, VK_LAYER_PATH and vk_layer_settings.txt",
+        escape(layer)
+    )]
     LayerIsBlind {
         /// The layer.
         layer: String,
@@ -54,7 +59,7 @@ pub enum Error {
         planted: &'static str,
     },
     /// A file of this crate's own can't be written (the layer's manifest).
-    #[error("can't write {}: {reason}", path.escape_debug())]
+    #[error("can't write {}: {reason}", escape(path))]
     CantWrite {
         /// Which file.
         path: String,
@@ -84,7 +89,7 @@ pub enum Error {
         seconds: u64,
     },
     /// There is not enough memory, or none of the right kind.
-    #[error("no memory for {}, {bytes} bytes: {reason}", what.escape_debug())]
+    #[error("no memory for {}, {bytes} bytes: {reason}", escape(what))]
     OutOfMemory {
         /// For what.
         what: String,
@@ -94,13 +99,13 @@ pub enum Error {
         reason: String,
     },
     /// A resource can't be made of what was given.
-    #[error("{what}")]
+    #[error("{}", escape(what))]
     BadResource {
         /// Which and why.
         what: String,
     },
     /// A shader has no usable form.
-    #[error("shader `{}`: {}", name.escape_debug(), problem_text(problem))]
+    #[error("shader `{}`: {}", escape(name), problem_text(problem))]
     Shader {
         /// Its name.
         name: String,
@@ -108,7 +113,7 @@ pub enum Error {
         problem: ShaderProblem,
     },
     /// A shader doesn't fit what its pass gives it.
-    #[error("pass `{}`: {}", pass.escape_debug(), what.escape_debug())]
+    #[error("pass `{}`: {}", escape(pass), escape(what))]
     Mismatch {
         /// The pass.
         pass: String,
@@ -116,19 +121,24 @@ pub enum Error {
         what: String,
     },
     /// A Plan can't be executed as it is.
-    #[error("the Plan can't be executed: {}", what.escape_debug())]
+    #[error("the Plan can't be executed: {}", escape(what))]
     BadPlan {
         /// Why.
         what: String,
     },
     /// A Plan breaks rules of the Vulkan memory model.
-    #[error("the Plan is wrong: {}", list(violations))]
+    #[error("the Plan is wrong: {}", sentences(violations))]
     Violations {
-        /// Each in plain words.
-        violations: Vec<String>,
+        /// Each mistake.
+        violations: Vec<Violation>,
     },
     /// An image takes other memory here than the Plan assumes.
-    #[error("image `{}` needs {actual:?} on {}, and the Plan, made for {}, gives it {planned:?}: compile it for this device", image.escape_debug(), device.escape_debug(), planned_for.escape_debug())]
+    #[error(
+        "image `{}` needs {actual:?} on {}, and the Plan, made for {}, gives it {planned:?}: compile it for this device",
+        escape(image),
+        escape(device),
+        escape(planned_for)
+    )]
     OtherMemoryNeeds {
         /// The image.
         image: String,
@@ -142,7 +152,7 @@ pub enum Error {
         planned: MemoryNeeds,
     },
     /// Whoever draws misused the recorder.
-    #[error("pass `{}`, while recording: {what}", pass.escape_debug())]
+    #[error("pass `{}`, while recording: {what}", escape(pass))]
     Recording {
         /// The pass.
         pass: String,
@@ -150,7 +160,7 @@ pub enum Error {
         what: String,
     },
     /// Whoever draws gave up.
-    #[error("{}", what.escape_debug())]
+    #[error("{}", escape(what))]
     DrawSource {
         /// Its own words.
         what: String,
@@ -204,15 +214,19 @@ impl Error {
 }
 
 fn did_you_mean(near: &Option<String>) -> String {
-    near.as_ref().map_or_else(String::new, |near| format!(" (did you mean {}?)", near.escape_debug()))
+    near.as_ref().map_or_else(String::new, |near| format!(" (did you mean {}?)", escape(near)))
 }
 
 fn looked(layer_path: &Option<String>) -> String {
-    layer_path.as_ref().map_or_else(String::new, |path| format!(" in VK_LAYER_PATH={}", path.escape_debug()))
+    layer_path.as_ref().map_or_else(String::new, |path| format!(" in VK_LAYER_PATH={}", escape(path)))
 }
 
 fn list(texts: &[String]) -> String {
-    texts.iter().map(|text| text.escape_debug().to_string()).collect::<Vec<_>>().join("; ")
+    texts.iter().map(|text| escape(text)).collect::<Vec<_>>().join("; ")
+}
+
+fn sentences(violations: &[Violation]) -> String {
+    violations.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }
 
 fn problem_text(problem: &ShaderProblem) -> String {
@@ -221,6 +235,6 @@ fn problem_text(problem: &ShaderProblem) -> String {
             format!("not found in {}; known shaders: {}", list(looked_in), list(known))
         }
         ShaderProblem::DoesNotCompile { messages } => format!("doesn't compile: {}", list(messages)),
-        ShaderProblem::Unsupported { what } => format!("can't be used: {}", what.escape_debug()),
+        ShaderProblem::Unsupported { what } => format!("can't be used: {}", escape(what)),
     }
 }

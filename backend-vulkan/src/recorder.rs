@@ -61,7 +61,6 @@ pub struct Recorder<'f> {
     bound: Vec<bool>,
     vertices: Option<u64>,
     indices: Option<u64>,
-    draws: u32,
     misuse: Option<String>,
 }
 
@@ -82,7 +81,7 @@ impl<'f> Recorder<'f> {
         extent: [u32; 2],
     ) -> Recorder<'f> {
         let bound = pass.supplied.iter().map(|(_, needed)| !needed).collect();
-        Recorder { shared, commands, pass, extent, bound, vertices: None, indices: None, draws: 0, misuse: None }
+        Recorder { shared, commands, pass, extent, bound, vertices: None, indices: None, misuse: None }
     }
 
     /// Width and height of what is drawn into.
@@ -198,7 +197,7 @@ impl<'f> Recorder<'f> {
         }
     }
 
-    /// Whether everything that the pipeline reads is bound; counts the draw.
+    /// Whether everything that the pipeline reads is bound.
     fn may_draw(&mut self) -> bool {
         if let Some(missing) = self.bound.iter().position(|bound| !bound) {
             self.misused(|| format!("a draw without a bind group for set {}", missing + 1));
@@ -206,7 +205,6 @@ impl<'f> Recorder<'f> {
         if self.pass.vertex_stride > 0 && self.vertices.is_none() {
             self.misused(|| "a draw without vertex buffer".to_owned());
         }
-        self.draws += 1;
         self.misuse.is_none()
     }
 
@@ -214,8 +212,8 @@ impl<'f> Recorder<'f> {
         self.misuse.get_or_insert_with(what);
     }
 
-    /// The number of draws, or the first misuse.
-    pub(crate) fn finish(self) -> Result<u32, String> {
-        self.misuse.map_or(Ok(self.draws), Err)
+    /// The first misuse, if there was any.
+    pub(crate) fn finish(self) -> Result<(), String> {
+        self.misuse.map_or(Ok(()), Err)
     }
 }

@@ -34,8 +34,11 @@ pub struct ShaderLibrary {
     files: ShaderFiles,
     draws: fn(Draw) -> DrawInterface,
     compiler: Option<Compiler>,
-    stages: HashMap<(String, Stage), Result<Option<Arc<CompiledStage>>, ShaderProblem>>,
+    stages: HashMap<(String, Stage), StageResult>,
 }
+
+/// A stage, `None` if it has no file.
+type StageResult = Result<Option<Arc<CompiledStage>>, ShaderProblem>;
 
 /// One stage of a shader.
 struct CompiledStage {
@@ -74,7 +77,7 @@ impl ShaderLibrary {
     }
 
     /// One stage by its file name; `None` if there is no such file.
-    fn stage(&mut self, file: &str, stage: Stage) -> Result<Option<Arc<CompiledStage>>, ShaderProblem> {
+    fn stage(&mut self, file: &str, stage: Stage) -> StageResult {
         let key = (file.to_owned(), stage);
         if let Some(known) = self.stages.get(&key) {
             return known.clone();
@@ -84,7 +87,7 @@ impl ShaderLibrary {
         result
     }
 
-    fn compile_stage(&mut self, file: &str, stage: Stage) -> Result<Option<Arc<CompiledStage>>, ShaderProblem> {
+    fn compile_stage(&mut self, file: &str, stage: Stage) -> StageResult {
         let found = self.files.find(file).map_err(|what| ShaderProblem::Unsupported { what })?;
         let Some(source) = found else { return Ok(None) };
         let compiler = match &mut self.compiler {

@@ -2,18 +2,20 @@
 
 #![allow(dead_code, reason = "each test binary uses its part of this")]
 
+pub(crate) mod plans;
+
 use framewright_vulkan::{Blame, Device, DeviceChoice, DeviceOptions, Error, Message, Messages, layer};
 use std::sync::OnceLock;
 
 /// The device that the tests of this binary share, under the best validation layer that is installed. `None`, with a
 /// message, where the machine has no driver or layer; in CI that is a failure.
-pub fn device() -> Option<&'static Device> {
+pub(crate) fn device() -> Option<&'static Device> {
     static DEVICE: OnceLock<Option<Device>> = OnceLock::new();
     DEVICE.get_or_init(open).as_ref()
 }
 
 /// A validated device of its own, for tests that close it or look at all its messages.
-pub fn open() -> Option<Device> {
+pub(crate) fn open() -> Option<Device> {
     find_layer();
     let name = std::env::var("FRAMEWRIGHT_TEST_DEVICE").ok();
     let choice = name.map_or(DeviceChoice::Default, DeviceChoice::Name);
@@ -28,7 +30,7 @@ pub fn open() -> Option<Device> {
 }
 
 /// Leads the loader to the current validation layer, before anything in this process uses the loader.
-pub fn find_layer() {
+pub(crate) fn find_layer() {
     static FOUND: OnceLock<()> = OnceLock::new();
     FOUND.get_or_init(|| {
         if let Some(folder) = layer::manifest_folder().expect("the layer's manifest can be written") {
@@ -40,12 +42,12 @@ pub fn find_layer() {
 }
 
 /// Says what the machine lacks.
-pub fn skip(error: &Error) {
+pub(crate) fn skip(error: &Error) {
     assert!(std::env::var_os("CI").is_none(), "in CI this is a failure: {error}");
     eprintln!("SKIPPED: {error}");
 }
 
 /// The messages that say that something is wrong.
-pub fn findings(messages: &Messages) -> Vec<Message> {
+pub(crate) fn findings(messages: &Messages) -> Vec<Message> {
     messages.list().into_iter().filter(Message::is_finding).collect()
 }
