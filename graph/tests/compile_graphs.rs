@@ -6,11 +6,13 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Plan;
+use framewright_graph::verify::verify;
 
 fn compiled(frame: &Frame) -> Plan {
     let device = graphs::device();
     let plan =
         compile(frame, &device, &mut Estimated(&device.memory), &Options::default()).expect("the graph is legal");
+    assert_eq!(verify(&plan), [], "{}", plan.tree());
     plan
 }
 

@@ -7,12 +7,16 @@ use framewright_graph::device::Estimated;
 use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::{Plan, RenderScope, Role, Stage, Work};
+use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{LoadOp, ResolveMode, StoreOp, Usage};
 use raster::Raster;
 
 fn compiled(frame: &Frame) -> Plan {
     let device = raster::device();
-    compile(frame, &device, &mut Estimated(&device.memory), &Options::default()).expect("the frame is legal")
+    let plan =
+        compile(frame, &device, &mut Estimated(&device.memory), &Options::default()).expect("the frame is legal");
+    assert_eq!(verify(&plan), [], "{}", plan.tree());
+    plan
 }
 
 fn scopes(plan: &Plan) -> Vec<&RenderScope> {

@@ -61,13 +61,14 @@ pub(super) const EXPORTED: (Stages, Accesses, Layout) =
     (Stages::COPY, Accesses::TRANSFER_READ, Layout::TransferSrcOptimal);
 
 pub(super) fn retain(adapted: &mut Adapted, scoped: &Scoped, options: &Options) -> Retained {
+    note_usage(adapted, scoped);
     let in_step_order = gather(adapted, scoped);
     let mut retained = by_store(&in_step_order, adapted.stores.len());
     for store in 0..adapted.stores.len() {
         let range = retained.starts[store] as usize..retained.starts[store + 1] as usize;
         decide_store_ops(&mut retained.needs[range]);
     }
-    note_usage(adapted, scoped, &retained, options);
+    note_purpose(adapted, &retained, options);
     retained
 }
 
@@ -150,10 +151,11 @@ fn add(needs: &mut Vec<Need>, first: usize, new: Need) {
 }
 
 fn need(adapted: &Adapted, used: &Use, step: u32, transfer: Stages) -> Need {
-    let depth_format = adapted.stores[used.store as usize].descriptor.format.is_depth();
+    let attached_depth = adapted.stores[used.store as usize].descriptor.usage.contains(Usage::DEPTH_STENCIL_ATTACHMENT);
     let (stages, accesses, layout, attachment) = match used.role {
         Role::Sampled { stages, .. } => {
-            let layout = if depth_format { Layout::DepthStencilReadOnlyOptimal } else { Layout::ShaderReadOnlyOptimal };
+            let layout =
+                if attached_depth { Layout::DepthStencilReadOnlyOptimal } else { Layout::ShaderReadOnlyOptimal };
             (stages, Accesses::SHADER_SAMPLED_READ, layout, None)
         }
         Role::Storage { stages, read, write, .. } => {
@@ -229,9 +231,8 @@ fn decide_store_ops(needs: &mut [Need]) {
     }
 }
 
-/// Usage exactly as used; images that never leave their one scope become transient attachments.
-fn note_usage(adapted: &mut Adapted, scoped: &Scoped, retained: &Retained, options: &Options) {
-    let attachments_only = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT;
+/// Usage exactly as used.
+fn note_usage(adapted: &mut Adapted, scoped: &Scoped) {
     let mut usage = vec![Usage::empty(); adapted.stores.len()];
     for step in &scoped.steps {
         let carried = match step {
@@ -245,17 +246,26 @@ fn note_usage(adapted: &mut Adapted, scoped: &Scoped, retained: &Retained, optio
             }
         }
     }
-    for ((store, mut usage), at) in adapted.stores.iter_mut().zip(usage).zip(0_u32..) {
-        let stays =
-            |need: &Need| need.attachment.is_some_and(|ops| ops.load != LoadOp::Load && ops.store != StoreOp::Store);
-        let needs = retained.of(at);
-        if store.output {
-            usage |= Usage::TRANSFER_SRC;
-        } else if options.poison {
-            usage |= Usage::TRANSFER_DST;
-        } else if needs.len() == 1 && needs.iter().all(stays) && attachments_only.contains(usage) {
-            usage |= Usage::TRANSIENT_ATTACHMENT;
-        }
+    for (store, usage) in adapted.stores.iter_mut().zip(usage) {
         store.descriptor.usage = usage;
+    }
+}
+
+/// Usage that follows from an image's part in the frame: outputs are copied from; images that never leave their one scope
+/// become transient attachments.
+fn note_purpose(adapted: &mut Adapted, retained: &Retained, options: &Options) {
+    let attachments_only = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT;
+    let stays =
+        |need: &Need| need.attachment.is_some_and(|ops| ops.load != LoadOp::Load && ops.store != StoreOp::Store);
+    for (store, at) in adapted.stores.iter_mut().zip(0_u32..) {
+        let needs = retained.of(at);
+        let usage = &mut store.descriptor.usage;
+        if store.output {
+            *usage |= Usage::TRANSFER_SRC;
+        } else if options.poison {
+            *usage |= Usage::TRANSFER_DST;
+        } else if needs.len() == 1 && needs.iter().all(stays) && attachments_only.contains(*usage) {
+            *usage |= Usage::TRANSIENT_ATTACHMENT;
+        }
     }
 }

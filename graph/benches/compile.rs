@@ -1,0 +1,93 @@
+//! `cargo bench`: what compiling costs, on graphs built in memory, beside the goals of the project.
+//!
+//! Each figure is the least of several runs: other work on the machine only adds. Goals are microseconds a pass measured
+//! on two cores at 2.5 GHz; compare ratios, not machines. Growth is the slope of time over passes, both in logarithms:
+//! 1 is linear.
+
+#[path = "../tests/graphs/mod.rs"]
+mod graphs;
+
+use framewright_graph::compile::{Options, compile};
+use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::frame::Frame;
+use framewright_graph::plan::Plan;
+use framewright_graph::verify::verify;
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+/// One line of the table.
+struct Row {
+    name: String,
+    passes: u32,
+    compile: f64,
+    verify: f64,
+    goal: Option<f64>,
+    plan: Plan,
+}
+
+fn main() {
+    let device = graphs::device();
+    let mut rows = vec![measure("deferred", &graphs::deferred(), &device, Some(0.40))];
+    type Graph = fn(u32) -> Frame;
+    let families: [(&str, Graph, [Option<f64>; 4]); 3] = [
+        ("chain", graphs::chain, [Some(0.40), Some(0.40), Some(0.45), Some(0.50)]),
+        ("wide", graphs::wide, [Some(0.40), Some(0.40), Some(0.70), Some(0.90)]),
+        ("local", graphs::local, [None; 4]),
+    ];
+    for (name, graph, goals) in families {
+        for (passes, goal) in [25, 100, 1_000, 10_000].into_iter().zip(goals) {
+            rows.push(measure(name, &graph(passes), &device, goal));
+        }
+    }
+    println!(
+        "{:<14} {:>10} {:>8} {:>10} {:>9} {:>6} {:>12} {:>11}",
+        "graph", "µs a pass", "goal", "verify µs", "barriers", "calls", "placed MiB", "/ live peak"
+    );
+    for row in &rows {
+        let totals = &row.plan.totals;
+        let goal = row.goal.map_or_else(|| "–".to_owned(), |goal| format!("{goal:.2}"));
+        println!(
+            "{:<14} {:>10.3} {goal:>8} {:>10.3} {:>9} {:>6} {:>12.1} {:>11.3}",
+            format!("{} {}", row.name, row.passes),
+            row.compile,
+            row.verify,
+            totals.image_barriers,
+            totals.barrier_calls,
+            totals.placed_bytes as f64 / f64::from(1 << 20),
+            totals.placed_bytes as f64 / totals.live_peak_bytes as f64,
+        );
+    }
+    for (name, ..) in families {
+        let at = |passes| rows.iter().find(|row| row.name == name && row.passes == passes).map(|row| row.compile);
+        if let (Some(few), Some(many)) = (at(1_000), at(10_000)) {
+            println!("growth of {name} from 1,000 to 10,000 passes: {:.2} (goal ≤ 1.20)", 1.0 + (many / few).log10());
+        }
+    }
+}
+
+fn measure(name: &str, frame: &Frame, device: &Profile, goal: Option<f64>) -> Row {
+    let compiled = || {
+        compile(frame, device, &mut Estimated(&device.memory), &Options::default())
+            .expect("the measured graphs are legal")
+    };
+    let plan = compiled();
+    let passes = frame.passes.len() as u32;
+    let a_pass = |time: Duration| time.as_secs_f64() * 1e6 / f64::from(passes);
+    let compile = a_pass(least(|| drop(black_box(compiled()))));
+    let verify = a_pass(least(|| drop(black_box(verify(black_box(&plan))))));
+    Row { name: name.to_owned(), passes, compile, verify, goal, plan }
+}
+
+/// The least time of one run, over at least five and about a third of a second.
+fn least(mut run: impl FnMut()) -> Duration {
+    let begin = Instant::now();
+    let mut least = Duration::MAX;
+    let mut runs = 0;
+    while runs < 5 || begin.elapsed() < Duration::from_millis(300) {
+        let start = Instant::now();
+        run();
+        least = least.min(start.elapsed());
+        runs += 1;
+    }
+    least
+}
