@@ -72,7 +72,7 @@ impl<'src> Reader<'src> {
     }
 
     /// A name as it stands, without reporting anything.
-    pub(super) fn probe_name(&self, leaf: Leaf<'src>) -> Option<Name> {
+    pub fn probe_name(&self, leaf: Leaf<'src>) -> Option<Name> {
         match (leaf.shape(), self.probe(leaf)?) {
             (Shape::Text, Text::Plain(text)) => Some(Name { text: text.into(), span: self.span(leaf.0) }),
             _ => None,

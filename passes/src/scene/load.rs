@@ -1,6 +1,6 @@
 //! Scenes from files.
 
-use super::{Scene, glb, limits};
+use super::{Scene, glb, limits, text};
 use framewright_graph::describe::{Diagnostic, render};
 use framewright_graph::source::Sources;
 use std::path::{Path, PathBuf};
@@ -67,6 +67,17 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
         Some("glb") => {
             let bytes = bytes(path, limits::FILE_BYTES)?;
             glb::read(&bytes).map_err(|error| SceneError::Glb { path: path.into(), error })
+        }
+        Some("ron") => {
+            let not_text = |error: std::string::FromUtf8Error| SceneError::NotText {
+                path: path.into(),
+                at: error.utf8_error().valid_up_to(),
+            };
+            let text = String::from_utf8(bytes(path, limits::TEXT_BYTES)?).map_err(not_text)?;
+            let mut sources = Sources::default();
+            let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+            text::read(&mut sources, &path.to_string_lossy(), &name, text)
+                .map_err(|mistakes| SceneError::Text { sources, mistakes })
         }
         _ => Err(SceneError::Kind { path: path.into() }),
     }

@@ -23,6 +23,9 @@ mod load;
 mod material;
 mod mesh;
 mod notes;
+mod pattern;
+mod shapes;
+pub mod text;
 
 pub use bounds::Bounds;
 pub use camera::Camera;

@@ -1,0 +1,257 @@
+//! Our own scene format: RON text that says what stands where.
+//!
+//! ```ron
+//! Scene(
+//!     version: 1,
+//!     camera: (position: (4, 3, 8), target: (0, 1, 0), fov: 40),
+//!     sun: (direction: (1, -2, -1), color: "#fff0d0", intensity: 1.2),
+//!     ambient: (0.1, 0.1, 0.12),
+//!     sky: (zenith: "#3060a0", horizon: "#c0d0e0", ground: "#505050"),
+//!     lights: [(position: (0, 3, 0), color: "#ffffff", intensity: 20, range: 10)],
+//!     materials: [
+//!         (name: "grass", color: "#408040", texture: Checker(count: (8, 8), colors: ("#ffffff", "#d0d0d0"))),
+//!         (name: "sieve", color: "#c08040", texture: Dots(count: (12, 6), radius: 0.3), alpha: Mask(0.5), double_sided: true),
+//!         (name: "glass", color: "#80c0ff", opacity: 0.4, alpha: Blend),
+//!         (name: "lamp", color: "#000000", emissive: "#ffffff", strength: 8),
+//!     ],
+//!     objects: [
+//!         Plane(material: "grass", size: (20, 20)),
+//!         Sphere(name: "ball", material: "sieve", position: (0, 1, 0), radius: 1),
+//!         Cube(material: ["glass", "lamp"], position: (0, 0.5, 3), size: 1, rotation: (0, 30, 0),
+//!              repeat: Grid(count: (4, 1, 1), step: (2, 0, 0))),
+//!     ],
+//! )
+//! ```
+//!
+//! Lengths are metres, angles degrees, colours linear numbers or sRGB as the web writes it. Rotations turn about the
+//! world's x, then y, then z. A plane lies flat and faces up; its size is width and depth. A grid's middle is the object's
+//! position; a ring lies around it, beginning in front (+z), and turns each copy with it. Copies take several materials
+//! by turns. `version`, `materials` and `objects` must be there; without a camera the objects are framed; without sun,
+//! ambient light or sky it is a clear day. Numbers beyond [`super::limits`], and sizes below a micrometre, are mistakes.
+
+mod materials;
+mod objects;
+mod values;
+
+use super::{Camera, PointLight, Scene, Sky, Sun, defaults, limits};
+use framewright_graph::describe::Diagnostic;
+use framewright_graph::describe::text::{Leaf, Names, Reader};
+use framewright_graph::source::Sources;
+use glam::DVec3;
+use materials::{MaterialFields, Patterns};
+use objects::Objects;
+use serde::Deserialize;
+use values::{color, direction, number, place};
+
+/// The version of the format that this library reads.
+pub const VERSION: i64 = 1;
+
+#[derive(Deserialize)]
+#[serde(rename = "Scene", deny_unknown_fields)]
+struct SceneFields<'s> {
+    #[serde(borrow)]
+    version: Leaf<'s>,
+    camera: Option<Leaf<'s>>,
+    sun: Option<Leaf<'s>>,
+    ambient: Option<Leaf<'s>>,
+    sky: Option<Leaf<'s>>,
+    lights: Option<Leaf<'s>>,
+    materials: Leaf<'s>,
+    objects: Leaf<'s>,
+}
+
+/// Reads a scene file's text, which is added to `sources`. `shown` is the path as the user named it, `relative` the file's
+/// name.
+///
+/// # Errors
+/// Everything that is wrong with the file, in its order.
+pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) -> Result<Scene, Vec<Diagnostic>> {
+    let file = sources.add(shown, relative, text);
+    let text = sources.file(file as usize).map_or("", |file| file.text.as_str());
+    let mut reader = Reader::new(file, text);
+    let scene = whole(&mut reader, Leaf(text));
+    let mut mistakes = reader.errors;
+    match scene {
+        Some(scene) if mistakes.is_empty() => Ok(scene),
+        _ => {
+            mistakes.sort_by_key(|mistake| mistake.labels.first().map_or(0, |label| label.span.start));
+            Err(mistakes)
+        }
+    }
+}
+
+fn whole<'s>(reader: &mut Reader<'s>, all: Leaf<'s>) -> Option<Scene> {
+    if all.0.trim().is_empty() {
+        reader.wrong(all, "the file is empty", "a scene begins with `Scene(version: 1,`");
+        return None;
+    }
+    if all.0.starts_with('\u{feff}') {
+        reader.wrong(Leaf(&all.0[..3]), "the file begins with a byte order mark", "save it as UTF-8 without one");
+        return None;
+    }
+    let fields: SceneFields<'_> = reader.read(all, "the scene")?;
+    let version = reader.integer(fields.version)?;
+    if version != VERSION {
+        let message = format!("this file is written in version {version} of the scene format");
+        reader.wrong(fields.version, message, &format!("this program reads version {VERSION}"));
+        return None;
+    }
+    let sun = fields.sun.map_or(Some(defaults::SUN), |leaf| sun(reader, leaf));
+    let ambient = |leaf| color(reader, leaf, "the ambient light", limits::RADIANCE);
+    let ambient = fields.ambient.map_or(Some(defaults::AMBIENT), ambient);
+    let sky = fields.sky.map_or(Some(defaults::SKY), |leaf| sky(reader, leaf));
+    let point_lights = fields.lights.map_or(Some(Vec::new()), |leaf| lights(reader, leaf));
+
+    let mut names = Names::new("material");
+    let mut patterns = Patterns::default();
+    let mut materials = Vec::new();
+    for leaf in reader.read::<Vec<Leaf<'_>>>(fields.materials, "`materials`")? {
+        let entry: Option<MaterialFields<'_>> = reader.read(leaf, "this material");
+        let name = entry.as_ref().and_then(|entry| reader.probe_name(entry.name));
+        names.give(reader, name);
+        materials.push(entry.and_then(|entry| materials::lower(reader, &entry, &mut patterns)));
+    }
+    let mut objects = Objects::default();
+    let mut object_names = Names::new("object");
+    for (number, leaf) in reader.read::<Vec<Leaf<'_>>>(fields.objects, "`objects`")?.into_iter().enumerate() {
+        objects.add(reader, leaf, number, &names, &mut object_names);
+        if objects.full {
+            break;
+        }
+    }
+    let camera = match fields.camera {
+        Some(leaf) => camera(reader, leaf),
+        None => {
+            let bounds = objects::bounds(&objects);
+            if bounds.is_none() && reader.errors.is_empty() {
+                reader.wrong(fields.objects, "a scene without objects needs a camera", "");
+            }
+            bounds.map(Camera::framing)
+        }
+    };
+    Some(Scene {
+        meshes: objects.meshes,
+        materials: materials.into_iter().collect::<Option<_>>()?,
+        textures: patterns.textures,
+        objects: objects.objects,
+        sun: sun?,
+        ambient: ambient?,
+        point_lights: point_lights?,
+        sky: sky?,
+        camera: camera?,
+        notes: Vec::new(),
+    })
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CameraFields<'s> {
+    #[serde(borrow)]
+    position: Leaf<'s>,
+    target: Leaf<'s>,
+    up: Option<Leaf<'s>>,
+    fov: Option<Leaf<'s>>,
+    near: Option<Leaf<'s>>,
+}
+
+/// Field of view in degrees where a file says nothing.
+const FOV: f64 = 40.0;
+/// Near distance in metres where a file says nothing.
+const NEAR: f64 = 0.1;
+
+fn camera<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<Camera> {
+    let fields: CameraFields<'_> = reader.read(leaf, "the camera")?;
+    let position = place(reader, fields.position, "the position");
+    let target = place(reader, fields.target, "the target");
+    let up = fields.up.map_or(Some(DVec3::Y), |leaf| direction(reader, leaf, "the upward direction"));
+    let fov = fields.fov.map_or(Some(FOV), |leaf| number(reader, leaf, "the field of view", 1.0, 170.0));
+    let near = fields.near.map_or(Some(NEAR), |leaf| number(reader, leaf, "the near distance", 1e-6, 1e9));
+    let (position, target, up) = (position?, target?, up?);
+    let camera = Camera::look_at(position, target, up, fov?.to_radians() as f32, near? as f32);
+    if camera.is_none() {
+        let help = "position and target must differ, and the view must not run along `up`";
+        reader.wrong(fields.target, "this leaves the camera's direction open", help);
+    }
+    camera
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SunFields<'s> {
+    #[serde(borrow)]
+    direction: Leaf<'s>,
+    color: Option<Leaf<'s>>,
+    intensity: Option<Leaf<'s>>,
+}
+
+fn sun<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<Sun> {
+    let fields: SunFields<'_> = reader.read(leaf, "the sun")?;
+    let direction = direction(reader, fields.direction, "the sun's direction");
+    let (color, intensity) = light(reader, fields.color, fields.intensity);
+    let intensity = intensity?;
+    Some(Sun { direction: direction?.as_vec3().to_array(), color: color?.map(|part| part * intensity) })
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LightFields<'s> {
+    #[serde(borrow)]
+    position: Leaf<'s>,
+    color: Option<Leaf<'s>>,
+    intensity: Option<Leaf<'s>>,
+    range: Option<Leaf<'s>>,
+}
+
+fn lights<'s>(reader: &mut Reader<'s>, list: Leaf<'s>) -> Option<Vec<PointLight>> {
+    let leaves: Vec<Leaf<'_>> = reader.read(list, "`lights`")?;
+    if leaves.len() > limits::POINT_LIGHTS {
+        let message = format!("the scene has {} lights", leaves.len());
+        reader.wrong(list, message, &format!("at most {} are allowed", limits::POINT_LIGHTS));
+        return None;
+    }
+    let lights: Vec<Option<PointLight>> = leaves.into_iter().map(|leaf| point_light(reader, leaf)).collect();
+    lights.into_iter().collect()
+}
+
+fn point_light<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<PointLight> {
+    let fields: LightFields<'_> = reader.read(leaf, "this light")?;
+    let position = place(reader, fields.position, "the position");
+    let (color, intensity) = light(reader, fields.color, fields.intensity);
+    let range = |leaf| number(reader, leaf, "the range", 1e-6, limits::COORDINATE).map(Some);
+    let range = fields.range.map_or(Some(None), range);
+    Some(PointLight {
+        position: position?.as_vec3().to_array(),
+        color: color?,
+        intensity: intensity?,
+        range: range?.map(|range| range as f32),
+    })
+}
+
+/// Colour (white where the file says nothing) and intensity (1).
+fn light<'s>(
+    reader: &mut Reader<'s>,
+    hue: Option<Leaf<'s>>,
+    intensity: Option<Leaf<'s>>,
+) -> (Option<[f32; 3]>, Option<f32>) {
+    let hue = hue.map_or(Some([1.0; 3]), |leaf| color(reader, leaf, "the colour", 1.0));
+    let strength = |leaf| number(reader, leaf, "the intensity", 0.0, limits::RADIANCE);
+    (hue, intensity.map_or(Some(1.0), strength).map(|intensity| intensity as f32))
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SkyFields<'s> {
+    #[serde(borrow)]
+    zenith: Leaf<'s>,
+    horizon: Leaf<'s>,
+    ground: Leaf<'s>,
+}
+
+fn sky<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<Sky> {
+    let fields: SkyFields<'_> = reader.read(leaf, "the sky")?;
+    let mut read = |leaf, what| color(reader, leaf, what, limits::RADIANCE);
+    let zenith = read(fields.zenith, "the zenith");
+    let horizon = read(fields.horizon, "the horizon");
+    let ground = read(fields.ground, "the ground");
+    Some(Sky { zenith: zenith?, horizon: horizon?, ground: ground? })
+}
