@@ -1,7 +1,11 @@
 //! What the tests of the whole share. The tests themselves are in `tests/tests`.
 //!
 //! - [`raycast`]: a second, slow and simple way to a picture.
+//! - [`render`]: a pipeline file and a scene become pictures.
+//! - [`shapes`]: simple scenes.
 //! - [`agreement`]: what the GPU drew, held against it.
 
 pub mod agreement;
 pub mod raycast;
+pub mod render;
+pub mod shapes;

@@ -1,77 +1,10 @@
 //! Claims about the ray-caster itself, held against shapes with closed formulas.
 
 use framewright_graph::vocabulary::Filter;
-use framewright_passes::scene::{
-    AlphaMode, Bounds, Camera, Material, Mesh, Object, Sampler, Scene, Sky, Sun, Texture, Wrap,
-};
+use framewright_passes::scene::{AlphaMode, Sampler, Scene, Texture, Wrap};
 use framewright_tests::raycast::{Hit, RayCaster, texture};
+use framewright_tests::shapes::{material, scene, sphere, square};
 use glam::{DVec2, DVec3, Mat4, Vec3};
-
-const BLACK: [f32; 3] = [0.0; 3];
-
-fn material(base_color: [f32; 4]) -> Material {
-    Material {
-        name: String::new(),
-        base_color,
-        base_color_texture: None,
-        emissive: BLACK,
-        alpha: AlphaMode::Opaque,
-        double_sided: false,
-    }
-}
-
-fn mesh(positions: Vec<[f32; 3]>, uvs: Vec<[f32; 2]>, indices: Vec<u32>) -> Mesh {
-    let bounds = Bounds::of(&positions).unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ZERO });
-    Mesh { normals: vec![[0.0, 0.0, 1.0]; positions.len()], positions, uvs, indices, bounds }
-}
-
-/// A square from −1 to 1 in x and y that faces +z; (0, 0) of its texture is the upper left corner.
-fn square() -> Mesh {
-    let positions = vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
-    mesh(positions, vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]], vec![0, 1, 2, 0, 2, 3])
-}
-
-/// A sphere of radius 1 in `rings` × 2 `rings` steps.
-fn sphere(rings: u32) -> Mesh {
-    let columns = 2 * rings;
-    let mut positions = Vec::new();
-    let mut indices = Vec::new();
-    for ring in 0..=rings {
-        for column in 0..=columns {
-            let latitude = std::f64::consts::PI * f64::from(ring) / f64::from(rings);
-            let longitude = std::f64::consts::TAU * f64::from(column) / f64::from(columns);
-            let place = DVec3::new(latitude.sin() * longitude.sin(), latitude.cos(), latitude.sin() * longitude.cos());
-            positions.push(place.as_vec3().to_array());
-            if ring < rings && column < columns {
-                let (here, below) = (ring * (columns + 1) + column, (ring + 1) * (columns + 1) + column);
-                indices.extend([here, below, below + 1, here, below + 1, here + 1]);
-            }
-        }
-    }
-    let uvs = vec![[0.0; 2]; positions.len()];
-    mesh(positions, uvs, indices)
-}
-
-/// A camera at z = 5 that looks towards −z with 60° from border to border.
-fn scene(meshes: Vec<Mesh>, materials: Vec<Material>, objects: Vec<(usize, usize, Mat4)>) -> Scene {
-    let object = |(mesh, material, transform)| Object { name: String::new(), mesh, material, transform };
-    Scene {
-        meshes,
-        materials,
-        textures: Vec::new(),
-        objects: objects.into_iter().map(object).collect(),
-        sun: Sun { direction: [0.0, -1.0, 0.0], color: BLACK },
-        ambient: BLACK,
-        point_lights: Vec::new(),
-        sky: Sky { zenith: BLACK, horizon: BLACK, ground: BLACK },
-        camera: Camera {
-            transform: Mat4::from_translation(Vec3::new(0.0, 0.0, 5.0)),
-            vertical_fov: std::f32::consts::FRAC_PI_3,
-            near: 0.1,
-        },
-        notes: Vec::new(),
-    }
-}
 
 fn cast(scene: &Scene, x: f64, y: f64) -> Option<Hit> {
     let caster = RayCaster::new(scene);

@@ -21,6 +21,8 @@ pub struct Hit {
     pub base_color: [f64; 4],
     /// Distance along the camera's axis, metres.
     pub depth: f64,
+    /// Unit normal of the triangle, on the side that the ray comes from.
+    pub normal: DVec3,
 }
 
 /// A scene made ready for rays.
@@ -80,7 +82,7 @@ impl<'scene> RayCaster<'scene> {
             let limit = nearest.map_or(f64::INFINITY, |hit| hit.depth);
             let meeting = meet(ray, &self.triangles[triangle as usize]);
             if let Some(meeting) = meeting.filter(|meeting| (near..limit).contains(&meeting.distance)) {
-                nearest = self.shown(triangle, &meeting).or(nearest);
+                nearest = self.shown(ray, triangle, &meeting).or(nearest);
             }
             nearest.map_or(f64::INFINITY, |hit| hit.depth)
         });
@@ -88,7 +90,7 @@ impl<'scene> RayCaster<'scene> {
     }
 
     /// What a triangle shows where it is met, unless that side or place of it shows nothing.
-    fn shown(&self, triangle: u32, meeting: &Meeting) -> Option<Hit> {
+    fn shown(&self, ray: &Ray, triangle: u32, meeting: &Meeting) -> Option<Hit> {
         let (object_index, first) = self.origins[triangle as usize];
         let object = &self.scene.objects[object_index as usize];
         let material = &self.scene.materials[object.material];
@@ -111,7 +113,12 @@ impl<'scene> RayCaster<'scene> {
         let base_color = std::array::from_fn(|i| f64::from(material.base_color[i]) * texel[i]);
         match material.alpha {
             AlphaMode::Mask { cutoff } if base_color[3] < f64::from(cutoff) => None,
-            _ => Some(Hit { object: object_index, base_color, depth: meeting.distance }),
+            _ => {
+                let [a, b, c] = self.triangles[triangle as usize];
+                let normal = (b - a).cross(c - a).normalize();
+                let normal = if normal.dot(ray.direction) > 0.0 { -normal } else { normal };
+                Some(Hit { object: object_index, base_color, depth: meeting.distance, normal })
+            }
         }
     }
 }

@@ -1,0 +1,93 @@
+//! A pipeline file and a scene become pictures: the whole way, on a real driver under the validation layer.
+
+use framewright_graph::compile::{self, Options};
+use framewright_graph::describe::{self, Diagnostic};
+use framewright_graph::expand::{self, Inputs};
+use framewright_graph::plan::Plan;
+use framewright_graph::source::Sources;
+use framewright_graph::verify::verify;
+use framewright_passes::draw::{SceneDrawSource, interface};
+use framewright_passes::scene::Scene;
+use framewright_passes::shipped::SHADERS;
+use framewright_vulkan::{
+    Blame, Device, DeviceChoice, DeviceOptions, Executor, ExecutorOptions, Message, ShaderLibrary, Texels,
+};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+/// The device that the tests of one binary share: `FRAMEWRIGHT_TEST_DEVICE` or the default. `None`, with a message, where
+/// the machine has no driver or no validation layer; with `CI` set that is a failure.
+///
+/// # Panics
+/// With `CI` set, if there is none.
+pub fn device() -> Option<&'static Device> {
+    static DEVICE: OnceLock<Option<Device>> = OnceLock::new();
+    let open = || {
+        let choice = std::env::var("FRAMEWRIGHT_TEST_DEVICE").map_or(DeviceChoice::Default, DeviceChoice::Name);
+        match Device::open(&DeviceOptions { choice, validation: true }) {
+            Ok(device) => Some(device),
+            Err(error) => {
+                let may_be_absent = error.blame() == Blame::Environment && std::env::var_os("CI").is_none();
+                assert!(may_be_absent, "{error}");
+                eprintln!("skipped: {error}");
+                None
+            }
+        }
+    };
+    DEVICE.get_or_init(open).as_ref()
+}
+
+/// What is rendered.
+pub struct Setup<'a> {
+    /// The pipeline file, relative to the repository.
+    pub pipeline: &'a str,
+    /// Settings by name.
+    pub set: &'a [(&'a str, &'a str)],
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Width and height of the output.
+    pub extent: [u32; 2],
+}
+
+/// A file of the repository.
+#[must_use]
+pub fn in_repository(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
+}
+
+/// The Plan for `setup` on `device`, found right by the checker.
+///
+/// # Errors
+/// Whatever keeps the pipeline file from becoming a Plan, or the checker's findings.
+pub fn plan(device: &Device, setup: &Setup<'_>, shaders: &mut ShaderLibrary) -> Result<Plan, Box<dyn Error>> {
+    let mut sources = Sources::default();
+    let text = std::fs::read_to_string(in_repository(setup.pipeline))?;
+    let pipeline = describe::read(&mut sources, setup.pipeline, setup.pipeline, text);
+    let sources = Arc::new(sources);
+    let rendered = |mistakes: Vec<Diagnostic>| describe::render(&sources, &mistakes);
+    let pipeline = pipeline.map_err(rendered)?;
+    let set: Vec<_> = setup.set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    let facts = setup.scene.facts();
+    let inputs = Inputs { set: &set, facts, facts_known: true, output_extent: setup.extent, dump: &[] };
+    let frame = expand::expand(&pipeline, sources.clone(), &inputs, shaders).map_err(rendered)?;
+    let plan = compile::compile(&frame, &device.profile(), &mut device.memory(), &Options::default());
+    let plan = plan.map_err(rendered)?;
+    let violations: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
+    if violations.is_empty() { Ok(plan) } else { Err(violations.join("\n").into()) }
+}
+
+/// The outputs of one frame, in the file's order.
+///
+/// # Errors
+/// Whatever keeps the frame from being drawn, or the validation layer's findings.
+pub fn render(device: &Device, setup: &Setup<'_>) -> Result<Vec<Texels>, Box<dyn Error>> {
+    let mut shaders = ShaderLibrary::new(vec![in_repository("tests/shaders")], SHADERS, interface);
+    let plan = plan(device, setup, &mut shaders)?;
+    let mut draws = SceneDrawSource::new(device, setup.scene, setup.extent)?;
+    let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
+    executor.frame(&mut draws)?;
+    let outputs = (0..plan.outputs.len()).map(|output| executor.read(output)).collect::<Result<_, _>>()?;
+    let findings: Vec<_> = device.messages().list().into_iter().filter(Message::is_finding).collect();
+    if findings.is_empty() { Ok(outputs) } else { Err(format!("{findings:#?}").into()) }
+}

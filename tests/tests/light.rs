@@ -1,0 +1,95 @@
+//! Lit surfaces are held against the twin of the lighting formulas (NU-5) where the ray-caster sees them.
+
+use framewright_passes::scene::{AlphaMode, PointLight, Scene, Sun};
+use framewright_passes::twin::lighting::{lit_surface, reflect_light};
+use framewright_tests::raycast::RayCaster;
+use framewright_tests::render::{Setup, device, render};
+use framewright_tests::shapes::{material, scene, square};
+use glam::{DVec2, EulerRot, Mat4, Quat, Vec3};
+use std::error::Error;
+
+/// Width and height.
+const EXTENT: [u32; 2] = [80, 60];
+/// Largest error of a channel, relative to it: positions and normals reach the shader in 32 bits, and the highlight takes a
+/// 64th power of them.
+const RELATIVE: f64 = 2e-4;
+
+/// Flat surfaces, so that the triangle's normal is the surface's: turned, stretched, mirrored, seen from behind.
+fn surfaces() -> Scene {
+    let mut glass = material([0.9, 0.5, 0.4, 0.3]);
+    glass.alpha = AlphaMode::Blend;
+    let mut leaf = material([0.3, 0.8, 0.2, 0.9]);
+    leaf.alpha = AlphaMode::Mask { cutoff: 0.5 };
+    leaf.double_sided = true;
+    let mut lamp = material([0.2, 0.2, 0.2, 0.5]);
+    lamp.emissive = [0.0, 3.0, 1e6];
+    let place = |at: [f32; 3], turn: [f32; 3], scale: [f32; 3]| {
+        let turn = Quat::from_euler(EulerRot::XYZ, turn[0], turn[1], turn[2]);
+        Mat4::from_scale_rotation_translation(Vec3::from(scale), turn, Vec3::from(at))
+    };
+    scene(
+        vec![square()],
+        vec![material([0.8, 0.7, 0.6, 1.0]), glass, leaf, lamp],
+        vec![
+            (0, 0, place([0.0, -1.0, -2.0], [-1.2, 0.0, 0.0], [4.0, 3.0, 1.0])),
+            (0, 0, place([-1.5, 0.4, 0.0], [0.3, 0.5, 0.2], [0.7, 1.4, 0.2])),
+            (0, 1, place([0.3, 0.5, 0.5], [0.0, -0.4, 0.0], [-0.6, 0.6, 1.0])),
+            (0, 2, place([1.7, 0.6, 0.0], [0.2, 2.8, 0.0], [0.6, 0.9, 1.0])),
+            (0, 3, place([0.0, 1.8, -1.0], [0.4, 0.0, 0.0], [1.0, 0.5, 1.0])),
+        ],
+    )
+}
+
+fn demand_twin(scene: &Scene) -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let setup = Setup { pipeline: "tests/pipelines/lit.ron", set: &[], scene, extent: EXTENT };
+    let outputs = render(device, &setup)?;
+    let (texels, _) = outputs[0].bytes.as_chunks::<16>();
+    let caster = RayCaster::new(scene);
+    let [width, height] = EXTENT.map(f64::from);
+    let mut seen = vec![0; scene.objects.len()];
+    for (index, texel) in texels.iter().enumerate() {
+        let (x, y) = ((index % EXTENT[0] as usize) as f64 + 0.5, (index / EXTENT[0] as usize) as f64 + 0.5);
+        let ray = |dx, dy| caster.camera_ray(DVec2::new((x + dx) / width, (y + dy) / height), width / height);
+        let object = |dx, dy| caster.cast(&ray(dx, dy)).map(|hit| hit.object);
+        let middle = ray(0.0, 0.0);
+        let Some(hit) = caster.cast(&middle) else { continue };
+        let corners = [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)];
+        if corners.iter().any(|&(dx, dy)| object(dx, dy) != Some(hit.object)) {
+            continue;
+        }
+        seen[hit.object as usize] += 1;
+        let material = &scene.materials[scene.objects[hit.object as usize].material];
+        let position = middle.origin + middle.direction * hit.depth;
+        let expected = lit_surface(material, hit.base_color, &reflect_light(scene, position, hit.normal));
+        for (channel, expected) in expected.into_iter().enumerate() {
+            let word: [u8; 4] = texel[4 * channel..4 * channel + 4].try_into()?;
+            let found = f64::from(f32::from_ne_bytes(word));
+            let close = (found - expected).abs() <= RELATIVE * expected + 1e-6;
+            assert!(close, "({x}, {y}) object {} channel {channel}: {found} instead of {expected}", hit.object);
+        }
+    }
+    assert!(seen.iter().all(|pixels| *pixels > 20), "some object hardly shows: {seen:?}");
+    Ok(())
+}
+
+#[test]
+fn the_sun_with_its_highlight_and_ambient_light_are_their_twins() -> Result<(), Box<dyn Error>> {
+    let mut scene = surfaces();
+    scene.ambient = [0.1, 0.15, 0.2];
+    let direction = Vec3::new(-0.1, -0.6, -0.7).normalize().to_array();
+    scene.sun = Sun { direction, color: [3.0, 2.5, 2.0] };
+    demand_twin(&scene)
+}
+
+#[test]
+fn point_lights_with_and_without_range_are_their_twins() -> Result<(), Box<dyn Error>> {
+    let mut scene = surfaces();
+    let light = |position, color, intensity, range| PointLight { position, color, intensity, range };
+    scene.point_lights = vec![
+        light([0.0, 2.0, 2.0], [1.0, 0.9, 0.8], 100.0, None),
+        light([-1.0, 0.5, 1.0], [0.0, 1.0, 0.5], 0.5, Some(1.5)),
+        light([2.0, -0.5, 0.5], [1.0, 0.0, 0.0], 2.0, Some(1e30)),
+    ];
+    demand_twin(&scene)
+}
