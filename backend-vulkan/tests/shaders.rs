@@ -1,0 +1,352 @@
+//! Shaders found, compiled and reflected. No device is needed.
+
+use framewright_graph::frame::{Draw, DrawList};
+use framewright_graph::interface::{
+    BindingKind, Component, Dimension, DrawInterface, ImageShape, ShaderInterface, ShaderInterfaces, ShaderProblem,
+};
+use framewright_graph::vocabulary::Stages;
+use framewright_vulkan::ShaderLibrary;
+use std::fs;
+use std::path::Path;
+
+const SHIPPED: &[(&str, &str)] = &[
+    ("full_screen.vert", "#version 460\nvoid main() { gl_Position = vec4(0.0); }\n"),
+    ("plain.frag", "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n"),
+    ("light/half.glsl", "const float HALF = 0.5;\n"),
+];
+
+fn library(folder: &Path) -> ShaderLibrary {
+    ShaderLibrary::new(vec![folder.to_owned()], SHIPPED, |_| DrawInterface::default())
+}
+
+/// The interface of a full-screen shader with this fragment stage (a version line comes first).
+fn full_screen(fragment: &str) -> Result<ShaderInterface, ShaderProblem> {
+    drawn(Draw::FullScreen, &[("test.frag", &format!("#version 460\n{fragment}"))])
+}
+
+/// The interface of the shader `test` made of these files.
+fn drawn(draw: Draw, files: &[(&str, &str)]) -> Result<ShaderInterface, ShaderProblem> {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).expect("a file");
+    }
+    library(folder.path()).draw_shader("test", draw)
+}
+
+fn reflected(fragment: &str) -> ShaderInterface {
+    full_screen(fragment).expect("it compiles")
+}
+
+/// The compiler's messages without the folder's path.
+fn messages(files: &[(&str, &str)]) -> Vec<String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).expect("a file");
+    }
+    let shown = format!("{}/", folder.path().display());
+    match library(folder.path()).draw_shader("test", Draw::FullScreen) {
+        Err(ShaderProblem::DoesNotCompile { messages }) => {
+            messages.iter().map(|message| message.replace(&shown, "")).collect()
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+fn unsupported(files: &[(&str, &str)]) -> String {
+    match drawn(Draw::FullScreen, files) {
+        Err(ShaderProblem::Unsupported { what }) => what,
+        other => panic!("{other:?}"),
+    }
+}
+
+const WHITE: &str = "layout(location = 0) out vec4 color; void main() { color = vec4(1.0);";
+
+#[test]
+fn a_parameter_block_has_its_members_offsets_and_types() {
+    let interface = reflected(
+        "layout(set = 0, binding = 2) uniform Params { float white; bool on; ivec2 steps; mat4 turn; vec3 tint; uint n; }
+            params;
+        layout(location = 0) out vec4 color;
+        void main() { color = params.turn * vec4(params.tint * params.white, params.on ? 1.0 : float(params.steps.x + params.n)); }",
+    );
+    let [binding] = &interface.bindings[..] else { panic!("{interface:?}") };
+    assert_eq!((binding.set, binding.binding, binding.name.as_str()), (0, 2, "params"));
+    assert_eq!(binding.stages, Stages::FRAGMENT_SHADER);
+    let BindingKind::UniformBlock(block) = &binding.kind else { panic!("{binding:?}") };
+    let members: Vec<_> = block.members.iter().map(|it| (it.name.as_str(), it.offset, it.ty.as_str())).collect();
+    let expected = [
+        ("white", 0, "float"),
+        ("on", 4, "uint"),
+        ("steps", 8, "ivec2"),
+        ("turn", 16, "mat4"),
+        ("tint", 80, "vec3"),
+        ("n", 92, "uint"),
+    ];
+    assert_eq!((members, block.bytes), (expected.to_vec(), 96));
+}
+
+#[test]
+fn images_have_their_dimension_samples_and_component() {
+    let interface = reflected(
+        "layout(set = 0, binding = 0) uniform sampler2D flat_one;
+        layout(set = 0, binding = 1) uniform sampler2DMSArray samples;
+        layout(set = 0, binding = 2) uniform usampler3D volume;
+        layout(set = 0, binding = 3) uniform isamplerCube cube;
+        layout(set = 0, binding = 4, r32f) uniform writeonly image2D stored;
+        layout(set = 0, binding = 5) uniform sampler2DShadow shadow;
+        layout(set = 0, binding = 6) uniform sampler2D many[2];
+        layout(set = 0, binding = 7) uniform samplerBuffer texels;
+        layout(location = 0) out vec4 color; void main() { color = vec4(1.0); }",
+    );
+    let shape =
+        |dimension, arrayed, multisampled, component| ImageShape { dimension, arrayed, multisampled, component };
+    let kinds: Vec<_> = interface.bindings.into_iter().map(|it| it.kind).collect();
+    let other = |what: &str| BindingKind::Other(what.to_owned());
+    let expected = [
+        BindingKind::SampledImage(shape(Dimension::D2, false, false, Component::Float)),
+        BindingKind::SampledImage(shape(Dimension::D2, true, true, Component::Float)),
+        BindingKind::SampledImage(shape(Dimension::D3, false, false, Component::Uint)),
+        BindingKind::SampledImage(shape(Dimension::Cube, false, false, Component::Int)),
+        BindingKind::StorageImage {
+            shape: shape(Dimension::D2, false, false, Component::Float),
+            readable: false,
+            writable: true,
+        },
+        other("a sampler that compares depth"),
+        other("an array of resources"),
+        other("a texel buffer"),
+    ];
+    assert_eq!(kinds, expected);
+}
+
+#[test]
+fn in_sets_from_one_on_only_what_is_used_counts() {
+    let declared = "layout(set = 1, binding = 0) uniform View { mat4 m; } view;
+        layout(set = 1, binding = 1) readonly buffer Lights { vec4 light[]; };
+        layout(set = 1, binding = 2) buffer Counter { uint count; } counter;
+        layout(location = 0) out vec4 color;";
+    let names = |body: &str| {
+        let bindings = reflected(&format!("{declared} void main() {{ {body} }}")).bindings;
+        bindings.into_iter().map(|it| (it.name, it.kind)).collect::<Vec<_>>()
+    };
+    assert_eq!(names("color = vec4(1.0);"), []);
+    let read_only = BindingKind::StorageBlock { writable: false };
+    assert_eq!(names("color = light[0];"), [("Lights".to_owned(), read_only)]);
+    let writable = BindingKind::StorageBlock { writable: true };
+    assert_eq!(names("color = vec4(float(counter.count));"), [("counter".to_owned(), writable)]);
+}
+
+#[test]
+fn what_a_fragment_stage_does_is_seen() {
+    let plain = reflected(&format!("{WHITE} }}"));
+    let flags =
+        |it: &ShaderInterface| [it.discards, it.uses_frag_coord, it.uses_derivatives, it.per_sample, it.writes_depth];
+    assert_eq!(flags(&plain), [false; 5]);
+    let seen = |body: &str| flags(&reflected(&format!("{WHITE} {body} }}")));
+    assert_eq!(seen("if (color.x > 2.0) discard;"), [true, false, false, false, false]);
+    assert_eq!(seen("color *= gl_FragCoord.x;"), [false, true, false, false, false]);
+    assert_eq!(seen("color *= dFdx(color.x);"), [false, false, true, false, false]);
+    assert_eq!(seen("color *= float(gl_SampleID);"), [false, false, false, true, false]);
+    assert_eq!(seen("color *= gl_SamplePosition.x;"), [false, false, false, true, false]);
+    assert_eq!(seen("gl_FragDepth = 0.5;"), [false, false, false, false, true]);
+    let sampled = reflected(
+        "layout(set = 0, binding = 0) uniform sampler2D source; layout(location = 0) out vec4 color;
+        void main() { color = texture(source, vec2(0.5)); }",
+    );
+    assert!(sampled.uses_derivatives, "the mip level is chosen by derivatives");
+    let fetched = reflected(
+        "layout(set = 0, binding = 0) uniform sampler2D source; layout(location = 0) out vec4 color;
+        void main() { color = texelFetch(source, ivec2(0), 0); }",
+    );
+    assert!(!fetched.uses_derivatives);
+}
+
+#[test]
+fn a_discard_counts_only_where_it_can_be_reached() {
+    let called = reflected(
+        "layout(location = 0) out vec4 color;
+        void away() { discard; } void through() { away(); }
+        void main() { color = vec4(1.0); through(); }",
+    );
+    assert!(called.discards);
+    let uncalled = reflected(
+        "layout(location = 0) out vec4 color;
+        void away() { discard; } void through() { away(); }
+        void main() { color = vec4(1.0); }",
+    );
+    assert!(!uncalled.discards);
+}
+
+#[test]
+fn a_sample_input_runs_once_a_sample() {
+    let vertex = "#version 460
+        layout(location = 1) out vec2 uv;
+        void main() { uv = vec2(0.0); gl_Position = vec4(0.0); }";
+    let fragment = |qualifier: &str| {
+        format!(
+            "#version 460
+            layout(location = 1) {qualifier} in vec2 uv;
+            layout(location = 0) out vec4 color;
+            void main() {{ color = vec4(uv, 0.0, 1.0); }}"
+        )
+    };
+    let per_sample = |qualifier: &str| {
+        let files = [("test.vert", vertex), ("test.frag", &fragment(qualifier))];
+        drawn(Draw::FullScreen, &files).expect("it compiles").per_sample
+    };
+    assert_eq!([per_sample(""), per_sample("sample")], [false, true]);
+}
+
+#[test]
+fn vertex_inputs_and_color_outputs_are_listed_by_location() {
+    let vertex = "#version 460
+        layout(location = 3) in vec2 uv;
+        layout(location = 1) in vec3 position;
+        layout(location = 7) in vec3 unused;
+        void main() { gl_Position = vec4(position, uv.x); }";
+    let fragment = "#version 460
+        layout(location = 2) out uvec2 id;
+        layout(location = 0) out vec4 color[2];
+        void main() { color[0] = color[1] = vec4(1.0); id = uvec2(1); }";
+    let draw = Draw::Objects(DrawList::Opaque);
+    let interface = drawn(draw, &[("test.vert", vertex), ("test.frag", fragment)]).expect("it compiles");
+    let inputs: Vec<_> =
+        interface.vertex_inputs.iter().map(|it| (it.location, it.name.as_str(), it.ty.as_str())).collect();
+    assert_eq!(inputs, [(1, "position", "vec3"), (3, "uv", "vec2")]);
+    let outputs: Vec<_> =
+        interface.outputs.iter().map(|it| (it.location, it.name.as_str(), it.component, it.components)).collect();
+    let expected =
+        [(0, "color", Component::Float, 4), (1, "color", Component::Float, 4), (2, "id", Component::Uint, 2)];
+    assert_eq!(outputs, expected);
+}
+
+#[test]
+fn bindings_of_both_stages_are_joined() {
+    let block = "layout(set = 0, binding = 0) uniform Params { float size; } params;";
+    let vertex = format!("#version 460\n{block} void main() {{ gl_Position = vec4(params.size); }}");
+    let fragment = format!("#version 460\n{block} {WHITE} color *= params.size; }}");
+    let interface = drawn(Draw::FullScreen, &[("test.vert", &vertex), ("test.frag", &fragment)]).expect("it compiles");
+    let stages: Vec<_> = interface.bindings.iter().map(|it| it.stages).collect();
+    assert_eq!(stages, [Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER]);
+}
+
+#[test]
+fn stages_that_do_not_fit_together_are_refused() {
+    let vertex =
+        "#version 460\nlayout(location = 1) out vec2 uv;\nvoid main() { uv = vec2(0.0); gl_Position = vec4(0.0); }";
+    let fragment =
+        |location, ty| format!("#version 460\nlayout(location = {location}) in {ty} uv; {WHITE} color.x = uv.x; }}");
+    let what = |fragment: &str| {
+        let what = unsupported(&[("test.vert", vertex), ("test.frag", fragment)]);
+        what.split_whitespace().map(|word| word.rsplit('/').next().unwrap_or(word)).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(
+        what(&fragment(2, "vec2")),
+        "test.frag reads `vec2 uv` at location 2, where test.vert hands over nothing"
+    );
+    assert_eq!(
+        what(&fragment(1, "vec3")),
+        "test.frag reads `vec3 uv` at location 1, where test.vert hands over `vec2 uv`"
+    );
+}
+
+#[test]
+fn a_mistake_has_the_shaders_own_file_and_line() {
+    let fragment = "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() {\n    color = colour;\n}\n";
+    let messages = messages(&[("test.frag", fragment)]);
+    assert_eq!(messages[0], "test.frag:4: error: 'colour' : undeclared identifier");
+}
+
+#[test]
+fn a_mistake_in_an_included_file_has_that_files_name() {
+    let included = "float half_of(float x) {\n    return x * missing;\n}\n";
+    let fragment = "#version 460\n#include \"part.glsl\"\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(half_of(1.0)); }\n";
+    let messages = messages(&[("part.glsl", included), ("test.frag", fragment)]);
+    assert_eq!(messages[0], "part.glsl:2: error: 'missing' : undeclared identifier");
+}
+
+#[test]
+fn includes_come_from_the_folders_and_then_from_what_is_shipped() {
+    let body = "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(HALF); }\n";
+    let fragment = format!("#version 460\n#include \"light/half.glsl\"\n{body}");
+    assert!(drawn(Draw::FullScreen, &[("test.frag", &fragment)]).is_ok(), "shipped");
+    let fragment = format!("#version 460\n#include \"own.glsl\"\n{body}");
+    let own = "#include \"light/half.glsl\"\n";
+    assert!(drawn(Draw::FullScreen, &[("test.frag", &fragment), ("own.glsl", own)]).is_ok(), "own, then shipped");
+}
+
+#[test]
+fn an_include_can_not_leave_its_folder() {
+    for name in ["../secret.glsl", "/etc/passwd", "a/../../b", ".", "a\\b", ""] {
+        let fragment = format!("#version 460\n#include \"{name}\"\n{WHITE} }}");
+        let messages = messages(&[("test.frag", &fragment)]);
+        assert!(messages[0].starts_with("test.frag:2: error: "), "{messages:?}");
+    }
+    let what = match library(Path::new("/tmp")).draw_shader("../test", Draw::FullScreen) {
+        Err(ShaderProblem::Unsupported { what }) => what,
+        other => panic!("{other:?}"),
+    };
+    assert!(what.contains("`../test.frag` is no shader file name"), "{what}");
+}
+
+#[test]
+fn a_file_that_includes_itself_is_an_error() {
+    let fragment = format!("#version 460\n#include \"circle.glsl\"\n{WHITE} }}");
+    let messages = messages(&[("test.frag", &fragment), ("circle.glsl", "#include \"circle.glsl\"\n")]);
+    assert!(messages.iter().any(|message| message.contains("a circle?")), "{messages:?}");
+}
+
+#[test]
+fn a_missing_shader_says_where_it_was_looked_for_and_what_there_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("own.frag"), "").expect("a file");
+    let problem = library(folder.path()).draw_shader("wanted", Draw::FullScreen);
+    let looked_in = vec![folder.path().display().to_string(), "the shipped shaders".to_owned()];
+    let known = vec!["own".to_owned(), "plain".to_owned()];
+    assert_eq!(problem, Err(ShaderProblem::Missing { looked_in, known }));
+    let no_vertex_shader = library(folder.path()).draw_shader("plain", Draw::Sky);
+    let what = "no vertex shader: neither `plain.vert` nor `sky.vert` was found".to_owned();
+    assert_eq!(no_vertex_shader, Err(ShaderProblem::Unsupported { what }));
+}
+
+#[test]
+fn a_shader_on_disk_comes_before_a_shipped_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("plain.frag"), "no GLSL").expect("a file");
+    let problem = library(folder.path()).draw_shader("plain", Draw::FullScreen);
+    assert!(matches!(problem, Err(ShaderProblem::DoesNotCompile { .. })), "{problem:?}");
+}
+
+#[test]
+fn files_that_are_no_text_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("binary.frag"), [0xFF, 0xFE, 0x00]).expect("a file");
+    fs::write(path("zero.frag"), "#version 460\0").expect("a file");
+    fs::write(path("huge.frag"), vec![b'\n'; (1 << 20) + 1]).expect("a file");
+    fs::create_dir(path("folder.frag")).expect("a folder");
+    let mut library = library(folder.path());
+    let mut what = |name: &str| match library.draw_shader(name, Draw::FullScreen) {
+        Err(ShaderProblem::Unsupported { what }) => what.rsplit('/').next().unwrap_or("").to_owned(),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(what("binary"), "binary.frag is not UTF-8 text");
+    assert_eq!(what("zero"), "zero.frag contains a zero byte");
+    assert_eq!(what("huge"), "huge.frag has 1048577 bytes, more than the 1048576 of a shader");
+    assert_eq!(what("folder"), "folder.frag is not a regular file");
+}
+
+#[test]
+fn push_constants_and_double_bindings_are_refused() {
+    let push = format!("#version 460\nlayout(push_constant) uniform P {{ float x; }} p; {WHITE} color.x = p.x; }}");
+    assert!(
+        unsupported(&[("test.frag", &push)]).ends_with("push constants: parameters come in the uniform block `params`")
+    );
+    let double = format!(
+        "#version 460
+        layout(set = 0, binding = 1) uniform sampler2D a;
+        layout(set = 0, binding = 1) uniform sampler2D b;
+        {WHITE} }}"
+    );
+    assert!(unsupported(&[("test.frag", &double)]).ends_with("`a` and `b` at the same place: set 0, binding 1"));
+}
