@@ -20,7 +20,7 @@ pub(crate) struct Features {
 type Flag = fn(&mut Features) -> &mut vk::Bool32;
 
 /// The minimum device, feature by feature: Vulkan's name, what needs it, the flag. All of these are switched on.
-const MINIMUM_FEATURES: [(&str, Flag); 8] = [
+const MINIMUM_FEATURES: [(&str, Flag); 9] = [
     // Rendering scopes without render pass objects.
     ("dynamicRendering", |it| &mut it.v1_3.dynamic_rendering),
     // Barriers as the Plan writes them.
@@ -34,6 +34,8 @@ const MINIMUM_FEATURES: [(&str, Flag); 8] = [
     ("robustBufferAccess", |it| &mut it.core.robust_buffer_access),
     // Another blend for each attachment.
     ("independentBlend", |it| &mut it.core.independent_blend),
+    // Storage images that fragment shaders write.
+    ("fragmentStoresAndAtomics", |it| &mut it.core.fragment_stores_and_atomics),
     // Fragment shaders that run once a sample.
     ("sampleRateShading", |it| &mut it.core.sample_rate_shading),
 ];

@@ -49,6 +49,11 @@ impl DescriptorSet {
         Ok(set)
     }
 
+    /// Whether this device made it.
+    pub(crate) fn is_of(&self, shared: &Shared) -> bool {
+        std::ptr::eq(Arc::as_ptr(&self.shared), shared)
+    }
+
     fn write(&self, binding: LayoutBinding, target: Target) {
         let write = vk::WriteDescriptorSet::default()
             .dst_set(self.raw)
@@ -119,6 +124,13 @@ impl Device {
             resources.iter().find(|(binding, _)| supplied.iter().all(|it| it.binding != *binding))
         {
             return Err(bad(format!("the draw interface has no binding {binding}")));
+        }
+        let is_own = |resource: &Resource<'_>| match resource {
+            Resource::Buffer(buffer) => buffer.0.is_of(&self.shared),
+            Resource::Texture(texture) => texture.0.view.is_of(&self.shared),
+        };
+        if !resources.iter().all(|(_, resource)| is_own(resource)) {
+            return Err(bad("a resource belongs to another device".to_owned()));
         }
         let mut bindings = Vec::new();
         let (mut buffers, mut textures) = (Vec::new(), Vec::new());

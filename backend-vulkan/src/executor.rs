@@ -102,10 +102,10 @@ impl Executor {
         let frame =
             Frame { shared: &self.shared, plan: &self.plan, prepared: &self.prepared, poison: self.options.poison };
         let timing = &mut self.timing;
-        let draws = self.commands.record(|commands| frame.record(commands, source, timing))?;
+        let recorded = self.commands.record(|commands| frame.record(commands, source, timing))?;
         self.commands.submit("drawing a frame", self.options.timeout)?;
         self.drawn = true;
-        self.timing.report(&self.plan, &draws)
+        self.timing.report(&self.plan, &recorded.draws)
     }
 
     /// The output number `output` of the Plan, as the last frame left it.

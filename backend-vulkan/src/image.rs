@@ -115,6 +115,13 @@ impl View {
     }
 }
 
+impl View {
+    /// Whether this device made it.
+    pub(crate) fn is_of(&self, shared: &Shared) -> bool {
+        std::ptr::eq(Arc::as_ptr(&self.image.shared), shared)
+    }
+}
+
 impl Drop for View {
     fn drop(&mut self) {
         if !self.image.shared.is_abandoned() {

@@ -145,6 +145,7 @@ fn pass(
         .compiled(&pass.shader, draw)
         .map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
     let brought = shaders.brought_along(draw);
+    check_limits(shared, &shader).map_err(mismatch)?;
     check_supplied(&shader, &brought).map_err(mismatch)?;
     check_outputs(&shader, scope).map_err(mismatch)?;
     let attributes = attributes(&shader, &brought).map_err(mismatch)?;
@@ -168,6 +169,26 @@ fn pass(
     shared.name(pipeline, &pass.name);
     let supplied = (PASS_SET + 1..).zip(supplied).map(|(set, layout)| (layout, reads(set))).collect();
     Ok(Pass { draw, pipeline, own, state: PassState { layout, supplied, vertex_stride } })
+}
+
+/// A stage may read so many images and so large a block, and no more.
+fn check_limits(shared: &Shared, shader: &CompiledShader) -> Result<(), String> {
+    let limits = &shared.limits;
+    let bindings = &shader.interface.bindings;
+    let images = bindings.iter().filter(|it| matches!(it.kind, BindingKind::SampledImage(_))).count();
+    let most = limits.max_per_stage_descriptor_samplers.min(limits.max_per_stage_descriptor_sampled_images);
+    if images > most as usize {
+        return Err(format!("the shader samples {images} images, and this device allows {most}"));
+    }
+    let block = bindings.iter().find_map(|it| match &it.kind {
+        BindingKind::UniformBlock(block) if block.bytes > limits.max_uniform_buffer_range => {
+            Some((&it.name, block.bytes))
+        }
+        _ => None,
+    });
+    block.map_or(Ok(()), |(name, bytes)| {
+        Err(format!("the block `{name}` takes {bytes} bytes, more than this device allows"))
+    })
 }
 
 /// Sets from 1 on: what the shader reads must be what the draw brings along.

@@ -5,7 +5,7 @@ use crate::device::Shared;
 use crate::error::Error;
 use crate::poison;
 use crate::prepare::{Pass, Prepared, Scope, Views};
-use crate::recorder::{CullMode, DrawSource, FrontFace, Recorder};
+use crate::recorder::{CullMode, DrawSource, FrontFace, Kept, Recorder};
 use crate::timing::Timing;
 use ash::vk;
 use framewright_graph::frame::Draw;
@@ -22,15 +22,23 @@ pub(crate) struct Frame<'f> {
     pub(crate) poison: bool,
 }
 
+/// A recorded frame.
+#[derive(Default)]
+pub(crate) struct Recorded {
+    /// Draw calls of each pass.
+    pub(crate) draws: Vec<u32>,
+    kept: Kept,
+}
+
 impl Frame<'_> {
-    /// Records every step; returns the number of draw calls of each pass, in order.
+    /// Records every step; returns the number of draw calls of each pass, in order, and what the commands use.
     pub(crate) fn record(
         &self,
         commands: vk::CommandBuffer,
         source: &mut dyn DrawSource,
         timing: &mut Timing,
-    ) -> Result<Vec<u32>, Error> {
-        let mut draws = Vec::new();
+    ) -> Result<Recorded, Error> {
+        let mut recorded = Recorded::default();
         timing.begin(commands);
         self.promise_outputs(commands);
         for (index, (step, scope)) in self.plan.steps.iter().zip(&self.prepared.scopes).enumerate() {
@@ -44,7 +52,7 @@ impl Frame<'_> {
                 }
                 match (&step.work, scope) {
                     (Work::Render(plan), Some(scope)) => {
-                        self.render(commands, plan, scope, source, timing, &mut draws)?
+                        self.render(commands, plan, scope, source, timing, &mut recorded)?
                     }
                     (Work::Resolve(transfer), _) => self.resolve(commands, transfer),
                     (Work::Copy(transfer), _) => self.copy(commands, transfer),
@@ -54,7 +62,7 @@ impl Frame<'_> {
                 Ok::<_, Error>(())
             })?;
         }
-        Ok(draws)
+        Ok(recorded)
     }
 
     /// Puts outputs into the state that the Plan relies on when the frame begins.
@@ -90,7 +98,7 @@ impl Frame<'_> {
         scope: &Scope,
         source: &mut dyn DrawSource,
         timing: &mut Timing,
-        draws: &mut Vec<u32>,
+        recorded: &mut Recorded,
     ) -> Result<(), Error> {
         let device = &self.shared.raw;
         let info = |(attachment, views)| self.attachment(attachment, views);
@@ -113,11 +121,11 @@ impl Frame<'_> {
             device.cmd_set_scissor(commands, 0, &[area]);
         }
         for (pass, made) in plan.passes.iter().zip(&scope.passes) {
-            let drawn = self
-                .shared
-                .labelled(commands, &pass.name, || self.draw(commands, &pass.name, made, plan.extent, source));
+            let drawn = self.shared.labelled(commands, &pass.name, || {
+                self.draw(commands, &pass.name, made, plan.extent, source, &mut recorded.kept)
+            });
             timing.stamp(commands);
-            draws.push(drawn?);
+            recorded.draws.push(drawn?);
         }
         // SAFETY: the scope was begun above.
         unsafe { device.cmd_end_rendering(commands) };
@@ -131,6 +139,7 @@ impl Frame<'_> {
         pass: &Pass,
         extent: [u32; 2],
         source: &mut dyn DrawSource,
+        kept: &mut Kept,
     ) -> Result<u32, Error> {
         let device = &self.shared.raw;
         let sets = [pass.own.set.raw];
@@ -141,7 +150,7 @@ impl Frame<'_> {
             device.cmd_bind_pipeline(commands, graphics, pass.pipeline);
             device.cmd_bind_descriptor_sets(commands, graphics, pass.state.layout, 0, &sets, &[]);
         }
-        let mut recorder = Recorder::new(self.shared, commands, &pass.state, extent);
+        let mut recorder = Recorder::new(self.shared, commands, kept, &pass.state, extent);
         recorder.set_cull_mode(CullMode::None);
         recorder.set_front_face(FrontFace::CounterClockwise);
         let drawn = if pass.draw == Draw::FullScreen {

@@ -56,12 +56,20 @@ pub enum IndexType {
 pub struct Recorder<'f> {
     shared: &'f Shared,
     commands: vk::CommandBuffer,
+    kept: &'f mut Kept,
     pass: &'f PassState,
     extent: [u32; 2],
     bound: Vec<bool>,
     vertices: Option<u64>,
     indices: Option<u64>,
     misuse: Option<String>,
+}
+
+/// What a frame's commands use: it is kept until the device is done with them, whatever the draw source drops.
+#[derive(Default)]
+pub(crate) struct Kept {
+    groups: Vec<BindGroup>,
+    buffers: Vec<Buffer>,
 }
 
 /// What a recorder must know of the pass's pipeline.
@@ -77,11 +85,12 @@ impl<'f> Recorder<'f> {
     pub(crate) fn new(
         shared: &'f Shared,
         commands: vk::CommandBuffer,
+        kept: &'f mut Kept,
         pass: &'f PassState,
         extent: [u32; 2],
     ) -> Recorder<'f> {
         let bound = pass.supplied.iter().map(|(_, needed)| !needed).collect();
-        Recorder { shared, commands, pass, extent, bound, vertices: None, indices: None, misuse: None }
+        Recorder { shared, commands, kept, pass, extent, bound, vertices: None, indices: None, misuse: None }
     }
 
     /// Width and height of what is drawn into.
@@ -92,6 +101,9 @@ impl<'f> Recorder<'f> {
 
     /// Binds a group to the set number `set`, from 1 on.
     pub fn bind_group(&mut self, set: u32, group: &BindGroup) {
+        if !group.0.set.is_of(self.shared) {
+            return self.misused(|| "the bind group belongs to another device".to_owned());
+        }
         let index = (set as usize).wrapping_sub(1);
         match self.pass.supplied.get(index) {
             None => self.misused(|| format!("the draw interface has no set {set}")),
@@ -102,6 +114,7 @@ impl<'f> Recorder<'f> {
             }
             Some(_) => {
                 self.bound[index] = true;
+                self.kept.groups.push(group.clone());
                 let sets = [group.0.set.raw];
                 // SAFETY: the set has the layout that the pipeline's layout has at this number.
                 unsafe {
@@ -115,8 +128,8 @@ impl<'f> Recorder<'f> {
 
     /// Binds the vertices.
     pub fn bind_vertex_buffer(&mut self, buffer: &Buffer) {
-        if !buffer.0.usage.contains(vk::BufferUsageFlags::VERTEX_BUFFER) {
-            return self.misused(|| "the buffer was not made for vertices".to_owned());
+        if !self.may_bind(buffer, vk::BufferUsageFlags::VERTEX_BUFFER) {
+            return self.misused(|| "the buffer was not made for vertices, or not by this device".to_owned());
         }
         self.vertices = Some(buffer.bytes());
         // SAFETY: the command buffer is being recorded, and the buffer was made for vertices.
@@ -125,8 +138,8 @@ impl<'f> Recorder<'f> {
 
     /// Binds the indices.
     pub fn bind_index_buffer(&mut self, buffer: &Buffer, ty: IndexType) {
-        if !buffer.0.usage.contains(vk::BufferUsageFlags::INDEX_BUFFER) {
-            return self.misused(|| "the buffer was not made for indices".to_owned());
+        if !self.may_bind(buffer, vk::BufferUsageFlags::INDEX_BUFFER) {
+            return self.misused(|| "the buffer was not made for indices, or not by this device".to_owned());
         }
         let (ty, bytes) = match ty {
             IndexType::U16 => (vk::IndexType::UINT16, 2),
@@ -195,6 +208,15 @@ impl<'f> Recorder<'f> {
                 device.cmd_draw_indexed(commands, count, instance_count, indices.start, base_vertex, instances.start);
             }
         }
+    }
+
+    /// Whether the buffer may be bound so; if it may, it is kept.
+    fn may_bind(&mut self, buffer: &Buffer, usage: vk::BufferUsageFlags) -> bool {
+        let may = buffer.0.usage.contains(usage) && buffer.0.is_of(self.shared);
+        if may {
+            self.kept.buffers.push(buffer.clone());
+        }
+        may
     }
 
     /// Whether everything that the pipeline reads is bound.

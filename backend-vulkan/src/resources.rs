@@ -163,6 +163,11 @@ impl RawBuffer {
         Ok(buffer)
     }
 
+    /// Whether this device made it.
+    pub(crate) fn is_of(&self, shared: &Shared) -> bool {
+        std::ptr::eq(Arc::as_ptr(&self.shared), shared)
+    }
+
     /// Writes the beginning of the buffer.
     pub(crate) fn fill(&mut self, contents: &[u8]) -> Result<(), Error> {
         let bytes = contents.len();

@@ -3,6 +3,7 @@
 use ash::ext::validation_features;
 use ash::{ext, vk};
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::ffi::{CStr, c_void};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, ThreadId};
@@ -59,7 +60,7 @@ pub struct Messages(Arc<Mutex<Collected>>);
 struct Collected {
     messages: Vec<Message>,
     /// While a thread plants mistakes, its messages go here.
-    diverted: Option<(ThreadId, Vec<Message>)>,
+    diverted: HashMap<ThreadId, Vec<Message>>,
 }
 
 impl Messages {
@@ -71,10 +72,11 @@ impl Messages {
 
     /// The messages that this thread causes while `work` runs, kept apart from the others.
     pub(crate) fn apart<T>(&self, work: impl FnOnce() -> T) -> (T, Vec<Message>) {
-        self.lock().diverted = Some((thread::current().id(), Vec::new()));
+        let thread = thread::current().id();
+        self.lock().diverted.insert(thread, Vec::new());
         let result = work();
-        let diverted = self.lock().diverted.take();
-        (result, diverted.map_or_else(Vec::new, |(_, messages)| messages))
+        let diverted = self.lock().diverted.remove(&thread);
+        (result, diverted.unwrap_or_default())
     }
 
     fn lock(&self) -> MutexGuard<'_, Collected> {
@@ -126,9 +128,9 @@ unsafe extern "system" fn receive(
     };
     let message = Message { severity, kind, id: id.into_owned(), text: text.into_owned() };
     let mut collected = collected.lock().unwrap_or_else(PoisonError::into_inner);
-    match &mut collected.diverted {
-        Some((thread, diverted)) if *thread == thread::current().id() => diverted.push(message),
-        _ => collected.messages.push(message),
+    match collected.diverted.get_mut(&thread::current().id()) {
+        Some(diverted) => diverted.push(message),
+        None => collected.messages.push(message),
     }
     vk::FALSE
 }

@@ -350,3 +350,17 @@ fn push_constants_and_double_bindings_are_refused() {
     );
     assert!(unsupported(&[("test.frag", &double)]).ends_with("`a` and `b` at the same place: set 0, binding 1"));
 }
+
+#[test]
+fn numbers_and_features_beyond_every_devices_are_refused() {
+    let what = |fragment: &str| {
+        let what = unsupported(&[("test.frag", &format!("#version 460\n{fragment}"))]);
+        what.split_once(".frag: ").map(|(_, what)| what.to_owned()).unwrap_or(what)
+    };
+    let far_binding = format!("layout(set = 0, binding = 60000) uniform sampler2D far; {WHITE} }}");
+    assert_eq!(what(&far_binding), "`far` at binding 60000: bindings go up to 255");
+    let far_output = "layout(location = 9) out vec4 far; void main() { far = vec4(1.0); }";
+    assert_eq!(what(far_output), "`far` at location 9: locations go up to 7");
+    let double = format!("{WHITE} double x = color.x; color.x = float(x * x); }}");
+    assert_eq!(what(&double), "SPIR-V's capability Float64: not every device has it");
+}

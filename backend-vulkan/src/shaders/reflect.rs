@@ -8,7 +8,7 @@ use framewright_graph::interface::{
 };
 use framewright_graph::vocabulary::Stages;
 use rspirv::dr::{Instruction, Operand};
-use rspirv::spirv::{BuiltIn, Decoration, Dim, ExecutionMode, ExecutionModel, Op, StorageClass};
+use rspirv::spirv::{BuiltIn, Capability, Decoration, Dim, ExecutionMode, ExecutionModel, Op, StorageClass};
 use std::collections::HashSet;
 
 /// What a stage uses, and what it takes from or hands to the other stage.
@@ -30,6 +30,28 @@ pub(super) struct Varying {
     pub(super) ty: String,
 }
 
+/// What shaders may need of a device: the minimum device has no more.
+const CAPABILITIES: [Capability; 11] = [
+    Capability::Matrix,
+    Capability::Shader,
+    Capability::Sampled1D,
+    Capability::Image1D,
+    Capability::SampledBuffer,
+    Capability::ImageBuffer,
+    Capability::ImageQuery,
+    Capability::DerivativeControl,
+    Capability::SampleRateShading,
+    Capability::InterpolationFunction,
+    Capability::DemoteToHelperInvocation,
+];
+
+/// Bindings are numbered below this: drivers make tables as long as the largest number.
+const BINDINGS: u32 = 256;
+/// Locations between stages, of vertex attributes and of outputs are below these: Vulkan promises no more to all.
+const VARYINGS: u32 = 15;
+const ATTRIBUTES: u32 = 16;
+const OUTPUTS: u32 = 8;
+
 /// Reads the interface of `stage` off `spirv`.
 ///
 /// # Errors
@@ -46,8 +68,15 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
     let used: HashSet<u32> =
         code.iter().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
     let fragment = stage == Stage::Fragment;
+    check_capabilities(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
     let outputs = varyings(&module, StorageClass::Output, &used);
+    let (most_in, most_out) = if fragment { (VARYINGS, OUTPUTS) } else { (ATTRIBUTES, VARYINGS) };
+    for (varyings, most) in [(&inputs, most_in), (&outputs, most_out)] {
+        if let Some(far) = varyings.iter().find(|it| it.location >= most) {
+            return Err(format!("`{}` at location {}: locations go up to {}", far.name, far.location, most - 1));
+        }
+    }
     let interface = ShaderInterface {
         bindings: bindings(&module, stage, &used)?,
         vertex_inputs: if fragment { Vec::new() } else { inputs.iter().cloned().map(vertex_input).collect() },
@@ -65,6 +94,18 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
             .any(|it| matches!(&it.operands[..], [_, Operand::ExecutionMode(ExecutionMode::DepthReplacing), ..])),
     };
     Ok(StageInterface { interface, inputs, outputs })
+}
+
+/// Nothing that a device of the minimum may lack.
+fn check_capabilities(module: &Indexed<'_>) -> Result<(), String> {
+    let needed = module.module.capabilities.iter().filter_map(|it| match it.operands.first() {
+        Some(Operand::Capability(capability)) => Some(*capability),
+        _ => None,
+    });
+    match needed.into_iter().find(|it| !CAPABILITIES.contains(it)) {
+        Some(capability) => Err(format!("SPIR-V's capability {capability:?}: not every device has it")),
+        None => Ok(()),
+    }
 }
 
 /// The resources. In the pass's own set every declared one counts, since that is what a pipeline file binds; in the
@@ -92,6 +133,9 @@ fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) -> Result<V
         bindings.push(Binding { set, binding, name: name.to_owned(), kind, stages });
     }
     bindings.sort_by_key(|it| (it.set, it.binding));
+    if let Some(far) = bindings.iter().find(|it| it.binding >= BINDINGS) {
+        return Err(format!("`{}` at binding {}: bindings go up to {}", far.name, far.binding, BINDINGS - 1));
+    }
     if let Some(pair) =
         bindings.windows(2).find(|pair| (pair[0].set, pair[0].binding) == (pair[1].set, pair[1].binding))
     {
