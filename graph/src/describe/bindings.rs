@@ -85,7 +85,7 @@ fn entries<'src, T>(
     what: &str,
     mut lower: impl FnMut(&mut Reader<'src>, Leaf<'src>) -> Option<T>,
 ) -> Option<Vec<(Name, T)>> {
-    let Entries(pairs) = reader.read(leaf, map)?;
+    let Entries(pairs) = reader.map(leaf, map)?;
     let mut names = HashMap::new();
     let mut list = Vec::new();
     let mut complete = true;

@@ -3,6 +3,9 @@
 use super::Diagnostic;
 use super::pipeline::{Format, Image, ImageRef, Samples, Size};
 
+/// A longer circle is not shown whole.
+const MOST_SHOWN: usize = 10;
+
 /// Reports every circle once, for sizes, formats and sample counts.
 pub(super) fn find(images: &[Option<Image>], errors: &mut Vec<Diagnostic>) {
     let size = |image: &Image| match image.size.value {
@@ -49,12 +52,16 @@ fn along(
 fn report(images: &[Option<Image>], what: &str, circle: &[(usize, ImageRef)], errors: &mut Vec<Diagnostic>) {
     let name = |index: usize| images[index].as_ref().map_or("", |image| &image.name.text);
     let Some((start, to)) = circle.first() else { return };
-    let path: Vec<String> =
-        circle.iter().map(|(from, _)| *from).chain([*start]).map(|i| format!("`{}`", name(i))).collect();
+    let most = circle.len().min(MOST_SHOWN);
+    let mut path: Vec<String> = circle[..most].iter().map(|(from, _)| format!("`{}`", name(*from))).collect();
+    if most < circle.len() {
+        path.push("…".to_owned());
+    }
+    path.push(format!("`{}`", name(*start)));
     let message = format!("{what} follow each other in a circle: {}", path.join(" → "));
     let follows = |from: usize, to: &ImageRef| format!("`{}` follows `{}`", name(from), name(to.index.0 as usize));
     let mut diagnostic = Diagnostic::new(to.span, message).remark(follows(*start, to));
-    for (from, to) in &circle[1..] {
+    for (from, to) in &circle[1..most] {
         diagnostic = diagnostic.label(to.span, follows(*from, to));
     }
     errors.push(diagnostic.help("one of them must stand on its own"));

@@ -40,11 +40,13 @@ fn term<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, whole: Leaf<'src>, p
         reader.wrong(whole, "a name is missing in this condition", help);
         return None;
     }
-    if let Some(odd) = name.find(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '-' | '.'))) {
-        let character = name[odd..].chars().next().unwrap_or(' ');
-        let odd = Leaf(&name[odd..odd + character.len_utf8()]);
+    let odd = |c: char| !(c.is_alphanumeric() || matches!(c, '_' | '-' | '.'));
+    // A blank within a name stands before what doesn't belong there.
+    if let Some(at) = name.find(|c: char| odd(c) && c != ' ').or_else(|| name.find(odd)) {
+        let found = name[at..].trim_start();
+        let found = &found[..found.chars().next().map_or(0, char::len_utf8)];
         let help = "a condition is made of names, `!`, `&&` and `||`";
-        reader.wrong(odd, format!("unexpected `{character}` in a condition"), help);
+        reader.wrong(Leaf(found), format!("unexpected `{found}` in a condition"), help);
         return None;
     }
     let subject = if name.contains('.') {

@@ -14,7 +14,7 @@ pub(crate) const LARGEST_SIZE: u32 = 16384;
 pub(crate) const SAMPLE_COUNTS: [i64; 5] = [1, 2, 4, 8, 16];
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename = "Image", deny_unknown_fields)]
 pub(super) struct ImageFields<'src> {
     #[serde(borrow)]
     name: Leaf<'src>,
@@ -150,7 +150,7 @@ fn scale<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -
             SettingKind::Bool { .. } => return None,
         };
         if least <= 0.0 {
-            let message = format!("a scale is greater than 0, but this setting allows {least}");
+            let message = format!("a scale is greater than 0, but this setting allows {}", super::shown_number(least));
             reader.wrong(leaf, message, "let the setting begin above 0");
             return None;
         }
@@ -158,7 +158,7 @@ fn scale<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -
     }
     let by = reader.number(leaf)?;
     if by <= 0.0 {
-        reader.wrong(leaf, format!("a scale is greater than 0, found {by}"), "");
+        reader.wrong(leaf, format!("a scale is greater than 0, found {}", super::shown_number(by)), "");
         return None;
     }
     Some(Value::Constant(by))

@@ -1,5 +1,6 @@
 //! Mistakes as JSON, for editors and other programs.
 
+use super::render::{escape, escape_lines};
 use super::{Diagnostic, Label};
 use crate::source::{Sources, Span};
 use serde_json::{Value, json};
@@ -7,7 +8,8 @@ use std::ops::Range;
 
 /// Mistakes as a JSON list. Each has `message`, `help` (or null) and `labels`, and of its primary place, unless no file
 /// is involved, `file` as the user named it, `line` and `column` from 1, and `end` with `line` and `column` of the first
-/// character after it. Columns count characters.
+/// character after it. Columns count characters. Messages, remarks and help are escaped as in
+/// [`render`](super::render()); the file's name is not.
 #[must_use]
 pub fn to_json(sources: &Sources, diagnostics: &[Diagnostic]) -> Value {
     diagnostics.iter().map(|diagnostic| one(sources, diagnostic)).collect()
@@ -19,13 +21,13 @@ fn one(sources: &Sources, diagnostic: &Diagnostic) -> Value {
         .iter()
         .map(|label| {
             let mut value = place(sources, label);
-            value["text"] = json!(label.text);
+            value["text"] = json!(escape(&label.text));
             value
         })
         .collect();
     let mut value = diagnostic.labels.first().map_or_else(|| json!({}), |label| place(sources, label));
-    value["message"] = json!(diagnostic.message);
-    value["help"] = json!(diagnostic.help);
+    value["message"] = json!(escape(&diagnostic.message));
+    value["help"] = json!(diagnostic.help.as_deref().map(escape_lines));
     value["labels"] = json!(labels);
     value
 }

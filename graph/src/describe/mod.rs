@@ -31,6 +31,7 @@ pub use pipeline::{
     Sample, Samples, Setting, SettingKind, SettingRef, Size, Spanned, Subject, Term, Value,
 };
 pub use render::{escape, render};
+pub(crate) use settings::shown as shown_number;
 pub use suggest::{help as suggestion, nearest};
 
 /// What readers of RON files are made of: pipelines here, scenes elsewhere.
@@ -41,7 +42,7 @@ pub mod text {
 }
 
 use crate::source::{Sources, Span};
-use leaf::Leaf;
+use leaf::{Leaf, Shape};
 use names::{Names, Scope};
 use reader::Reader;
 use serde::Deserialize;
@@ -145,6 +146,11 @@ fn whole<'src>(reader: &mut Reader<'src>, text: &'src str) -> Option<Pipeline> {
         reader.wrong(all, "the file is empty", "a pipeline begins with `Pipeline(version: 1,`");
         return None;
     }
+    if let Some(at) = text.find('\0') {
+        let zero = Leaf(&text[at..=at]);
+        reader.wrong(zero, format!("this is not a text file: byte {at} is 0x00"), "a pipeline is RON text in UTF-8");
+        return None;
+    }
     if text.starts_with('\u{feff}') {
         reader.wrong(Leaf(&text[..3]), "the file begins with a byte order mark", "save it as UTF-8 without one");
         return None;
@@ -195,7 +201,7 @@ fn entries<'src, T: Deserialize<'src>>(
     what: &'static str,
     names: &mut Names,
 ) -> Vec<Option<T>> {
-    let Some(leaves) = reader.read::<Vec<Leaf<'_>>>(list, field) else {
+    let Some(leaves) = reader.list(list, field) else {
         // Whatever is looked for may be in the list that couldn't be read.
         names.give(reader, None);
         return Vec::new();
@@ -206,6 +212,10 @@ fn entries<'src, T: Deserialize<'src>>(
             let name = reader.probe::<NameField<'_>>(leaf).and_then(|fields| reader.probe_name(fields.name));
             let known = name.as_ref().map_or_else(|| format!("this {what}"), |name| format!("{what} `{}`", name.text));
             names.give(reader, name);
+            if !matches!(leaf.shape(), Shape::Parentheses | Shape::Word(_, Some(_))) {
+                reader.expected(leaf, &format!("the {what} as `(name: \"…\", …)`"));
+                return None;
+            }
             reader.read(leaf, &known)
         })
         .collect()
@@ -213,19 +223,18 @@ fn entries<'src, T: Deserialize<'src>>(
 
 /// The images that leave the frame, each once.
 fn outputs<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, list: Leaf<'src>) -> Option<Vec<ImageRef>> {
-    let leaves: Vec<Leaf<'_>> = reader.read(list, "`outputs`")?;
+    let leaves = reader.list(list, "`outputs`")?;
     if leaves.is_empty() {
         reader.wrong(list, "a frame without outputs shows nothing", "name the image that is shown: `outputs: [\"…\"]`");
         return None;
     }
     let images: Vec<Option<ImageRef>> = leaves.into_iter().map(|leaf| scope.image(reader, leaf)).collect();
-    let images: Vec<ImageRef> = images.into_iter().collect::<Option<_>>()?;
     let mut first = HashMap::new();
-    for image in &images {
+    for image in images.iter().flatten() {
         if let Some(first) = first.insert(image.index, image.span) {
             let twice = Diagnostic::new(image.span, "this image is an output twice");
             reader.report(twice.remark("again here").label(first, "first here"));
         }
     }
-    Some(images)
+    images.into_iter().collect()
 }

@@ -29,7 +29,7 @@ impl Names {
         if let Some(name) = &name {
             match self.index.get(&name.text).and_then(|first| self.given[*first].as_ref()) {
                 Some(first) => reader.report(
-                    Diagnostic::new(name.span, format!("there are two {}s named `{}`", self.what, name.text))
+                    Diagnostic::new(name.span, format!("`{}` is the name of more than one {}", name.text, self.what))
                         .remark("again here")
                         .label(first.span, "first here"),
                 ),
@@ -50,14 +50,14 @@ impl Names {
         }
         if self.complete {
             let unknown = Diagnostic::new(name.span, format!("there is no {} named `{}`", self.what, name.text));
-            let help = reader.near(&name.text, self.index_order());
+            let help = reader.known(&name.text, self.in_order());
             reader.report(Diagnostic { help, ..unknown });
         }
         None
     }
 
     /// Known names in file order.
-    fn index_order(&self) -> impl Iterator<Item = &str> {
+    fn in_order(&self) -> impl Iterator<Item = &str> + Clone {
         self.given.iter().flatten().map(|name| &*name.text)
     }
 }

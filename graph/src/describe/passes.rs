@@ -10,7 +10,7 @@ use serde::Deserialize;
 use std::collections::HashMap;
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename = "Pass", deny_unknown_fields)]
 pub(super) struct PassFields<'src> {
     #[serde(borrow)]
     name: Leaf<'src>,

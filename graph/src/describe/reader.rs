@@ -1,6 +1,6 @@
 //! Reads single values, and turns what goes wrong into mistakes with their place.
 
-use super::leaf::{Leaf, Shape, Text};
+use super::leaf::{Entries, Leaf, Shape, Text};
 use super::pipeline::{Name, Spanned};
 use super::{Diagnostic, reword, suggest};
 use crate::source::Span;
@@ -153,7 +153,8 @@ impl<'src> Reader<'src> {
         if let Some(known) = known.iter().find(|known| **known == word) {
             return Some((known, rest));
         }
-        let help = self.near(word, known.iter().copied()).unwrap_or_else(|| forms.to_owned());
+        let near = suggest::nearest(word, known.iter().copied());
+        let help = near.map_or_else(|| forms.to_owned(), |near| format!("did you mean `{near}`?"));
         self.wrong(Leaf(&leaf.0[..word.len()]), format!("`{word}` is not {what}"), &help);
         None
     }
@@ -192,12 +193,27 @@ impl<'src> Reader<'src> {
         }
     }
 
-    /// The near name, "did you mean".
-    pub fn near<'k>(&self, name: &str, known: impl IntoIterator<Item = &'k str>) -> Option<String> {
-        if self.errors.len() > MANY_MISTAKES {
+    /// Which name may have been meant, or the few that there are.
+    pub fn known<'k>(&self, name: &str, known: impl IntoIterator<Item = &'k str> + Clone) -> Option<String> {
+        if self.errors.len() > MANY_MISTAKES { None } else { suggest::help(name, known) }
+    }
+
+    /// The values of a list.
+    pub fn list(&mut self, leaf: Leaf<'src>, what: &str) -> Option<Vec<Leaf<'src>>> {
+        let Shape::List = leaf.shape() else {
+            self.expected(leaf, &format!("{what}: a list `[…, …]`"));
             return None;
-        }
-        suggest::nearest(name, known).map(|near| format!("did you mean `{near}`?"))
+        };
+        self.read(leaf, what)
+    }
+
+    /// The entries of a map.
+    pub(super) fn map(&mut self, leaf: Leaf<'src>, what: &str) -> Option<Entries<'src>> {
+        let Shape::Map = leaf.shape() else {
+            self.expected(leaf, &format!("{what}: a map `{{\"name\": …, …}}`"));
+            return None;
+        };
+        self.read(leaf, what)
     }
 
     /// `true` or `false`.

@@ -12,20 +12,44 @@ const MOST_SHOWN: usize = 100;
 /// Labels further apart than this many bytes are shown apart; the text of a longer line is not shown.
 const LARGEST_WINDOW: usize = 8192;
 
-/// Text from a file, fit to be shown: control characters and other invisible ones are escaped, all others stay.
+/// Text from a file, fit to be shown: control characters and others that are invisible or turn the direction of what
+/// follows are escaped, all others stay.
 #[must_use]
 pub fn escape(text: &str) -> String {
     text.chars().fold(String::with_capacity(text.len()), |mut escaped, c| {
-        match c {
-            '"' | '\'' | '\\' => escaped.push(c),
-            _ => escaped.extend(c.escape_debug()),
+        if hidden(c) {
+            escaped.extend(c.escape_debug())
+        } else {
+            escaped.push(c)
         }
         escaped
     })
 }
 
+/// Whether a character must not reach a terminal as it is.
+fn hidden(c: char) -> bool {
+    let invisible = matches!(
+        c,
+        '\u{ad}'
+            | '\u{61c}'
+            | '\u{180e}'
+            | '\u{200b}'..='\u{200f}'
+            | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}'
+            | '\u{feff}'
+            | '\u{fff9}'..='\u{fffb}'
+            | '\u{e0000}'..='\u{e0fff}'
+    );
+    c.is_control() || invisible
+}
+
+/// Lines of a file, fit to be shown: one sign for each hidden character, so that columns stay.
+fn veil(lines: &str) -> String {
+    lines.chars().map(|c| if hidden(c) && !matches!(c, '\n' | '\r' | '\t') { '\u{fffd}' } else { c }).collect()
+}
+
 /// Escapes line by line: line breaks stay.
-fn escape_lines(text: &str) -> String {
+pub(super) fn escape_lines(text: &str) -> String {
     text.lines().map(escape).collect::<Vec<_>>().join("\n")
 }
 
@@ -60,9 +84,10 @@ fn block(sources: &Sources, diagnostic: &Diagnostic) -> String {
         }
         let labels = window.labels.into_iter().map(|label| {
             let kind = if label.primary { AnnotationKind::Primary } else { AnnotationKind::Context };
-            kind.span(label.range).label((!label.text.is_empty()).then_some(label.text))
+            let [start, end] = [label.range.start, label.range.end].map(|at| veil(&window.lines[..at]).len());
+            kind.span(start..end).label((!label.text.is_empty()).then_some(label.text))
         });
-        let snippet = Snippet::source(window.lines).line_start(window.line).path(window.path);
+        let snippet = Snippet::source(veil(window.lines)).line_start(window.line).path(window.path);
         group = group.element(snippet.annotations(labels));
     }
     if let Some(help) = &diagnostic.help {

@@ -22,14 +22,13 @@ pub(super) fn reword(error: &SpannedError, text: &str, what: &str, span: impl Fn
         }
         Error::DuplicateStructField { field, .. } => at(format!("{what} has the field `{field}` twice")),
         Error::ExpectedDifferentLength { expected, found } => {
-            at(format!("{what} has {found} values; expected {}", expected.replace("tuple", "values")))
+            let wanted = expected.rsplit(' ').next().unwrap_or_default();
+            at(format!("{what} takes {wanted} values, found {found}"))
         }
         Error::ExpectedDifferentStructName { expected, found } => {
             at(format!("expected `{expected}(…)`, found `{found}`"))
         }
-        Error::ExpectedNamedStructLike(name) if !name.is_empty() => {
-            at(format!("expected `{name}(…)`")).help(format!("{what} is written `(field: value, …)`"))
-        }
+        Error::ExpectedNamedStructLike(name) if !name.is_empty() => at(format!("expected `{name}(…)`")),
         Error::ExceededRecursionLimit => {
             at("brackets are nested too deeply".to_owned()).help("no file needs more than a dozen levels")
         }
@@ -42,8 +41,7 @@ pub(super) fn reword(error: &SpannedError, text: &str, what: &str, span: impl Fn
         Error::TrailingCharacters => at("something stands after the end of the file".to_owned()),
         Error::ExpectedComma => at("expected a comma".to_owned()),
         Error::ExpectedMapColon => at("expected a colon".to_owned()),
-        Error::ExpectedMap => at("expected a map".to_owned()).help("a map is written `{\"name\": value, …}`"),
-        Error::ExpectedArray => at("expected a list".to_owned()).help("a list is written `[…, …]`"),
+        Error::ExpectedIdentifier => at("expected the name of a field".to_owned()),
         Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => {
             at("expected `(`".to_owned()).help(format!("{what} is written `(field: value, …)`"))
         }

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename = "Setting", deny_unknown_fields)]
 pub(super) struct SettingFields<'src> {
     #[serde(borrow)]
     name: Leaf<'src>,
@@ -63,10 +63,16 @@ impl SettingKind {
                 let all: Vec<String> = of.iter().map(i64::to_string).collect();
                 format!("one of {}", all.join(", "))
             }
-            SettingKind::Number { min, max, .. } => format!("a number from {min} to {max}"),
+            SettingKind::Number { min, max, .. } => format!("a number from {} to {}", shown(*min), shown(*max)),
             SettingKind::Integer { min, max, .. } => format!("a whole number from {min} to {max}"),
         }
     }
+}
+
+/// A number, as it is shown: whole ones without a fraction, very large and small ones with an exponent.
+pub(crate) fn shown(number: f64) -> String {
+    let text = format!("{number:?}");
+    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }
 
 /// A setting, once its fields are told apart.
@@ -112,7 +118,7 @@ fn kind<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<SettingKind
 
 fn one_of<'src>(reader: &mut Reader<'src>, fields: &OneOfFields<'src>) -> Option<SettingKind> {
     let default = reader.integer(fields.default);
-    let entries: Vec<Leaf<'_>> = reader.read(fields.of, "the list `of`")?;
+    let entries = reader.list(fields.of, "`of`")?;
     if entries.is_empty() {
         reader.wrong(fields.of, "the list `of` is empty, so no value is allowed", "");
         return None;

@@ -10,7 +10,8 @@ pub fn nearest<'k>(name: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
     if length > LONGEST {
         return None;
     }
-    let allowed = (length / 3).max(1);
+    // Any two single letters are one change apart.
+    let allowed = if length < 2 { 0 } else { (length / 3).max(1) };
     let lower = name.to_lowercase();
     known
         .into_iter()
@@ -30,5 +31,9 @@ pub fn help<'k>(name: &str, known: impl IntoIterator<Item = &'k str> + Clone) ->
     let mut all = known.into_iter();
     let first: Vec<String> = all.by_ref().take(12).map(|name| format!("`{name}`")).collect();
     let more = if all.next().is_some() { ", …" } else { "" };
-    (!first.is_empty()).then(|| format!("there are {}{more}", first.join(", ")))
+    match &first[..] {
+        [] => None,
+        [only] => Some(format!("there is only {only}")),
+        several => Some(format!("there are {}{more}", several.join(", "))),
+    }
 }

@@ -47,7 +47,7 @@ const TESTS: [(&str, CompareOp); 8] = [
 
 /// The list of colour targets.
 pub(super) fn color<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Color>> {
-    let entries: Vec<Leaf<'_>> = reader.read(leaf, "`color`")?;
+    let entries = reader.list(leaf, "`color`")?;
     let targets: Vec<Option<Color>> = entries.into_iter().map(|entry| color_target(reader, scope, entry)).collect();
     targets.into_iter().collect()
 }
@@ -137,7 +137,11 @@ fn component<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<f32> {
     if component.is_finite() {
         return Some(component);
     }
-    reader.wrong(leaf, format!("{number:e} is too large for a colour"), "32-bit floating point reaches about 3.4e38");
+    reader.wrong(
+        leaf,
+        format!("{} is too large for a colour", super::shown_number(number)),
+        "32-bit floating point reaches about 3.4e38",
+    );
     None
 }
 
@@ -145,7 +149,7 @@ fn clear_depth<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<f32>
     let depth = reader.number(leaf)?;
     if !(0.0..=1.0).contains(&depth) {
         let help = "depth is reversed: 0 is infinitely far, 1 is nearest";
-        reader.wrong(leaf, format!("depth lies from 0 to 1, found {depth}"), help);
+        reader.wrong(leaf, format!("depth lies from 0 to 1, found {}", super::shown_number(depth)), help);
         return None;
     }
     #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]

@@ -3,7 +3,7 @@
 use super::Chosen;
 use super::settings::{SettingValue, show};
 use crate::describe::{
-    self, Diagnostic, Format as Described, ImageRef, LARGEST_SIZE, SAMPLE_COUNTS, Samples, Size, Value,
+    self, Diagnostic, Format as Described, ImageRef, LARGEST_SIZE, SAMPLE_COUNTS, Samples, Size, Value, shown_number,
 };
 use crate::format::Format;
 use crate::frame::{Image, ParamValue};
@@ -114,7 +114,7 @@ fn extent(
         Size::Scaled { by, of } => (by, of),
     };
     let (factor, because) = match by {
-        Value::Constant(factor) => (factor, format!("{factor}")),
+        Value::Constant(factor) => (factor, shown_number(factor)),
         Value::Setting(reference) => {
             let (setting, value) = chosen.setting(reference);
             (number(value)?, format!("{} = {}", setting.name.text, show(value)))
@@ -124,7 +124,7 @@ fn extent(
     let scaled = base.map(|extent| (f64::from(extent) * factor + ROUNDING).floor().max(1.0));
     if scaled.iter().any(|extent| *extent > f64::from(LARGEST_SIZE)) {
         let name = &image.name.text;
-        let [width, height] = scaled;
+        let [width, height] = scaled.map(shown_number);
         let message = format!("image `{name}` would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
         let remark = format!("{because} times {}×{}", base[0], base[1]);
         errors.push(Diagnostic::new(image.size.span, message).remark(remark));

@@ -73,7 +73,7 @@ pub(super) fn check(pipeline: &Pipeline, states: &[State<'_>], outputs: &[Output
         }
     }
     for output in outputs {
-        let reader = if output.span == Span::NONE { "the dump" } else { "the output" };
+        let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
         check.needs(states.len(), output.image, output.span, reader);
     }
 }
@@ -111,9 +111,9 @@ impl Check<'_> {
         let name = &self.pipeline.images[at].name.text;
         let diagnostic = if let Some((writer, because)) = self.off_before(image, position) {
             let off = &writer.pass.name.text;
-            let message = format!("{reader} reads `{name}`, but pass `{off}`, which fills it, is off ({because})");
+            let message = format!("{reader} needs `{name}`, but pass `{off}`, which fills it, is off ({because})");
             Diagnostic::new(span, message)
-                .remark("read here")
+                .remark("needed here")
                 .label(writer.span, "filled here, if the pass runs")
                 .help(format!("say what `{name}` takes instead: `otherwise: Forward(from: \"…\", to: \"{name}\")`"))
         } else if let Some(writer) = self.first_on[at] {
@@ -129,8 +129,8 @@ impl Check<'_> {
             }
         } else {
             let declared = self.pipeline.images[at].name.span;
-            let diagnostic = Diagnostic::new(span, format!("{reader} reads `{name}`, but no pass writes it"));
-            diagnostic.remark("read here").label(declared, "declared here")
+            let diagnostic = Diagnostic::new(span, format!("{reader} needs `{name}`, but no pass writes it"));
+            diagnostic.remark("needed here").label(declared, "declared here")
         };
         self.errors.push(diagnostic);
     }

@@ -2,7 +2,7 @@
 
 use super::shader::PARAMS;
 use super::{Chosen, settings};
-use crate::describe::{self, Diagnostic, suggestion};
+use crate::describe::{self, Diagnostic, nearest, suggestion};
 use crate::frame::ParamValue;
 use crate::interface::{BindingKind, Block, PASS_SET, ShaderInterface};
 use std::sync::Arc;
@@ -18,9 +18,11 @@ pub(super) fn give(
     let none = Block::default();
     let block = block(interface).unwrap_or(&none);
     let mut given = Vec::new();
+    let mut misspelt = Vec::new();
     for param in &pass.params {
         let name = &param.name.text;
         let Some(member) = block.members.iter().find(|member| member.name == **name) else {
+            misspelt.extend(nearest(name, block.members.iter().map(|member| &*member.name)));
             let unknown = format!("shader `{shader}` has no parameter named `{name}`");
             let help = suggestion(name, block.members.iter().map(|member| &*member.name))
                 .or_else(|| Some(format!("shader `{shader}` has no block named `{PARAMS}` in set {PASS_SET}")));
@@ -31,14 +33,16 @@ pub(super) fn give(
         match convert(value, &member.ty) {
             Some(value) => given.push((name.clone(), value)),
             None => {
-                let message =
-                    format!("parameter `{name}` of shader `{shader}` is a `{}`, which can't be {shown}", member.ty);
+                let message = format!(
+                    "parameter `{name}` of shader `{shader}` has the type `{}` and can't be {shown}",
+                    member.ty
+                );
                 errors.push(Diagnostic::new(param.value.span, message));
             }
         }
     }
     for member in &block.members {
-        if pass.params.iter().all(|param| *param.name.text != *member.name) {
+        if !misspelt.contains(&&*member.name) && pass.params.iter().all(|param| *param.name.text != *member.name) {
             let (name, ty) = (&member.name, &member.ty);
             let message =
                 format!("shader `{shader}` needs the parameter `{name}`, which pass `{}` doesn't give", pass.name.text);

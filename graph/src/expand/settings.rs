@@ -1,7 +1,7 @@
 //! Values of settings: the user's choice where it is allowed, else the default.
 
 use super::nowhere;
-use crate::describe::{Diagnostic, Pipeline, Setting, SettingKind, suggestion};
+use crate::describe::{Diagnostic, Pipeline, Setting, SettingKind, shown_number, suggestion};
 use crate::frame::ParamValue;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -39,7 +39,7 @@ pub(super) fn show(value: SettingValue) -> String {
     match value {
         ParamValue::Bool(value) => value.to_string(),
         ParamValue::Integer(value) => value.to_string(),
-        ParamValue::Number(value) => value.to_string(),
+        ParamValue::Number(value) => shown_number(value),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Chosen;
 use super::images::Resolved;
-use crate::describe::{self, Diagnostic, Face, suggestion};
+use crate::describe::{self, Diagnostic, Face, nearest, suggestion};
 use crate::frame::{Draw, Sampled};
 use crate::interface::{
     BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterface, ShaderInterfaces,
@@ -81,6 +81,7 @@ pub(super) fn sampled(
 ) -> Vec<Sampled> {
     let shader = &pass.shader.text;
     let mut sampled = Vec::new();
+    let mut misspelt = Vec::new();
     for sample in &pass.sample {
         let name = &sample.binding.text;
         let binding = interface.bindings.iter().find(|binding| binding.set == PASS_SET && binding.name == **name);
@@ -88,6 +89,7 @@ pub(super) fn sampled(
             BindingKind::SampledImage(shape) => Some((binding, shape)),
             _ => None,
         }) else {
+            misspelt.extend(nearest(name, sampled_names(interface)));
             let unknown = format!("shader `{shader}` samples no image named `{name}`");
             let help = suggestion(name, sampled_names(interface))
                 .or_else(|| Some(format!("shader `{shader}` samples no images at all in set {PASS_SET}")));
@@ -108,7 +110,7 @@ pub(super) fn sampled(
             stages: binding.stages,
         });
     }
-    missing(pass, interface, errors);
+    missing(pass, interface, &misspelt, errors);
     sampled
 }
 
@@ -118,13 +120,14 @@ fn sampled_names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Cl
     of_pass.filter(|binding| matches!(binding.kind, BindingKind::SampledImage(_))).map(|binding| &*binding.name)
 }
 
-/// Reports what set 0 of the shader holds and the pass doesn't give.
-fn missing(pass: &describe::Pass, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
+/// Reports what set 0 of the shader holds and the pass doesn't give, or only under a misspelt name.
+fn missing(pass: &describe::Pass, interface: &ShaderInterface, misspelt: &[&str], errors: &mut Vec<Diagnostic>) {
     let shader = &pass.shader.text;
     for binding in interface.bindings.iter().filter(|binding| binding.set == PASS_SET) {
         let name = &binding.name;
         let what = match &binding.kind {
             BindingKind::SampledImage(_) if pass.sample.iter().any(|sample| *sample.binding.text == **name) => continue,
+            BindingKind::SampledImage(_) if misspelt.contains(&&**name) => continue,
             BindingKind::SampledImage(_) => {
                 let message =
                     format!("shader `{shader}` samples `{name}`, which pass `{}` doesn't give", pass.name.text);

@@ -73,6 +73,7 @@ impl ShaderInterfaces for Table {
             "lit" => lit(false),
             "lit_masked" => lit(true),
             "sky" | "plain" => full_screen(vec![]),
+            "whole" => ShaderInterface { outputs: outputs(1, Component::Uint, 1), ..ShaderInterface::default() },
             "tone_map" => full_screen(vec![source(), params(&[("white_point", "float")])]),
             "downsample" | "reinhard" => full_screen(vec![source()]),
             "blur" => full_screen(vec![source(), params(&[("direction_x", "float"), ("direction_y", "float")])]),
@@ -84,6 +85,7 @@ impl ShaderInterfaces for Table {
             "custom_resolve" => full_screen(vec![texture("source", 0, true, float)]),
             "count" => full_screen(vec![texture("source", 0, false, Component::Uint)]),
             "typed" => full_screen(vec![params(&[("a", "float"), ("b", "uint"), ("c", "int"), ("d", "vec4")])]),
+            "scalars" => full_screen(vec![params(&[("a", "float"), ("b", "uint"), ("c", "int")])]),
             "cube" => {
                 let mut interface = full_screen(vec![source()]);
                 if let BindingKind::SampledImage(shape) = &mut interface.bindings[0].kind {

@@ -1,0 +1,77 @@
+//! Every file under `bad/` is wrong, its name says how, and the whole answer stands beside it.
+
+use crate::table::{INPUTS, Table};
+use framewright_graph::describe;
+use framewright_graph::expand::{Inputs, expand};
+use framewright_graph::source::Sources;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What a file's first lines ask for: `//! set NAME=VALUE`, `//! dump IMAGE`, `//! size WxH`.
+fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
+    let (mut set, mut dump, mut size) = (Vec::new(), Vec::new(), INPUTS.output_extent);
+    for line in text.lines().map_while(|line| line.strip_prefix("//! ")) {
+        match line.split_once(' ') {
+            Some(("set", choice)) => {
+                let (name, value) = choice.split_once('=').expect("set NAME=VALUE");
+                set.push((name.to_owned(), value.to_owned()));
+            }
+            Some(("dump", image)) => dump.push(image.to_owned()),
+            Some(("size", extent)) => {
+                let (width, height) = extent.split_once('x').expect("size WxH");
+                size = [width, height].map(|extent| extent.parse().expect("a whole number"));
+            }
+            _ => panic!("what is `{line}`?"),
+        }
+    }
+    (set, dump, size)
+}
+
+/// What is said about a file, in both forms.
+fn answer(name: &str, text: String) -> (String, serde_json::Value) {
+    let (set, dump, output_extent) = asked(&text);
+    let inputs = Inputs { set: &set, dump: &dump, output_extent, ..INPUTS };
+    let mut sources = Sources::default();
+    let pipeline = describe::read(&mut sources, name, name, text);
+    let sources = Arc::new(sources);
+    let frame = pipeline.and_then(|pipeline| expand(&pipeline, sources.clone(), &inputs, &mut Table));
+    let errors = frame.expect_err(name);
+    (describe::render(&sources, &errors), describe::to_json(&sources, &errors))
+}
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/language/bad")
+}
+
+fn files(extension: &str) -> Vec<PathBuf> {
+    let entries = folder().read_dir().expect("the folder of bad files");
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    files.retain(|path| path.extension().is_some_and(|found| found == extension));
+    files.sort();
+    files
+}
+
+#[test]
+fn every_bad_file_is_answered_as_it_stands_beside_it() {
+    for path in files("ron") {
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        let (shown, json) = answer(&name, std::fs::read_to_string(&path).expect("a text"));
+        let visible = |c: char| c == '\n' || !c.is_control();
+        assert!(shown.chars().all(visible), "{name} is shown with control characters");
+        assert_eq!(
+            json.as_array().map(Vec::len),
+            Some(shown.lines().filter(|line| line.starts_with("error: ")).count()),
+            "{name}: one block each"
+        );
+        insta::with_settings!({
+            snapshot_path => folder(), prepend_module_to_snapshot => false, omit_expression => true,
+        }, { insta::assert_snapshot!(name.trim_end_matches(".ron"), shown) });
+    }
+}
+
+#[test]
+fn no_answer_stands_alone() {
+    for path in files("snap") {
+        assert!(path.with_extension("ron").exists(), "{} has no file that it answers", path.display());
+    }
+}
