@@ -38,7 +38,7 @@ pub(super) fn reword(error: &SpannedError, text: &str, what: &str, span: impl Fn
         Error::IntegerOutOfBounds => at("this whole number is too large".to_owned()),
         Error::InvalidValueForType { expected, found } => at(format!("expected {expected}, found {found}")),
         Error::UnexpectedChar(c) => at(format!("unexpected character `{}`", c.escape_debug())),
-        Error::TrailingCharacters => at("something stands after the end of the file".to_owned()),
+        Error::TrailingCharacters => at("something stands after the last bracket".to_owned()),
         Error::ExpectedComma => at("expected a comma".to_owned()),
         Error::ExpectedMapColon => at("expected a colon".to_owned()),
         Error::ExpectedIdentifier => at("expected the name of a field".to_owned()),
