@@ -57,13 +57,12 @@ impl fmt::Display for Agreement {
 #[must_use]
 pub fn agreement(scene: &Scene, [width, height]: [u32; 2], objects: &[u8], colors: &[u8]) -> Agreement {
     let caster = RayCaster::new(scene);
-    let extent = DVec2::new(width.into(), height.into());
     // One pixel more on each side, so that pixels on the picture's border have neighbours too.
     let columns = width as usize + 2;
     let hits: Vec<Option<Hit>> = (0..columns * (height as usize + 2))
         .map(|at| {
             let pixel = DVec2::new((at % columns) as f64 - 0.5, (at / columns) as f64 - 0.5);
-            caster.cast(&caster.camera_ray(pixel / extent, extent.x / extent.y))
+            caster.cast(&caster.camera_ray(pixel, [width, height]))
         })
         .collect();
     let mut found = Agreement::default();

@@ -54,6 +54,17 @@ fn every_glb_fixture_is_drawn_as_the_ray_caster_sees_it() -> Result<(), Box<dyn 
 }
 
 #[test]
+fn every_shipped_scene_is_drawn_as_the_ray_caster_sees_it() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let scenes = files("examples/scenes", "ron")?;
+    assert!(!scenes.is_empty());
+    for path in scenes {
+        demand_agreement(device, &format!("{:?}", path.file_name()), &load(&path)?, [320, 180])?;
+    }
+    Ok(())
+}
+
+#[test]
 fn a_scene_a_million_metres_from_its_origin_is_drawn_where_it_is() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let mut scene = load(&in_repository("tests/glb/transforms.glb"))?;

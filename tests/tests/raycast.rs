@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3, Mat4, Vec3};
 
 fn cast(scene: &Scene, x: f64, y: f64) -> Option<Hit> {
     let caster = RayCaster::new(scene);
-    caster.cast(&caster.camera_ray(DVec2::new(x, y), 1.0))
+    caster.cast(&caster.camera_ray(DVec2::new(x, y) * 1000.0, [1000, 1000]))
 }
 
 /// Distance along a ray of `direction` from `origin` to a sphere.
@@ -31,8 +31,8 @@ fn it_sees_spheres_where_their_formula_says() {
     let caster = RayCaster::new(&scene);
     let (mut wrong, side) = (0, 80);
     for pixel in 0..side * side {
-        let at = DVec2::new(f64::from(pixel % side) + 0.5, f64::from(pixel / side) + 0.5) / f64::from(side);
-        let ray = caster.camera_ray(at, 1.0);
+        let at = DVec2::new(f64::from(pixel % side) + 0.5, f64::from(pixel / side) + 0.5);
+        let ray = caster.camera_ray(at, [side, side]);
         let formula = (0_u32..)
             .zip(balls)
             .filter_map(|(index, (centre, radius))| {
@@ -115,9 +115,9 @@ fn two_texels(left: [u8; 4], right: [u8; 4]) -> Texture {
 #[test]
 fn texels_are_linear_and_mix_linearly() {
     let mut texture = two_texels([0, 0, 0, 0], [255, 188, 0, 255]);
-    assert_eq!(texture::sample(&texture, DVec2::new(0.49, 0.5)), [0.0; 4]);
+    assert_eq!(texture::sample(&texture, DVec2::new(0.49, 0.5), 0.0), [0.0; 4]);
     texture.sampler.magnify = Filter::Linear;
-    let [red, green, blue, alpha] = texture::sample(&texture, DVec2::new(0.5, 0.5));
+    let [red, green, blue, alpha] = texture::sample(&texture, DVec2::new(0.5, 0.5), 0.0);
     assert_eq!([red, blue, alpha], [0.5, 0.0, 0.5]);
     assert!((green - 0.25).abs() < 0.002, "188 is about one half in linear light, but half of it gave {green}");
 }
@@ -132,7 +132,7 @@ fn textures_go_on_beyond_their_borders_as_they_say() {
         (Wrap::ClampToEdge, [left, right, right, right]),
     ] {
         texture.sampler.wrap_u = wrap;
-        let seen = [-0.25, 0.75, 1.25, 1.75].map(|u| texture::sample(&texture, DVec2::new(u, 0.5)));
+        let seen = [-0.25, 0.75, 1.25, 1.75].map(|u| texture::sample(&texture, DVec2::new(u, 0.5), 0.0));
         assert_eq!(seen, expected, "{wrap:?}");
     }
 }
@@ -142,5 +142,15 @@ fn encoding_undoes_decoding() {
     for byte in 0..=255 {
         let encoded = f64::from(byte) / 255.0;
         assert!((texture::encode(texture::decode(encoded)) - encoded).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_texture_shown_reduced_is_averaged() {
+    let mut texture = two_texels([255, 0, 0, 255], [0, 255, 0, 255]);
+    texture.sampler = Sampler::default();
+    for u in [0.0, 0.3, 0.5] {
+        let [red, green, ..] = texture::sample(&texture, DVec2::new(u, 0.5), 8.0);
+        assert!((red - 0.5).abs() < 0.02 && (green - 0.5).abs() < 0.02, "{red}, {green}");
     }
 }

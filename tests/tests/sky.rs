@@ -26,11 +26,10 @@ fn without_a_sun_the_sky_is_its_gradient_everywhere_in_the_picture() -> Result<(
         let outputs = render(device, &setup)?;
         let (texels, _) = outputs[0].bytes.as_chunks::<16>();
         let caster = RayCaster::new(&scene);
-        let [width, height] = EXTENT.map(f64::from);
         for (index, texel) in texels.iter().enumerate() {
             let (x, y) = (index % EXTENT[0] as usize, index / EXTENT[0] as usize);
-            let at = DVec2::new((x as f64 + 0.5) / width, (y as f64 + 0.5) / height);
-            let direction = caster.camera_ray(at, width / height).direction.normalize();
+            let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+            let direction = caster.camera_ray(at, EXTENT).direction.normalize();
             let expected = scene.sky.towards(direction.to_array());
             for (channel, expected) in expected.into_iter().enumerate() {
                 let word: [u8; 4] = texel[4 * channel..4 * channel + 4].try_into()?;

@@ -10,7 +10,7 @@ pub mod triangle;
 use bounds::BoundsTree;
 use framewright_passes::scene::{AlphaMode, Scene};
 use glam::{DVec2, DVec3};
-use triangle::{Meeting, Ray, meet};
+use triangle::{Meeting, Ray, meet, meet_plane};
 
 /// What a ray meets first.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,17 +59,19 @@ impl<'scene> RayCaster<'scene> {
         Self { scene, triangles, origins, tree }
     }
 
-    /// The ray through a point of a picture, `at` counted from its upper left corner (0, 0) to its lower right (1, 1).
-    /// `aspect` is width over height. The direction's part along the camera's axis is 1, so distances are depths.
+    /// The ray through a point of a picture, `at` counted in pixels from its upper left corner. The direction's part along
+    /// the camera's axis is 1, so distances are depths.
     #[must_use]
-    pub fn camera_ray(&self, at: DVec2, aspect: f64) -> Ray {
+    pub fn camera_ray(&self, at: DVec2, extent: [u32; 2]) -> Ray {
         let camera = &self.scene.camera;
         let columns = camera.transform.to_cols_array_2d().map(|[x, y, z, _]| DVec3::new(x.into(), y.into(), z.into()));
         let [right, up, back, origin] = columns;
-        let half_height = (f64::from(camera.vertical_fov) / 2.0).tan();
-        let across = (2.0 * at.x - 1.0) * half_height * aspect;
-        let upwards = (1.0 - 2.0 * at.y) * half_height;
-        Ray { origin, direction: right * across + up * upwards - back }
+        let [width, height] = extent.map(f64::from);
+        // Pixels are square.
+        let pixel = 2.0 * (f64::from(camera.vertical_fov) / 2.0).tan() / height;
+        let across = (at.x - width / 2.0) * pixel;
+        let upwards = (height / 2.0 - at.y) * pixel;
+        Ray { origin, direction: right * across + up * upwards - back, spread: [right * pixel, up * -pixel] }
     }
 
     /// What `ray` meets first from the near plane on: front faces, back faces of double-sided materials, and no holes of
@@ -91,7 +93,7 @@ impl<'scene> RayCaster<'scene> {
 
     /// What a triangle shows where it is met, unless that side or place of it shows nothing.
     fn shown(&self, ray: &Ray, triangle: u32, meeting: &Meeting) -> Option<Hit> {
-        let (object_index, first) = self.origins[triangle as usize];
+        let (object_index, _) = self.origins[triangle as usize];
         let object = &self.scene.objects[object_index as usize];
         let material = &self.scene.materials[object.material];
         let [x, y, z, _] = object.transform.as_dmat4().to_cols_array_2d().map(|[x, y, z, _]| DVec3::new(x, y, z));
@@ -99,17 +101,16 @@ impl<'scene> RayCaster<'scene> {
         if !material.double_sided && meeting.counter_clockwise == turned_inside_out {
             return None;
         }
-        let mesh = &self.scene.meshes[object.mesh];
-        let [second, third] = meeting.weights;
-        let uv = [1.0 - second - third, second, third].iter().zip(&mesh.indices[first..first + 3]).fold(
-            DVec2::ZERO,
-            |uv, (weight, index)| {
-                let [u, v] = mesh.uvs[*index as usize];
-                uv + DVec2::new(u.into(), v.into()) * *weight
-            },
-        );
-        let texel =
-            material.base_color_texture.map_or([1.0; 4], |texture| texture::sample(&self.scene.textures[texture], uv));
+        let texel = material.base_color_texture.map_or([1.0; 4], |texture| {
+            let texture = &self.scene.textures[texture];
+            let size = DVec2::new(texture.width.into(), texture.height.into());
+            let uv = |meeting: &Meeting| self.uv(triangle, meeting);
+            let here = uv(meeting);
+            let beside = ray.neighbours().map(|ray| meet_plane(&ray, &self.triangles[triangle as usize]));
+            // The least of the lengths between which Vulkan lets a driver choose (section "Scale Factor Operation").
+            let texels = |beside: &Meeting| ((uv(beside) - here) * size).abs().max_element();
+            texture::sample(texture, here, beside.iter().flatten().map(texels).fold(0.0, f64::max))
+        });
         let base_color = std::array::from_fn(|i| f64::from(material.base_color[i]) * texel[i]);
         match material.alpha {
             AlphaMode::Mask { cutoff } if base_color[3] < f64::from(cutoff) => None,
@@ -120,5 +121,17 @@ impl<'scene> RayCaster<'scene> {
                 Some(Hit { object: object_index, base_color, depth: meeting.distance, normal })
             }
         }
+    }
+
+    /// Texture coordinates where a triangle is met.
+    fn uv(&self, triangle: u32, meeting: &Meeting) -> DVec2 {
+        let (object, first) = self.origins[triangle as usize];
+        let mesh = &self.scene.meshes[self.scene.objects[object as usize].mesh];
+        let [second, third] = meeting.weights;
+        let weights = [1.0 - second - third, second, third];
+        weights.iter().zip(&mesh.indices[first..first + 3]).fold(DVec2::ZERO, |uv, (weight, index)| {
+            let [u, v] = mesh.uvs[*index as usize];
+            uv + DVec2::new(u.into(), v.into()) * *weight
+        })
     }
 }

@@ -1,13 +1,37 @@
-//! Texels, in 64 bits, from the largest level only.
+//! Texels, in 64 bits.
 
 use framewright_graph::vocabulary::Filter;
 use framewright_passes::scene::{Texture, Wrap};
 use glam::DVec2;
 
-/// The texture at `uv`, linear, filtered as its sampler says for texels that are larger than a pixel.
+/// Taps on a side, at most, with which a texture shown reduced is averaged.
+const MOST_TAPS: f64 = 16.0;
+
+/// The texture at `uv`, linear, for a pixel that covers `texels` texels along the longer side of its footprint.
+///
+/// Below one texel, or without mip levels, as the sampler's filter for enlarging says. Above, the mean over a tent of that
+/// half width both ways: about what a linear filter within and between mip levels gives, which knows no long and narrow
+/// footprints either.
 #[must_use]
-pub fn sample(texture: &Texture, uv: DVec2) -> [f64; 4] {
+pub fn sample(texture: &Texture, uv: DVec2, texels: f64) -> [f64; 4] {
     let place = uv * DVec2::new(texture.width.into(), texture.height.into());
+    if texels <= 1.0 || texture.sampler.mip.is_none() {
+        return enlarged(texture, place);
+    }
+    let taps = (2.0 * texels).ceil().min(MOST_TAPS) as u32;
+    let steps = || (0..taps).map(|tap| (2.0 * f64::from(tap) + 1.0) / f64::from(taps) - 1.0);
+    let (mut sum, mut weights) = ([0.0; 4], 0.0);
+    for (dx, dy) in steps().flat_map(|dy| steps().map(move |dx| (dx, dy))) {
+        let weight = (1.0 - dx.abs()) * (1.0 - dy.abs());
+        let tap = enlarged(texture, place + DVec2::new(dx, dy) * texels);
+        sum = std::array::from_fn(|i| sum[i] + weight * tap[i]);
+        weights += weight;
+    }
+    sum.map(|channel| channel / weights)
+}
+
+/// The largest level at `place`, counted in texels, by the sampler's filter for enlarging.
+fn enlarged(texture: &Texture, place: DVec2) -> [f64; 4] {
     match texture.sampler.magnify {
         Filter::Nearest => texel(texture, place.x.floor(), place.y.floor()),
         Filter::Linear => {

@@ -9,6 +9,17 @@ pub struct Ray {
     pub origin: DVec3,
     /// Where it goes.
     pub direction: DVec3,
+    /// What the directions of the pixel to the right and of the pixel below have more; zero for a ray without width.
+    /// (H. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.)
+    pub spread: [DVec3; 2],
+}
+
+impl Ray {
+    /// The rays of the pixel to the right and of the pixel below.
+    #[must_use]
+    pub fn neighbours(&self) -> [Ray; 2] {
+        self.spread.map(|more| Ray { direction: self.direction + more, ..*self })
+    }
 }
 
 /// Where a ray meets a triangle.
@@ -23,10 +34,19 @@ pub struct Meeting {
 }
 
 /// Where `ray` meets the triangle `corners`, seen from either side.
+#[must_use]
+pub fn meet(ray: &Ray, corners: &[DVec3; 3]) -> Option<Meeting> {
+    meet_plane(ray, corners).filter(|meeting| {
+        let [second, third] = meeting.weights;
+        second >= 0.0 && third >= 0.0 && second + third <= 1.0 && meeting.distance > 0.0
+    })
+}
+
+/// Where the line of `ray` meets the plane of the triangle `corners`, inside the triangle or not, ahead or behind.
 ///
 /// Source: T. Möller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of Graphics Tools 2(1), 1997.
 #[must_use]
-pub fn meet(ray: &Ray, corners: &[DVec3; 3]) -> Option<Meeting> {
+pub fn meet_plane(ray: &Ray, corners: &[DVec3; 3]) -> Option<Meeting> {
     let [first, second, third] = *corners;
     let (edge_2, edge_3) = (second - first, third - first);
     let across = ray.direction.cross(edge_3);
@@ -35,14 +55,10 @@ pub fn meet(ray: &Ray, corners: &[DVec3; 3]) -> Option<Meeting> {
         return None;
     }
     let from_first = ray.origin - first;
-    let second_weight = from_first.dot(across) / determinant;
     let around = from_first.cross(edge_2);
-    let third_weight = ray.direction.dot(around) / determinant;
-    let distance = edge_3.dot(around) / determinant;
-    let inside = second_weight >= 0.0 && third_weight >= 0.0 && second_weight + third_weight <= 1.0;
-    (inside && distance > 0.0).then_some(Meeting {
-        distance,
-        weights: [second_weight, third_weight],
+    Some(Meeting {
+        distance: edge_3.dot(around) / determinant,
+        weights: [from_first.dot(across) / determinant, ray.direction.dot(around) / determinant],
         counter_clockwise: determinant > 0.0,
     })
 }
