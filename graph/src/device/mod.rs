@@ -1,5 +1,9 @@
 //! What a device can do, as data: read from a live device by a backend, or from a saved profile.
 
+mod saved;
+
+pub use saved::{ProfileError, SHIPPED_PROFILES};
+
 use crate::format::Format;
 use crate::vocabulary::Usage;
 use serde::{Deserialize, Serialize};
