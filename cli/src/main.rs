@@ -1,2 +1,50 @@
-//! The `framewright` command.
-fn main() {}
+//! The `framewright` command: checks, shows and runs pipeline files.
+
+mod args;
+mod check;
+mod devices;
+mod error;
+mod files;
+mod inspect;
+mod interrupt;
+mod layer;
+mod output;
+mod picture;
+mod planning;
+mod profiles;
+mod report;
+mod run;
+mod shipped;
+mod text;
+
+use args::Command;
+use error::Exit;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let line = match args::parse(std::env::args_os()) {
+        Ok(line) => line,
+        Err(error) => {
+            // Help and version are answers, on standard output; if nobody reads them there is nobody to tell.
+            drop(error.print());
+            return if error.use_stderr() { Exit::Usage } else { Exit::Fine }.into();
+        }
+    };
+    let result = match &line.command {
+        Command::Run(arguments) if arguments.validate => {
+            layer::under_the_current_one().and_then(|()| run::run(arguments))
+        }
+        Command::Check(arguments) => check::check(arguments),
+        Command::Inspect(arguments) => inspect::inspect(arguments),
+        Command::Run(arguments) => run::run(arguments),
+        Command::Devices(arguments) => devices::devices(arguments),
+    };
+    match result {
+        Ok(exit) => exit,
+        Err(error) => {
+            text::say(&error.shown());
+            error.exit()
+        }
+    }
+    .into()
+}

@@ -1,0 +1,221 @@
+//! Everything that ends a command early, and the exit code that it ends with.
+
+use crate::text;
+use framewright_graph::describe::{self, Diagnostic};
+use framewright_graph::source::Sources;
+use framewright_passes::scene::SceneError;
+use framewright_vulkan::Blame;
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// How a command ends. The numbers are the command's contract.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Exit {
+    /// All is well.
+    Fine = 0,
+    /// The user's files are wrong or missing, or a check found something.
+    Found = 1,
+    /// The command line is wrong.
+    Usage = 2,
+    /// The environment lacks something: driver, layer, device, permission, disk.
+    Environment = 3,
+    /// Ctrl-C, as shells count it.
+    Interrupted = 130,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> ExitCode {
+        ExitCode::from(exit as u8)
+    }
+}
+
+/// What ends a command early.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Error {
+    /// A file is missing, and nothing shipped has its name.
+    #[error("there is no {what} `{}`, and none of that name is shipped (shipped: {})", text::path(path), shipped.join(", "))]
+    Missing {
+        /// What it would be.
+        what: &'static str,
+        /// Where it was looked for.
+        path: PathBuf,
+        /// Names that are shipped.
+        shipped: Vec<&'static str>,
+    },
+    /// A file can't be read.
+    #[error("the {what} `{}` can't be read: {}", text::path(path), text::escape(&source.to_string()))]
+    Read {
+        /// What it is.
+        what: &'static str,
+        /// Which file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// A file is larger than anything that a person writes.
+    #[error("the {what} `{}` is larger than {}", text::path(path), text::bytes(*limit))]
+    TooLarge {
+        /// What it is.
+        what: &'static str,
+        /// Which file.
+        path: PathBuf,
+        /// Bytes that it may have.
+        limit: u64,
+    },
+    /// A file isn't text.
+    #[error("the {what} `{}` is not text: byte {at} is not UTF-8", text::path(path))]
+    NotText {
+        /// What it is.
+        what: &'static str,
+        /// Which file.
+        path: PathBuf,
+        /// The first byte that isn't, from 0.
+        at: usize,
+    },
+    /// The pipeline is wrong.
+    #[error("{}", describe::render(&wrong.sources, &wrong.diagnostics))]
+    Wrong {
+        /// Its mistakes, and the texts that they point into.
+        wrong: Box<Wrong>,
+    },
+    /// The scene is wrong.
+    #[error("{0}")]
+    Scene(Box<SceneError>),
+    /// A device profile is wrong.
+    #[error("{}: {}", text::path(path), text::escape(&problem.to_string()))]
+    Profile {
+        /// Its file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: framewright_graph::device::ProfileError,
+    },
+    /// `--device` names no profile.
+    #[error("there is no device profile `{}`: give the file of one, or one that is shipped ({})", text::escape(name), shipped.join(", "))]
+    UnknownProfile {
+        /// What was given.
+        name: String,
+        /// Names that are shipped.
+        shipped: Vec<&'static str>,
+    },
+    /// `run` was given a profile, which can't draw.
+    #[error(
+        "`{}` is a device profile, and a profile can't draw: name a device (`framewright devices` lists them)",
+        text::escape(name)
+    )]
+    ProfileCantDraw {
+        /// What was given.
+        name: String,
+    },
+    /// Vulkan, or what is drawn with it.
+    #[error("{}", text::escape_lines(&.0.to_string()))]
+    Vulkan(#[from] framewright_vulkan::Error),
+    /// A picture can't be encoded.
+    #[error("the picture of `{}` can't be encoded: {problem}", text::escape(image))]
+    Picture {
+        /// The image.
+        image: String,
+        /// The encoder's words.
+        problem: image::ImageError,
+    },
+    /// The program can't start itself anew.
+    #[error("framewright can't start itself anew under the current validation layer: {}\nhelp: set VK_LAYER_PATH to the layer's folder", text::escape(&.0.to_string()))]
+    Restart(io::Error),
+    /// Ctrl-C.
+    #[error("interrupted after {frames} of {wanted} frames: nothing was written")]
+    Interrupted {
+        /// Frames that were drawn.
+        frames: u32,
+        /// Frames that were asked for.
+        wanted: u32,
+    },
+    /// A Plan that breaks its own rules: the compiler is at fault, not the user.
+    #[error("the Plan breaks its own rules, which is a mistake of framewright itself:\n  {}", violations.join("\n  "))]
+    Violations {
+        /// What `verify` found, escaped.
+        violations: Vec<String>,
+    },
+    /// A result that has no text form.
+    #[error("the result has no JSON form: {0}")]
+    Json(#[from] serde_json::Error),
+    /// A Plan that has no JSON form.
+    #[error("{}", text::escape_lines(&.0.to_string()))]
+    Plan(#[from] framewright_graph::plan::PlanError),
+    /// A file can't be written.
+    #[error("`{}` can't be written: {}{}", text::path(path), text::escape(&source.to_string()), mend(source))]
+    Write {
+        /// Which file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// Standard output can't be written.
+    #[error("standard output can't be written: {}{}", text::escape(&.0.to_string()), mend(.0))]
+    Print(io::Error),
+}
+
+/// The mistakes of a pipeline.
+#[derive(Debug)]
+pub(crate) struct Wrong {
+    /// The texts that the mistakes point into.
+    pub(crate) sources: Sources,
+    /// The mistakes.
+    pub(crate) diagnostics: Vec<Diagnostic>,
+}
+
+impl Error {
+    /// What is printed: every mistake has a heading of its own.
+    #[must_use]
+    pub(crate) fn shown(&self) -> String {
+        let headed = match self {
+            Error::Wrong { .. } => true,
+            Error::Scene(problem) => matches!(**problem, SceneError::Text { .. }),
+            _ => false,
+        };
+        if headed { self.to_string().trim_end().to_owned() } else { format!("error: {self}") }
+    }
+
+    /// The exit code of a command that this ended.
+    #[must_use]
+    pub(crate) fn exit(&self) -> Exit {
+        match self {
+            Error::Read { source, .. } if source.kind() == io::ErrorKind::PermissionDenied => Exit::Environment,
+            Error::Missing { .. }
+            | Error::Read { .. }
+            | Error::TooLarge { .. }
+            | Error::NotText { .. }
+            | Error::Wrong { .. }
+            | Error::Picture { .. }
+            | Error::Profile { .. }
+            | Error::Violations { .. }
+            | Error::Json(_)
+            | Error::Plan(_) => Exit::Found,
+            Error::Scene(problem) => match &**problem {
+                SceneError::Unreadable { source, .. } if source.kind() == io::ErrorKind::PermissionDenied => {
+                    Exit::Environment
+                }
+                _ => Exit::Found,
+            },
+            Error::Vulkan(problem) => match problem.blame() {
+                Blame::Environment => Exit::Environment,
+                Blame::Files | Blame::Program => Exit::Found,
+            },
+            Error::UnknownProfile { .. } | Error::ProfileCantDraw { .. } => Exit::Usage,
+            Error::Interrupted { .. } => Exit::Interrupted,
+            Error::Write { .. } | Error::Print(_) | Error::Restart(_) => Exit::Environment,
+        }
+    }
+}
+
+/// What to do about a file that can't be written.
+fn mend(problem: &io::Error) -> &'static str {
+    match problem.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => "\nhelp: its folder must exist: mkdir -p",
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "\nhelp: choose a place that is yours, or chmod u+w it"
+        }
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "\nhelp: make room: df -h shows what is full",
+        io::ErrorKind::IsADirectory => "\nhelp: that is a folder: name a file in it",
+        _ => "",
+    }
+}

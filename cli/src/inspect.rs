@@ -1,0 +1,36 @@
+//! `framewright inspect`: the Plan of a pipeline, without a GPU.
+
+use crate::args::{Inspect, PlanFormat};
+use crate::error::{Error, Exit};
+use crate::planning::{self, View};
+use crate::{files, output, profiles, text};
+use framewright_graph::compile::Options;
+use framewright_graph::device::Estimated;
+
+/// Prints or writes a Plan.
+///
+/// # Errors
+/// If the pipeline, the scene or the profile is wrong, or the result can't be written.
+pub(crate) fn inspect(arguments: &Inspect) -> Result<Exit, Error> {
+    if let Some(file) = &arguments.output {
+        output::probe(file)?;
+    }
+    let profile = profiles::choose(arguments.device.as_deref())?;
+    let mut pipeline = planning::load(&arguments.pipeline)?;
+    let facts = match &arguments.scene {
+        Some(path) => Some(files::scene(path)?.facts()),
+        None => None,
+    };
+    let view = View { facts, size: arguments.size, dump: &[] };
+    let options = Options { alias: !arguments.debug.no_alias, poison: arguments.debug.poison };
+    let plan = pipeline.plan(view, &profile, &mut Estimated(&profile.memory), &options)?.plan;
+    let shown = match arguments.format {
+        PlanFormat::Tree => text::escape_lines(&plan.tree()) + "\n",
+        PlanFormat::Json => text::json_text(&plan.to_json()?),
+    };
+    match &arguments.output {
+        Some(file) => output::write(file, shown.as_bytes())?,
+        None => text::print(&shown).map_err(Error::Print)?,
+    }
+    Ok(Exit::Fine)
+}

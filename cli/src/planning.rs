@@ -1,0 +1,101 @@
+//! From a pipeline file to its verified Plan: the part that `check`, `inspect` and `run` share.
+
+use crate::args;
+use crate::error::{Error, Wrong};
+use crate::files::{self, PipelineFile};
+use framewright_graph::compile::{self, Options};
+use framewright_graph::describe::{self, Diagnostic, Pipeline};
+use framewright_graph::device::{MemoryProvider, Profile};
+use framewright_graph::expand::{self, Facts, Inputs};
+use framewright_graph::frame::Frame;
+use framewright_graph::plan::Plan;
+use framewright_graph::source::Sources;
+use framewright_graph::verify;
+use framewright_passes::{draw, shipped};
+use framewright_vulkan::ShaderLibrary;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A pipeline that was read, and where its shaders come from.
+pub(crate) struct Loaded {
+    pipeline: Pipeline,
+    sources: Arc<Sources>,
+    /// Shaders beside the pipeline file, then shipped ones.
+    pub(crate) shaders: ShaderLibrary,
+    set: Vec<(String, String)>,
+}
+
+/// A frame and its Plan.
+#[derive(Debug)]
+pub(crate) struct Planned {
+    /// The frame.
+    pub(crate) frame: Frame,
+    /// Its Plan, verified.
+    pub(crate) plan: Plan,
+}
+
+/// What a frame depends on besides its pipeline and settings.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct View<'a> {
+    /// Facts of the scene; `None`: it may hold everything.
+    pub(crate) facts: Option<Facts>,
+    /// Size of the output.
+    pub(crate) size: args::Size,
+    /// Names of images that are dumped.
+    pub(crate) dump: &'a [String],
+}
+
+/// Reads a pipeline file.
+///
+/// # Errors
+/// If it can't be read or is wrong in itself.
+pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
+    let PipelineFile { shown, name, folder, bytes } = files::pipeline(&arguments.file)?;
+    let mut sources = Sources::default();
+    match describe::read_bytes(&mut sources, &shown, &name, bytes) {
+        Ok(pipeline) => Ok(Loaded {
+            pipeline,
+            sources: Arc::new(sources),
+            shaders: library(folder),
+            set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
+        }),
+        Err(diagnostics) => Err(wrong(&sources, diagnostics)),
+    }
+}
+
+impl Loaded {
+    /// Puts in settings, facts and sizes, compiles for a device, and has the result verified.
+    ///
+    /// # Errors
+    /// What is wrong with the pipeline, its settings or its shaders; or what `verify` found.
+    pub(crate) fn plan(
+        &mut self,
+        view: View<'_>,
+        device: &Profile,
+        memory: &mut dyn MemoryProvider,
+        options: &Options,
+    ) -> Result<Planned, Error> {
+        let inputs = Inputs {
+            set: &self.set,
+            facts: view.facts.unwrap_or(Facts::UNKNOWN),
+            facts_known: view.facts.is_some(),
+            output_extent: [view.size.width, view.size.height],
+            dump: view.dump,
+        };
+        let frame = expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.shaders)
+            .map_err(|diagnostics| wrong(&self.sources, diagnostics))?;
+        let plan = compile::compile(&frame, device, memory, options)
+            .map_err(|diagnostics| wrong(&self.sources, diagnostics))?;
+        let violations: Vec<_> =
+            verify::verify(&plan).iter().map(|one| crate::text::escape(&one.to_string())).collect();
+        if violations.is_empty() { Ok(Planned { frame, plan }) } else { Err(Error::Violations { violations }) }
+    }
+}
+
+fn library(folder: Option<PathBuf>) -> ShaderLibrary {
+    ShaderLibrary::new(folder.into_iter().collect(), shipped::SHADERS, draw::interface)
+}
+
+fn wrong(sources: &Sources, diagnostics: Vec<Diagnostic>) -> Error {
+    Error::Wrong { wrong: Box::new(Wrong { sources: sources.clone(), diagnostics }) }
+}

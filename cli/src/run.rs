@@ -1,0 +1,186 @@
+//! `framewright run`: draws a scene through a pipeline.
+
+use crate::args::{Dump, Run};
+use crate::error::{Error, Exit};
+use crate::planning::{self, Loaded, Planned, View};
+use crate::report::{self, Report, Setting, Validation};
+use crate::{files, interrupt, output, picture, text};
+use framewright_graph::compile::Options;
+use framewright_graph::plan::Totals;
+use framewright_passes::draw::SceneDrawSource;
+use framewright_passes::scene::Scene;
+use framewright_vulkan::{Device, DeviceChoice, DeviceOptions, Executor, ExecutorOptions, FrameReport};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+/// A picture that is ready to be written.
+struct Picture {
+    file: PathBuf,
+    png: Vec<u8>,
+}
+
+/// Draws a scene.
+///
+/// # Errors
+/// If a file is wrong, the device or the layer is missing, or something can't be written.
+pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
+    let written =
+        || arguments.output.iter().chain(arguments.dump.iter().map(|dump| &dump.file)).chain(&arguments.report);
+    written().try_for_each(|file| output::probe(file))?;
+    let choice = choice(arguments.device.as_deref())?;
+    let mut pipeline = planning::load(&arguments.pipeline)?;
+    let scene = files::scene(&arguments.scene)?;
+    interrupt::watch();
+
+    let device = Device::open(&DeviceOptions { choice, validation: arguments.validate })?;
+    let canary = if arguments.validate { Some(device.canary()?) } else { None };
+    let planned = plan(arguments, &mut pipeline, &scene, &device)?;
+    let (frames, pictures) = draw(arguments, &planned, &mut pipeline, &scene, &device)?;
+    let mut report = Report {
+        format_version: 1,
+        pipeline: shown(&arguments.pipeline.file),
+        scene: shown(&arguments.scene),
+        settings: planned
+            .plan
+            .settings
+            .iter()
+            .map(|one| Setting { name: one.name.to_string(), value: one.value.clone() })
+            .collect(),
+        size: [arguments.size.width, arguments.size.height],
+        frames: arguments.frames,
+        device: device.summary().into(),
+        memory: (&planned.plan.totals).into(),
+        barriers: (&planned.plan.totals).into(),
+        gpu_milliseconds: report::median(frames.iter().map(|frame| frame.milliseconds).collect()),
+        passes: report::rows(&planned.plan, &frames),
+        notes: planned.plan.notes.clone(),
+        validation: None,
+        files: written().map(|file| shown(file)).collect(),
+    };
+    // The layer may have something to say about the device's end too.
+    let messages = device.messages();
+    drop(device);
+    report.validation = canary.map(|canary| Validation::new(canary, &messages.list()));
+
+    for picture in &pictures {
+        output::write(&picture.file, &picture.png)?;
+    }
+    if let Some(file) = &arguments.report {
+        output::write(file, text::json(&report)?.as_bytes())?;
+    }
+    text::print(&report.table()).map_err(Error::Print)?;
+    Ok(if report.validation.is_some_and(|validation| validation.findings > 0) { Exit::Found } else { Exit::Fine })
+}
+
+/// The device that `--device` names.
+fn choice(device: Option<&OsStr>) -> Result<DeviceChoice, Error> {
+    let Some(name) = device else { return Ok(DeviceChoice::Default) };
+    let name = name.to_string_lossy().into_owned();
+    match name.parse() {
+        Ok(index) => Ok(DeviceChoice::Index(index)),
+        Err(_) if Path::new(&name).extension().is_some_and(|end| end == "ron") => Err(Error::ProfileCantDraw { name }),
+        Err(_) => Ok(DeviceChoice::Name(name)),
+    }
+}
+
+/// Plans the frame for the device, and says what dumping changes.
+fn plan(arguments: &Run, pipeline: &mut Loaded, scene: &Scene, device: &Device) -> Result<Planned, Error> {
+    let dump: Vec<String> = arguments.dump.iter().map(|dump| dump.image.clone()).collect();
+    let view = View { facts: Some(scene.facts()), size: arguments.size, dump: &dump };
+    let options = Options { alias: !arguments.debug.no_alias, poison: arguments.debug.poison };
+    let (profile, mut memory) = (device.profile(), device.memory());
+    let planned = pipeline.plan(view, &profile, &mut memory, &options)?;
+    if !dump.is_empty() {
+        let without = pipeline.plan(View { dump: &[], ..view }, &profile, &mut memory, &options)?;
+        text::say(&format!("note: dumping {}", difference(&without.plan.totals, &planned.plan.totals)));
+    }
+    Ok(planned)
+}
+
+/// What a Plan has that another hasn't, in words.
+fn difference(before: &Totals, after: &Totals) -> String {
+    let count = |name: &str, before: u32, after: u32| (before != after).then(|| format!("{name} {before} → {after}"));
+    let bytes = |name: &str, before: u64, after: u64| {
+        (before != after).then(|| format!("{name} {} → {}", text::bytes(before), text::bytes(after)))
+    };
+    let changes: Vec<String> = [
+        count("passes", before.passes + before.inserted_passes, after.passes + after.inserted_passes),
+        count("rendering scopes", before.scopes, after.scopes),
+        count("resolves", before.resolves, after.resolves),
+        count("copies", before.copies, after.copies),
+        count("barriers", before.image_barriers + before.memory_barriers, after.image_barriers + after.memory_barriers),
+        bytes("transient memory", before.placed_bytes, after.placed_bytes),
+        bytes("outputs", before.output_bytes, after.output_bytes),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    if changes.is_empty() {
+        "changes no sum of the Plan".to_owned()
+    } else {
+        format!("changes the Plan: {}", changes.join(", "))
+    }
+}
+
+/// Draws all frames and reads back what is to be written.
+fn draw(
+    arguments: &Run,
+    planned: &Planned,
+    pipeline: &mut Loaded,
+    scene: &Scene,
+    device: &Device,
+) -> Result<(Vec<FrameReport>, Vec<Picture>), Error> {
+    let mut source = SceneDrawSource::new(device, scene, [arguments.size.width, arguments.size.height])?;
+    let options = ExecutorOptions { poison: arguments.debug.poison, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(device, &planned.plan, &mut pipeline.shaders, &options)?;
+    let progress = progress(arguments.frames);
+    let mut frames = Vec::new();
+    for drawn in 0..arguments.frames {
+        if interrupt::asked() {
+            return Err(Error::Interrupted { frames: drawn, wanted: arguments.frames });
+        }
+        frames.push(executor.frame(&mut source)?);
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    let mut pictures = Vec::new();
+    for (output, name, file) in wanted(arguments, planned) {
+        let texels = executor.read(output)?;
+        let [width, height, _] = texels.extent;
+        let png = picture::png(texels.format, width, height, &texels.bytes)
+            .map_err(|problem| Error::Picture { image: name.to_owned(), problem })?;
+        if let Some(loss) = picture::loses(texels.format) {
+            text::say(&format!("note: `{}` is {}: in its picture {loss}", text::escape(name), texels.format));
+        }
+        pictures.push(Picture { file: file.to_owned(), png });
+    }
+    if interrupt::asked() {
+        return Err(Error::Interrupted { frames: arguments.frames, wanted: arguments.frames });
+    }
+    Ok((frames, pictures))
+}
+
+/// Outputs that are written: their numbers, names and files.
+fn wanted<'a>(arguments: &'a Run, planned: &'a Planned) -> impl Iterator<Item = (usize, &'a str, &'a Path)> {
+    let frame = &planned.frame;
+    let name = |output: usize| &*frame.images[frame.outputs[output].image.0 as usize].name;
+    let dumped = move |dump: &'a Dump| {
+        let output = (0..frame.outputs.len()).find(|output| name(*output) == dump.image)?;
+        Some((output, name(output), &*dump.file))
+    };
+    arguments.output.iter().map(move |file| (0, name(0), &**file)).chain(arguments.dump.iter().filter_map(dumped))
+}
+
+/// A bar on a terminal; nothing anywhere else.
+fn progress(frames: u32) -> ProgressBar {
+    let bar = ProgressBar::new(frames.into());
+    if let Ok(style) = ProgressStyle::with_template("drawing {wide_bar} {pos}/{len} frames, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn shown(path: &Path) -> String {
+    path.to_string_lossy().into_owned()
+}

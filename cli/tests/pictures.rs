@@ -1,0 +1,197 @@
+//! `run`: pictures, reports and dumps from real drivers, under real validation layers.
+
+mod support;
+
+use image::{GenericImageView, Rgb, RgbImage};
+use serde_json::Value;
+use std::path::Path;
+use support::{Outcome, Place, Vulkan};
+
+const SIZE: [u32; 2] = [160, 90];
+
+/// Draws the shipped scene through a shipped pipeline; `None` where the driver or layer is missing.
+fn draw(place: &Place, vulkan: Vulkan, pipeline: &str, more: &[&str]) -> Option<Outcome> {
+    let variables = vulkan.variables()?;
+    let mut arguments = vec!["run", pipeline, "--scene", "spheres_and_cubes", "--size", "160x90"];
+    arguments.extend(more);
+    Some(place.run_with(&variables, &arguments))
+}
+
+fn picture(path: &Path) -> RgbImage {
+    image::open(path).expect("a picture").into_rgb8()
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(path).expect("written")).expect("JSON")
+}
+
+/// Number of different colours: a picture worth the name has many.
+fn colours(picture: &RgbImage) -> usize {
+    picture.pixels().collect::<std::collections::HashSet<_>>().len()
+}
+
+/// Done when, 6.
+#[test]
+fn the_picture_is_the_same_bytes_run_to_run() {
+    let place = Place::new();
+    let Some(first) = draw(&place, Vulkan::LAVAPIPE, "forward", &["-o", "a.png"]) else { return };
+    first.exits(0);
+    if let Some(second) = draw(&place, Vulkan::LAVAPIPE, "forward", &["-o", "b.png", "--frames", "3"]) {
+        second.exits(0);
+    }
+    assert_eq!(std::fs::read(place.path("a.png")).expect("a"), std::fs::read(place.path("b.png")).expect("b"));
+    let picture = picture(&place.path("a.png"));
+    assert_eq!(picture.dimensions(), SIZE.into());
+    assert!(colours(&picture) > 500, "{} colours", colours(&picture));
+    assert_eq!(place.names(), ["a.png", "b.png"]);
+}
+
+#[test]
+fn poison_and_memory_of_ones_own_change_no_pixel() {
+    let place = Place::new();
+    for pipeline in ["forward", "soft_focus"] {
+        let Some(plain) = draw(&place, Vulkan::LAVAPIPE, pipeline, &["-o", "plain.png"]) else { return };
+        plain.exits(0);
+        for (switch, file) in [("--poison", "poison.png"), ("--no-alias", "no_alias.png")] {
+            if let Some(switched) = draw(&place, Vulkan::LAVAPIPE, pipeline, &[switch, "-o", file]) {
+                switched.exits(0);
+            }
+            let (plain, switched) = (picture(&place.path("plain.png")), picture(&place.path(file)));
+            assert!(plain == switched, "{pipeline} with {switch} is another picture");
+        }
+    }
+}
+
+fn silent(vulkan: Vulkan, pipeline: &str, sees_attachments: bool) {
+    for set in ["msaa=4", "msaa=1"] {
+        let place = Place::new();
+        let set = if pipeline == "forward" { &["--set", set][..] } else { &[] };
+        let more = [&["--validate", "--report", "report.json", "-o", "a.png", "--frames", "2"], set].concat();
+        let Some(outcome) = draw(&place, vulkan, pipeline, &more) else { return };
+        let outcome = outcome.exits(0);
+        assert!(outcome.out.contains("validation: silent; "), "{}", outcome.out);
+        let validation = &json(&place.path("report.json"))["validation"];
+        assert_eq!(validation["findings"], 0);
+        assert_eq!(validation["sees_attachments"], sees_attachments);
+        assert!(validation["canary"].as_array().is_some_and(|ids| !ids.is_empty()), "{validation:#}");
+    }
+}
+
+#[test]
+fn shipped_pipelines_are_silent_on_lavapipe_under_the_current_layer() {
+    for pipeline in ["forward", "soft_focus"] {
+        silent(Vulkan::LAVAPIPE_CURRENT, pipeline, true);
+    }
+}
+
+#[test]
+fn forward_is_silent_on_lavapipe_under_the_distributions_layer() {
+    silent(Vulkan::LAVAPIPE_OLD, "forward", false);
+}
+
+#[test]
+fn forward_is_silent_on_swiftshader_under_the_current_layer() {
+    silent(Vulkan::SWIFTSHADER_CURRENT, "forward", true);
+}
+
+#[test]
+fn both_drivers_draw_the_same_picture_up_to_its_edges() {
+    let place = Place::new();
+    for (vulkan, file) in [(Vulkan::LAVAPIPE, "lavapipe.png"), (Vulkan::SWIFTSHADER_CURRENT, "swiftshader.png")] {
+        let Some(outcome) = draw(&place, vulkan, "forward", &["-o", file]) else { return };
+        outcome.exits(0);
+    }
+    let (ours, theirs) = (picture(&place.path("lavapipe.png")), picture(&place.path("swiftshader.png")));
+    let differ = |a: &Rgb<u8>, b: &Rgb<u8>| (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap_or(0);
+    // On edges the drivers round coverage differently: only where the picture is smooth must they agree.
+    let smooth = |x: u32, y: u32| {
+        let around = (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y)));
+        around.into_iter().all(|(i, k)| differ(ours.get_pixel(i, k), ours.get_pixel(x, y)) <= 16)
+    };
+    let inside = (1..SIZE[1] - 1).flat_map(|y| (1..SIZE[0] - 1).map(move |x| (x, y)));
+    let compared: Vec<u8> = inside
+        .filter(|(x, y)| smooth(*x, *y))
+        .map(|(x, y)| differ(ours.get_pixel(x, y), theirs.get_pixel(x, y)))
+        .collect();
+    let apart = compared.iter().filter(|difference| **difference > 2).count();
+    assert!(compared.len() > 5000, "only {} pixels are smooth", compared.len());
+    assert!(apart * 200 <= compared.len(), "{apart} of {} smooth pixels are further apart than 2/255", compared.len());
+}
+
+#[test]
+fn a_dump_is_a_picture_of_its_image_and_may_change_the_plan() {
+    let place = Place::new();
+    let more = ["-o", "a.png", "--dump", "color=color.png", "--set", "msaa=1", "--dump", "depth=depth.png"];
+    let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &more) else { return };
+    let outcome = outcome.exits(0).mentions("note: dumping changes the Plan: ");
+    assert!(outcome.err.contains("in its picture values outside 0…1 are clamped"), "{}", outcome.err);
+    assert!(outcome.err.contains("in its picture the nearest texel is white"), "{}", outcome.err);
+    for file in ["color.png", "depth.png"] {
+        let picture = image::open(place.path(file)).expect("a picture");
+        assert_eq!(picture.dimensions(), SIZE.into());
+        assert!(colours(&picture.into_rgb8()) > 50, "{file}");
+    }
+    assert_eq!(image::open(place.path("depth.png")).expect("a picture").color(), image::ColorType::L8);
+}
+
+#[test]
+fn the_report_holds_what_the_table_shows_and_more() {
+    let place = Place::new();
+    let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &["--report", "report.json"]) else { return };
+    let outcome = outcome.exits(0);
+    let report = json(&place.path("report.json"));
+    assert_eq!(report["format_version"], 1);
+    assert_eq!(report["size"], serde_json::json!(SIZE));
+    assert_eq!(report["validation"], Value::Null);
+    assert!(report["device"]["driver"].as_str().is_some_and(|driver| driver.contains("llvmpipe")), "{report:#}");
+    let memory = |name: &str| report["memory"][name].as_u64().expect("a number");
+    assert!(memory("live_peak_bytes") <= memory("placed_bytes") && memory("placed_bytes") <= memory("sum_bytes"));
+    assert!(memory("live_peak_bytes") > 0);
+    assert!(report["barriers"]["image"].as_u64() > Some(0));
+    let passes = report["passes"].as_array().expect("a list");
+    let names: Vec<&str> = passes.iter().filter_map(|pass| pass["name"].as_str()).collect();
+    for name in ["opaque", "masked", "sky", "transparent", "tone_map"] {
+        assert!(names.contains(&name), "{names:?}");
+        assert!(outcome.out.contains(name), "{}", outcome.out);
+    }
+    assert_eq!(passes.iter().filter(|pass| pass["kind"] == "resolve").count(), 1);
+    let opaque = &passes[0];
+    assert!(opaque["draws"].as_u64() > Some(10), "{opaque:#}");
+    assert!(opaque["gpu_milliseconds"].as_f64() > Some(0.0), "{opaque:#}");
+    assert!(report["gpu_milliseconds"].as_f64() > opaque["gpu_milliseconds"].as_f64());
+}
+
+#[test]
+fn an_interrupted_run_leaves_no_file() {
+    let place = Place::new();
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let arguments =
+        ["run", "forward", "--scene", "spheres_and_cubes", "--size", "160x90", "--frames", "1000000", "-o", "a.png"];
+    let child =
+        place.command(&arguments).envs(variables).stderr(std::process::Stdio::piped()).spawn().expect("it starts");
+    // Long enough to be drawing; were it not, the outcome would be the system's own end of a program, which has no code.
+    std::thread::sleep(std::time::Duration::from_secs(4));
+    let interrupt =
+        std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill runs");
+    assert!(interrupt.success());
+    let output = child.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains("of 1000000 frames: nothing was written"), "{said}");
+    assert_eq!(place.names(), [""; 0]);
+}
+
+#[test]
+fn the_shipped_profile_says_what_the_driver_says() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    // The driver of the process is chosen by variables: this test asks the command, whose Plans hold what it took.
+    let place = Place::new();
+    let arguments = ["run", "forward", "--scene", "spheres_and_cubes", "--size", "160x90", "--report", "report.json"];
+    place.run_with(&variables, &arguments).exits(0);
+    let inspect = ["inspect", "forward", "--scene", "spheres_and_cubes", "--size", "160x90", "--format", "json"];
+    let plan: Value = serde_json::from_str(&place.run(&inspect).exits(0).out).expect("JSON");
+    let report = json(&place.path("report.json"));
+    assert_eq!(report["memory"]["placed_bytes"], plan["totals"]["placed_bytes"]);
+    assert_eq!(report["barriers"]["image"], plan["totals"]["image_barriers"]);
+    assert_eq!(report["notes"], plan["notes"]);
+}

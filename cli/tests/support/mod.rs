@@ -1,0 +1,156 @@
+//! Runs the built `framewright` as a user would, and tells what came of it.
+
+#![allow(dead_code, reason = "each test file uses a part")]
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// What came of a command.
+#[derive(Debug)]
+pub(crate) struct Outcome {
+    /// Exit code.
+    pub(crate) code: Option<i32>,
+    /// Standard output.
+    pub(crate) out: String,
+    /// Standard error.
+    pub(crate) err: String,
+}
+
+impl Outcome {
+    /// Asserts the exit code, and shows all that was said if it is another.
+    #[track_caller]
+    pub(crate) fn exits(self, code: i32) -> Outcome {
+        assert_eq!(self.code, Some(code), "\n--- stdout\n{}\n--- stderr\n{}", self.out, self.err);
+        self
+    }
+
+    /// Asserts that standard error is exactly `expected`.
+    #[track_caller]
+    pub(crate) fn says(self, expected: &str) -> Outcome {
+        assert_eq!(self.err.trim_end(), expected.trim(), "\n--- stderr was\n{}", self.err);
+        self
+    }
+
+    /// Asserts that standard error holds `expected`.
+    #[track_caller]
+    pub(crate) fn mentions(self, expected: &str) -> Outcome {
+        assert!(self.err.contains(expected), "`{expected}` is not in\n{}", self.err);
+        self
+    }
+}
+
+/// The command, in a folder of its own: no test sees another's files.
+pub(crate) struct Place {
+    folder: tempfile::TempDir,
+}
+
+impl Place {
+    /// A new, empty folder.
+    pub(crate) fn new() -> Place {
+        Place { folder: tempfile::tempdir().expect("a folder") }
+    }
+
+    /// A path in it.
+    pub(crate) fn path(&self, name: impl AsRef<Path>) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// A file in it.
+    pub(crate) fn file(&self, name: impl AsRef<Path>, contents: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.path(name);
+        std::fs::write(&path, contents).expect("written");
+        path
+    }
+
+    /// Names of the files in it.
+    pub(crate) fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> = std::fs::read_dir(self.folder.path())
+            .expect("listed")
+            .map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    /// The command in this folder, without any of the caller's Vulkan settings.
+    pub(crate) fn command<A: AsRef<OsStr>>(&self, arguments: &[A]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_framewright"));
+        command.args(arguments).current_dir(self.folder.path()).stdin(Stdio::null());
+        for (name, _) in std::env::vars_os() {
+            if name.to_string_lossy().starts_with("VK_") {
+                command.env_remove(name);
+            }
+        }
+        command
+    }
+
+    /// Runs the command in this folder.
+    pub(crate) fn run<A: AsRef<OsStr>>(&self, arguments: &[A]) -> Outcome {
+        outcome(&mut self.command(arguments))
+    }
+
+    /// Runs the command in this folder with some variables set.
+    pub(crate) fn run_with<A: AsRef<OsStr>>(&self, variables: &[(&str, &str)], arguments: &[A]) -> Outcome {
+        outcome(self.command(arguments).envs(variables.iter().copied()))
+    }
+}
+
+/// Runs a command.
+pub(crate) fn outcome(command: &mut Command) -> Outcome {
+    let output = command.output().expect("the command starts");
+    Outcome {
+        code: output.status.code(),
+        out: String::from_utf8_lossy(&output.stdout).into_owned(),
+        err: String::from_utf8_lossy(&output.stderr).into_owned(),
+    }
+}
+
+/// A folder or file of this repository.
+pub(crate) fn repository(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
+}
+
+/// A driver and a validation layer of this machine.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Vulkan {
+    driver: &'static str,
+    layer: Option<&'static str>,
+}
+
+/// Mesa's software driver, from `mesa-vulkan-drivers`.
+const LAVAPIPE: &str = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
+/// Google's software driver, from `chromium-common`.
+const SWIFTSHADER: &str = "/usr/lib/chromium/vk_swiftshader_icd.json";
+/// The distribution's validation layer, from `vulkan-validationlayers`.
+const OLD_LAYER: &str = "/usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json";
+/// The current validation layer, from `chromium-common`; `framewright` finds it by itself.
+const CURRENT_LAYER: &str = "/usr/lib/chromium/libVkLayer_khronos_validation.so";
+
+impl Vulkan {
+    /// Lavapipe alone.
+    pub(crate) const LAVAPIPE: Vulkan = Vulkan { driver: LAVAPIPE, layer: None };
+    /// Lavapipe under the current layer.
+    pub(crate) const LAVAPIPE_CURRENT: Vulkan = Vulkan { driver: LAVAPIPE, layer: Some(CURRENT_LAYER) };
+    /// Lavapipe under the distribution's layer.
+    pub(crate) const LAVAPIPE_OLD: Vulkan = Vulkan { driver: LAVAPIPE, layer: Some(OLD_LAYER) };
+    /// SwiftShader under the current layer.
+    pub(crate) const SWIFTSHADER_CURRENT: Vulkan = Vulkan { driver: SWIFTSHADER, layer: Some(CURRENT_LAYER) };
+
+    /// The variables that lead to it; `None`, with a word on what is missing, if it isn't installed. In CI that is a
+    /// failure.
+    pub(crate) fn variables(self) -> Option<Vec<(&'static str, &'static str)>> {
+        for needed in std::iter::once(self.driver).chain(self.layer) {
+            if !Path::new(needed).exists() {
+                assert!(std::env::var_os("CI").is_none(), "{needed} is missing, and CI must have it: run ./test");
+                eprintln!("skipped: {needed} is missing");
+                return None;
+            }
+        }
+        let mut variables = vec![("VK_DRIVER_FILES", self.driver), ("VK_ICD_FILENAMES", self.driver)];
+        if self.layer == Some(OLD_LAYER) {
+            variables.push(("VK_LAYER_PATH", "/usr/share/vulkan/explicit_layer.d"));
+        }
+        Some(variables)
+    }
+}
