@@ -61,17 +61,13 @@ pub(crate) fn sphere() -> Mesh {
         // At a pole one of the two has no area.
         let first = (ring + 1 < RINGS).then_some([upper[0], lower[0], lower[1]]);
         let second = (ring > 0).then_some([upper[0], lower[1], upper[1]]);
-        let at_lower_pole = (ring + 1 == RINGS).then_some([upper[0], lower[0], upper[1]]);
-        match at_lower_pole {
-            Some(triangle) => [Some(triangle), None],
-            None => [first, second],
-        }
+        first.into_iter().chain(second).flatten()
     });
     Mesh {
         positions: each().map(|(ring, sector)| place(ring, sector).map(|part| 0.5 * part)).collect(),
         normals: each().map(|(ring, sector)| place(ring, sector)).collect(),
         uvs: each().map(|(ring, sector)| [sector as f32 / SECTORS as f32, ring as f32 / RINGS as f32]).collect(),
-        indices: triangles.flatten().flatten().collect(),
+        indices: triangles.collect(),
         bounds: Bounds { min: Vec3::splat(-0.5), max: Vec3::splat(0.5) },
     }
 }

@@ -82,7 +82,7 @@ fn words(error: &serde_json::Error, place: bool) -> String {
 }
 
 #[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename_all = "camelCase", expecting = "a glTF object")]
 struct Root<'a> {
     asset: Asset,
     #[serde(default)]

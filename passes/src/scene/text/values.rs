@@ -31,13 +31,11 @@ fn parts<'s, const N: usize>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str
 where
     [Leaf<'s>; N]: serde::Deserialize<'s>,
 {
-    match leaf.shape() {
-        Shape::Parentheses => reader.read(leaf, what),
-        _ => {
-            reader.expected(leaf, &format!("{what} as `{form}`"));
-            None
-        }
+    let parts = reader.probe(leaf);
+    if parts.is_none() {
+        reader.expected(leaf, &format!("{what} as `{form}`"));
     }
+    parts
 }
 
 /// Three numbers in a range each.

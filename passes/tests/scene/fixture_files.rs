@@ -1,7 +1,6 @@
 //! The committed GLB files are what the code makes, and load as what they were made to be.
 
-mod fixtures;
-
+use crate::fixtures;
 use framewright_passes::scene::{AlphaMode, Scene, Wrap, glb};
 use glam::Vec3;
 
@@ -19,8 +18,8 @@ fn the_committed_files_are_what_the_code_makes() {
         let committed = std::fs::read(&path).unwrap_or_default();
         assert!(
             committed == made,
-            "{} differs from what passes/tests/fixtures makes; to accept the new one:\n  \
-             {ACCEPT}=1 cargo test -p framewright-passes --test scene_fixtures",
+            "{} differs from what passes/tests/scene/fixtures makes; to accept the new one:\n  \
+             {ACCEPT}=1 cargo test -p framewright-passes --test scene",
             path.display()
         );
     }
