@@ -72,7 +72,6 @@ impl Plan {
         }
         let plan: Plan = serde_json::from_str(text)?;
         plan.check_references()?;
-        plan.check_numbers()?;
         Ok(plan)
     }
 

@@ -35,13 +35,12 @@ pub(super) struct Cell {
 pub(super) struct Write {
     /// When.
     pub(super) time: Time,
-    /// The pair of stage and access; `None` for a layout change.
-    pub(super) pair: Option<usize>,
+    pair: Option<u8>,
     /// Pairs that image barriers have made it visible to.
     pub(super) visible: PairSet,
     /// Image barriers that it became available by.
     barriers: [Availability; Write::BARRIERS],
-    count: usize,
+    count: u8,
 }
 
 impl Write {
@@ -52,7 +51,7 @@ impl Write {
     /// A write in the pair `pair`.
     pub(super) fn access(time: Time, pair: usize) -> Write {
         let none = Availability { time: 0, stages: StageSet(0) };
-        Write { time, pair: Some(pair), visible: PairSet(0), barriers: [none; Write::BARRIERS], count: 0 }
+        Write { time, pair: Some(pair as u8), visible: PairSet(0), barriers: [none; Write::BARRIERS], count: 0 }
     }
 
     /// A layout change by an image barrier: available by itself, visible to what the barrier says.
@@ -62,8 +61,13 @@ impl Write {
         write
     }
 
+    /// The pair of stage and access; `None` for a layout change.
+    pub(super) fn pair(&self) -> Option<usize> {
+        self.pair.map(usize::from)
+    }
+
     pub(super) fn became_available(&mut self, barrier: Availability) {
-        if let Some(place) = self.barriers.get_mut(self.count) {
+        if let Some(place) = self.barriers.get_mut(usize::from(self.count)) {
             *place = barrier;
             self.count += 1;
         }
@@ -71,7 +75,7 @@ impl Write {
 
     /// The image barriers that it became available by.
     pub(super) fn barriers(&self) -> &[Availability] {
-        &self.barriers[..self.count]
+        &self.barriers[..usize::from(self.count)]
     }
 }
 

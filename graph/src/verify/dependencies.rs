@@ -72,14 +72,14 @@ pub(super) fn before_layout_change(cell: &Cell, before: &Clock, source: PairSet)
         return Some(gap(time, Touched::Read(stage_word(stage)), Missing::Execution));
     }
     let write = cell.writes.iter().find(|write| !makes_available(write, before, source))?;
-    let waited = write.pair.is_some_and(|pair| before.is_after(stage_of(pair), write.time));
+    let waited = write.pair().is_some_and(|pair| before.is_after(stage_of(pair), write.time));
     Some(gap(write.time, touched(write), if waited { Missing::Availability } else { Missing::Execution }))
 }
 
 /// Whether `write` is available once a barrier with the source `before` and `source` is over.
 pub(super) fn makes_available(write: &Write, before: &Clock, source: PairSet) -> bool {
     let by_image_barrier = || write.barriers().iter().any(|barrier| before.is_after_barrier(*barrier));
-    match write.pair {
+    match write.pair() {
         None => by_image_barrier(),
         Some(pair) => {
             before.is_after(stage_of(pair), write.time)
@@ -89,7 +89,7 @@ pub(super) fn makes_available(write: &Write, before: &Clock, source: PairSet) ->
 }
 
 fn is_after_write(clocks: &Clocks, stage: usize, write: &Write) -> bool {
-    match write.pair {
+    match write.pair() {
         Some(pair) => clocks.is_after(stage, stage_of(pair), write.time),
         None => write.barriers().iter().any(|barrier| clocks.is_after_barrier(stage, *barrier)),
     }
@@ -97,17 +97,17 @@ fn is_after_write(clocks: &Clocks, stage: usize, write: &Write) -> bool {
 
 fn is_visible(clocks: &Clocks, pair: usize, write: &Write) -> bool {
     write.visible.contains(pair)
-        || write.pair.is_some_and(|earlier| clocks.is_visible(pair, earlier, write.time))
+        || write.pair().is_some_and(|earlier| clocks.is_visible(pair, earlier, write.time))
         || write.barriers().iter().any(|barrier| clocks.is_visible_through(pair, *barrier))
 }
 
 fn is_available(clocks: &Clocks, stage: usize, write: &Write) -> bool {
-    write.pair.is_some_and(|pair| clocks.has_available(stage, pair, write.time))
+    write.pair().is_some_and(|pair| clocks.has_available(stage, pair, write.time))
         || write.barriers().iter().any(|barrier| clocks.is_after_barrier(stage, *barrier))
 }
 
 fn touched(write: &Write) -> Touched {
-    write.pair.map_or(Touched::LayoutChange, by)
+    write.pair().map_or(Touched::LayoutChange, by)
 }
 
 /// A pair in Vulkan's words.

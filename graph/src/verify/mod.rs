@@ -2,11 +2,11 @@
 //!
 //! It shares no code with the stages that make Plans and believes none of their claims: why a barrier is there, what it
 //! waits for, whose memory it hands over. From steps, barriers and placements alone it works out, for each part of each
-//! image, whether every access comes after what it conflicts with ([`dependencies`]), finds its image in the layout that it
-//! names ([`walk`]), reads what was written ([`contents`]) and has its memory to itself ([`memory`]); and whether the Plan
-//! is well formed at all ([`structure`], [`work`]). The steps are walked twice in a row, for what crosses frames.
+//! image, whether every access comes after what it conflicts with (`dependencies`), finds its image in the layout that it
+//! names (`walk`), reads what was written (`contents`) and has its memory to itself (`memory`); and whether the Plan
+//! is well formed at all (`structure`, `work`). The steps are walked twice in a row, for what crosses frames.
 //!
-//! The work is linear in steps, barriers and accesses: see [`clocks`] and [`cells`].
+//! The work is linear in steps, barriers and accesses: see `clocks` and `cells`.
 
 mod cells;
 mod clocks;

@@ -254,12 +254,12 @@ fn length(plan: &Plan) -> u32 {
 /// A write replaces what an earlier step did; the pairs of one step stand side by side.
 fn record_writes(cell: &mut Cell, pairs: PairSet, now: Time) {
     for pair in pairs.writes().iter() {
-        if cell.writes.first().is_some_and(|write| write.time != now || write.pair.is_none()) {
+        if cell.writes.first().is_some_and(|write| write.time != now || write.pair().is_none()) {
             cell.writes.clear();
             cell.reads.clear();
             cell.excused = false;
         }
-        if cell.writes.iter().all(|write| write.pair != Some(pair)) {
+        if cell.writes.iter().all(|write| write.pair() != Some(pair)) {
             cell.writes.push(Write::access(now, pair));
         }
     }

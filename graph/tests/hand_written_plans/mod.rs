@@ -1,6 +1,6 @@
 //! Three correct Plans, written by hand: every mask holds exactly what is needed, so that every bit can be missed.
 
-mod build;
+pub(crate) mod build;
 mod compute_chain;
 mod multisampled;
 mod read_only_depth;

@@ -1,13 +1,12 @@
 //! The checker accepts correct Plans, and shares nothing with the compiler.
 
-mod hand_written_plans;
-
+use crate::hand_written_plans;
 use framewright_graph::plan::{ImageBarrier, MemoryBarrier, Plan};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Accesses, Layout, Stages};
 use std::path::Path;
 
-fn accept(name: &str, plan: &Plan) {
+pub(crate) fn accept(name: &str, plan: &Plan) {
     let violations: Vec<String> = verify(plan).iter().map(ToString::to_string).collect();
     assert!(violations.is_empty(), "{name}:\n{}", violations.join("\n"));
 }

@@ -3,17 +3,15 @@
 //! Caught means: some violation names both steps, the image and the part of it. Totals
 //! are made right again after each change, so that they can't give it away.
 
-mod hand_written_plans;
-
+use crate::hand_written_plans::{self, placement, recount};
 use framewright_graph::plan::{Attachment, Image, Plan, Role, Step, Work};
 use framewright_graph::verify::{Violation, verify};
 use framewright_graph::vocabulary::{Accesses, Layout, LoadOp, Stages, StoreOp};
-use hand_written_plans::{placement, recount};
 
 /// A changed Plan, and what was changed.
-struct Mutant {
-    change: String,
-    plan: Plan,
+pub(crate) struct Mutant {
+    pub(crate) change: String,
+    pub(crate) plan: Plan,
 }
 
 const LAYOUTS: [Layout; 8] = [
@@ -44,7 +42,7 @@ fn nth<T>(plan: &Plan, place: usize, of: impl Fn(&Step) -> &Vec<T>) -> Option<(u
     steps.flat_map(|(step, described)| (0..of(described).len()).map(move |index| (step, index))).nth(place)
 }
 
-fn without_a_barrier(plan: &Plan) -> Vec<Mutant> {
+pub(crate) fn without_a_barrier(plan: &Plan) -> Vec<Mutant> {
     let mut all = mutants(plan, |plan, place| {
         let (step, index) = nth(plan, place, |step| &step.image_barriers)?;
         let barrier = plan.steps[step].image_barriers.remove(index);
@@ -206,7 +204,7 @@ fn with_lost_contents(plan: &Plan) -> Vec<Mutant> {
 }
 
 /// Whether it names both steps, the image and the part of it, in its data and in its sentence.
-fn names_all(violation: &Violation) -> bool {
+pub(crate) fn names_all(violation: &Violation) -> bool {
     let Violation { step: Some(step), other: Some(other), image: Some(image), range: Some(range), .. } = violation
     else {
         return false;

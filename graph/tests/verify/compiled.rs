@@ -1,0 +1,135 @@
+//! What the compiler makes of frames is accepted, and none of its barriers can be left out.
+
+use crate::accepts::accept;
+use crate::graphs;
+use crate::mutations::{names_all, without_a_barrier};
+use crate::raster::{self, Raster};
+use framewright_graph::compile::{Options, compile};
+use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::format::Format::{D24_UNORM_S8_UINT, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
+use framewright_graph::frame::{Blend, Frame};
+use framewright_graph::plan::Plan;
+use framewright_graph::verify::verify;
+
+const OPTIONS: [Options; 4] = [
+    Options { alias: true, poison: false },
+    Options { alias: false, poison: false },
+    Options { alias: true, poison: true },
+    Options { alias: false, poison: true },
+];
+
+fn compiled(frame: &Frame, device: &Profile, options: &Options) -> Plan {
+    compile(frame, device, &mut Estimated(&device.memory), options).expect("the frame is legal")
+}
+
+/// Opaque, sky and glass, then a tone map, or a forward to the screen.
+fn forward(samples: u32, hdr: bool, tone_mapping: bool) -> Frame {
+    let mut raster = Raster::default();
+    let color = raster.image("color", if hdr { R16G16B16A16_SFLOAT } else { R8G8B8A8_SRGB }, samples);
+    let depth = raster.image("depth", D32_SFLOAT, samples);
+    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+    raster.objects("opaque").clear(color).clear_depth(depth);
+    raster.objects("sky").color(color, Blend::Replace).test_depth(depth);
+    raster.objects("glass").color(color, Blend::Alpha).test_depth(depth);
+    if tone_mapping {
+        raster.full_screen("tonemap").sample(color).color(screen, Blend::Replace);
+    } else {
+        raster.forward("tonemap", color, screen);
+    }
+    raster.output(screen)
+}
+
+/// Two versions of a multisampled image, each read by others; two outputs.
+fn resolved_twice(samples: u32) -> Frame {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R16G16B16A16_SFLOAT, samples);
+    let [a, b, screen] = ["a", "b", "screen"].map(|name| raster.image(name, R8G8B8A8_SRGB, 1));
+    raster.objects("opaque").clear(color);
+    raster.full_screen("first").sample(color).color(a, Blend::Replace);
+    raster.full_screen("second").sample(color).color(b, Blend::Replace);
+    raster.objects("glass").color(color, Blend::Alpha);
+    raster.full_screen("last").sample(color).sample(a).sample(b).color(screen, Blend::Replace);
+    raster.outputs(&[screen, a])
+}
+
+/// Depth that is written, sampled, then tested and sampled at once.
+fn depth_sampled(samples: u32, format: framewright_graph::format::Format) -> Frame {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_SRGB, samples);
+    let depth = raster.image("depth", format, samples);
+    let screen = raster.image("screen", R8G8B8A8_SRGB, samples);
+    raster.objects("opaque").clear(color).clear_depth(depth);
+    raster.full_screen("fog").sample(depth).sample(color).color(screen, Blend::Replace);
+    raster.objects("glass").color(screen, Blend::Alpha).test_depth(depth);
+    raster.objects("soft").sample(depth).color(screen, Blend::Premultiplied).test_depth(depth);
+    raster.output(screen)
+}
+
+/// Draws that sample what they draw into, and an image that is read after it was forwarded.
+fn feedback(samples: u32) -> Frame {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_SRGB, samples);
+    let [screen, second] = ["screen", "second"].map(|name| raster.image(name, R8G8B8A8_SRGB, 1));
+    raster.objects("opaque").clear(color);
+    raster.full_screen("blur").sample(color).color(color, Blend::Replace);
+    raster.full_screen("haze").sample(color).color(color, Blend::Alpha);
+    raster.forward("tonemap", color, screen);
+    raster.objects("interface").color(screen, Blend::Alpha);
+    raster.full_screen("preview").sample(color).color(second, Blend::Replace);
+    raster.outputs(&[screen, second])
+}
+
+fn integers() -> Frame {
+    let mut raster = Raster::default();
+    let ids = raster.image("ids", R32_UINT, 4);
+    raster.objects("opaque").clear(ids);
+    raster.output(ids)
+}
+
+fn frames() -> Vec<(String, Frame, Profile)> {
+    let mut frames = Vec::new();
+    for samples in [1, 4] {
+        for (hdr, tone_mapping) in [(true, true), (true, false), (false, true), (false, false)] {
+            let name = format!("forward {samples} {hdr} {tone_mapping}");
+            frames.push((name, forward(samples, hdr, tone_mapping), raster::device()));
+        }
+        frames.push((format!("resolved twice {samples}"), resolved_twice(samples), raster::device()));
+        frames.push((format!("feedback {samples}"), feedback(samples), raster::device()));
+    }
+    for format in [D32_SFLOAT, D24_UNORM_S8_UINT] {
+        frames.push((format!("depth sampled {format}"), depth_sampled(1, format), raster::device()));
+    }
+    frames.push(("integers".to_owned(), integers(), raster::device()));
+    let graphs = [("chain", graphs::chain(25)), ("wide", graphs::wide(40)), ("local", graphs::local(40))];
+    frames.extend(graphs.map(|(name, frame)| (name.to_owned(), frame, graphs::device())));
+    frames.push(("deferred".to_owned(), graphs::deferred(), graphs::device()));
+    frames
+}
+
+#[test]
+fn compiled_plans_are_accepted() {
+    for (name, frame, device) in frames() {
+        for options in OPTIONS {
+            accept(&format!("{name} {options:?}"), &compiled(&frame, &device, &options));
+        }
+    }
+}
+
+#[test]
+fn every_barrier_that_is_removed_from_a_compiled_plan_is_caught() {
+    let (mut caught, mut missed) = (0, Vec::new());
+    for (name, frame, device) in frames() {
+        for mutant in without_a_barrier(&compiled(&frame, &device, &Options::default())) {
+            let violations = verify(&mutant.plan);
+            if violations.iter().any(names_all) {
+                caught += 1;
+            } else {
+                let said: Vec<String> = violations.iter().map(ToString::to_string).collect();
+                missed.push(format!("{name}: {} {said:?}", mutant.change));
+            }
+        }
+    }
+    println!("caught {caught}, missed {}", missed.len());
+    assert!(caught > 200, "{caught}");
+    assert!(missed.is_empty(), "missed:\n{}", missed.join("\n"));
+}
