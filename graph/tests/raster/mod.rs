@@ -2,7 +2,7 @@
 
 #[path = "../graphs/mod.rs"]
 #[allow(dead_code, reason = "the measured graphs are used elsewhere")]
-mod graphs;
+pub(crate) mod graphs;
 
 use framewright_graph::format::Format;
 use framewright_graph::frame::{

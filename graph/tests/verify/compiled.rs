@@ -1,9 +1,8 @@
 //! What the compiler makes of frames is accepted, and none of its barriers can be left out.
 
 use crate::accepts::accept;
-use crate::graphs;
 use crate::mutations::{names_all, without_a_barrier};
-use crate::raster::{self, Raster};
+use crate::raster::{self, Raster, graphs};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{D24_UNORM_S8_UINT, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};

@@ -3,8 +3,6 @@
 mod accepts;
 mod compiled;
 mod form;
-#[path = "../graphs/mod.rs"]
-mod graphs;
 #[path = "../hand_written_plans/mod.rs"]
 mod hand_written_plans;
 mod mutations;
