@@ -133,7 +133,10 @@ fn colours_say_how_they_are_written() {
 fn names_are_given_once() {
     let text = "Scene(version: 1, materials: [\n(name: \"a\"),\n(name: \"a\"),\n], objects: [\n\
                 Sphere(name: \"b\", material: \"a\", radius: 1),\nSphere(name: \"b\", material: \"a\", radius: 1),\n])";
-    assert_eq!(mistakes(text), ["3:8 there are two materials named `a`", "6:14 there are two objects named `b`"]);
+    assert_eq!(
+        mistakes(text),
+        ["3:8 `a` is the name of more than one material", "6:14 `b` is the name of more than one object"]
+    );
     let control = mistakes("Scene(version: 1, materials: [(name: \"a\u{7}\")], objects: [])");
     assert_eq!(control, ["1:40 the name of a material holds the control character \\u{7}"]);
 }

@@ -105,7 +105,7 @@ fn whole<'s>(reader: &mut Reader<'s>, all: Leaf<'s>) -> Option<Scene> {
     let mut names = Names::new("material");
     let mut patterns = Patterns::default();
     let mut materials = Vec::new();
-    for leaf in reader.read::<Vec<Leaf<'_>>>(fields.materials, "`materials`")? {
+    for leaf in reader.list(fields.materials, "`materials`")? {
         let entry: Option<MaterialFields<'_>> = reader.read(leaf, "this material");
         let name = entry.as_ref().and_then(|entry| reader.probe_name(entry.name));
         names.give(reader, name);
@@ -113,7 +113,7 @@ fn whole<'s>(reader: &mut Reader<'s>, all: Leaf<'s>) -> Option<Scene> {
     }
     let mut objects = Objects::default();
     let mut object_names = Names::new("object");
-    for (number, leaf) in reader.read::<Vec<Leaf<'_>>>(fields.objects, "`objects`")?.into_iter().enumerate() {
+    for (number, leaf) in reader.list(fields.objects, "`objects`")?.into_iter().enumerate() {
         objects.add(reader, leaf, number, &names, &mut object_names);
         if objects.full {
             break;
@@ -203,7 +203,7 @@ struct LightFields<'s> {
 }
 
 fn lights<'s>(reader: &mut Reader<'s>, list: Leaf<'s>) -> Option<Vec<PointLight>> {
-    let leaves: Vec<Leaf<'_>> = reader.read(list, "`lights`")?;
+    let leaves = reader.list(list, "`lights`")?;
     if leaves.len() > limits::POINT_LIGHTS {
         let message = format!("the scene has {} lights", leaves.len());
         reader.wrong(list, message, &format!("at most {} are allowed", limits::POINT_LIGHTS));

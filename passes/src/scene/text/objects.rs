@@ -134,7 +134,7 @@ fn extents<'s>(
 /// One material, or several that copies take by turns.
 fn palette<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, materials: &Names) -> Option<Vec<usize>> {
     let leaves = match leaf.shape() {
-        Shape::List => reader.read(leaf, "`material`")?,
+        Shape::List => reader.list(leaf, "`material`")?,
         _ => vec![leaf],
     };
     if leaves.is_empty() {
