@@ -5,6 +5,35 @@
 //! ```
 //! Whatever can be judged by the file alone is judged here, and everything that is wrong is reported at once. What
 //! depends on chosen settings, the scene, the view and the shaders comes in [`crate::expand`].
+//!
+//! # The language
+//! ```text
+//! Pipeline(version: 1, settings: [SETTING…], images: [IMAGE…], passes: [PASS…], outputs: ["image"…])
+//!
+//! SETTING    (name: "…", value: KIND, about: "…")                  `about` may be left out
+//! KIND       Bool(default: true) | OneOf(default: 4, of: [1, 4])
+//!            | Number(default: 1.0, min: 0.0, max: 2.0) | Integer(default: 1, min: 0, max: 9)
+//!
+//! IMAGE      (name: "…", format: FORMAT, size: SIZE, samples: SAMPLES)     without `samples`: 1
+//! FORMAT     Color(hdr: true | "setting") | Depth | Output | Like("image") | R8_UNORM and others by Vulkan's name
+//! SIZE       Output | Scaled(FACTOR) | Scaled(FACTOR, "image") | Fixed(640, 480) | Like("image")
+//! FACTOR     0.5 | "setting"                                       of the frame or an image, rounded down, at least 1
+//! SAMPLES    4 | "setting" | Like("image")
+//!
+//! PASS       (name: "…", draw: DRAW, shader: "…", sample: {"shader's name": SAMPLED…}, color: [COLOR…], depth: DEPTH,
+//!             params: {"shader's name": PARAM…}, when: "CONDITION", otherwise: Forward(from: "image", to: "image"))
+//! DRAW       Objects(Opaque | Masked | Transparent)                with `shader`
+//!            | Sky                                                 without `shader`: "sky"
+//!            | FullScreen("shader")
+//! SAMPLED    FACE | (image: FACE, filter: Nearest | Linear)        by default Linear for colour, else Nearest
+//! FACE       "image" | Samples("image") | Resolved("image")        the plain name: as the shader declares it
+//! COLOR      "image" | (image: "…", clear: (r, g, b, a), blend: Replace | Alpha | Premultiplied | Additive)
+//! DEPTH      "image" | (image: "…", clear: 0.0, test: GreaterOrEqual, write: true)
+//! PARAM      1.0 | 1 | true | "setting"
+//! CONDITION  names of settings and facts (`scene.has_opaque`, `scene.has_alpha_clip`, `scene.has_transparent`) with `!`,
+//!            `&&` and `||`, the last binding least
+//! ```
+//! Names that a file gives begin with a letter or `_` and go on with letters, digits, `_` and `-`, at most 64 bytes.
 
 mod bindings;
 mod circles;

@@ -239,3 +239,26 @@ fn a_pass_that_only_adds_to_its_target_goes_without_a_trace() {
     assert_eq!(frame.passes.len(), 2);
     assert_eq!(frame.switched_off.len(), 1);
 }
+
+#[test]
+fn extensions_of_ron_that_a_file_turns_on_change_nothing() {
+    for extension in ["implicit_some", "unwrap_newtypes", "unwrap_variant_newtypes"] {
+        let text = format!("#![enable({extension})]\n{}", crate::table::shipped("forward.ron"));
+        assert_eq!(right(&text, &INPUTS).passes.len(), 5, "{extension}");
+    }
+}
+
+#[test]
+fn comments_and_trailing_commas_may_stand_anywhere() {
+    let text = r#"/* a */ Pipeline( // b
+        version: /* c */ 1 /* d */,
+        images: [ /* e */ (name: /* "no" */ "screen" // f
+            , format: Color /* g */ (hdr: true /* h */), size: /* i */ Output,),],
+        passes: [(name: "show", draw: FullScreen /* j */ (/* k */ "plain",), color: ["screen" /* l */,],),],
+        outputs: ["screen",],
+    ) // m"#;
+    let frame = right(text, &INPUTS);
+    assert_eq!(frame.images[0].format, Format::R16G16B16A16_SFLOAT);
+    let place = frame.sources.place(frame.images[0].span).map(|place| (place.line, place.column));
+    assert_eq!(place, Some((3, 45)));
+}
