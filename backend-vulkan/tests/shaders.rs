@@ -359,8 +359,8 @@ fn numbers_and_features_beyond_every_devices_are_refused() {
     };
     let far_binding = format!("layout(set = 0, binding = 60000) uniform sampler2D far; {WHITE} }}");
     assert_eq!(what(&far_binding), "`far` at binding 60000: bindings go up to 255");
-    let far_output = "layout(location = 9) out vec4 far; void main() { far = vec4(1.0); }";
-    assert_eq!(what(far_output), "`far` at location 9: locations go up to 7");
+    let far_input = format!("layout(location = 20) in vec4 far; {WHITE} color = far; }}");
+    assert_eq!(what(&far_input), "`far` at location 20: locations go up to 14");
     let double = format!("{WHITE} double x = color.x; color.x = float(x * x); }}");
     assert_eq!(what(&double), "SPIR-V's capability Float64: not every device has it");
 }

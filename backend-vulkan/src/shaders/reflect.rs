@@ -47,10 +47,10 @@ const CAPABILITIES: [Capability; 11] = [
 
 /// Bindings are numbered below this: drivers make tables as long as the largest number.
 const BINDINGS: u32 = 256;
-/// Locations between stages, of vertex attributes and of outputs are below these: Vulkan promises no more to all.
+/// Locations between stages and of vertex attributes are below these: Vulkan promises no more to all. The compiler itself
+/// limits those of colour outputs.
 const VARYINGS: u32 = 15;
 const ATTRIBUTES: u32 = 16;
-const OUTPUTS: u32 = 8;
 
 /// Reads the interface of `stage` off `spirv`.
 ///
@@ -71,7 +71,7 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
     check_capabilities(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
     let outputs = varyings(&module, StorageClass::Output, &used);
-    let (most_in, most_out) = if fragment { (VARYINGS, OUTPUTS) } else { (ATTRIBUTES, VARYINGS) };
+    let (most_in, most_out) = if fragment { (VARYINGS, u32::MAX) } else { (ATTRIBUTES, VARYINGS) };
     for (varyings, most) in [(&inputs, most_in), (&outputs, most_out)] {
         if let Some(far) = varyings.iter().find(|it| it.location >= most) {
             return Err(format!("`{}` at location {}: locations go up to {}", far.name, far.location, most - 1));
