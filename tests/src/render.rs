@@ -60,7 +60,12 @@ pub fn in_repository(path: &str) -> PathBuf {
 ///
 /// # Errors
 /// Whatever keeps the pipeline file from becoming a Plan, or the checker's findings.
-pub fn plan(device: &Device, setup: &Setup<'_>, shaders: &mut ShaderLibrary) -> Result<Plan, Box<dyn Error>> {
+pub fn plan(
+    device: &Device,
+    setup: &Setup<'_>,
+    shaders: &mut ShaderLibrary,
+    options: &Options,
+) -> Result<Plan, Box<dyn Error>> {
     let mut sources = Sources::default();
     let text = std::fs::read_to_string(in_repository(setup.pipeline))?;
     let pipeline = describe::read(&mut sources, setup.pipeline, setup.pipeline, text);
@@ -71,7 +76,7 @@ pub fn plan(device: &Device, setup: &Setup<'_>, shaders: &mut ShaderLibrary) -> 
     let facts = setup.scene.facts();
     let inputs = Inputs { set: &set, facts, facts_known: true, output_extent: setup.extent, dump: &[] };
     let frame = expand::expand(&pipeline, sources.clone(), &inputs, shaders).map_err(rendered)?;
-    let plan = compile::compile(&frame, &device.profile(), &mut device.memory(), &Options::default());
+    let plan = compile::compile(&frame, &device.profile(), &mut device.memory(), options);
     let plan = plan.map_err(rendered)?;
     let violations: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
     if violations.is_empty() { Ok(plan) } else { Err(violations.join("\n").into()) }
@@ -83,7 +88,7 @@ pub fn plan(device: &Device, setup: &Setup<'_>, shaders: &mut ShaderLibrary) -> 
 /// Whatever keeps the frame from being drawn, or the validation layer's findings.
 pub fn render(device: &Device, setup: &Setup<'_>) -> Result<Vec<Texels>, Box<dyn Error>> {
     let mut shaders = ShaderLibrary::new(vec![in_repository("tests/shaders")], SHADERS, interface);
-    let plan = plan(device, setup, &mut shaders)?;
+    let plan = plan(device, setup, &mut shaders, &Options::default())?;
     let mut draws = SceneDrawSource::new(device, setup.scene, setup.extent)?;
     let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
     executor.frame(&mut draws)?;
