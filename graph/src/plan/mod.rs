@@ -2,7 +2,8 @@
 //!
 //! A Plan is self-sufficient: whoever reads it, in this process or another program, can check it and replay it without the
 //! pipeline file. Names of stages, accesses, layouts, usages, formats and operations are Vulkan's, without prefix. Sets of
-//! flags are written `A | B`. Everything is in execution order; same input, same bytes.
+//! flags are written `A | B`. Everything is in execution order; same input, same bytes. `docs/plan-format.md` describes the
+//! JSON form field by field.
 //!
 //! What a step touches:
 //! - A [`Work::Render`] scope touches its attachments as their load, store and resolve operations say (colour in

@@ -64,3 +64,12 @@ fn the_checker_shares_nothing_with_the_compiler() {
     }
     assert!(files > 5, "{files} files in {}", folder.display());
 }
+
+#[test]
+fn the_documented_example_is_a_right_plan_in_the_form_that_is_written() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/plan-example.json");
+    let text = std::fs::read_to_string(path).unwrap();
+    let plan = Plan::from_json(&text).unwrap();
+    accept("the example", &plan);
+    assert_eq!(plan.to_json().unwrap(), text);
+}
