@@ -182,6 +182,9 @@ impl Display for Violation {
                 Some(other) => write!(f, "{what} ({other})"),
                 None => f.write_str(what),
             },
+            Rule::Layout { found: Layout::Undefined, needed } => {
+                write!(f, "named in layout {}, but no barrier brings it there after {other}", vulkan(needed))
+            }
             Rule::Layout { found, needed } => {
                 write!(f, "named in layout {}, but it is in {} since {other}", vulkan(needed), vulkan(found))
             }

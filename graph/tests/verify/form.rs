@@ -121,8 +121,11 @@ fn contents_that_a_draw_may_leave_standing_must_be_loaded() {
     let glass = scope(&mut plan, 2);
     glass.color[0].load = LoadOp::DontCare;
     glass.passes[0].blend = vec![Blend::Replace];
+    glass.passes[0].accesses[0].accesses = Accesses::COLOR_ATTACHMENT_WRITE;
     let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
-    assert!(said[0].contains("the DONT_CARE load of step 2 `glass` lost its contents"), "{said:#?}");
+    let expected = "step 3 `tonemap`: `color` (COLOR, mip 0, layer 0): needed, but the DONT_CARE load of step 2 `glass` lost \
+                    its contents";
+    assert_eq!(said, [expected]);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use crate::hand_written_plans::build::{
     self, State, UNDEFINED, access, barrier, between, bound, dispatch, step, transient,
 };
 use framewright_graph::format::Format;
-use framewright_graph::plan::{Hazard, Image, ImageBarrier, MemoryBarrier, Plan, Step, Subresources, Work};
+use framewright_graph::plan::{Hazard, Image, ImageBarrier, MemoryBarrier, Plan, Role, Step, Subresources, Work};
 use framewright_graph::verify::{Rule, Violation, verify};
 use framewright_graph::vocabulary::{Accesses, Layout, Stages, Usage};
 
@@ -209,6 +209,25 @@ fn memory_changes_hands_by_source_scopes_or_by_a_memory_barrier() {
     // The memory barrier of the same call doesn't make the image barrier wait.
     let violation = only(handed_over(vec![memory((CS, WRITE), (CS, WRITE))], (Stages::COPY, NONE)));
     assert!(matches!(violation.rule, Rule::HandOver { waited: false, .. }), "{violation}");
+}
+
+#[test]
+fn two_images_that_live_at_once_in_one_place_are_reported_once() {
+    let mut images = images(3);
+    if let Role::Transient(placement) = &mut images[1].role {
+        placement.offset = 8192;
+    }
+    let [a, b] = &images;
+    let steps = vec![
+        step(vec![first(a, WRITES)], uses("write", 1, &[(a, WRITES)])),
+        step(vec![first(b, WRITES)], uses("overwrite", 2, &[(b, WRITES)])),
+        step(vec![between(a, WRITES, READS, Hazard::ReadAfterWrite, 0)], uses("read", 3, &[(a, READS)])),
+    ];
+    let violation = only(verify(&plan_of(&images, steps)));
+    assert_eq!(
+        violation.to_string(),
+        "step 1 `overwrite`: `b` (COLOR, mip 0, layer 0; bytes 8192–16384): takes memory that `a` still needs in step 2 `read`"
+    );
 }
 
 #[test]
