@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 /// The device that the tests of one binary share: `FRAMEWRIGHT_TEST_DEVICE` or the default. `None`, with a message, where
-/// the machine has no driver or no validation layer; with `CI` set that is a failure.
+/// the machine has no driver or no validation layer that is awake; with `CI` set that is a failure.
 ///
 /// # Panics
 /// With `CI` set, if there is none.
@@ -25,7 +25,9 @@ pub fn device() -> Option<&'static Device> {
     static DEVICE: OnceLock<Option<Device>> = OnceLock::new();
     let open = || {
         let choice = std::env::var("FRAMEWRIGHT_TEST_DEVICE").map_or(DeviceChoice::Default, DeviceChoice::Name);
-        match Device::open(&DeviceOptions { choice, validation: true }) {
+        let opened = Device::open(&DeviceOptions { choice, validation: true });
+        // The layer's silence proves nothing before it has reported a planted mistake.
+        match opened.and_then(|device| device.canary().map(|_| device)) {
             Ok(device) => Some(device),
             Err(error) => {
                 let may_be_absent = error.blame() == Blame::Environment && std::env::var_os("CI").is_none();
