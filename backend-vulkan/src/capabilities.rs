@@ -16,6 +16,11 @@ pub(crate) struct Features {
     v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
 }
 
+/// The features that a device must have beside [`MINIMUM_VERSION`], by Vulkan's names.
+pub fn minimum_features() -> impl Iterator<Item = &'static str> {
+    MINIMUM_FEATURES.iter().map(|(name, _)| *name)
+}
+
 /// Reaches one feature's flag.
 type Flag = fn(&mut Features) -> &mut vk::Bool32;
 

@@ -1,11 +1,32 @@
 //! Executes Plans on Vulkan 1.3.
 //!
-//! The contract: a [`Plan`](framewright_graph::plan::Plan) says everything, and this crate decides nothing. It makes the
-//! images that the Plan lists at the offsets that it lists, records the steps in its order with its barriers, and asks a
-//! [`DrawSource`] for the draws of objects and sky. What a shader needs is matched by name with what its pass and the
-//! draw source give it.
+//! # The contract
 //!
-//! This crate alone is unsafe inside; its interface is safe.
+//! A [`Plan`](framewright_graph::plan::Plan) says everything, and this crate decides nothing. It makes the images that the
+//! Plan lists at the offsets that it lists, records the steps in its order with its barriers, and asks a [`DrawSource`] for
+//! the draws of objects and sky. What a shader needs is matched by name with what its pass and the draw source give it.
+//!
+//! - [`ShaderLibrary`] finds, compiles and reflects shaders. It needs no device.
+//! - [`Device`] is opened by choice, default or name; it lists what it can do ([`Device::profile`]) and what images take of
+//!   its memory ([`Device::memory`]), which is all that compiling a Plan needs. Everything made from a device keeps it open.
+//! - [`Executor`] verifies a Plan, refuses it if it was made for other memory needs, and draws its frames one at a time.
+//! - Errors are data ([`Error`]), and say whether files, machine or program are to blame ([`Error::blame`]). A device that is
+//!   lost or doesn't answer is an error like any other.
+//!
+//! # The minimum device
+//!
+//! Vulkan 1.3 with a graphics queue that has timestamps, and the features of [`minimum_features`]: `dynamicRendering`,
+//! `synchronization2`, `maintenance4`, `shaderDemoteToHelperInvocation`, `shaderTerminateInvocation`, `robustBufferAccess`,
+//! `independentBlend`, `fragmentStoresAndAtomics`, `sampleRateShading`. [`DeviceSummary::missing`] lists all that a device
+//! lacks of them. Shaders may need nothing beyond.
+//!
+//! # Validation
+//!
+//! [`DeviceOptions::validation`] puts the Khronos validation layer between this crate and the driver, with synchronisation
+//! validation and, where the layer knows them, the settings that make it look at dynamic rendering. [`layer`] says how the
+//! current layer is found. Silence proves something only after [`Device::canary`].
+//!
+//! This crate alone is unsafe inside. Its interface is safe, but for [`Executor::with_hazards`].
 
 mod caches;
 mod canary;
@@ -36,7 +57,7 @@ mod validation;
 
 pub use caches::{AddressMode, SamplerDescriptor, TexelFilter};
 pub use canary::Canary;
-pub use capabilities::MINIMUM_VERSION;
+pub use capabilities::{MINIMUM_VERSION, minimum_features};
 pub use descriptors::{BindGroup, Resource};
 pub use device::{Device, DeviceChoice, DeviceOptions, DeviceSummary};
 pub use error::{Blame, Error, INSTALL};

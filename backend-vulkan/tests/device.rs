@@ -6,7 +6,9 @@ use framewright_graph::device::{ImageDescriptor, MemoryProvider};
 use framewright_graph::format::Format;
 use framewright_graph::interface::{DrawInterface, Supplied, SuppliedKind};
 use framewright_graph::vocabulary::Usage;
-use framewright_vulkan::{BufferUsage, Device, DeviceChoice, DeviceOptions, Error, Resource, SamplerDescriptor};
+use framewright_vulkan::{
+    BufferUsage, Device, DeviceChoice, DeviceOptions, Error, Resource, SamplerDescriptor, minimum_features,
+};
 
 #[test]
 fn buffers_textures_and_bind_groups_come_and_go_in_silence() {
@@ -127,4 +129,13 @@ fn live_memory_needs_are_exact_and_grow_with_samples() {
     descriptor.samples = 4;
     let multisampled = memory.image(&descriptor);
     assert!(single.bytes >= 64 * 64 * 8 && multisampled.bytes >= 4 * 64 * 64 * 8);
+}
+
+#[test]
+fn the_stated_minimum_is_the_one_that_is_checked() {
+    let stated = include_str!("../src/lib.rs").split("# The minimum device").nth(1).expect("it is stated");
+    let stated = stated.split("# Validation").next().expect("it ends");
+    for feature in minimum_features() {
+        assert!(stated.contains(&format!("`{feature}`")), "{feature} is not stated");
+    }
 }

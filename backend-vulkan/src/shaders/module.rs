@@ -1,8 +1,8 @@
 //! A SPIR-V module with its instructions found by id.
 
 use rspirv::dr::{Instruction, Module, Operand};
-use rspirv::spirv::{Decoration, ExecutionModel, Op};
-use std::collections::{BTreeSet, HashMap};
+use rspirv::spirv::{Decoration, Op};
+use std::collections::HashMap;
 
 /// A module, indexed.
 pub(super) struct Indexed<'m> {
@@ -88,33 +88,9 @@ impl<'m> Indexed<'m> {
         })
     }
 
-    /// Id of the entry point's function.
-    pub(super) fn entry_point(&self, model: ExecutionModel) -> Option<u32> {
-        self.module.entry_points.iter().find_map(|it| match &it.operands[..] {
-            [Operand::ExecutionModel(found), Operand::IdRef(function), ..] if *found == model => Some(*function),
-            _ => None,
-        })
-    }
-
-    /// Every instruction of every function that can be reached from the function `entry`.
-    pub(super) fn reachable(&self, entry: u32) -> Vec<&'m Instruction> {
-        let mut seen = BTreeSet::from([entry]);
-        let mut open = vec![entry];
-        let mut instructions = Vec::new();
-        while let Some(next) = open.pop() {
-            let function =
-                self.module.functions.iter().find(|it| it.def.as_ref().and_then(|it| it.result_id) == Some(next));
-            for instruction in function.into_iter().flat_map(|it| &it.blocks).flat_map(|it| &it.instructions) {
-                if instruction.class.opcode == Op::FunctionCall
-                    && let Some(callee) = id(instruction, 0)
-                    && seen.insert(callee)
-                {
-                    open.push(callee);
-                }
-                instructions.push(instruction);
-            }
-        }
-        instructions
+    /// Every instruction of every function. The compiler leaves out functions that nobody calls.
+    pub(super) fn code(&self) -> impl Iterator<Item = &'m Instruction> {
+        self.module.functions.iter().flat_map(|it| &it.blocks).flat_map(|it| &it.instructions)
     }
 
     /// The value of an integer constant.

@@ -8,7 +8,7 @@ use framewright_graph::interface::{
 };
 use framewright_graph::vocabulary::Stages;
 use rspirv::dr::{Instruction, Operand};
-use rspirv::spirv::{BuiltIn, Capability, Decoration, Dim, ExecutionMode, ExecutionModel, Op, StorageClass};
+use rspirv::spirv::{BuiltIn, Capability, Decoration, Dim, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;
 
 /// What a stage uses, and what it takes from or hands to the other stage.
@@ -59,14 +59,8 @@ const ATTRIBUTES: u32 = 16;
 pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, String> {
     let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
     let module = Indexed::new(&module);
-    let model = match stage {
-        Stage::Vertex => ExecutionModel::Vertex,
-        Stage::Fragment => ExecutionModel::Fragment,
-    };
-    let entry = module.entry_point(model).ok_or("no entry point `main`")?;
-    let code = module.reachable(entry);
     let used: HashSet<u32> =
-        code.iter().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
+        module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
     let fragment = stage == Stage::Fragment;
     check_capabilities(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
@@ -81,11 +75,11 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
         bindings: bindings(&module, stage, &used)?,
         vertex_inputs: if fragment { Vec::new() } else { inputs.iter().cloned().map(vertex_input).collect() },
         outputs: if fragment { fragment_outputs(&module) } else { Vec::new() },
-        discards: code
-            .iter()
+        discards: module
+            .code()
             .any(|it| matches!(it.class.opcode, Op::Kill | Op::TerminateInvocation | Op::DemoteToHelperInvocation)),
         uses_frag_coord: built_in_used(&module, &used, &[BuiltIn::FragCoord]),
-        uses_derivatives: fragment && code.iter().any(|it| takes_derivatives(it.class.opcode)),
+        uses_derivatives: fragment && module.code().any(|it| takes_derivatives(it.class.opcode)),
         per_sample: fragment && per_sample(&module, &used),
         writes_depth: module
             .module
