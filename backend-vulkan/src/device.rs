@@ -11,8 +11,10 @@ use framewright_graph::device::{ImageDescriptor, MemoryNeeds, Profile};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::ffi::{CStr, FromBytesUntilNulError};
 use std::mem::ManuallyDrop;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+/// How long a device that was given up is waited for when its last user lets go of it.
+const LAST_CHANCE_NANOSECONDS: u64 = 10_000_000_000;
 
 /// Which device to open.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -73,7 +75,7 @@ pub(crate) struct Shared {
     pub(crate) caches: crate::caches::Caches,
     queue: Mutex<vk::Queue>,
     allocator: ManuallyDrop<Mutex<Allocator>>,
-    abandoned: AtomicBool,
+    abandoned: OnceLock<vk::Fence>,
     pub(crate) instance: ManuallyDrop<Instance>,
 }
 
@@ -136,7 +138,7 @@ impl Device {
             caches: crate::caches::Caches::default(),
             queue: Mutex::new(queue),
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
-            abandoned: AtomicBool::new(false),
+            abandoned: OnceLock::new(),
             raw,
             instance: ManuallyDrop::new(instance),
         };
@@ -188,14 +190,15 @@ impl Shared {
         self.allocator.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Notes that the device didn't finish in time. It may still be using anything, so nothing is freed from now on.
-    pub(crate) fn abandon(&self) {
-        self.abandoned.store(true, Ordering::Release);
+    /// Notes that the device didn't finish the work behind `fence` in time. It may still be using anything, so nothing is
+    /// freed from now on.
+    pub(crate) fn abandon(&self, fence: vk::Fence) {
+        self.abandoned.get_or_init(|| fence);
     }
 
     /// Whether things may still be in use although nobody waits for them.
     pub(crate) fn is_abandoned(&self) -> bool {
-        self.abandoned.load(Ordering::Acquire)
+        self.abandoned.get().is_some()
     }
 
     /// What an image of this description needs of memory.
@@ -212,7 +215,10 @@ impl Shared {
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        if self.is_abandoned() {
+        if let Some(fence) = self.abandoned.get() {
+            // A software driver's threads crash if the process ends under them: a device that is merely slow gets a chance.
+            // SAFETY: neither fence nor device was destroyed. Whatever comes of the wait, nothing more is done.
+            let _ = unsafe { self.raw.wait_for_fences(&[*fence], true, LAST_CHANCE_NANOSECONDS) };
             return;
         }
         // SAFETY: everything made from the device held on to it and is gone. The allocator frees its blocks before the

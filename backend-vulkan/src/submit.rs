@@ -70,11 +70,11 @@ impl Commands {
             match self.shared.raw.wait_for_fences(&[self.fence], true, nanoseconds) {
                 Ok(()) => Ok(()),
                 Err(vk::Result::TIMEOUT) => {
-                    self.shared.abandon();
+                    self.shared.abandon(self.fence);
                     Err(Error::Timeout { doing, seconds: timeout.as_secs() })
                 }
                 Err(result) => {
-                    self.shared.abandon();
+                    self.shared.abandon(self.fence);
                     Err(Error::vulkan(doing)(result))
                 }
             }

@@ -1,0 +1,65 @@
+//! A device that doesn't answer in time. A test binary of its own: the device is given up with its work unfinished.
+
+mod common;
+
+use common::plans::resolve_then_sample;
+use framewright_graph::frame::{Draw, DrawList};
+use framewright_graph::interface::DrawInterface;
+use framewright_vulkan::{DrawSource, Error, Executor, ExecutorOptions, Recorder, ShaderLibrary};
+use std::time::Duration;
+
+const SHADERS: &[(&str, &str)] = &[
+    (
+        "full_screen.vert",
+        "#version 460
+        void main() {
+            vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0;
+            gl_Position = vec4(corner, 0.0, 1.0);
+        }",
+    ),
+    (
+        "objects.vert",
+        "#version 460
+        void main() {
+            vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0;
+            gl_Position = vec4(corner, 0.0, 1.0);
+        }",
+    ),
+    (
+        "white.frag",
+        "#version 460
+        layout(location = 0) out vec4 color;
+        void main() { color = vec4(1.0); }",
+    ),
+    (
+        "show.frag",
+        "#version 460
+        layout(set = 0, binding = 0) uniform sampler2D source;
+        layout(set = 0, binding = 1) uniform Params { bool invert; } params;
+        layout(location = 0) out vec4 color;
+        void main() { color = texture(source, vec2(params.invert ? 0.5 : 0.0)); }",
+    ),
+];
+
+/// Draws the same triangle very often.
+struct Busy;
+
+impl DrawSource for Busy {
+    fn record(&mut self, _: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
+        recorder.draw(0..3, 0..300_000);
+        Ok(1)
+    }
+}
+
+#[test]
+fn a_frame_that_takes_too_long_is_an_error_and_the_device_is_given_up() {
+    let Some(device) = common::open() else { return };
+    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
+    let plan = resolve_then_sample(&device, ("white", Draw::Objects(DrawList::Opaque)), "show");
+    let options = ExecutorOptions { timeout: Duration::from_millis(1), ..ExecutorOptions::default() };
+    let mut executor = Executor::new(&device, &plan, &mut shaders, &options).expect("an executor");
+    assert!(matches!(executor.frame(&mut Busy), Err(Error::Timeout { .. })));
+    assert!(matches!(executor.frame(&mut Busy), Err(Error::DeviceLost { .. })));
+    // Nothing is freed, since the device may still be using it.
+    drop((executor, device));
+}
