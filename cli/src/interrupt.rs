@@ -1,22 +1,18 @@
 //! Ctrl-C (and a request to terminate): work stops at its next good moment, so that no file is left half-written.
 
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static ASKED: AtomicBool = AtomicBool::new(false);
-static WATCHING: OnceLock<()> = OnceLock::new();
 
 /// Begins to watch. Where that isn't possible the system's own way of ending a program stays.
 pub(crate) fn watch() {
-    WATCHING.get_or_init(|| {
-        // The error says that there is a handler already, or that the system has no signals.
-        drop(ctrlc::set_handler(|| {
-            if ASKED.swap(true, Ordering::Relaxed) {
-                // Asked twice: at once, then.
-                std::process::exit(crate::error::Exit::Interrupted as i32);
-            }
-        }));
-    });
+    // The error says that there is a handler already, or that the system has no signals.
+    drop(ctrlc::set_handler(|| {
+        if ASKED.swap(true, Ordering::Relaxed) {
+            // Asked twice: at once, then.
+            std::process::exit(crate::error::Exit::Interrupted as i32);
+        }
+    }));
 }
 
 /// Whether the user asked to stop.

@@ -267,7 +267,7 @@ impl Validation {
             shown += "validation: this layer does not see hazards of attachments; the one of Debian's chromium-common does\n";
         }
         if notes > 0 {
-            shown += &format!("validation: {} that are no findings\n", text::count(notes, "remark", "remarks"));
+            shown += &format!("validation: {} without a finding\n", text::count(notes, "message", "messages"));
         }
         for message in &self.messages {
             let word = if message.finding { message.severity } else { "note" };

@@ -169,8 +169,8 @@ fn an_interrupted_run_leaves_no_file() {
         ["run", "forward", "--scene", "spheres_and_cubes", "--size", "160x90", "--frames", "1000000", "-o", "a.png"];
     let child =
         place.command(&arguments).envs(variables).stderr(std::process::Stdio::piped()).spawn().expect("it starts");
-    // Long enough to be drawing; were it not, the outcome would be the system's own end of a program, which has no code.
-    std::thread::sleep(std::time::Duration::from_secs(4));
+    // It watches from its beginning on; were it too early nonetheless, the end would be the system's own, without a code.
+    std::thread::sleep(std::time::Duration::from_secs(3));
     let interrupt =
         std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill runs");
     assert!(interrupt.success());

@@ -1,0 +1,56 @@
+//! Framewright within a program: a pipeline file becomes a Plan, and the Plan a picture.
+//!
+//! `cargo run --package framewright --example embed` writes `out/embedded.png`. An engine brings its own
+//! `framewright_vulkan::DrawSource` in place of [`SceneDrawSource`]: something that records the draws of its objects when
+//! it is asked for them.
+
+use framewright_graph::source::Sources;
+use framewright_graph::{compile, describe, expand, verify};
+use framewright_passes::draw::{self, SceneDrawSource};
+use framewright_passes::{scene, shipped};
+use framewright_vulkan::{Device, DeviceOptions, Executor, ExecutorOptions, ShaderLibrary};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+const EXTENT: [u32; 2] = [640, 360];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
+    let scene = scene::load(&examples.join("scenes/spheres_and_cubes.ron"))?;
+
+    // A file becomes a description, the description with settings and facts a frame.
+    let file = examples.join("pipelines/forward.ron");
+    let mut sources = Sources::default();
+    let text = std::fs::read_to_string(&file)?;
+    let pipeline = describe::read(&mut sources, &file.to_string_lossy(), "forward.ron", text)
+        .map_err(|mistakes| describe::render(&sources, &mistakes))?;
+    let sources = Arc::new(sources);
+    let mut shaders = ShaderLibrary::new(vec![PathBuf::from("shaders")], shipped::SHADERS, draw::interface);
+    let inputs = expand::Inputs {
+        set: &[("msaa".to_owned(), "4".to_owned())],
+        facts: scene.facts(),
+        facts_known: true,
+        output_extent: EXTENT,
+        dump: &[],
+    };
+    let frame = expand::expand(&pipeline, sources.clone(), &inputs, &mut shaders)
+        .map_err(|mistakes| describe::render(&sources, &mistakes))?;
+
+    // The frame and what a device can do become a Plan, which somebody else than its maker verifies.
+    let device = Device::open(&DeviceOptions::default())?;
+    let plan = compile::compile(&frame, &device.profile(), &mut device.memory(), &compile::Options::default())
+        .map_err(|mistakes| describe::render(&sources, &mistakes))?;
+    assert!(verify::verify(&plan).is_empty());
+    println!("{}", plan.tree());
+
+    // The Plan becomes pixels.
+    let mut executor = Executor::new(&device, &plan, &mut shaders, &ExecutorOptions::default())?;
+    let mut objects = SceneDrawSource::new(&device, &scene, EXTENT)?;
+    let report = executor.frame(&mut objects)?;
+    let texels = executor.read(0)?;
+    std::fs::create_dir_all("out")?;
+    image::save_buffer("out/embedded.png", &texels.bytes, EXTENT[0], EXTENT[1], image::ExtendedColorType::Rgba8)?;
+    println!("{:.1} ms on the device; out/embedded.png", report.milliseconds);
+    Ok(())
+}
