@@ -39,8 +39,11 @@ impl Commands {
     /// Records without submitting.
     pub(crate) fn record<T>(&mut self, work: impl FnOnce(vk::CommandBuffer) -> Result<T, Error>) -> Result<T, Error> {
         const DOING: &str = "recording commands";
+        if self.shared.is_abandoned() {
+            return Err(Error::DeviceLost { doing: DOING });
+        }
         let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        // SAFETY: each submission is waited for, so nothing of the pool is in use.
+        // SAFETY: each submission was waited for to its end, so nothing of the pool is in use.
         unsafe {
             let flags = vk::CommandPoolResetFlags::empty();
             self.shared.raw.reset_command_pool(self.pool, flags).map_err(Error::vulkan(DOING))?;
@@ -55,6 +58,7 @@ impl Commands {
     /// Submits what was recorded and waits until the device is done.
     pub(crate) fn submit(&mut self, doing: &'static str, timeout: Duration) -> Result<(), Error> {
         if self.shared.is_abandoned() {
+            // Another thread gave it up since the commands were recorded.
             return Err(Error::DeviceLost { doing });
         }
         let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(self.buffer)];
