@@ -12,6 +12,7 @@ use crate::plan::Plan;
 mod adapt;
 mod cull;
 mod emit;
+mod hand_over;
 mod link;
 mod model;
 mod pack;

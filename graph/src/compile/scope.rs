@@ -139,7 +139,11 @@ impl Builder<'_> {
         let names: Vec<String> =
             shared.iter().map(|used| format!("`{}`", self.adapted.stores[used.store as usize].name)).collect();
         let before = before.map_or("", |name| name);
-        format!("draws into {} like `{before}`: storing and loading {bytes} bytes is saved", names.join(" and "))
+        let mebibytes = bytes as f64 / f64::from(1 << 20);
+        format!(
+            "draws into {} like `{before}`: {mebibytes:.1} MiB need neither be stored nor loaded",
+            names.join(" and ")
+        )
     }
 
     fn refuse(&mut self, op: u32, why: Refusal) {

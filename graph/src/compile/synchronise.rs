@@ -2,10 +2,11 @@
 //!
 //! Reads in one layout follow each other without a barrier: the one before the first of them already names them all.
 //!
-//! Memory that changes hands: an image barrier's memory scope covers its own image alone. The new occupant's first
-//! barrier therefore names the *stages* of the previous occupant's last accesses, and where those were writes, a memory
-//! barrier in the same call names the writes. Frames follow each other, so the first occupant comes after the last.
+//! Where memory changes hands, the new occupant's first barrier names the *stages* of the previous occupant's last
+//! accesses; their writes are named by a memory barrier (see `hand_over`). Frames follow each other, so the first occupant
+//! comes after the last.
 
+use super::hand_over::{HandOver, memory_barriers};
 use super::model::{Adapted, StoreIndex};
 use super::place::Placed;
 use super::retain::{EXPORTED, Need, Retained};
@@ -22,11 +23,12 @@ pub(super) struct Barriers {
 
 /// Needs that no barrier separates: reads in one layout, or a single write.
 #[derive(Debug, Clone, Copy)]
-struct Group {
-    first: u32,
-    last: u32,
-    stages: Stages,
-    accesses: Accesses,
+pub(super) struct Group {
+    /// The first and the last step.
+    pub(super) first: u32,
+    pub(super) last: u32,
+    pub(super) stages: Stages,
+    pub(super) accesses: Accesses,
     layout: Layout,
     keeps: bool,
 }
@@ -38,24 +40,26 @@ impl Group {
 }
 
 pub(super) fn synchronise(adapted: &Adapted, retained: &Retained, placed: &Placed, steps: usize) -> Barriers {
-    let mut barriers = Barriers { image: vec![Vec::new(); steps], memory: vec![None; steps] };
-    let before = hand_overs(retained, placed);
+    let mut image_barriers = vec![Vec::new(); steps];
+    let mut hand_overs = Vec::new();
+    let before = occupants_before(retained, placed);
     for (store, at) in adapted.stores.iter().zip(0_u32..) {
         let mut previous: Option<Group> = None;
         for group in groups(retained.of(at)) {
             let barrier = match previous {
-                None => first_use(at, &group, &before[at as usize], store.output, retained, &mut barriers.memory),
+                None => first_use(at, &group, &before[at as usize], store.output, retained, &mut hand_overs),
                 Some(previous) => between(at, &previous, &group),
             };
-            barriers.image[group.first as usize].push(ImageBarrier { range: store.range(), ..barrier });
+            image_barriers[group.first as usize].push(ImageBarrier { range: store.range(), ..barrier });
             previous = Some(group);
         }
     }
     let export = steps.saturating_sub(1);
-    for barrier in barriers.image.get_mut(export).into_iter().flatten() {
+    for barrier in image_barriers.get_mut(export).into_iter().flatten() {
         barrier.hazard = Hazard::Export;
     }
-    barriers
+    let memory = memory_barriers(hand_overs, &image_barriers);
+    Barriers { image: image_barriers, memory }
 }
 
 /// Splits an image's needs where a barrier is due.
@@ -120,20 +124,21 @@ fn towards(store: StoreIndex, group: &Group) -> ImageBarrier {
     }
 }
 
-/// The barrier before an image's first use, and its part in the step's memory barrier.
+/// The barrier before an image's first use; writes to its memory that it can't name itself become hand-overs.
 fn first_use(
     store: StoreIndex,
     group: &Group,
     occupants: &[Occupant],
     output: bool,
     retained: &Retained,
-    memory: &mut [Option<MemoryBarrier>],
+    hand_overs: &mut Vec<HandOver>,
 ) -> ImageBarrier {
     let mut barrier = towards(store, group);
     if output {
         barrier.src_stages = EXPORTED.0;
         return barrier;
     }
+    let first_hand_over = hand_overs.len();
     for occupant in occupants {
         let Some(last) = groups(retained.of(occupant.store)).last() else { continue };
         barrier.src_stages |= last.stages;
@@ -143,19 +148,17 @@ fn first_use(
         if last.writes() && occupant.store == store {
             barrier.src_accesses |= last.accesses.writes();
         } else if last.writes() {
-            let hand_over = memory[group.first as usize].get_or_insert_with(|| MemoryBarrier {
-                src_stages: Stages::empty(),
-                src_accesses: Accesses::empty(),
-                dst_stages: Stages::empty(),
-                dst_accesses: Accesses::empty(),
-                hand_overs: Vec::new(),
+            hand_overs.push(HandOver {
+                images: [ImageId(occupant.store), ImageId(store)],
+                write: last,
+                this_frame: occupant.this_frame,
+                first: *group,
+                waits_for: Stages::empty(),
             });
-            hand_over.src_stages |= last.stages;
-            hand_over.src_accesses |= last.accesses.writes();
-            hand_over.dst_stages |= group.stages;
-            hand_over.dst_accesses |= group.accesses;
-            hand_over.hand_overs.push([ImageId(occupant.store), ImageId(store)]);
         }
+    }
+    for hand_over in &mut hand_overs[first_hand_over..] {
+        hand_over.waits_for = barrier.src_stages;
     }
     barrier
 }
@@ -169,7 +172,7 @@ struct Occupant {
 
 /// For each store, whose memory it takes over: those before it in the frame, or, for bytes that nobody used before it,
 /// those that used them last in the frame before.
-fn hand_overs(retained: &Retained, placed: &Placed) -> Vec<Vec<Occupant>> {
+fn occupants_before(retained: &Retained, placed: &Placed) -> Vec<Vec<Occupant>> {
     let mut previous = vec![Vec::new(); placed.placements.len()];
     let mut members: Vec<Vec<StoreIndex>> = vec![Vec::new(); placed.heaps.len()];
     for (placement, store) in placed.placements.iter().zip(0_u32..) {
