@@ -1,7 +1,7 @@
 # Sourced by ./demo and ./test: installs what is missing from Debian or Ubuntu, saying what and why, asking nothing.
 # Exits with 3, naming the command that mends it, if something is missing and can't be installed from here.
 
-if [ "$(id -u)" -eq 0 ]; then as_root=() ; else as_root=(sudo) ; fi
+if [ "$(id -u)" -eq 0 ]; then as_root=() ; else as_root=(sudo -n) ; fi
 
 # on_debian: whether packages can be looked up and installed here at all.
 on_debian() {
