@@ -65,11 +65,13 @@ impl Memory {
             linear: kind != Kind::Images,
             allocation_scheme: AllocationScheme::GpuAllocatorManaged,
         };
-        let allocation = shared.allocator().allocate(&description).map_err(|error| Error::OutOfMemory {
-            what: name.to_owned(),
-            bytes: requirements.size,
-            reason: error.to_string(),
-        })?;
+        let failed = |reason: String| Error::OutOfMemory { what: name.to_owned(), bytes: requirements.size, reason };
+        // Software drivers promise whatever they are asked for, and the system ends the program when it is touched.
+        let largest = largest_heap(shared, requirements.memory_type_bits);
+        if requirements.size > largest {
+            return Err(failed(format!("the device has {largest} bytes of such memory")));
+        }
+        let allocation = shared.allocator().allocate(&description).map_err(|error| failed(error.to_string()))?;
         Ok(Memory { shared: shared.clone(), allocation: Some(allocation) })
     }
 
@@ -90,6 +92,15 @@ impl Memory {
     pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         self.allocation.as_mut().and_then(Allocation::mapped_slice_mut).unwrap_or(&mut [])
     }
+}
+
+/// Bytes of the largest heap behind the memory types `type_bits`.
+fn largest_heap(shared: &Shared, type_bits: u32) -> u64 {
+    // SAFETY: `physical` belongs to the instance.
+    let memory = unsafe { shared.instance.raw.get_physical_device_memory_properties(shared.physical) };
+    let types = memory.memory_types_as_slice().iter().enumerate();
+    let accepted = types.filter(|(number, _)| type_bits & (1 << number) != 0);
+    accepted.map(|(_, ty)| memory.memory_heaps[ty.heap_index as usize].size).max().unwrap_or(0)
 }
 
 impl Drop for Memory {

@@ -21,10 +21,11 @@ pub(crate) struct CommandLine {
 }
 
 const EXIT_CODES: &str = "Exit codes:
-  0  all is well
-  1  a file is wrong or missing, or a check found something
-  2  the command line is wrong
-  3  the environment lacks something: driver, layer, device, permission, disk";
+  0    all is well
+  1    a file is wrong or missing, or a check found something
+  2    the command line is wrong
+  3    the environment lacks something: driver, layer, device, permission, disk
+  130  interrupted by Ctrl-C";
 
 /// The commands.
 #[derive(Debug, Subcommand)]

@@ -155,7 +155,10 @@ fn a_truncated_glb_is_refused() {
     let place = Place::new();
     place.file("p.ron", FORWARD);
     place.file("cut.glb", b"glTF\x02\x00\x00\x00\xff\x00\x00\x00");
-    place.run(&["inspect", "p.ron", "--scene", "cut.glb"]).exits(1).mentions("error: cut.glb: ");
+    place
+        .run(&["inspect", "p.ron", "--scene", "cut.glb"])
+        .exits(1)
+        .says("error: cut.glb: the file is cut short: it has 12 bytes and says that it has 255");
 }
 
 #[test]
@@ -189,6 +192,15 @@ fn sizes_of_nothing_and_sizes_beyond_all_devices_are_refused() {
         let message = format!("error: invalid value '{size}' for '--size <WxH>': {message}");
         Place::new().run(&["inspect", "forward", "--size", size]).exits(2).mentions(&message);
     }
+}
+
+#[test]
+fn a_picture_that_the_device_has_no_memory_for_is_refused_at_once() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    Place::new()
+        .run_with(&variables, &["run", "forward", "--scene", SCENE, "--size", "16384x16384"])
+        .exits(3)
+        .mentions("error: no memory for heap 0, 15032385536 bytes: the device has ");
 }
 
 #[test]

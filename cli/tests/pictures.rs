@@ -162,6 +162,18 @@ fn the_report_holds_what_the_table_shows_and_more() {
 }
 
 #[test]
+fn devices_are_listed_for_people_and_for_programs() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    let people = place.run_with(&variables, &["devices"]).exits(0).out;
+    assert!(people.contains("llvmpipe") && people.contains("| usable |"), "{people}");
+    let programs = place.run_with(&variables, &["devices", "--format", "json"]).exits(0).out;
+    let answer: Value = serde_json::from_str(&programs).expect("JSON");
+    let device = &answer["devices"][0];
+    assert_eq!((&device["index"], &device["kind"], &device["usable"]), (&0.into(), &"cpu".into(), &true.into()));
+}
+
+#[test]
 fn an_interrupted_run_leaves_no_file() {
     let place = Place::new();
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
