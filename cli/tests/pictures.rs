@@ -30,7 +30,6 @@ fn colours(picture: &RgbImage) -> usize {
     picture.pixels().collect::<std::collections::HashSet<_>>().len()
 }
 
-/// Done when, 6.
 #[test]
 fn the_picture_is_the_same_bytes_run_to_run() {
     let place = Place::new();

@@ -68,7 +68,7 @@ fn a_users_file_goes_before_a_shipped_one() {
     assert!(plan.out.contains("\"value\": \"1\""), "{}", plan.out);
 }
 
-/// Done when, 6: separate processes, working directories, thread counts, terminals and locales.
+/// In separate processes, working directories, with other thread counts, terminals and locales.
 #[test]
 fn the_same_command_gives_the_same_bytes_wherever_it_runs() {
     let place = Place::new();
@@ -102,14 +102,12 @@ fn a_plan_comes_back_from_its_json_form() {
     assert_eq!(framewright_graph::verify::verify(&plan), []);
 }
 
-/// Done when, 3.
 #[test]
 fn at_four_samples_there_is_exactly_one_resolve_and_it_is_folded() {
     let totals = &plan(&["msaa=4"])["totals"];
     assert_eq!((&totals["resolves"], &totals["folded_resolves"], &totals["copies"]), (&1.into(), &1.into(), &0.into()));
 }
 
-/// Done when, 3.
 #[test]
 fn at_one_sample_there_is_no_resolve_and_no_multisampled_image() {
     let plan = plan(&["msaa=1"]);
@@ -119,7 +117,6 @@ fn at_one_sample_there_is_no_resolve_and_no_multisampled_image() {
     }
 }
 
-/// Done when, 3.
 #[test]
 fn without_hdr_and_tone_mapping_at_one_sample_the_scene_goes_straight_into_the_output() {
     let plan = plan(&["msaa=1", "hdr=false", "tone_mapping=false"]);

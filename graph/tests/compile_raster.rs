@@ -9,7 +9,7 @@ use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::{Plan, RenderScope, Role, Stage, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{LoadOp, ResolveMode, StoreOp, Usage};
-use raster::Raster;
+use raster::{Raster, forward};
 
 fn compiled(frame: &Frame) -> Plan {
     let device = raster::device();
@@ -30,23 +30,6 @@ fn pass_names(plan: &Plan) -> Vec<Vec<String>> {
 fn note(plan: &Plan, stage: Stage, subject: &str) -> String {
     let found = plan.notes.iter().find(|note| note.stage == stage && &*note.subject == subject);
     found.map(|note| note.text.clone()).unwrap_or_default()
-}
-
-/// Opaque, sky and glass into `color` and `depth`, then a tone map, if any, to the screen.
-fn forward(samples: u32, hdr: bool, tone_mapping: bool) -> Frame {
-    let mut raster = Raster::default();
-    let color = raster.image("color", if hdr { R16G16B16A16_SFLOAT } else { R8G8B8A8_SRGB }, samples);
-    let depth = raster.image("depth", D32_SFLOAT, samples);
-    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
-    raster.objects("opaque").clear(color).clear_depth(depth);
-    raster.objects("sky").color(color, Blend::Replace).test_depth(depth);
-    raster.objects("glass").color(color, Blend::Alpha).test_depth(depth);
-    if tone_mapping {
-        raster.full_screen("tonemap").sample(color).color(screen, Blend::Replace);
-    } else {
-        raster.forward("tonemap", color, screen);
-    }
-    raster.output(screen)
 }
 
 #[test]

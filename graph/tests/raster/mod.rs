@@ -4,7 +4,7 @@
 #[allow(dead_code, reason = "the measured graphs are used elsewhere")]
 pub(crate) mod graphs;
 
-use framewright_graph::format::Format;
+use framewright_graph::format::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Image, ImageIndex, Output, Pass, Sampled, Work,
 };
@@ -100,4 +100,21 @@ impl Added<'_> {
         });
         self
     }
+}
+
+/// Opaque, sky and glass into `color` and `depth`, then a tone map, if any, to the screen.
+pub(crate) fn forward(samples: u32, hdr: bool, tone_mapping: bool) -> Frame {
+    let mut raster = Raster::default();
+    let color = raster.image("color", if hdr { R16G16B16A16_SFLOAT } else { R8G8B8A8_SRGB }, samples);
+    let depth = raster.image("depth", D32_SFLOAT, samples);
+    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+    raster.objects("opaque").clear(color).clear_depth(depth);
+    raster.objects("sky").color(color, Blend::Replace).test_depth(depth);
+    raster.objects("glass").color(color, Blend::Alpha).test_depth(depth);
+    if tone_mapping {
+        raster.full_screen("tonemap").sample(color).color(screen, Blend::Replace);
+    } else {
+        raster.forward("tonemap", color, screen);
+    }
+    raster.output(screen)
 }

@@ -2,7 +2,7 @@
 
 use crate::accepts::accept;
 use crate::mutations::{names_all, without_a_barrier};
-use crate::raster::{self, Raster, graphs};
+use crate::raster::{self, Raster, forward, graphs};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{D24_UNORM_S8_UINT, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
@@ -19,23 +19,6 @@ const OPTIONS: [Options; 4] = [
 
 fn compiled(frame: &Frame, device: &Profile, options: &Options) -> Plan {
     compile(frame, device, &mut Estimated(&device.memory), options).expect("the frame is legal")
-}
-
-/// Opaque, sky and glass, then a tone map, or a forward to the screen.
-fn forward(samples: u32, hdr: bool, tone_mapping: bool) -> Frame {
-    let mut raster = Raster::default();
-    let color = raster.image("color", if hdr { R16G16B16A16_SFLOAT } else { R8G8B8A8_SRGB }, samples);
-    let depth = raster.image("depth", D32_SFLOAT, samples);
-    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
-    raster.objects("opaque").clear(color).clear_depth(depth);
-    raster.objects("sky").color(color, Blend::Replace).test_depth(depth);
-    raster.objects("glass").color(color, Blend::Alpha).test_depth(depth);
-    if tone_mapping {
-        raster.full_screen("tonemap").sample(color).color(screen, Blend::Replace);
-    } else {
-        raster.forward("tonemap", color, screen);
-    }
-    raster.output(screen)
 }
 
 /// Two versions of a multisampled image, each read by others; two outputs.
