@@ -77,6 +77,7 @@ fn json(arguments: &Check, profile: &Profile, result: Result<Plan, Error>) -> Re
         violations: Vec::new(),
         notes: Vec::new(),
     };
+    let exit = result.as_ref().map_or_else(Error::exit, |_| Exit::Fine);
     match result {
         Ok(plan) => {
             answer.fine = true;
@@ -87,5 +88,5 @@ fn json(arguments: &Check, profile: &Profile, result: Result<Plan, Error>) -> Re
         Err(other) => return Err(other),
     }
     text::print(&text::json(&answer)?).map_err(Error::Print)?;
-    Ok(if answer.fine { Exit::Fine } else { Exit::Found })
+    Ok(exit)
 }

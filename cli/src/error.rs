@@ -73,7 +73,7 @@ pub(crate) enum Error {
         /// The first byte that isn't, from 0.
         at: usize,
     },
-    /// The pipeline is wrong.
+    /// The pipeline is wrong, or what the command line asks of it.
     #[error("{}", describe::render(&wrong.sources, &wrong.diagnostics))]
     Wrong {
         /// Its mistakes, and the texts that they point into.
@@ -161,6 +161,8 @@ pub(crate) struct Wrong {
     pub(crate) sources: Sources,
     /// The mistakes.
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Whether the command line made them, and not the file.
+    pub(crate) by_command_line: bool,
 }
 
 impl Error {
@@ -184,12 +186,18 @@ impl Error {
             | Error::Read { .. }
             | Error::TooLarge { .. }
             | Error::NotText { .. }
-            | Error::Wrong { .. }
             | Error::Picture { .. }
             | Error::Profile { .. }
             | Error::Violations { .. }
             | Error::Json(_)
             | Error::Plan(_) => Exit::Found,
+            Error::Wrong { wrong } => {
+                if wrong.by_command_line {
+                    Exit::Usage
+                } else {
+                    Exit::Found
+                }
+            }
             Error::Scene(problem) => match &**problem {
                 SceneError::Unreadable { source, .. } if source.kind() == io::ErrorKind::PermissionDenied => {
                     Exit::Environment

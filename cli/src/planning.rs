@@ -67,7 +67,7 @@ impl Loaded {
     /// Puts in settings, facts and sizes, compiles for a device, and has the result verified.
     ///
     /// # Errors
-    /// What is wrong with the pipeline, its settings or its shaders; or what `verify` found.
+    /// What is wrong with the command line, the pipeline or its shaders; or what `verify` found.
     pub(crate) fn plan(
         &mut self,
         view: View<'_>,
@@ -82,6 +82,11 @@ impl Loaded {
             output_extent: [view.size.width, view.size.height],
             dump: view.dump,
         };
+        let mistakes = expand::check_inputs(&self.pipeline, &inputs);
+        if !mistakes.is_empty() {
+            let (sources, diagnostics) = (Sources::clone(&self.sources), mistakes);
+            return Err(Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, by_command_line: true }) });
+        }
         let frame = expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.shaders)
             .map_err(|diagnostics| wrong(&self.sources, diagnostics))?;
         let plan = compile::compile(&frame, device, memory, options)
@@ -97,5 +102,5 @@ fn library(folder: Option<PathBuf>) -> ShaderLibrary {
 }
 
 fn wrong(sources: &Sources, diagnostics: Vec<Diagnostic>) -> Error {
-    Error::Wrong { wrong: Box::new(Wrong { sources: sources.clone(), diagnostics }) }
+    Error::Wrong { wrong: Box::new(Wrong { sources: sources.clone(), diagnostics, by_command_line: false }) }
 }

@@ -77,7 +77,7 @@ fn an_unknown_image_is_said_with_the_nearest_name() {
 fn an_unknown_setting_on_the_command_line_is_said_with_all_that_there_are() {
     Place::new()
         .run(&["check", "forward", "--set", "samples=4"])
-        .exits(1)
+        .exits(2)
         .mentions("error: there is no setting named `samples`")
         .mentions("there are `msaa`, `hdr`, `tone_mapping`, `white_point`");
 }
@@ -86,9 +86,17 @@ fn an_unknown_setting_on_the_command_line_is_said_with_all_that_there_are() {
 fn a_value_that_a_setting_does_not_allow_is_an_error() {
     Place::new()
         .run(&["check", "forward", "--set", "msaa=3"])
-        .exits(1)
+        .exits(2)
         .mentions("error: setting `msaa` doesn't allow `3`\n  --> forward.ron:13:16\n")
         .mentions("it is one of 1, 2, 4, 8");
+}
+
+#[test]
+fn a_shader_that_is_missing_is_reported_once_however_many_passes_use_it() {
+    let place = Place::new();
+    place.file("p.ron", FORWARD.replace("shader: \"lit\"", "shader: \"litt\""));
+    let outcome = place.run(&["check", "p.ron"]).exits(1).mentions("did you mean `lit`?");
+    assert_eq!(outcome.err.matches("error: ").count(), 1, "{}", outcome.err);
 }
 
 #[test]
@@ -335,6 +343,6 @@ fn a_dump_of_an_image_that_is_not_there_is_an_error_and_nothing_is_written() {
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
     let place = Place::new();
     let arguments = ["run", "forward", "--scene", SCENE, "--size", "32x18", "-o", "a.png", "--dump", "dept=b.png"];
-    place.run_with(&variables, &arguments).exits(1).mentions("`dept`").mentions("`depth`");
+    place.run_with(&variables, &arguments).exits(2).mentions("`dept`").mentions("`depth`");
     assert_eq!(place.names(), [""; 0]);
 }

@@ -120,7 +120,7 @@ fn both_drivers_draw_the_same_picture_up_to_its_edges() {
 #[test]
 fn a_dump_is_a_picture_of_its_image_and_may_change_the_plan() {
     let place = Place::new();
-    let more = ["-o", "a.png", "--dump", "color=color.png", "--set", "msaa=1", "--dump", "depth=depth.png"];
+    let more = ["-o", "a.png", "--dump", "color=color.png", "--set", "msaa=4", "--dump", "depth=depth.png"];
     let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &more) else { return };
     let outcome = outcome.exits(0).mentions("note: dumping changes the Plan: ");
     assert!(outcome.err.contains("in its picture values outside 0…1 are clamped"), "{}", outcome.err);

@@ -218,3 +218,33 @@ fn depth_that_is_only_tested_is_left_alone() {
         plan.steps.iter().flat_map(|step| &step.image_barriers).filter(|barrier| barrier.image == glass.image).count();
     assert_eq!(barriers_of_depth, 2, "reads in one layout follow each other without a barrier");
 }
+
+/// As when it is dumped. Depth is never averaged unless a file asks for it.
+#[test]
+fn multisampled_depth_that_leaves_the_frame_is_its_sample_zero() {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_SRGB, 4);
+    let depth = raster.image("depth", D32_SFLOAT, 4);
+    raster.objects("opaque").clear(color).clear_depth(depth);
+    raster.objects("glass").color(color, Blend::Alpha).test_depth(depth);
+    let plan = compiled(&raster.outputs(&[color, depth]));
+    assert_eq!((plan.totals.resolves, plan.totals.folded_resolves, plan.totals.scopes), (2, 2, 1));
+    let resolve = scopes(&plan)[0].depth.as_ref().and_then(|depth| depth.resolve.as_ref()).expect("a folded resolve");
+    assert_eq!(resolve.mode, ResolveMode::SampleZero);
+    assert_eq!(plan.outputs[1], resolve.image);
+}
+
+#[test]
+fn a_pass_that_samples_multisampled_depth_as_one_value_is_refused() {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_SRGB, 4);
+    let depth = raster.image("depth", D32_SFLOAT, 4);
+    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+    raster.objects("opaque").clear(color).clear_depth(depth);
+    raster.full_screen("fog").sample(depth).color(screen, Blend::Replace);
+    let device = raster::device();
+    let refused =
+        compile(&raster.output(screen), &device, &mut Estimated(&device.memory), &Options::default()).unwrap_err();
+    assert_eq!(refused.len(), 1);
+    assert!(refused[0].message.contains("`fog` samples `depth` and it has 4 samples"), "{refused:?}");
+}

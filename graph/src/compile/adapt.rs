@@ -11,7 +11,7 @@ use crate::device::ImageDescriptor;
 use crate::frame::{Frame, ImageIndex, Pass, Sampled, Work};
 use crate::plan::{Cause, Note, Stage};
 use crate::source::{Place, Span};
-use crate::vocabulary::{Filter, ResolveMode, Usage};
+use crate::vocabulary::{Aspects, Filter, ResolveMode, Usage};
 use std::sync::Arc;
 
 pub(super) fn adapt(frame: &Frame, live: &Live, samples: &Samples) -> Result<Adapted, Vec<Diagnostic>> {
@@ -242,19 +242,26 @@ impl Adapter<'_> {
         if *count == 1 { format!("{name} ({what})").into() } else { format!("{name} ({what} {count})").into() }
     }
 
-    /// The single-sample copy of an image's current version.
+    /// The single-sample copy of an image's current version, for a pass that reads it.
     fn resolved(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
-        if let Some(resolved) = self.resolved_of[image.0 as usize] {
-            return Some(resolved);
-        }
         let declared = &self.frame.images[image.0 as usize];
         if declared.format.is_depth() {
-            let message = format!("{because}; resolving depth is not supported yet");
+            let message = format!("{because}; passes can't read resolved depth yet");
             let help = format!("sample it as `sampler2DMS`, or give `{}` 1 sample", declared.name);
             self.errors.push(Diagnostic::new(span, message).help(help));
             return None;
         }
-        let mode = if declared.format.is_integer() { ResolveMode::SampleZero } else { ResolveMode::Average };
+        Some(self.single_sample(image, because, span))
+    }
+
+    /// The single-sample copy of an image's current version: colour is averaged, integers and depth are sample zero.
+    fn single_sample(&mut self, image: ImageIndex, because: String, span: Span) -> StoreIndex {
+        if let Some(resolved) = self.resolved_of[image.0 as usize] {
+            return resolved;
+        }
+        let declared = &self.frame.images[image.0 as usize];
+        let averaged = !declared.format.is_integer() && !declared.format.is_depth();
+        let mode = if averaged { ResolveMode::Average } else { ResolveMode::SampleZero };
         let source = self.current(image);
         let at = self.place(span);
         let cause = Cause::Inserted { because: because.clone(), at: at.clone() };
@@ -263,7 +270,7 @@ impl Adapter<'_> {
         let uses = [Use { store: source, role: Role::Source }, Use { store: target, role: Role::Target }];
         self.push(OpKind::Resolve { mode, because, at }, &uses);
         self.resolved_of[image.0 as usize] = Some(target);
-        Some(target)
+        target
     }
 
     /// `to` takes what `from` holds: as the same image if nothing tells them apart, else by a copy or a draw.
@@ -363,15 +370,20 @@ impl Adapter<'_> {
     fn output(&mut self, image: ImageIndex, span: Span) {
         let declared = &self.frame.images[image.0 as usize];
         let count = self.samples.of(image);
+        if count > 1 && declared.format.aspects().contains(Aspects::STENCIL) {
+            let message =
+                format!("`{}` is an output with {count} samples, and stencil can't be resolved", declared.name);
+            let help = format!("choose a depth format without stencil, or give `{}` 1 sample", declared.name);
+            self.errors.push(Diagnostic::new(span, message).help(help));
+            return;
+        }
         let store = if count > 1 {
             let because = format!("`{}` is an output and has {count} samples", declared.name);
-            self.resolved(image, because, span)
+            self.single_sample(image, because, span)
         } else {
-            Some(self.current(image))
+            self.current(image)
         };
-        if let Some(store) = store {
-            self.adapted.stores[store as usize].output = true;
-            self.adapted.outputs.push(store);
-        }
+        self.adapted.stores[store as usize].output = true;
+        self.adapted.outputs.push(store);
     }
 }

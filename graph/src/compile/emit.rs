@@ -177,34 +177,31 @@ impl Emitter<'_> {
             let descriptor = &self.parts.adapted.stores[store as usize].descriptor;
             ([descriptor.extent[0], descriptor.extent[1]], descriptor.layers, descriptor.samples)
         });
-        let color = scope.color.iter().zip(&scope.resolves).filter_map(|(store, resolve)| {
-            let mut attachment = self.attachment(scope, *store, at)?;
-            attachment.resolve = resolve.map(|op| self.attachment_resolve(op));
-            Some(attachment)
-        });
+        let attach = |store: StoreIndex, resolve: Option<u32>| {
+            let attachment = self.attachment(scope, store, at)?;
+            Some(Attachment { resolve: resolve.and_then(|op| self.attachment_resolve(op, at)), ..attachment })
+        };
+        let color = scope.color.iter().zip(&scope.resolves).filter_map(|(store, resolve)| attach(*store, *resolve));
         RenderScope {
             extent,
             layers,
             samples,
             color: color.collect(),
-            depth: scope.depth.and_then(|store| self.attachment(scope, store, at)),
+            depth: scope.depth.and_then(|store| attach(store, scope.depth_resolve)),
             passes: scope.ops.iter().map(|op| self.pass(*op, at, Some(scope))).collect(),
         }
     }
 
-    fn attachment_resolve(&self, op: u32) -> AttachmentResolve {
+    fn attachment_resolve(&self, op: u32, at: u32) -> Option<AttachmentResolve> {
+        let OpKind::Resolve { mode, .. } = self.parts.adapted.ops[op as usize].kind else { return None };
         let target = self.parts.adapted.uses(op)[1].store;
-        let mode = match &self.parts.adapted.ops[op as usize].kind {
-            OpKind::Resolve { mode, .. } => *mode,
-            _ => crate::vocabulary::ResolveMode::Average,
-        };
-        AttachmentResolve {
+        Some(AttachmentResolve {
             image: ImageId(target),
             range: self.parts.adapted.stores[target as usize].range(),
-            layout: Layout::ColorAttachmentOptimal,
+            layout: self.parts.retained.at(target, at)?.layout,
             mode,
             cause: self.inserted(op),
-        }
+        })
     }
 
     fn attachment(&self, scope: &Scope, store: StoreIndex, at: u32) -> Option<Attachment> {

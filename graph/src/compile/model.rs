@@ -149,14 +149,13 @@ impl Role {
         }
     }
 
-    /// The usage that it takes; `folded`: a resolve that a scope carries uses attachments.
-    pub(super) fn usage(&self, folded: bool) -> Usage {
+    /// The usage that it takes; a resolve that a scope carries takes that of attachments instead.
+    pub(super) fn usage(&self) -> Usage {
         match self {
             Role::Sampled { .. } => Usage::SAMPLED,
             Role::Storage { .. } => Usage::STORAGE,
             Role::Color { .. } => Usage::COLOR_ATTACHMENT,
             Role::Depth { .. } => Usage::DEPTH_STENCIL_ATTACHMENT,
-            Role::Source | Role::Target if folded => Usage::COLOR_ATTACHMENT,
             Role::Source => Usage::TRANSFER_SRC,
             Role::Target => Usage::TRANSFER_DST,
         }

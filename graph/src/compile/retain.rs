@@ -101,10 +101,13 @@ fn gather_scope(adapted: &Adapted, scope: &Scope, step: u32, needs: &mut Vec<Nee
             add(needs, first, need(adapted, used, step, Stages::COPY));
         }
     }
-    for op in scope.resolves.iter().flatten() {
-        let [source, target] = adapted.uses(*op) else { continue };
+    for op in scope.carries() {
+        let [source, target] = adapted.uses(op) else { continue };
         let stages = Stages::COLOR_ATTACHMENT_OUTPUT;
-        let layout = Layout::ColorAttachmentOptimal;
+        let layout = match adapted.stores[target.store as usize].descriptor.format.is_depth() {
+            true => Layout::DepthStencilAttachmentOptimal,
+            false => Layout::ColorAttachmentOptimal,
+        };
         let attach = |store, accesses| Need { store, step, stages, accesses, layout, keeps: false, attachment: None };
         add(needs, first, attach(source.store, Accesses::COLOR_ATTACHMENT_READ));
         add(needs, first, attach(target.store, Accesses::COLOR_ATTACHMENT_WRITE));
@@ -236,14 +239,15 @@ fn note_usage(adapted: &mut Adapted, scoped: &Scoped) {
     let mut usage = vec![Usage::empty(); adapted.stores.len()];
     for step in &scoped.steps {
         let carried = match step {
-            Step::Scope(scope) => &scope.resolves[..],
-            Step::Single(_) | Step::Export => &[],
+            Step::Scope(scope) => Some(scope.carries()),
+            Step::Single(_) | Step::Export => None,
         };
-        let folded = carried.iter().flatten().map(|op| (*op, true));
-        for (op, folded) in step.ops().iter().map(|op| (*op, false)).chain(folded) {
-            for used in adapted.uses(op) {
-                usage[used.store as usize] |= used.role.usage(folded);
-            }
+        for used in step.ops().iter().flat_map(|op| adapted.uses(*op)) {
+            usage[used.store as usize] |= used.role.usage();
+        }
+        for used in carried.into_iter().flatten().flat_map(|op| adapted.uses(op)) {
+            let depth = adapted.stores[used.store as usize].descriptor.format.is_depth();
+            usage[used.store as usize] |= if depth { Usage::DEPTH_STENCIL_ATTACHMENT } else { Usage::COLOR_ATTACHMENT };
         }
     }
     for (store, usage) in adapted.stores.iter_mut().zip(usage) {

@@ -35,6 +35,8 @@ pub(super) struct Scope {
     pub(super) ops: Vec<u32>,
     /// For each colour attachment the resolve operation that it carries.
     pub(super) resolves: Vec<Option<u32>>,
+    /// The resolve operation that the depth attachment carries.
+    pub(super) depth_resolve: Option<u32>,
 }
 
 /// The name of an operation's pass.
@@ -72,7 +74,7 @@ struct Builder<'a> {
     adapted: &'a Adapted,
     steps: Vec<Step>,
     merged: Vec<Option<String>>,
-    /// For each store the scope that wrote it last as a colour attachment, as an index into `steps`.
+    /// For each store the scope that wrote it last as an attachment, as an index into `steps`.
     last_scope_of: Vec<Option<usize>>,
     notes: Vec<Note>,
 }
@@ -110,7 +112,7 @@ impl Builder<'_> {
             None => self.open(op),
         }
         let at = self.steps.len() - 1;
-        for used in uses.iter().filter(|used| matches!(used.role, Role::Color { .. })) {
+        for used in uses.iter().filter(|used| used.role.is_attachment() && used.role.writes()) {
             self.last_scope_of[used.store as usize] = Some(at);
         }
     }
@@ -119,7 +121,13 @@ impl Builder<'_> {
         let uses = self.adapted.uses(op);
         let color = colors_of(uses);
         let resolves = vec![None; color.len()];
-        self.steps.push(Step::Scope(Scope { color, depth: depth_of(uses), ops: vec![op], resolves }));
+        self.steps.push(Step::Scope(Scope {
+            color,
+            depth: depth_of(uses),
+            ops: vec![op],
+            resolves,
+            depth_resolve: None,
+        }));
     }
 
     /// Why sharing a scope pays.
@@ -174,13 +182,12 @@ impl Builder<'_> {
         let simple = (from.format, from.extent, from.layers, from.mips) == (to.format, to.extent, to.layers, 1)
             && to.layers == 1;
         let Some(at) = self.last_scope_of[source as usize].filter(|_| simple) else { return false };
-        let Step::Scope(scope) = &mut self.steps[at] else { return false };
-        let Some(location) = scope.color.iter().position(|color| *color == source) else { return false };
-        if scope.resolves[location].is_some() || self.touched_since(at, source, target) {
+        if self.touched_since(at, source, target) {
             return false;
         }
         let Step::Scope(scope) = &mut self.steps[at] else { return false };
-        scope.resolves[location] = Some(op);
+        let Some(slot) = scope.resolve_of(source).filter(|slot| slot.is_none()) else { return false };
+        *slot = Some(op);
         true
     }
 
@@ -268,15 +275,28 @@ impl Scope {
                 });
             }
         }
-        match self.resolves.iter().position(Option::is_some) {
-            Some(location) => refuse(Refusal::Resolved(self.color[location])),
+        match self.carries().next() {
+            Some(op) => refuse(Refusal::Resolved(adapted.uses(op)[0].store)),
             None => Meeting::Merge,
+        }
+    }
+
+    /// The resolve operations that it carries.
+    pub(super) fn carries(&self) -> impl Iterator<Item = u32> + '_ {
+        self.resolves.iter().chain([&self.depth_resolve]).flatten().copied()
+    }
+
+    /// Where the resolve of an attachment is noted.
+    fn resolve_of(&mut self, attachment: StoreIndex) -> Option<&mut Option<u32>> {
+        match self.color.iter().position(|color| *color == attachment) {
+            Some(location) => self.resolves.get_mut(location),
+            None => Some(&mut self.depth_resolve).filter(|_| self.depth == Some(attachment)),
         }
     }
 
     /// Targets of the resolves that it carries.
     fn carried<'a>(&'a self, adapted: &'a Adapted) -> impl Iterator<Item = StoreIndex> + 'a {
-        self.resolves.iter().flatten().filter_map(|op| adapted.uses(*op).get(1)).map(|target| target.store)
+        self.carries().filter_map(|op| adapted.uses(op).get(1)).map(|target| target.store)
     }
 
     fn same_area(&self, adapted: &Adapted, uses: &[Use]) -> bool {

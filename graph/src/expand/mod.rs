@@ -45,6 +45,25 @@ struct Chosen<'a> {
     facts: Facts,
 }
 
+/// What is wrong with `inputs` themselves: settings that the pipeline doesn't have or values that they don't allow, a size
+/// that no frame has, names of no image. [`expand`] reports these too; a program that tells its user's command line from
+/// its user's files asks here first.
+#[must_use]
+pub fn check_inputs(pipeline: &Pipeline, inputs: &Inputs<'_>) -> Vec<Diagnostic> {
+    let mut errors = Vec::new();
+    settings::choose(pipeline, inputs.set, &mut errors);
+    check_extent(inputs.output_extent, &mut errors);
+    outputs(pipeline, inputs.dump, &mut errors);
+    errors
+}
+
+fn check_extent(extent: [u32; 2], errors: &mut Vec<Diagnostic>) {
+    let [width, height] = extent;
+    if extent.iter().any(|extent| !(1..=LARGEST_SIZE).contains(extent)) {
+        errors.push(nowhere(format!("the frame can't be {width}×{height}: 1 to {LARGEST_SIZE} texels are allowed")));
+    }
+}
+
 /// Puts settings, facts and sizes into a pipeline and checks it against its shaders. `sources` are those that the
 /// pipeline was read into.
 ///
@@ -59,9 +78,9 @@ pub fn expand(
     let mut errors = Vec::new();
     let facts = if inputs.facts_known { inputs.facts } else { Facts::UNKNOWN };
     let chosen = Chosen { pipeline, values: settings::choose(pipeline, inputs.set, &mut errors), facts };
-    if inputs.output_extent.iter().any(|extent| !(1..=LARGEST_SIZE).contains(extent)) {
-        let [width, height] = inputs.output_extent;
-        errors.push(nowhere(format!("the frame can't be {width}×{height}: 1 to {LARGEST_SIZE} texels are allowed")));
+    let before = errors.len();
+    check_extent(inputs.output_extent, &mut errors);
+    if errors.len() > before {
         return Err(errors);
     }
     let images = images::resolve(&chosen, inputs.output_extent, &mut errors);

@@ -19,11 +19,13 @@ pub(super) const PARAMS: &str = "params";
 pub(super) struct Checked<'s> {
     shaders: &'s mut dyn ShaderInterfaces,
     seen: HashSet<(Arc<str>, Draw)>,
+    /// Shaders that have no interface, and why: one may draw several things.
+    reported: Vec<(Arc<str>, ShaderProblem)>,
 }
 
 impl<'s> Checked<'s> {
     pub(super) fn new(shaders: &'s mut dyn ShaderInterfaces) -> Checked<'s> {
-        Checked { shaders, seen: HashSet::new() }
+        Checked { shaders, seen: HashSet::new(), reported: Vec::new() }
     }
 
     /// The interface of a pass's shader. A shader that has none is reported where it is first named.
@@ -32,8 +34,10 @@ impl<'s> Checked<'s> {
         match self.shaders.draw_shader(name, pass.draw) {
             Ok(interface) => Some(interface),
             Err(problem) => {
-                if self.first_time(pass) {
+                let said = self.reported.iter().any(|(other, known)| other == name && *known == problem);
+                if !said {
                     errors.push(report(pass, &problem));
+                    self.reported.push((name.clone(), problem));
                 }
                 None
             }
