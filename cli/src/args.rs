@@ -31,6 +31,8 @@ const EXIT_CODES: &str = "Exit codes:
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Read a pipeline, compile its shaders and its Plan, and verify the Plan. Needs no GPU.
+    ///
+    /// Passes that the settings turn off, and their shaders, are left out: check them with `--set`.
     Check(Check),
     /// Print the Plan of a pipeline: its passes, scopes, resolves, memory and barriers, each with its cause. Needs no GPU.
     Inspect(Inspect),
@@ -95,7 +97,7 @@ pub(crate) struct Run {
     /// How many times the frame is drawn; GPU times are medians over them.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) frames: u32,
-    /// Picture to write: the pipeline's first output, without its alpha.
+    /// Picture to write: the pipeline's first output, without its alpha. Without this none is written.
     #[arg(short, long, value_name = "OUT.png", value_parser = picture)]
     pub(crate) output: Option<PathBuf>,
     /// Also write the last version of an image, resolved if it is multisampled; this may change the Plan. Repeatable.
