@@ -1,7 +1,9 @@
 //! `cargo bench`: what compiling costs, on graphs built in memory, beside the goals of the project.
 //!
 //! Each figure is the least of several runs: other work on the machine only adds. Goals are microseconds a pass measured
-//! on two cores at 2.5 GHz; compare ratios, not machines. Growth is the slope of time over passes, both in logarithms:
+//! on two cores at 2.5 GHz; compare ratios, not machines. Goals for barriers leave out the one that brings the output into
+//! its promised state; memory is to stay within 1.02 of the live peak. In `wide` and `local` the last pass reads what nobody
+//! else does, so that all passes stay. Growth is the slope of time over passes, both in logarithms:
 //! 1 is linear.
 
 #[path = "../tests/graphs/mod.rs"]
@@ -21,13 +23,22 @@ struct Row {
     passes: u32,
     compile: f64,
     verify: f64,
-    goal: Option<f64>,
+    goals: Goals,
     plan: Plan,
+}
+
+/// What the project wants, where it has said so: microseconds a pass, image barriers, calls.
+#[derive(Clone, Copy, Default)]
+struct Goals {
+    compile: Option<f64>,
+    barriers: Option<u32>,
+    calls: Option<u32>,
 }
 
 fn main() {
     let device = graphs::device();
-    let mut rows = vec![measure("deferred", &graphs::deferred(), &device, Some(0.40))];
+    let deferred = Goals { compile: Some(0.40), barriers: Some(54), calls: Some(21) };
+    let mut rows = vec![measure("deferred", &graphs::deferred(), &device, deferred)];
     type Graph = fn(u32) -> Frame;
     let families: [(&str, Graph, [Option<f64>; 4]); 3] = [
         ("chain", graphs::chain, [Some(0.40), Some(0.40), Some(0.45), Some(0.50)]),
@@ -35,26 +46,29 @@ fn main() {
         ("local", graphs::local, [None; 4]),
     ];
     for (name, graph, goals) in families {
-        for (passes, goal) in [25, 100, 1_000, 10_000].into_iter().zip(goals) {
-            rows.push(measure(name, &graph(passes), &device, goal));
+        for (passes, compile) in [25, 100, 1_000, 10_000].into_iter().zip(goals) {
+            let barriers = (name == "chain" && passes == 100).then_some(199);
+            let calls = (name == "wide" && passes == 100).then_some(17);
+            rows.push(measure(name, &graph(passes), &device, Goals { compile, barriers, calls }));
         }
     }
-    println!(
-        "{:<14} {:>10} {:>8} {:>10} {:>9} {:>6} {:>12} {:>11}",
-        "graph", "µs a pass", "goal", "verify µs", "barriers", "calls", "placed MiB", "/ live peak"
-    );
+    println!("(goals in brackets)");
+    println!("graph                 µs a pass     verify µs         barriers       calls  placed MiB  / live peak");
     for row in &rows {
         let totals = &row.plan.totals;
-        let goal = row.goal.map_or_else(|| "–".to_owned(), |goal| format!("{goal:.2}"));
+        let (goals, passes) = (row.goals, row.passes);
         println!(
-            "{:<14} {:>10.3} {goal:>8} {:>10.3} {:>9} {:>6} {:>12.1} {:>11.3}",
-            format!("{} {}", row.name, row.passes),
-            row.compile,
+            "{:<14} {:>16} {:>13.3} {:>16} {:>11} {:>11.1} {:>12}",
+            format!("{} {passes}", row.name),
+            beside(format!("{:.3}", row.compile), goals.compile.map(|goal| format!("{goal:.2}"))),
             row.verify,
-            totals.image_barriers,
-            totals.barrier_calls,
+            beside(totals.image_barriers.to_string(), goals.barriers.map(|goal| goal.to_string())),
+            beside(totals.barrier_calls.to_string(), goals.calls.map(|goal| goal.to_string())),
             totals.placed_bytes as f64 / f64::from(1 << 20),
-            totals.placed_bytes as f64 / totals.live_peak_bytes as f64,
+            beside(
+                format!("{:.3}", totals.placed_bytes as f64 / totals.live_peak_bytes as f64),
+                Some("1.02".to_owned())
+            ),
         );
     }
     for (name, ..) in families {
@@ -65,7 +79,12 @@ fn main() {
     }
 }
 
-fn measure(name: &str, frame: &Frame, device: &Profile, goal: Option<f64>) -> Row {
+/// A figure with its goal in brackets.
+fn beside(figure: String, goal: Option<String>) -> String {
+    goal.map_or_else(|| figure.clone(), |goal| format!("{figure} ({goal})"))
+}
+
+fn measure(name: &str, frame: &Frame, device: &Profile, goals: Goals) -> Row {
     let compiled = || {
         compile(frame, device, &mut Estimated(&device.memory), &Options::default())
             .expect("the measured graphs are legal")
@@ -75,7 +94,7 @@ fn measure(name: &str, frame: &Frame, device: &Profile, goal: Option<f64>) -> Ro
     let a_pass = |time: Duration| time.as_secs_f64() * 1e6 / f64::from(passes);
     let compile = a_pass(least(|| drop(black_box(compiled()))));
     let verify = a_pass(least(|| drop(black_box(verify(black_box(&plan))))));
-    Row { name: name.to_owned(), passes, compile, verify, goal, plan }
+    Row { name: name.to_owned(), passes, compile, verify, goals, plan }
 }
 
 /// The least time of one run, over at least five and about a third of a second.
