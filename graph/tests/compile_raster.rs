@@ -8,7 +8,7 @@ use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::{Plan, RenderScope, Role, Stage, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{LoadOp, ResolveMode, StoreOp, Usage};
+use framewright_graph::vocabulary::{Filter, LoadOp, ResolveMode, StoreOp, Usage};
 use raster::{Raster, forward};
 
 fn compiled(frame: &Frame) -> Plan {
@@ -247,4 +247,29 @@ fn a_pass_that_samples_multisampled_depth_as_one_value_is_refused() {
         compile(&raster.output(screen), &device, &mut Estimated(&device.memory), &Options::default()).unwrap_err();
     assert_eq!(refused.len(), 1);
     assert!(refused[0].message.contains("`fog` samples `depth` and it has 4 samples"), "{refused:?}");
+}
+
+#[test]
+fn what_a_device_can_neither_filter_nor_blend_is_refused_by_name() {
+    let mut device = raster::device();
+    for support in &mut device.formats {
+        support.blend &= support.format != R16G16B16A16_SFLOAT;
+        support.linear_filter &= support.format != D32_SFLOAT;
+    }
+    let mut raster = Raster::default();
+    let color = raster.image("color", R16G16B16A16_SFLOAT, 1);
+    let depth = raster.image("depth", D32_SFLOAT, 1);
+    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+    raster.objects("opaque").clear(color).clear_depth(depth);
+    raster.objects("glass").color(color, Blend::Alpha).test_depth(depth);
+    raster.full_screen("fog").sample_by(color, Filter::Linear).sample_by(depth, Filter::Linear).clear(screen);
+    let refused = compile(&raster.output(screen), &device, &mut Estimated(&device.memory), &Options::default());
+    let said: Vec<String> = refused.expect_err("it can't be drawn").into_iter().map(|error| error.message).collect();
+    assert_eq!(
+        said,
+        [
+            "`glass` can't blend into `color`: `a device for tests` can't do that with R16G16B16A16_SFLOAT",
+            "`fog` can't filter `depth`: `a device for tests` can't do that with D32_SFLOAT",
+        ]
+    );
 }

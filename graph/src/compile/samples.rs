@@ -4,9 +4,10 @@ use super::model::Samples;
 use crate::describe::Diagnostic;
 use crate::device::Profile;
 use crate::format::Format;
-use crate::frame::{Frame, ImageIndex, Pass, Work};
+use crate::frame::{Blend, Frame, ImageIndex, Pass, Work};
 use crate::plan::{Note, Stage};
-use crate::vocabulary::Usage;
+use crate::source::Span;
+use crate::vocabulary::{Filter, Usage};
 use petgraph::unionfind::UnionFind;
 use std::collections::BTreeMap;
 
@@ -22,6 +23,7 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
             together.union(pair[0].0, pair[1].0);
         }
         errors.extend(disagreement(frame, pass, &attached));
+        check_operations(frame, pass, device, &mut errors);
     }
     let mut groups: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (image, used) in usage.iter().enumerate().filter(|(_, used)| !used.is_empty()) {
@@ -92,6 +94,29 @@ fn check_support(frame: &Frame, image: usize, used: Usage, device: &Profile, err
         let missing = used.difference(supported).iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
         let message = format!("`{}` can't be {} on `{}`: no {missing}", declared.name, declared.format, device.name);
         errors.push(Diagnostic::new(declared.span, message).help("choose another format"));
+    }
+}
+
+/// A format can be sampled without being filtered, and drawn into without being blended.
+fn check_operations(frame: &Frame, pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>) {
+    let mut refuse = |image: ImageIndex, span: Span, what: &str, help: &str| {
+        let image = &frame.images[image.0 as usize];
+        let message = format!(
+            "`{}` can't {what} `{}`: `{}` can't do that with {}",
+            pass.name, image.name, device.name, image.format
+        );
+        errors.push(Diagnostic::new(span, message).label(image.span, "declared here").help(help));
+    };
+    let support = |image: ImageIndex| device.format(frame.images[image.0 as usize].format);
+    for sampled in pass.sampled.iter().filter(|sampled| sampled.filter == Filter::Linear) {
+        if support(sampled.image).is_some_and(|support| !support.linear_filter) {
+            refuse(sampled.image, sampled.span, "filter", "write `filter: Nearest`, or choose another format");
+        }
+    }
+    for target in pass.color.iter().filter(|target| target.blend != Blend::Replace) {
+        if support(target.image).is_some_and(|support| !support.blend) {
+            refuse(target.image, target.span, "blend into", "choose another format");
+        }
     }
 }
 

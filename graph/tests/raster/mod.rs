@@ -90,12 +90,16 @@ impl Added<'_> {
     }
 
     pub(crate) fn sample(self, image: ImageIndex) -> Self {
+        self.sample_by(image, Filter::Nearest)
+    }
+
+    pub(crate) fn sample_by(self, image: ImageIndex, filter: Filter) -> Self {
         self.0.sampled.push(Sampled {
             binding: format!("source{}", self.0.sampled.len()).into(),
             image,
             span: Span::NONE,
             per_sample: false,
-            filter: Filter::Linear,
+            filter,
             stages: Stages::FRAGMENT_SHADER,
         });
         self
