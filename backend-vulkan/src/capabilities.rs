@@ -1,6 +1,7 @@
 //! What a physical device can do: the minimum that this crate needs, and a live [`Profile`].
 
 use crate::convert;
+use crate::device::Shared;
 use ash::vk;
 use framewright_graph::device::{FormatSupport, ImageDescriptor, MemoryModel, MemoryNeeds, Profile};
 use framewright_graph::format::Format;
@@ -139,6 +140,59 @@ pub(crate) fn profile(
             .any(|ty| ty.property_flags.contains(vk::MemoryPropertyFlags::LAZILY_ALLOCATED)),
         formats: Format::ALL.iter().filter_map(|format| support(instance, physical, *format)).collect(),
         memory: memory_model(needs),
+    }
+}
+
+impl Shared {
+    /// Whether the device can make an image of this description.
+    pub(crate) fn can_make(&self, descriptor: &ImageDescriptor) -> bool {
+        let [width, height, depth] = descriptor.extent;
+        let levels = u32::BITS - width.max(height).max(depth).leading_zeros();
+        let attachment = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT;
+        let may_be_asked = !descriptor.usage.is_empty()
+            && (attachment.intersects(descriptor.usage) || !descriptor.usage.contains(Usage::TRANSIENT_ATTACHMENT))
+            && descriptor.samples.is_power_of_two()
+            && (descriptor.samples == 1 || (descriptor.mips == 1 && depth == 1))
+            && descriptor.mips <= levels;
+        if !may_be_asked {
+            return false;
+        }
+        let info = crate::image::create_info(descriptor);
+        // SAFETY: the physical device belongs to the instance.
+        let limits = unsafe {
+            self.instance.raw.get_physical_device_image_format_properties(
+                self.physical,
+                info.format,
+                info.image_type,
+                info.tiling,
+                info.usage,
+                info.flags,
+            )
+        };
+        limits.is_ok_and(|limits| {
+            let most = [limits.max_extent.width, limits.max_extent.height, limits.max_extent.depth];
+            descriptor.extent.iter().zip(most).all(|(extent, most)| (1..=most).contains(extent))
+                && (1..=limits.max_mip_levels).contains(&descriptor.mips)
+                && (1..=limits.max_array_layers).contains(&descriptor.layers)
+                && limits.sample_counts.contains(convert::samples(descriptor.samples))
+        })
+    }
+
+    /// What images of a format can do.
+    pub(crate) fn format_features(&self, format: Format) -> vk::FormatFeatureFlags {
+        let format = convert::format(format);
+        // SAFETY: the physical device belongs to the instance.
+        unsafe { self.instance.raw.get_physical_device_format_properties(self.physical, format) }
+            .optimal_tiling_features
+    }
+
+    /// How rendering scopes can resolve depth.
+    pub(crate) fn depth_resolve_modes(&self) -> vk::ResolveModeFlags {
+        let mut resolve = vk::PhysicalDeviceDepthStencilResolveProperties::default();
+        let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut resolve);
+        // SAFETY: the physical device belongs to the instance, and the chained structure outlives the call.
+        unsafe { self.instance.raw.get_physical_device_properties2(self.physical, &mut all) };
+        resolve.supported_depth_resolve_modes
     }
 }
 

@@ -3,12 +3,13 @@
 use crate::convert;
 use crate::device::Shared;
 use crate::error::Error;
-use crate::image::create_info;
 use crate::prepare::descriptor;
+use ash::vk;
 use framewright_graph::device::MemoryNeeds;
-use framewright_graph::plan::{Image, Placement, Plan, Role, Work};
+use framewright_graph::frame::Blend;
+use framewright_graph::plan::{Image, ImageId, Placement, Plan, RenderScope, Role, Work};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vocabulary::Usage;
+use framewright_graph::vocabulary::{Filter, Usage};
 
 /// Which of the Plan's own mistakes are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,6 +42,11 @@ pub(crate) fn check(shared: &Shared, plan: &Plan, refuse: Refuse, poison: bool) 
             Role::Output { .. } => {}
         }
     }
+    for step in &plan.steps {
+        if let Work::Render(scope) = &step.work {
+            renderable(shared, plan, scope)?;
+        }
+    }
     let dispatched = plan.steps.iter().find_map(|step| match &step.work {
         Work::Dispatch(pass) => Some(&pass.name),
         _ => None,
@@ -58,30 +64,46 @@ fn bad(what: String) -> Result<(), Error> {
 /// Whether the device can make such an image.
 fn supported(shared: &Shared, image: &Image) -> Result<(), Error> {
     let descriptor = descriptor(image);
-    let info = create_info(&descriptor);
-    // SAFETY: the physical device belongs to the instance.
-    let limits = unsafe {
-        shared.instance.raw.get_physical_device_image_format_properties(
-            shared.physical,
-            info.format,
-            info.image_type,
-            info.tiling,
-            info.usage,
-            info.flags,
-        )
-    };
-    let fits = limits.is_ok_and(|limits| {
-        let most = [limits.max_extent.width, limits.max_extent.height, limits.max_extent.depth];
-        image.extent.iter().zip(most).all(|(extent, most)| (1..=most).contains(extent))
-            && (1..=limits.max_mip_levels).contains(&image.mips)
-            && (1..=limits.max_array_layers).contains(&image.layers)
-            && image.samples.is_power_of_two()
-            && limits.sample_counts.contains(convert::samples(image.samples))
-    });
-    if fits {
+    if shared.can_make(&descriptor) {
         Ok(())
     } else {
         bad(format!("{} has no images like `{}`: {descriptor:?}", shared.summary.name, image.name))
+    }
+}
+
+/// Whether the device can render such a scope, blend and resolve its attachments, and filter what its passes sample.
+fn renderable(shared: &Shared, plan: &Plan, scope: &RenderScope) -> Result<(), Error> {
+    let limits = &shared.limits;
+    let [width, height] = scope.extent;
+    let fits = width <= limits.max_framebuffer_width.min(limits.max_viewport_dimensions[0])
+        && height <= limits.max_framebuffer_height.min(limits.max_viewport_dimensions[1])
+        && scope.layers <= limits.max_framebuffer_layers
+        && scope.color.len() <= limits.max_color_attachments as usize;
+    if !fits {
+        let (count, layers) = (scope.color.len(), scope.layers);
+        return bad(format!("{count} colour attachments of {width}×{height}, {layers} layers: too many or too large"));
+    }
+    let lacks = |image: ImageId, feature: vk::FormatFeatureFlags, what: &str| {
+        let image = plan.image(image);
+        if shared.format_features(image.format).contains(feature) {
+            return Ok(());
+        }
+        bad(format!("{} can't {what} `{}` ({})", shared.summary.name, image.name, image.format))
+    };
+    for pass in &scope.passes {
+        for (attachment, _) in scope.color.iter().zip(&pass.blend).filter(|(_, blend)| **blend != Blend::Replace) {
+            lacks(attachment.image, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND, "blend into")?;
+        }
+        for bound in pass.bindings.iter().filter(|bound| bound.filter == Some(Filter::Linear)) {
+            lacks(bound.image, vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR, "filter")?;
+        }
+    }
+    match scope.depth.as_ref().and_then(|depth| depth.resolve.as_ref()) {
+        Some(resolve) if !shared.depth_resolve_modes().contains(convert::resolve(resolve.mode)) => {
+            let target = &plan.image(resolve.image).name;
+            bad(format!("{} can't resolve depth into `{target}` by {:?}", shared.summary.name, resolve.mode))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::caches::LayoutBinding;
 use crate::device::{Device, Shared};
 use crate::error::Error;
+use crate::prepare::check_brought;
 use crate::resources::{Buffer, Texture};
 use ash::vk;
 use framewright_graph::interface::{DrawInterface, PASS_SET, SuppliedKind};
@@ -119,6 +120,7 @@ impl Device {
         if set == PASS_SET {
             return Err(bad("it belongs to the pass".to_owned()));
         }
+        check_brought(&self.shared, interface).map_err(bad)?;
         let supplied: Vec<_> = interface.supplied.iter().filter(|it| it.set == set).collect();
         if let Some((binding, _)) =
             resources.iter().find(|(binding, _)| supplied.iter().all(|it| it.binding != *binding))

@@ -25,7 +25,12 @@ impl MemoryProvider for LiveMemory {
     }
 
     fn image(&mut self, descriptor: &ImageDescriptor) -> MemoryNeeds {
-        self.shared.memory_needs(descriptor)
+        if self.shared.can_make(descriptor) {
+            self.shared.memory_needs(descriptor)
+        } else {
+            // The driver may not even be asked; no memory is enough.
+            MemoryNeeds { bytes: u64::MAX, alignment: 1, type_bits: u32::MAX }
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use crate::memory::Kind;
 use crate::resources::RawBuffer;
 use ash::vk;
 use framewright_graph::frame::ParamValue;
-use framewright_graph::interface::{self, Block, Dimension, ImageShape, PASS_SET};
+use framewright_graph::interface::{self, Block, Component, Dimension, ImageShape, PASS_SET};
 use framewright_graph::plan;
 use framewright_graph::vocabulary::{Aspects, Filter, Stages};
 use std::sync::Arc;
@@ -96,6 +96,10 @@ fn image(
     if shape.multisampled != (image.descriptor.samples > 1) {
         let samples = image.descriptor.samples;
         return Err(Wrong::Shape(format!("`{}` has {samples} samples and another kind of sampler", bound.name)));
+    }
+    if sampled && shape.component != Component::of(image.descriptor.format) {
+        let (wanted, format) = (shape.component, image.descriptor.format);
+        return Err(Wrong::Shape(format!("the shader reads {wanted:?} from `{}`, which is {format}", bound.name)));
     }
     let view_shape = match (shape.dimension, shape.arrayed) {
         (Dimension::D2, false) if bound.range.layers == 1 => ViewShape::Flat,

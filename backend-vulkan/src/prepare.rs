@@ -12,7 +12,9 @@ use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::frame::Draw;
-use framewright_graph::interface::{Binding, BindingKind, DrawInterface, PASS_SET, ShaderInterfaces, SuppliedKind};
+use framewright_graph::interface::{
+    Binding, BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterfaces, SuppliedKind,
+};
 use framewright_graph::plan::{self, Plan, RenderScope, Role, Subresources, Work};
 use framewright_graph::vocabulary::Usage;
 use std::sync::Arc;
@@ -145,9 +147,10 @@ fn pass(
         .compiled(&pass.shader, draw)
         .map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
     let brought = shaders.brought_along(draw);
-    check_limits(shared, &shader).map_err(mismatch)?;
+    check_brought(shared, &brought).map_err(mismatch)?;
+    check_limits(shared, &shader, &brought).map_err(mismatch)?;
     check_supplied(&shader, &brought).map_err(mismatch)?;
-    check_outputs(&shader, scope).map_err(mismatch)?;
+    check_outputs(&shader, plan, scope).map_err(mismatch)?;
     let attributes = attributes(&shader, &brought).map_err(mismatch)?;
     let own = PassSet::new(shared, images, pass, &shader.interface)?;
     let supplied = supplied_layouts(shared, &brought)?;
@@ -155,7 +158,7 @@ fn pass(
     let reads = |set| shader.interface.bindings.iter().any(|it| it.set == set);
     let vertex_stride = if attributes.is_empty() { 0 } else { brought.vertex_stride };
     let format = |attachment: &plan::Attachment| plan.image(attachment.image).format;
-    let pipeline = shared.pipeline(PipelineDescriptor {
+    let descriptor = PipelineDescriptor {
         vertex: shader.vertex.clone(),
         fragment: shader.fragment.clone(),
         layout,
@@ -165,20 +168,46 @@ fn pass(
         depth_format: scope.depth.as_ref().map(format),
         depth: pass.depth,
         samples: scope.samples,
-    })?;
-    shared.name(pipeline, &pass.name);
+    };
+    let pipeline = shared.pipeline(&pass.name, descriptor)?;
     let supplied = (PASS_SET + 1..).zip(supplied).map(|(set, layout)| (layout, reads(set))).collect();
     Ok(Pass { draw, pipeline, own, state: PassState { layout, supplied, vertex_stride } })
 }
 
-/// A stage may read so many images and so large a block, and no more.
-fn check_limits(shared: &Shared, shader: &CompiledShader) -> Result<(), String> {
+/// A stage may be given so many resources of a kind and read so large a block, and no more. What is brought along counts
+/// whether it is read or not.
+fn check_limits(shared: &Shared, shader: &CompiledShader, brought: &DrawInterface) -> Result<(), String> {
     let limits = &shared.limits;
     let bindings = &shader.interface.bindings;
-    let images = bindings.iter().filter(|it| matches!(it.kind, BindingKind::SampledImage(_))).count();
-    let most = limits.max_per_stage_descriptor_samplers.min(limits.max_per_stage_descriptor_sampled_images);
-    if images > most as usize {
-        return Err(format!("the shader samples {images} images, and this device allows {most}"));
+    let count = |own: fn(&BindingKind) -> bool, supplied: Option<SuppliedKind>| {
+        bindings.iter().filter(|it| it.set == PASS_SET && own(&it.kind)).count()
+            + brought.supplied.iter().filter(|it| Some(it.kind) == supplied).count()
+    };
+    let sampled = limits.max_per_stage_descriptor_samplers.min(limits.max_per_stage_descriptor_sampled_images);
+    let counts = [
+        (
+            "sampled images",
+            count(|it| matches!(it, BindingKind::SampledImage(_)), Some(SuppliedKind::SampledImage)),
+            sampled,
+        ),
+        (
+            "storage images",
+            count(|it| matches!(it, BindingKind::StorageImage { .. }), None),
+            limits.max_per_stage_descriptor_storage_images,
+        ),
+        (
+            "uniform blocks",
+            count(|it| matches!(it, BindingKind::UniformBlock(_)), Some(SuppliedKind::UniformBlock)),
+            limits.max_per_stage_descriptor_uniform_buffers,
+        ),
+        (
+            "storage blocks",
+            count(|_| false, Some(SuppliedKind::StorageBlock)),
+            limits.max_per_stage_descriptor_storage_buffers,
+        ),
+    ];
+    if let Some((what, count, most)) = counts.into_iter().find(|(_, count, most)| *count > *most as usize) {
+        return Err(format!("{count} {what} are bound, and this device allows {most}"));
     }
     let block = bindings.iter().find_map(|it| match &it.kind {
         BindingKind::UniformBlock(block) if block.bytes > limits.max_uniform_buffer_range => {
@@ -198,7 +227,7 @@ fn check_supplied(shader: &CompiledShader, brought: &DrawInterface) -> Result<()
             (&binding.kind, kind),
             (BindingKind::UniformBlock(_), SuppliedKind::UniformBlock)
                 | (BindingKind::StorageBlock { writable: false }, SuppliedKind::StorageBlock)
-                | (BindingKind::SampledImage(_), SuppliedKind::SampledImage)
+                | (BindingKind::SampledImage(PLAIN), SuppliedKind::SampledImage)
         )
     };
     for read in shader.interface.bindings.iter().filter(|it| it.set != PASS_SET) {
@@ -216,13 +245,49 @@ fn check_supplied(shader: &CompiledShader, brought: &DrawInterface) -> Result<()
     Ok(())
 }
 
-/// Every colour attachment must be written: what a shader leaves out has undefined colour.
-fn check_outputs(shader: &CompiledShader, scope: &RenderScope) -> Result<(), String> {
-    let written = |location: usize| shader.interface.outputs.iter().any(|it| it.location as usize == location);
-    match (0..scope.color.len()).find(|location| !written(*location)) {
-        Some(location) => Err(format!("the shader writes no colour at location {location}")),
-        None => Ok(()),
+/// Every colour attachment must be written, in its own type: what a shader leaves out has undefined colour.
+fn check_outputs(shader: &CompiledShader, plan: &Plan, scope: &RenderScope) -> Result<(), String> {
+    for (location, attachment) in (0..).zip(&scope.color) {
+        let output = shader.interface.outputs.iter().find(|it| it.location == location);
+        let output = output.ok_or_else(|| format!("the shader writes no colour at location {location}"))?;
+        let image = plan.image(attachment.image);
+        if output.component != Component::of(image.format) {
+            let (name, format) = (&image.name, image.format);
+            return Err(format!("the shader writes {:?} to `{name}`, which is {format}", output.component));
+        }
     }
+    Ok(())
+}
+
+/// What an image is that whoever draws brings along.
+const PLAIN: ImageShape =
+    ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: false, component: Component::Float };
+
+/// What whoever draws brings along must be something that Vulkan can bind.
+pub(crate) fn check_brought(shared: &Shared, brought: &DrawInterface) -> Result<(), String> {
+    let limits = &shared.limits;
+    let stride = brought.vertex_stride;
+    if stride > limits.max_vertex_input_binding_stride {
+        return Err(format!("vertices of {stride} bytes are more than this device allows"));
+    }
+    for attribute in &brought.attributes {
+        let end = attribute.components.checked_mul(4).and_then(|bytes| attribute.offset.checked_add(bytes));
+        let fits = (1..=4).contains(&attribute.components)
+            && attribute.offset <= limits.max_vertex_input_attribute_offset
+            && end.is_some_and(|end| end <= stride);
+        if !fits || !attribute.offset.is_multiple_of(4) || !stride.is_multiple_of(4) {
+            return Err(format!("the vertex attribute `{}` doesn't fit vertices of {stride} bytes", attribute.name));
+        }
+    }
+    for (at, one) in brought.supplied.iter().enumerate() {
+        if one.set == PASS_SET || one.set >= limits.max_bound_descriptor_sets {
+            return Err(format!("`{}` can't be brought along in set {}", one.name, one.set));
+        }
+        if brought.supplied[..at].iter().any(|other| (other.set, other.binding) == (one.set, one.binding)) {
+            return Err(format!("`{}` is brought along where something else is", one.name));
+        }
+    }
+    Ok(())
 }
 
 /// The vertex attributes by the shader's locations.

@@ -1,7 +1,6 @@
 //! What whoever draws brings along: buffers and textures.
 
 use crate::caches::SamplerDescriptor;
-use crate::convert;
 use crate::device::{Device, Shared};
 use crate::error::Error;
 use crate::image::{Image, View, ViewShape};
@@ -113,12 +112,7 @@ impl Device {
             } else {
                 Default::default()
             };
-        // SAFETY: the physical device belongs to the instance.
-        let features = unsafe {
-            let format = convert::format(format);
-            self.shared.instance.raw.get_physical_device_format_properties(self.shared.physical, format)
-        };
-        if format.is_depth() || !features.optimal_tiling_features.contains(needed) {
+        if format.is_depth() || !self.shared.format_features(format).contains(needed) {
             return Err(bad("this device can't upload and filter the format".to_owned()));
         }
         let levels = if mips { u32::BITS - width.max(height).leading_zeros() } else { 1 };

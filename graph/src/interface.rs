@@ -1,5 +1,6 @@
 //! What a shader uses, as data: read off its SPIR-V by a backend, needed by `check` without any device.
 
+use crate::format::Format;
 use crate::frame::Draw;
 use crate::vocabulary::Stages;
 
@@ -105,6 +106,14 @@ pub enum Component {
     Int,
     /// Unsigned integer.
     Uint,
+}
+
+impl Component {
+    /// What a component of `format` is to a shader.
+    #[must_use]
+    pub const fn of(format: Format) -> Component {
+        if format.is_integer() { Component::Uint } else { Component::Float }
+    }
 }
 
 /// A uniform block.

@@ -168,7 +168,7 @@ fn shape_fits(
         errors.push(Diagnostic::new(sample.binding.span, message).help("images of a pipeline are two-dimensional"));
         return;
     }
-    let holds = if format.is_integer() { Component::Uint } else { Component::Float };
+    let holds = Component::of(format);
     if shape.component != holds {
         let (wanted, held) = (component_words(shape.component), component_words(holds));
         let message =
@@ -228,7 +228,7 @@ pub(super) fn outputs(
             errors.push(Diagnostic::new(target.image.span, message).help(help));
             continue;
         };
-        let holds = if format.is_integer() { Component::Uint } else { Component::Float };
+        let holds = Component::of(format);
         if output.component != holds {
             let (written, held) = (component_words(output.component), component_words(holds));
             let message = format!(
