@@ -373,3 +373,18 @@ fn numbers_and_features_beyond_every_devices_are_refused() {
     let double = format!("{WHITE} double x = color.x; color.x = float(x * x); }}");
     assert_eq!(what(&double), "SPIR-V's capability Float64: not every device has it");
 }
+
+#[test]
+fn a_vertex_shader_that_writes_an_image_is_refused() {
+    let vertex = |access: &str| {
+        format!(
+            "#version 460\nlayout(set = 0, binding = 1, rgba8) uniform {access} image2D picture;
+            void main() {{ gl_Position = vec4(imageSize(picture), 0.0, 1.0); }}"
+        )
+    };
+    let (written, read) = (vertex(""), vertex("readonly"));
+    let plain = ("test.frag", SHIPPED[1].1);
+    let said = unsupported(&[plain, ("test.vert", &written)]);
+    assert!(said.contains("`picture` is written by a vertex shader"), "{said}");
+    assert!(drawn(Draw::FullScreen, &[plain, ("test.vert", &read)]).is_ok());
+}

@@ -122,6 +122,10 @@ fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) -> Result<V
         }
         let Some(ty) = module.pointee(instruction) else { continue };
         let kind = kind(module, variable, instruction, ty);
+        if stage == Stage::Vertex && writes(&kind) {
+            let name = module.name(variable);
+            return Err(format!("`{name}` is written by a vertex shader: not every device can; declare it `readonly`"));
+        }
         let own = module.name(variable);
         let name = if own.is_empty() { ty.result_id.map_or("", |ty| module.name(ty)) } else { own };
         bindings.push(Binding { set, binding, name: name.to_owned(), kind, stages });
@@ -137,6 +141,11 @@ fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) -> Result<V
         return Err(format!("`{name}` and `{}` at the same place: set {set}, binding {binding}", pair[1].name));
     }
     Ok(bindings)
+}
+
+/// Whether a shader may write such a resource.
+fn writes(kind: &BindingKind) -> bool {
+    matches!(kind, BindingKind::StorageImage { writable: true, .. } | BindingKind::StorageBlock { writable: true })
 }
 
 /// Kind and shape of a resource of type `ty`.
