@@ -35,12 +35,14 @@ pub(crate) struct VertexAttribute {
 }
 
 impl Shared {
-    /// The pipeline of this description.
-    pub(crate) fn pipeline(&self, descriptor: PipelineDescriptor) -> Result<vk::Pipeline, Error> {
+    /// The pipeline of this description. It bears the name of who first asked for it: others may be using it already.
+    pub(crate) fn pipeline(&self, name: &str, descriptor: PipelineDescriptor) -> Result<vk::Pipeline, Error> {
         self.caches.pipelines.get(descriptor, |descriptor| {
             let vertex = Module::new(self, &descriptor.vertex)?;
             let fragment = Module::new(self, &descriptor.fragment)?;
-            create(self, descriptor, &vertex, &fragment)
+            let pipeline = create(self, descriptor, &vertex, &fragment)?;
+            self.name(pipeline, name);
+            Ok(pipeline)
         })
     }
 }

@@ -69,8 +69,15 @@ impl Commands {
         unsafe {
             self.shared.raw.reset_fences(&[self.fence]).map_err(Error::vulkan(doing))?;
             let queue = self.shared.queue();
-            self.shared.raw.queue_submit2(*queue, &submits, self.fence).map_err(Error::vulkan(doing))?;
+            let submitted = self.shared.raw.queue_submit2(*queue, &submits, self.fence);
             drop(queue);
+            if let Err(result) = submitted {
+                if result == vk::Result::ERROR_DEVICE_LOST {
+                    // Then, and only then, the commands count as submitted all the same.
+                    self.shared.abandon(self.fence);
+                }
+                return Err(Error::vulkan(doing)(result));
+            }
             match self.shared.raw.wait_for_fences(&[self.fence], true, nanoseconds) {
                 Ok(()) => Ok(()),
                 Err(vk::Result::TIMEOUT) => {
