@@ -7,7 +7,7 @@ use crate::{profiles, text};
 use framewright_graph::compile::Options;
 use framewright_graph::describe;
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::plan::{Note, Plan};
+use framewright_graph::plan::{Note, Plan, Stage};
 use serde::Serialize;
 
 /// The answer for programs.
@@ -59,7 +59,8 @@ fn human(arguments: &Check, plan: &Plan) -> Result<Exit, Error> {
         text::bytes(totals.transient_bytes),
         text::bytes(totals.placed_bytes),
     );
-    for note in &plan.notes {
+    // Why scopes are separate is for those who look into the Plan.
+    for note in plan.notes.iter().filter(|note| note.stage != Stage::Scope) {
         let at = note.at.as_ref().map_or_else(String::new, |place| format!(" ({})", text::escape(&place.to_string())));
         answer += &format!("note: `{}`: {}{at}\n", text::escape(&note.subject), text::escape(&note.text));
     }

@@ -6,7 +6,7 @@ use framewright_graph::source::Sources;
 use framewright_passes::scene::SceneError;
 use framewright_vulkan::Blame;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// How a command ends. The numbers are the command's contract.
@@ -142,7 +142,7 @@ pub(crate) enum Error {
     #[error("{}", text::escape_lines(&.0.to_string()))]
     Plan(#[from] framewright_graph::plan::PlanError),
     /// A file can't be written.
-    #[error("`{}` can't be written: {}{}", text::path(path), text::escape(&source.to_string()), mend(source))]
+    #[error("`{}` can't be written: {}{}", text::path(path), text::escape(&source.to_string()), mend(source, Some(path)))]
     Write {
         /// Which file.
         path: PathBuf,
@@ -150,7 +150,7 @@ pub(crate) enum Error {
         source: io::Error,
     },
     /// Standard output can't be written.
-    #[error("standard output can't be written: {}{}", text::escape(&.0.to_string()), mend(.0))]
+    #[error("standard output can't be written: {}{}", text::escape(&.0.to_string()), mend(.0, None))]
     Print(io::Error),
 }
 
@@ -215,15 +215,20 @@ impl Error {
     }
 }
 
-/// What to do about a file that can't be written.
-fn mend(problem: &io::Error) -> &'static str {
+/// What to do about a file, if it is one, that can't be written.
+fn mend(problem: &io::Error, file: Option<&Path>) -> String {
     match problem.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => "\nhelp: its folder must exist: mkdir -p",
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => match file.and_then(Path::parent) {
+            Some(folder) => format!("\nhelp: its folder must exist: mkdir -p {}", text::path(folder)),
+            None => String::new(),
+        },
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
-            "\nhelp: choose a place that is yours, or chmod u+w it"
+            "\nhelp: choose a place that is yours, or chmod u+w it".to_owned()
         }
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "\nhelp: make room: df -h shows what is full",
-        io::ErrorKind::IsADirectory => "\nhelp: that is a folder: name a file in it",
-        _ => "",
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "\nhelp: make room: df -h shows what is full".to_owned()
+        }
+        io::ErrorKind::IsADirectory => "\nhelp: that is a folder: name a file in it".to_owned(),
+        _ => String::new(),
     }
 }

@@ -8,7 +8,7 @@ use super::link::covers;
 use super::model::{Adapted, Op, OpKind, Role, Samples, Start, Store, StoreIndex, Use};
 use crate::describe::Diagnostic;
 use crate::device::ImageDescriptor;
-use crate::frame::{Frame, ImageIndex, Pass, Sampled, Work};
+use crate::frame::{Draw, Frame, ImageIndex, Pass, Sampled, Work};
 use crate::plan::{Cause, Note, Stage};
 use crate::source::{Place, Span};
 use crate::vocabulary::{Aspects, Filter, ResolveMode, Usage};
@@ -22,7 +22,7 @@ pub(super) fn adapt(frame: &Frame, live: &Live, samples: &Samples) -> Result<Ada
         store_of: vec![None; frame.images.len()],
         resolved_of: vec![None; frame.images.len()],
         resolves_of: vec![0; frame.images.len()],
-        noted: vec![false; frame.images.len()],
+        of_geometry: geometry_targets(frame, live),
         adapted: Adapted::default(),
         errors: Vec::new(),
         scratch: Vec::new(),
@@ -38,6 +38,17 @@ pub(super) fn adapt(frame: &Frame, live: &Live, samples: &Samples) -> Result<Ada
     if adapter.errors.is_empty() { Ok(adapter.adapted) } else { Err(adapter.errors) }
 }
 
+/// For each image, whether objects are drawn into it.
+fn geometry_targets(frame: &Frame, live: &Live) -> Vec<bool> {
+    let mut targets = vec![false; frame.images.len()];
+    for pass in live.passes.iter().map(|pass| &frame.passes[*pass as usize]) {
+        if matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. }) {
+            pass.color.iter().for_each(|target| targets[target.image.0 as usize] = true);
+        }
+    }
+    targets
+}
+
 struct Adapter<'a> {
     frame: &'a Frame,
     live: &'a Live,
@@ -48,8 +59,8 @@ struct Adapter<'a> {
     resolved_of: Vec<Option<StoreIndex>>,
     /// How many resolved copies each image has had: they need distinct names.
     resolves_of: Vec<u32>,
-    /// Images of which was said that they need no resolve.
-    noted: Vec<bool>,
+    /// Images that geometry is drawn into, where more samples would have meant a resolve; until that was said.
+    of_geometry: Vec<bool>,
     adapted: Adapted,
     errors: Vec<Diagnostic>,
     /// Uses of the pass at hand.
@@ -181,8 +192,7 @@ impl Adapter<'_> {
             let because = format!("`{}` samples `{}` and it has {count} samples", pass.name, declared.name);
             return self.resolved(sampled.image, because, sampled.span);
         }
-        if matches!(pass.work, Work::Draw { .. }) && !std::mem::replace(&mut self.noted[sampled.image.0 as usize], true)
-        {
+        if std::mem::take(&mut self.of_geometry[sampled.image.0 as usize]) {
             let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
             self.note(&declared.name, text, sampled.span);
         }

@@ -83,8 +83,16 @@ impl Builder<'_> {
     fn op(&mut self, op: u32) {
         match self.adapted.ops[op as usize].kind {
             OpKind::Draw(_) | OpKind::ForwardDraw { .. } => self.draw(op),
-            OpKind::Resolve { .. } if self.fold(op) => {}
-            OpKind::Resolve { .. } | OpKind::Copy { .. } | OpKind::Dispatch(_) => self.steps.push(Step::Single(op)),
+            OpKind::Resolve { .. } => match self.fold(op) {
+                Ok(()) => {}
+                Err(why) => {
+                    let subject = self.adapted.stores[self.adapted.uses(op)[0].store as usize].name.clone();
+                    let text = format!("is resolved by a step of its own: {why}");
+                    self.notes.push(Note { stage: Stage::Scope, subject, text, at: None });
+                    self.steps.push(Step::Single(op));
+                }
+            },
+            OpKind::Copy { .. } | OpKind::Dispatch(_) => self.steps.push(Step::Single(op)),
         }
     }
 
@@ -173,22 +181,24 @@ impl Builder<'_> {
         });
     }
 
-    /// Lets the scope that wrote the source last carry the resolve, if it can.
-    fn fold(&mut self, op: u32) -> bool {
-        let [source, target] = self.adapted.uses(op) else { return false };
+    /// Lets the scope that wrote the source last carry the resolve, or says why it can't.
+    fn fold(&mut self, op: u32) -> Result<(), &'static str> {
+        let [source, target] = self.adapted.uses(op) else { return Err("it is no resolve from image to image") };
         let (source, target) = (source.store, target.store);
-        let (from, to) =
-            (&self.adapted.stores[source as usize].descriptor, &self.adapted.stores[target as usize].descriptor);
-        let simple = (from.format, from.extent, from.layers, from.mips) == (to.format, to.extent, to.layers, 1)
-            && to.layers == 1;
-        let Some(at) = self.last_scope_of[source as usize].filter(|_| simple) else { return false };
-        if self.touched_since(at, source, target) {
-            return false;
+        let descriptor = &self.adapted.stores[source as usize].descriptor;
+        if (descriptor.mips, descriptor.layers) != (1, 1) {
+            return Err("it has several mip levels or layers");
         }
-        let Step::Scope(scope) = &mut self.steps[at] else { return false };
-        let Some(slot) = scope.resolve_of(source).filter(|slot| slot.is_none()) else { return false };
-        *slot = Some(op);
-        true
+        let Some(at) = self.last_scope_of[source as usize] else { return Err("no rendering scope drew it") };
+        if self.touched_since(at, source, target) {
+            return Err("its target is in use since it was drawn, or it was written by other means");
+        }
+        let Step::Scope(scope) = &mut self.steps[at] else { return Err("no rendering scope drew it") };
+        match scope.resolve_of(source) {
+            Some(slot @ None) => *slot = Some(op),
+            _ => return Err("the scope that drew it resolves it into another image"),
+        }
+        Ok(())
     }
 
     /// Whether a step from number `at` on already uses the target, or one after it writes the source.

@@ -93,7 +93,9 @@ fn block(sources: &Sources, diagnostic: &Diagnostic) -> String {
     if let Some(help) = &diagnostic.help {
         group = group.element(Level::HELP.message(escape_lines(help)));
     }
-    Renderer::plain().render(&[group])
+    let text = Renderer::plain().render(&[group]);
+    // The line that leads from a snippet to the help leads nowhere where there is no snippet.
+    if diagnostic.labels.is_empty() { text.replacen("\n |\n", "\n", 1) } else { text }
 }
 
 /// Whole lines of one file, and what is said about them.

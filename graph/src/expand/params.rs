@@ -46,7 +46,10 @@ pub(super) fn give(
             let (name, ty) = (&member.name, &member.ty);
             let message =
                 format!("shader `{shader}` needs the parameter `{name}`, which pass `{}` doesn't give", pass.name.text);
-            let help = format!("add `params: {{\"{name}\": …}}`; it is a `{ty}`");
+            let help = match ty.as_str() {
+                "float" | "int" | "uint" | "bool" => format!("add `params: {{\"{name}\": …}}`; its type is `{ty}`"),
+                _ => format!("its type is `{ty}`, and pipeline files give single numbers only: split it into several"),
+            };
             errors.push(Diagnostic::new(pass.shader.span, message).help(help));
         }
     }
