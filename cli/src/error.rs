@@ -218,10 +218,11 @@ impl Error {
 /// What to do about a file, if it is one, that can't be written.
 fn mend(problem: &io::Error, file: Option<&Path>) -> String {
     match problem.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => match file.and_then(Path::parent) {
+        io::ErrorKind::NotFound => match file.and_then(Path::parent) {
             Some(folder) => format!("\nhelp: its folder must exist: mkdir -p {}", text::path(folder)),
             None => String::new(),
         },
+        io::ErrorKind::NotADirectory => "\nhelp: choose a place in a folder".to_owned(),
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
             "\nhelp: choose a place that is yours, or chmod u+w it".to_owned()
         }

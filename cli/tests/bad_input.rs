@@ -143,11 +143,11 @@ fn a_shader_that_does_not_compile_is_said_with_its_own_line() {
 
 #[test]
 fn a_shader_that_does_not_match_its_pass_is_said_at_the_pass() {
-    check(forward_with("sample: {\"source\": \"color\"}", "sample: {\"sauce\": \"color\"}"))
+    check(forward_with("sample: {\"source\"", "sample: {\"sauce\""))
         .exits(1)
         .mentions("error: ")
         .mentions("`sauce`")
-        .mentions("--> p.ron:54:");
+        .mentions("--> p.ron:55:");
 }
 
 #[test]
@@ -233,11 +233,11 @@ fn output_that_can_not_be_written_is_said_with_what_mends_it() {
     for (target, message) in [
         (
             "none/plan.json",
-            "`none/plan.json` can't be written: No such file or directory (os error 2)\nhelp: its folder must exist",
+            "`none/plan.json` can't be written: No such file or directory (os error 2)\nhelp: its folder must exist: mkdir -p none",
         ),
         (
             "file/plan.json",
-            "`file/plan.json` can't be written: Not a directory (os error 20)\nhelp: its folder must exist",
+            "`file/plan.json` can't be written: Not a directory (os error 20)\nhelp: choose a place in a folder",
         ),
         (".", "`.` can't be written: is a directory\nhelp: that is a folder"),
         ("/dev/full", "`/dev/full` can't be written: No space left on device (os error 28)\nhelp: make room"),

@@ -273,3 +273,15 @@ fn what_a_device_can_neither_filter_nor_blend_is_refused_by_name() {
         ]
     );
 }
+
+#[test]
+fn depth_is_forwarded_as_the_same_image() {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_SRGB, 1);
+    let depth = raster.image("depth", D32_SFLOAT, 1);
+    let kept = raster.image("kept", D32_SFLOAT, 1);
+    raster.objects("opaque").clear(color).clear_depth(depth);
+    raster.forward("fog_depth", depth, kept);
+    let plan = compiled(&raster.outputs(&[color, kept]));
+    assert_eq!((plan.images.len(), plan.totals.copies, plan.totals.inserted_passes), (2, 0, 0));
+}

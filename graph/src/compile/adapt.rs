@@ -7,18 +7,24 @@ use super::cull::Live;
 use super::link::covers;
 use super::model::{Adapted, Op, OpKind, Role, Samples, Start, Store, StoreIndex, Use};
 use crate::describe::Diagnostic;
-use crate::device::ImageDescriptor;
+use crate::device::{ImageDescriptor, Profile};
 use crate::frame::{Draw, Frame, ImageIndex, Pass, Sampled, Work};
 use crate::plan::{Cause, Note, Stage};
 use crate::source::{Place, Span};
 use crate::vocabulary::{Aspects, Filter, ResolveMode, Usage};
 use std::sync::Arc;
 
-pub(super) fn adapt(frame: &Frame, live: &Live, samples: &Samples) -> Result<Adapted, Vec<Diagnostic>> {
+pub(super) fn adapt(
+    frame: &Frame,
+    live: &Live,
+    samples: &Samples,
+    device: &Profile,
+) -> Result<Adapted, Vec<Diagnostic>> {
     let mut adapter = Adapter {
         frame,
         live,
         samples,
+        device,
         store_of: vec![None; frame.images.len()],
         resolved_of: vec![None; frame.images.len()],
         resolves_of: vec![0; frame.images.len()],
@@ -53,6 +59,7 @@ struct Adapter<'a> {
     frame: &'a Frame,
     live: &'a Live,
     samples: &'a Samples,
+    device: &'a Profile,
     /// The physical image that holds each image's current version.
     store_of: Vec<Option<StoreIndex>>,
     /// The single-sample copy of each image's current version, if there is one.
@@ -346,7 +353,9 @@ impl Adapter<'_> {
             self.errors.push(Diagnostic::new(pass.span, message).help("give both the same format, size and samples"));
             return;
         }
-        let filter = if held.extent == target_image.extent { Filter::Nearest } else { Filter::Linear };
+        let filtered = held.extent != target_image.extent
+            && self.device.format(held.format).is_some_and(|support| support.linear_filter);
+        let filter = if filtered { Filter::Linear } else { Filter::Nearest };
         let differ = match (held.format == target_image.format, held.extent == target_image.extent) {
             (false, true) => format!("formats differ ({} and {})", held.format, target_image.format),
             (true, false) => "sizes differ".to_owned(),

@@ -54,7 +54,7 @@ pub fn compile(
     let linked = link::link(frame)?;
     let live = cull::cull(frame, &linked);
     let samples = samples::negotiate(frame, &live.passes, device)?;
-    let mut adapted = adapt::adapt(frame, &live, &samples)?;
+    let mut adapted = adapt::adapt(frame, &live, &samples, device)?;
     let order = schedule::schedule(&adapted);
     let scoped = scope::scope(frame, &mut adapted, &order);
     let retained = retain::retain(&mut adapted, &scoped, options);

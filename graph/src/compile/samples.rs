@@ -17,7 +17,7 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
     let mut usage = vec![Usage::empty(); frame.images.len()];
     let mut errors = Vec::new();
     for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
-        note_usage(pass, &mut usage);
+        note_usage(frame, pass, &mut usage);
         let attached = attachments(pass);
         for pair in attached.windows(2) {
             together.union(pair[0].0, pair[1].0);
@@ -43,13 +43,15 @@ fn attachments(pass: &Pass) -> Vec<ImageIndex> {
     pass.color.iter().map(|target| target.image).chain(pass.depth.as_ref().map(|depth| depth.image)).collect()
 }
 
-fn note_usage(pass: &Pass, usage: &mut [Usage]) {
+fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
     let mut add = |image: ImageIndex, used: Usage| usage[image.0 as usize] |= used;
     pass.sampled.iter().for_each(|sampled| add(sampled.image, Usage::SAMPLED));
     pass.storage.iter().for_each(|storage| add(storage.image, Usage::STORAGE));
     pass.color.iter().for_each(|target| add(target.image, Usage::COLOR_ATTACHMENT));
     pass.depth.iter().for_each(|depth| add(depth.image, Usage::DEPTH_STENCIL_ATTACHMENT));
-    if let Work::Forward { from, to, .. } = pass.work {
+    if let Work::Forward { from, to, .. } = pass.work
+        && frame.images[from.0 as usize].format != frame.images[to.0 as usize].format
+    {
         add(from, Usage::SAMPLED);
         add(to, Usage::COLOR_ATTACHMENT);
     }
