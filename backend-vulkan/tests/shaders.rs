@@ -346,6 +346,32 @@ fn files_that_are_no_text_are_refused() {
 }
 
 #[test]
+fn arrays_beyond_all_devices_are_refused_before_memory_is_spent_on_them() {
+    let own = |declared: &str, body: &str| {
+        let text = format!("#version 460\n{declared}\n{WHITE} {body} }}");
+        unsupported(&[("test.frag", &text)])
+    };
+    let index = "[int(gl_FragCoord.x)]";
+    for (declared, body) in [
+        ("float own[200000000];".to_owned(), format!("own{index} = 1; color.x = own[5];")),
+        (String::new(), format!("float own[200000000]; own{index} = 1; color.x = own[5];")),
+        ("float own[4];".to_owned(), format!("float far[20000]; far{index} = 1; color.x = far[5] + own{index};")),
+        (
+            "struct Row { float cells[70000]; }; Row rows[70000];".to_owned(),
+            format!("rows{index}.cells{index} = 1; color.x = rows[3].cells[7];"),
+        ),
+    ] {
+        let problem = own(&declared, &body);
+        assert!(problem.ends_with("bytes: at most 65536 are allowed"), "{problem}");
+    }
+    for many in ["many[100000000]", "many[65536][65536]"] {
+        let text = format!("#version 460\nlayout(location = 0) out vec4 {many}; void main() {{}}");
+        let problem = unsupported(&[("test.frag", &text)]);
+        assert!(problem.contains("output `many`: ") && problem.ends_with("locations go up to 255"), "{problem}");
+    }
+}
+
+#[test]
 fn push_constants_and_double_bindings_are_refused() {
     let push = format!("#version 460\nlayout(push_constant) uniform P {{ float x; }} p; {WHITE} color.x = p.x; }}");
     assert!(

@@ -175,7 +175,7 @@ pub enum ShaderProblem {
         /// The compiler's words, with the shader's own file and line.
         messages: Vec<String>,
     },
-    /// It uses something that can't be bound.
+    /// It can't be read, or uses something that can't be bound or that not every device has.
     Unsupported {
         /// In words.
         what: String,

@@ -9,6 +9,7 @@ pub(super) struct Indexed<'m> {
     /// The module itself.
     pub(super) module: &'m Module,
     globals: HashMap<u32, &'m Instruction>,
+    own_bytes: HashMap<u32, u64>,
     names: HashMap<u32, &'m str>,
     member_names: HashMap<(u32, u32), &'m str>,
 }
@@ -30,7 +31,36 @@ impl<'m> Indexed<'m> {
                 _ => {}
             }
         }
-        Indexed { module, globals, names, member_names }
+        let mut indexed = Indexed { module, globals, own_bytes: HashMap::new(), names, member_names };
+        // SPIR-V declares a type after those that it is made of, so each is measured once.
+        for it in &module.types_global_values {
+            if let Some(ty) = it.result_id {
+                let bytes = indexed.measured(it);
+                indexed.own_bytes.insert(ty, bytes);
+            }
+        }
+        indexed
+    }
+
+    /// Bytes that a variable of a type takes, with each scalar in four; 0 for what isn't a type.
+    pub(super) fn own_bytes(&self, ty: u32) -> u64 {
+        self.own_bytes.get(&ty).copied().unwrap_or(0)
+    }
+
+    fn measured(&self, it: &Instruction) -> u64 {
+        let element = || id(it, 0).map_or(0, |element| self.own_bytes(element));
+        match it.class.opcode {
+            Op::TypeBool | Op::TypeInt | Op::TypeFloat => 4,
+            Op::TypeVector | Op::TypeMatrix => {
+                element().saturating_mul(it.operands.get(1).and_then(number).unwrap_or(0).into())
+            }
+            Op::TypeArray => element().saturating_mul(self.array_length(it).into()),
+            Op::TypeStruct => {
+                let members = it.operands.iter().filter_map(Operand::id_ref_any);
+                members.fold(0, |sum: u64, member| sum.saturating_add(self.own_bytes(member)))
+            }
+            _ => 0,
+        }
     }
 
     /// The type, constant or global variable `id`.

@@ -51,6 +51,11 @@ const BINDINGS: u32 = 256;
 /// limits those of colour outputs.
 const VARYINGS: u32 = 15;
 const ATTRIBUTES: u32 = 16;
+/// A fragment stage declares at most this many outputs, the elements of arrays counted: no device has as many.
+const OUTPUTS: u32 = 256;
+/// Bytes of the variables of one invocation (64 KiB): a driver keeps them for every fragment that it works on at a time,
+/// and a software driver has no limit of its own but the machine's memory.
+const OWN_BYTES: u64 = 64 << 10;
 
 /// Reads the interface of `stage` off `spirv`.
 ///
@@ -63,6 +68,7 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
     let fragment = stage == Stage::Fragment;
     check_capabilities(&module)?;
+    check_own_memory(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
     let outputs = varyings(&module, StorageClass::Output, &used);
     let (most_in, most_out) = if fragment { (VARYINGS, u32::MAX) } else { (ATTRIBUTES, VARYINGS) };
@@ -74,7 +80,7 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
     let interface = ShaderInterface {
         bindings: bindings(&module, stage, &used)?,
         vertex_inputs: if fragment { Vec::new() } else { inputs.iter().cloned().map(vertex_input).collect() },
-        outputs: if fragment { fragment_outputs(&module) } else { Vec::new() },
+        outputs: if fragment { fragment_outputs(&module)? } else { Vec::new() },
         discards: module
             .code()
             .any(|it| matches!(it.class.opcode, Op::Kill | Op::TerminateInvocation | Op::DemoteToHelperInvocation)),
@@ -100,6 +106,22 @@ fn check_capabilities(module: &Indexed<'_>) -> Result<(), String> {
         Some(capability) => Err(format!("SPIR-V's capability {capability:?}: not every device has it")),
         None => Ok(()),
     }
+}
+
+/// No more memory for variables than an invocation may have.
+fn check_own_memory(module: &Indexed<'_>) -> Result<(), String> {
+    let local = module.code().filter(|it| it.class.opcode == Op::Variable);
+    let global = module.variables().map(|(_, it)| it).filter(|it| storage_class(it) == Some(StorageClass::Private));
+    let mut total: u64 = 0;
+    for variable in local.chain(global) {
+        let Some(ty) = module.pointee(variable).and_then(|ty| ty.result_id) else { continue };
+        total = total.saturating_add(module.own_bytes(ty));
+        if total > OWN_BYTES {
+            let name = variable.result_id.map_or("", |id| module.name(id));
+            return Err(format!("with `{name}` its variables take {total} bytes: at most {OWN_BYTES} are allowed"));
+        }
+    }
+    Ok(())
 }
 
 /// The resources. In the pass's own set every declared one counts, since that is what a pipeline file binds; in the
@@ -267,18 +289,25 @@ fn vertex_input(Varying { location, name, ty }: Varying) -> VertexInput {
 }
 
 /// Colour outputs by location; an array takes a location for each element.
-fn fragment_outputs(module: &Indexed<'_>) -> Vec<FragmentOutput> {
+fn fragment_outputs(module: &Indexed<'_>) -> Result<Vec<FragmentOutput>, String> {
     let mut outputs = Vec::new();
     for (id_of, it) in module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Output)) {
         let Some(location) = module.decoration_number(id_of, Decoration::Location) else { continue };
         let Some(mut ty) = module.pointee(it) else { continue };
-        let mut elements = 1;
+        let mut elements: u32 = 1;
         while ty.class.opcode == Op::TypeArray {
-            elements *= module.array_length(ty);
+            elements = elements.saturating_mul(module.array_length(ty));
             let Some(element) = id(ty, 0).and_then(|element| module.global(element)) else { break };
             ty = element;
         }
         let Some(ty) = ty.result_id else { continue };
+        if location.saturating_add(elements) > OUTPUTS {
+            let name = module.name(id_of);
+            return Err(format!(
+                "output `{name}`: {elements} from location {location} on; locations go up to {}",
+                OUTPUTS - 1
+            ));
+        }
         outputs.extend((0..elements).map(|element| FragmentOutput {
             location: location + element,
             name: module.name(id_of).to_owned(),
@@ -287,7 +316,7 @@ fn fragment_outputs(module: &Indexed<'_>) -> Vec<FragmentOutput> {
         }));
     }
     outputs.sort_by_key(|output| output.location);
-    outputs
+    Ok(outputs)
 }
 
 /// Whether the code uses one of these built-in variables.

@@ -69,9 +69,7 @@ fn report(pass: &describe::Pass, problem: &ShaderProblem) -> Diagnostic {
         ShaderProblem::DoesNotCompile { messages } => {
             Diagnostic::new(span, format!("shader `{name}` doesn't compile")).help(messages.join("\n"))
         }
-        ShaderProblem::Unsupported { what } => {
-            Diagnostic::new(span, format!("shader `{name}` uses something that can't be bound: {what}"))
-        }
+        ShaderProblem::Unsupported { what } => Diagnostic::new(span, format!("shader `{name}` can't be used: {what}")),
     }
 }
 
