@@ -59,7 +59,10 @@ pub enum Error {
         planted: &'static str,
     },
     /// A file of this crate's own can't be written (the layer's manifest).
-    #[error("can't write {}: {reason}", escape(path))]
+    #[error(
+        "can't write {}: {reason}; mend it with: XDG_CACHE_HOME naming a folder that is yours, or VK_LAYER_PATH naming the layer's own",
+        escape(path)
+    )]
     CantWrite {
         /// Which file.
         path: String,

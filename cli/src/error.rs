@@ -149,6 +149,20 @@ pub(crate) enum Error {
         /// The reason.
         source: io::Error,
     },
+    /// A file would be written over one that is read.
+    #[error("`{}` is the {what} itself, which would be lost: name another file to write", text::path(path))]
+    ReadAndWritten {
+        /// What is read from it.
+        what: &'static str,
+        /// Which file, as it was named for writing.
+        path: PathBuf,
+    },
+    /// Two names for files that are written lead to the same.
+    #[error("`{}` would be written twice: another name leads to the same file", text::path(path))]
+    WrittenTwice {
+        /// Which file, by its later name.
+        path: PathBuf,
+    },
     /// Standard output can't be written.
     #[error("standard output can't be written: {}{}", text::escape(&.0.to_string()), mend(.0, None))]
     Print(io::Error),
@@ -208,7 +222,10 @@ impl Error {
                 Blame::Environment => Exit::Environment,
                 Blame::Files | Blame::Program => Exit::Found,
             },
-            Error::UnknownProfile { .. } | Error::ProfileCantDraw { .. } => Exit::Usage,
+            Error::UnknownProfile { .. }
+            | Error::ProfileCantDraw { .. }
+            | Error::ReadAndWritten { .. }
+            | Error::WrittenTwice { .. } => Exit::Usage,
             Error::Interrupted { .. } => Exit::Interrupted,
             Error::Write { .. } | Error::Print(_) | Error::Restart(_) => Exit::Environment,
         }

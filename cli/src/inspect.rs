@@ -6,15 +6,19 @@ use crate::planning::{self, View};
 use crate::{files, output, profiles, text};
 use framewright_graph::compile::Options;
 use framewright_graph::device::Estimated;
+use std::path::Path;
 
 /// Prints or writes a Plan.
 ///
 /// # Errors
 /// If the pipeline, the scene or the profile is wrong, or the result can't be written.
 pub(crate) fn inspect(arguments: &Inspect) -> Result<Exit, Error> {
-    if let Some(file) = &arguments.output {
-        output::probe(file)?;
-    }
+    let read = [
+        Some(("pipeline", arguments.pipeline.file.as_path())),
+        arguments.scene.as_deref().map(|file| ("scene", file)),
+        arguments.device.as_ref().map(|file| ("device profile", Path::new(file))),
+    ];
+    output::prepare(arguments.output.iter(), &read.into_iter().flatten().collect::<Vec<_>>())?;
     let profile = profiles::choose(arguments.device.as_deref())?;
     let mut pipeline = planning::load(&arguments.pipeline)?;
     let facts = match &arguments.scene {

@@ -5,15 +5,47 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Makes sure, before any work is done, that `path` can be written.
+/// Makes sure, before any work is done, that each of `written` can be written, and that none of them is one of `read`, or
+/// another of them by a different name.
 ///
 /// # Errors
-/// [`Error::Write`] with what stands in the way.
-pub(crate) fn probe(path: &Path) -> Result<(), Error> {
+/// [`Error::Write`] with what stands in the way, [`Error::WrittenTwice`], [`Error::ReadAndWritten`].
+pub(crate) fn prepare<'a>(
+    written: impl Iterator<Item = &'a PathBuf>,
+    read: &[(&'static str, &Path)],
+) -> Result<(), Error> {
+    let read: Vec<(&str, PathBuf)> =
+        read.iter().filter_map(|(what, path)| Some((*what, fs::canonicalize(path).ok()?))).collect();
+    let mut seen = Vec::new();
+    for path in written {
+        if let Some(real) = probe(path)? {
+            if let Some((what, _)) = read.iter().find(|(_, file)| *file == real) {
+                return Err(Error::ReadAndWritten { what, path: path.clone() });
+            }
+            if seen.contains(&real) {
+                return Err(Error::WrittenTwice { path: path.clone() });
+            }
+            seen.push(real);
+        }
+    }
+    Ok(())
+}
+
+/// Makes sure that `path` can be written. The answer is the file's one true name; `None` for a stream.
+fn probe(path: &Path) -> Result<Option<PathBuf>, Error> {
     let problem = |source| Error::Write { path: path.to_owned(), source };
     match Target::of(path).map_err(problem)? {
-        Target::File(file) => temporary(&file).map(drop).map_err(problem),
-        Target::Stream(file) => fs::OpenOptions::new().write(true).open(file).map(drop).map_err(problem),
+        Target::File(file) => {
+            temporary(&file).map_err(problem)?;
+            let folder = fs::canonicalize(folder_of(&file)).map_err(problem)?;
+            Ok(file.file_name().map(|name| folder.join(name)))
+        }
+        // Whoever reads it would take the end of a first opening for the end of everything.
+        Target::Pipe(_) => Ok(None),
+        Target::Stream(file) => {
+            fs::OpenOptions::new().write(true).open(file).map_err(problem)?;
+            Ok(None)
+        }
     }
 }
 
@@ -27,11 +59,13 @@ pub(crate) fn write(path: &Path, contents: &[u8]) -> Result<(), Error> {
     match Target::of(path).map_err(problem)? {
         Target::File(file) => {
             let mut beside = temporary(&file).map_err(problem)?;
-            beside.write_all(contents).and_then(|()| beside.as_file().sync_data()).map_err(problem)?;
+            // To the file itself: `tempfile` would add its path to errors.
+            let file_beside = beside.as_file_mut();
+            file_beside.write_all(contents).and_then(|()| file_beside.sync_data()).map_err(problem)?;
             beside.persist(&file).map_err(|error| problem(error.error))?;
             Ok(())
         }
-        Target::Stream(file) => {
+        Target::Stream(file) | Target::Pipe(file) => {
             let open = fs::OpenOptions::new().write(true).open(file);
             open.and_then(|mut stream| stream.write_all(contents)).map_err(problem)
         }
@@ -42,29 +76,47 @@ pub(crate) fn write(path: &Path, contents: &[u8]) -> Result<(), Error> {
 enum Target {
     /// A file, or nothing yet.
     File(PathBuf),
-    /// Something that must not be replaced, such as `/dev/null` or a named pipe.
+    /// Something that must not be replaced, such as `/dev/null`.
     Stream(PathBuf),
+    /// A pipe: it must not be replaced either, and can be opened only once.
+    Pipe(PathBuf),
 }
 
 impl Target {
     fn of(path: &Path) -> io::Result<Target> {
-        // A link stays; what it leads to is replaced.
-        let real = if path.is_symlink() { fs::canonicalize(path)? } else { path.to_owned() };
-        match fs::metadata(&real) {
+        match fs::metadata(path) {
             Ok(data) if data.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-            Ok(data) if !data.is_file() => Ok(Target::Stream(real)),
+            Ok(data) if is_pipe(&data) => Ok(Target::Pipe(path.to_owned())),
+            Ok(data) if !data.is_file() => Ok(Target::Stream(path.to_owned())),
             Ok(data) if data.permissions().readonly() => Err(io::ErrorKind::PermissionDenied.into()),
+            // A link stays; what it leads to is replaced.
+            Ok(_) if path.is_symlink() => Ok(Target::File(fs::canonicalize(path)?)),
+            // Where links go in a circle the system's answer is another.
+            Err(error) if error.kind() == io::ErrorKind::NotFound && path.is_symlink() => {
+                Target::of(&folder_of(path).join(fs::read_link(path)?))
+            }
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-            _ => Ok(Target::File(real)),
+            _ => Ok(Target::File(path.to_owned())),
         }
     }
 }
 
-fn temporary(beside: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let folder = match beside.parent() {
+fn is_pipe(data: &fs::Metadata) -> bool {
+    #[cfg(unix)]
+    return std::os::unix::fs::FileTypeExt::is_fifo(&data.file_type());
+    #[cfg(not(unix))]
+    return false;
+}
+
+fn folder_of(file: &Path) -> &Path {
+    match file.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
-    };
+    }
+}
+
+fn temporary(beside: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let folder = folder_of(beside);
     let mut builder = tempfile::Builder::new();
     builder.prefix(".framewright-");
     #[cfg(unix)]
@@ -98,6 +150,17 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         assert!(matches!(probe(folder.path()), Err(Error::Write { .. })));
         assert!(matches!(probe(&folder.path().join("none/plan.json")), Err(Error::Write { .. })));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_that_leads_to_nothing_yet_leads_to_the_new_file() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let link = folder.path().join("link.json");
+        std::os::unix::fs::symlink("new.json", &link).expect("linked");
+        write(&link, b"new").expect("written");
+        assert!(link.is_symlink());
+        assert_eq!(fs::read(folder.path().join("new.json")).expect("read"), b"new");
     }
 
     #[cfg(unix)]

@@ -25,13 +25,14 @@ struct Picture {
 /// # Errors
 /// If a file is wrong, the device or the layer is missing, or something can't be written.
 pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
-    interrupt::watch();
     let written =
         || arguments.output.iter().chain(arguments.dump.iter().map(|dump| &dump.file)).chain(&arguments.report);
-    written().try_for_each(|file| output::probe(file))?;
+    output::prepare(written(), &[("pipeline", &arguments.pipeline.file), ("scene", &arguments.scene)])?;
     let choice = choice(arguments.device.as_deref())?;
     let mut pipeline = planning::load(&arguments.pipeline)?;
     let scene = files::scene(&arguments.scene)?;
+    // Only now: until here nothing is lost when the system ends the program, and a named pipe may keep it waiting forever.
+    interrupt::watch();
 
     let device = Device::open(&DeviceOptions { choice, validation: arguments.validate })?;
     let canary = if arguments.validate { Some(device.canary()?) } else { None };

@@ -2,6 +2,7 @@
 
 mod support;
 
+use std::process::Stdio;
 use support::{Place, Vulkan, outcome};
 
 const FORWARD: &str = include_str!("../../examples/pipelines/forward.ron");
@@ -246,6 +247,50 @@ fn output_that_can_not_be_written_is_said_with_what_mends_it() {
         place.run(&["inspect", "p.ron", "-o", target]).exits(3).mentions(message);
     }
     assert_eq!(place.names(), ["file", "p.ron"]);
+}
+
+#[test]
+fn what_is_read_is_never_written_over_by_whatever_name() {
+    let place = Place::new();
+    place.file("p.ron", FORWARD);
+    place.file("scene.ron", "");
+    std::fs::create_dir(place.path("folder")).expect("made");
+    for name in ["p.ron", "./p.ron", "folder/../p.ron"] {
+        let message =
+            format!("error: `{name}` is the pipeline itself, which would be lost: name another file to write");
+        place.run(&["inspect", "p.ron", "-o", name]).exits(2).says(&message);
+    }
+    place.run(&["inspect", "p.ron", "--scene", "scene.ron", "-o", "scene.ron"]).exits(2).mentions("the scene itself");
+    let report = ["run", "p.ron", "--scene", "scene.ron", "--report", "p.ron"];
+    place.run(&report).exits(2).mentions("the pipeline itself");
+    let twice = ["run", "p.ron", "--scene", "scene.ron", "-o", "a.png", "--dump", "color=folder/../a.png"];
+    let message = "error: `folder/../a.png` would be written twice: another name leads to the same file";
+    place.run(&twice).exits(2).says(message);
+    assert_eq!(std::fs::read_to_string(place.path("p.ron")).expect("there"), FORWARD);
+    assert_eq!(place.names(), ["folder", "p.ron", "scene.ron"]);
+}
+
+#[test]
+fn a_pipe_is_opened_once_and_not_taken_for_a_missing_file() {
+    let place = Place::new();
+    place.file("p.ron", FORWARD);
+    let answer = outcome(place.command(&["inspect", "p.ron", "-o", "/dev/stdout"]).stdout(Stdio::piped())).exits(0);
+    assert!(answer.out.starts_with("Plan for lavapipe"), "{}", answer.out);
+}
+
+#[test]
+fn without_a_folder_for_the_layers_manifest_the_answer_names_the_variable() {
+    if !std::path::Path::new("/usr/lib/chromium/libVkLayer_khronos_validation.so").exists() {
+        eprintln!("skipped: chromium-common is not installed");
+        return;
+    }
+    let place = Place::new();
+    place.file("file", "");
+    let file = place.path("file");
+    let home = [("XDG_CACHE_HOME", file.to_str().expect("text"))];
+    let run = ["run", "forward", "--scene", "spheres_and_cubes", "--validate"];
+    place.run_with(&home, &run).exits(3).mentions("mend it with: XDG_CACHE_HOME naming a folder that is yours");
+    assert_eq!(place.names(), ["file"]);
 }
 
 #[test]
