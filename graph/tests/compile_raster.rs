@@ -80,6 +80,18 @@ fn a_forward_between_formats_is_drawn() {
     assert_eq!(&*scopes(&plan)[1].passes[0].shader, "copy");
 }
 
+#[test]
+fn a_forward_between_formats_that_are_both_multisampled_is_resolved_and_drawn() {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R16G16B16A16_SFLOAT, 4);
+    let plain = raster.image("plain", R8G8B8A8_SRGB, 4);
+    raster.objects("opaque").clear(color);
+    raster.forward("tonemap", color, plain);
+    raster.objects("interface").color(plain, Blend::Alpha);
+    let plan = compiled(&raster.output(plain));
+    assert_eq!((plan.totals.resolves, plan.totals.inserted_passes, plan.totals.copies), (2, 1, 0));
+}
+
 /// IQ-7, IQ-8: the resolved copy stays valid until the next write, for every reader.
 #[test]
 fn readers_of_one_version_share_its_resolve_and_the_next_version_gets_its_own() {

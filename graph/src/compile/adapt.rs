@@ -294,7 +294,9 @@ impl Adapter<'_> {
     fn forward(&mut self, number: u32, pass: &Pass, from: ImageIndex, to: ImageIndex, because: &str) {
         let frame = self.frame;
         let (source_image, target_image) = (&frame.images[from.0 as usize], &frame.images[to.0 as usize]);
-        let resolves = self.samples.of(from) > 1 && self.samples.of(to) == 1;
+        let alike = (source_image.format, source_image.extent) == (target_image.format, target_image.extent)
+            && self.samples.of(from) == self.samples.of(to);
+        let resolves = self.samples.of(from) > 1 && !alike;
         let why = format!(
             "`{}` is off ({because}) and forwards `{}` to `{}`",
             pass.name, source_image.name, target_image.name
@@ -347,7 +349,6 @@ impl Adapter<'_> {
         let drawable = |depth: bool, integer: bool| !depth && !integer;
         if !drawable(held.format.is_depth(), held.format.is_integer())
             || !drawable(target_image.format.is_depth(), target_image.format.is_integer())
-            || held.samples > 1
         {
             let message = format!("{why}, but {} can't be drawn into {}", held.format, target_image.format);
             self.errors.push(Diagnostic::new(pass.span, message).help("give both the same format, size and samples"));
