@@ -66,13 +66,14 @@ pub(super) fn place(
         let live_peak = pack::live_peak(&blocks);
         let packing = if options.alias { pack::pack(&blocks, live_peak) } else { side_by_side(&blocks) };
         heap.bytes = packing.height;
-        placed.live_peak_bytes = placed.live_peak_bytes.saturating_add(live_peak);
         for ((store, _), offset) in members.iter().zip(packing.offsets) {
             if let Some(placement) = &mut placed.placements[*store as usize] {
                 placement.offset = offset;
             }
         }
     }
+    let all: Vec<Block> = members.iter().flatten().map(|(_, block)| *block).collect();
+    placed.live_peak_bytes = pack::live_peak(&all);
     let total = placed.heaps.iter().fold(placed.output_bytes, |total, heap| total.saturating_add(heap.bytes));
     if total > i64::MAX as u64 {
         let message = "the frame's images take more memory than can be addressed".to_owned();
