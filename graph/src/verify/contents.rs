@@ -1,7 +1,8 @@
 //! Whether what is read was ever written, and not lost since.
 //!
-//! Whether a draw covers its attachment isn't judged, with one exception: after a `DONT_CARE` load *over contents that the
-//! frame had written*, only a full-screen draw without blending or depth test makes the image whole again.
+//! Whether a draw covers its attachment isn't judged, with one exception: where *contents that the frame had written* were
+//! lost, be it to a `DONT_CARE` load, a barrier from `UNDEFINED` or another image, only a full-screen draw without blending
+//! or depth test makes the image whole again, or what writes without attachments.
 
 use super::cells::{Contents, Lost};
 use super::violation::{Loss, Rule, StepName};
@@ -9,7 +10,7 @@ use super::walk::Walk;
 use super::{Finding, scopes::PairSet};
 use crate::frame::{Blend, Draw};
 use crate::plan::{Attachment, ImageId, Pass, RenderScope, Step, StepId, Subresources, Transfer, Work};
-use crate::vocabulary::{LoadOp, StoreOp};
+use crate::vocabulary::{Accesses, CompareOp, LoadOp, StoreOp};
 
 impl Walk<'_, '_> {
     /// What the work of a step reads and writes.
@@ -65,11 +66,13 @@ impl Walk<'_, '_> {
             }
             let mut targets = color.iter().zip(&pass.blend);
             let replaces = targets.any(|(target, blend)| target.image == access.image && *blend == Blend::Replace);
-            let whole = pass.draw.is_none() || pass.draw == Some(Draw::FullScreen) && pass.depth.is_none() && replaces;
+            let untested = pass.depth.is_none_or(|depth| depth.test == CompareOp::Always);
+            let shader = access.accesses.intersects(Accesses::SHADER_STORAGE_WRITE);
+            let whole = shader || pass.draw == Some(Draw::FullScreen) && untested && replaces;
             let now = self.now(id);
             for index in self.cells.cover(access.image, access.range) {
                 let cell = self.cells.at(index);
-                if whole || cell.contents != Contents::Lost(Lost::NotLoaded, now) {
+                if whole || !matches!(cell.contents, Contents::Lost(..)) {
                     cell.contents = Contents::Defined;
                     cell.filled = now;
                 }

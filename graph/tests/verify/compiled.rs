@@ -7,8 +7,9 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{D24_UNORM_S8_UINT, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::{Blend, Frame};
-use framewright_graph::plan::Plan;
-use framewright_graph::verify::verify;
+use framewright_graph::plan::{Plan, Work};
+use framewright_graph::verify::{Loss, Rule, Violation, verify};
+use framewright_graph::vocabulary::{Layout, LoadOp};
 
 const OPTIONS: [Options; 4] = [
     Options { alias: true, poison: false },
@@ -114,4 +115,26 @@ fn every_barrier_that_is_removed_from_a_compiled_plan_is_caught() {
     println!("caught {caught}, missed {}", missed.len());
     assert!(caught > 200, "{caught}");
     assert!(missed.is_empty(), "missed:\n{}", missed.join("\n"));
+}
+
+/// A compiler that takes a draw for one that covers would forget what is there and not load it: both at once.
+#[test]
+fn contents_that_are_forgotten_and_not_loaded_are_missed() {
+    let mut raster = Raster::default();
+    let [color, second] = ["color", "second"].map(|name| raster.image(name, R8G8B8A8_SRGB, 1));
+    raster.objects("opaque").clear(color);
+    raster.full_screen("preview").sample(color).color(second, Blend::Replace);
+    raster.objects("sky").color(color, Blend::Replace);
+    let mut plan = compiled(&raster.outputs(&[color, second]), &raster::device(), &Options::default());
+    let Work::Render(scope) = &mut plan.steps[2].work else { panic!("{}", plan.tree()) };
+    scope.color[0].load = LoadOp::DontCare;
+    let image = scope.color[0].image;
+    for barrier in plan.steps[2].image_barriers.iter_mut().filter(|barrier| barrier.image == image) {
+        barrier.old_layout = Layout::Undefined;
+    }
+    let violations = verify(&plan);
+    assert!(
+        matches!(violations[..], [Violation { rule: Rule::LostWrite { loss: Loss::Forgotten }, .. }]),
+        "{violations:?}"
+    );
 }
