@@ -8,7 +8,7 @@ use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::{Plan, RenderScope, Role, Stage, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Filter, LoadOp, ResolveMode, StoreOp, Usage};
+use framewright_graph::vocabulary::{Filter, Layout, LoadOp, ResolveMode, StoreOp, Usage};
 use raster::{Raster, forward};
 
 fn compiled(frame: &Frame) -> Plan {
@@ -296,4 +296,90 @@ fn depth_is_forwarded_as_the_same_image() {
     raster.forward("fog_depth", depth, kept);
     let plan = compiled(&raster.outputs(&[color, kept]));
     assert_eq!((plan.images.len(), plan.totals.copies, plan.totals.inserted_passes), (2, 0, 0));
+}
+
+/// Heaps have their worst moments at different steps; the frame has one.
+#[test]
+fn the_live_peak_is_that_of_all_heaps_together() {
+    let mut device = raster::device();
+    device.lazily_allocated_memory = true;
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_SRGB, 4);
+    let [near, far, screen] = ["near", "far", "screen"].map(|name| raster.image(name, R16G16B16A16_SFLOAT, 1));
+    raster.objects("opaque").clear(color);
+    raster.full_screen("first").sample(color).color(near, Blend::Replace);
+    raster.full_screen("second").sample(near).color(far, Blend::Replace);
+    raster.full_screen("last").sample(near).sample(far).color(screen, Blend::Replace);
+    let plan = compile(&raster.output(screen), &device, &mut Estimated(&device.memory), &Options::default())
+        .expect("the frame is legal");
+    assert_eq!(plan.heaps.len(), 2);
+    assert_eq!(verify(&plan), [], "{}", plan.tree());
+}
+
+#[test]
+fn single_samples_of_a_target_are_read_from_a_copy_of_the_version_before() {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_SRGB, 4);
+    raster.objects("opaque").clear(color);
+    raster.full_screen("edges").sample_each(color).sample_each(color).color(color, Blend::Alpha);
+    let plan = compiled(&raster.output(color));
+    assert_eq!(plan.totals.copies, 1, "both bindings have the same copy");
+    let copy = plan.images.iter().find(|image| &*image.name == "color (copy)").expect("there is a copy");
+    assert_eq!(copy.samples, 4);
+}
+
+#[test]
+fn an_image_that_another_is_forwarded_to_may_have_been_used_before() {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_SRGB, 1);
+    let [screen, second] = ["screen", "second"].map(|name| raster.image(name, R8G8B8A8_SRGB, 1));
+    raster.objects("opaque").clear(screen);
+    raster.full_screen("preview").sample(screen).color(second, Blend::Replace);
+    raster.objects("glass").clear(color);
+    raster.forward("tonemap", color, screen);
+    let plan = compiled(&raster.outputs(&[screen, second]));
+    let names: Vec<&str> = plan.images.iter().map(|image| &*image.name).collect();
+    assert_eq!(names, ["screen (2)", "second", "screen"]);
+    assert_eq!(&*plan.image(plan.outputs[0]).name, "screen");
+}
+
+#[test]
+fn an_image_that_is_forwarded_to_itself_stays_as_it_is() {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_SRGB, 1);
+    raster.objects("opaque").clear(color);
+    raster.forward("nothing", color, color);
+    let plan = compiled(&raster.output(color));
+    assert_eq!((plan.totals.copies, plan.images.len()), (0, 1));
+}
+
+#[test]
+fn a_full_screen_draw_whose_depth_test_always_passes_covers() {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_SRGB, 1);
+    let depth = raster.image("depth", D32_SFLOAT, 1);
+    let second = raster.image("second", R8G8B8A8_SRGB, 1);
+    raster.objects("opaque").clear(color).clear_depth(depth);
+    raster.full_screen("preview").sample(color).color(second, Blend::Replace);
+    raster.full_screen("fog").color(color, Blend::Replace).pass_depth(depth);
+    let mut plan = compiled(&raster.outputs(&[color, second]));
+    assert_eq!(scopes(&plan)[2].color[0].load, LoadOp::DontCare);
+    let image = scopes(&plan)[2].color[0].image;
+    for barrier in plan.steps[2].image_barriers.iter_mut().filter(|barrier| barrier.image == image) {
+        barrier.old_layout = Layout::ShaderReadOnlyOptimal;
+    }
+    assert_eq!(verify(&plan), [], "nor does the checker ask for what was there");
+}
+
+#[test]
+fn multisampled_depth_that_was_not_drawn_last_is_refused_as_an_output() {
+    let mut raster = Raster::default();
+    let [near, far] = ["near", "far"].map(|name| raster.image(name, D32_SFLOAT, 4));
+    raster.objects("opaque").clear_depth(near);
+    raster.forward("shift", near, far);
+    let device = raster::device();
+    let frame = raster.outputs(&[near, far]);
+    let errors = compile(&frame, &device, &mut Estimated(&device.memory), &Options::default())
+        .expect_err("only a rendering scope resolves depth");
+    assert!(errors[0].message.contains("`far`"), "{errors:?}");
 }

@@ -12,6 +12,7 @@ use crate::frame::{Draw, Frame, ImageIndex, Pass, Sampled, Work};
 use crate::plan::{Cause, Note, Stage};
 use crate::source::{Place, Span};
 use crate::vocabulary::{Aspects, Filter, ResolveMode, Usage};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 pub(super) fn adapt(
@@ -29,9 +30,11 @@ pub(super) fn adapt(
         resolved_of: vec![None; frame.images.len()],
         resolves_of: vec![0; frame.images.len()],
         of_geometry: geometry_targets(frame, live),
+        named: false,
         adapted: Adapted::default(),
         errors: Vec::new(),
         scratch: Vec::new(),
+        copies: Vec::new(),
     };
     adapter.adapted.ops.reserve(live.passes.len());
     adapter.adapted.uses.reserve(live.passes.len() * 4);
@@ -40,6 +43,9 @@ pub(super) fn adapt(
     }
     for output in &frame.outputs {
         adapter.output(output.image, output.span);
+    }
+    if adapter.named {
+        distinct_names(&mut adapter.adapted.stores);
     }
     if adapter.errors.is_empty() { Ok(adapter.adapted) } else { Err(adapter.errors) }
 }
@@ -55,6 +61,20 @@ fn geometry_targets(frame: &Frame, live: &Live) -> Vec<bool> {
     targets
 }
 
+/// Numbers physical images of one name, as an image gets that others are forwarded to; the last one keeps the name.
+fn distinct_names(stores: &mut [Store]) {
+    let mut used: HashMap<Arc<str>, u32> = HashMap::with_capacity(stores.len());
+    for store in stores.iter_mut().rev() {
+        let name = store.name.clone();
+        while let Some(number) = used.get_mut(&store.name) {
+            // Counting goes on where it stopped: many images may have one name.
+            *number += 1;
+            store.name = format!("{name} ({number})").into();
+        }
+        used.insert(store.name.clone(), 1);
+    }
+}
+
 struct Adapter<'a> {
     frame: &'a Frame,
     live: &'a Live,
@@ -68,10 +88,14 @@ struct Adapter<'a> {
     resolves_of: Vec<u32>,
     /// Images that geometry is drawn into, where more samples would have meant a resolve; until that was said.
     of_geometry: Vec<bool>,
+    /// Whether a physical image has a name that isn't its own image's.
+    named: bool,
     adapted: Adapted,
     errors: Vec<Diagnostic>,
     /// Uses of the pass at hand.
     scratch: Vec<Use>,
+    /// What it reads of images that it also writes: each image, and its copy.
+    copies: Vec<(StoreIndex, StoreIndex)>,
 }
 
 impl Adapter<'_> {
@@ -81,6 +105,7 @@ impl Adapter<'_> {
         if let Work::Forward { from, to, because } = &pass.work {
             return self.forward(number, pass, *from, *to, because);
         }
+        self.copies.clear();
         let mut uses = std::mem::take(&mut self.scratch);
         uses.clear();
         for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
@@ -193,7 +218,7 @@ impl Adapter<'_> {
                 self.errors.push(Diagnostic::new(sampled.span, message).help(help));
                 return None;
             }
-            return Some(self.current(sampled.image));
+            return self.version_before(pass, sampled);
         }
         if count > 1 {
             let because = format!("`{}` samples `{}` and it has {count} samples", pass.name, declared.name);
@@ -211,6 +236,9 @@ impl Adapter<'_> {
         let image = sampled.image;
         let declared = &self.frame.images[image.0 as usize];
         let before = self.current(image);
+        if let Some((_, copy)) = self.copies.iter().find(|(of, _)| *of == before) {
+            return Some(*copy);
+        }
         let kept =
             pass.color.iter().any(|target| target.image == image && target.clear.is_none() && !covers(pass, target))
                 || pass.storage.iter().any(|storage| storage.image == image && storage.write && storage.read);
@@ -221,9 +249,10 @@ impl Adapter<'_> {
         let at = self.place(sampled.span);
         let cause = Cause::Inserted { because: because.clone(), at: at.clone() };
         let name = self.next_name(image, "copy");
-        let copy = self.add_store(image, name, cause, 1);
+        let copy = self.add_store(image, name, cause, self.samples.of(image));
         let uses = [Use { store: before, role: Role::Source }, Use { store: copy, role: Role::Target }];
         self.push(OpKind::Copy { because, at }, &uses);
+        self.copies.push((before, copy));
         Some(copy)
     }
 
@@ -255,6 +284,7 @@ impl Adapter<'_> {
     fn next_name(&mut self, image: ImageIndex, what: &str) -> Arc<str> {
         let count = &mut self.resolves_of[image.0 as usize];
         *count += 1;
+        self.named = true;
         let name = &self.frame.images[image.0 as usize].name;
         if *count == 1 { format!("{name} ({what})").into() } else { format!("{name} ({what} {count})").into() }
     }
@@ -293,6 +323,10 @@ impl Adapter<'_> {
     /// `to` takes what `from` holds: as the same image if nothing tells them apart, else by a copy or a draw.
     fn forward(&mut self, number: u32, pass: &Pass, from: ImageIndex, to: ImageIndex, because: &str) {
         let frame = self.frame;
+        if from == to {
+            let name = &frame.images[to.0 as usize].name;
+            return self.note(name, format!("`{}` is off ({because}) and leaves it as it is", pass.name), pass.span);
+        }
         let (source_image, target_image) = (&frame.images[from.0 as usize], &frame.images[to.0 as usize]);
         let alike = (source_image.format, source_image.extent) == (target_image.format, target_image.extent)
             && self.samples.of(from) == self.samples.of(to);
@@ -328,6 +362,7 @@ impl Adapter<'_> {
                 store.cause = Cause::Inserted { because: why.clone(), at: frame.sources.place(pass.span) };
             }
             store.name = name.clone();
+            self.named = true;
             self.store_of[to.0 as usize] = Some(source);
             self.resolved_of[to.0 as usize] = None;
             let what = if resolves { "the resolve goes straight into it" } else { "they are one image" };
@@ -387,6 +422,17 @@ impl Adapter<'_> {
         !both_leave && !told_apart
     }
 
+    /// Whether a draw wrote an image's current version: then its rendering scope can carry a resolve.
+    fn drawn_last(&mut self, image: ImageIndex) -> bool {
+        let store = self.current(image);
+        let writes = |op: &&Op| {
+            let uses = &self.adapted.uses[op.uses.start as usize..op.uses.end as usize];
+            uses.iter().any(|used| used.store == store && used.role.writes())
+        };
+        let last = self.adapted.ops.iter().rev().find(writes);
+        last.is_some_and(|op| matches!(op.kind, OpKind::Draw(_)))
+    }
+
     fn output(&mut self, image: ImageIndex, span: Span) {
         let declared = &self.frame.images[image.0 as usize];
         let count = self.samples.of(image);
@@ -394,6 +440,13 @@ impl Adapter<'_> {
             let message =
                 format!("`{}` is an output with {count} samples, and stencil can't be resolved", declared.name);
             let help = format!("choose a depth format without stencil, or give `{}` 1 sample", declared.name);
+            self.errors.push(Diagnostic::new(span, message).help(help));
+            return;
+        }
+        if count > 1 && declared.format.is_depth() && !self.drawn_last(image) {
+            let message = format!("`{}` is an output with {count} samples that were not drawn into it", declared.name);
+            let help =
+                format!("depth is resolved where it is drawn: draw into `{}`, or give it 1 sample", declared.name);
             self.errors.push(Diagnostic::new(span, message).help(help));
             return;
         }

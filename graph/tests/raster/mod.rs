@@ -76,17 +76,22 @@ impl Added<'_> {
         self.target(image, None, blend)
     }
 
-    fn depth(self, image: ImageIndex, clear: Option<f32>, write: bool) -> Self {
-        self.0.depth = Some(DepthTarget { image, span: Span::NONE, clear, test: CompareOp::GreaterOrEqual, write });
+    fn depth(self, image: ImageIndex, clear: Option<f32>, test: CompareOp, write: bool) -> Self {
+        self.0.depth = Some(DepthTarget { image, span: Span::NONE, clear, test, write });
         self
     }
 
+    /// A depth attachment that every fragment passes.
+    pub(crate) fn pass_depth(self, image: ImageIndex) -> Self {
+        self.depth(image, None, CompareOp::Always, false)
+    }
+
     pub(crate) fn clear_depth(self, image: ImageIndex) -> Self {
-        self.depth(image, Some(0.0), true)
+        self.depth(image, Some(0.0), CompareOp::GreaterOrEqual, true)
     }
 
     pub(crate) fn test_depth(self, image: ImageIndex) -> Self {
-        self.depth(image, None, false)
+        self.depth(image, None, CompareOp::GreaterOrEqual, false)
     }
 
     pub(crate) fn sample(self, image: ImageIndex) -> Self {
@@ -94,11 +99,20 @@ impl Added<'_> {
     }
 
     pub(crate) fn sample_by(self, image: ImageIndex, filter: Filter) -> Self {
+        self.sampled(image, false, filter)
+    }
+
+    /// Samples single samples.
+    pub(crate) fn sample_each(self, image: ImageIndex) -> Self {
+        self.sampled(image, true, Filter::Nearest)
+    }
+
+    fn sampled(self, image: ImageIndex, per_sample: bool, filter: Filter) -> Self {
         self.0.sampled.push(Sampled {
             binding: format!("source{}", self.0.sampled.len()).into(),
             image,
             span: Span::NONE,
-            per_sample: false,
+            per_sample,
             filter,
             stages: Stages::FRAGMENT_SHADER,
         });
