@@ -1,7 +1,7 @@
 //! Second part of `synchronise`: memory that changes hands after a write.
 //!
 //! An image barrier's memory scope covers its own image alone, so the write of a previous occupant must be named by a
-//! memory barrier. Such a barrier covers *all* memory: one serves every later hand-over with the same scopes whose image
+//! memory barrier. Such a barrier covers *all* memory: one serves every later hand-over of such writes whose image
 //! barrier comes after it, be it through others in between.
 
 use super::synchronise::Group;
@@ -22,42 +22,28 @@ pub(super) struct HandOver {
     pub(super) waits_for: Stages,
 }
 
-/// Scopes of a memory barrier.
+/// The first half of a memory barrier: the writes that it makes available. Nothing more is asked of an earlier one, since the
+/// layout change that the new occupant begins with needs the writes before it available, and is made visible by its own
+/// barrier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Scopes {
-    src_stages: Stages,
-    src_accesses: Accesses,
-    dst_stages: Stages,
-    dst_accesses: Accesses,
+struct Source {
+    stages: Stages,
+    accesses: Accesses,
 }
 
-impl Scopes {
-    fn of(hand_over: &HandOver) -> Scopes {
-        Scopes {
-            src_stages: hand_over.write.stages,
-            src_accesses: hand_over.write.accesses.writes(),
-            dst_stages: hand_over.first.stages,
-            dst_accesses: hand_over.first.accesses,
-        }
+impl Source {
+    fn of(hand_over: &HandOver) -> Source {
+        Source { stages: hand_over.write.stages, accesses: hand_over.write.accesses.writes() }
     }
 
-    fn with(self, other: Scopes) -> Scopes {
-        Scopes {
-            src_stages: self.src_stages | other.src_stages,
-            src_accesses: self.src_accesses | other.src_accesses,
-            dst_stages: self.dst_stages | other.dst_stages,
-            dst_accesses: self.dst_accesses | other.dst_accesses,
-        }
-    }
-
-    fn cover(self, other: Scopes) -> bool {
-        self == self.with(other)
+    fn covers(self, other: Source) -> bool {
+        self.stages.contains(other.stages) && self.accesses.contains(other.accesses)
     }
 }
 
 /// A memory barrier that was passed on the way through the frame.
 struct Passed {
-    scopes: Scopes,
+    source: Source,
     /// When, counted over two frames.
     time: usize,
     /// Stages in which everything from here on comes after it.
@@ -95,14 +81,14 @@ pub(super) fn memory_barriers(
 fn done(passed: &[Passed], hand_over: &HandOver) -> bool {
     passed.iter().any(|barrier| {
         barrier.time > hand_over.write.last as usize
-            && barrier.scopes.cover(Scopes::of(hand_over))
+            && barrier.source.covers(Source::of(hand_over))
             && and_earlier(hand_over.waits_for).intersects(barrier.reach)
     })
 }
 
 fn add(barrier: &mut Option<MemoryBarrier>, due: &[&HandOver]) {
     for hand_over in due {
-        let scopes = Scopes::of(hand_over);
+        let source = Source::of(hand_over);
         let barrier = barrier.get_or_insert_with(|| MemoryBarrier {
             src_stages: Stages::empty(),
             src_accesses: Accesses::empty(),
@@ -110,10 +96,10 @@ fn add(barrier: &mut Option<MemoryBarrier>, due: &[&HandOver]) {
             dst_accesses: Accesses::empty(),
             hand_overs: Vec::new(),
         });
-        barrier.src_stages |= scopes.src_stages;
-        barrier.src_accesses |= scopes.src_accesses;
-        barrier.dst_stages |= scopes.dst_stages;
-        barrier.dst_accesses |= scopes.dst_accesses;
+        barrier.src_stages |= source.stages;
+        barrier.src_accesses |= source.accesses;
+        barrier.dst_stages |= hand_over.first.stages;
+        barrier.dst_accesses |= hand_over.first.accesses;
         barrier.hand_overs.push(hand_over.images);
     }
 }
@@ -129,16 +115,11 @@ fn pass(passed: &mut Vec<Passed>, time: usize, memory: Option<&MemoryBarrier>, i
         barrier.reach = next;
     }
     let Some(memory) = memory else { return };
-    let scopes = Scopes {
-        src_stages: memory.src_stages,
-        src_accesses: memory.src_accesses,
-        dst_stages: memory.dst_stages,
-        dst_accesses: memory.dst_accesses,
-    };
-    // Distinct scopes are few: of equal ones the latest serves whatever an earlier one could, once it reaches as far.
+    let source = Source { stages: memory.src_stages, accesses: memory.src_accesses };
+    // Distinct sources are few: of equal ones the latest serves whatever an earlier one could, once it reaches as far.
     let reach = and_later(memory.dst_stages);
-    passed.retain(|barrier| !(scopes.cover(barrier.scopes) && reach.contains(barrier.reach)));
-    passed.push(Passed { scopes, time, reach });
+    passed.retain(|barrier| !(source.covers(barrier.source) && reach.contains(barrier.reach)));
+    passed.push(Passed { source, time, reach });
 }
 
 /// The stages of the graphics pipeline in logical order.
