@@ -1,0 +1,154 @@
+//! What images hold, as numbers that stand for how they were made: equal numbers, equal pictures.
+//!
+//! A frame and its Plan are followed separately, each by its own meaning. The checker can tell whether a Plan keeps its own
+//! promises; only this can tell whether those are the frame's.
+
+use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Pass, Work};
+use framewright_graph::plan::{self, Plan};
+use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, LoadOp, StoreOp};
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+/// Nothing is known of what is there, and nothing needs to be.
+const ANYTHING: u64 = 0;
+
+fn mix(what: impl Hash) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    what.hash(&mut hasher);
+    hasher.finish()
+}
+
+fn resolved(value: u64) -> u64 {
+    mix(("resolved", value))
+}
+
+fn drawn(value: u64) -> u64 {
+    mix(("copy", value))
+}
+
+fn cleared(value: [f32; 4]) -> u64 {
+    mix(value.map(f32::to_bits))
+}
+
+/// A pass makes this of one of its targets.
+fn made(pass: &str, target: &str, before: u64, depth: u64, read: &[(String, u64)]) -> u64 {
+    mix((pass, target, before, depth, read))
+}
+
+/// What the outputs of `frame` hold.
+pub(crate) fn of_frame(frame: &Frame) -> Vec<u64> {
+    let mut held = vec![ANYTHING; frame.images.len()];
+    for pass in &frame.passes {
+        frame_pass(frame, pass, &mut held);
+    }
+    let single = |image: ImageIndex| match frame.images[image.0 as usize].samples {
+        1 => held[image.0 as usize],
+        _ => resolved(held[image.0 as usize]),
+    };
+    frame.outputs.iter().map(|output| single(output.image)).collect()
+}
+
+fn frame_pass(frame: &Frame, pass: &Pass, held: &mut [u64]) {
+    let image = |image: ImageIndex| &frame.images[image.0 as usize];
+    if let Work::Forward { from, to, .. } = pass.work {
+        let (source, target) = (image(from), image(to));
+        let value = held[from.0 as usize];
+        let value = if source.samples > target.samples { resolved(value) } else { value };
+        let same = source.format == target.format && source.samples >= target.samples;
+        held[to.0 as usize] = if same { value } else { drawn(value) };
+        return;
+    }
+    let sampled = pass.sampled.iter().map(|sampled| {
+        let value = held[sampled.image.0 as usize];
+        let whole = sampled.per_sample || image(sampled.image).samples == 1;
+        (sampled.binding.to_string(), if whole { value } else { resolved(value) })
+    });
+    let stored = pass.storage.iter().filter(|storage| storage.read);
+    let stored = stored.map(|storage| (storage.binding.to_string(), held[storage.image.0 as usize]));
+    let read: Vec<_> = sampled.chain(stored).collect();
+    let depth = pass.depth.as_ref().map_or(ANYTHING, |depth| match depth.clear {
+        Some(clear) => cleared([clear, 0.0, 0.0, 0.0]),
+        None => held[depth.image.0 as usize],
+    });
+    let tested = pass.depth.as_ref().is_some_and(|depth| depth.test != CompareOp::Always);
+    let whole = matches!(pass.work, Work::Draw { draw: Draw::FullScreen, discards: false, .. }) && !tested;
+    for (location, target) in pass.color.iter().enumerate() {
+        let value = &mut held[target.image.0 as usize];
+        let before = match target.clear {
+            Some(clear) => cleared(clear),
+            None if whole && target.blend == Blend::Replace => ANYTHING,
+            None => *value,
+        };
+        *value = made(&pass.name, &format!("color {location}"), before, depth, &read);
+    }
+    for storage in pass.storage.iter().filter(|storage| storage.write) {
+        held[storage.image.0 as usize] = made(&pass.name, &storage.binding, ANYTHING, ANYTHING, &read);
+    }
+    if let Some(target) = &pass.depth {
+        held[target.image.0 as usize] =
+            if target.write { made(&pass.name, "depth", depth, depth, &read) } else { depth };
+    }
+}
+
+/// What the outputs of `plan` hold.
+pub(crate) fn of_plan(plan: &Plan) -> Vec<u64> {
+    let mut held = vec![ANYTHING; plan.images.len()];
+    for (number, step) in plan.steps.iter().enumerate() {
+        let lost = |image: plan::ImageId| mix(("lost", number, image));
+        for barrier in step.image_barriers.iter().filter(|barrier| barrier.old_layout == Layout::Undefined) {
+            held[barrier.image.0 as usize] = lost(barrier.image);
+        }
+        match &step.work {
+            plan::Work::Render(scope) => {
+                let attachments = || scope.color.iter().chain(&scope.depth);
+                for attachment in attachments() {
+                    let value = &mut held[attachment.image.0 as usize];
+                    match attachment.load {
+                        LoadOp::Load => {}
+                        LoadOp::Clear => *value = attachment.clear.map_or(ANYTHING, cleared),
+                        LoadOp::DontCare => *value = ANYTHING,
+                    }
+                }
+                scope.passes.iter().for_each(|pass| plan_pass(pass, Some(scope), &mut held));
+                for attachment in attachments() {
+                    let value = held[attachment.image.0 as usize];
+                    if let Some(resolve) = &attachment.resolve {
+                        held[resolve.image.0 as usize] = resolved(value);
+                    }
+                    if attachment.store == StoreOp::DontCare {
+                        held[attachment.image.0 as usize] = lost(attachment.image);
+                    }
+                }
+            }
+            plan::Work::Dispatch(pass) => plan_pass(pass, None, &mut held),
+            plan::Work::Resolve(it) => held[it.target.0 as usize] = resolved(held[it.source.0 as usize]),
+            plan::Work::Copy(it) => held[it.target.0 as usize] = held[it.source.0 as usize],
+            plan::Work::Export => {}
+        }
+    }
+    plan.outputs.iter().map(|image| held[image.0 as usize]).collect()
+}
+
+fn plan_pass(pass: &plan::Pass, scope: Option<&plan::RenderScope>, held: &mut [u64]) {
+    let accessed = |binding: &plan::Binding, accesses: Accesses| {
+        pass.accesses.iter().any(|access| access.image == binding.image && access.accesses.intersects(accesses))
+    };
+    let reads = Accesses::SHADER_SAMPLED_READ | Accesses::SHADER_STORAGE_READ;
+    let bound = pass.bindings.iter().filter(|binding| accessed(binding, reads));
+    let read: Vec<_> = bound.map(|binding| (binding.name.to_string(), held[binding.image.0 as usize])).collect();
+    for binding in pass.bindings.iter().filter(|binding| accessed(binding, Accesses::SHADER_STORAGE_WRITE)) {
+        held[binding.image.0 as usize] = made(&pass.name, &binding.name, ANYTHING, ANYTHING, &read);
+    }
+    let Some(scope) = scope else { return };
+    let depth_image = scope.depth.as_ref().filter(|_| pass.depth.is_some()).map(|depth| depth.image.0 as usize);
+    let depth = depth_image.map_or(ANYTHING, |image| held[image]);
+    for (location, attachment) in scope.color.iter().enumerate() {
+        let value = &mut held[attachment.image.0 as usize];
+        *value = match &*pass.shader {
+            "copy" => drawn(read[0].1),
+            _ => made(&pass.name, &format!("color {location}"), *value, depth, &read),
+        };
+    }
+    if let (Some(image), Some(true)) = (depth_image, pass.depth.map(|state| state.write)) {
+        held[image] = made(&pass.name, "depth", depth, depth, &read);
+    }
+}
