@@ -1,7 +1,7 @@
 //! A frame becomes a Plan: one file per stage, each a function from data to data.
 //!
 //! ```text
-//! link ─► cull ─► adapt ─► schedule ─► scope ─► retain ─► place ─► synchronise ─► emit
+//! legal ─► link ─► cull ─► adapt ─► schedule ─► scope ─► retain ─► place ─► synchronise ─► emit
 //! ```
 
 use crate::describe::Diagnostic;
@@ -13,6 +13,7 @@ mod adapt;
 mod cull;
 mod emit;
 mod hand_over;
+mod legal;
 mod link;
 mod model;
 mod pack;
@@ -51,6 +52,7 @@ pub fn compile(
     memory: &mut dyn MemoryProvider,
     options: &Options,
 ) -> Result<Plan, Vec<Diagnostic>> {
+    legal::check(frame)?;
     let linked = link::link(frame)?;
     let live = cull::cull(frame, &linked);
     let samples = samples::negotiate(frame, &live.passes, device)?;

@@ -61,6 +61,13 @@ pub(super) fn place(
             lifetime: [StepId(first.step), StepId(last.step)],
         });
     }
+    // Offsets and heights of whatever packing stay below this sum, so none of them overflows.
+    let padding = members.iter().flatten().map(|(_, block)| block.alignment).fold(0, u64::saturating_add);
+    let most = placed.transient_bytes.saturating_add(padding).saturating_add(placed.output_bytes);
+    if most > i64::MAX as u64 {
+        let message = "the frame's images take more memory than can be addressed".to_owned();
+        return Err(vec![Diagnostic::new(Span::NONE, message).help("make images smaller or fewer")]);
+    }
     for (heap, members) in placed.heaps.iter_mut().zip(&members) {
         let blocks: Vec<Block> = members.iter().map(|(_, block)| *block).collect();
         let live_peak = pack::live_peak(&blocks);
@@ -74,11 +81,6 @@ pub(super) fn place(
     }
     let all: Vec<Block> = members.iter().flatten().map(|(_, block)| *block).collect();
     placed.live_peak_bytes = pack::live_peak(&all);
-    let total = placed.heaps.iter().fold(placed.output_bytes, |total, heap| total.saturating_add(heap.bytes));
-    if total > i64::MAX as u64 {
-        let message = "the frame's images take more memory than can be addressed".to_owned();
-        return Err(vec![Diagnostic::new(Span::NONE, message).help("make images smaller or fewer")]);
-    }
     Ok(placed)
 }
 

@@ -15,6 +15,7 @@ use std::collections::BTreeMap;
 pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result<Samples, Vec<Diagnostic>> {
     let mut together = UnionFind::<u32>::new(frame.images.len());
     let mut usage = vec![Usage::empty(); frame.images.len()];
+    let mut touched = vec![false; frame.images.len()];
     let mut errors = Vec::new();
     for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
         note_usage(frame, pass, &mut usage);
@@ -24,9 +25,20 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
         }
         errors.extend(disagreement(frame, pass, &attached));
         check_operations(frame, pass, device, &mut errors);
+        let (targets, most) = (pass.color.len(), device.max_color_attachments);
+        if targets > most as usize {
+            let message = format!("`{}` draws into {targets} colour images; `{}` has {most}", pass.name, device.name);
+            errors.push(Diagnostic::new(pass.span, message).help("split the pass"));
+        }
+        if let Work::Forward { from, to, .. } = pass.work {
+            touched[to.0 as usize] = true;
+            if frame.images[from.0 as usize].samples == frame.images[to.0 as usize].samples {
+                together.union(from.0, to.0);
+            }
+        }
     }
     let mut groups: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for (image, used) in usage.iter().enumerate().filter(|(_, used)| !used.is_empty()) {
+    for (image, used) in usage.iter().enumerate().filter(|(image, used)| touched[*image] || !used.is_empty()) {
         check_support(frame, image, *used, device, &mut errors);
         if frame.images[image].samples > 1 {
             groups.entry(together.find(image as u32)).or_default().push(image);
@@ -45,12 +57,16 @@ fn attachments(pass: &Pass) -> Vec<ImageIndex> {
 
 fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
     let mut add = |image: ImageIndex, used: Usage| usage[image.0 as usize] |= used;
+    let shape = |image: ImageIndex| {
+        let image = &frame.images[image.0 as usize];
+        (image.format, image.extent)
+    };
     pass.sampled.iter().for_each(|sampled| add(sampled.image, Usage::SAMPLED));
     pass.storage.iter().for_each(|storage| add(storage.image, Usage::STORAGE));
     pass.color.iter().for_each(|target| add(target.image, Usage::COLOR_ATTACHMENT));
     pass.depth.iter().for_each(|depth| add(depth.image, Usage::DEPTH_STENCIL_ATTACHMENT));
     if let Work::Forward { from, to, .. } = pass.work
-        && frame.images[from.0 as usize].format != frame.images[to.0 as usize].format
+        && shape(from) != shape(to)
     {
         add(from, Usage::SAMPLED);
         add(to, Usage::COLOR_ATTACHMENT);
@@ -62,7 +78,7 @@ fn disagreement(frame: &Frame, pass: &Pass, attached: &[ImageIndex]) -> Option<D
     let (first, rest) = attached.split_first()?;
     let shape = |image: &ImageIndex| {
         let image = &frame.images[image.0 as usize];
-        (image.extent, image.samples)
+        (image.extent, image.layers, image.samples)
     };
     let other = rest.iter().find(|other| shape(other) != shape(first))?;
     let words = |image: &ImageIndex| {
@@ -73,7 +89,10 @@ fn disagreement(frame: &Frame, pass: &Pass, attached: &[ImageIndex]) -> Option<D
     Some(
         Diagnostic::new(
             pass.span,
-            format!("`{}` draws into `{}` and `{}`, which differ in size or samples", pass.name, a.name, b.name),
+            format!(
+                "`{}` draws into `{}` and `{}`, which differ in size, layers or samples",
+                pass.name, a.name, b.name
+            ),
         )
         .label(a.span, words(first))
         .label(b.span, words(other))

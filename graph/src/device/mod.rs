@@ -111,7 +111,7 @@ impl MemoryProvider for Estimated<'_> {
     fn image(&mut self, descriptor: &ImageDescriptor) -> MemoryNeeds {
         let model = self.0;
         let padded = |texels: u32, to: u32| u64::from(texels).next_multiple_of(u64::from(to.max(1)));
-        let bytes = (0..descriptor.mips)
+        let bytes = (0..descriptor.mips.min(u32::BITS))
             .map(|mip| {
                 let at = |extent: u32| (extent >> mip).max(1);
                 let texels = padded(at(descriptor.extent[0]), model.row_texels)
