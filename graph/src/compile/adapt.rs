@@ -14,7 +14,7 @@ use crate::frame::{Draw, Frame, ImageIndex, Pass, Sampled, Work};
 use crate::plan::{Cause, Note, Stage};
 use crate::source::{Place, Span};
 use crate::vocabulary::{Aspects, ResolveMode, Usage};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 pub(super) fn adapt(
@@ -23,6 +23,8 @@ pub(super) fn adapt(
     samples: &Samples,
     device: &Profile,
 ) -> Result<Adapted, Vec<Diagnostic>> {
+    let mut is_output = vec![false; frame.images.len()];
+    frame.outputs.iter().for_each(|output| is_output[output.image.0 as usize] = true);
     let mut adapter = Adapter {
         frame,
         live,
@@ -30,6 +32,9 @@ pub(super) fn adapt(
         device,
         store_of: vec![None; frame.images.len()],
         resolved_of: vec![None; frame.images.len()],
+        image_of: Vec::new(),
+        known_as: BTreeMap::new(),
+        is_output,
         resolves_of: vec![0; frame.images.len()],
         of_geometry: geometry_targets(frame, live),
         named: false,
@@ -86,6 +91,12 @@ struct Adapter<'a> {
     store_of: Vec<Option<StoreIndex>>,
     /// The single-sample copy of each image's current version, if there is one.
     resolved_of: Vec<Option<StoreIndex>>,
+    /// The image that each physical image was made for.
+    image_of: Vec<usize>,
+    /// The images that a forwarded physical image holds or is the resolved copy of, as far as they are still used.
+    known_as: BTreeMap<StoreIndex, Vec<usize>>,
+    /// Whether each image leaves the frame.
+    is_output: Vec<bool>,
     /// How many resolved copies each image has had: they need distinct names.
     resolves_of: Vec<u32>,
     /// Images that geometry is drawn into, where more samples would have meant a resolve; until that was said.
@@ -202,6 +213,7 @@ impl Adapter<'_> {
             usage: Usage::empty(),
         };
         self.adapted.stores.push(Store { name, cause, descriptor, output: false });
+        self.image_of.push(image.0 as usize);
         self.adapted.stores.len() as StoreIndex - 1
     }
 

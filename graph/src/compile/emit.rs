@@ -178,7 +178,7 @@ impl Emitter<'_> {
             ([descriptor.extent[0], descriptor.extent[1]], descriptor.layers, descriptor.samples)
         });
         let attach = |store: StoreIndex, resolve: Option<u32>| {
-            let attachment = self.attachment(scope, store, at)?;
+            let attachment = self.attachment(store, at)?;
             Some(Attachment { resolve: resolve.and_then(|op| self.attachment_resolve(op, at)), ..attachment })
         };
         let color = scope.color.iter().zip(&scope.resolves).filter_map(|(store, resolve)| attach(*store, *resolve));
@@ -204,7 +204,7 @@ impl Emitter<'_> {
         })
     }
 
-    fn attachment(&self, scope: &Scope, store: StoreIndex, at: u32) -> Option<Attachment> {
+    fn attachment(&self, store: StoreIndex, at: u32) -> Option<Attachment> {
         let need = self.parts.retained.at(store, at)?;
         let ops = need.attachment?;
         Some(Attachment {
@@ -215,13 +215,12 @@ impl Emitter<'_> {
             store: ops.store,
             clear: ops.clear,
             resolve: None,
-            because: format!("{}; {}", self.load_reason(scope, need, ops.load), self.store_reason(need, ops.store)),
+            because: format!("{}; {}", self.load_reason(need, ops.load), self.store_reason(need, ops.store)),
         })
     }
 
-    fn load_reason(&self, scope: &Scope, need: &Need, load: LoadOp) -> String {
-        let uses_it = |op: &&u32| self.parts.adapted.uses(**op).iter().any(|used| used.store == need.store);
-        let name = scope.ops.iter().find(uses_it).and_then(|op| op_name(self.parts.frame, &self.parts.adapted, *op));
+    fn load_reason(&self, need: &Need, load: LoadOp) -> String {
+        let name = need.op.and_then(|op| op_name(self.parts.frame, &self.parts.adapted, op));
         let name = name.map_or("", |name| name);
         match load {
             LoadOp::Clear => format!("`{name}` clears it"),
@@ -234,14 +233,10 @@ impl Emitter<'_> {
         let next = self.parts.retained.after(need.store, need.step);
         let words = next.map(|next| match &self.parts.scoped.steps[next.step as usize] {
             Grouped::Export => "it is an output".to_owned(),
-            step => {
-                let uses_it = |op: &&u32| self.parts.adapted.uses(**op).iter().any(|used| used.store == need.store);
-                let op = step.ops().iter().find(uses_it).copied();
-                match op.and_then(|op| op_name(self.parts.frame, &self.parts.adapted, op)) {
-                    Some(name) => format!("`{name}` uses it next"),
-                    None => format!("step {} reads it", next.step),
-                }
-            }
+            _ => match next.op.and_then(|op| op_name(self.parts.frame, &self.parts.adapted, op)) {
+                Some(name) => format!("`{name}` uses it next"),
+                None => format!("step {} reads it", next.step),
+            },
         });
         match (store, words) {
             (StoreOp::Store, Some(words)) => words,

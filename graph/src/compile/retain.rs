@@ -11,6 +11,8 @@ use crate::vocabulary::{Accesses, Layout, LoadOp, Stages, StoreOp, Usage};
 pub(super) struct Need {
     pub(super) store: StoreIndex,
     pub(super) step: u32,
+    /// The first operation of the step that uses it, unless that is a resolve that the scope carries.
+    pub(super) op: Option<u32>,
     pub(super) stages: Stages,
     pub(super) accesses: Accesses,
     pub(super) layout: Layout,
@@ -72,33 +74,40 @@ pub(super) fn retain(adapted: &mut Adapted, scoped: &Scoped, options: &Options) 
     retained
 }
 
+/// Needs in the order of steps.
+struct Gathered {
+    needs: Vec<Need>,
+    /// For each store where its last need stands.
+    last: Vec<u32>,
+}
+
 fn gather(adapted: &Adapted, scoped: &Scoped) -> Vec<Need> {
-    let mut needs = Vec::with_capacity(adapted.uses.len());
+    let mut gathered =
+        Gathered { needs: Vec::with_capacity(adapted.uses.len()), last: vec![u32::MAX; adapted.stores.len()] };
     for (step, number) in scoped.steps.iter().zip(0_u32..) {
-        let first = needs.len();
         match step {
-            Step::Scope(scope) => gather_scope(adapted, scope, number, &mut needs),
+            Step::Scope(scope) => gather_scope(adapted, scope, number, &mut gathered),
             Step::Single(op) => {
                 let resolves = matches!(adapted.ops[*op as usize].kind, OpKind::Resolve { .. });
                 let stage = if resolves { Stages::RESOLVE } else { Stages::COPY };
                 for used in adapted.uses(*op) {
-                    add(&mut needs, first, need(adapted, used, number, stage));
+                    gathered.add(Need { op: Some(*op), ..need(adapted, used, number, stage) });
                 }
             }
-            Step::Export => needs.extend(adapted.outputs.iter().map(|store| {
+            Step::Export => gathered.needs.extend(adapted.outputs.iter().map(|store| {
                 let (stages, accesses, layout) = EXPORTED;
-                Need { store: *store, step: number, stages, accesses, layout, keeps: true, attachment: None }
+                Need { store: *store, step: number, op: None, stages, accesses, layout, keeps: true, attachment: None }
             })),
         }
     }
-    needs
+    gathered.needs
 }
 
-fn gather_scope(adapted: &Adapted, scope: &Scope, step: u32, needs: &mut Vec<Need>) {
-    let first = needs.len();
+fn gather_scope(adapted: &Adapted, scope: &Scope, step: u32, gathered: &mut Gathered) {
+    let first = gathered.needs.len();
     for op in &scope.ops {
         for used in adapted.uses(*op) {
-            add(needs, first, need(adapted, used, step, Stages::COPY));
+            gathered.add(Need { op: Some(*op), ..need(adapted, used, step, Stages::COPY) });
         }
     }
     for op in scope.carries() {
@@ -108,11 +117,12 @@ fn gather_scope(adapted: &Adapted, scope: &Scope, step: u32, needs: &mut Vec<Nee
             true => Layout::DepthStencilAttachmentOptimal,
             false => Layout::ColorAttachmentOptimal,
         };
-        let attach = |store, accesses| Need { store, step, stages, accesses, layout, keeps: false, attachment: None };
-        add(needs, first, attach(source.store, Accesses::COLOR_ATTACHMENT_READ));
-        add(needs, first, attach(target.store, Accesses::COLOR_ATTACHMENT_WRITE));
+        let attach =
+            |store, accesses| Need { store, step, op: None, stages, accesses, layout, keeps: false, attachment: None };
+        gathered.add(attach(source.store, Accesses::COLOR_ATTACHMENT_READ));
+        gathered.add(attach(target.store, Accesses::COLOR_ATTACHMENT_WRITE));
     }
-    for need in &mut needs[first..] {
+    for need in &mut gathered.needs[first..] {
         let Some(ops) = &mut need.attachment else { continue };
         if scope.depth == Some(need.store) && !ops.written {
             need.layout = Layout::DepthStencilReadOnlyOptimal;
@@ -136,20 +146,29 @@ fn load_access(depth: bool) -> (Stages, Accesses, Accesses) {
     }
 }
 
-/// Joins what one step needs of one image in several ways. The first use says what is kept.
-fn add(needs: &mut Vec<Need>, first: usize, new: Need) {
-    let Some(old) = needs[first..].iter_mut().find(|old| old.store == new.store) else { return needs.push(new) };
-    old.stages |= new.stages;
-    old.accesses |= new.accesses;
-    old.attachment = match (old.attachment, new.attachment) {
-        (Some(a), Some(b)) => Some(AttachmentOps { written: a.written || b.written, ..a }),
-        (a, b) => a.or(b),
-    };
-    if old.layout != new.layout {
-        let depth =
-            |layout| matches!(layout, Layout::DepthStencilReadOnlyOptimal | Layout::DepthStencilAttachmentOptimal);
-        old.layout =
-            if depth(old.layout) && depth(new.layout) { Layout::DepthStencilReadOnlyOptimal } else { Layout::General };
+impl Gathered {
+    /// Joins what one step needs of one image in several ways. The first use says what is kept.
+    fn add(&mut self, new: Need) {
+        let last = &mut self.last[new.store as usize];
+        let Some(old) = self.needs.get_mut(*last as usize).filter(|old| old.step == new.step) else {
+            *last = self.needs.len() as u32;
+            return self.needs.push(new);
+        };
+        old.stages |= new.stages;
+        old.accesses |= new.accesses;
+        old.attachment = match (old.attachment, new.attachment) {
+            (Some(a), Some(b)) => Some(AttachmentOps { written: a.written || b.written, ..a }),
+            (a, b) => a.or(b),
+        };
+        if old.layout != new.layout {
+            let depth =
+                |layout| matches!(layout, Layout::DepthStencilReadOnlyOptimal | Layout::DepthStencilAttachmentOptimal);
+            old.layout = if depth(old.layout) && depth(new.layout) {
+                Layout::DepthStencilReadOnlyOptimal
+            } else {
+                Layout::General
+            };
+        }
     }
 }
 
@@ -183,7 +202,7 @@ fn need(adapted: &Adapted, used: &Use, step: u32, transfer: Stages) -> Need {
         Role::Source => (transfer, Accesses::TRANSFER_READ, Layout::TransferSrcOptimal, None),
         Role::Target => (transfer, Accesses::TRANSFER_WRITE, Layout::TransferDstOptimal, None),
     };
-    Need { store: used.store, step, stages, accesses, layout, keeps: used.role.reads(), attachment }
+    Need { store: used.store, step, op: None, stages, accesses, layout, keeps: used.role.reads(), attachment }
 }
 
 fn attachment_ops(start: Start, written: bool) -> AttachmentOps {

@@ -55,11 +55,11 @@ pub(super) fn scope(frame: &Frame, adapted: &mut Adapted, order: &[u32]) -> Scop
         adapted,
         steps: Vec::with_capacity(order.len() + 1),
         merged: vec![None; 0],
-        last_scope_of: Vec::new(),
+        traces: Vec::new(),
         notes: Vec::new(),
     };
     builder.merged.resize(builder.adapted.ops.len(), None);
-    builder.last_scope_of.resize(builder.adapted.stores.len(), None);
+    builder.traces.resize(builder.adapted.stores.len(), Trace::default());
     for op in order {
         builder.op(*op);
     }
@@ -74,9 +74,51 @@ struct Builder<'a> {
     adapted: &'a Adapted,
     steps: Vec<Step>,
     merged: Vec<Option<String>>,
-    /// For each store the scope that wrote it last as an attachment, as an index into `steps`.
-    last_scope_of: Vec<Option<usize>>,
+    /// For each store what is known of it.
+    traces: Vec<Trace>,
     notes: Vec<Note>,
+}
+
+/// What steps did to a store so far; steps are indices into [`Builder::steps`].
+#[derive(Debug, Clone, Copy, Default)]
+struct Trace {
+    /// The last step that used it.
+    used: Option<usize>,
+    /// The last step that wrote it.
+    written: Option<usize>,
+    /// The last scope that wrote it as an attachment.
+    drawn: Option<usize>,
+    /// In what ways the last step that used it did.
+    ways: Ways,
+}
+
+/// Ways in which the passes of one scope use a store.
+#[derive(Debug, Clone, Copy, Default)]
+struct Ways {
+    attached: bool,
+    sampled: bool,
+    stored: bool,
+    /// Whether a shader writes it.
+    shaded: bool,
+}
+
+impl Ways {
+    /// Whether a use can't be in one scope with these.
+    fn clash(self, role: &Role) -> bool {
+        let Ways { attached, sampled, stored, shaded } = self;
+        let others = if matches!(role, Role::Sampled { .. }) { stored } else { sampled };
+        match role.is_attachment() {
+            true => sampled || stored,
+            false => attached || shaded || others || (role.writes() && (sampled || stored)),
+        }
+    }
+
+    fn add(&mut self, role: &Role) {
+        self.attached |= role.is_attachment();
+        self.sampled |= matches!(role, Role::Sampled { .. });
+        self.stored |= matches!(role, Role::Storage { .. });
+        self.shaded |= !role.is_attachment() && role.writes();
+    }
 }
 
 impl Builder<'_> {
@@ -89,10 +131,31 @@ impl Builder<'_> {
                     let subject = self.adapted.stores[self.adapted.uses(op)[0].store as usize].name.clone();
                     let text = format!("is resolved by a step of its own: {why}");
                     self.notes.push(Note { stage: Stage::Scope, subject, text, at: None });
-                    self.steps.push(Step::Single(op));
+                    self.single(op);
                 }
             },
-            OpKind::Copy { .. } | OpKind::Dispatch(_) => self.steps.push(Step::Single(op)),
+            OpKind::Copy { .. } | OpKind::Dispatch(_) => self.single(op),
+        }
+    }
+
+    fn single(&mut self, op: u32) {
+        self.steps.push(Step::Single(op));
+        self.trace(op, self.steps.len() - 1);
+    }
+
+    /// Notes what step number `at` does by this operation.
+    fn trace(&mut self, op: u32, at: usize) {
+        for used in self.adapted.uses(op) {
+            let trace = &mut self.traces[used.store as usize];
+            if trace.used != Some(at) {
+                trace.ways = Ways::default();
+            }
+            trace.ways.add(&used.role);
+            trace.used = trace.used.max(Some(at));
+            if used.role.writes() {
+                trace.written = trace.written.max(Some(at));
+                trace.drawn = if used.role.is_attachment() { Some(at) } else { trace.drawn };
+            }
         }
     }
 
@@ -100,7 +163,10 @@ impl Builder<'_> {
         let adapted = self.adapted;
         let uses = adapted.uses(op);
         let neighbour = match self.steps.last() {
-            Some(Step::Scope(scope)) => Some(scope.compare(adapted, uses)),
+            Some(Step::Scope(scope)) => Some(scope.compare(adapted, uses, |used| {
+                let trace = &self.traces[used.store as usize];
+                trace.used == Some(self.steps.len() - 1) && trace.ways.clash(&used.role)
+            })),
             _ => None,
         };
         match neighbour {
@@ -119,10 +185,7 @@ impl Builder<'_> {
             }
             None => self.open(op),
         }
-        let at = self.steps.len() - 1;
-        for used in uses.iter().filter(|used| used.role.is_attachment() && used.role.writes()) {
-            self.last_scope_of[used.store as usize] = Some(at);
-        }
+        self.trace(op, self.steps.len() - 1);
     }
 
     fn open(&mut self, op: u32) {
@@ -189,8 +252,9 @@ impl Builder<'_> {
         if (descriptor.mips, descriptor.layers) != (1, 1) {
             return Err("it has several mip levels or layers");
         }
-        let Some(at) = self.last_scope_of[source as usize] else { return Err("no rendering scope drew it") };
-        if self.touched_since(at, source, target) {
+        let Trace { drawn, written, .. } = self.traces[source as usize];
+        let Some(at) = drawn else { return Err("no rendering scope drew it") };
+        if written != drawn || self.traces[target as usize].used >= drawn {
             return Err("its target is in use since it was drawn, or it was written by other means");
         }
         let Step::Scope(scope) = &mut self.steps[at] else { return Err("no rendering scope drew it") };
@@ -198,17 +262,9 @@ impl Builder<'_> {
             Some(slot @ None) => *slot = Some(op),
             _ => return Err("the scope that drew it resolves it into another image"),
         }
+        let trace = &mut self.traces[target as usize];
+        (trace.used, trace.written) = (Some(at), Some(at));
         Ok(())
-    }
-
-    /// Whether a step from number `at` on already uses the target, or one after it writes the source.
-    fn touched_since(&self, at: usize, source: StoreIndex, target: StoreIndex) -> bool {
-        let touches = |op: &u32| self.adapted.uses(*op).iter().any(|used| used.store == target);
-        let rewrites = |op: &u32| self.adapted.uses(*op).iter().any(|used| used.store == source && used.role.writes());
-        self.steps[at..].iter().enumerate().any(|(distance, step)| {
-            let ops = step.ops();
-            ops.iter().any(touches) || (distance > 0 && ops.iter().any(rewrites))
-        })
     }
 }
 
@@ -239,7 +295,7 @@ enum Refusal {
 }
 
 impl Scope {
-    fn compare(&self, adapted: &Adapted, uses: &[Use]) -> Meeting {
+    fn compare(&self, adapted: &Adapted, uses: &[Use], clashes: impl Fn(&Use) -> bool) -> Meeting {
         let attached = |store: StoreIndex| self.color.contains(&store) || self.depth == Some(store);
         let shares = uses.iter().any(|used| used.role.is_attachment() && attached(used.store));
         let refuse = |why| Meeting::Apart(Some(why));
@@ -260,7 +316,6 @@ impl Scope {
         if color != self.color || !same_depth || !self.same_area(adapted, uses) {
             return refuse(Refusal::OtherAttachments);
         }
-        let inside = |op: &u32| adapted.uses(*op).iter();
         for used in uses {
             let starts_over = match used.role {
                 Role::Color { start, .. } | Role::Depth { start, .. } => start != Start::Keep,
@@ -269,15 +324,7 @@ impl Scope {
             if starts_over && attached(used.store) {
                 return refuse(Refusal::Clears(used.store));
             }
-            let clashes = |other: &Use| {
-                other.store == used.store && (other.role.is_attachment() != used.role.is_attachment())
-                    || other.store == used.store
-                        && !used.role.is_attachment()
-                        && (used.role.writes()
-                            || other.role.writes()
-                            || std::mem::discriminant(&used.role) != std::mem::discriminant(&other.role))
-            };
-            if self.ops.iter().flat_map(inside).any(clashes) {
+            if clashes(used) {
                 return refuse(if used.role.writes() {
                     Refusal::Writes(used.store)
                 } else {

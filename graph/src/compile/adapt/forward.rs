@@ -96,17 +96,17 @@ impl Adapter<'_> {
 
     /// Whether `to` may live in `store` from pass `number` on: nobody must be able to tell. That holds unless somebody
     /// writes the store under one name while it is still used under another.
-    fn may_share(&self, number: u32, store: StoreIndex, to: ImageIndex) -> bool {
-        let is_output = |image: usize| self.frame.outputs.iter().any(|output| output.image.0 as usize == image);
+    fn may_share(&mut self, number: u32, store: StoreIndex, to: ImageIndex) -> bool {
+        let Adapter { live, store_of, resolved_of, is_output, known_as, image_of, .. } = self;
         let later = |pass: Option<u32>| pass.is_some_and(|pass| pass > number);
-        let holders =
-            || (0..self.store_of.len()).filter(|image| self.store_of[*image] == Some(store)).chain([to.0 as usize]);
-        let readers = (0..self.store_of.len()).filter(|image| self.resolved_of[*image] == Some(store)).chain(holders());
-        let used: Vec<usize> =
-            readers.filter(|image| later(self.live.last_access[*image]) || is_output(*image)).collect();
-        let both_leave = used.iter().filter(|image| is_output(**image)).count() > 1;
-        let told_apart =
-            holders().any(|writer| later(self.live.last_write[writer]) && used.iter().any(|other| *other != writer));
+        let held = |image: usize| store_of[image] == Some(store) || image == to.0 as usize;
+        let known = known_as.entry(store).or_insert_with(|| vec![image_of[store as usize]]);
+        // What isn't used any more by now never is again, so a long chain of forwards is no long list.
+        known.retain(|image| (later(live.last_access[*image]) || is_output[*image]) && *image != to.0 as usize);
+        known.retain(|image| held(*image) || resolved_of[*image] == Some(store));
+        known.push(to.0 as usize);
+        let both_leave = known.iter().filter(|image| is_output[**image]).count() > 1;
+        let told_apart = known.len() > 1 && known.iter().any(|image| held(*image) && later(live.last_write[*image]));
         !both_leave && !told_apart
     }
 }
