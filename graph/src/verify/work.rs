@@ -176,6 +176,7 @@ impl<'p> Check<'_, 'p> {
                 let read = if tests { Accesses::DEPTH_STENCIL_ATTACHMENT_READ } else { Accesses::empty() };
                 let write = if state.write { Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE } else { Accesses::empty() };
                 self.attached(pass, attachment, read | write);
+                self.tested(pass, attachment);
                 let written = state.write && attachment.layout == Layout::DepthStencilReadOnlyOptimal;
                 self.demand(!written, attachment.image, "is attached read-only and written");
             }
@@ -208,6 +209,14 @@ impl<'p> Check<'_, 'p> {
             let what = format!("pass `{}` doesn't list its {}", Shown(&pass.name), vulkan(&(wanted - listed)));
             self.wrong(attachment.image, what);
         }
+    }
+
+    /// Depth may be tested and written before the fragment shader and after it: an access in one of both isn't the whole.
+    fn tested(&mut self, pass: &Pass, attachment: &Attachment) {
+        let tests = Stages::EARLY_FRAGMENT_TESTS | Stages::LATE_FRAGMENT_TESTS;
+        let mut accesses = pass.accesses.iter().filter(|access| access.image == attachment.image);
+        let partial = accesses.any(|access| access.accesses.intersects(ATTACHMENT) && !access.stages.contains(tests));
+        self.demand(!partial, attachment.image, "is tested in EARLY_FRAGMENT_TESTS and LATE_FRAGMENT_TESTS alike");
     }
 
     fn dispatch(&mut self, pass: &Pass) {

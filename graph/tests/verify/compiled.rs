@@ -9,7 +9,7 @@ use framewright_graph::format::Format::{D24_UNORM_S8_UINT, D32_SFLOAT, R8G8B8A8_
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::verify::{Loss, Rule, Violation, verify};
-use framewright_graph::vocabulary::{Layout, LoadOp};
+use framewright_graph::vocabulary::{Layout, LoadOp, Stages};
 
 const OPTIONS: [Options; 4] = [
     Options { alias: true, poison: false },
@@ -137,4 +137,16 @@ fn contents_that_are_forgotten_and_not_loaded_are_missed() {
         matches!(violations[..], [Violation { rule: Rule::LostWrite { loss: Loss::Forgotten }, .. }]),
         "{violations:?}"
     );
+}
+
+#[test]
+fn depth_that_is_said_to_be_tested_in_one_stage_only_is_caught() {
+    for stage in [Stages::EARLY_FRAGMENT_TESTS, Stages::LATE_FRAGMENT_TESTS] {
+        let mut plan = compiled(&forward(4, true, true), &raster::device(), &Options::default());
+        let Work::Render(scope) = &mut plan.steps[0].work else { panic!("{}", plan.tree()) };
+        let access = scope.passes[1].accesses.iter_mut().find(|access| access.stages.contains(stage));
+        access.expect("the sky is tested").stages = stage;
+        let violations = verify(&plan);
+        assert!(matches!(violations[..], [Violation { rule: Rule::Structure { .. }, .. }]), "{violations:?}");
+    }
 }
