@@ -97,7 +97,7 @@ struct Adapter<'a> {
     known_as: BTreeMap<StoreIndex, Vec<usize>>,
     /// Whether each image leaves the frame.
     is_output: Vec<bool>,
-    /// How many resolved copies each image has had: they need distinct names.
+    /// How many resolved copies, copies and second images each image has had: they need distinct names.
     resolves_of: Vec<u32>,
     /// Images that geometry is drawn into, where more samples would have meant a resolve; until that was said.
     of_geometry: Vec<bool>,
