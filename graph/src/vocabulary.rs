@@ -3,6 +3,7 @@
 //! Bit values and names are those of the Vulkan 1.3 specification (`VK_PIPELINE_STAGE_2_*_BIT` and so on, without prefix
 //! and suffix), so that a backend converts them without a table and a reader looks them up without a dictionary.
 
+use crate::format::Format;
 use bitflags::bitflags;
 use serde::{Deserialize, Serialize};
 
@@ -56,6 +57,8 @@ bitflags! {
         const VERTEX_ATTRIBUTE_READ = 0x4;
         /// Uniform buffers.
         const UNIFORM_READ = 0x8;
+        /// Attachments read by fragment shaders at their own position.
+        const INPUT_ATTACHMENT_READ = 0x10;
         /// Blending, load operations.
         const COLOR_ATTACHMENT_READ = 0x80;
         /// Colour writes, clear and don't-care loads, stores, resolves.
@@ -120,6 +123,30 @@ bitflags! {
         const DEPTH_STENCIL_ATTACHMENT = 0x20;
         /// Never leaves its rendering scope: may live in lazily allocated memory.
         const TRANSIENT_ATTACHMENT = 0x40;
+        /// Read by fragment shaders at their own position.
+        const INPUT_ATTACHMENT = 0x80;
+    }
+}
+
+bitflags! {
+    /// What a buffer may be used for (`VkBufferUsageFlagBits`).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(transparent)]
+    pub struct BufferUsage: u32 {
+        /// Source of copies.
+        const TRANSFER_SRC = 0x1;
+        /// Destination of copies and fills.
+        const TRANSFER_DST = 0x2;
+        /// Uniform blocks.
+        const UNIFORM_BUFFER = 0x10;
+        /// Storage blocks.
+        const STORAGE_BUFFER = 0x20;
+        /// Indices.
+        const INDEX_BUFFER = 0x40;
+        /// Vertex attributes.
+        const VERTEX_BUFFER = 0x80;
+        /// Counts of indirect draws and dispatches.
+        const INDIRECT_BUFFER = 0x100;
     }
 }
 
@@ -151,6 +178,14 @@ pub enum Layout {
     DepthStencilAttachmentOptimal,
     /// Depth attachment only tested, and sampled at the same time if need be.
     DepthStencilReadOnlyOptimal,
+    /// The depth plane of an image that has stencil too, as `DepthStencilAttachmentOptimal`.
+    DepthAttachmentOptimal,
+    /// The depth plane of an image that has stencil too, as `DepthStencilReadOnlyOptimal`.
+    DepthReadOnlyOptimal,
+    /// The stencil plane of an image that has depth too: attachment, written.
+    StencilAttachmentOptimal,
+    /// The stencil plane of an image that has depth too: only tested or sampled.
+    StencilReadOnlyOptimal,
     /// Sampled.
     ShaderReadOnlyOptimal,
     /// Source of copies, blits and resolves.
@@ -159,6 +194,86 @@ pub enum Layout {
     TransferDstOptimal,
     /// Presented.
     PresentSrcKhr,
+    /// Attachment that fragment shaders read at their own position.
+    RenderingLocalReadKhr,
+}
+
+/// The last accesses of an image or buffer, and an image's layout.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct State {
+    /// Stages.
+    pub stages: Stages,
+    /// Accesses.
+    pub accesses: Accesses,
+    /// Layout; buffers have none: `UNDEFINED`.
+    pub layout: Layout,
+}
+
+/// A part of an image (`VkImageSubresourceRange`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Subresources {
+    /// Planes.
+    pub aspects: Aspects,
+    /// First mip level.
+    pub base_mip: u32,
+    /// Number of mip levels.
+    pub mips: u32,
+    /// First array layer.
+    pub base_layer: u32,
+    /// Number of array layers.
+    pub layers: u32,
+}
+
+impl Subresources {
+    /// All mip levels or layers from the first on (`VK_REMAINING_MIP_LEVELS`, `VK_REMAINING_ARRAY_LAYERS`).
+    pub const REMAINING: u32 = u32::MAX;
+
+    /// All of whatever image, every plane.
+    pub const WHOLE: Subresources = Subresources {
+        aspects: Aspects::empty(),
+        base_mip: 0,
+        mips: Subresources::REMAINING,
+        base_layer: 0,
+        layers: Subresources::REMAINING,
+    };
+
+    /// All of an image.
+    #[must_use]
+    pub const fn all(format: Format, mips: u32, layers: u32) -> Subresources {
+        Subresources { aspects: format.aspects(), base_mip: 0, mips, base_layer: 0, layers }
+    }
+}
+
+/// What every texel of an image, or every 32-bit word of a buffer, is set to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FillValue {
+    /// Red, green, blue and alpha (linear) of an image whose components are not integers.
+    Color([f32; 4]),
+    /// Red, green, blue and alpha of an image of integers; of a buffer, the word in the first.
+    Bits([u32; 4]),
+    /// Depth, and stencil where there is any.
+    Depth(f32, u8),
+}
+
+/// What happens to a stencil value (`VkStencilOp`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum StencilOp {
+    /// It stays.
+    Keep,
+    /// It becomes 0.
+    Zero,
+    /// It becomes the reference value.
+    Replace,
+    /// It grows by 1, up to 255.
+    IncrementAndClamp,
+    /// It falls by 1, down to 0.
+    DecrementAndClamp,
+    /// Its bits are turned over.
+    Invert,
 }
 
 /// What happens to an attachment's contents when a rendering scope begins (`VkAttachmentLoadOp`).

@@ -9,13 +9,27 @@
 //! - A [`Work::Render`] scope touches its attachments as their load, store and resolve operations say (colour in
 //!   `COLOR_ATTACHMENT_OUTPUT`; depth loads in `EARLY_FRAGMENT_TESTS`, stores in `LATE_FRAGMENT_TESTS`; *every* resolve in
 //!   `COLOR_ATTACHMENT_OUTPUT`), and each of its passes touches what its `accesses` list.
-//! - A [`Work::Dispatch`] touches its accesses.
-//! - A [`Work::Resolve`] or [`Work::Copy`] reads its source and writes its target.
-//! - [`Work::Export`] touches nothing: its barriers leave outputs in the state that [`Role::Output`] promises.
+//! - A [`Work::Dispatch`] or [`Work::Custom`] touches its accesses.
+//! - A [`Work::Resolve`], [`Work::Copy`] or [`Work::Blit`] reads its source and writes its target in the stage of that name
+//!   (`RESOLVE`, `COPY`, `BLIT`); a [`Work::Fill`] writes its target in `CLEAR`.
+//! - [`Work::Export`] touches nothing: its barriers leave images in the state that their [`Role`] promises.
+//!
+//! Order. Steps stand in the order in which they are submitted; those of one queue run in that order, as far as their
+//! barriers make them. A [`Wait`] of a step holds up the whole step, barriers included, until a step on another queue has
+//! finished, its writes made available; it makes them visible in the stages that it names.
+//!
+//! Frames. The same Plan is executed frame after frame on the same queues; the host may submit the next before the last has
+//! finished. Nothing orders frames but the Plan's own barriers and waits: transient memory is handed from the last step that
+//! uses it to the first one in the next frame, and what persists is found in the state in which the frame before left it.
+//! At the end of a frame each persistent image or buffer becomes the one that `becomes` names: itself, or for history the
+//! one that stands for one frame further back, and the oldest becomes the newest again. What the host writes or reads itself
+//! (parameters, object data, outputs) is not the Plan's: whoever executes it keeps one copy for each frame in flight.
 
 use crate::format::Format;
+use crate::frame::Shape;
 use crate::source::Place;
-use crate::vocabulary::{Accesses, Aspects, Layout, Stages, Usage};
+use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
+pub use crate::vocabulary::Subresources;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -28,15 +42,33 @@ mod work;
 
 pub use json::PlanError;
 pub use totals::Totals;
-pub use work::{Access, Attachment, AttachmentResolve, Binding, DepthState, Param, Pass, RenderScope, Transfer, Work};
+pub use work::{
+    Access, Attachment, AttachmentResolve, Binding, BindingKind, BufferAccess, DepthState, Fill, Param, Pass, RenderScope,
+    Side, Transfer, Work,
+};
 
 /// The version of the JSON form that this library writes and reads.
-pub const FORMAT_VERSION: u32 = 1;
+pub const FORMAT_VERSION: u32 = 2;
 
 /// Index of an image in [`Plan::images`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct ImageId(pub u32);
+
+/// Index of a buffer in [`Plan::buffers`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct BufferId(pub u32);
+
+/// An image or a buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Resource {
+    /// An image.
+    Image(ImageId),
+    /// A buffer.
+    Buffer(BufferId),
+}
 
 /// Index of a step in [`Plan::steps`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -55,12 +87,14 @@ pub struct Plan {
     pub settings: Vec<SettingUsed>,
     /// Every image; an [`ImageId`] is an index into this list.
     pub images: Vec<Image>,
-    /// Blocks of memory that transient images share.
+    /// Every buffer; a [`BufferId`] is an index into this list.
+    pub buffers: Vec<Buffer>,
+    /// Blocks of memory that transient images or buffers share.
     pub heaps: Vec<Heap>,
-    /// Steps in execution order.
+    /// Steps in the order in which they are submitted.
     pub steps: Vec<Step>,
-    /// Images that leave the frame, in the pipeline's order.
-    pub outputs: Vec<ImageId>,
+    /// Images and buffers that leave the frame, in the pipeline's order. None of them is transient.
+    pub outputs: Vec<Resource>,
     /// Decisions that no step shows: what was left out, lowered, not merged or not folded, and why.
     pub notes: Vec<Note>,
     /// Sums.
@@ -99,6 +133,8 @@ pub struct Image {
     pub cause: Cause,
     /// Texel format.
     pub format: Format,
+    /// Flat, deep, or a cube.
+    pub shape: Shape,
     /// Width, height, depth in texels.
     pub extent: [u32; 3],
     /// Mip levels.
@@ -107,24 +143,71 @@ pub struct Image {
     pub layers: u32,
     /// Samples a texel.
     pub samples: u32,
-    /// Uses, exactly those that the steps make of it.
+    /// Uses, exactly those that the steps make of it; of an image that outlives the frame also `TRANSFER_SRC` (it may be
+    /// read back) and, if it has initial contents, `TRANSFER_DST`.
     pub usage: Usage,
+    /// Whether several queues may use it without handing it over.
+    pub sharing: Sharing,
     /// Where its memory comes from.
     pub role: Role,
 }
 
-/// Where an image's memory comes from.
+/// A buffer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Buffer {
+    /// Its own index, for readers of the JSON form.
+    pub id: BufferId,
+    /// Unique name, among images too.
+    pub name: Arc<str>,
+    /// Why it exists.
+    pub cause: Cause,
+    /// Bytes.
+    pub bytes: u64,
+    /// Uses, as of an image.
+    pub usage: BufferUsage,
+    /// Whether several queues may use it without handing it over. Buffers that several queues use are always `CONCURRENT`.
+    pub sharing: Sharing,
+    /// Where its memory comes from. The layout in its states is `UNDEFINED`.
+    pub role: Role,
+}
+
+/// Which queues may use an image or buffer (`VkSharingMode`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum Sharing {
+    /// One at a time: barriers hand it over.
+    #[default]
+    Exclusive,
+    /// All that use it, at any time.
+    Concurrent,
+}
+
+/// Where the memory of an image or a buffer comes from, and in what state frames find it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Role {
     /// Lives within the frame, at an offset of a heap that it shares.
     Transient(Placement),
-    /// Memory of its own, made by whoever runs the Plan, which finds it in `after` when the frame is done.
-    Output {
-        /// State that the frame may rely on when it begins. Contents are never relied on.
-        before: ImageState,
+    /// Memory of its own, made by whoever runs the Plan; contents stay from frame to frame.
+    Persistent {
+        /// What it is in the next frame (index into the same list): itself, or with history the one that stands for one
+        /// frame further back. Over all persistent images, and over all persistent buffers, this is a permutation.
+        becomes: u32,
+        /// Contents before the first frame, in the state `before`.
+        initial: FillValue,
+        /// State in which a frame finds it: the `after` of the one that becomes it.
+        before: State,
+        /// State in which a frame leaves it.
+        after: State,
+    },
+    /// Memory from outside: an output that the embedding program (or whoever runs the Plan for it) finds in `after` when the
+    /// frame is done, or something that it hands in.
+    External {
+        /// State that the frame may rely on when it begins. Layout `UNDEFINED`: contents are not relied on.
+        before: State,
         /// State that the frame leaves it in.
-        after: ImageState,
+        after: State,
     },
 }
 
@@ -146,19 +229,7 @@ pub struct Placement {
     pub lifetime: [StepId; 2],
 }
 
-/// The last accesses of an image, and its layout.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ImageState {
-    /// Stages.
-    pub stages: Stages,
-    /// Accesses.
-    pub accesses: Accesses,
-    /// Layout.
-    pub layout: Layout,
-}
-
-/// A block of memory for transient images.
+/// A block of memory for transient images, or for transient buffers.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Heap {
@@ -172,29 +243,50 @@ pub struct Heap {
     pub lazily_allocated: bool,
 }
 
-/// One step on a queue: first its barriers, all in one call, then its work.
+/// One step on a queue: first what it waits for, then its barriers, all in one call, then its work, then the images that it
+/// hands to other queues.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Step {
     /// The queue it runs on.
     pub queue: Queue,
+    /// Steps of other queues that must have finished.
+    pub waits: Vec<Wait>,
     /// Memory barriers before the work.
     pub memory_barriers: Vec<MemoryBarrier>,
     /// Image barriers before the work.
     pub image_barriers: Vec<ImageBarrier>,
     /// The work.
     pub work: Work,
+    /// Image barriers after the work: the first halves of queue family ownership transfers.
+    pub releases: Vec<ImageBarrier>,
 }
 
-/// A kind of queue.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+/// A kind of queue. A device without the second or third uses the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 pub enum Queue {
     /// Graphics, compute and transfer.
     Graphics,
+    /// Compute and transfer, beside graphics.
+    Compute,
+    /// Transfer only, beside the others.
+    Transfer,
 }
 
-/// A `VkMemoryBarrier2`: used where memory changes hands, since an image barrier covers only its own image.
+/// A wait for the timeline semaphore of another queue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wait {
+    /// The step that must have finished; it runs on another queue, and if in the same frame stands further up.
+    pub step: StepId,
+    /// Of which frame: 0 is this one, 1 the one before.
+    pub frames_ago: u32,
+    /// Stages that wait, and in which the other queue's writes are visible.
+    pub stages: Stages,
+}
+
+/// A `VkMemoryBarrier2`: used for buffers, and where memory changes hands, since an image barrier covers only its own image.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MemoryBarrier {
@@ -207,7 +299,21 @@ pub struct MemoryBarrier {
     /// Accesses that the writes are made visible to.
     pub dst_accesses: Accesses,
     /// Previous and next occupant of each piece of memory that changes hands.
-    pub hand_overs: Vec<[ImageId; 2]>,
+    pub hand_overs: Vec<[Resource; 2]>,
+    /// Buffers that it is there for.
+    pub buffers: Vec<BufferHazard>,
+}
+
+/// Why a memory barrier is there for a buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BufferHazard {
+    /// Which buffer.
+    pub buffer: BufferId,
+    /// Why.
+    pub hazard: Hazard,
+    /// The last step that it waits for, in this frame; `None`: what came before the frame.
+    pub after: Option<StepId>,
 }
 
 /// A `VkImageMemoryBarrier2`.
@@ -230,6 +336,9 @@ pub struct ImageBarrier {
     pub old_layout: Layout,
     /// Layout after.
     pub new_layout: Layout,
+    /// The queues between which it hands the image over, if it does: then it stands twice, with the same range and layouts,
+    /// in the `releases` of the first queue and in the barriers of the second.
+    pub ownership: Option<[Queue; 2]>,
     /// Why it is there.
     pub hazard: Hazard,
     /// The last step that it waits for, in this frame; `None`: what came before the frame.
@@ -250,24 +359,10 @@ pub enum Hazard {
     WriteAfterWrite,
     /// Reads in another layout than earlier reads.
     LayoutChange,
-    /// The state that an output is promised in.
+    /// The state in which an image that outlives the frame is promised.
     Export,
-}
-
-/// A part of an image.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Subresources {
-    /// Planes.
-    pub aspects: Aspects,
-    /// First mip level.
-    pub base_mip: u32,
-    /// Number of mip levels.
-    pub mips: u32,
-    /// First array layer.
-    pub base_layer: u32,
-    /// Number of array layers.
-    pub layers: u32,
+    /// Another queue takes it over.
+    Ownership,
 }
 
 /// Why something is in a Plan.
@@ -321,14 +416,6 @@ pub enum Stage {
     Place,
     /// Barriers.
     Synchronise,
-}
-
-impl Subresources {
-    /// All of an image.
-    #[must_use]
-    pub const fn all(format: Format, mips: u32, layers: u32) -> Subresources {
-        Subresources { aspects: format.aspects(), base_mip: 0, mips, base_layer: 0, layers }
-    }
 }
 
 impl Plan {

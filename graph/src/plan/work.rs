@@ -1,8 +1,8 @@
-//! What the steps of a Plan do: rendering scopes, passes, dispatches, resolves, copies.
+//! What the steps of a Plan do: rendering scopes, passes, dispatches, resolves, copies, fills.
 
-use super::{Cause, ImageId, Subresources};
-use crate::frame::{Blend, Draw, ParamValue};
-use crate::vocabulary::{Accesses, CompareOp, Filter, Layout, LoadOp, ResolveMode, Stages, StoreOp};
+use super::{BufferId, Cause, ImageId, Resource, Subresources};
+use crate::frame::{Blend, BufferRole, Draw, Groups, ParamValue, StencilState};
+use crate::vocabulary::{Accesses, CompareOp, FillValue, Filter, Layout, LoadOp, ResolveMode, Stages, StoreOp};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -14,11 +14,17 @@ pub enum Work {
     Render(RenderScope),
     /// A compute pass.
     Dispatch(Pass),
+    /// A pass that the embedding program records; `shader` is the name by which it knows it.
+    Custom(Pass),
     /// A resolve that no scope could carry (`vkCmdResolveImage2`).
     Resolve(Transfer),
-    /// A copy (`vkCmdCopyImage2`).
+    /// A copy (`vkCmdCopyImage2`, `vkCmdCopyBuffer2`, `vkCmdCopyBufferToImage2`, `vkCmdCopyImageToBuffer2`).
     Copy(Transfer),
-    /// Nothing: barriers alone leave the outputs in their promised state.
+    /// A scaled copy (`vkCmdBlitImage2`).
+    Blit(Transfer),
+    /// A clear by transfer (`vkCmdClearColorImage`, `vkCmdClearDepthStencilImage`, `vkCmdFillBuffer`).
+    Fill(Fill),
+    /// Nothing: barriers alone leave images in their promised state.
     Export,
 }
 
@@ -36,6 +42,8 @@ pub struct RenderScope {
     pub color: Vec<Attachment>,
     /// Depth attachment.
     pub depth: Option<Attachment>,
+    /// Stencil attachment: another plane of the depth attachment's image, if there are both.
+    pub stencil: Option<Attachment>,
     /// Passes in order.
     pub passes: Vec<Pass>,
 }
@@ -46,7 +54,7 @@ pub struct RenderScope {
 pub struct Attachment {
     /// Which image.
     pub image: ImageId,
-    /// Which part of it; one mip level.
+    /// Which part of it: one mip level, one plane.
     pub range: Subresources,
     /// Layout during the scope.
     pub layout: Layout,
@@ -54,7 +62,8 @@ pub struct Attachment {
     pub load: LoadOp,
     /// What happens to the contents at the end.
     pub store: StoreOp,
-    /// Clear value where `load` is `CLEAR`: red, green, blue, alpha, or depth in the first.
+    /// Clear value where `load` is `CLEAR`: red, green, blue, alpha, or depth or stencil in the
+    /// first.
     pub clear: Option<[f32; 4]>,
     /// Resolve at the end of the scope.
     pub resolve: Option<AttachmentResolve>,
@@ -88,18 +97,26 @@ pub struct Pass {
     pub cause: Cause,
     /// What is drawn; `None` for a dispatch.
     pub draw: Option<Draw>,
+    /// How many workgroups; `None` for what is no dispatch.
+    pub groups: Option<Groups>,
     /// The shader's name.
     pub shader: Arc<str>,
     /// How new colour meets old, for each colour attachment of the scope.
     pub blend: Vec<Blend>,
     /// Depth comparison and whether passing fragments write depth; `None`: no test, no write.
     pub depth: Option<DepthState>,
-    /// Images bound to the shader's names.
-    pub bindings: Vec<Binding>,
+    /// Stencil test and update; `None`: no test, no update.
+    pub stencil: Option<StencilState>,
     /// Values for the shader's parameter block.
     pub params: Vec<Param>,
-    /// Every access that it makes, attachments included; load, store and resolve operations are the scope's.
+    /// Every access to an image that it makes, attachments included, with the shader's name for what is bound; load, store
+    /// and resolve operations are the scope's.
     pub accesses: Vec<Access>,
+    /// Every access to a buffer that it makes.
+    pub buffers: Vec<BufferAccess>,
+    /// Whether what earlier passes of the scope drew is made visible to it by a by-region barrier
+    /// (`COLOR_ATTACHMENT_OUTPUT`, `COLOR_ATTACHMENT_WRITE` to `FRAGMENT_SHADER`, `INPUT_ATTACHMENT_READ`).
+    pub local_barrier: bool,
     /// Why it shares its scope with the pass before it.
     pub merged: Option<String>,
 }
@@ -114,20 +131,26 @@ pub struct DepthState {
     pub write: bool,
 }
 
-/// An image bound to a shader's name.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// A shader's name for an image.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Binding {
     /// The shader's name.
     pub name: Arc<str>,
-    /// Which image.
-    pub image: ImageId,
-    /// Which part of it.
-    pub range: Subresources,
-    /// Layout.
-    pub layout: Layout,
-    /// Filter for sampled images; `None`: a storage image.
-    pub filter: Option<Filter>,
+    /// How it is bound.
+    pub kind: BindingKind,
+}
+
+/// How an image is bound to a shader.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BindingKind {
+    /// A combined image sampler with this filter.
+    Sampled(Filter),
+    /// A storage image.
+    Storage,
+    /// An input attachment.
+    InputAttachment,
 }
 
 /// A value for a member of a shader's parameter block.
@@ -141,7 +164,7 @@ pub struct Param {
 }
 
 /// One access to a part of an image.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Access {
     /// Which image.
@@ -154,22 +177,87 @@ pub struct Access {
     pub accesses: Accesses,
     /// The layout that it needs.
     pub layout: Layout,
+    /// The shader's name for it; `None` for attachments and for what a custom pass transfers.
+    pub binding: Option<Binding>,
 }
 
-/// A copy or resolve from image to image.
+/// One access to a buffer.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BufferAccess {
+    /// Which buffer.
+    pub buffer: BufferId,
+    /// What for; `None` for what a custom pass transfers.
+    pub role: Option<BufferRole>,
+    /// Stages.
+    pub stages: Stages,
+    /// Accesses.
+    pub accesses: Accesses,
+    /// The shader's name for it, if it has one.
+    pub binding: Option<Arc<str>>,
+}
+
+/// A copy, blit or resolve.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transfer {
-    /// Source, `TRANSFER_SRC_OPTIMAL`.
-    pub source: ImageId,
-    /// Part that is read; one mip level.
-    pub source_range: Subresources,
-    /// Target, `TRANSFER_DST_OPTIMAL`.
-    pub target: ImageId,
-    /// Part that is written; one mip level.
-    pub target_range: Subresources,
-    /// Width, height, depth in texels, from the origin of both.
-    pub extent: [u32; 3],
+    /// The pass that it is; `None`: the compiler inserted it.
+    pub name: Option<Arc<str>>,
     /// Why it is there.
     pub cause: Cause,
+    /// What is read.
+    pub source: Side,
+    /// What is written.
+    pub target: Side,
+    /// Filter between texels; of blits only.
+    pub filter: Option<Filter>,
+}
+
+/// A clear by transfer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fill {
+    /// The pass that it is.
+    pub name: Option<Arc<str>>,
+    /// Why it is there.
+    pub cause: Cause,
+    /// What is written.
+    pub target: Side,
+    /// The value.
+    pub value: FillValue,
+}
+
+/// What a copy, blit, resolve or fill reads or writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Side {
+    /// A part of an image, from the origin on.
+    Image {
+        /// Which image.
+        image: ImageId,
+        /// Which part of it; one mip level, but any number for fills.
+        range: Subresources,
+        /// Width, height, depth in texels of the first of its mip levels.
+        extent: [u32; 3],
+        /// Its layout meanwhile.
+        layout: Layout,
+    },
+    /// A buffer, from its first byte on.
+    Buffer {
+        /// Which buffer.
+        buffer: BufferId,
+        /// Bytes. Beside an image the texels follow each other without gaps, rows and layers likewise.
+        bytes: u64,
+    },
+}
+
+impl Side {
+    /// The image or buffer.
+    #[must_use]
+    pub const fn resource(&self) -> Resource {
+        match self {
+            Side::Image { image, .. } => Resource::Image(*image),
+            Side::Buffer { buffer, .. } => Resource::Buffer(*buffer),
+        }
+    }
 }
