@@ -10,8 +10,8 @@ use super::link::covers;
 use super::model::{Adapted, Op, OpKind, Role, Samples, Start, Store, StoreIndex, Use};
 use crate::describe::Diagnostic;
 use crate::device::{ImageDescriptor, Profile};
-use crate::frame::{Draw, Frame, ImageIndex, Pass, Sampled, Work};
-use crate::plan::{Cause, Note, Stage};
+use crate::frame::{Draw, Frame, ImageIndex, Pass, Resource, Sampled, Work};
+use crate::plan::{Cause, Note, Sharing, Stage};
 use crate::source::{Place, Span};
 use crate::vocabulary::{Aspects, ResolveMode, Usage};
 use std::collections::{BTreeMap, HashMap};
@@ -24,7 +24,10 @@ pub(super) fn adapt(
     device: &Profile,
 ) -> Result<Adapted, Vec<Diagnostic>> {
     let mut is_output = vec![false; frame.images.len()];
-    frame.outputs.iter().for_each(|output| is_output[output.image.0 as usize] = true);
+    for output in &frame.outputs {
+        let Resource::Image(image) = output.resource else { continue };
+        is_output[image.0 as usize] = true;
+    }
     let mut adapter = Adapter {
         frame,
         live,
@@ -49,7 +52,8 @@ pub(super) fn adapt(
         adapter.pass(*pass);
     }
     for output in &frame.outputs {
-        adapter.output(output.image, output.span);
+        let Resource::Image(image) = output.resource else { continue };
+        adapter.output(image, output.span);
     }
     if adapter.named {
         distinct_names(&mut adapter.adapted.stores);
@@ -206,11 +210,13 @@ impl Adapter<'_> {
         let declared = &self.frame.images[image.0 as usize];
         let descriptor = ImageDescriptor {
             format: declared.format,
+            shape: declared.shape,
             extent: declared.extent,
             mips: declared.mips,
             layers: declared.layers,
             samples,
             usage: Usage::empty(),
+            sharing: Sharing::Exclusive,
         };
         self.adapted.stores.push(Store { name, cause, descriptor, output: false });
         self.image_of.push(image.0 as usize);

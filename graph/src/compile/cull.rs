@@ -1,7 +1,7 @@
 //! `cull`: only what reaches an output stays.
 
 use super::link::Linked;
-use crate::frame::Frame;
+use crate::frame::{Frame, Resource};
 
 /// What stays.
 #[derive(Debug)]
@@ -19,7 +19,8 @@ pub(super) struct Live {
 pub(super) fn cull(frame: &Frame, linked: &Linked) -> Live {
     let mut needed = vec![false; linked.versions as usize];
     for output in &frame.outputs {
-        if let Some(version) = linked.last[output.image.0 as usize] {
+        let Resource::Image(image) = output.resource else { continue };
+        if let Some(version) = linked.last[image.0 as usize] {
             needed[version as usize] = true;
         }
     }

@@ -9,11 +9,11 @@ use super::synchronise::Barriers;
 use crate::device::Profile;
 use crate::frame::{Blend, DepthTarget, Draw, Frame, Work as FrameWork};
 use crate::plan::{
-    Access, Attachment, AttachmentResolve, Binding, Cause, DepthState, DeviceUsed, FORMAT_VERSION, Image, ImageId,
-    ImageState, Note, Param, Pass, Plan, Queue, RenderScope, Role as ImageRole, SettingUsed, Stage, Step, Totals,
-    Transfer, Work,
+    Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, DepthState, DeviceUsed, FORMAT_VERSION, Image,
+    ImageId, Note, Param, Pass, Plan, Queue, RenderScope, Resource, Role as ImageRole, SettingUsed, Side, Stage, Step,
+    Totals, Transfer, Work,
 };
-use crate::vocabulary::{Accesses, Filter, Layout, LoadOp, Stages, StoreOp};
+use crate::vocabulary::{Accesses, Layout, LoadOp, Stages, State, StoreOp};
 use std::sync::Arc;
 
 /// What the stages decided.
@@ -39,7 +39,7 @@ pub(super) fn emit(parts: Parts<'_>, exact_memory: bool) -> Plan {
     let works: Vec<Work> = parts.scoped.steps.iter().zip(0_u32..).map(|(step, at)| emitter.work(step, at)).collect();
     let images = emitter.images();
     let notes = emitter.notes();
-    let outputs = parts.adapted.outputs.iter().map(|store| ImageId(*store)).collect();
+    let outputs = parts.adapted.outputs.iter().map(|store| Resource::Image(ImageId(*store))).collect();
     let settings = parts.frame.settings.iter();
     let steps: Vec<Step> = works
         .into_iter()
@@ -47,16 +47,18 @@ pub(super) fn emit(parts: Parts<'_>, exact_memory: bool) -> Plan {
         .zip(parts.barriers.memory)
         .map(|((work, image_barriers), memory)| Step {
             queue: Queue::Graphics,
+            waits: Vec::new(),
             memory_barriers: memory.into_iter().collect(),
             image_barriers,
             work,
+            releases: Vec::new(),
         })
         .collect();
     let totals = Totals {
         transient_bytes: parts.placed.transient_bytes,
         placed_bytes: parts.placed.heaps.iter().map(|heap| heap.bytes).sum(),
         live_peak_bytes: parts.placed.live_peak_bytes,
-        output_bytes: parts.placed.output_bytes,
+        kept_bytes: parts.placed.output_bytes,
         ..Totals::count(&steps)
     };
     Plan {
@@ -64,6 +66,7 @@ pub(super) fn emit(parts: Parts<'_>, exact_memory: bool) -> Plan {
         device: DeviceUsed { name: parts.device.name.clone(), exact_memory },
         settings: settings.map(|(name, value)| SettingUsed { name: name.clone(), value: value.clone() }).collect(),
         images,
+        buffers: Vec::new(),
         heaps: parts.placed.heaps,
         steps,
         outputs,
@@ -91,16 +94,18 @@ impl Emitter<'_> {
                 name: store.name.clone(),
                 cause: store.cause.clone(),
                 format: store.descriptor.format,
+                shape: store.descriptor.shape,
                 extent: store.descriptor.extent,
                 mips: store.descriptor.mips,
                 layers: store.descriptor.layers,
                 samples: store.descriptor.samples,
                 usage: store.descriptor.usage,
+                sharing: store.descriptor.sharing,
                 role: match placement {
                     Some(placement) => ImageRole::Transient(placement.clone()),
-                    None => ImageRole::Output {
-                        before: ImageState { stages, accesses: Accesses::empty(), layout: Layout::Undefined },
-                        after: ImageState { stages, accesses, layout },
+                    None => ImageRole::External {
+                        before: State { stages, accesses: Accesses::empty(), layout: Layout::Undefined },
+                        after: State { stages, accesses, layout },
                     },
                 },
             })
@@ -162,13 +167,18 @@ impl Emitter<'_> {
 
     fn transfer(&self, op: u32) -> Transfer {
         let uses = self.parts.adapted.uses(op);
-        let store = |at: usize| {
+        let side = |at: usize, layout| {
             let store = uses[at].store;
             let held = &self.parts.adapted.stores[store as usize];
-            (ImageId(store), held.range(), held.descriptor.extent)
+            Side::Image { image: ImageId(store), range: held.range(), extent: held.descriptor.extent, layout }
         };
-        let ((source, source_range, extent), (target, target_range, _)) = (store(0), store(1));
-        Transfer { source, source_range, target, target_range, extent, cause: self.inserted(op) }
+        Transfer {
+            name: None,
+            cause: self.inserted(op),
+            source: side(0, Layout::TransferSrcOptimal),
+            target: side(1, Layout::TransferDstOptimal),
+            filter: None,
+        }
     }
 
     fn scope(&self, scope: &Scope, at: u32) -> RenderScope {
@@ -188,6 +198,7 @@ impl Emitter<'_> {
             samples,
             color: color.collect(),
             depth: scope.depth.and_then(|store| attach(store, scope.depth_resolve)),
+            stencil: None,
             passes: scope.ops.iter().map(|op| self.pass(*op, at, Some(scope))).collect(),
         }
     }
@@ -250,7 +261,6 @@ impl Emitter<'_> {
     fn pass(&self, op: u32, at: u32, scope: Option<&Scope>) -> Pass {
         let parts = self.parts;
         let uses = parts.adapted.uses(op);
-        let accesses = uses.iter().filter_map(|used| self.access(used, at)).collect();
         let merged = parts.scoped.merged[op as usize].clone();
         let cause = self.inserted(op);
         let colors = scope.map_or(0, |scope| scope.color.len());
@@ -259,25 +269,33 @@ impl Emitter<'_> {
             OpKind::Resolve { .. } | OpKind::Copy { .. } => 0,
         };
         let pass = &parts.frame.passes[number as usize];
-        let (draw, shader) = match &pass.work {
-            FrameWork::Draw { draw, shader, .. } => (Some(*draw), shader.clone()),
-            FrameWork::Dispatch { shader } => (None, shader.clone()),
-            FrameWork::Forward { .. } => (Some(Draw::FullScreen), COPY_SHADER.into()),
+        let (draw, groups, shader) = match &pass.work {
+            FrameWork::Draw { draw, shader, .. } => (Some(*draw), None, shader.clone()),
+            FrameWork::Dispatch { shader, groups } => (None, Some(*groups), shader.clone()),
+            FrameWork::Forward { .. } => (Some(Draw::FullScreen), None, COPY_SHADER.into()),
+            FrameWork::Copy | FrameWork::Blit { .. } | FrameWork::Fill { .. } => (None, None, "".into()),
+            FrameWork::Custom { callback } => (None, None, callback.clone()),
         };
         let mut planned = Pass {
             name: pass.name.clone(),
             cause,
             draw,
+            groups,
             shader,
             blend: vec![Blend::Replace; colors],
             depth: None,
-            bindings: Vec::new(),
+            stencil: None,
             params: Vec::new(),
-            accesses,
+            accesses: Vec::with_capacity(uses.len()),
+            buffers: Vec::new(),
+            local_barrier: false,
             merged,
         };
         if let OpKind::ForwardDraw { filter, .. } = parts.adapted.ops[op as usize].kind {
-            planned.bindings.extend(self.binding(&uses[0], at, COPY_SOURCE.into(), Some(filter)));
+            let binding = Binding { name: COPY_SOURCE.into(), kind: BindingKind::Sampled(filter) };
+            let sampled = uses.iter().map(|used| matches!(used.role, Role::Sampled { .. }).then(|| binding.clone()));
+            planned.accesses =
+                uses.iter().zip(sampled).filter_map(|(used, binding)| self.access(used, at, binding)).collect();
             return planned;
         }
         for (blend, target) in planned.blend.iter_mut().zip(&pass.color) {
@@ -289,27 +307,22 @@ impl Emitter<'_> {
             let binding = match used.role {
                 Role::Sampled { entry, .. } => {
                     let sampled = &pass.sampled[entry as usize];
-                    self.binding(used, at, sampled.binding.clone(), Some(sampled.filter))
+                    Some(Binding { name: sampled.binding.clone(), kind: BindingKind::Sampled(sampled.filter) })
                 }
                 Role::Storage { entry, .. } => {
-                    self.binding(used, at, pass.storage[entry as usize].binding.clone(), None)
+                    let name = pass.storage[entry as usize].binding.clone();
+                    Some(Binding { name, kind: BindingKind::Storage })
                 }
                 Role::Color { .. } | Role::Depth { .. } | Role::Source | Role::Target => None,
             };
-            planned.bindings.extend(binding);
+            planned.accesses.extend(self.access(used, at, binding));
         }
         planned.params = pass.params.iter().map(|(name, value)| Param { name: name.clone(), value: *value }).collect();
         planned
     }
 
-    fn binding(&self, used: &Use, at: u32, name: Arc<str>, filter: Option<Filter>) -> Option<Binding> {
-        let layout = self.parts.retained.at(used.store, at)?.layout;
-        let range = self.parts.adapted.stores[used.store as usize].range();
-        Some(Binding { name, image: ImageId(used.store), range, layout, filter })
-    }
-
     /// One access of a pass; load, store and resolve operations are the scope's.
-    fn access(&self, used: &Use, at: u32) -> Option<Access> {
+    fn access(&self, used: &Use, at: u32, binding: Option<Binding>) -> Option<Access> {
         let need = self.parts.retained.at(used.store, at)?;
         let (stages, accesses) = match used.role {
             Role::Sampled { stages, .. } => (stages, Accesses::SHADER_SAMPLED_READ),
@@ -329,6 +342,6 @@ impl Emitter<'_> {
             Role::Source | Role::Target => return None,
         };
         let range = self.parts.adapted.stores[used.store as usize].range();
-        Some(Access { image: ImageId(used.store), range, stages, accesses, layout: need.layout })
+        Some(Access { image: ImageId(used.store), range, stages, accesses, layout: need.layout, binding })
     }
 }

@@ -5,7 +5,7 @@
 //! barrier comes after it, be it through others in between.
 
 use super::synchronise::Group;
-use crate::plan::{ImageBarrier, ImageId, MemoryBarrier};
+use crate::plan::{ImageBarrier, ImageId, MemoryBarrier, Resource};
 use crate::vocabulary::{Accesses, Stages};
 
 /// A write, and who takes its memory over.
@@ -95,12 +95,13 @@ fn add(barrier: &mut Option<MemoryBarrier>, due: &[&HandOver]) {
             dst_stages: Stages::empty(),
             dst_accesses: Accesses::empty(),
             hand_overs: Vec::new(),
+            buffers: Vec::new(),
         });
         barrier.src_stages |= source.stages;
         barrier.src_accesses |= source.accesses;
         barrier.dst_stages |= hand_over.first.stages;
         barrier.dst_accesses |= hand_over.first.accesses;
-        barrier.hand_overs.push(hand_over.images);
+        barrier.hand_overs.push(hand_over.images.map(Resource::Image));
     }
 }
 

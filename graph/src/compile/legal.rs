@@ -1,8 +1,8 @@
 //! Before `link`: a frame that was built in memory may hold what no pipeline file can say.
 
 use crate::describe::Diagnostic;
-use crate::frame::{Frame, Image, ImageIndex, Pass, Work};
-use crate::vocabulary::Stages;
+use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, Resource, Work};
+use crate::vocabulary::{Stages, Subresources};
 
 /// Reports what no device could do, and what a Plan has no place for yet.
 pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
@@ -14,10 +14,12 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         errors.extend(pass_problem(pass).map(|what| Diagnostic::new(pass.span, format!("`{}` {what}", pass.name))));
         errors.extend(flat_problem(frame, pass));
     }
+    errors.extend(frame.passes.iter().filter_map(|pass| not_yet(frame, pass)));
     let mut listed = vec![false; frame.images.len()];
     for output in &frame.outputs {
-        if listed.get_mut(output.image.0 as usize).is_some_and(|listed| std::mem::replace(listed, true)) {
-            let name = &frame.images[output.image.0 as usize].name;
+        let Resource::Image(image) = output.resource else { continue };
+        if listed.get_mut(image.0 as usize).is_some_and(|listed| std::mem::replace(listed, true)) {
+            let name = &frame.images[image.0 as usize].name;
             errors.push(Diagnostic::new(output.span, format!("`{name}` is an output twice")));
         }
     }
@@ -47,7 +49,7 @@ fn pass_problem(pass: &Pass) -> Option<String> {
     let possible = match pass.work {
         Work::Draw { .. } => Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER,
         Work::Dispatch { .. } => Stages::COMPUTE_SHADER,
-        Work::Forward { .. } => Stages::empty(),
+        _ => Stages::empty(),
     };
     let attached = !pass.color.is_empty() || pass.depth.is_some();
     if attached && !matches!(pass.work, Work::Draw { .. }) {
@@ -96,4 +98,19 @@ fn flat_problem(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
         }
     }
     None
+}
+
+/// What the stages after this one don't know yet.
+fn not_yet(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
+    let whole = |range: &Subresources| *range == Subresources::WHOLE;
+    let known = matches!(pass.work, Work::Draw { .. } | Work::Dispatch { .. } | Work::Forward { .. })
+        && pass.buffers.is_empty()
+        && pass.transfers.is_empty()
+        && !pass.side_effect
+        && pass.sampled.iter().all(|sampled| whole(&sampled.range) && sampled.frames_ago == 0)
+        && pass.storage.iter().all(|storage| whole(&storage.range))
+        && pass.color.iter().all(|target| whole(&target.range))
+        && pass.depth.iter().all(|depth| whole(&depth.range) && depth.stencil.is_none())
+        && frame.images.iter().all(|image| image.lifetime == Lifetime::Transient);
+    (!known).then(|| Diagnostic::new(pass.span, format!("`{}` needs what can't be compiled yet", pass.name)))
 }

@@ -3,7 +3,7 @@
 //! Order in the frame gives meaning: a pass reads the versions that stand before itself, even of images it also writes.
 
 use crate::describe::Diagnostic;
-use crate::frame::{Blend, ColorTarget, Draw, Frame, ImageIndex, Pass, Work};
+use crate::frame::{Blend, ColorTarget, Draw, Frame, ImageIndex, Pass, Resource, Work};
 use crate::source::Span;
 use crate::vocabulary::CompareOp;
 use std::ops::Range;
@@ -67,8 +67,9 @@ pub(super) fn link(frame: &Frame) -> Result<Linked, Vec<Diagnostic>> {
         starts.push(linker.uses.len() as u32);
     }
     for output in &frame.outputs {
-        if linker.known(output.image, output.span) && linker.current[output.image.0 as usize].is_none() {
-            let name = &frame.images[output.image.0 as usize].name;
+        let Resource::Image(image) = output.resource else { continue };
+        if linker.known(image, output.span) && linker.current[image.0 as usize].is_none() {
+            let name = &frame.images[image.0 as usize].name;
             linker.errors.push(
                 Diagnostic::new(output.span, format!("output `{name}` is never written"))
                     .help("let a pass write it, or take it out of `outputs`"),

@@ -119,6 +119,7 @@ fn towards(store: StoreIndex, group: &Group) -> ImageBarrier {
         dst_accesses: group.accesses,
         old_layout: Layout::Undefined,
         new_layout: group.layout,
+        ownership: None,
         hazard: Hazard::FirstUse,
         after: None,
     }

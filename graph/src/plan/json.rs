@@ -1,8 +1,11 @@
 //! The JSON form: writing it, and reading it with enough checks that indexing a Plan can't fail afterwards.
 
-use super::{Attachment, FORMAT_VERSION, ImageId, Param, Pass, Plan, Role, Step, StepId, Work};
+use super::{
+    Attachment, BufferId, FORMAT_VERSION, ImageId, Param, Pass, Plan, Resource, Role, Side, Step, StepId, Work,
+};
 use crate::frame::ParamValue;
 use crate::plan::names::Shown;
+use crate::vocabulary::FillValue;
 use serde::Deserialize;
 
 /// Why a text is not a Plan, or a Plan has no text. Whether a Plan is *right* is for [`crate::verify`] to say.
@@ -22,16 +25,18 @@ pub enum PlanError {
     OutOfRange {
         /// Where the index stands, as a path into the JSON form.
         place: String,
-        /// The list it points into: `images`, `steps` or `heaps`.
+        /// The list it points into: `images`, `buffers`, `steps` or `heaps`.
         list: &'static str,
         /// The index.
         index: u32,
         /// Length of the list.
         length: usize,
     },
-    /// An image's `id` is not its own index.
-    #[error("images[{index}] has the id {id}: ids are indices")]
+    /// An image's or buffer's `id` is not its own index.
+    #[error("{list}[{index}] has the id {id}: ids are indices")]
     WrongId {
+        /// `images` or `buffers`.
+        list: &'static str,
         /// Index in the list.
         index: usize,
         /// The id.
@@ -78,19 +83,13 @@ impl Plan {
     /// Whether every index points into its list.
     pub(crate) fn check_references(&self) -> Result<(), PlanError> {
         for (index, image) in self.images.iter().enumerate() {
-            if image.id.0 as usize != index {
-                return Err(PlanError::WrongId { index, id: image.id.0 });
-            }
-            if let Role::Transient(placement) = &image.role {
-                let place = || format!("images[{index}] `{}`", Shown(&image.name));
-                in_range("heaps", placement.heap, self.heaps.len(), place)?;
-                for StepId(step) in placement.lifetime {
-                    in_range("steps", step, self.steps.len(), place)?;
-                }
-            }
+            self.check_resource("images", index, image.id.0, &image.role, &image.name)?;
         }
-        for image in &self.outputs {
-            in_range("images", image.0, self.images.len(), || "outputs".to_owned())?;
+        for (index, buffer) in self.buffers.iter().enumerate() {
+            self.check_resource("buffers", index, buffer.id.0, &buffer.role, &buffer.name)?;
+        }
+        for resource in &self.outputs {
+            self.check_named(*resource, || "outputs".to_owned())?;
         }
         for (index, step) in self.steps.iter().enumerate() {
             self.check_step(index, step)?;
@@ -98,17 +97,64 @@ impl Plan {
         Ok(())
     }
 
+    fn check_resource(
+        &self,
+        list: &'static str,
+        index: usize,
+        id: u32,
+        role: &Role,
+        name: &str,
+    ) -> Result<(), PlanError> {
+        if id as usize != index {
+            return Err(PlanError::WrongId { list, index, id });
+        }
+        let place = || format!("{list}[{index}] `{}`", Shown(name));
+        match role {
+            Role::Transient(placement) => {
+                in_range("heaps", placement.heap, self.heaps.len(), place)?;
+                placement.lifetime.iter().try_for_each(|step| in_range("steps", step.0, self.steps.len(), place))
+            }
+            Role::Persistent { becomes, .. } => {
+                let length = if list == "images" { self.images.len() } else { self.buffers.len() };
+                in_range(list, *becomes, length, place)
+            }
+            Role::External { .. } => Ok(()),
+        }
+    }
+
+    fn check_named(&self, resource: Resource, place: impl FnOnce() -> String) -> Result<(), PlanError> {
+        match resource {
+            Resource::Image(ImageId(id)) => in_range("images", id, self.images.len(), place),
+            Resource::Buffer(BufferId(id)) => in_range("buffers", id, self.buffers.len(), place),
+        }
+    }
+
     fn check_step(&self, index: usize, step: &Step) -> Result<(), PlanError> {
         let place = |part: &str| format!("steps[{index}].{part}");
         let image =
             |part: &'static str, ImageId(id): ImageId| in_range("images", id, self.images.len(), || place(part));
-        for id in step.memory_barriers.iter().flat_map(|barrier| &barrier.hand_overs).flatten() {
-            image("memory_barriers", *id)?;
+        let buffer =
+            |part: &'static str, BufferId(id): BufferId| in_range("buffers", id, self.buffers.len(), || place(part));
+        let earlier = |part: &'static str, step: Option<StepId>| match step {
+            Some(StepId(id)) => in_range("steps", id, self.steps.len(), || place(part)),
+            None => Ok(()),
+        };
+        for wait in &step.waits {
+            earlier("waits", Some(wait.step))?;
         }
-        for barrier in &step.image_barriers {
-            image("image_barriers", barrier.image)?;
-            if let Some(StepId(after)) = barrier.after {
-                in_range("steps", after, self.steps.len(), || place("image_barriers"))?;
+        for barrier in &step.memory_barriers {
+            for resource in barrier.hand_overs.iter().flatten() {
+                self.check_named(*resource, || place("memory_barriers"))?;
+            }
+            for hazard in &barrier.buffers {
+                buffer("memory_barriers", hazard.buffer)?;
+                earlier("memory_barriers", hazard.after)?;
+            }
+        }
+        for (part, barriers) in [("image_barriers", &step.image_barriers), ("releases", &step.releases)] {
+            for barrier in barriers {
+                image(part, barrier.image)?;
+                earlier(part, barrier.after)?;
             }
         }
         let (attachments, passes) = attachments_and_passes(&step.work);
@@ -117,18 +163,27 @@ impl Plan {
             attachment.resolve.as_ref().map_or(Ok(()), |resolve| image("work", resolve.image))?;
         }
         for pass in passes {
-            let accessed = pass.accesses.iter().map(|access| access.image);
-            accessed.chain(pass.bindings.iter().map(|binding| binding.image)).try_for_each(|id| image("work", id))?;
+            pass.accesses.iter().try_for_each(|access| image("work", access.image))?;
+            pass.buffers.iter().try_for_each(|access| buffer("work", access.buffer))?;
         }
-        if let Work::Resolve(transfer) | Work::Copy(transfer) = &step.work {
-            image("work", transfer.source)?;
-            image("work", transfer.target)?;
-        }
-        Ok(())
+        sides(&step.work).iter().try_for_each(|side| self.check_named(side.resource(), || place("work")))
     }
 
     fn check_numbers(&self) -> Result<(), PlanError> {
+        let initial = self.images.iter().map(|image| &image.role).chain(self.buffers.iter().map(|buffer| &buffer.role));
+        for role in initial {
+            if let Role::Persistent { initial, .. } = role
+                && !is_finite_fill(initial)
+            {
+                return Err(PlanError::NotFinite { place: "an initial value".to_owned() });
+            }
+        }
         for (index, step) in self.steps.iter().enumerate() {
+            if let Work::Fill(fill) = &step.work
+                && !is_finite_fill(&fill.value)
+            {
+                return Err(PlanError::NotFinite { place: format!("the value of steps[{index}]") });
+            }
             let (attachments, passes) = attachments_and_passes(&step.work);
             for attachment in attachments {
                 if attachment.clear.iter().flatten().any(|value| !value.is_finite()) {
@@ -147,18 +202,38 @@ impl Plan {
 }
 
 fn attachments_and_passes(work: &Work) -> (impl Iterator<Item = &Attachment>, std::slice::Iter<'_, Pass>) {
-    let (color, depth, passes): (&[Attachment], &Option<Attachment>, &[Pass]) = match work {
-        Work::Render(scope) => (&scope.color, &scope.depth, &scope.passes),
-        Work::Dispatch(pass) => (&[], &None, std::slice::from_ref(pass)),
-        Work::Resolve(_) | Work::Copy(_) | Work::Export => (&[], &None, &[]),
+    let (attachments, passes): (_, &[Pass]) = match work {
+        Work::Render(scope) => ((&scope.color[..], scope.depth.as_ref(), scope.stencil.as_ref()), &scope.passes),
+        Work::Dispatch(pass) | Work::Custom(pass) => ((&[][..], None, None), std::slice::from_ref(pass)),
+        Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => ((&[][..], None, None), &[]),
     };
-    (color.iter().chain(depth), passes.iter())
+    let (color, depth, stencil) = attachments;
+    (color.iter().chain(depth).chain(stencil), passes.iter())
+}
+
+/// What a transfer reads and writes.
+fn sides(work: &Work) -> Vec<Side> {
+    match work {
+        Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
+            vec![transfer.source, transfer.target]
+        }
+        Work::Fill(fill) => vec![fill.target],
+        Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => Vec::new(),
+    }
 }
 
 fn is_finite(param: &Param) -> bool {
     match param.value {
         ParamValue::Bool(_) | ParamValue::Integer(_) => true,
         ParamValue::Number(number) => number.is_finite(),
+    }
+}
+
+fn is_finite_fill(value: &FillValue) -> bool {
+    match value {
+        FillValue::Color(color) => color.iter().all(|value| value.is_finite()),
+        FillValue::Depth(depth, _) => depth.is_finite(),
+        FillValue::Bits(_) => true,
     }
 }
 

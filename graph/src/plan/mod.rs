@@ -28,8 +28,8 @@
 use crate::format::Format;
 use crate::frame::Shape;
 use crate::source::Place;
-use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
 pub use crate::vocabulary::Subresources;
+use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -43,8 +43,8 @@ mod work;
 pub use json::PlanError;
 pub use totals::Totals;
 pub use work::{
-    Access, Attachment, AttachmentResolve, Binding, BindingKind, BufferAccess, DepthState, Fill, Param, Pass, RenderScope,
-    Side, Transfer, Work,
+    Access, Attachment, AttachmentResolve, Binding, BindingKind, BufferAccess, DepthState, Fill, Param, Pass,
+    RenderScope, Side, Transfer, Work,
 };
 
 /// The version of the JSON form that this library writes and reads.
@@ -173,7 +173,7 @@ pub struct Buffer {
 }
 
 /// Which queues may use an image or buffer (`VkSharingMode`).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 pub enum Sharing {
     /// One at a time: barriers hand it over.

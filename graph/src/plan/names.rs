@@ -1,6 +1,6 @@
 //! How people read a Plan's parts: steps, parts of images, Vulkan's words. Text that came from files is escaped.
 
-use super::{ImageId, Plan, StepId, Subresources, Work};
+use super::{BufferId, ImageId, Plan, Resource, Side, StepId, Subresources, Transfer, Work};
 use serde::Serialize;
 use std::fmt::{self, Display, Formatter, Write};
 
@@ -43,7 +43,11 @@ impl Plan {
     /// What people call a step: its passes' names, or what it moves. Escaped; empty if there is no such step.
     pub(crate) fn step_name(&self, step: StepId) -> String {
         const MOST: usize = 3;
-        let image = |id: ImageId| self.images.get(id.0 as usize).map_or("", |image| &*image.name);
+        let side = |side: &Side| Shown(self.resource_name(side.resource()));
+        let transfer = |word: &str, transfer: &Transfer| match &transfer.name {
+            Some(name) => format!("`{}`", Shown(name)),
+            None => format!("{word} `{}` to `{}`", side(&transfer.source), side(&transfer.target)),
+        };
         match self.steps.get(step.0 as usize).map(|step| &step.work) {
             None => String::new(),
             Some(Work::Render(scope)) => {
@@ -55,14 +59,23 @@ impl Plan {
                     _ => names.join(", "),
                 }
             }
-            Some(Work::Dispatch(pass)) => format!("`{}`", Shown(&pass.name)),
-            Some(Work::Resolve(transfer)) => {
-                format!("resolve `{}` to `{}`", Shown(image(transfer.source)), Shown(image(transfer.target)))
-            }
-            Some(Work::Copy(transfer)) => {
-                format!("copy `{}` to `{}`", Shown(image(transfer.source)), Shown(image(transfer.target)))
-            }
+            Some(Work::Dispatch(pass) | Work::Custom(pass)) => format!("`{}`", Shown(&pass.name)),
+            Some(Work::Resolve(it)) => transfer("resolve", it),
+            Some(Work::Copy(it)) => transfer("copy", it),
+            Some(Work::Blit(it)) => transfer("blit", it),
+            Some(Work::Fill(fill)) => match &fill.name {
+                Some(name) => format!("`{}`", Shown(name)),
+                None => format!("fill `{}`", side(&fill.target)),
+            },
             Some(Work::Export) => "export".to_owned(),
+        }
+    }
+
+    /// The name of an image or buffer, as it stands in the file; empty if there is none.
+    pub(crate) fn resource_name(&self, resource: Resource) -> &str {
+        match resource {
+            Resource::Image(ImageId(id)) => self.images.get(id as usize).map_or("", |image| &image.name),
+            Resource::Buffer(BufferId(id)) => self.buffers.get(id as usize).map_or("", |buffer| &buffer.name),
         }
     }
 }

@@ -17,22 +17,26 @@ pub struct Totals {
     pub resolves: u32,
     /// Resolves folded into a scope.
     pub folded_resolves: u32,
-    /// Copies.
+    /// Copies and blits.
     pub copies: u32,
-    /// Calls of `vkCmdPipelineBarrier2`: steps with barriers.
+    /// Fills.
+    pub fills: u32,
+    /// Waits for other queues.
+    pub waits: u32,
+    /// Calls of `vkCmdPipelineBarrier2`: before the work of steps, and after it where images are released.
     pub barrier_calls: u32,
-    /// Image barriers.
+    /// Image barriers, released ones too.
     pub image_barriers: u32,
     /// Memory barriers.
     pub memory_barriers: u32,
-    /// Bytes of all transient images, if each had memory of its own.
+    /// Bytes of all transient images and buffers, if each had memory of its own.
     pub transient_bytes: u64,
     /// Bytes of the heaps.
     pub placed_bytes: u64,
-    /// Largest total of transient images alive at one step: no placement can need less.
+    /// Largest total of transient images and buffers alive at one step: no placement can need less.
     pub live_peak_bytes: u64,
-    /// Bytes of output images.
-    pub output_bytes: u64,
+    /// Bytes of images and buffers that outlive the frame.
+    pub kept_bytes: u64,
 }
 
 impl Totals {
@@ -46,14 +50,26 @@ impl Totals {
                 Work::Render(scope) => {
                     totals.scopes += 1;
                     scope.passes.iter().for_each(|pass| totals.pass(pass));
-                    let folded =
-                        scope.color.iter().chain(&scope.depth).filter(|target| target.resolve.is_some()).count();
+                    let folded = scope
+                        .color
+                        .iter()
+                        .chain(&scope.depth)
+                        .chain(&scope.stencil)
+                        .filter(|target| target.resolve.is_some())
+                        .count();
                     totals.folded_resolves += length(folded);
                     totals.resolves += length(folded);
                 }
-                Work::Dispatch(pass) => totals.pass(pass),
+                Work::Dispatch(pass) | Work::Custom(pass) => totals.pass(pass),
                 Work::Resolve(_) => totals.resolves += 1,
-                Work::Copy(_) => totals.copies += 1,
+                Work::Copy(transfer) | Work::Blit(transfer) => {
+                    totals.copies += 1;
+                    totals.transfer_pass(transfer.name.is_some());
+                }
+                Work::Fill(fill) => {
+                    totals.fills += 1;
+                    totals.transfer_pass(fill.name.is_some());
+                }
                 Work::Export => {}
             }
         }
@@ -61,9 +77,16 @@ impl Totals {
     }
 
     fn barriers(&mut self, step: &Step) {
-        self.image_barriers += length(step.image_barriers.len());
+        self.waits += length(step.waits.len());
+        self.image_barriers += length(step.image_barriers.len() + step.releases.len());
         self.memory_barriers += length(step.memory_barriers.len());
         self.barrier_calls += u32::from(!step.image_barriers.is_empty() || !step.memory_barriers.is_empty());
+        self.barrier_calls += u32::from(!step.releases.is_empty());
+    }
+
+    /// A copy, blit or fill that is a pass of the file; inserted ones are no passes.
+    fn transfer_pass(&mut self, written: bool) {
+        self.passes += u32::from(written);
     }
 
     fn pass(&mut self, pass: &Pass) {

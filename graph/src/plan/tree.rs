@@ -3,11 +3,13 @@
 use super::names::{Shown, vulkan};
 use super::outline::Node;
 use super::{
-    Attachment, Binding, Cause, Hazard, Image, ImageBarrier, ImageId, MemoryBarrier, Note, Pass, Plan, RenderScope,
-    Role, Step, StepId, Subresources, Totals, Transfer, Work,
+    Access, Attachment, BindingKind, Buffer, BufferAccess, Cause, Hazard, Image, ImageBarrier, ImageId, MemoryBarrier,
+    Note, Pass, Plan, Queue, RenderScope, Resource, Role, Side, Step, StepId, Subresources, Totals, Transfer, Wait,
+    Work,
 };
-use crate::frame::{Blend, Draw, DrawList, ParamValue};
+use crate::frame::{Blend, BufferRole, Draw, DrawList, Groups, ParamValue, StencilState};
 use crate::source::Place;
+use crate::vocabulary::FillValue;
 
 /// The tree form.
 pub(super) fn tree(plan: &Plan) -> String {
@@ -18,7 +20,10 @@ pub(super) fn tree(plan: &Plan) -> String {
         parts.push(Node::leaf(format!("settings: {}", settings.collect::<Vec<_>>().join(", "))));
     }
     parts.extend((0..).map(StepId).zip(&plan.steps).map(|(id, step)| Tree { plan, id }.step(step)));
-    parts.push(Node::new("images", plan.images.iter().map(image).collect()));
+    parts.push(Node::new("images", plan.images.iter().map(|it| image(plan, it)).collect()));
+    if !plan.buffers.is_empty() {
+        parts.push(Node::new("buffers", plan.buffers.iter().map(|it| buffer(plan, it)).collect()));
+    }
     parts.push(Node::new("outputs", plan.outputs.iter().filter_map(|id| output(plan, *id)).collect()));
     if !plan.notes.is_empty() {
         parts.push(Node::new("notes", plan.notes.iter().map(note).collect()));
@@ -36,7 +41,7 @@ struct Tree<'p> {
 
 impl Tree<'_> {
     fn step(self, step: &Step) -> Node {
-        let mut parts = Vec::new();
+        let mut parts: Vec<Node> = step.waits.iter().map(|wait| self.wait(wait)).collect();
         parts.extend(step.memory_barriers.iter().map(|barrier| self.memory_barrier(barrier)));
         parts.extend(step.image_barriers.iter().map(|barrier| self.image_barrier(step, barrier)));
         let title = match &step.work {
@@ -50,18 +55,41 @@ impl Tree<'_> {
                 parts.push(self.pass(pass));
                 "dispatch".to_owned()
             }
+            Work::Custom(pass) => {
+                parts.push(self.pass(pass));
+                "custom".to_owned()
+            }
             Work::Resolve(transfer) => self.transfer("resolve", transfer),
             Work::Copy(transfer) => self.transfer("copy", transfer),
-            Work::Export => "outputs are left in their promised states".to_owned(),
+            Work::Blit(transfer) => self.transfer("blit", transfer),
+            Work::Fill(fill) => {
+                let name = fill.name.as_ref().map_or_else(String::new, |name| format!("`{}` ", Shown(name)));
+                let value = fill_value(&fill.value);
+                format!("{name}fills {} with {value}{}", self.side(&fill.target), cause(&fill.cause))
+            }
+            Work::Export => "images are left in their promised states".to_owned(),
         };
-        Node::new(format!("step {}: {title}", self.id.0), parts)
+        parts.extend(step.releases.iter().map(|barrier| self.image_barrier(step, barrier)));
+        let queue = match step.queue {
+            Queue::Graphics => "",
+            Queue::Compute => " on the compute queue",
+            Queue::Transfer => " on the transfer queue",
+        };
+        Node::new(format!("step {}{queue}: {title}", self.id.0), parts)
+    }
+
+    fn wait(self, wait: &Wait) -> Node {
+        let frame = if wait.frames_ago == 0 { "" } else { " of the frame before" };
+        let who = self.plan.step_name(wait.step);
+        Node::leaf(format!("waits in {} for step {}{frame}: {who}", vulkan(&wait.stages), wait.step.0))
     }
 
     fn scope(self, scope: &RenderScope, parts: &mut Vec<Node>) {
         let color =
             scope.color.iter().enumerate().map(|(location, attachment)| (format!("color {location}"), attachment));
         let depth = scope.depth.iter().map(|attachment| ("depth".to_owned(), attachment));
-        let attachments: Vec<_> = color.chain(depth).collect();
+        let stencil = scope.stencil.iter().map(|attachment| ("stencil".to_owned(), attachment));
+        let attachments: Vec<_> = color.chain(depth).chain(stencil).collect();
         parts.extend(attachments.iter().map(|(place, attachment)| self.attachment(place, attachment)));
         parts.extend(scope.passes.iter().map(|pass| self.pass(pass)));
         for (_, attachment) in &attachments {
@@ -76,7 +104,7 @@ impl Tree<'_> {
 
     fn attachment(self, place: &str, attachment: &Attachment) -> Node {
         let clear = match attachment.clear {
-            Some([depth, ..]) if place == "depth" => format!(" {depth}"),
+            Some([value, ..]) if matches!(place, "depth" | "stencil") => format!(" {value}"),
             Some([red, green, blue, alpha]) => format!(" ({red}, {green}, {blue}, {alpha})"),
             None => String::new(),
         };
@@ -86,13 +114,22 @@ impl Tree<'_> {
     }
 
     fn pass(self, pass: &Pass) -> Node {
-        let work = match pass.draw {
-            Some(Draw::Objects(DrawList::Opaque)) => "draws opaque objects",
-            Some(Draw::Objects(DrawList::Masked)) => "draws masked objects",
-            Some(Draw::Objects(DrawList::Transparent)) => "draws transparent objects",
-            Some(Draw::Sky) => "draws the sky",
-            Some(Draw::FullScreen) => "draws the full screen",
-            None => "dispatches",
+        let work = match (pass.draw, pass.groups) {
+            (Some(Draw::Objects(DrawList::Opaque)), _) => "draws opaque objects".to_owned(),
+            (Some(Draw::Objects(DrawList::Masked)), _) => "draws masked objects".to_owned(),
+            (Some(Draw::Objects(DrawList::Transparent)), _) => "draws transparent objects".to_owned(),
+            (Some(Draw::Sky), _) => "draws the sky".to_owned(),
+            (Some(Draw::FullScreen), _) => "draws the full screen".to_owned(),
+            (Some(Draw::Vertices { count, instances }), _) => format!("draws {count} × {instances} vertices"),
+            (Some(Draw::Indirect), _) => "draws as many vertices as a buffer says".to_owned(),
+            (Some(Draw::Custom) | None, None) => "is recorded by the program".to_owned(),
+            (Some(Draw::Custom) | None, Some(Groups::Count([x, y, z]))) => format!("dispatches {x}×{y}×{z} groups"),
+            (Some(Draw::Custom) | None, Some(Groups::Invocations([x, y, z]))) => {
+                format!("dispatches {x}×{y}×{z} invocations")
+            }
+            (Some(Draw::Custom) | None, Some(Groups::Indirect { .. })) => {
+                "dispatches as many groups as a buffer says".to_owned()
+            }
         };
         let mut text = format!("`{}` {work} with shader `{}`", Shown(&pass.name), Shown(&pass.shader));
         for (color, blend) in pass.blend.iter().enumerate() {
@@ -107,8 +144,12 @@ impl Tree<'_> {
         if let Some(depth) = &pass.depth {
             text += &format!(", depth {}{}", vulkan(&depth.test), if depth.write { " and written" } else { "" });
         }
+        if let Some(StencilState { test, reference, pass, .. }) = &pass.stencil {
+            text += &format!(", stencil {} {reference} then {}", vulkan(test), vulkan(pass));
+        }
         text += &cause(&pass.cause);
-        let mut parts: Vec<Node> = pass.bindings.iter().map(|binding| self.binding(binding)).collect();
+        let mut parts: Vec<Node> = pass.accesses.iter().filter_map(|access| self.binding(access)).collect();
+        parts.extend(pass.buffers.iter().map(|access| self.buffer(access)));
         for param in &pass.params {
             let value = match param.value {
                 ParamValue::Bool(value) => value.to_string(),
@@ -123,39 +164,79 @@ impl Tree<'_> {
         Node::new(text, parts)
     }
 
-    fn binding(self, binding: &Binding) -> Node {
-        let kind = binding.filter.map_or("storage".to_owned(), |filter| format!("sampled, {}", vulkan(&filter)));
-        Node::leaf(format!("{} = {}, {kind}", Shown(&binding.name), self.part(binding.image, binding.range)))
+    fn binding(self, access: &Access) -> Option<Node> {
+        let binding = access.binding.as_ref()?;
+        let kind = match binding.kind {
+            BindingKind::Sampled(filter) => format!("sampled, {}", vulkan(&filter)),
+            BindingKind::Storage => "storage".to_owned(),
+            BindingKind::InputAttachment => "read at its own position".to_owned(),
+        };
+        Some(Node::leaf(format!("{} = {}, {kind}", Shown(&binding.name), self.part(access.image, access.range))))
+    }
+
+    fn buffer(self, access: &BufferAccess) -> Node {
+        let kind = match access.role {
+            Some(BufferRole::Uniform) => "uniform",
+            Some(BufferRole::Storage { write: false, .. }) => "storage, read",
+            Some(BufferRole::Storage { read: false, .. }) => "storage, written",
+            Some(BufferRole::Storage { .. }) => "storage, read and written",
+            Some(BufferRole::Vertex) => "vertices",
+            Some(BufferRole::Index) => "indices",
+            Some(BufferRole::Indirect) => "counts",
+            None => "transferred",
+        };
+        let binding = access.binding.as_ref().map_or_else(String::new, |name| format!("{} = ", Shown(name)));
+        Node::leaf(format!("{binding}{}, {kind}", self.resource(Resource::Buffer(access.buffer))))
     }
 
     fn transfer(self, word: &str, transfer: &Transfer) -> String {
-        let from = self.part(transfer.source, transfer.source_range);
-        let to = self.part(transfer.target, transfer.target_range);
-        format!("{word} {from} → {to}, {}{}", size(transfer.extent), cause(&transfer.cause))
+        let name = transfer.name.as_ref().map_or_else(String::new, |name| format!("`{}`: ", Shown(name)));
+        let filter = transfer.filter.map_or_else(String::new, |filter| format!(", {}", vulkan(&filter)));
+        let [from, to] = [self.side(&transfer.source), self.side(&transfer.target)];
+        format!("{name}{word} {from} → {to}{filter}{}", cause(&transfer.cause))
+    }
+
+    fn side(self, side: &Side) -> String {
+        match side {
+            Side::Image { image, range, extent, .. } => format!("{} {}", self.part(*image, *range), size(*extent)),
+            Side::Buffer { bytes: taken, .. } => format!("{} {}", self.resource(side.resource()), bytes(*taken)),
+        }
     }
 
     fn memory_barrier(self, barrier: &MemoryBarrier) -> Node {
-        let hands = barrier.hand_overs.iter().map(|[from, to]| format!("{} → {}", self.name(*from), self.name(*to)));
+        let hands = barrier.hand_overs.iter().map(|[from, to]| [from, to].map(|it| self.resource(*it)).join(" → "));
         let hands: Vec<String> = hands.collect();
-        if hands.is_empty() {
+        let mut reasons = Vec::new();
+        if !hands.is_empty() {
+            reasons.push(format!("memory changes hands, {}", hands.join(", ")));
+        }
+        reasons.extend(barrier.buffers.iter().map(|buffer| {
+            let reason = hazard("this step", buffer.hazard, buffer.after);
+            format!("{}: {reason}", self.resource(Resource::Buffer(buffer.buffer)))
+        }));
+        if reasons.is_empty() {
             return Node::leaf("barrier: all memory");
         }
-        Node::leaf(format!("barrier: memory changes hands, {}", hands.join(", ")))
+        Node::leaf(format!("barrier: {}", reasons.join("; ")))
     }
 
     fn image_barrier(self, step: &Step, barrier: &ImageBarrier) -> Node {
         let [old, new] = [vulkan(&barrier.old_layout), vulkan(&barrier.new_layout)];
         let layouts = if old == new { format!("stays {new}") } else { format!("{old} → {new}") };
         let part = self.part(barrier.image, barrier.range);
-        Node::leaf(format!("barrier: {part}: {layouts}, {}", self.reason(step, barrier)))
+        let hands = match barrier.ownership {
+            Some([from, to]) => format!(", from the {} queue to the {} queue", vulkan(&from), vulkan(&to)),
+            None => String::new(),
+        };
+        Node::leaf(format!("barrier: {part}: {layouts}{hands}, {}", self.reason(step, barrier)))
     }
 
     /// Why a barrier is there: who does what, after what.
     fn reason(self, step: &Step, barrier: &ImageBarrier) -> String {
         let passes = match &step.work {
             Work::Render(scope) => scope.passes.as_slice(),
-            Work::Dispatch(pass) => std::slice::from_ref(pass),
-            Work::Resolve(_) | Work::Copy(_) | Work::Export => &[],
+            Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
+            Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => &[],
         };
         let touches = |pass: &&Pass| pass.accesses.iter().any(|access| access.image == barrier.image);
         let who = match (passes.iter().find(touches), &step.work) {
@@ -163,19 +244,11 @@ impl Tree<'_> {
             (None, Work::Render(_)) => "the end of the scope".to_owned(),
             (None, _) => "this step".to_owned(),
         };
-        let after = barrier.after.map_or("the frame before".to_owned(), |StepId(step)| format!("step {step}"));
-        match barrier.hazard {
-            Hazard::FirstUse => format!("first use, after {after}"),
-            Hazard::ReadAfterWrite => format!("{who} reads what {after} wrote"),
-            Hazard::WriteAfterRead => format!("{who} writes what {after} read"),
-            Hazard::WriteAfterWrite => format!("{who} writes what {after} wrote"),
-            Hazard::LayoutChange => format!("{who} reads what {after} read in another way"),
-            Hazard::Export => format!("promised state, after {after}"),
-        }
+        hazard(&who, barrier.hazard, barrier.after)
     }
 
-    fn name(self, id: ImageId) -> String {
-        self.plan.images.get(id.0 as usize).map_or_else(String::new, |image| format!("`{}`", Shown(&image.name)))
+    fn resource(self, resource: Resource) -> String {
+        format!("`{}`", Shown(self.plan.resource_name(resource)))
     }
 
     /// An image, with its part if that isn't all of it.
@@ -184,11 +257,59 @@ impl Tree<'_> {
             range
                 == Subresources { aspects: range.aspects, ..Subresources::all(image.format, image.mips, image.layers) }
         });
-        if whole { self.name(id) } else { format!("{} ({range})", self.name(id)) }
+        let name = self.resource(Resource::Image(id));
+        if whole { name } else { format!("{name} ({range})") }
     }
 }
 
-fn image(image: &Image) -> Node {
+/// Who does what, after what.
+fn hazard(who: &str, hazard: Hazard, after: Option<StepId>) -> String {
+    let after = after.map_or("the frame before".to_owned(), |StepId(step)| format!("step {step}"));
+    match hazard {
+        Hazard::FirstUse => format!("first use, after {after}"),
+        Hazard::ReadAfterWrite => format!("{who} reads what {after} wrote"),
+        Hazard::WriteAfterRead => format!("{who} writes what {after} read"),
+        Hazard::WriteAfterWrite => format!("{who} writes what {after} wrote"),
+        Hazard::LayoutChange => format!("{who} reads what {after} read in another way"),
+        Hazard::Export => format!("promised state, after {after}"),
+        Hazard::Ownership => format!("another queue takes it over after {after}"),
+    }
+}
+
+fn buffer(plan: &Plan, buffer: &Buffer) -> Node {
+    let next = |at: u32| plan.buffers.get(at as usize).map_or("", |buffer| &buffer.name);
+    let text = format!("`{}` {}{}", Shown(&buffer.name), bytes(buffer.bytes), role(&buffer.role, &buffer.name, next));
+    Node::leaf(text + &cause(&buffer.cause))
+}
+
+/// Where the memory of the image or buffer `name` comes from.
+fn role<'p>(role: &Role, name: &str, next: impl Fn(u32) -> &'p str) -> String {
+    match role {
+        Role::Transient(placement) => {
+            let [first, last] = placement.lifetime;
+            let steps =
+                if first == last { format!("step {}", first.0) } else { format!("steps {}–{}", first.0, last.0) };
+            let [taken, offset] = [placement.bytes, placement.offset].map(bytes);
+            format!(": {taken} at {offset} in heap {}, {steps}", placement.heap)
+        }
+        Role::Persistent { becomes, initial, .. } => {
+            let next = next(*becomes);
+            let becomes = if next == name { "stays".to_owned() } else { format!("becomes `{}`", Shown(next)) };
+            format!(": persistent, {becomes} in the next frame, at first {}", fill_value(initial))
+        }
+        Role::External { .. } => ": external".to_owned(),
+    }
+}
+
+fn fill_value(value: &FillValue) -> String {
+    match value {
+        FillValue::Color([red, green, blue, alpha]) => format!("({red}, {green}, {blue}, {alpha})"),
+        FillValue::Bits([red, green, blue, alpha]) => format!("({red}, {green}, {blue}, {alpha})"),
+        FillValue::Depth(depth, stencil) => format!("depth {depth}, stencil {stencil}"),
+    }
+}
+
+fn image(plan: &Plan, image: &Image) -> Node {
     let mut text = format!("`{}` {} {}", Shown(&image.name), image.format, size(image.extent));
     for (count, word) in [(image.mips, "mips"), (image.layers, "layers")] {
         if count > 1 {
@@ -196,24 +317,23 @@ fn image(image: &Image) -> Node {
         }
     }
     text += &format!(", {}", samples(image.samples));
-    match &image.role {
-        Role::Transient(placement) => {
-            let [first, last] = placement.lifetime;
-            let steps =
-                if first == last { format!("step {}", first.0) } else { format!("steps {}–{}", first.0, last.0) };
-            let [taken, offset] = [placement.bytes, placement.offset].map(bytes);
-            text += &format!(": {taken} at {offset} in heap {}, {steps}", placement.heap);
-        }
-        Role::Output { .. } => text += ": output",
-    }
+    let next = |at: u32| plan.images.get(at as usize).map_or("", |image| &image.name);
+    text += &role(&image.role, &image.name, next);
     Node::leaf(text + &cause(&image.cause))
 }
 
-fn output(plan: &Plan, id: ImageId) -> Option<Node> {
-    let image = plan.images.get(id.0 as usize)?;
-    let Role::Output { after, .. } = &image.role else { return None };
+fn output(plan: &Plan, resource: Resource) -> Option<Node> {
+    let role = match resource {
+        Resource::Image(id) => &plan.images.get(id.0 as usize)?.role,
+        Resource::Buffer(id) => &plan.buffers.get(id.0 as usize)?.role,
+    };
+    let (Role::External { after, .. } | Role::Persistent { after, .. }) = role else { return None };
+    let name = Shown(plan.resource_name(resource));
     let [layout, stages, accesses] = [vulkan(&after.layout), vulkan(&after.stages), vulkan(&after.accesses)];
-    Some(Node::leaf(format!("`{}` in {layout}, ready for {accesses} in {stages}", Shown(&image.name))))
+    Some(Node::leaf(match resource {
+        Resource::Image(_) => format!("`{name}` in {layout}, last {accesses} in {stages}"),
+        Resource::Buffer(_) => format!("`{name}`, last {accesses} in {stages}"),
+    }))
 }
 
 fn note(note: &Note) -> Node {
@@ -222,7 +342,7 @@ fn note(note: &Note) -> Node {
 }
 
 fn totals(totals: &Totals) -> Node {
-    let Totals { transient_bytes, placed_bytes, live_peak_bytes, output_bytes, .. } = *totals;
+    let Totals { transient_bytes, placed_bytes, live_peak_bytes, kept_bytes, .. } = *totals;
     let ratio = if live_peak_bytes == 0 {
         String::new()
     } else {
@@ -243,8 +363,8 @@ fn totals(totals: &Totals) -> Node {
         count(totals.memory_barriers, "memory barrier", "memory barriers"),
         count(totals.barrier_calls, "call", "calls"),
     );
-    let [transient, placed, output] = [transient_bytes, placed_bytes, output_bytes].map(bytes);
-    let memory = format!("transient {transient} placed in {placed}{ratio}, outputs {output}");
+    let [transient, placed, kept] = [transient_bytes, placed_bytes, kept_bytes].map(bytes);
+    let memory = format!("transient {transient} placed in {placed}{ratio}, kept {kept}");
     Node::new("totals", [work, barriers, memory].map(Node::leaf).into())
 }
 
