@@ -23,10 +23,12 @@ pub struct ShaderInterface {
     pub per_sample: bool,
     /// Whether the fragment stage writes its own depth.
     pub writes_depth: bool,
+    /// Invocations of a workgroup in x, y and z, each at least 1; of compute shaders only.
+    pub workgroup_size: Option<[u32; 3]>,
 }
 
-/// The set whose bindings belong to the pass: its sampled and storage images, and one block of parameters. Sets from 1
-/// on belong to whoever draws.
+/// The set whose bindings belong to the pass: its sampled and storage images, its buffers, and one block of parameters.
+/// Sets from 1 on belong to whoever draws.
 pub const PASS_SET: u32 = 0;
 
 /// One resource.
@@ -53,6 +55,8 @@ pub enum BindingKind {
     StorageImage {
         /// Dimension and component type.
         shape: ImageShape,
+        /// The texel format that the declaration names; `None`: it names none.
+        format: Option<Format>,
         /// Whether the shader may read it.
         readable: bool,
         /// Whether the shader may write it.
@@ -62,10 +66,20 @@ pub enum BindingKind {
     UniformBlock(Block),
     /// A storage block.
     StorageBlock {
+        /// Whether the shader may read it.
+        readable: bool,
         /// Whether the shader may write it.
         writable: bool,
     },
-    /// Anything else (separate samplers, texel buffers, input attachments, …), in words: not supported.
+    /// An input attachment: the texel at the fragment's own position.
+    InputAttachment {
+        /// Whether single samples are read.
+        multisampled: bool,
+        /// What a component is.
+        component: Component,
+    },
+    /// Anything else (separate samplers, texel buffers, storage images of formats that no image of a pipeline has, …), in
+    /// words: not supported.
     Other(String),
 }
 
@@ -189,6 +203,12 @@ pub trait ShaderInterfaces {
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     fn draw_shader(&mut self, name: &str, draw: Draw) -> Result<ShaderInterface, ShaderProblem>;
+
+    /// The interface of the compute shader `name`.
+    ///
+    /// # Errors
+    /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
+    fn compute_shader(&mut self, name: &str) -> Result<ShaderInterface, ShaderProblem>;
 
     /// What whoever draws `draw` brings along.
     fn brought_along(&self, draw: Draw) -> DrawInterface;

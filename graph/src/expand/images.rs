@@ -48,9 +48,9 @@ pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Di
     let all = images.iter().zip(formats).zip(extents).zip(samples);
     all.map(|(((image, format), extent), samples)| {
         let ([width, height], (samples, samples_because)) = (extent?, samples?);
-        let (name, span) = (image.name.text.clone(), image.name.span);
-        let extent = [width, height, 1];
-        let image = Image { name, span, format: format?, extent, mips: 1, layers: 1, samples };
+        let (name, span) = (&image.name.text, image.name.span);
+        let format = format?;
+        let image = Image { span, samples, ..Image::new(name, format, width, height) };
         Some(Resolved { image, samples_because })
     })
     .collect()

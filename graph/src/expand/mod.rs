@@ -18,7 +18,7 @@ mod supplied;
 pub use facts::Facts;
 
 use crate::describe::{self, Diagnostic, LARGEST_SIZE, Pipeline, suggestion};
-use crate::frame::{Frame, ImageIndex, Output, Pass, SwitchedOff, Work};
+use crate::frame::{Frame, ImageIndex, Output, Pass, Resource, SwitchedOff, Work};
 use crate::interface::ShaderInterfaces;
 use crate::source::{Sources, Span};
 use std::sync::Arc;
@@ -115,7 +115,7 @@ pub fn expand(
     match images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>() {
         Some(images) if errors.is_empty() => {
             let settings = settings::shown(pipeline, &chosen.values);
-            Ok(Frame { sources, settings, images, passes, outputs, switched_off })
+            Ok(Frame { sources, settings, images, buffers: Vec::new(), passes, outputs, switched_off })
         }
         _ => {
             errors.sort_by_key(|error| error.labels.first().map_or(0, |label| label.span.start));
@@ -126,8 +126,8 @@ pub fn expand(
 
 /// The pipeline's outputs, then dumped images that aren't among them.
 fn outputs(pipeline: &Pipeline, dump: &[String], errors: &mut Vec<Diagnostic>) -> Vec<Output> {
-    let mut outputs: Vec<Output> =
-        pipeline.outputs.iter().map(|image| Output { image: image.index, span: image.span }).collect();
+    let output = |image, span| Output { resource: Resource::Image(image), span, after: None };
+    let mut outputs: Vec<Output> = pipeline.outputs.iter().map(|image| output(image.index, image.span)).collect();
     for name in dump {
         let Some(index) = pipeline.images.iter().position(|image| *image.name.text == **name) else {
             let help = suggestion(name, pipeline.images.iter().map(|image| &*image.name.text));
@@ -135,8 +135,8 @@ fn outputs(pipeline: &Pipeline, dump: &[String], errors: &mut Vec<Diagnostic>) -
             continue;
         };
         let Ok(index) = u32::try_from(index).map(ImageIndex) else { continue };
-        if outputs.iter().all(|output| output.image != index) {
-            outputs.push(Output { image: index, span: Span::NONE });
+        if outputs.iter().all(|output| output.resource != Resource::Image(index)) {
+            outputs.push(output(index, Span::NONE));
         }
     }
     outputs

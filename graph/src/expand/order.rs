@@ -1,7 +1,7 @@
 //! The order of passes: nothing is read before it is written, and whoever writes first covers or clears.
 
 use crate::describe::{Diagnostic, Pass, Pipeline};
-use crate::frame::{Blend, Draw, ImageIndex, Output};
+use crate::frame::{Blend, Draw, ImageIndex, Output, Resource};
 use crate::source::Span;
 use crate::vocabulary::CompareOp;
 
@@ -74,7 +74,9 @@ pub(super) fn check(pipeline: &Pipeline, states: &[State<'_>], outputs: &[Output
     }
     for output in outputs {
         let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
-        check.needs(states.len(), output.image, output.span, reader);
+        if let Resource::Image(image) = output.resource {
+            check.needs(states.len(), image, output.span, reader);
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use super::shader::{self, Checked};
 use super::{Chosen, params, supplied};
 use crate::describe::{self, Diagnostic, ImageRef};
 use crate::frame::{Blend, ColorTarget, DepthTarget, Pass, Work};
+use crate::vocabulary::Subresources;
 
 /// The pass as it runs. `None` if its shader can't be had; mistakes were reported then.
 pub(super) fn lower(
@@ -19,17 +20,21 @@ pub(super) fn lower(
     let sampled = shader::sampled(chosen, images, pass, &interface, errors);
     let params = params::give(chosen, pass, &interface, errors);
     shader::outputs(images, pass, &interface, errors);
+    let work = Work::Draw {
+        draw: pass.draw,
+        shader: pass.shader.text.clone(),
+        discards: interface.discards,
+        per_sample: interface.per_sample,
+    };
     Some(Pass {
-        name: pass.name.text.clone(),
         span: pass.name.span,
-        work: Work::Draw { draw: pass.draw, shader: pass.shader.text.clone(), discards: interface.discards },
         sampled,
-        storage: Vec::new(),
         color: pass
             .color
             .iter()
             .map(|target| ColorTarget {
                 image: target.image.index,
+                range: Subresources::WHOLE,
                 span: target.image.span,
                 clear: target.clear,
                 blend: target.blend.value,
@@ -37,28 +42,23 @@ pub(super) fn lower(
             .collect(),
         depth: pass.depth.as_ref().map(|target| DepthTarget {
             image: target.image.index,
+            range: Subresources::WHOLE,
             span: target.image.span,
             clear: target.clear,
             test: target.test,
             write: target.write,
+            stencil: None,
         }),
         params,
+        ..Pass::new(&pass.name.text, work)
     })
 }
 
 /// What runs in place of a pass that is off, if its target must be filled all the same.
 pub(super) fn stand_in(pass: &describe::Pass, because: String) -> Option<Pass> {
     let forward = pass.otherwise?;
-    Some(Pass {
-        name: pass.name.text.clone(),
-        span: pass.name.span,
-        work: Work::Forward { from: forward.from.index, to: forward.to.index, because },
-        sampled: Vec::new(),
-        storage: Vec::new(),
-        color: Vec::new(),
-        depth: None,
-        params: Vec::new(),
-    })
+    let work = Work::Forward { from: forward.from.index, to: forward.to.index, because };
+    Some(Pass { span: pass.name.span, ..Pass::new(&pass.name.text, work) })
 }
 
 /// Targets have formats that fit their use, and agree in size and sample count; a stand-in keeps to one kind of image.

@@ -8,7 +8,7 @@ use crate::interface::{
     BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterface, ShaderInterfaces,
     ShaderProblem,
 };
-use crate::vocabulary::Filter;
+use crate::vocabulary::{Filter, Subresources};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -106,8 +106,11 @@ pub(super) fn sampled(
         sampled.push(Sampled {
             binding: name.clone(),
             image: sample.image.index,
+            range: Subresources::WHOLE,
+            frames_ago: 0,
             span: sample.image.span,
             per_sample: shape.multisampled,
+            own_pixel: false,
             filter: sample.filter.map_or(default, |filter| filter.value),
             stages: binding.stages,
         });
@@ -141,6 +144,7 @@ fn missing(pass: &describe::Pass, interface: &ShaderInterface, misspelt: &[&str]
             BindingKind::UniformBlock(_) => "a uniform block",
             BindingKind::StorageImage { .. } => "a storage image",
             BindingKind::StorageBlock { .. } => "a storage block",
+            BindingKind::InputAttachment { .. } => "an input attachment",
             BindingKind::Other(what) => what,
         };
         let message = format!("shader `{shader}` has {what} named `{name}` in set {PASS_SET}, which a pass can't give");

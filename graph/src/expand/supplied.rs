@@ -64,7 +64,7 @@ fn resource(pass: &describe::Pass, binding: &Binding, supplied: &[Supplied], err
     let (fits, what) = match there.kind {
         SuppliedKind::UniformBlock => (matches!(binding.kind, BindingKind::UniformBlock(_)), "a uniform block"),
         SuppliedKind::StorageBlock => (
-            matches!(binding.kind, BindingKind::StorageBlock { writable: false }),
+            matches!(binding.kind, BindingKind::StorageBlock { writable: false, .. }),
             "a storage block that is only read (`readonly buffer`)",
         ),
         SuppliedKind::SampledImage => (

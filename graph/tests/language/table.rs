@@ -51,7 +51,7 @@ fn lit(discards: bool) -> ShaderInterface {
         stages: Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER,
     };
     let view = frame(0, "view", BindingKind::UniformBlock(Block::default()));
-    let objects = frame(2, "objects", BindingKind::StorageBlock { writable: false });
+    let objects = frame(2, "objects", BindingKind::StorageBlock { readable: true, writable: false });
     let texture = Binding { set: 2, ..texture("base_color_texture", 0, false, Component::Float) };
     let input = |location, name: &str, ty: &str| VertexInput { location, name: name.to_owned(), ty: ty.to_owned() };
     ShaderInterface {
@@ -100,13 +100,13 @@ impl ShaderInterfaces for Table {
                 set: 0,
                 binding: 0,
                 name: "tiles".to_owned(),
-                kind: BindingKind::StorageBlock { writable: true },
+                kind: BindingKind::StorageBlock { readable: true, writable: true },
                 stages: Stages::FRAGMENT_SHADER,
             }]),
             "misplaced" => {
                 let mut interface = lit(false);
                 interface.bindings[0].binding = 7;
-                interface.bindings[1].kind = BindingKind::StorageBlock { writable: true };
+                interface.bindings[1].kind = BindingKind::StorageBlock { readable: true, writable: true };
                 interface.bindings[2].name = "base_colour_texture".to_owned();
                 interface.vertex_inputs[0].name = "positions".to_owned();
                 interface.vertex_inputs[1].ty = "ivec3".to_owned();
@@ -124,6 +124,10 @@ impl ShaderInterfaces for Table {
                 return Err(ShaderProblem::Missing { looked_in, known });
             }
         })
+    }
+
+    fn compute_shader(&mut self, name: &str) -> Result<ShaderInterface, ShaderProblem> {
+        self.draw_shader(name, Draw::FullScreen)
     }
 
     fn brought_along(&self, draw: Draw) -> DrawInterface {
@@ -145,7 +149,7 @@ impl ShaderInterfaces for Table {
                 ],
             },
             Draw::Sky => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
-            Draw::FullScreen => DrawInterface::default(),
+            Draw::FullScreen | Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => DrawInterface::default(),
         }
     }
 }

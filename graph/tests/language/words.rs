@@ -3,7 +3,7 @@
 use crate::table::{INPUTS, frame, set};
 use framewright_graph::expand::{Facts, Inputs};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Frame, ParamValue, Work};
+use framewright_graph::frame::{Blend, Frame, ImageIndex, ParamValue, Resource, Work};
 use framewright_graph::vocabulary::{CompareOp, Filter};
 
 /// A pipeline that shows one full-screen draw, with more settings, images and passes before it.
@@ -225,8 +225,8 @@ fn a_dumped_image_leaves_the_frame_once() {
     let passes = r#"(name: "a", draw: FullScreen("plain"), color: ["color"]),"#;
     let dump = ["color", "screen", "color"].map(str::to_owned);
     let frame = right(&pipeline("", images, passes), &Inputs { dump: &dump, ..INPUTS });
-    let outputs: Vec<u32> = frame.outputs.iter().map(|output| output.image.0).collect();
-    assert_eq!(outputs, [0, 1]);
+    let outputs: Vec<Resource> = frame.outputs.iter().map(|output| output.resource).collect();
+    assert_eq!(outputs, [0, 1].map(|index| Resource::Image(ImageIndex(index))));
 }
 
 #[test]
