@@ -9,7 +9,7 @@ use super::violation::{Loss, Rule, StepName};
 use super::walk::Walk;
 use super::{Finding, scopes::PairSet};
 use crate::frame::{Blend, Draw};
-use crate::plan::{Attachment, ImageId, Pass, RenderScope, Step, StepId, Subresources, Transfer, Work};
+use crate::plan::{Attachment, ImageId, Pass, RenderScope, Side, Step, StepId, Subresources, Work};
 use crate::vocabulary::{Accesses, CompareOp, LoadOp, StoreOp};
 
 impl Walk<'_, '_> {
@@ -17,19 +17,20 @@ impl Walk<'_, '_> {
     pub(super) fn contents(&mut self, id: StepId, step: &Step) {
         match &step.work {
             Work::Render(scope) => self.render_contents(id, scope),
-            Work::Dispatch(pass) => self.pass_contents(id, pass, &[]),
-            Work::Resolve(transfer) | Work::Copy(transfer) => {
-                self.read(id, transfer.source, transfer.source_range);
-                if self.covers(transfer) {
-                    self.fill(id, transfer.target, transfer.target_range);
+            Work::Dispatch(pass) | Work::Custom(pass) => self.pass_contents(id, pass, &[]),
+            Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
+                if let Side::Image { image, range, .. } = transfer.source {
+                    self.read(id, image, range);
                 }
+                self.write_side(id, &transfer.target);
             }
+            Work::Fill(fill) => self.write_side(id, &fill.target),
             Work::Export => {}
         }
     }
 
     fn render_contents(&mut self, id: StepId, scope: &RenderScope) {
-        let attachments = || scope.color.iter().chain(&scope.depth);
+        let attachments = || scope.color.iter().chain(&scope.depth).chain(&scope.stencil);
         for attachment in attachments() {
             match attachment.load {
                 LoadOp::Load => self.read(id, attachment.image, attachment.range),
@@ -137,10 +138,12 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// Whether a copy or resolve reaches every texel of its target's mip level.
-    fn covers(&self, transfer: &Transfer) -> bool {
-        let image = self.plan.image(transfer.target);
-        let whole = image.extent.map(|texels| (texels >> transfer.target_range.base_mip.min(31)).max(1));
-        transfer.extent == whole
+    fn write_side(&mut self, id: StepId, side: &Side) {
+        if let Side::Image { image, range, extent, .. } = *side {
+            let whole = self.plan.image(image).extent.map(|texels| (texels >> range.base_mip.min(31)).max(1));
+            if extent == whole {
+                self.fill(id, image, range);
+            }
+        }
     }
 }

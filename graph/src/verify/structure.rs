@@ -5,7 +5,7 @@ use super::scopes::impossible;
 use super::touches;
 use super::violation::{Rule, Violation};
 use crate::plan::names::vulkan;
-use crate::plan::{Image, ImageBarrier, ImageId, Placement, Plan, Role, Step, StepId, Subresources, Totals, Work};
+use crate::plan::{Image, ImageBarrier, ImageId, Placement, Plan, Resource, Role, Step, StepId, Subresources, Totals, Work};
 use crate::vocabulary::{Accesses, Layout, Stages, Usage};
 use std::collections::HashSet;
 
@@ -68,10 +68,10 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
     }
     match &image.role {
         Role::Transient(placement) => check_placement(plan, image, placement, found),
-        Role::Output { after, .. } if after.layout == Layout::Undefined => {
+        Role::External { after, .. } | Role::Persistent { after, .. } if after.layout == Layout::Undefined => {
             wrong("is promised in layout UNDEFINED");
         }
-        Role::Output { .. } => {}
+        Role::External { .. } | Role::Persistent { .. } => {}
     }
 }
 
@@ -119,13 +119,11 @@ fn check_ranges(plan: &Plan, found: &mut Findings) {
         let touched = touches.iter().map(|touch| (touch.image, touch.range));
         let barriers = step.image_barriers.iter().map(|barrier| (barrier.image, barrier.range));
         let attachments = match &step.work {
-            Work::Render(scope) => scope.color.iter().chain(&scope.depth).collect(),
+            Work::Render(scope) => scope.color.iter().chain(&scope.depth).chain(&scope.stencil).collect(),
             _ => Vec::new(),
         };
         let attached = attachments.iter().map(|attachment| (attachment.image, attachment.range));
-        let passes = super::work::passes(&step.work).iter();
-        let bound = passes.flat_map(|pass| &pass.bindings).map(|binding| (binding.image, binding.range));
-        for (image, range) in barriers.chain(attached).chain(touched).chain(bound) {
+        for (image, range) in barriers.chain(attached).chain(touched) {
             if !fits(plan.image(image), range) {
                 found.structure(Some(id), Some(image), format!("has no part {range}"));
             }
@@ -153,17 +151,13 @@ pub(super) fn overlap(one: Subresources, other: Subresources) -> bool {
 
 fn check_outputs(plan: &Plan, found: &mut Findings) {
     let mut listed = HashSet::new();
-    for id in &plan.outputs {
-        if !matches!(plan.image(*id).role, Role::Output { .. }) {
-            found.structure(None, Some(*id), "is listed as an output and has no output's role");
+    for output in &plan.outputs {
+        let Resource::Image(id) = *output else { continue };
+        if matches!(plan.image(id).role, Role::Transient(_)) {
+            found.structure(None, Some(id), "is listed as an output and is transient");
         }
-        if !listed.insert(*id) {
-            found.structure(None, Some(*id), "is listed as an output twice");
-        }
-    }
-    for image in &plan.images {
-        if matches!(image.role, Role::Output { .. }) && !listed.contains(&image.id) {
-            found.structure(None, Some(image.id), "has an output's role and is not listed as an output");
+        if !listed.insert(id) {
+            found.structure(None, Some(id), "is listed as an output twice");
         }
     }
 }
@@ -198,9 +192,6 @@ fn check_barriers(plan: &Plan, id: StepId, step: &Step, found: &mut Findings) {
 
 fn check_image_barrier(plan: &Plan, id: StepId, barrier: &ImageBarrier, found: &mut Findings) {
     let image = plan.image(barrier.image);
-    if barrier.range.aspects != image.format.aspects() {
-        found.structure(Some(id), Some(barrier.image), "a barrier must name all of its planes");
-    }
     if barrier.new_layout == Layout::Undefined {
         found.structure(Some(id), Some(barrier.image), "a barrier can't make a layout UNDEFINED");
     }
@@ -214,7 +205,13 @@ fn check_image_barrier(plan: &Plan, id: StepId, barrier: &ImageBarrier, found: &
 fn needed_usage(layout: Layout) -> Usage {
     match layout {
         Layout::ColorAttachmentOptimal => Usage::COLOR_ATTACHMENT,
-        Layout::DepthStencilAttachmentOptimal | Layout::DepthStencilReadOnlyOptimal => Usage::DEPTH_STENCIL_ATTACHMENT,
+        Layout::DepthStencilAttachmentOptimal
+        | Layout::DepthStencilReadOnlyOptimal
+        | Layout::DepthAttachmentOptimal
+        | Layout::DepthReadOnlyOptimal
+        | Layout::StencilAttachmentOptimal
+        | Layout::StencilReadOnlyOptimal => Usage::DEPTH_STENCIL_ATTACHMENT,
+        Layout::RenderingLocalReadKhr => Usage::INPUT_ATTACHMENT,
         Layout::ShaderReadOnlyOptimal => Usage::SAMPLED,
         Layout::TransferSrcOptimal => Usage::TRANSFER_SRC,
         Layout::TransferDstOptimal => Usage::TRANSFER_DST,
@@ -258,7 +255,7 @@ fn check_totals(plan: &Plan, found: &mut Findings) {
     let placements = || {
         plan.images.iter().filter_map(|image| match &image.role {
             Role::Transient(placement) => Some(placement),
-            Role::Output { .. } => None,
+            Role::External { .. } | Role::Persistent { .. } => None,
         })
     };
     let stated = plan.totals;

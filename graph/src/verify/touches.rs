@@ -5,7 +5,7 @@
 //! `LATE_FRAGMENT_TESTS`. A `DONT_CARE` load or store is a write; a `NONE` store is nothing.
 
 use super::scopes::{PairSet, StageSet};
-use crate::plan::{Access, Attachment, ImageId, RenderScope, Step, Subresources, Work};
+use crate::plan::{Access, Attachment, ImageId, RenderScope, Side, Step, Subresources, Transfer, Work};
 use crate::vocabulary::{Accesses, Layout, LoadOp, Stages, StoreOp};
 
 /// One access of a step's work.
@@ -31,20 +31,29 @@ pub(super) fn list(step: &Step, touches: &mut Vec<Touch>) {
     touches.clear();
     match &step.work {
         Work::Render(scope) => render(scope, touches),
-        Work::Dispatch(pass) => touches.extend(pass.accesses.iter().map(pass_access)),
-        Work::Resolve(transfer) | Work::Copy(transfer) => {
-            let stages = if matches!(step.work, Work::Resolve(_)) { Stages::RESOLVE } else { Stages::COPY };
-            let mut push = |image, range, layout, accesses| touches.push(touch(image, range, layout, stages, accesses));
-            push(transfer.source, transfer.source_range, Layout::TransferSrcOptimal, Accesses::TRANSFER_READ);
-            push(transfer.target, transfer.target_range, Layout::TransferDstOptimal, Accesses::TRANSFER_WRITE);
-        }
+        Work::Dispatch(pass) | Work::Custom(pass) => touches.extend(pass.accesses.iter().map(pass_access)),
+        Work::Resolve(transfer) => both(transfer, Stages::RESOLVE, touches),
+        Work::Copy(transfer) => both(transfer, Stages::COPY, touches),
+        Work::Blit(transfer) => both(transfer, Stages::BLIT, touches),
+        Work::Fill(fill) => side(&fill.target, Stages::CLEAR, Accesses::TRANSFER_WRITE, touches),
         Work::Export => {}
+    }
+}
+
+fn both(transfer: &Transfer, stages: Stages, touches: &mut Vec<Touch>) {
+    side(&transfer.source, stages, Accesses::TRANSFER_READ, touches);
+    side(&transfer.target, stages, Accesses::TRANSFER_WRITE, touches);
+}
+
+fn side(side: &Side, stages: Stages, accesses: Accesses, touches: &mut Vec<Touch>) {
+    if let Side::Image { image, range, layout, .. } = *side {
+        touches.push(touch(image, range, layout, stages, accesses));
     }
 }
 
 fn render(scope: &RenderScope, touches: &mut Vec<Touch>) {
     let color = scope.color.iter().map(|attachment| (attachment, true));
-    let attachments = || color.clone().chain(scope.depth.iter().map(|attachment| (attachment, false)));
+    let attachments = || color.clone().chain(scope.depth.iter().chain(&scope.stencil).map(|attachment| (attachment, false)));
     for (attachment, is_color) in attachments() {
         let (stages, read, write) = if is_color { COLOR_LOAD } else { DEPTH_LOAD };
         let accesses = if attachment.load == LoadOp::Load { read } else { write };

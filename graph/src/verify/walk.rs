@@ -9,8 +9,8 @@ use super::survey::Survey;
 use super::touches::{self, Touch};
 use super::violation::{Rule, StepName};
 use super::{Finding, Findings};
-use crate::plan::{ImageBarrier, ImageId, ImageState, Plan, Role, Step, StepId, Subresources};
-use crate::vocabulary::Layout;
+use crate::plan::{ImageBarrier, ImageId, Plan, Role, Step, StepId, Subresources};
+use crate::vocabulary::{Layout, State};
 
 /// All that is known between two steps.
 pub(super) struct Walk<'w, 'p> {
@@ -266,15 +266,15 @@ fn record_writes(cell: &mut Cell, pairs: PairSet, now: Time) {
 }
 
 /// The outputs: image, state before the frame, state after it, all of the image.
-fn outputs(plan: &Plan) -> impl Iterator<Item = (ImageId, ImageState, ImageState, Subresources)> + '_ {
+fn outputs(plan: &Plan) -> impl Iterator<Item = (ImageId, State, State, Subresources)> + '_ {
     plan.images.iter().filter_map(|image| match image.role {
         Role::Transient(_) => None,
-        Role::Output { before, after } => {
+        Role::External { before, after } | Role::Persistent { before, after, .. } => {
             Some((image.id, before, after, Subresources::all(image.format, image.mips, image.layers)))
         }
     })
 }
 
-fn scopes(state: ImageState) -> (StageSet, PairSet) {
+fn scopes(state: State) -> (StageSet, PairSet) {
     (StageSet::of(state.stages), PairSet::of(state.stages, state.accesses))
 }

@@ -9,7 +9,7 @@ use super::touches::ATTACHMENT;
 use crate::frame::Blend;
 use crate::plan::names::{Shown, vulkan};
 use crate::plan::{
-    Access, Attachment, AttachmentResolve, Binding, Image, ImageId, Pass, Plan, RenderScope, Step, StepId,
+    Access, Attachment, AttachmentResolve, BindingKind, Image, ImageId, Pass, Plan, RenderScope, Side, Step, StepId,
     Subresources, Transfer, Work,
 };
 use crate::vocabulary::{Accesses, Aspects, CompareOp, Filter, Layout, LoadOp, ResolveMode, Stages, StoreOp};
@@ -21,8 +21,8 @@ const SHADER: Accesses =
 pub(super) fn passes(work: &Work) -> &[Pass] {
     match work {
         Work::Render(scope) => &scope.passes,
-        Work::Dispatch(pass) => std::slice::from_ref(pass),
-        Work::Resolve(_) | Work::Copy(_) | Work::Export => &[],
+        Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
+        Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => &[],
     }
 }
 
@@ -60,7 +60,7 @@ impl<'p> Check<'_, 'p> {
             Work::Dispatch(pass) => self.dispatch(pass),
             Work::Resolve(transfer) => self.resolve(transfer),
             Work::Copy(transfer) => self.copy(transfer),
-            Work::Export => {}
+            Work::Custom(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => {}
         }
     }
 
@@ -68,7 +68,7 @@ impl<'p> Check<'_, 'p> {
         for attachment in &scope.color {
             self.attachment(scope, attachment, false);
         }
-        if let Some(attachment) = &scope.depth {
+        for attachment in scope.depth.iter().chain(&scope.stencil) {
             self.attachment(scope, attachment, true);
         }
         self.exclusive(scope);
@@ -129,7 +129,7 @@ impl<'p> Check<'_, 'p> {
 
     /// Nothing in a scope may touch what another part of it writes, but for read-only depth.
     fn exclusive(&mut self, scope: &RenderScope) {
-        let attachments: Vec<&Attachment> = scope.color.iter().chain(&scope.depth).collect();
+        let attachments: Vec<&Attachment> = scope.color.iter().chain(&scope.depth).chain(&scope.stencil).collect();
         let resolves: Vec<_> = attachments.iter().filter_map(|attachment| attachment.resolve.as_ref()).collect();
         let targets = attachments.iter().map(|attachment| (attachment.image, attachment.range));
         let targets: Vec<_> = targets.chain(resolves.iter().map(|resolve| (resolve.image, resolve.range))).collect();
@@ -189,7 +189,7 @@ impl<'p> Check<'_, 'p> {
             | Stages::COLOR_ATTACHMENT_OUTPUT;
         for access in &pass.accesses {
             self.access(access, graphics);
-            let attached = scope.color.iter().chain(&scope.depth).any(|attachment| {
+            let attached = scope.color.iter().chain(&scope.depth).chain(&scope.stencil).any(|attachment| {
                 (attachment.image, attachment.range, attachment.layout) == (access.image, access.range, access.layout)
             });
             let stray = access.accesses.intersects(ATTACHMENT) && !attached;
@@ -257,29 +257,25 @@ impl<'p> Check<'_, 'p> {
         self.demand(fits, access.image, what);
     }
 
-    /// Each binding has its access, each shader access its binding.
+    /// Each shader access is bound as what it is.
     fn bindings(&mut self, pass: &Pass) {
-        let matches = |binding: &Binding, access: &Access| {
-            let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
-            let kind = if binding.filter.is_some() { Accesses::SHADER_SAMPLED_READ } else { storage };
-            (binding.image, binding.range, binding.layout) == (access.image, access.range, access.layout)
-                && access.accesses.intersects(kind)
-        };
-        for binding in &pass.bindings {
-            let accessed = pass.accesses.iter().any(|access| matches(binding, access));
-            self.demand(accessed, binding.image, "is bound without such an access");
-            let linear = binding.filter == Some(Filter::Linear);
-            let integer = self.plan.image(binding.image).format.is_integer();
-            self.demand(!(linear && integer), binding.image, "has integers, which can't be filtered");
-        }
-        for access in pass.accesses.iter().filter(|access| access.accesses.intersects(SHADER)) {
-            let bound = pass.bindings.iter().any(|binding| matches(binding, access));
-            self.demand(bound, access.image, "is accessed by a shader without such a binding");
+        let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
+        for access in &pass.accesses {
+            let fits = match access.binding.as_ref().map(|binding| binding.kind) {
+                None => !access.accesses.intersects(SHADER),
+                Some(BindingKind::Sampled(_)) => access.accesses.intersects(Accesses::SHADER_SAMPLED_READ),
+                Some(BindingKind::Storage) => access.accesses.intersects(storage),
+                Some(BindingKind::InputAttachment) => access.accesses.intersects(Accesses::INPUT_ATTACHMENT_READ),
+            };
+            self.demand(fits, access.image, "is accessed by a shader without such a binding");
+            let linear = access.binding.as_ref().map(|binding| binding.kind) == Some(BindingKind::Sampled(Filter::Linear));
+            let integer = self.plan.image(access.image).format.is_integer();
+            self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
         }
     }
 
     fn resolve(&mut self, transfer: &Transfer) {
-        let (source, target) = self.transfer(transfer);
+        let Some((source, target)) = self.transfer(transfer) else { return };
         self.demand(source.samples > 1, source.id, "is resolved and has one sample");
         self.demand(target.samples == 1, target.id, "is the target of a resolve and multisampled");
         self.demand(target.format == source.format, target.id, "is the target of a resolve from another format");
@@ -287,26 +283,32 @@ impl<'p> Check<'_, 'p> {
     }
 
     fn copy(&mut self, transfer: &Transfer) {
-        let (source, target) = self.transfer(transfer);
+        let Some((source, target)) = self.transfer(transfer) else { return };
         self.demand(target.samples == source.samples, target.id, "is copied to from another sample count");
         let colors = !source.format.is_depth() && !target.format.is_depth();
         let alike = colors && source.format.texel_bytes() == target.format.texel_bytes();
         self.demand(alike || source.format == target.format, target.id, "is copied to from a format of another kind");
     }
 
-    fn transfer(&mut self, transfer: &Transfer) -> (&'p Image, &'p Image) {
+    fn transfer(&mut self, transfer: &Transfer) -> Option<(&'p Image, &'p Image)> {
         let plan = self.plan;
-        let (source, target) = (plan.image(transfer.source), plan.image(transfer.target));
-        let (from, to) = (transfer.source_range, transfer.target_range);
+        let (
+            Side::Image { image: source, range: from, extent: read, .. },
+            Side::Image { image: target, range: to, extent: written, .. },
+        ) = (transfer.source, transfer.target)
+        else {
+            return None;
+        };
+        let (source, target) = (plan.image(source), plan.image(target));
         self.demand(from.mips == 1 && to.mips == 1, target.id, "is transferred with more than one mip level");
         self.demand(from.layers == to.layers, target.id, "is transferred from another number of layers");
         self.demand(from.aspects == to.aspects, target.id, "is transferred from another plane");
         self.demand(source.id != target.id || !overlap(from, to), target.id, "is transferred onto itself");
-        for (image, range) in [(source, from), (target, to)] {
-            let within = mip_extent(image, range.base_mip).iter().zip(&transfer.extent).all(|(all, part)| part <= all);
-            self.demand(within && !transfer.extent.contains(&0), image.id, "is transferred beyond its size");
+        for (image, range, extent) in [(source, from, read), (target, to, written)] {
+            let within = mip_extent(image, range.base_mip).iter().zip(&extent).all(|(all, part)| part <= all);
+            self.demand(within && !extent.contains(&0), image.id, "is transferred beyond its size");
         }
-        (source, target)
+        Some((source, target))
     }
 }
 
