@@ -264,7 +264,7 @@ fn check_totals(plan: &Plan, found: &mut Findings) {
         placed_bytes: plan.heaps.iter().map(|heap| heap.bytes).fold(0, u64::saturating_add),
         live_peak_bytes: live_peak(plan.steps.len(), placements()),
         // What an output takes is known only to whoever made it.
-        output_bytes: stated.output_bytes,
+        kept_bytes: stated.kept_bytes,
         ..Totals::count(&plan.steps)
     };
     for ((field, stated), (_, counted)) in fields(&stated).into_iter().zip(fields(&counted)) {
@@ -275,7 +275,7 @@ fn check_totals(plan: &Plan, found: &mut Findings) {
     }
 }
 
-fn fields(totals: &Totals) -> [(&'static str, u64); 12] {
+fn fields(totals: &Totals) -> [(&'static str, u64); 14] {
     [
         ("passes", totals.passes.into()),
         ("inserted_passes", totals.inserted_passes.into()),
@@ -283,6 +283,8 @@ fn fields(totals: &Totals) -> [(&'static str, u64); 12] {
         ("resolves", totals.resolves.into()),
         ("folded_resolves", totals.folded_resolves.into()),
         ("copies", totals.copies.into()),
+        ("fills", totals.fills.into()),
+        ("waits", totals.waits.into()),
         ("barrier_calls", totals.barrier_calls.into()),
         ("image_barriers", totals.image_barriers.into()),
         ("memory_barriers", totals.memory_barriers.into()),
