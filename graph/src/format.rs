@@ -99,6 +99,16 @@ impl Format {
         matches!(self.numeric(), Numeric::Uint)
     }
 
+    /// Bytes that one texel takes where each plane is stored by itself.
+    #[must_use]
+    pub const fn least_texel_bytes(self) -> u64 {
+        match self {
+            Format::D24_UNORM_S8_UINT => 4,
+            Format::D32_SFLOAT_S8_UINT => 5,
+            other => other.texel_bytes(),
+        }
+    }
+
     /// The format with Vulkan's name `name`.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Format> {

@@ -1,7 +1,11 @@
 //! What a device can do, as data: read from a live device by a backend, or from a saved profile.
 
+mod estimate;
 mod saved;
+mod sound;
+mod usual;
 
+pub use estimate::Estimated;
 pub use saved::{ProfileError, SHIPPED_PROFILES};
 
 use crate::format::Format;
@@ -11,22 +15,27 @@ use crate::vocabulary::{BufferUsage, Usage};
 use serde::{Deserialize, Serialize};
 
 /// A device's capabilities, as far as a Plan depends on them.
+///
+/// One that was read from text ([`Profile::from_ron`]) holds no figure that no device has.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Profile {
     /// The device's own name.
+    #[serde(deserialize_with = "sound::name")]
     pub name: String,
     /// Driver and version, and where the figures come from.
     pub source: String,
     /// Largest width and height of an attachment, in texels.
+    #[serde(deserialize_with = "sound::extent")]
     pub max_attachment_extent: u32,
     /// Largest width, height and depth of a three-dimensional image, in texels.
-    #[serde(default = "least_extent_3d")]
+    #[serde(default = "least_extent_3d", deserialize_with = "sound::extent")]
     pub max_extent_3d: u32,
     /// Most array layers of an image.
-    #[serde(default = "least_layers")]
+    #[serde(default = "least_layers", deserialize_with = "sound::extent")]
     pub max_layers: u32,
     /// Most colour attachments of one rendering scope.
+    #[serde(deserialize_with = "sound::attachments")]
     pub max_color_attachments: u32,
     /// Whether it has lazily allocated memory for transient attachments.
     pub lazily_allocated_memory: bool,
@@ -37,12 +46,14 @@ pub struct Profile {
     /// (`VK_KHR_dynamic_rendering_local_read`).
     #[serde(default)]
     pub local_read: bool,
-    /// What each format can be; formats that are absent can be nothing.
+    /// What each format can be, each once; formats that are absent can be nothing.
+    #[serde(deserialize_with = "sound::formats")]
     pub formats: Vec<FormatSupport>,
-    /// How much memory images take.
+    /// How much memory images and buffers take.
     pub memory: MemoryModel,
-    /// Memory needs that were read from the device, sorted by descriptor; all others are estimated by the model.
-    #[serde(default)]
+    /// Memory needs of images that were read from the device, sorted by format and sample count; all others are estimated
+    /// by the model.
+    #[serde(default, deserialize_with = "sound::known_needs")]
     pub known_needs: Vec<KnownNeeds>,
     /// Values above that no public source states, and what was assumed.
     #[serde(default)]
@@ -71,14 +82,18 @@ pub struct Queues {
     pub sharing: Sharing,
 }
 
-/// The memory needs of one image on a device.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+/// The memory needs of flat images with one mip level and one layer, used by one queue at a time.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KnownNeeds {
-    /// The image.
-    pub image: ImageDescriptor,
-    /// What it needs.
-    pub needs: MemoryNeeds,
+    /// Texel format.
+    pub format: Format,
+    /// Samples a texel.
+    pub samples: u32,
+    /// What the images are used for: any one of these sets; what they need is the same.
+    pub usages: Vec<Usage>,
+    /// Width and height in texels, rising, and what such an image needs.
+    pub sizes: Vec<([u32; 2], MemoryNeeds)>,
 }
 
 /// What one format can be on a device (optimal tiling).
@@ -98,20 +113,53 @@ pub struct FormatSupport {
 }
 
 /// A model of how much memory an image takes, for a device that is not here.
+///
+/// Each mip level takes `row · rows · depth` bytes, where the width is padded to `row_texels` and the row that it makes to
+/// `row_bytes`, the height to `rows`, and the whole to `alignment`. Layers and samples multiply that. Lavapipe and
+/// SwiftShader take exactly this much; of GPUs it models the tiles that texels lie in, not their compression.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MemoryModel {
-    /// Alignment of an image's offset, in bytes.
+    /// Alignment of an image's offset and of what a mip level takes, in bytes: a power of two.
+    #[serde(deserialize_with = "sound::alignment")]
     pub alignment: u64,
-    /// Rows are padded to a multiple of this many texels.
+    /// Rows are padded to a multiple of this many texels: a power of two.
+    #[serde(default = "no_padding", deserialize_with = "sound::padding")]
     pub row_texels: u32,
-    /// Heights are padded to a multiple of this many rows.
+    /// Rows are padded to a multiple of this many bytes: a power of two.
+    #[serde(default = "no_padding", deserialize_with = "sound::padding")]
+    pub row_bytes: u32,
+    /// Heights are padded to a multiple of this many rows: a power of two.
+    #[serde(default = "no_padding", deserialize_with = "sound::padding")]
     pub rows: u32,
+    /// Whether the stencil of depth formats lies in a plane of its own, a byte for each texel, instead of beside the depth.
+    #[serde(default)]
+    pub separate_stencil: bool,
+    /// Alignment of a buffer's offset, in bytes: a power of two.
+    #[serde(default = "safe_buffer_alignment", deserialize_with = "sound::alignment")]
+    pub buffer_alignment: u64,
+    /// Memory types that images and buffers accept, one bit each (`memoryTypeBits`).
+    #[serde(default = "first_type", deserialize_with = "sound::type_bits")]
+    pub type_bits: u32,
+}
+
+/// Rows and heights are what they are.
+const fn no_padding() -> u32 {
+    1
+}
+
+/// The largest alignment of uniform and storage buffers that Vulkan allows a device to ask for.
+const fn safe_buffer_alignment() -> u64 {
+    256
+}
+
+/// The first memory type alone.
+const fn first_type() -> u32 {
+    1
 }
 
 /// The full descriptor of an image: compatibility, aliasing and caches compare all of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ImageDescriptor {
     /// Texel format.
     pub format: Format,
@@ -132,7 +180,7 @@ pub struct ImageDescriptor {
 }
 
 /// The full descriptor of a buffer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct BufferDescriptor {
     /// Bytes.
     pub bytes: u64,
@@ -142,14 +190,17 @@ pub struct BufferDescriptor {
     pub sharing: Sharing,
 }
 
-/// What an image needs of memory (`VkMemoryRequirements`).
+/// What an image or buffer needs of memory (`VkMemoryRequirements`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct MemoryNeeds {
     /// Bytes.
     pub bytes: u64,
     /// Alignment of the offset, a power of two.
+    #[serde(deserialize_with = "sound::alignment")]
     pub alignment: u64,
     /// Which memory types will do, one bit each (`memoryTypeBits`).
+    #[serde(deserialize_with = "sound::type_bits")]
     pub type_bits: u32,
 }
 
@@ -169,43 +220,12 @@ impl Profile {
     pub fn format(&self, format: Format) -> Option<&FormatSupport> {
         self.formats.iter().find(|support| support.format == format)
     }
-}
 
-/// A profile estimates: what it has read from a device, else padded texels without a driver's own extras.
-pub struct Estimated<'p>(pub &'p Profile);
-
-/// Alignment of buffers that is enough for every use on all devices we have figures of.
-const BUFFER_ALIGNMENT: u64 = 256;
-
-impl MemoryProvider for Estimated<'_> {
-    fn exact(&self) -> bool {
-        false
-    }
-
-    fn image(&mut self, descriptor: &ImageDescriptor) -> MemoryNeeds {
-        let known = &self.0.known_needs;
-        if let Ok(at) = known.binary_search_by(|known| known.image.cmp(descriptor)) {
-            return known[at].needs;
-        }
-        let model = &self.0.memory;
-        let padded = |texels: u32, to: u32| u64::from(texels).next_multiple_of(u64::from(to.max(1)));
-        let bytes = (0..descriptor.mips.min(u32::BITS))
-            .map(|mip| {
-                let at = |extent: u32| (extent >> mip).max(1);
-                let texels = padded(at(descriptor.extent[0]), model.row_texels)
-                    .saturating_mul(padded(at(descriptor.extent[1]), model.rows))
-                    .saturating_mul(u64::from(at(descriptor.extent[2])));
-                texels.saturating_mul(descriptor.format.texel_bytes())
-            })
-            .fold(0_u64, u64::saturating_add)
-            .saturating_mul(u64::from(descriptor.layers))
-            .saturating_mul(u64::from(descriptor.samples));
-        let alignment = model.alignment.max(1).next_power_of_two();
-        MemoryNeeds { bytes: bytes.checked_next_multiple_of(alignment).unwrap_or(u64::MAX), alignment, type_bits: 1 }
-    }
-
-    fn buffer(&mut self, descriptor: &BufferDescriptor) -> MemoryNeeds {
-        let bytes = descriptor.bytes.checked_next_multiple_of(BUFFER_ALIGNMENT).unwrap_or(u64::MAX);
-        MemoryNeeds { bytes, alignment: BUFFER_ALIGNMENT, type_bits: 1 }
+    /// The profile with the memory needs of the usual images added, as `memory` says them: what it takes to plan for the
+    /// device where it is not.
+    #[must_use]
+    pub fn with_usual_needs(mut self, memory: &mut dyn MemoryProvider) -> Profile {
+        self.known_needs = usual::needs(&self.formats, self.max_attachment_extent, memory);
+        self
     }
 }

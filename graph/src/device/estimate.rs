@@ -1,0 +1,264 @@
+//! How much memory images and buffers take on a device that is not here.
+
+use super::{BufferDescriptor, FormatSupport, ImageDescriptor, MemoryModel, MemoryNeeds, MemoryProvider, Profile};
+use crate::format::Format;
+use crate::frame::Shape;
+use crate::plan::Sharing;
+use crate::vocabulary::{Aspects, BufferUsage, Usage};
+
+/// A profile estimates: what it has read from a device, else what its model says.
+pub struct Estimated<'p>(pub &'p Profile);
+
+impl MemoryProvider for Estimated<'_> {
+    fn exact(&self) -> bool {
+        false
+    }
+
+    fn image(&mut self, descriptor: &ImageDescriptor) -> MemoryNeeds {
+        self.0.known(descriptor).unwrap_or_else(|| self.0.memory.image(descriptor))
+    }
+
+    fn buffer(&mut self, descriptor: &BufferDescriptor) -> MemoryNeeds {
+        self.0.memory.buffer(descriptor)
+    }
+}
+
+impl Profile {
+    /// What was read from the device.
+    fn known(&self, image: &ImageDescriptor) -> Option<MemoryNeeds> {
+        let [width, height, depth] = image.extent;
+        let usual = image.shape == Shape::D2
+            && (depth, image.mips, image.layers) == (1, 1, 1)
+            && image.sharing == Sharing::Exclusive;
+        if !usual {
+            return None;
+        }
+        let kind = (image.format, image.samples);
+        let first = self.known_needs.partition_point(|known| (known.format, known.samples) < kind);
+        let of_kind = self.known_needs[first..].iter().take_while(|known| (known.format, known.samples) == kind);
+        let known = of_kind.into_iter().find(|known| known.usages.contains(&image.usage))?;
+        let at = known.sizes.binary_search_by_key(&[width, height], |(extent, _)| *extent).ok()?;
+        Some(known.sizes[at].1)
+    }
+}
+
+impl MemoryModel {
+    /// What an image takes.
+    #[must_use]
+    pub fn image(&self, image: &ImageDescriptor) -> MemoryNeeds {
+        let apart = self.separate_stencil && image.format.aspects().contains(Aspects::DEPTH | Aspects::STENCIL);
+        let bytes = match (apart, image.format) {
+            (false, format) => self.plane(image, format.texel_bytes()),
+            // The depth is what its own format would be.
+            (true, _) => self.plane(image, 4).saturating_add(self.plane(image, 1)),
+        };
+        let bytes = bytes.saturating_mul(u64::from(image.layers)).saturating_mul(u64::from(image.samples));
+        MemoryNeeds { bytes, alignment: power_of_two(self.alignment), type_bits: self.type_bits }
+    }
+
+    /// What a buffer takes.
+    #[must_use]
+    pub fn buffer(&self, buffer: &BufferDescriptor) -> MemoryNeeds {
+        let alignment = power_of_two(self.buffer_alignment);
+        MemoryNeeds { bytes: buffer.bytes, alignment, type_bits: self.type_bits }
+    }
+
+    /// What one sample of one layer of one plane takes.
+    fn plane(&self, image: &ImageDescriptor, texel_bytes: u64) -> u64 {
+        let level = |mip: u32| {
+            let [width, height, depth] = image.extent.map(|extent| u64::from((extent >> mip).max(1)));
+            let row = padded(padded(width, self.row_texels.into()).saturating_mul(texel_bytes), self.row_bytes.into());
+            let texels = row.saturating_mul(padded(height, self.rows.into())).saturating_mul(depth);
+            padded(texels, self.alignment)
+        };
+        (0..image.mips.min(u32::BITS)).map(level).fold(0, u64::saturating_add)
+    }
+
+    /// Fits the model to a device by asking what columns, rows and depths of texels need.
+    #[must_use]
+    pub fn fitted(memory: &mut dyn MemoryProvider, formats: &[FormatSupport]) -> MemoryModel {
+        /// No tile of texels is longer, and every device has images as long.
+        const LONG: u32 = 4096;
+        let mut of = |format, [width, height]: [u32; 2], usage| {
+            memory.image(&ImageDescriptor {
+                format,
+                shape: Shape::D2,
+                extent: [width, height, 1],
+                mips: 1,
+                layers: 1,
+                samples: 1,
+                usage,
+                sharing: Sharing::Exclusive,
+            })
+        };
+        let (narrow, wide) = (Format::R8_UNORM, Format::R32G32B32A32_SFLOAT);
+        let a_step = |needs: MemoryNeeds, bytes: u64| (needs.bytes / (u64::from(LONG) * bytes)).clamp(1, 1 << 16);
+        let column = of(narrow, [1, LONG], Usage::SAMPLED);
+        let row = of(wide, [LONG, 1], Usage::SAMPLED);
+        let (least, most) = (a_step(column, 1), a_step(of(wide, [1, LONG], Usage::SAMPLED), 1));
+        let step = |value: u64| u32::try_from(power_of_two(value)).unwrap_or(1);
+        let mut model = MemoryModel {
+            alignment: power_of_two(column.alignment),
+            row_texels: step(most.div_ceil(wide.texel_bytes())),
+            // Where the padding grows with the texel it counts texels alone.
+            row_bytes: if most < least * wide.texel_bytes() { step(least) } else { 1 },
+            rows: step(a_step(row, wide.texel_bytes())),
+            separate_stencil: false,
+            buffer_alignment: 1,
+            type_bits: column.type_bits,
+        };
+        let both = [Format::D32_SFLOAT_S8_UINT, Format::D24_UNORM_S8_UINT];
+        let stencil = formats.iter().find(|support| both.contains(&support.format)).map(|support| support.format);
+        if let Some(format) = stencil {
+            let extent = [LONG / 4, LONG / 4];
+            let needs = of(format, extent, Usage::DEPTH_STENCIL_ATTACHMENT).bytes;
+            let texels = u64::from(extent[0]) * u64::from(extent[1]);
+            let (beside, apart) = (texels * format.texel_bytes(), texels * 5);
+            model.separate_stencil = needs.abs_diff(apart) < needs.abs_diff(beside);
+        }
+        let buffer = BufferDescriptor { bytes: 1 << 16, usage: BufferUsage::all(), sharing: Sharing::Exclusive };
+        model.buffer_alignment = power_of_two(memory.buffer(&buffer).alignment);
+        model
+    }
+}
+
+/// The next power of two, of no more than an offset can be aligned to.
+fn power_of_two(value: u64) -> u64 {
+    value.clamp(1, 1 << 62).next_power_of_two()
+}
+
+/// The next multiple of a power of two, or of the next one.
+fn padded(value: u64, to: u64) -> u64 {
+    let mask = power_of_two(to) - 1;
+    value.saturating_add(mask) & !mask
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::SHIPPED_PROFILES;
+
+    fn image(format: Format, extent: [u32; 3]) -> ImageDescriptor {
+        let (usage, sharing) = (Usage::SAMPLED, Sharing::Exclusive);
+        ImageDescriptor { format, shape: Shape::D2, extent, mips: 1, layers: 1, samples: 1, usage, sharing }
+    }
+
+    fn model() -> MemoryModel {
+        MemoryModel {
+            alignment: 16,
+            row_texels: 4,
+            row_bytes: 64,
+            rows: 4,
+            separate_stencil: false,
+            buffer_alignment: 64,
+            type_bits: 1,
+        }
+    }
+
+    /// Figures that lavapipe (Mesa 22.3.6) gave.
+    #[test]
+    fn the_model_with_rows_in_bytes_says_what_lavapipe_says() {
+        let bytes = |image: ImageDescriptor| model().image(&image).bytes;
+        assert_eq!(bytes(image(Format::R8_UNORM, [100, 50, 1])), 6656);
+        assert_eq!(bytes(image(Format::R16G16B16A16_SFLOAT, [17, 17, 1])), 3840);
+        assert_eq!(bytes(image(Format::R32G32B32A32_SFLOAT, [33, 1, 1])), 2304);
+        assert_eq!(bytes(ImageDescriptor { mips: 4, ..image(Format::R8_UNORM, [100, 50, 1]) }), 9728);
+        assert_eq!(bytes(ImageDescriptor { mips: 4, layers: 3, ..image(Format::R8_UNORM, [100, 50, 1]) }), 29184);
+        assert_eq!(bytes(ImageDescriptor { samples: 4, ..image(Format::D32_SFLOAT_S8_UINT, [5, 5, 1]) }), 2048);
+        assert_eq!(bytes(ImageDescriptor { shape: Shape::D3, ..image(Format::R8G8B8A8_UNORM, [10, 10, 10]) }), 7680);
+    }
+
+    /// Figures that SwiftShader (of Chromium) gave.
+    #[test]
+    fn the_model_with_rows_in_texels_and_stencil_apart_says_what_swiftshader_says() {
+        let model = MemoryModel { row_texels: 2, row_bytes: 1, rows: 2, separate_stencil: true, ..model() };
+        let bytes = |image: ImageDescriptor| model.image(&image).bytes;
+        assert_eq!(bytes(image(Format::R8_UNORM, [17, 17, 1])), 336);
+        assert_eq!(bytes(image(Format::R32G32B32A32_SFLOAT, [5, 5, 1])), 576);
+        assert_eq!(bytes(ImageDescriptor { mips: 4, layers: 3, ..image(Format::R8_UNORM, [100, 50, 1]) }), 20160);
+        assert_eq!(bytes(ImageDescriptor { samples: 4, ..image(Format::D32_SFLOAT_S8_UINT, [5, 5, 1]) }), 768);
+        assert_eq!(bytes(ImageDescriptor { samples: 4, ..image(Format::R8_UNORM, [5, 5, 1]) }), 192);
+    }
+
+    /// A device that does what a model says.
+    struct Model(MemoryModel);
+
+    impl MemoryProvider for Model {
+        fn exact(&self) -> bool {
+            true
+        }
+        fn image(&mut self, descriptor: &ImageDescriptor) -> MemoryNeeds {
+            self.0.image(descriptor)
+        }
+        fn buffer(&mut self, descriptor: &BufferDescriptor) -> MemoryNeeds {
+            self.0.buffer(descriptor)
+        }
+    }
+
+    #[test]
+    fn fitting_finds_the_model_that_a_device_follows() {
+        let formats = &Profile::from_ron(SHIPPED_PROFILES[0].1).expect("a profile").formats;
+        for row_texels in [1, 2, 64] {
+            for rows in [1, 8, 128] {
+                for separate_stencil in [false, true] {
+                    let followed = MemoryModel { row_texels, row_bytes: 1, rows, separate_stencil, ..model() };
+                    assert_eq!(MemoryModel::fitted(&mut Model(followed.clone()), formats), followed);
+                }
+            }
+        }
+        let bytes = MemoryModel { row_texels: 4, row_bytes: 64, alignment: 65536, ..model() };
+        assert_eq!(MemoryModel::fitted(&mut Model(bytes.clone()), formats), bytes);
+    }
+
+    #[test]
+    fn no_image_and_no_model_overflow() {
+        let largest = ImageDescriptor {
+            mips: u32::MAX,
+            layers: u32::MAX,
+            samples: u32::MAX,
+            ..image(Format::R32G32B32A32_SFLOAT, [u32::MAX; 3])
+        };
+        for figure in [0, 1, 3, u32::MAX] {
+            let model = MemoryModel {
+                alignment: if figure == u32::MAX { u64::MAX } else { figure.into() },
+                row_texels: figure,
+                row_bytes: figure,
+                rows: figure,
+                separate_stencil: true,
+                buffer_alignment: if figure == u32::MAX { u64::MAX } else { figure.into() },
+                type_bits: figure,
+            };
+            let needs = model.image(&largest);
+            assert!(needs.bytes >= 1 << 62 && needs.alignment.is_power_of_two(), "{figure}: {needs:?}");
+            let buffer = BufferDescriptor { bytes: u64::MAX, usage: BufferUsage::all(), sharing: Sharing::Exclusive };
+            assert!(model.buffer(&buffer).alignment.is_power_of_two());
+        }
+        let full = ImageDescriptor { samples: 16, ..image(Format::R32G32B32A32_SFLOAT, [16384, 16384, 1]) };
+        assert_eq!(model().image(&full).bytes, 16 * 16 * 16384 * 16384);
+    }
+
+    #[test]
+    fn what_was_read_from_a_device_goes_before_the_model() {
+        let mut profile = Profile::from_ron(SHIPPED_PROFILES[0].1).expect("a profile");
+        let odd = image(Format::R8_UNORM, [1920, 1080, 1]);
+        let read = MemoryNeeds { bytes: 12_345_678, alignment: 512, type_bits: 6 };
+        profile.known_needs = vec![super::super::KnownNeeds {
+            format: odd.format,
+            samples: 1,
+            usages: vec![Usage::STORAGE, odd.usage],
+            sizes: vec![([1280, 720], read), ([1920, 1080], read)],
+        }];
+        let modelled = profile.memory.image(&odd);
+        let mut estimated = Estimated(&profile);
+        assert_eq!(estimated.image(&odd), read);
+        for other in [
+            ImageDescriptor { samples: 4, ..odd },
+            ImageDescriptor { usage: Usage::COLOR_ATTACHMENT, ..odd },
+            ImageDescriptor { sharing: Sharing::Concurrent, ..odd },
+            ImageDescriptor { mips: 2, ..odd },
+        ] {
+            assert_ne!(estimated.image(&other), read, "{other:?}");
+        }
+        assert_ne!(modelled, read);
+    }
+}
