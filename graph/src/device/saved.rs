@@ -10,14 +10,8 @@ macro_rules! shipped {
 
 /// The profiles that the library carries, by name: what lavapipe of Debian 12 says of itself comes first and is the one to
 /// take where nothing else is said.
-pub const SHIPPED_PROFILES: &[(&str, &str)] = shipped!(
-    "lavapipe",
-    "nvidia-rtx-2080",
-    "amd-rx-7800-xt",
-    "intel-arc-a770",
-    "mali-g78",
-    "meta-quest-3",
-);
+pub const SHIPPED_PROFILES: &[(&str, &str)] =
+    shipped!("lavapipe", "nvidia-rtx-2080", "amd-rx-7800-xt", "intel-arc-a770", "mali-g78", "meta-quest-3",);
 
 /// What is wrong with a profile's text.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
