@@ -6,6 +6,7 @@
 //! - [`agreement`]: what the GPU drew, held against it.
 
 pub mod agreement;
+pub mod random_pipelines;
 pub mod raycast;
 pub mod render;
 pub mod shapes;

@@ -1,0 +1,375 @@
+//! From a seed to a pipeline: passes are proposed at random, and kept if they may stand where they would.
+
+use super::allowed::{Allowed, Kind};
+use super::legal::{Written, size};
+use super::pipeline::{
+    Buffer, Compute, Contents, Count, DepthTarget, Draw, Extent, Geometry, Groups, Image, Life, Part, Pass, Pipeline,
+    Read, Region, SAMPLES, Store, StoreAccess, TRIANGLES, Target, Thing, WORKGROUP, Work,
+};
+use super::rng::Rng;
+use super::texels;
+use framewright_graph::format::Format::{
+    self, D32_SFLOAT, R8_UINT, R8G8B8A8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, R32_UINT,
+    R32G32B32A32_UINT,
+};
+use framewright_graph::frame::{Blend, Shape};
+use framewright_graph::vocabulary::CompareOp;
+
+/// A pipeline of so many passes, always the same for the same seed, with only what is `allowed`.
+#[must_use]
+pub fn pipeline(seed: u64, passes: u32, allowed: &Allowed) -> Pipeline {
+    let mut rng = Rng::new(seed ^ 0x5EED_0F0F);
+    let pipeline = Pipeline {
+        images: images(&mut rng, passes, allowed),
+        ..Pipeline::default()
+    };
+    let mut maker = Maker { written: Written::new(&pipeline), pipeline, rng, allowed, extent: [0; 3] };
+    maker.pipeline.buffers = maker.buffers(passes);
+    maker.written = Written::new(&maker.pipeline);
+    // What is proposed may stand about once in five times; a start that leaves nothing to do ends.
+    for _ in 0..passes * 400 {
+        if maker.pipeline.passes.len() as u32 == passes {
+            break;
+        }
+        if let Some(work) = maker.propose() {
+            let number = maker.pipeline.passes.len() as u32;
+            let side_effect = maker.allowed.has(Kind::SideEffect) && maker.rng.one_in(20);
+            let pass = Pass { number, work, side_effect };
+            if maker.written.take(&maker.pipeline, &pass) {
+                maker.pipeline.passes.push(pass);
+            }
+        }
+    }
+    maker.outputs();
+    maker.pipeline
+}
+
+fn images(rng: &mut Rng, passes: u32, allowed: &Allowed) -> Vec<Image> {
+    let [width, height] = rng.of([[8, 8], [16, 8], [12, 20], [24, 16], [40, 24]]);
+    let count = 3 + rng.below(3 + passes.min(80) / 4);
+    (0..count).map(|_| image(rng, [width, height], allowed)).collect()
+}
+
+fn image(rng: &mut Rng, [width, height]: [u32; 2], allowed: &Allowed) -> Image {
+    let format = if rng.one_in(6) { D32_SFLOAT } else {
+        rng.of([R32_UINT, R32_UINT, R8G8B8A8_UINT, R32G32B32A32_UINT, R8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT])
+    };
+    let factor = if rng.one_in(4) { rng.of([2, 3]) } else { 1 };
+    let flat = Image {
+        format,
+        shape: Shape::D2,
+        extent: [width * factor, height * factor, 1],
+        mips: 1,
+        layers: 1,
+        samples: 1,
+        life: life(rng, allowed),
+    };
+    let color = !format.is_depth();
+    match rng.below(10) {
+        0 | 1 if allowed.has(Kind::Multisampled) => Image { samples: SAMPLES, life: Life::Transient, ..flat },
+        2 if allowed.has(Kind::Mips) => Image { mips: 2 + rng.below(2), ..flat },
+        3 if allowed.has(Kind::Layers) => Image { layers: 2 + rng.below(2), ..flat },
+        4 if allowed.has(Kind::Mips) && allowed.has(Kind::Layers) => Image { mips: 2, layers: 2, ..flat },
+        5 if color && allowed.has(Kind::Deep) => Image { shape: Shape::D3, extent: [8, 8, 4], ..flat },
+        6 if color && allowed.has(Kind::Cube) => {
+            Image { shape: Shape::Cube, extent: [8, 8, 1], layers: 6, mips: 1 + rng.below(2), ..flat }
+        }
+        _ => flat,
+    }
+}
+
+fn life(rng: &mut Rng, allowed: &Allowed) -> Life {
+    let value = (1 + rng.below(60)) as u8;
+    match rng.below(12) {
+        0 if allowed.has(Kind::Persistent) => Life::Persistent(value),
+        1 if allowed.has(Kind::History) => Life::History(1 + rng.below(3), value),
+        2 if allowed.has(Kind::Imported) => Life::Imported,
+        _ => Life::Transient,
+    }
+}
+
+/// A pipeline that grows.
+struct Maker<'a> {
+    pipeline: Pipeline,
+    written: Written,
+    rng: Rng,
+    allowed: &'a Allowed,
+    /// Of the attachments of the draw that is being made.
+    extent: Extent,
+}
+
+impl Maker<'_> {
+    fn buffers(&mut self, passes: u32) -> Vec<Buffer> {
+        if !self.allowed.has(Kind::Buffers) {
+            return Vec::new();
+        }
+        let mut buffers = Vec::new();
+        for _ in 0..2 + self.rng.below(3 + passes.min(60) / 6) {
+            let life = life(&mut self.rng, self.allowed);
+            let words = self.rng.of([16, 64, 192]);
+            buffers.push(Buffer { words, contents: Contents::Words, life });
+        }
+        // As large as some mip level, to be copied.
+        let image = self.rng.below(self.pipeline.images.len() as u32) as usize;
+        let part = self.part(image, 1, u32::MAX);
+        let size = size(&self.pipeline.images[image], part).iter().product::<u32>();
+        let words = size * self.pipeline.images[image].format.texel_bytes() as u32 / 4;
+        if words >= 16 {
+            buffers.push(Buffer { words, contents: Contents::Words, life: Life::Transient });
+        }
+        let structured = [
+            (Kind::VertexBuffer, Contents::Vertices),
+            (Kind::IndexBuffer, Contents::Indices),
+            (Kind::IndirectDraw, Contents::Draw),
+            (Kind::IndirectDraw, Contents::IndexedDraw),
+            (Kind::IndirectDispatch, Contents::Dispatch),
+        ];
+        for (kind, contents) in structured {
+            if self.allowed.has(kind) && self.rng.one_in(2) {
+                buffers.push(Buffer { words: 16, contents, life: Life::Transient });
+            }
+        }
+        buffers
+    }
+
+    fn image(&mut self) -> usize {
+        self.rng.below(self.pipeline.images.len() as u32) as usize
+    }
+
+    fn buffer(&mut self, contents: Contents) -> Option<usize> {
+        let of: Vec<usize> = (0..self.pipeline.buffers.len())
+            .filter(|buffer| self.pipeline.buffers[*buffer].contents == contents)
+            .collect();
+        self.rng.pick(&of).copied()
+    }
+
+    /// Some part of an image, of at most so many mip levels and layers.
+    fn part(&mut self, image: usize, most_mips: u32, most_layers: u32) -> Part {
+        let Image { mips, layers, shape, .. } = self.pipeline.images[image];
+        let mip = self.rng.below(mips);
+        let mips = 1 + self.rng.below((mips - mip).min(most_mips));
+        if shape == Shape::Cube && most_layers > 1 {
+            return Part { image, mip, mips, layer: 0, layers };
+        }
+        let layer = self.rng.below(layers);
+        let layers = 1 + self.rng.below((layers - layer).min(most_layers));
+        Part { image, mip, mips, layer, layers }
+    }
+
+    fn propose(&mut self) -> Option<Work> {
+        let kind = self.rng.of([
+            Kind::FullScreen,
+            Kind::FullScreen,
+            Kind::Triangles,
+            Kind::Triangles,
+            Kind::Compute,
+            Kind::Compute,
+            Kind::Compute,
+            Kind::Copy,
+            Kind::Blit,
+            Kind::Fill,
+            Kind::Forward,
+        ]);
+        if !self.allowed.has(kind) {
+            return None;
+        }
+        match kind {
+            Kind::FullScreen => self.draw(Geometry::FullScreen),
+            Kind::Triangles => {
+                let geometry = self.triangles();
+                self.draw(geometry)
+            }
+            Kind::Compute => self.compute(),
+            Kind::Copy => {
+                let from = self.region();
+                let to = self.region();
+                Some(Work::Copy { from, to })
+            }
+            Kind::Blit => {
+                let (from, to) = (self.image(), self.image());
+                Some(Work::Blit { from: self.part(from, 1, 1), to: self.part(to, 1, 1) })
+            }
+            Kind::Fill => Some(Work::Fill { to: self.region(), value: self.rng.below(61) as u8 }),
+            _ => Some(Work::Forward { from: self.image(), to: self.image() }),
+        }
+    }
+
+    fn region(&mut self) -> Region {
+        let buffers = self.pipeline.buffers.len() as u32;
+        if buffers > 0 && self.rng.one_in(3) {
+            return Region::Buffer(self.rng.below(buffers) as usize);
+        }
+        let image = self.image();
+        Region::Image(self.part(image, 1, u32::MAX))
+    }
+
+    fn triangles(&mut self) -> Geometry {
+        let vertices = self.sometimes(Kind::VertexBuffer, Contents::Vertices);
+        let indices = self.sometimes(Kind::IndexBuffer, Contents::Indices);
+        let commands = if indices.is_some() { Contents::IndexedDraw } else { Contents::Draw };
+        let count = match self.sometimes(Kind::IndirectDraw, commands) {
+            Some(buffer) => Count::Indirect(buffer),
+            None => Count::Direct(1 + self.rng.below(TRIANGLES), 1 + self.rng.below(3)),
+        };
+        Geometry::Triangles { count, vertices, indices }
+    }
+
+    fn sometimes(&mut self, kind: Kind, contents: Contents) -> Option<usize> {
+        if self.allowed.has(kind) && self.rng.one_in(2) { self.buffer(contents) } else { None }
+    }
+
+    fn draw(&mut self, geometry: Geometry) -> Option<Work> {
+        let first = self.image();
+        let samples = self.pipeline.images[first].samples;
+        let discards = self.rng.one_in(6);
+        let mut draw = Draw {
+            geometry,
+            discards,
+            per_sample: samples > 1 && self.allowed.has(Kind::PerSample) && self.rng.one_in(3),
+            reads: Vec::new(),
+            color: Vec::new(),
+            depth: None,
+            stores: Vec::new(),
+        };
+        let part = self.part(first, 1, 1);
+        self.extent = self.pipeline.images[first].extent_of(part.mip);
+        self.attach(&mut draw, part);
+        for _ in 0..self.rng.below(3) {
+            let image = self.image();
+            let part = self.part(image, 1, 1);
+            if self.pipeline.images[image].extent_of(part.mip) == self.extent {
+                self.attach(&mut draw, part);
+            }
+        }
+        if self.allowed.has(Kind::FragmentStores) && self.rng.one_in(8) {
+            draw.stores.extend(self.store(true));
+        }
+        draw.reads = self.reads();
+        Some(Work::Draw(draw))
+    }
+
+    fn attach(&mut self, draw: &mut Draw, part: Part) {
+        let format = self.pipeline.images[part.image].format;
+        let clear = if !self.written.part(&self.pipeline, part) || self.rng.one_in(5) {
+            let covers = draw.geometry == Geometry::FullScreen && self.rng.one_in(2);
+            (!covers).then(|| self.rng.below(61) as u8)
+        } else {
+            None
+        };
+        if format.is_depth() {
+            let test = self.rng.of([
+                CompareOp::GreaterOrEqual, CompareOp::Greater, CompareOp::Less, CompareOp::Always, CompareOp::NotEqual,
+            ]);
+            draw.depth.get_or_insert(DepthTarget { part, clear, test, write: self.rng.one_in(2) });
+        } else if draw.color.len() < 3 {
+            let blends = self.allowed.has(Kind::Blend) && !texels::is_uint(format) && self.rng.one_in(2);
+            let blend =
+                if blends { self.rng.of([Blend::Additive, Blend::Alpha, Blend::Premultiplied]) } else { Blend::Replace };
+            draw.color.push(Target { part, clear, blend });
+        }
+    }
+
+    fn reads(&mut self) -> Vec<Read> {
+        (0..self.rng.below(4)).filter_map(|_| self.read()).collect()
+    }
+
+    fn read(&mut self) -> Option<Read> {
+        if self.rng.one_in(4) {
+            let buffers: Vec<usize> = (0..self.pipeline.buffers.len()).collect();
+            let buffer = *self.rng.pick(&buffers)?;
+            let ago = self.frames_ago(self.pipeline.buffers[buffer].life);
+            let uniform = self.allowed.has(Kind::Uniform) && self.rng.one_in(2);
+            return Some(if uniform { Read::Uniform(buffer, ago) } else { Read::Block(buffer, ago) });
+        }
+        let image = self.image();
+        let Image { samples, life, format, .. } = self.pipeline.images[image];
+        if self.allowed.has(Kind::StorageRead) && self.rng.one_in(6) {
+            return Some(Read::Storage(self.part(image, 1, u32::MAX)));
+        }
+        let per_sample = samples > 1 && (format.is_depth() || self.rng.one_in(3));
+        let part = self.part(image, u32::MAX, u32::MAX);
+        Some(Read::Sampled { part, frames_ago: self.frames_ago(life), per_sample })
+    }
+
+    fn frames_ago(&mut self, life: Life) -> u32 {
+        match life {
+            Life::History(frames, _) if self.rng.one_in(2) => 1 + self.rng.below(frames),
+            _ => 0,
+        }
+    }
+
+    fn store(&mut self, image_only: bool) -> Option<Store> {
+        let access = self.rng.of([StoreAccess::Write, StoreAccess::Write, StoreAccess::Modify, StoreAccess::Add]);
+        let kind = if access == StoreAccess::Add { Kind::Atomics } else { Kind::Modify };
+        if access != StoreAccess::Write && !self.allowed.has(kind) {
+            return None;
+        }
+        let buffers: Vec<usize> = (0..self.pipeline.buffers.len()).collect();
+        if !image_only && self.rng.one_in(3) {
+            return Some(Store { region: Region::Buffer(*self.rng.pick(&buffers)?), access });
+        }
+        let image = self.image();
+        let part = self.part(image, 1, if image_only { 1 } else { u32::MAX });
+        Some(Store { region: Region::Image(part), access })
+    }
+
+    fn compute(&mut self) -> Option<Work> {
+        let stores: Vec<Store> = (0..1 + self.rng.below(2)).filter_map(|_| self.store(false)).collect();
+        let mut grid = [1; 3];
+        let mut words = 1;
+        for store in &stores {
+            match store.region {
+                Region::Image(part) => {
+                    let size = size(&self.pipeline.images[part.image], part);
+                    grid = std::array::from_fn(|axis| grid[axis].max(size[axis]));
+                }
+                Region::Buffer(buffer) => words = words.max(self.pipeline.buffers[buffer].words),
+            }
+        }
+        if grid == [1; 3] {
+            grid[0] = words;
+        } else if grid.iter().product::<u32>() < words {
+            grid[2] *= words.div_ceil(grid.iter().product());
+        }
+        let cover = [grid[0].div_ceil(WORKGROUP), grid[1].div_ceil(WORKGROUP), grid[2]];
+        let groups = match self.rng.below(4) {
+            0 if self.allowed.has(Kind::IndirectDispatch) => {
+                Groups::Indirect(self.buffer(Contents::Dispatch)?, self.rng.below(13))
+            }
+            1 => Groups::Count(cover),
+            2 => Groups::Count(cover.map(|groups| 1 + self.rng.below(groups))),
+            _ => Groups::Cover,
+        };
+        Some(Work::Compute(Compute { grid, groups, reads: self.reads(), stores }))
+    }
+
+    /// Chooses what leaves the frame among what has contents.
+    fn outputs(&mut self) {
+        let images = (0..self.pipeline.images.len()).map(Thing::Image);
+        let buffers = (0..self.pipeline.buffers.len()).map(Thing::Buffer);
+        let possible: Vec<Thing> =
+            images.chain(buffers).filter(|thing| self.written.all(*thing) && self.leaves(*thing)).collect();
+        for _ in 0..2 + self.rng.below(4) {
+            let Some(thing) = self.rng.pick(&possible).copied() else { return };
+            if !self.pipeline.outputs.contains(&thing) {
+                self.pipeline.outputs.push(thing);
+            }
+        }
+    }
+
+    /// Whether a thing can be an output: depth of several samples has no one value.
+    fn leaves(&self, thing: Thing) -> bool {
+        match thing {
+            Thing::Image(image) => {
+                let Image { format, samples, .. } = self.pipeline.images[image];
+                samples == 1 || !format.is_depth()
+            }
+            Thing::Buffer(_) => self.allowed.has(Kind::BufferOutput),
+        }
+    }
+}
+
+/// Formats that images of random pipelines have.
+pub const FORMATS: [Format; 8] = [
+    R32_UINT, R8G8B8A8_UINT, R32G32B32A32_UINT, R8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, D32_SFLOAT,
+];

@@ -1,0 +1,472 @@
+//! What a pass may do, given what passes before it wrote: the rules of pipeline files, part by part.
+
+use super::pipeline::{
+    Compute, Contents, Count, DepthTarget, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Read, Region,
+    Store, StoreAccess, TRIANGLES, Thing, WORKGROUP, Work,
+};
+use super::texels;
+use framewright_graph::frame::{Blend, Shape};
+use framewright_graph::vocabulary::CompareOp;
+
+/// What earlier passes of the frame wrote.
+#[derive(Debug, Clone)]
+pub struct Written {
+    /// By image, mip level and layer.
+    images: Vec<Vec<bool>>,
+    buffers: Vec<bool>,
+    /// By image: an upper bound of its values, for sums.
+    greatest: Vec<u64>,
+}
+
+/// How a pass accesses a part of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum How {
+    Sampled,
+    Storage,
+    Attachment,
+    Transfer,
+}
+
+/// One access to a part of an image of this frame.
+struct Access {
+    part: Part,
+    how: How,
+    reads: bool,
+    writes: bool,
+}
+
+/// Whether a draw replaces every texel of its colour targets.
+fn covers(draw: &Draw) -> bool {
+    draw.geometry == Geometry::FullScreen
+        && !draw.discards
+        && draw.depth.is_none_or(|depth| depth.test == CompareOp::Always)
+}
+
+/// Every access to images of this frame.
+fn accesses(pass: &Pass) -> Vec<Access> {
+    let mut all = Vec::new();
+    let mut add = |part, how, reads, writes| all.push(Access { part, how, reads, writes });
+    let (reads, stores) = shader(pass);
+    for read in reads {
+        match *read {
+            Read::Sampled { part, frames_ago: 0, .. } => add(part, How::Sampled, true, false),
+            Read::Storage(part) => add(part, How::Storage, true, false),
+            _ => {}
+        }
+    }
+    for store in stores {
+        if let Region::Image(part) = store.region {
+            add(part, How::Storage, store.access != StoreAccess::Write, true);
+        }
+    }
+    match &pass.work {
+        Work::Draw(draw) => {
+            for target in &draw.color {
+                let keeps = target.clear.is_none() && !(covers(draw) && target.blend == Blend::Replace);
+                add(target.part, How::Attachment, keeps, true);
+            }
+            if let Some(DepthTarget { part, clear, write, .. }) = draw.depth {
+                add(part, How::Attachment, clear.is_none(), write || clear.is_some());
+            }
+        }
+        Work::Copy { from, to } => {
+            if let Region::Image(part) = *from {
+                add(part, How::Transfer, true, false);
+            }
+            if let Region::Image(part) = *to {
+                add(part, How::Transfer, false, true);
+            }
+        }
+        Work::Blit { from, to } => {
+            add(*from, How::Transfer, true, false);
+            add(*to, How::Transfer, false, true);
+        }
+        Work::Fill { to: Region::Image(part), .. } => add(*part, How::Transfer, false, true),
+        Work::Fill { .. } | Work::Forward { .. } | Work::Compute(_) => {}
+    }
+    all
+}
+
+/// What a pass's shaders read and write beside attachments.
+pub(super) fn shader(pass: &Pass) -> (&[Read], &[Store]) {
+    match &pass.work {
+        Work::Draw(Draw { reads, stores, .. }) | Work::Compute(Compute { reads, stores, .. }) => (reads, stores),
+        _ => (&[], &[]),
+    }
+}
+
+/// Every buffer of this frame that a pass accesses: which, whether it reads and writes it.
+fn buffers(pass: &Pass) -> Vec<(usize, bool, bool)> {
+    let mut all = Vec::new();
+    let (reads, stores) = shader(pass);
+    for read in reads {
+        if let Read::Uniform(buffer, 0) | Read::Block(buffer, 0) = *read {
+            all.push((buffer, true, false));
+        }
+    }
+    for store in stores {
+        if let Region::Buffer(buffer) = store.region {
+            all.push((buffer, store.access != StoreAccess::Write, true));
+        }
+    }
+    match &pass.work {
+        Work::Draw(Draw { geometry: Geometry::Triangles { count, vertices, indices }, .. }) => {
+            let counts = if let Count::Indirect(buffer) = count { Some(*buffer) } else { None };
+            all.extend([*vertices, *indices, counts].into_iter().flatten().map(|buffer| (buffer, true, false)));
+        }
+        Work::Compute(Compute { groups: Groups::Indirect(buffer, _), .. }) => all.push((*buffer, true, false)),
+        Work::Copy { from, to } => {
+            if let Region::Buffer(buffer) = *from {
+                all.push((buffer, true, false));
+            }
+            if let Region::Buffer(buffer) = *to {
+                all.push((buffer, false, true));
+            }
+        }
+        Work::Fill { to: Region::Buffer(buffer), .. } => all.push((*buffer, false, true)),
+        _ => {}
+    }
+    all
+}
+
+impl Written {
+    /// Before the first pass of a frame of `pipeline`.
+    #[must_use]
+    pub fn new(pipeline: &Pipeline) -> Written {
+        let there = |life| matches!(life, Life::Persistent(_) | Life::Imported);
+        let slots = |image: &Image| vec![there(image.life); (image.mips * image.layers) as usize];
+        let plain = |image: &Image| u64::from(texels::mask(image.format, Blend::Replace));
+        Written {
+            images: pipeline.images.iter().map(slots).collect(),
+            buffers: pipeline.buffers.iter().map(|buffer| there(buffer.life)).collect(),
+            greatest: pipeline.images.iter().map(plain).collect(),
+        }
+    }
+
+    /// Whether all of a thing has contents.
+    #[must_use]
+    pub fn all(&self, thing: Thing) -> bool {
+        match thing {
+            Thing::Image(image) => self.images[image].iter().all(|written| *written),
+            Thing::Buffer(buffer) => self.buffers[buffer],
+        }
+    }
+
+    /// Whether all of a part has contents.
+    #[must_use]
+    pub fn part(&self, pipeline: &Pipeline, part: Part) -> bool {
+        let layers = pipeline.images[part.image].layers;
+        part.subresources().all(|[mip, layer]| self.images[part.image][(mip * layers + layer) as usize])
+    }
+
+    /// Takes note of a pass, if it may stand here; else returns false and notes nothing.
+    pub fn take(&mut self, pipeline: &Pipeline, pass: &Pass) -> bool {
+        let legal = self.is_legal(pipeline, pass);
+        let greatest = if legal { self.greatest_after(pipeline, pass) } else { None };
+        let Some(greatest) = greatest else { return false };
+        self.greatest = greatest;
+        for access in accesses(pass).iter().filter(|access| access.writes) {
+            let layers = pipeline.images[access.part.image].layers;
+            for [mip, layer] in access.part.subresources() {
+                self.images[access.part.image][(mip * layers + layer) as usize] = true;
+            }
+        }
+        for (buffer, _, writes) in buffers(pass) {
+            self.buffers[buffer] |= writes;
+        }
+        if let Work::Forward { to, .. } = pass.work {
+            self.images[to].fill(true);
+        }
+        true
+    }
+
+    fn is_legal(&self, pipeline: &Pipeline, pass: &Pass) -> bool {
+        let accesses = accesses(pass);
+        let exists = accesses.iter().all(|access| {
+            let image = &pipeline.images[access.part.image];
+            access.part.mip + access.part.mips <= image.mips && access.part.layer + access.part.layers <= image.layers
+        });
+        let apart = accesses.iter().enumerate().all(|(at, one)| {
+            accesses[..at].iter().all(|other| {
+                let shares = match (one.how, other.how) {
+                    (How::Sampled, How::Sampled) => true,
+                    (How::Sampled, How::Attachment) | (How::Attachment, How::Sampled) => true,
+                    _ => false,
+                };
+                shares || !one.part.overlaps(other.part)
+            })
+        });
+        let buffers = buffers(pass);
+        let buffers_apart = buffers.iter().enumerate().all(|(at, one)| {
+            buffers[..at].iter().all(|other| one.0 != other.0 || !(one.2 || other.2))
+        });
+        exists
+            && apart
+            && buffers_apart
+            && accesses.iter().all(|access| !access.reads || self.part(pipeline, access.part))
+            && buffers.iter().all(|(buffer, reads, _)| !reads || self.buffers[*buffer])
+            && self.fits(pipeline, pass)
+    }
+
+    fn fits(&self, pipeline: &Pipeline, pass: &Pass) -> bool {
+        let (reads, stores) = shader(pass);
+        reads.iter().all(|read| read_fits(pipeline, *read))
+            && match &pass.work {
+                Work::Draw(draw) => draw_fits(pipeline, draw),
+                Work::Compute(compute) => {
+                    let grid = whole_grid(compute);
+                    stores.iter().all(|store| store_fits(pipeline, *store, compute.grid, grid))
+                        && structure_fits(pipeline, compute)
+                        && !stores.is_empty()
+                }
+                Work::Copy { from, to } => copy_fits(pipeline, *from, *to),
+                Work::Blit { from, to } => blit_fits(pipeline, *from, *to),
+                Work::Fill { to: Region::Image(part), .. } => {
+                    let image = &pipeline.images[part.image];
+                    image.samples == 1
+                }
+                Work::Fill { to: Region::Buffer(buffer), value } => match pipeline.buffers[*buffer].contents {
+                    Contents::Words | Contents::Vertices => true,
+                    Contents::Dispatch => (1..=3).contains(value),
+                    Contents::Draw | Contents::IndexedDraw => *value == 0,
+                    Contents::Indices => false,
+                },
+                Work::Forward { from, to } => self.all(Thing::Image(*from)) && forward_fits(pipeline, *from, *to),
+            }
+    }
+
+    /// The bounds of values after a pass; `None` if a sum might not be exact.
+    fn greatest_after(&self, pipeline: &Pipeline, pass: &Pass) -> Option<Vec<u64>> {
+        let mut greatest = self.greatest.clone();
+        match &pass.work {
+            Work::Draw(draw) => {
+                for target in &draw.color {
+                    let image = &pipeline.images[target.part.image];
+                    let greatest = &mut greatest[target.part.image];
+                    if let Some(clear) = target.clear.filter(|_| image.mips * image.layers == 1) {
+                        *greatest = u64::from(clear) & u64::from(texels::mask(image.format, Blend::Replace));
+                    }
+                    let new = u64::from(texels::mask(image.format, target.blend));
+                    *greatest = match target.blend {
+                        Blend::Replace => (*greatest).max(new),
+                        Blend::Additive => *greatest + new * most_layers(draw),
+                        // Alpha may be 1, which is 255 of 255.
+                        Blend::Alpha | Blend::Premultiplied => (*greatest + new * most_layers(draw)).max(255),
+                    };
+                }
+            }
+            Work::Copy { from: Region::Image(from), to: Region::Image(to) } | Work::Blit { from, to } => {
+                greatest[to.image] = greatest[to.image].max(greatest[from.image]);
+            }
+            Work::Forward { from, to } => greatest[*to] = greatest[*to].max(greatest[*from]),
+            _ => {}
+        }
+        let exact = pipeline.images.iter().zip(&greatest).all(|(image, greatest)| {
+            // What is kept from frame to frame would grow for ever.
+            let kept = image.life != Life::Transient;
+            let plain = u64::from(texels::mask(image.format, Blend::Replace));
+            *greatest <= if kept { plain } else { texels::limit(image.format).max(plain) }
+        });
+        exact.then_some(greatest)
+    }
+}
+
+/// How often a draw may paint one pixel.
+fn most_layers(draw: &Draw) -> u64 {
+    match draw.geometry {
+        Geometry::FullScreen => 1,
+        Geometry::Triangles { count: Count::Direct(triangles, instances), .. } => u64::from(triangles * instances),
+        Geometry::Triangles { .. } => u64::from(2 * TRIANGLES),
+    }
+}
+
+fn read_fits(pipeline: &Pipeline, read: Read) -> bool {
+    let ago = |life, frames_ago| frames_ago == 0 || matches!(life, Life::History(frames, _) if frames_ago <= frames);
+    match read {
+        Read::Sampled { part, frames_ago, per_sample } => {
+            let image = &pipeline.images[part.image];
+            let whole_cube = image.shape != Shape::Cube || part.layers == 6 || part.layers == 1;
+            let several = image.samples > 1;
+            ago(image.life, frames_ago)
+                && whole_cube
+                && (several || !per_sample)
+                && !(several && image.format.is_depth() && !per_sample)
+                && !(per_sample && part.layers > 1)
+        }
+        Read::Storage(part) => storage_fits(pipeline, part),
+        Read::Uniform(buffer, frames_ago) | Read::Block(buffer, frames_ago) => {
+            ago(pipeline.buffers[buffer].life, frames_ago)
+        }
+    }
+}
+
+/// Whether part of an image can be bound as a storage image.
+fn storage_fits(pipeline: &Pipeline, part: Part) -> bool {
+    let image = &pipeline.images[part.image];
+    let format = image.format;
+    let whole_cube = image.shape != Shape::Cube || part.layers == 6 || part.layers == 1;
+    // Devices need not offer R8_UINT there.
+    let possible = !format.is_depth() && format.texel_bytes() > 1;
+    possible && whole_cube && image.samples == 1 && part.mips == 1
+}
+
+fn draw_fits(pipeline: &Pipeline, draw: &Draw) -> bool {
+    let parts: Vec<Part> =
+        draw.color.iter().map(|target| target.part).chain(draw.depth.map(|depth| depth.part)).collect();
+    let Some(first) = parts.first() else { return false };
+    let extent = |part: &Part| pipeline.images[part.image].extent_of(part.mip);
+    let samples = |part: &Part| pipeline.images[part.image].samples;
+    let attachable = |part: &Part| {
+        part.mips == 1
+            && part.layers == 1
+            && pipeline.images[part.image].shape != Shape::D3
+            && (extent(part), samples(part)) == (extent(first), samples(first))
+    };
+    let color = draw.color.iter().all(|target| {
+        let format = pipeline.images[target.part.image].format;
+        // A mean of alphas of 0 and 1 is no whole number of 255ths.
+        let mixes = matches!(target.blend, Blend::Alpha | Blend::Premultiplied);
+        let mean = mixes && samples(first) > 1 && format.numeric() == framewright_graph::format::Numeric::Unorm;
+        !format.is_depth() && (target.blend == Blend::Replace || !texels::is_uint(format)) && !mean
+    });
+    let depth = draw.depth.is_none_or(|depth| pipeline.images[depth.part.image].format.is_depth());
+    let plain = draw.stores.is_empty()
+        || (draw.geometry == Geometry::FullScreen && !draw.discards && !draw.per_sample && draw.depth.is_none());
+    let of = |buffer: Option<usize>, contents| {
+        buffer.is_none_or(|buffer| pipeline.buffers[buffer].contents == contents)
+    };
+    let geometry = match draw.geometry {
+        Geometry::FullScreen => true,
+        Geometry::Triangles { count, vertices, indices } => {
+            let commands = if indices.is_some() { Contents::IndexedDraw } else { Contents::Draw };
+            let counts = match count {
+                Count::Direct(triangles, instances) => triangles <= TRIANGLES && instances <= 3,
+                Count::Indirect(buffer) => of(Some(buffer), commands),
+            };
+            counts && of(vertices, Contents::Vertices) && of(indices, Contents::Indices)
+        }
+    };
+    parts.iter().all(attachable)
+        && color
+        && depth
+        && plain
+        && geometry
+        && (!draw.per_sample || samples(first) > 1)
+        && draw.stores.iter().all(|store| store_fits(pipeline, *store, extent(first), true))
+}
+
+/// Whether a dispatch is sure to have an invocation at every position of its grid.
+fn whole_grid(compute: &Compute) -> bool {
+    match compute.groups {
+        Groups::Cover => true,
+        Groups::Indirect(..) => false,
+        Groups::Count([x, y, z]) => {
+            let [width, height, depth] = compute.grid;
+            x * WORKGROUP >= width && y * WORKGROUP >= height && z >= depth
+        }
+    }
+}
+
+/// Whether a store fits: what is replaced is replaced whole, by a `grid` of which every position is sure to run.
+fn store_fits(pipeline: &Pipeline, store: Store, grid: Extent3, whole: bool) -> bool {
+    let replaced = |covered: bool| store.access != StoreAccess::Write || (whole && covered);
+    match store.region {
+        Region::Image(part) => {
+            let image = &pipeline.images[part.image];
+            let access = match store.access {
+                StoreAccess::Write => true,
+                StoreAccess::Modify => texels::is_uint(image.format),
+                StoreAccess::Add => image.format == framewright_graph::format::Format::R32_UINT,
+            };
+            storage_fits(pipeline, part) && access && replaced((0..3).all(|axis| grid[axis] >= size(image, part)[axis]))
+        }
+        Region::Buffer(buffer) => {
+            let buffer = &pipeline.buffers[buffer];
+            let access = store.access == StoreAccess::Write || buffer.contents == Contents::Words;
+            access && replaced(grid.iter().product::<u32>() >= buffer.words)
+        }
+    }
+}
+
+type Extent3 = super::pipeline::Extent;
+
+/// Texels of the first mip level of a part; layers count as depth.
+pub(super) fn size(image: &Image, part: Part) -> Extent3 {
+    let [width, height, depth] = image.extent_of(part.mip);
+    [width, height, if image.shape == Shape::D3 { depth } else { part.layers }]
+}
+
+/// What has a structure is written alone, by a row of invocations.
+fn structure_fits(pipeline: &Pipeline, compute: &Compute) -> bool {
+    let contents = |store: &Store| match store.region {
+        Region::Buffer(buffer) => pipeline.buffers[buffer].contents,
+        Region::Image(_) => Contents::Words,
+    };
+    let structured = compute.stores.iter().any(|store| contents(store) != Contents::Words);
+    let counted = match compute.groups {
+        Groups::Indirect(buffer, word) => {
+            let buffer = &pipeline.buffers[buffer];
+            buffer.contents == Contents::Dispatch && word + 3 <= buffer.words
+        }
+        _ => true,
+    };
+    counted && (!structured || (compute.stores.len() == 1 && compute.grid[1..] == [1, 1]))
+}
+
+fn copy_fits(pipeline: &Pipeline, from: Region, to: Region) -> bool {
+    let beside = |part: Part, buffer: usize| {
+        let image = &pipeline.images[part.image];
+        let bytes = size(image, part).iter().product::<u32>() * image.format.texel_bytes() as u32;
+        image.samples == 1
+            && texels::is_uint(image.format)
+            && part.mips == 1
+            && pipeline.buffers[buffer].contents == Contents::Words
+            && pipeline.buffers[buffer].words * 4 == bytes
+    };
+    match (from, to) {
+        (Region::Image(from), Region::Image(to)) => {
+            let (source, target) = (&pipeline.images[from.image], &pipeline.images[to.image]);
+            from.mips == 1
+                && to.mips == 1
+                && (source.format, source.samples) == (target.format, target.samples)
+                && (source.shape == Shape::D3) == (target.shape == Shape::D3)
+                && size(source, from) == size(target, to)
+        }
+        (Region::Buffer(from), Region::Buffer(to)) => {
+            let (source, target) = (&pipeline.buffers[from], &pipeline.buffers[to]);
+            from != to && (source.words, source.contents) == (target.words, target.contents)
+        }
+        (Region::Image(part), Region::Buffer(buffer)) | (Region::Buffer(buffer), Region::Image(part)) => {
+            beside(part, buffer)
+        }
+    }
+}
+
+/// Upwards by any factor and downwards by 3 no position lies on the border of two texels.
+fn blit_fits(pipeline: &Pipeline, from: Part, to: Part) -> bool {
+    let (source, target) = (&pipeline.images[from.image], &pipeline.images[to.image]);
+    let (size_from, size_to) = (size(source, from), size(target, to));
+    let exact = |axis: usize| {
+        size_to[axis].is_multiple_of(size_from[axis]) || (size_to[axis] * 3 == size_from[axis])
+    };
+    let plain = |image: &Image| image.samples == 1 && image.shape != Shape::D3 && !image.format.is_depth();
+    plain(source)
+        && plain(target)
+        && source.format == target.format
+        && from.layers == to.layers
+        && (from.mips, to.mips) == (1, 1)
+        && exact(0)
+        && exact(1)
+}
+
+fn forward_fits(pipeline: &Pipeline, from: usize, to: usize) -> bool {
+    let [source, target] = [from, to].map(|image| &pipeline.images[image]);
+    let alike = |image: &Image| (image.format, image.extent, image.mips, image.layers, image.shape);
+    let resolves = source.samples > target.samples && !source.format.is_depth();
+    from != to
+        && alike(source) == alike(target)
+        && (source.mips, source.layers, source.shape) == (1, 1, Shape::D2)
+        && (source.samples == target.samples || resolves)
+        && source.life == Life::Transient
+        && target.life == Life::Transient
+}

@@ -1,0 +1,72 @@
+//! What one invocation of a shader reads and makes of it.
+
+use super::Evaluator;
+use crate::random_pipelines::hash::{hash, hash_all, hashes};
+use crate::random_pipelines::legal::size;
+use crate::random_pipelines::pipeline::{Extent, Part, Read, SAMPLES};
+use crate::random_pipelines::texels::{self, Words};
+use framewright_graph::format::Format;
+use framewright_graph::frame::Blend;
+
+/// The hash at a position before anything is read.
+pub(super) fn start(pass: u32, at: Extent) -> u32 {
+    hash_all(pass, at)
+}
+
+/// A position near `at` inside an image of this size.
+pub(super) fn near(size: Extent, state: u32, at: Extent) -> Extent {
+    let away = [state & 3, (state >> 2) & 3, (state >> 4) & 3];
+    std::array::from_fn(|axis| (at[axis] + away[axis]) % size[axis])
+}
+
+/// A texel's components in the hash.
+pub(super) fn absorb(state: u32, format: Format, words: Words) -> u32 {
+    let parts = texels::parts(format) as usize;
+    hash_all(state, words.into_iter().take(parts).map(|word| texels::hashed(format, word)))
+}
+
+/// The components that a shader writes.
+pub(super) fn values(state: u32, from: u32, format: Format, blend: Blend) -> Words {
+    hashes(state, from).map(|bits| texels::word(format, bits & texels::mask(format, blend)))
+}
+
+impl Evaluator<'_> {
+    /// The hash once an invocation at `at` has read all that it reads.
+    pub(super) fn reads(&self, reads: &[Read], state: u32, at: Extent) -> u32 {
+        reads.iter().fold(state, |state, read| self.read(*read, state, at))
+    }
+
+    fn read(&self, read: Read, state: u32, at: Extent) -> u32 {
+        match read {
+            Read::Uniform(buffer, frames_ago) => {
+                hash(state, self.before.buffers[buffer][frames_ago as usize][(state & 15) as usize].bits)
+            }
+            Read::Block(buffer, frames_ago) => {
+                let words = &self.before.buffers[buffer][frames_ago as usize];
+                hash(state, words[(state % words.len() as u32) as usize].bits)
+            }
+            Read::Storage(part) => self.texel_near(part, 0, false, state, at),
+            Read::Sampled { part, frames_ago, per_sample } => {
+                let mip = part.mip + (state >> 16) % part.mips;
+                self.texel_near(Part { mip, mips: 1, ..part }, frames_ago, per_sample, state, at)
+            }
+        }
+    }
+
+    /// The hash with a texel of one mip level near `at`, or with all its samples, each near a place of its own.
+    fn texel_near(&self, part: Part, frames_ago: u32, per_sample: bool, state: u32, at: Extent) -> u32 {
+        let image = &self.pipeline.images[part.image];
+        let contents = &self.before.images[part.image][frames_ago as usize];
+        let place = |state| {
+            let [x, y, z] = near(size(image, part), state, at);
+            [x, y, z + part.layer]
+        };
+        if per_sample {
+            return (0..SAMPLES).fold(state, |state, sample| {
+                absorb(state, image.format, contents.texel(part.mip, place(state), sample).words)
+            });
+        }
+        let words = texels::resolved(image.format, &contents.all_samples(part.mip, place(state)));
+        absorb(state, image.format, words)
+    }
+}

@@ -1,0 +1,26 @@
+//! Random pipelines: made from a seed, evaluated on the CPU, executed on real drivers, compared bit for bit.
+//!
+//! ```text
+//! seed ─► generate ─► pipeline ─┬─► to_frame ─► compile ─► verify ─► execute ─┐
+//!                               └─► meaning (frame after frame on the CPU) ───┴─► the same, or shrink
+//! ```
+
+pub mod allowed;
+pub mod generate;
+pub mod hash;
+pub mod legal;
+pub mod meaning;
+pub mod pipeline;
+pub mod rng;
+pub mod shader;
+pub mod texels;
+pub mod to_frame;
+
+use allowed::Allowed;
+use framewright_graph::frame::Frame;
+
+/// The frame of a random pipeline of so many passes, always the same for the same seed.
+#[must_use]
+pub fn frame(seed: u64, passes: u32) -> Frame {
+    to_frame::to_frame(&generate::pipeline(seed, passes, &Allowed::default()))
+}

@@ -1,0 +1,235 @@
+//! A random pipeline as the frame that a pipeline file would have become.
+
+use super::legal;
+use super::pipeline::{
+    self, Compute, Count, Draw, Geometry, Groups, Life, Part, Pass, Pipeline, Read, Region, StoreAccess, Thing, Work,
+};
+use super::{shader, texels};
+use framewright_graph::format::Format;
+use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Frame, ImageIndex, Lifetime, Resource};
+use framewright_graph::source::Span;
+use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Stages, State, Subresources};
+
+/// The frame that `pipeline` says.
+#[must_use]
+pub fn to_frame(pipeline: &Pipeline) -> Frame {
+    let mut frame = Frame::default();
+    for (number, image) in pipeline.images.iter().enumerate() {
+        let [width, height, _] = image.extent;
+        frame.images.push(frame::Image {
+            shape: image.shape,
+            extent: image.extent,
+            mips: image.mips,
+            layers: image.layers,
+            samples: image.samples,
+            lifetime: lifetime(image.life, Layout::ShaderReadOnlyOptimal, |value| texels::fill(image.format, value)),
+            ..frame::Image::new(&format!("i{number}"), image.format, width, height)
+        });
+    }
+    for (number, buffer) in pipeline.buffers.iter().enumerate() {
+        frame.buffers.push(frame::Buffer {
+            name: format!("b{number}").into(),
+            span: Span::NONE,
+            bytes: 4 * u64::from(buffer.words),
+            lifetime: lifetime(buffer.life, Layout::Undefined, |value| FillValue::Bits([value.into(), 0, 0, 0])),
+        });
+    }
+    frame.passes = pipeline.passes.iter().map(|pass| to_pass(pipeline, pass)).collect();
+    for output in &pipeline.outputs {
+        frame.outputs.push(frame::Output { resource: resource(*output), span: Span::NONE, after: None });
+    }
+    frame
+}
+
+fn resource(thing: Thing) -> Resource {
+    match thing {
+        Thing::Image(image) => Resource::Image(ImageIndex(image as u32)),
+        Thing::Buffer(buffer) => Resource::Buffer(BufferIndex(buffer as u32)),
+    }
+}
+
+fn lifetime(life: Life, layout: Layout, initial: impl Fn(u8) -> FillValue) -> Lifetime {
+    match life {
+        Life::Transient => Lifetime::Transient,
+        Life::Persistent(value) => Lifetime::Persistent { initial: initial(value) },
+        Life::History(frames, value) => Lifetime::History { frames, initial: initial(value) },
+        Life::Imported => {
+            // As the program's own commands leave it.
+            let before = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout };
+            Lifetime::Imported { before, after: None }
+        }
+    }
+}
+
+fn range(format: Format, part: Part) -> Subresources {
+    let Part { mip, mips, layer, layers, .. } = part;
+    Subresources { aspects: format.aspects(), base_mip: mip, mips, base_layer: layer, layers }
+}
+
+fn to_pass(pipeline: &Pipeline, pass: &Pass) -> frame::Pass {
+    let shader = shader::shader(pipeline, pass);
+    let name = shader.as_ref().map_or("", |shader| &shader.name);
+    let mut made = frame::Pass::new(&format!("p{}", pass.number), work(pipeline, pass, name));
+    made.side_effect = pass.side_effect;
+    if let Some(shader) = &shader {
+        made.params = shader.params.iter().map(|(name, value)| (name.as_str().into(), *value)).collect();
+    }
+    let stages =
+        if matches!(pass.work, Work::Draw(_)) { Stages::FRAGMENT_SHADER } else { Stages::COMPUTE_SHADER };
+    let (reads, stores) = legal::shader(pass);
+    for (number, read) in reads.iter().enumerate() {
+        add_read(pipeline, &mut made, &format!("read{number}"), *read, stages);
+    }
+    for (number, store) in stores.iter().enumerate() {
+        let read = store.access != StoreAccess::Write;
+        add_store(pipeline, &mut made, &format!("store{number}"), store.region, (read, true), stages);
+    }
+    match &pass.work {
+        Work::Draw(draw) => add_attachments(pipeline, &mut made, draw),
+        Work::Compute(Compute { groups: Groups::Indirect(buffer, _), .. }) => {
+            made.buffers.push(fixed(*buffer, BufferRole::Indirect));
+        }
+        Work::Copy { from, to } => made.transfers = vec![transfer(pipeline, *from, false), transfer(pipeline, *to, true)],
+        Work::Blit { from, to } => {
+            let transfer = |part, write| transfer(pipeline, Region::Image(part), write);
+            made.transfers = vec![transfer(*from, false), transfer(*to, true)];
+        }
+        Work::Fill { to, .. } => made.transfers = vec![transfer(pipeline, *to, true)],
+        Work::Compute(_) | Work::Forward { .. } => {}
+    }
+    made
+}
+
+fn work(pipeline: &Pipeline, pass: &Pass, shader: &str) -> frame::Work {
+    match &pass.work {
+        Work::Draw(draw) => frame::Work::Draw {
+            draw: match draw.geometry {
+                Geometry::FullScreen => frame::Draw::FullScreen,
+                Geometry::Triangles { count: Count::Direct(triangles, instances), .. } => {
+                    frame::Draw::Vertices { count: 3 * triangles, instances }
+                }
+                Geometry::Triangles { count: Count::Indirect(_), .. } => frame::Draw::Indirect,
+            },
+            shader: shader.into(),
+            discards: draw.discards,
+            per_sample: draw.per_sample,
+        },
+        Work::Compute(compute) => frame::Work::Dispatch {
+            shader: shader.into(),
+            groups: match compute.groups {
+                Groups::Count(groups) => frame::Groups::Count(groups),
+                Groups::Cover => frame::Groups::Invocations(compute.grid),
+                Groups::Indirect(_, word) => frame::Groups::Indirect { offset: 4 * u64::from(word) },
+            },
+        },
+        Work::Copy { .. } => frame::Work::Copy,
+        Work::Blit { .. } => frame::Work::Blit { filter: Filter::Nearest },
+        Work::Fill { to, value } => frame::Work::Fill {
+            value: match to {
+                Region::Image(part) => texels::fill(pipeline.images[part.image].format, *value),
+                Region::Buffer(_) => FillValue::Bits([(*value).into(), 0, 0, 0]),
+            },
+        },
+        Work::Forward { from, to } => frame::Work::Forward {
+            from: ImageIndex(*from as u32),
+            to: ImageIndex(*to as u32),
+            because: "a switch = false".to_owned(),
+        },
+    }
+}
+
+fn add_read(pipeline: &Pipeline, made: &mut frame::Pass, binding: &str, read: Read, stages: Stages) {
+    let mut buffer = |buffer: usize, frames_ago, role| {
+        let binding = Some(binding.into());
+        made.buffers.push(BufferUse { binding, frames_ago, role, stages, ..fixed(buffer, role) });
+    };
+    match read {
+        Read::Uniform(number, frames_ago) => buffer(number, frames_ago, BufferRole::Uniform),
+        Read::Block(number, frames_ago) => {
+            buffer(number, frames_ago, BufferRole::Storage { read: true, write: false });
+        }
+        Read::Storage(part) => add_store(pipeline, made, binding, Region::Image(part), (true, false), stages),
+        Read::Sampled { part, frames_ago, per_sample } => made.sampled.push(frame::Sampled {
+            binding: binding.into(),
+            image: ImageIndex(part.image as u32),
+            range: range(pipeline.images[part.image].format, part),
+            frames_ago,
+            span: Span::NONE,
+            per_sample,
+            own_pixel: false,
+            filter: Filter::Nearest,
+            stages,
+        }),
+    }
+}
+
+fn add_store(
+    pipeline: &Pipeline,
+    made: &mut frame::Pass,
+    binding: &str,
+    region: Region,
+    (read, write): (bool, bool),
+    stages: Stages,
+) {
+    match region {
+        Region::Image(part) => made.storage.push(frame::Storage {
+            binding: binding.into(),
+            image: ImageIndex(part.image as u32),
+            range: range(pipeline.images[part.image].format, part),
+            span: Span::NONE,
+            read,
+            write,
+            stages,
+        }),
+        Region::Buffer(buffer) => {
+            let role = BufferRole::Storage { read, write };
+            made.buffers.push(BufferUse { binding: Some(binding.into()), stages, ..fixed(buffer, role) });
+        }
+    }
+}
+
+/// A buffer that no shader names.
+fn fixed(buffer: usize, role: BufferRole) -> BufferUse {
+    let buffer = BufferIndex(buffer as u32);
+    BufferUse { binding: None, buffer, frames_ago: 0, span: Span::NONE, role, stages: Stages::empty() }
+}
+
+fn add_attachments(pipeline: &Pipeline, made: &mut frame::Pass, draw: &Draw) {
+    if let Geometry::Triangles { count, vertices, indices } = draw.geometry {
+        made.buffers.extend(vertices.map(|buffer| fixed(buffer, BufferRole::Vertex)));
+        made.buffers.extend(indices.map(|buffer| fixed(buffer, BufferRole::Index)));
+        if let Count::Indirect(buffer) = count {
+            made.buffers.push(fixed(buffer, BufferRole::Indirect));
+        }
+    }
+    for pipeline::Target { part, clear, blend } in &draw.color {
+        let format = pipeline.images[part.image].format;
+        made.color.push(frame::ColorTarget {
+            image: ImageIndex(part.image as u32),
+            range: range(format, *part),
+            span: Span::NONE,
+            clear: clear.map(|value| [texels::float(format, texels::plain(format, value)); 4]),
+            blend: *blend,
+        });
+    }
+    made.depth = draw.depth.map(|pipeline::DepthTarget { part, clear, test, write }| {
+        let format = pipeline.images[part.image].format;
+        frame::DepthTarget {
+            image: ImageIndex(part.image as u32),
+            range: range(format, part),
+            span: Span::NONE,
+            clear: clear.map(|value| texels::float(format, texels::plain(format, value))),
+            test,
+            write,
+            stencil: None,
+        }
+    });
+}
+
+fn transfer(pipeline: &Pipeline, region: Region, write: bool) -> frame::TransferUse {
+    let (thing, range) = match region {
+        Region::Image(part) => (Thing::Image(part.image), range(pipeline.images[part.image].format, part)),
+        Region::Buffer(buffer) => (Thing::Buffer(buffer), Subresources::WHOLE),
+    };
+    frame::TransferUse { resource: resource(thing), range, frames_ago: 0, span: Span::NONE, write }
+}
