@@ -15,30 +15,33 @@ use framewright_graph::format::Format::{
 use framewright_graph::frame::{Blend, Shape};
 use framewright_graph::vocabulary::CompareOp;
 
-/// A pipeline of so many passes, always the same for the same seed, with only what is `allowed`.
+/// How often a pass of one kind is proposed before another kind has its turn.
+const PROPOSALS: u32 = 60;
+
+/// A pipeline of about so many passes, always the same for the same seed, with only what is `allowed`.
 #[must_use]
 pub fn pipeline(seed: u64, passes: u32, allowed: &Allowed) -> Pipeline {
     let mut rng = Rng::new(seed ^ 0x5EED_0F0F);
-    let pipeline = Pipeline {
-        images: images(&mut rng, passes, allowed),
-        ..Pipeline::default()
-    };
+    loop {
+        // Few passes may leave nothing that can be an output.
+        let made = attempt(Rng::new(rng.bits()), passes, allowed);
+        if !made.outputs.is_empty() {
+            return made;
+        }
+    }
+}
+
+fn attempt(mut rng: Rng, passes: u32, allowed: &Allowed) -> Pipeline {
+    let pipeline = Pipeline { images: images(&mut rng, passes, allowed), ..Pipeline::default() };
     let mut maker = Maker { written: Written::new(&pipeline), pipeline, rng, allowed, extent: [0; 3] };
     maker.pipeline.buffers = maker.buffers(passes);
     maker.written = Written::new(&maker.pipeline);
-    // What is proposed may stand about once in five times; a start that leaves nothing to do ends.
-    for _ in 0..passes * 400 {
+    for _ in 0..passes * 4 {
         if maker.pipeline.passes.len() as u32 == passes {
             break;
         }
-        if let Some(work) = maker.propose() {
-            let number = maker.pipeline.passes.len() as u32;
-            let side_effect = maker.allowed.has(Kind::SideEffect) && maker.rng.one_in(20);
-            let pass = Pass { number, work, side_effect };
-            if maker.written.take(&maker.pipeline, &pass) {
-                maker.pipeline.passes.push(pass);
-            }
-        }
+        let kind = maker.kind();
+        (0..PROPOSALS).any(|_| maker.try_pass(kind));
     }
     maker.outputs();
     maker.pipeline
@@ -51,8 +54,19 @@ fn images(rng: &mut Rng, passes: u32, allowed: &Allowed) -> Vec<Image> {
 }
 
 fn image(rng: &mut Rng, [width, height]: [u32; 2], allowed: &Allowed) -> Image {
-    let format = if rng.one_in(6) { D32_SFLOAT } else {
-        rng.of([R32_UINT, R32_UINT, R8G8B8A8_UINT, R32G32B32A32_UINT, R8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT])
+    let format = if rng.one_in(6) {
+        D32_SFLOAT
+    } else {
+        rng.of([
+            R32_UINT,
+            R32_UINT,
+            R8G8B8A8_UINT,
+            R32G32B32A32_UINT,
+            R8_UINT,
+            R8G8B8A8_UNORM,
+            R16G16B16A16_SFLOAT,
+            R32_SFLOAT,
+        ])
     };
     let factor = if rng.one_in(4) { rng.of([2, 3]) } else { 1 };
     let flat = Image {
@@ -156,8 +170,21 @@ impl Maker<'_> {
         Part { image, mip, mips, layer, layers }
     }
 
-    fn propose(&mut self) -> Option<Work> {
-        let kind = self.rng.of([
+    /// Proposes a pass, and whether it may stand there.
+    fn try_pass(&mut self, kind: Kind) -> bool {
+        let Some(work) = self.propose(kind) else { return false };
+        let number = self.pipeline.passes.len() as u32;
+        let side_effect = self.allowed.has(Kind::SideEffect) && self.rng.one_in(20);
+        let pass = Pass { number, work, side_effect };
+        let may_stand = self.written.take(&self.pipeline, &pass);
+        if may_stand {
+            self.pipeline.passes.push(pass);
+        }
+        may_stand
+    }
+
+    fn kind(&mut self) -> Kind {
+        self.rng.of([
             Kind::FullScreen,
             Kind::FullScreen,
             Kind::Triangles,
@@ -169,7 +196,10 @@ impl Maker<'_> {
             Kind::Blit,
             Kind::Fill,
             Kind::Forward,
-        ]);
+        ])
+    }
+
+    fn propose(&mut self, kind: Kind) -> Option<Work> {
         if !self.allowed.has(kind) {
             return None;
         }
@@ -189,7 +219,13 @@ impl Maker<'_> {
                 let (from, to) = (self.image(), self.image());
                 Some(Work::Blit { from: self.part(from, 1, 1), to: self.part(to, 1, 1) })
             }
-            Kind::Fill => Some(Work::Fill { to: self.region(), value: self.rng.below(61) as u8 }),
+            Kind::Fill => {
+                let to = match self.region() {
+                    Region::Image(part) => Region::Image(self.part(part.image, u32::MAX, u32::MAX)),
+                    buffer => buffer,
+                };
+                Some(Work::Fill { to, value: self.rng.below(61) as u8 })
+            }
             _ => Some(Work::Forward { from: self.image(), to: self.image() }),
         }
     }
@@ -258,13 +294,20 @@ impl Maker<'_> {
         };
         if format.is_depth() {
             let test = self.rng.of([
-                CompareOp::GreaterOrEqual, CompareOp::Greater, CompareOp::Less, CompareOp::Always, CompareOp::NotEqual,
+                CompareOp::GreaterOrEqual,
+                CompareOp::Greater,
+                CompareOp::Less,
+                CompareOp::Always,
+                CompareOp::NotEqual,
             ]);
             draw.depth.get_or_insert(DepthTarget { part, clear, test, write: self.rng.one_in(2) });
         } else if draw.color.len() < 3 {
             let blends = self.allowed.has(Kind::Blend) && !texels::is_uint(format) && self.rng.one_in(2);
-            let blend =
-                if blends { self.rng.of([Blend::Additive, Blend::Alpha, Blend::Premultiplied]) } else { Blend::Replace };
+            let blend = if blends {
+                self.rng.of([Blend::Additive, Blend::Alpha, Blend::Premultiplied])
+            } else {
+                Blend::Replace
+            };
             draw.color.push(Target { part, clear, blend });
         }
     }
@@ -281,7 +324,10 @@ impl Maker<'_> {
             let uniform = self.allowed.has(Kind::Uniform) && self.rng.one_in(2);
             return Some(if uniform { Read::Uniform(buffer, ago) } else { Read::Block(buffer, ago) });
         }
-        let image = self.image();
+        let there: Vec<usize> =
+            (0..self.pipeline.images.len()).filter(|image| self.written.all(Thing::Image(*image))).collect();
+        // Parts of images may be there too.
+        let image = if self.rng.one_in(3) { self.image() } else { *self.rng.pick(&there)? };
         let Image { samples, life, format, .. } = self.pipeline.images[image];
         if self.allowed.has(Kind::StorageRead) && self.rng.one_in(6) {
             return Some(Read::Storage(self.part(image, 1, u32::MAX)));
@@ -370,6 +416,5 @@ impl Maker<'_> {
 }
 
 /// Formats that images of random pipelines have.
-pub const FORMATS: [Format; 8] = [
-    R32_UINT, R8G8B8A8_UINT, R32G32B32A32_UINT, R8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, D32_SFLOAT,
-];
+pub const FORMATS: [Format; 8] =
+    [R32_UINT, R8G8B8A8_UINT, R32G32B32A32_UINT, R8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, D32_SFLOAT];

@@ -197,9 +197,10 @@ impl Written {
             })
         });
         let buffers = buffers(pass);
-        let buffers_apart = buffers.iter().enumerate().all(|(at, one)| {
-            buffers[..at].iter().all(|other| one.0 != other.0 || !(one.2 || other.2))
-        });
+        let buffers_apart = buffers
+            .iter()
+            .enumerate()
+            .all(|(at, one)| buffers[..at].iter().all(|other| one.0 != other.0 || !(one.2 || other.2)));
         exists
             && apart
             && buffers_apart
@@ -332,9 +333,8 @@ fn draw_fits(pipeline: &Pipeline, draw: &Draw) -> bool {
     let depth = draw.depth.is_none_or(|depth| pipeline.images[depth.part.image].format.is_depth());
     let plain = draw.stores.is_empty()
         || (draw.geometry == Geometry::FullScreen && !draw.discards && !draw.per_sample && draw.depth.is_none());
-    let of = |buffer: Option<usize>, contents| {
-        buffer.is_none_or(|buffer| pipeline.buffers[buffer].contents == contents)
-    };
+    let of =
+        |buffer: Option<usize>, contents| buffer.is_none_or(|buffer| pipeline.buffers[buffer].contents == contents);
     let geometry = match draw.geometry {
         Geometry::FullScreen => true,
         Geometry::Triangles { count, vertices, indices } => {
@@ -446,9 +446,7 @@ fn copy_fits(pipeline: &Pipeline, from: Region, to: Region) -> bool {
 fn blit_fits(pipeline: &Pipeline, from: Part, to: Part) -> bool {
     let (source, target) = (&pipeline.images[from.image], &pipeline.images[to.image]);
     let (size_from, size_to) = (size(source, from), size(target, to));
-    let exact = |axis: usize| {
-        size_to[axis].is_multiple_of(size_from[axis]) || (size_to[axis] * 3 == size_from[axis])
-    };
+    let exact = |axis: usize| size_to[axis].is_multiple_of(size_from[axis]) || (size_to[axis] * 3 == size_from[axis]);
     let plain = |image: &Image| image.samples == 1 && image.shape != Shape::D3 && !image.format.is_depth();
     plain(source)
         && plain(target)

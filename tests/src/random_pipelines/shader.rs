@@ -2,7 +2,7 @@
 
 use super::hash::{CONTENT_GLSL, GLSL, QUARTER_GLSL};
 use super::pipeline::{
-    Compute, Contents, Draw, Geometry, Image, Pass, Pipeline, Read, Region, SAMPLES, Store, StoreAccess, WORKGROUP, Work,
+    Compute, Draw, Geometry, Image, Pass, Pipeline, Read, Region, SAMPLES, Store, StoreAccess, WORKGROUP, Work,
 };
 use super::{legal, texels};
 use framewright_graph::format::{Format, Numeric};
@@ -85,7 +85,9 @@ impl Text {
         let (image, dimension) = match read {
             Read::Uniform(..) => {
                 self.key += "_b";
-                self.declare(&format!("layout(set = 0, binding = {binding}) uniform {name} {{ uvec4 {name}_words[4]; }};"));
+                self.declare(&format!(
+                    "layout(set = 0, binding = {binding}) uniform {name} {{ uvec4 {name}_words[4]; }};"
+                ));
                 self.say(&format!("state = hash(state, {name}_words[(state >> 2) & 3u][state & 3u]);"));
                 return;
             }
@@ -322,7 +324,11 @@ impl Text {
         let state = format!("uint state = hash(hash(hash(number, {group}), at.y), at.z);\n");
         // What is made together reads at one position.
         let body = format!("void main() {{\n    {start}{state}{}}}\n", self.body);
-        let body = if self.structured { body.replace(", state, at)", ", state, uvec3(at.x - at.x % together, at.yz))") } else { body };
+        let body = if self.structured {
+            body.replace(", state, at)", ", state, uvec3(at.x - at.x % together, at.yz))")
+        } else {
+            body
+        };
         let text = format!("{head}{GLSL}{content}{NEAR}{}{body}", self.declarations);
         Shader { files: vec![(format!("{name}.comp"), text)], name, params: self.params }
     }

@@ -27,9 +27,27 @@ pub fn mask(format: Format, blend: Blend) -> u32 {
     match format {
         Format::R32_UINT | Format::R32G32B32A32_UINT => u32::MAX,
         // Averages of four multiples of four are whole.
-        Format::R8G8B8A8_UNORM => if blends { 0x04 } else { 0xFC },
-        Format::R16G16B16A16_SFLOAT => if blends { 0x07 } else { 0x3F },
-        Format::R32_SFLOAT | Format::R32G32B32A32_SFLOAT => if blends { 0xFFF } else { 0xFFFF },
+        Format::R8G8B8A8_UNORM => {
+            if blends {
+                0x04
+            } else {
+                0xFC
+            }
+        }
+        Format::R16G16B16A16_SFLOAT => {
+            if blends {
+                0x07
+            } else {
+                0x3F
+            }
+        }
+        Format::R32_SFLOAT | Format::R32G32B32A32_SFLOAT => {
+            if blends {
+                0xFFF
+            } else {
+                0xFFFF
+            }
+        }
         _ => 0xFF,
     }
 }

@@ -74,8 +74,7 @@ fn to_pass(pipeline: &Pipeline, pass: &Pass) -> frame::Pass {
     if let Some(shader) = &shader {
         made.params = shader.params.iter().map(|(name, value)| (name.as_str().into(), *value)).collect();
     }
-    let stages =
-        if matches!(pass.work, Work::Draw(_)) { Stages::FRAGMENT_SHADER } else { Stages::COMPUTE_SHADER };
+    let stages = if matches!(pass.work, Work::Draw(_)) { Stages::FRAGMENT_SHADER } else { Stages::COMPUTE_SHADER };
     let (reads, stores) = legal::shader(pass);
     for (number, read) in reads.iter().enumerate() {
         add_read(pipeline, &mut made, &format!("read{number}"), *read, stages);
@@ -89,7 +88,9 @@ fn to_pass(pipeline: &Pipeline, pass: &Pass) -> frame::Pass {
         Work::Compute(Compute { groups: Groups::Indirect(buffer, _), .. }) => {
             made.buffers.push(fixed(*buffer, BufferRole::Indirect));
         }
-        Work::Copy { from, to } => made.transfers = vec![transfer(pipeline, *from, false), transfer(pipeline, *to, true)],
+        Work::Copy { from, to } => {
+            made.transfers = vec![transfer(pipeline, *from, false), transfer(pipeline, *to, true)]
+        }
         Work::Blit { from, to } => {
             let transfer = |part, write| transfer(pipeline, Region::Image(part), write);
             made.transfers = vec![transfer(*from, false), transfer(*to, true)];

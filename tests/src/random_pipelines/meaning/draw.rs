@@ -96,7 +96,8 @@ impl Evaluator<'_> {
 
     fn passes(&self, draw: &Draw, depth: u32, at: [u32; 3], sample: u32) -> bool {
         let Some(target) = draw.depth else { return true };
-        let there = self.after.images[target.part.image][0].texel(target.part.mip, [at[0], at[1], target.part.layer], sample);
+        let there =
+            self.after.images[target.part.image][0].texel(target.part.mip, [at[0], at[1], target.part.layer], sample);
         let (new, old) = (depth as f32 / 256.0, f32::from_bits(there.words[0]));
         match target.test {
             CompareOp::Never => false,

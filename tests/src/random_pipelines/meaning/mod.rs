@@ -88,7 +88,8 @@ impl Evaluator<'_> {
                 let source = &self.before.images[from.image][0];
                 let texel = |at| texels::bytes(format, source.texel(from.mip, at, 0).words);
                 let bytes: Vec<u8> = linear(self, from).flat_map(texel).collect();
-                let word = |bytes: &[u8]| self.word(bytes.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte)));
+                let word =
+                    |bytes: &[u8]| self.word(bytes.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte)));
                 *self.buffer(to) = bytes.chunks(4).map(word).collect();
             }
             (Region::Buffer(from), Region::Image(to)) => {
