@@ -115,8 +115,8 @@ pub struct FormatSupport {
 /// A model of how much memory an image takes, for a device that is not here.
 ///
 /// Each mip level takes `row · rows · depth` bytes, where the width is padded to `row_texels` and the row that it makes to
-/// `row_bytes`, the height to `rows`, and the whole to `alignment`. Layers and samples multiply that. Lavapipe and
-/// SwiftShader take exactly this much; of GPUs it models the tiles that texels lie in, not their compression.
+/// `row_bytes`, the height to `rows`, and the whole to `alignment`. Layers and samples multiply that. Lavapipe takes exactly
+/// this much, and so does SwiftShader for flat images; of GPUs it models the tiles that texels lie in, not their compression.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MemoryModel {

@@ -9,9 +9,17 @@ macro_rules! shipped {
 }
 
 /// The profiles that the library carries, by name: what lavapipe of Debian 12 says of itself comes first and is the one to
-/// take where nothing else is said.
-pub const SHIPPED_PROFILES: &[(&str, &str)] =
-    shipped!("lavapipe", "nvidia-rtx-2080", "amd-rx-7800-xt", "intel-arc-a770", "mali-g78", "meta-quest-3",);
+/// take where nothing else is said. The first two were read from the drivers; the others were put together from public
+/// sources, which each of them names, with what they don't tell.
+pub const SHIPPED_PROFILES: &[(&str, &str)] = shipped!(
+    "lavapipe",
+    "swiftshader",
+    "nvidia-rtx-2080",
+    "amd-rx-7800-xt",
+    "intel-arc-a770",
+    "mali-g78",
+    "meta-quest-3",
+);
 
 /// What is wrong with a profile's text.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -84,6 +92,33 @@ mod tests {
             let again = Profile::from_ron(&profile.to_ron().expect("written"));
             assert_eq!(again, Ok(profile), "{name}");
         }
+    }
+
+    #[test]
+    fn shipped_profiles_that_no_driver_wrote_say_what_was_assumed() {
+        for (name, text) in SHIPPED_PROFILES {
+            let profile = Profile::from_ron(text).expect("read");
+            let read = profile.source.starts_with("read from ");
+            assert_eq!(read, ["lavapipe", "swiftshader"].contains(name), "{name}: {}", profile.source);
+            assert_eq!(profile.known_needs.is_empty(), !read, "{name}");
+            assert_eq!(profile.unknown.is_empty(), read, "{name}");
+            assert!(read || profile.source.contains("github.com/"), "{name}");
+        }
+    }
+
+    /// What separates the kinds of devices that Plans are made for.
+    #[test]
+    fn shipped_profiles_differ_where_devices_do() {
+        let all = SHIPPED_PROFILES.iter().map(|(_, text)| Profile::from_ron(text).expect("read"));
+        let all: Vec<Profile> = all.collect();
+        let some = |has: fn(&Profile) -> bool| all.iter().any(has) && !all.iter().all(has);
+        assert!(some(|it| it.lazily_allocated_memory));
+        assert!(some(|it| it.local_read));
+        assert!(some(|it| it.queues.compute && it.queues.transfer));
+        assert!(some(|it| it.queues.sharing == crate::plan::Sharing::Concurrent));
+        assert!(some(|it| it.format(Format::D24_UNORM_S8_UINT).is_some()));
+        assert!(some(|it| it.format(Format::R8G8B8A8_UNORM).is_some_and(|it| it.samples.contains(&8))));
+        assert!(some(|it| it.format(Format::R32_SFLOAT).is_some_and(|it| it.blend)));
     }
 
     #[test]
