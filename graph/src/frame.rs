@@ -397,6 +397,18 @@ pub struct DepthTarget {
     pub stencil: Option<StencilState>,
 }
 
+impl DepthTarget {
+    /// The planes of an image with the format `format` that it uses: each with whether the pass starts from a cleared
+    /// plane, and whether it writes it.
+    pub fn planes(&self, format: Format) -> impl Iterator<Item = (Aspects, bool, bool)> + use<> {
+        let depth = (Aspects::DEPTH, self.clear.is_some(), self.write || self.clear.is_some());
+        let stencil = self.stencil.filter(|_| format.aspects().contains(Aspects::STENCIL)).map(|stencil| {
+            (Aspects::STENCIL, stencil.clear.is_some(), stencil.clear.is_some() || stencil.pass != StencilOp::Keep)
+        });
+        std::iter::once(depth).chain(stencil)
+    }
+}
+
 /// Stencil test and update, the same for both faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

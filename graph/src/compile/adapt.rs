@@ -3,121 +3,116 @@
 //!
 //! A resolve belongs to a *version* of an image and is shared by all its readers.
 
+mod access;
+mod demote;
 mod forward;
+mod stores;
 
 use super::cull::Live;
 use super::link::covers;
-use super::model::{Adapted, Op, OpKind, Role, Samples, Start, Store, StoreIndex, Use};
+use super::model::{Adapted, Negotiated, Op, OpKind, Reason, Role, Start, StoreIndex, Use};
+use super::parts::{self, Grids};
+use super::Options;
 use crate::describe::Diagnostic;
-use crate::device::{ImageDescriptor, Profile};
+use crate::device::Profile;
 use crate::frame::{Draw, Frame, ImageIndex, Pass, Resource, Sampled, Work};
-use crate::plan::{Cause, Note, Sharing, Stage};
+use crate::plan::{Note, Stage};
 use crate::source::{Place, Span};
-use crate::vocabulary::{Aspects, ResolveMode, Usage};
-use std::collections::{BTreeMap, HashMap};
+use crate::vocabulary::{Aspects, Layout, ResolveMode, Subresources};
+use demote::Demotions;
+use forward::Later;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-pub(super) fn adapt(
-    frame: &Frame,
-    live: &Live,
-    samples: &Samples,
-    device: &Profile,
-) -> Result<Adapted, Vec<Diagnostic>> {
-    let mut is_output = vec![false; frame.images.len()];
-    for output in &frame.outputs {
-        let Resource::Image(image) = output.resource else { continue };
-        is_output[image.0 as usize] = true;
-    }
+/// What `adapt` starts from.
+#[derive(Clone, Copy)]
+pub(super) struct Input<'a> {
+    pub(super) frame: &'a Frame,
+    pub(super) grids: &'a Grids,
+    pub(super) live: &'a Live,
+    pub(super) negotiated: &'a Negotiated,
+    pub(super) device: &'a Profile,
+    pub(super) options: &'a Options,
+}
+
+pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
+    let Input { frame, live, .. } = input;
     let mut adapter = Adapter {
-        frame,
-        live,
-        samples,
-        device,
+        input,
         store_of: vec![None; frame.images.len()],
+        buffer_store_of: vec![None; frame.buffers.len()],
         resolved_of: vec![None; frame.images.len()],
-        image_of: Vec::new(),
+        is_output: vec![false; frame.images.len()],
+        inserted_for: BTreeMap::new(),
         known_as: BTreeMap::new(),
-        is_output,
-        resolves_of: vec![0; frame.images.len()],
-        of_geometry: geometry_targets(frame, live),
-        named: false,
+        later: Later::default(),
+        demotions: Demotions::default(),
+        renamed: false,
+        images: 0,
+        buffers: 0,
         adapted: Adapted::default(),
         errors: Vec::new(),
         scratch: Vec::new(),
         copies: Vec::new(),
     };
+    for output in &frame.outputs {
+        if let Resource::Image(image) = output.resource {
+            adapter.is_output[image.0 as usize] = true;
+        }
+    }
+    if live.passes.iter().any(|pass| matches!(frame.passes[*pass as usize].work, Work::Forward { .. })) {
+        adapter.later = Later::of(frame, live);
+    }
+    adapter.demotions = demote::find(&input, &mut adapter.adapted.notes);
+    adapter.adapted.stores.reserve(frame.images.len());
     adapter.adapted.ops.reserve(live.passes.len());
     adapter.adapted.uses.reserve(live.passes.len() * 4);
     for pass in &live.passes {
         adapter.pass(*pass);
     }
     for output in &frame.outputs {
-        let Resource::Image(image) = output.resource else { continue };
-        adapter.output(image, output.span);
+        adapter.output(output);
     }
-    if adapter.named {
-        distinct_names(&mut adapter.adapted.stores);
+    if adapter.renamed {
+        stores::distinct_names(frame, &mut adapter.adapted.stores);
     }
     if adapter.errors.is_empty() { Ok(adapter.adapted) } else { Err(adapter.errors) }
 }
 
-/// For each image, whether objects are drawn into it.
-fn geometry_targets(frame: &Frame, live: &Live) -> Vec<bool> {
-    let mut targets = vec![false; frame.images.len()];
-    for pass in live.passes.iter().map(|pass| &frame.passes[*pass as usize]) {
-        if matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. }) {
-            pass.color.iter().for_each(|target| targets[target.image.0 as usize] = true);
-        }
-    }
-    targets
-}
-
-/// Numbers physical images of one name, as an image gets that others are forwarded to; the last one keeps the name.
-fn distinct_names(stores: &mut [Store]) {
-    let mut used: HashMap<Arc<str>, u32> = HashMap::with_capacity(stores.len());
-    for store in stores.iter_mut().rev() {
-        let name = store.name.clone();
-        while let Some(number) = used.get_mut(&store.name) {
-            // Counting goes on where it stopped: many images may have one name.
-            *number += 1;
-            store.name = format!("{name} ({number})").into();
-        }
-        used.insert(store.name.clone(), 1);
-    }
-}
-
 struct Adapter<'a> {
-    frame: &'a Frame,
-    live: &'a Live,
-    samples: &'a Samples,
-    device: &'a Profile,
-    /// The physical image that holds each image's current version.
+    input: Input<'a>,
+    /// The physical image that holds each image's current version. Those of earlier frames stand right behind it.
     store_of: Vec<Option<StoreIndex>>,
+    /// The same for buffers.
+    buffer_store_of: Vec<Option<StoreIndex>>,
     /// The single-sample copy of each image's current version, if there is one.
     resolved_of: Vec<Option<StoreIndex>>,
-    /// The image that each physical image was made for.
-    image_of: Vec<usize>,
-    /// The images that a forwarded physical image holds or is the resolved copy of, as far as they are still used.
-    known_as: BTreeMap<StoreIndex, Vec<usize>>,
     /// Whether each image leaves the frame.
     is_output: Vec<bool>,
     /// How many resolved copies, copies and second images each image has had: they need distinct names.
-    resolves_of: Vec<u32>,
-    /// Images that geometry is drawn into, where more samples would have meant a resolve; until that was said.
-    of_geometry: Vec<bool>,
+    inserted_for: BTreeMap<ImageIndex, u32>,
+    /// The images that a forwarded physical image holds or is the resolved copy of, as far as they are still used.
+    known_as: BTreeMap<StoreIndex, Vec<ImageIndex>>,
+    /// What comes later in the frame, if anything is forwarded.
+    later: Later,
+    /// Full-screen draws that move to single-sampled images.
+    demotions: Demotions,
     /// Whether a physical image has a name that isn't its own image's.
-    named: bool,
+    renamed: bool,
+    /// Number of physical images and of buffers so far.
+    images: u32,
+    buffers: u32,
     adapted: Adapted,
     errors: Vec<Diagnostic>,
     /// Uses of the pass at hand.
     scratch: Vec<Use>,
-    /// What it reads of images that it also writes: each image, and its copy.
+    /// What the pass at hand reads of images that it also writes: each image, and its copy.
     copies: Vec<(StoreIndex, StoreIndex)>,
 }
 
 impl Adapter<'_> {
     fn pass(&mut self, number: u32) {
-        let frame = self.frame;
+        let frame = self.input.frame;
         let pass = &frame.passes[number as usize];
         if let Work::Forward { from, to, because } = &pass.work {
             return self.forward(number, pass, *from, *to, because);
@@ -126,39 +121,51 @@ impl Adapter<'_> {
         let mut uses = std::mem::take(&mut self.scratch);
         uses.clear();
         for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
-            if let Some(store) = self.sampled(pass, sampled) {
-                uses.push(Use { store, role: Role::Sampled { entry, stages: sampled.stages } });
+            if let Some(store) = self.sampled(number, pass, sampled) {
+                let depth = self.input.negotiated.is_depth_attachment(sampled.image);
+                let range = self.range(sampled.image, sampled.range);
+                uses.push(access::sampled(sampled, entry, store, range, depth, frame));
             }
         }
         for (entry, storage) in (0_u32..).zip(&pass.storage) {
             let store = match storage.write {
-                true => self.target(pass, storage.image, storage.span, storage.read),
+                true => self.target(number, pass, storage.image, storage.range, storage.span, storage.read),
                 false => self.current(storage.image),
             };
-            let role = Role::Storage { entry, stages: storage.stages, read: storage.read, write: storage.write };
-            uses.push(Use { store, role });
+            let range = self.range(storage.image, storage.range);
+            uses.push(access::storage(storage, entry, store, range));
         }
         for (entry, target) in (0_u32..).zip(&pass.color) {
             let start = match target.clear {
-                Some(value) => Start::Clear(value),
+                Some(_) => Start::Clear,
                 None if covers(pass, target) => Start::Discard,
                 None => Start::Keep,
             };
-            let store = self.target(pass, target.image, target.span, start == Start::Keep);
-            uses.push(Use { store, role: Role::Color { entry, start, blends: target.blend != Default::default() } });
+            let store = self.target(number, pass, target.image, target.range, target.span, start == Start::Keep);
+            let range = self.range(target.image, target.range);
+            uses.push(access::color(target, entry, store, range, start));
         }
         if let Some(depth) = &pass.depth {
-            let start = depth.clear.map_or(Start::Keep, |value| Start::Clear([value, 0.0, 0.0, 0.0]));
-            let store = if depth.write || depth.clear.is_some() {
-                self.written(depth.image, start == Start::Keep)
-            } else {
-                self.current(depth.image)
-            };
-            self.refuse_depth_feedback(pass, depth.image, depth.write || depth.clear.is_some());
-            uses.push(Use { store, role: Role::Depth { start, write: depth.write } });
+            let planes = depth.planes(frame.images[depth.image.0 as usize].format);
+            for (plane, clears, writes) in planes {
+                let start = if clears { Start::Clear } else { Start::Keep };
+                let store =
+                    if writes { self.written(depth.image, start == Start::Keep) } else { self.current(depth.image) };
+                self.refuse_depth_feedback(pass, depth.image, depth.range, plane, writes);
+                let range = self.range(depth.image, Subresources { aspects: plane, ..depth.range });
+                uses.push(access::depth(plane, store, range, start, writes, frame.images[depth.image.0 as usize].format));
+            }
         }
-        let kind =
-            if matches!(pass.work, Work::Dispatch { .. }) { OpKind::Dispatch(number) } else { OpKind::Draw(number) };
+        for (entry, used) in (0_u32..).zip(&pass.buffers) {
+            let store = self.buffer(used.buffer, used.frames_ago);
+            uses.push(access::buffer(used, entry, store));
+        }
+        for (entry, used) in (0_u32..).zip(&pass.transfers) {
+            if let Some((store, range)) = self.transferred(pass, used) {
+                uses.push(access::transfer(&pass.work, used, entry, store, range));
+            }
+        }
+        let kind = if matches!(pass.work, Work::Draw { .. }) { OpKind::Draw(number) } else { OpKind::Pass(number) };
         self.push(kind, &uses);
         self.scratch = uses;
     }
@@ -169,8 +176,33 @@ impl Adapter<'_> {
         self.adapted.ops.push(Op { kind, uses: start..start + uses.len() as u32 });
     }
 
+    /// Adds an operation from one image to another, whole, which have the same parts.
+    fn push_transfer(&mut self, kind: OpKind, source: StoreIndex, target: StoreIndex, range: u32) {
+        let stage = access::transfer_stage(&kind);
+        let uses = [access::source(source, range, stage), access::target(target, range, stage)];
+        self.push(kind, &uses);
+    }
+
+    /// The number under which a part of an image is known; [`Use::ALL`] if it is all of it.
+    fn range(&mut self, image: ImageIndex, range: Subresources) -> u32 {
+        if range == Subresources::WHOLE && self.input.grids.of(image).is_none() {
+            return Use::ALL;
+        }
+        let image = &self.input.frame.images[image.0 as usize];
+        let range = parts::resolve(image, range);
+        if range == Subresources::all(image.format, image.mips, image.layers) {
+            return Use::ALL;
+        }
+        self.adapted.ranges.push(range);
+        self.adapted.ranges.len() as u32 - 1
+    }
+
     fn place(&self, span: Span) -> Option<Place> {
-        self.frame.sources.place(span)
+        self.input.frame.sources.place(span)
+    }
+
+    fn reason(&self, because: String, span: Span) -> Box<Reason> {
+        Box::new(Reason { because, at: self.place(span) })
     }
 
     fn note(&mut self, subject: &Arc<str>, text: String, span: Span) {
@@ -178,55 +210,13 @@ impl Adapter<'_> {
         self.adapted.notes.push(Note { stage: Stage::Adapt, subject: subject.clone(), text, at });
     }
 
-    /// The physical image with the current version; there is one, since `link` saw a version.
-    fn current(&mut self, image: ImageIndex) -> StoreIndex {
-        match self.store_of[image.0 as usize] {
-            Some(store) => store,
-            None => self.first_store(image),
-        }
-    }
-
-    /// The physical image that takes the next version.
-    fn written(&mut self, image: ImageIndex, keeps: bool) -> StoreIndex {
-        debug_assert!(!keeps || self.store_of[image.0 as usize].is_some(), "link saw a version to keep");
-        self.resolved_of[image.0 as usize] = None;
-        self.current(image)
-    }
-
-    fn first_store(&mut self, image: ImageIndex) -> StoreIndex {
-        let declared = &self.frame.images[image.0 as usize];
-        let cause = Cause::Written(self.place(declared.span));
-        self.new_store(image, declared.name.clone(), cause, self.samples.of(image))
-    }
-
-    /// Adds a physical image and makes it the image's current one.
-    fn new_store(&mut self, image: ImageIndex, name: Arc<str>, cause: Cause, samples: u32) -> StoreIndex {
-        let store = self.add_store(image, name, cause, samples);
-        self.store_of[image.0 as usize] = Some(store);
-        store
-    }
-
-    fn add_store(&mut self, image: ImageIndex, name: Arc<str>, cause: Cause, samples: u32) -> StoreIndex {
-        let declared = &self.frame.images[image.0 as usize];
-        let descriptor = ImageDescriptor {
-            format: declared.format,
-            shape: declared.shape,
-            extent: declared.extent,
-            mips: declared.mips,
-            layers: declared.layers,
-            samples,
-            usage: Usage::empty(),
-            sharing: Sharing::Exclusive,
-        };
-        self.adapted.stores.push(Store { name, cause, descriptor, output: false });
-        self.image_of.push(image.0 as usize);
-        self.adapted.stores.len() as StoreIndex - 1
-    }
-
     /// The physical image that a sampling pass reads.
-    fn sampled(&mut self, pass: &Pass, sampled: &Sampled) -> Option<StoreIndex> {
-        let declared = &self.frame.images[sampled.image.0 as usize];
-        let count = self.samples.of(sampled.image);
+    fn sampled(&mut self, number: u32, pass: &Pass, sampled: &Sampled) -> Option<StoreIndex> {
+        let declared = &self.input.frame.images[sampled.image.0 as usize];
+        if sampled.frames_ago > 0 {
+            return Some(self.current(sampled.image) + sampled.frames_ago);
+        }
+        let count = self.current_samples(sampled.image);
         if sampled.per_sample {
             if count == 1 {
                 let message =
@@ -238,80 +228,131 @@ impl Adapter<'_> {
                 self.errors.push(Diagnostic::new(sampled.span, message).help(help));
                 return None;
             }
-            return self.version_before(pass, sampled);
+            return self.version_before(number, pass, sampled);
         }
         if count > 1 {
             let because = format!("`{}` samples `{}` and it has {count} samples", pass.name, declared.name);
             return self.resolved(sampled.image, because, sampled.span);
         }
-        if std::mem::take(&mut self.of_geometry[sampled.image.0 as usize]) {
+        if self.demotions.is_worth_a_note(sampled.image) {
             let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
             self.note(&declared.name, text, sampled.span);
         }
-        self.version_before(pass, sampled)
+        self.version_before(number, pass, sampled)
     }
 
-    /// A pass that samples an image it also writes reads the version before itself.
-    fn version_before(&mut self, pass: &Pass, sampled: &Sampled) -> Option<StoreIndex> {
+    /// A pass that samples what it also writes reads the version before itself.
+    fn version_before(&mut self, number: u32, pass: &Pass, sampled: &Sampled) -> Option<StoreIndex> {
         let image = sampled.image;
-        let declared = &self.frame.images[image.0 as usize];
         let before = self.current(image);
         if let Some((_, copy)) = self.copies.iter().find(|(of, _)| *of == before) {
             return Some(*copy);
         }
-        let kept =
-            pass.color.iter().any(|target| target.image == image && target.clear.is_none() && !covers(pass, target))
-                || pass.storage.iter().any(|storage| storage.image == image && storage.write && storage.read);
-        if !kept {
+        if !self.overwrites(number, pass, sampled) {
             return Some(before);
         }
-        let because = format!("`{}` samples `{}` while it draws into it", pass.name, declared.name);
-        let at = self.place(sampled.span);
-        let cause = Cause::Inserted { because: because.clone(), at: at.clone() };
-        let name = self.next_name(image, "copy");
-        let copy = self.add_store(image, name, cause, self.samples.of(image));
-        let uses = [Use { store: before, role: Role::Source }, Use { store: copy, role: Role::Target }];
-        self.push(OpKind::Copy { because, at }, &uses);
+        let declared = &self.input.frame.images[image.0 as usize];
+        let because = format!("`{}` samples `{}` while it writes it", pass.name, declared.name);
+        let why = self.reason(because, sampled.span);
+        let copy = self.second(image, "copy", why.clone(), self.current_samples(image));
+        let range = self.range(image, sampled.range);
+        self.push_transfer(OpKind::Copy(why), before, copy, range);
         self.copies.push((before, copy));
         Some(copy)
     }
 
+    /// Whether a pass writes what it samples, in the very image that it samples.
+    fn overwrites(&self, number: u32, pass: &Pass, sampled: &Sampled) -> bool {
+        let image = sampled.image;
+        let moves = |range: Subresources, keeps: bool| self.moves_on(number, image, range, keeps);
+        let overlaps = |range: Subresources| self.overlap(image, range, sampled.range);
+        let color = pass.color.iter().filter(|target| target.image == image && overlaps(target.range)).any(|target| {
+            !moves(target.range, target.clear.is_none() && !covers(pass, target))
+        });
+        let mut storage = pass.storage.iter().filter(|storage| storage.image == image && storage.write);
+        color || storage.any(|storage| overlaps(storage.range) && !moves(storage.range, storage.read))
+    }
+
+    fn overlap(&self, image: ImageIndex, a: Subresources, b: Subresources) -> bool {
+        parts::overlap(&self.input.frame.images[image.0 as usize], a, b)
+    }
+
+    /// Whether a pass that samples an image and writes `range` of it goes on in a second image: it replaces all of it,
+    /// and nobody relies on where it lies.
+    fn moves_on(&self, number: u32, image: ImageIndex, range: Subresources, keeps: bool) -> bool {
+        let declared = &self.input.frame.images[image.0 as usize];
+        let all = Subresources::all(declared.format, declared.mips, declared.layers);
+        self.demotions.moves(number, image)
+            || !keeps && parts::resolve(declared, range) == all && !parts::outlives(&declared.lifetime)
+    }
+
     /// The physical image that a pass writes; a second one if the pass also samples what it replaces.
-    fn target(&mut self, pass: &Pass, image: ImageIndex, span: Span, keeps: bool) -> StoreIndex {
-        let samples_it = pass
-            .sampled
-            .iter()
-            .any(|sampled| sampled.image == image && (sampled.per_sample || self.samples.of(image) == 1));
-        if samples_it && !keeps && self.store_of[image.0 as usize].is_some() {
-            let declared = &self.frame.images[image.0 as usize];
-            let because = format!("`{}` samples `{}` while it replaces it", pass.name, declared.name);
-            let cause = Cause::Inserted { because, at: self.place(span) };
-            let name = self.next_name(image, "next");
-            self.resolved_of[image.0 as usize] = None;
-            return self.new_store(image, name, cause, self.samples.of(image));
+    fn target(
+        &mut self,
+        number: u32,
+        pass: &Pass,
+        image: ImageIndex,
+        range: Subresources,
+        span: Span,
+        keeps: bool,
+    ) -> StoreIndex {
+        let frame = self.input.frame;
+        if self.demotions.moves(number, image) {
+            return self.demoted(pass, image, span);
+        }
+        let wanted = self.input.negotiated.samples(image);
+        if !keeps && self.store_of[image.0 as usize].is_some() && self.current_samples(image) != wanted {
+            let name = &frame.images[image.0 as usize].name;
+            let because = format!("`{}` draws `{name}` anew, with {wanted} samples", pass.name);
+            let why = self.reason(because, span);
+            return self.replace(image, "again", why, wanted);
+        }
+        let samples_it = pass.sampled.iter().any(|sampled| {
+            let same = sampled.image == image && sampled.frames_ago == 0 && self.overlap(image, sampled.range, range);
+            same && (sampled.per_sample || wanted == 1)
+        });
+        if samples_it && self.store_of[image.0 as usize].is_some() && self.moves_on(number, image, range, keeps) {
+            let because = format!("`{}` samples `{}` while it replaces it", pass.name, frame.images[image.0 as usize].name);
+            let why = self.reason(because, span);
+            return self.replace(image, "next", why, wanted);
         }
         self.written(image, keeps)
     }
 
-    fn refuse_depth_feedback(&mut self, pass: &Pass, image: ImageIndex, writes: bool) {
-        if writes && let Some(sampled) = pass.sampled.iter().find(|sampled| sampled.image == image) {
-            let name = &self.frame.images[image.0 as usize].name;
+    /// The single-sampled image that a demoted draw goes on in.
+    fn demoted(&mut self, pass: &Pass, image: ImageIndex, span: Span) -> StoreIndex {
+        let samples_it = pass.sampled.iter().any(|sampled| sampled.image == image && sampled.frames_ago == 0);
+        if self.store_of[image.0 as usize].is_some() && self.current_samples(image) == 1 && !samples_it {
+            return self.written(image, false);
+        }
+        let name = &self.input.frame.images[image.0 as usize].name;
+        let why = self.reason(format!("`{}` covers `{name}` and gains nothing from several samples", pass.name), span);
+        self.replace(image, "1 sample", why, 1)
+    }
+
+    /// Whether a pass writes the plane of a depth image that it also samples: it can't be given a copy.
+    fn refuse_depth_feedback(
+        &mut self,
+        pass: &Pass,
+        image: ImageIndex,
+        range: Subresources,
+        plane: Aspects,
+        writes: bool,
+    ) {
+        let range = Subresources { aspects: plane, ..range };
+        let same = |sampled: &&Sampled| {
+            sampled.image == image && sampled.frames_ago == 0 && self.overlap(image, sampled.range, range)
+        };
+        if writes && let Some(sampled) = pass.sampled.iter().find(same) {
+            let name = &self.input.frame.images[image.0 as usize].name;
             let message = format!("`{}` samples the depth `{name}` that it also writes", pass.name);
             self.errors.push(Diagnostic::new(sampled.span, message).help("test it without writing: `write: false`"));
         }
     }
 
-    fn next_name(&mut self, image: ImageIndex, what: &str) -> Arc<str> {
-        let count = &mut self.resolves_of[image.0 as usize];
-        *count += 1;
-        self.named = true;
-        let name = &self.frame.images[image.0 as usize].name;
-        if *count == 1 { format!("{name} ({what})").into() } else { format!("{name} ({what} {count})").into() }
-    }
-
     /// The single-sample copy of an image's current version, for a pass that reads it.
     fn resolved(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
-        let declared = &self.frame.images[image.0 as usize];
+        let declared = &self.input.frame.images[image.0 as usize];
         if declared.format.is_depth() {
             let message = format!("{because}; passes can't read resolved depth yet");
             let help = format!("sample it as `sampler2DMS`, or give `{}` 1 sample", declared.name);
@@ -326,55 +367,22 @@ impl Adapter<'_> {
         if let Some(resolved) = self.resolved_of[image.0 as usize] {
             return resolved;
         }
-        let declared = &self.frame.images[image.0 as usize];
+        let declared = &self.input.frame.images[image.0 as usize];
         let averaged = !declared.format.is_integer() && !declared.format.is_depth();
         let mode = if averaged { ResolveMode::Average } else { ResolveMode::SampleZero };
         let source = self.current(image);
-        let at = self.place(span);
-        let cause = Cause::Inserted { because: because.clone(), at: at.clone() };
-        let name = self.next_name(image, "resolved");
-        let target = self.add_store(image, name, cause, 1);
-        let uses = [Use { store: source, role: Role::Source }, Use { store: target, role: Role::Target }];
-        self.push(OpKind::Resolve { mode, because, at }, &uses);
+        let why = self.reason(because, span);
+        let target = self.second(image, "resolved", why.clone(), 1);
+        self.push_transfer(OpKind::Resolve { mode, why }, source, target, Use::ALL);
         self.resolved_of[image.0 as usize] = Some(target);
         target
     }
+}
 
-    /// Whether a draw wrote an image's current version: then its rendering scope can carry a resolve.
-    fn drawn_last(&mut self, image: ImageIndex) -> bool {
-        let store = self.current(image);
-        let writes = |op: &&Op| {
-            let uses = &self.adapted.uses[op.uses.start as usize..op.uses.end as usize];
-            uses.iter().any(|used| used.store == store && used.role.writes())
-        };
-        let last = self.adapted.ops.iter().rev().find(writes);
-        last.is_some_and(|op| matches!(op.kind, OpKind::Draw(_)))
-    }
+/// Layouts in which transfers find their images.
+const TRANSFER: [Layout; 2] = [Layout::TransferSrcOptimal, Layout::TransferDstOptimal];
 
-    fn output(&mut self, image: ImageIndex, span: Span) {
-        let declared = &self.frame.images[image.0 as usize];
-        let count = self.samples.of(image);
-        if count > 1 && declared.format.aspects().contains(Aspects::STENCIL) {
-            let message =
-                format!("`{}` is an output with {count} samples, and stencil can't be resolved", declared.name);
-            let help = format!("choose a depth format without stencil, or give `{}` 1 sample", declared.name);
-            self.errors.push(Diagnostic::new(span, message).help(help));
-            return;
-        }
-        if count > 1 && declared.format.is_depth() && !self.drawn_last(image) {
-            let message = format!("`{}` is an output with {count} samples that were not drawn into it", declared.name);
-            let help =
-                format!("depth is resolved where it is drawn: draw into `{}`, or give it 1 sample", declared.name);
-            self.errors.push(Diagnostic::new(span, message).help(help));
-            return;
-        }
-        let store = if count > 1 {
-            let because = format!("`{}` is an output and has {count} samples", declared.name);
-            self.single_sample(image, because, span)
-        } else {
-            self.current(image)
-        };
-        self.adapted.stores[store as usize].output = true;
-        self.adapted.outputs.push(store);
-    }
+/// Whether a draw is made of objects or other geometry that has edges inside the image.
+fn has_edges(pass: &Pass) -> bool {
+    matches!(&pass.work, Work::Draw { draw, .. } if *draw != Draw::FullScreen)
 }

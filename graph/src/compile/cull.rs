@@ -1,7 +1,7 @@
-//! `cull`: only what reaches an output stays.
+//! `cull`: only what reaches an output, the next frame or a side effect stays.
 
 use super::link::Linked;
-use crate::frame::{Frame, Resource};
+use crate::frame::Frame;
 
 /// What stays.
 #[derive(Debug)]
@@ -10,43 +10,22 @@ pub(super) struct Live {
     pub(super) passes: Vec<u32>,
     /// Indices of the passes that go.
     pub(super) culled: Vec<u32>,
-    /// For each image the last pass that stays and touches it.
-    pub(super) last_access: Vec<Option<u32>>,
-    /// For each image the last pass that stays and writes it.
-    pub(super) last_write: Vec<Option<u32>>,
 }
 
 pub(super) fn cull(frame: &Frame, linked: &Linked) -> Live {
-    let mut needed = vec![false; linked.versions as usize];
-    for output in &frame.outputs {
-        let Resource::Image(image) = output.resource else { continue };
-        if let Some(version) = linked.last[image.0 as usize] {
-            needed[version as usize] = true;
-        }
-    }
+    let mut needed = linked.needed.clone();
     let (mut passes, mut culled) = (Vec::with_capacity(frame.passes.len()), Vec::new());
-    let mut last_access = vec![None; frame.images.len()];
-    let mut last_write = vec![None; frame.images.len()];
-    for pass in (0..frame.passes.len()).rev() {
-        let uses = linked.uses(pass);
-        let number = pass as u32;
-        if !uses.iter().any(|used| used.writes.is_some_and(|version| needed[version as usize])) {
+    for (number, pass) in (0_u32..).zip(&frame.passes).rev() {
+        let uses = linked.uses(number as usize);
+        if !pass.side_effect && !uses.iter().any(|used| used.writes() && needed[used.part()]) {
             culled.push(number);
             continue;
         }
         passes.push(number);
-        for used in uses {
-            let image = used.image.0 as usize;
-            last_access[image].get_or_insert(number);
-            if used.writes.is_some() {
-                last_write[image].get_or_insert(number);
-            }
-            if let Some(version) = used.reads {
-                needed[version as usize] = true;
-            }
-        }
+        uses.iter().filter(|used| used.writes()).for_each(|used| needed[used.part()] = false);
+        uses.iter().filter(|used| used.reads()).for_each(|used| needed[used.part()] = true);
     }
     passes.reverse();
     culled.reverse();
-    Live { passes, culled, last_access, last_write }
+    Live { passes, culled }
 }

@@ -4,22 +4,34 @@
 //! memory barrier. Such a barrier covers *all* memory: one serves every later hand-over of such writes whose image
 //! barrier comes after it, be it through others in between.
 
-use super::synchronise::Group;
-use crate::plan::{ImageBarrier, ImageId, MemoryBarrier, Resource};
+use super::batch::Batched;
+use super::model::StoreIndex;
+use super::synchronise::Pending;
 use crate::vocabulary::{Accesses, Stages};
 
 /// A write, and who takes its memory over.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HandOver {
-    pub(super) images: [ImageId; 2],
-    /// The previous occupant's last use.
-    pub(super) write: Group,
+    /// Previous and next occupant.
+    pub(super) stores: [StoreIndex; 2],
+    /// Stages and accesses of the previous occupant's last use.
+    pub(super) write: (Stages, Accesses),
+    /// The step of that use.
+    pub(super) written: u32,
     /// Whether that was in this frame, or in the one before.
     pub(super) this_frame: bool,
-    /// The new occupant's first use.
-    pub(super) first: Group,
-    /// Stages that the new occupant's first image barrier waits for.
-    pub(super) waits_for: Stages,
+    /// The new occupant's first barrier.
+    pub(super) barrier: u32,
+}
+
+/// A memory barrier for hand-overs.
+#[derive(Debug, Clone, Default)]
+pub(super) struct MemoryScopes {
+    pub(super) src_stages: Stages,
+    pub(super) src_accesses: Accesses,
+    pub(super) dst_stages: Stages,
+    pub(super) dst_accesses: Accesses,
+    pub(super) hand_overs: Vec<[StoreIndex; 2]>,
 }
 
 /// The first half of a memory barrier: the writes that it makes available. Nothing more is asked of an earlier one, since the
@@ -32,10 +44,6 @@ struct Source {
 }
 
 impl Source {
-    fn of(hand_over: &HandOver) -> Source {
-        Source { stages: hand_over.write.stages, accesses: hand_over.write.accesses.writes() }
-    }
-
     fn covers(self, other: Source) -> bool {
         self.stages.contains(other.stages) && self.accesses.contains(other.accesses)
     }
@@ -50,66 +58,100 @@ struct Passed {
     reach: Stages,
 }
 
-/// The memory barrier of each step, where one is due.
+/// A hand-over with the step at which it happens.
+#[derive(Clone, Copy)]
+struct Due {
+    at: u32,
+    source: Source,
+    written: u32,
+    this_frame: bool,
+    /// The new occupant's first barrier.
+    barrier: Pending,
+    stores: [StoreIndex; 2],
+}
+
+/// The memory barriers that hand-overs take, each with its step, in the order of steps.
 ///
 /// First those that the frame itself needs; then, in a second frame after the first, those that only the frame before
 /// makes necessary.
 pub(super) fn memory_barriers(
-    mut hand_overs: Vec<HandOver>,
-    image_barriers: &[Vec<ImageBarrier>],
-) -> Vec<Option<MemoryBarrier>> {
-    let steps = image_barriers.len();
-    let mut barriers: Vec<Option<MemoryBarrier>> = vec![None; steps];
+    hand_overs: &[HandOver],
+    pending: &[Pending],
+    batched: &[Batched],
+    steps: usize,
+) -> Vec<(u32, MemoryScopes)> {
     if hand_overs.is_empty() {
-        return barriers;
+        return Vec::new();
     }
-    hand_overs.sort_by_key(|hand_over| (hand_over.first.first, hand_over.images));
+    let mut due = due(hand_overs, pending, batched);
+    due.sort_by_key(|due| (due.at, due.stores));
+    let mut barriers: Vec<Option<MemoryScopes>> = vec![None; steps];
     let mut passed: Vec<Passed> = Vec::new();
     for time in 0..2 * steps {
         let (step, second_frame) = (time % steps, time >= steps);
-        let at_step = hand_overs.partition_point(|it| (it.first.first as usize) < step)
-            ..hand_overs.partition_point(|it| it.first.first as usize <= step);
-        let due: Vec<&HandOver> =
-            hand_overs[at_step].iter().filter(|it| it.this_frame != second_frame && !done(&passed, it)).collect();
-        add(&mut barriers[step], &due);
-        pass(&mut passed, time, barriers[step].as_ref(), &image_barriers[step]);
+        let here = of_step(&due, step as u32, |due| due.at);
+        let now: Vec<&Due> =
+            here.iter().filter(|due| due.this_frame != second_frame && !done(&passed, due)).collect();
+        add(&mut barriers[step], &now);
+        let images = of_step(batched, step as u32, |it| it.at).iter().map(|it| &pending[it.barrier as usize]);
+        pass(&mut passed, time, barriers[step].as_ref(), images);
     }
-    barriers
+    (0..).zip(barriers).filter_map(|(step, barrier)| Some((step, barrier?))).collect()
+}
+
+/// The entries of one step of a list in the order of steps.
+pub(super) fn of_step<T>(list: &[T], step: u32, at: impl Fn(&T) -> u32) -> &[T] {
+    let start = list.partition_point(|it| at(it) < step);
+    let rest = &list[start..];
+    &rest[..rest.partition_point(|it| at(it) <= step)]
+}
+
+fn due(hand_overs: &[HandOver], pending: &[Pending], batched: &[Batched]) -> Vec<Due> {
+    let mut at = vec![0_u32; pending.len()];
+    batched.iter().for_each(|it| at[it.barrier as usize] = it.at);
+    let due = |it: &HandOver| Due {
+        at: at[it.barrier as usize],
+        source: Source { stages: it.write.0, accesses: it.write.1 },
+        written: it.written,
+        this_frame: it.this_frame,
+        barrier: pending[it.barrier as usize],
+        stores: it.stores,
+    };
+    hand_overs.iter().map(due).collect()
 }
 
 /// Whether a barrier since the write already serves. Each hand-over's write is in the first frame that is walked.
-fn done(passed: &[Passed], hand_over: &HandOver) -> bool {
+fn done(passed: &[Passed], due: &Due) -> bool {
     passed.iter().any(|barrier| {
-        barrier.time > hand_over.write.last as usize
-            && barrier.source.covers(Source::of(hand_over))
-            && and_earlier(hand_over.waits_for).intersects(barrier.reach)
+        barrier.time > due.written as usize
+            && barrier.source.covers(due.source)
+            && and_earlier(due.barrier.src_stages).intersects(barrier.reach)
     })
 }
 
-fn add(barrier: &mut Option<MemoryBarrier>, due: &[&HandOver]) {
-    for hand_over in due {
-        let source = Source::of(hand_over);
-        let barrier = barrier.get_or_insert_with(|| MemoryBarrier {
-            src_stages: Stages::empty(),
-            src_accesses: Accesses::empty(),
-            dst_stages: Stages::empty(),
-            dst_accesses: Accesses::empty(),
-            hand_overs: Vec::new(),
-            buffers: Vec::new(),
-        });
-        barrier.src_stages |= source.stages;
-        barrier.src_accesses |= source.accesses;
-        barrier.dst_stages |= hand_over.first.stages;
-        barrier.dst_accesses |= hand_over.first.accesses;
-        barrier.hand_overs.push(hand_over.images.map(Resource::Image));
+fn add(barrier: &mut Option<MemoryScopes>, due: &[&Due]) {
+    for due in due {
+        let barrier = barrier.get_or_insert_default();
+        barrier.src_stages |= due.source.stages;
+        barrier.src_accesses |= due.source.accesses;
+        barrier.dst_stages |= due.barrier.dst_stages;
+        barrier.dst_accesses |= due.barrier.dst_accesses;
+        if !barrier.hand_overs.contains(&due.stores) {
+            barrier.hand_overs.push(due.stores);
+        }
     }
 }
 
 /// What comes after each barrier, once those of one step are passed. They don't order each other.
-fn pass(passed: &mut Vec<Passed>, time: usize, memory: Option<&MemoryBarrier>, images: &[ImageBarrier]) {
+fn pass<'p>(
+    passed: &mut Vec<Passed>,
+    time: usize,
+    memory: Option<&MemoryScopes>,
+    images: impl Iterator<Item = &'p Pending>,
+) {
     let memory_scopes = memory.map(|it| (it.src_stages, it.dst_stages));
     let scopes: Vec<(Stages, Stages)> =
-        images.iter().map(|it| (it.src_stages, it.dst_stages)).chain(memory_scopes).collect();
+        images.map(|it| (it.src_stages, it.dst_stages)).chain(memory_scopes).collect();
     for barrier in passed.iter_mut() {
         let follows = |(src, _): &&(Stages, Stages)| and_earlier(*src).intersects(barrier.reach);
         let next = scopes.iter().filter(follows).fold(barrier.reach, |reach, (_, dst)| reach | and_later(*dst));

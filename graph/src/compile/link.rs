@@ -1,158 +1,265 @@
-//! `link`: each access of a pass becomes a read of one version of an image, the making of the next, or both.
+//! `link`: what each pass reads and writes, part by part, and whether what it reads is there.
 //!
 //! Order in the frame gives meaning: a pass reads the versions that stand before itself, even of images it also writes.
 
+use super::parts::{self, Grids, outlives};
 use crate::describe::Diagnostic;
-use crate::frame::{Blend, ColorTarget, Draw, Frame, ImageIndex, Pass, Resource, Work};
+use crate::frame::{
+    Blend, BufferRole, BufferUse, ColorTarget, Draw, Frame, ImageIndex, Lifetime, Pass, Resource, Work,
+};
 use crate::source::Span;
-use crate::vocabulary::CompareOp;
-use std::ops::Range;
+use crate::vocabulary::{CompareOp, Layout, Subresources};
 
-/// A version of an image: what one pass made of it.
-pub(super) type Version = u32;
-
-/// What a pass does with one image.
+/// What one pass does with one part of an image, or with a buffer.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct VersionUse {
-    pub(super) image: ImageIndex,
-    /// The version that must be there before: it is sampled, loaded or kept.
-    pub(super) reads: Option<Version>,
-    /// The version that the pass makes.
-    pub(super) writes: Option<Version>,
+pub(super) struct PartUse(u32);
+
+impl PartUse {
+    const READS: u32 = 1;
+    const WRITES: u32 = 2;
+
+    fn new(part: u32, reads: bool, writes: bool) -> PartUse {
+        PartUse(part << 2 | u32::from(reads) * PartUse::READS | u32::from(writes) * PartUse::WRITES)
+    }
+
+    /// Number of the part among all parts of the frame.
+    pub(super) fn part(self) -> usize {
+        (self.0 >> 2) as usize
+    }
+
+    /// Whether it needs what was there before: it is sampled, loaded or kept.
+    pub(super) fn reads(self) -> bool {
+        self.0 & PartUse::READS != 0
+    }
+
+    /// Whether it changes it.
+    pub(super) fn writes(self) -> bool {
+        self.0 & PartUse::WRITES != 0
+    }
 }
 
 /// All passes' uses, pass by pass.
 #[derive(Debug)]
 pub(super) struct Linked {
-    uses: Vec<VersionUse>,
+    uses: Vec<PartUse>,
     starts: Vec<u32>,
-    /// Number of versions of all images.
-    pub(super) versions: u32,
-    /// The last version of each image, if anything writes it.
-    pub(super) last: Vec<Option<Version>>,
+    /// Whether each part is needed when the frame is done.
+    pub(super) needed: Vec<bool>,
 }
 
 impl Linked {
     /// The uses of pass number `pass`.
-    pub(super) fn uses(&self, pass: usize) -> &[VersionUse] {
-        &self.uses[self.range(pass)]
-    }
-
-    fn range(&self, pass: usize) -> Range<usize> {
-        self.starts[pass] as usize..self.starts[pass + 1] as usize
+    pub(super) fn uses(&self, pass: usize) -> &[PartUse] {
+        &self.uses[self.starts[pass] as usize..self.starts[pass + 1] as usize]
     }
 }
 
 /// Whether a draw replaces every pixel of its colour target.
 pub(super) fn covers(pass: &Pass, target: &ColorTarget) -> bool {
     let Work::Draw { draw: Draw::FullScreen, discards: false, .. } = pass.work else { return false };
-    let tested = pass.depth.as_ref().is_some_and(|depth| depth.test != CompareOp::Always);
+    let tested = pass.depth.as_ref().is_some_and(|depth| depth.test != CompareOp::Always || depth.stencil.is_some());
     target.blend == Blend::Replace && !tested
 }
 
-pub(super) fn link(frame: &Frame) -> Result<Linked, Vec<Diagnostic>> {
+/// Whether a use of a buffer reads and writes it.
+pub(super) fn buffer_access(used: &BufferUse) -> (bool, bool) {
+    match used.role {
+        BufferRole::Storage { read, write } => (read, write),
+        BufferRole::Uniform | BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => (true, false),
+    }
+}
+
+pub(super) fn link(frame: &Frame, grids: &Grids) -> Result<Linked, Vec<Diagnostic>> {
+    let mut first_part = Vec::with_capacity(frame.images.len() + frame.buffers.len());
+    let mut written = Vec::with_capacity(frame.images.len() + frame.buffers.len());
+    let mut needed = Vec::with_capacity(written.capacity());
+    for (image, number) in frame.images.iter().zip(0_u32..) {
+        first_part.push(written.len() as u32);
+        let parts = grids.of(ImageIndex(number)).map_or(1, |grid| grid.len() as usize);
+        let (there, stays) = lives(&image.lifetime, true);
+        written.resize(written.len() + parts, there);
+        needed.resize(written.len(), stays);
+    }
+    for buffer in &frame.buffers {
+        first_part.push(written.len() as u32);
+        let (there, stays) = lives(&buffer.lifetime, false);
+        written.push(there);
+        needed.push(stays);
+    }
     let mut linker = Linker {
         frame,
-        current: vec![None; frame.images.len()],
+        grids,
+        first_part,
+        writer: vec![0; written.len()],
+        written,
         uses: Vec::with_capacity(frame.passes.len() * 4),
-        versions: 0,
         errors: Vec::new(),
     };
     let mut starts = Vec::with_capacity(frame.passes.len() + 1);
     starts.push(0);
-    for pass in &frame.passes {
+    for (pass, number) in frame.passes.iter().zip(1_u32..) {
         let first = linker.uses.len();
         linker.pass(pass);
-        linker.commit(pass, first);
+        linker.commit(pass, number, first);
         starts.push(linker.uses.len() as u32);
     }
     for output in &frame.outputs {
-        let Resource::Image(image) = output.resource else { continue };
-        if linker.known(image, output.span) && linker.current[image.0 as usize].is_none() {
-            let name = &frame.images[image.0 as usize].name;
+        let (parts, name) = linker.all(output.resource);
+        needed[parts.clone()].fill(true);
+        if linker.written[parts].contains(&false) {
             linker.errors.push(
                 Diagnostic::new(output.span, format!("output `{name}` is never written"))
                     .help("let a pass write it, or take it out of `outputs`"),
             );
         }
     }
-    if linker.errors.is_empty() {
-        Ok(Linked { uses: linker.uses, starts, versions: linker.versions, last: linker.current })
-    } else {
-        Err(linker.errors)
-    }
+    if linker.errors.is_empty() { Ok(Linked { uses: linker.uses, starts, needed }) } else { Err(linker.errors) }
+}
+
+/// Whether there are contents before the first pass, and whether those after the last one matter.
+fn lives(lifetime: &Lifetime, has_layout: bool) -> (bool, bool) {
+    let there = match lifetime {
+        Lifetime::Transient | Lifetime::History { .. } => false,
+        Lifetime::Persistent { .. } => true,
+        Lifetime::Imported { before, .. } => !has_layout || before.layout != Layout::Undefined,
+    };
+    (there, outlives(lifetime))
 }
 
 struct Linker<'f> {
     frame: &'f Frame,
-    current: Vec<Option<Version>>,
-    uses: Vec<VersionUse>,
-    versions: Version,
+    grids: &'f Grids,
+    /// For each image, then each buffer, its first part.
+    first_part: Vec<u32>,
+    /// Whether each part has contents so far.
+    written: Vec<bool>,
+    /// The last pass that wrote each part, counted from 1.
+    writer: Vec<u32>,
+    uses: Vec<PartUse>,
     errors: Vec<Diagnostic>,
 }
 
 impl Linker<'_> {
     fn pass(&mut self, pass: &Pass) {
         for sampled in &pass.sampled {
-            self.access(pass, sampled.image, sampled.span, true, false);
+            if sampled.frames_ago == 0 {
+                self.image(pass, sampled.image, sampled.range, sampled.span, true, false);
+            }
         }
         for storage in &pass.storage {
-            self.access(pass, storage.image, storage.span, storage.read, storage.write);
+            self.image(pass, storage.image, storage.range, storage.span, storage.read, storage.write);
         }
         for target in &pass.color {
-            self.access(pass, target.image, target.span, target.clear.is_none() && !covers(pass, target), true);
+            let keeps = target.clear.is_none() && !covers(pass, target);
+            self.image(pass, target.image, target.range, target.span, keeps, true);
         }
         if let Some(depth) = &pass.depth {
-            self.access(pass, depth.image, depth.span, depth.clear.is_none(), depth.write || depth.clear.is_some());
+            for (plane, clears, writes) in depth.planes(self.frame.images[depth.image.0 as usize].format) {
+                let range = Subresources { aspects: plane, ..depth.range };
+                self.image(pass, depth.image, range, depth.span, !clears, writes);
+            }
+        }
+        for used in &pass.buffers {
+            if used.frames_ago == 0 {
+                let (reads, writes) = buffer_access(used);
+                self.access(pass, Resource::Buffer(used.buffer), 0, used.span, reads, writes);
+            }
+        }
+        for used in &pass.transfers {
+            if used.frames_ago == 0 {
+                match used.resource {
+                    Resource::Image(image) => {
+                        self.image(pass, image, used.range, used.span, !used.write, used.write);
+                    }
+                    buffer => self.access(pass, buffer, 0, used.span, !used.write, used.write),
+                }
+            }
         }
         if let Work::Forward { from, to, .. } = pass.work {
-            self.access(pass, from, pass.span, true, false);
-            self.access(pass, to, pass.span, false, true);
+            self.image(pass, from, Subresources::WHOLE, pass.span, true, false);
+            self.image(pass, to, Subresources::WHOLE, pass.span, false, true);
         }
     }
 
-    fn known(&mut self, image: ImageIndex, span: Span) -> bool {
-        let known = (image.0 as usize) < self.frame.images.len();
-        if !known {
-            self.errors.push(Diagnostic::new(span, format!("image number {} does not exist", image.0)));
+    fn image(
+        &mut self,
+        pass: &Pass,
+        image: ImageIndex,
+        range: Subresources,
+        span: Span,
+        reads: bool,
+        writes: bool,
+    ) {
+        let Some(grid) = self.grids.of(image) else {
+            return self.access(pass, Resource::Image(image), 0, span, reads, writes);
+        };
+        let range = parts::resolve(&self.frame.images[image.0 as usize], range);
+        for part in grid.cover(range) {
+            self.access(pass, Resource::Image(image), part, span, reads, writes);
         }
-        known
     }
 
-    /// Notes one access. Versions that are made count from [`Linker::commit`] on.
-    fn access(&mut self, pass: &Pass, image: ImageIndex, span: Span, reads: bool, writes: bool) {
-        if !self.known(image, span) {
-            return;
+    fn number(&self, resource: Resource) -> usize {
+        match resource {
+            Resource::Image(image) => image.0 as usize,
+            Resource::Buffer(buffer) => self.frame.images.len() + buffer.0 as usize,
         }
-        let before = self.current[image.0 as usize];
-        if reads && before.is_none() {
-            let (name, pass) = (&self.frame.images[image.0 as usize].name, &pass.name);
+    }
+
+    fn name(&self, resource: Resource) -> &str {
+        match resource {
+            Resource::Image(image) => &self.frame.images[image.0 as usize].name,
+            Resource::Buffer(buffer) => &self.frame.buffers[buffer.0 as usize].name,
+        }
+    }
+
+    /// All parts of an image or buffer, and its name.
+    fn all(&self, resource: Resource) -> (std::ops::Range<usize>, &str) {
+        let number = self.number(resource);
+        let end = self.first_part.get(number + 1).map_or(self.written.len(), |next| *next as usize);
+        (self.first_part[number] as usize..end, self.name(resource))
+    }
+
+    /// Notes one access. What it writes is there only for the passes after it ([`Linker::commit`]).
+    fn access(&mut self, pass: &Pass, resource: Resource, part: u32, span: Span, reads: bool, writes: bool) {
+        let part = self.first_part[self.number(resource)] + part;
+        if reads && !self.written[part as usize] {
+            // Said once for each part.
+            self.written[part as usize] = true;
+            let (name, pass) = (self.name(resource), &pass.name);
             let message = if writes {
-                format!("`{pass}` is the first to write `{name}`, and may leave pixels of it untouched")
+                format!("`{pass}` is the first to write `{name}`, and may leave parts of it untouched")
             } else {
                 format!("`{pass}` reads `{name}` before anything has written it")
             };
             let help = if writes { "clear it" } else { "a pass reads what passes above it wrote" };
-            self.errors.push(Diagnostic::new(span, message).help(help));
+            let repeated = self.errors.last().is_some_and(|last| {
+                last.message == message && last.labels.first().is_some_and(|label| label.span == span)
+            });
+            if !repeated {
+                self.errors.push(Diagnostic::new(span, message).help(help));
+            }
         }
-        let made = writes.then(|| {
-            self.versions += 1;
-            self.versions - 1
-        });
-        self.uses.push(VersionUse { image, reads: before.filter(|_| reads), writes: made });
+        self.uses.push(PartUse::new(part, reads, writes));
     }
 
-    /// Makes the versions that a pass wrote current, once all its reads are known.
-    fn commit(&mut self, pass: &Pass, first: usize) {
+    /// Makes what a pass wrote current, once all its reads are known.
+    fn commit(&mut self, pass: &Pass, number: u32, first: usize) {
         for at in first..self.uses.len() {
-            let VersionUse { image, writes: Some(version), .. } = self.uses[at] else { continue };
-            let twice = self.uses[first..at].iter().any(|earlier| earlier.image == image && earlier.writes.is_some());
-            if twice {
-                let name = &self.frame.images[image.0 as usize].name;
+            let used = self.uses[at];
+            if !used.writes() {
+                continue;
+            }
+            if std::mem::replace(&mut self.writer[used.part()], number) == number {
+                let resource = self.first_part.partition_point(|first| *first as usize <= used.part()) - 1;
+                let name = match resource.checked_sub(self.frame.images.len()) {
+                    None => &self.frame.images[resource].name,
+                    Some(buffer) => &self.frame.buffers[buffer].name,
+                };
                 let message = format!("`{}` writes `{name}` in two ways at once", pass.name);
                 self.errors.push(Diagnostic::new(pass.span, message));
             }
-            self.current[image.0 as usize] = Some(version);
+            self.written[used.part()] = true;
         }
     }
 }

@@ -10,19 +10,24 @@ use crate::frame::Frame;
 use crate::plan::Plan;
 
 mod adapt;
+mod batch;
 mod cull;
 mod emit;
 mod hand_over;
 mod legal;
 mod link;
 mod model;
+mod outlive;
 mod pack;
+mod parts;
 mod place;
+mod purpose;
 mod retain;
 mod samples;
 mod schedule;
 mod scope;
 mod synchronise;
+mod take_over;
 
 /// Switches of the compiler that never change what a frame means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,15 +78,41 @@ pub fn compile(
     options: &Options,
 ) -> Result<Plan, Vec<Diagnostic>> {
     legal::check(frame)?;
-    let linked = link::link(frame)?;
+    let grids = parts::Grids::new(frame);
+    let linked = link::link(frame, &grids)?;
     let live = cull::cull(frame, &linked);
-    let samples = samples::negotiate(frame, &live.passes, device)?;
-    let mut adapted = adapt::adapt(frame, &live, &samples, device)?;
+    let mut negotiated = samples::negotiate(frame, &live.passes, device)?;
+    let notes = std::mem::take(&mut negotiated.notes);
+    let input = adapt::Input { frame, grids: &grids, live: &live, negotiated: &negotiated, device, options };
+    let mut adapted = adapt::adapt(input)?;
     let order = schedule::schedule(&adapted);
-    let scoped = scope::scope(frame, &mut adapted, &order);
-    let retained = retain::retain(&mut adapted, &scoped, options);
-    let placed = place::place(&adapted, &retained, device, memory, options)?;
-    let barriers = synchronise::synchronise(&adapted, &retained, &placed, scoped.steps.len());
-    let parts = emit::Parts { frame, device, live, samples, adapted, scoped, retained, placed, barriers };
-    Ok(emit::emit(parts, memory.exact()))
+    let mut scoped = scope::scope(frame, &grids, &mut adapted, &order);
+    let retained = retain::retain(frame, &grids, &adapted, &scoped);
+    let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained);
+    let export = scoped.steps.len() as u32;
+    let states = outlive::promise(&grids, &adapted, &mut walked, export);
+    purpose::note(&grids, &mut adapted, &walked, &retained, &scoped, options);
+    let placed = place::place(&adapted, &walked.lifetimes, device, memory, options)?;
+    let hand_overs = take_over::take_over(&grids, &adapted, &states, &placed, &mut walked);
+    let batched = batch::batch(&walked.barriers);
+    if batched.last().is_some_and(|last| last.at == export) {
+        scoped.steps.push(scope::Step::Export);
+    }
+    let memory_barriers = hand_over::memory_barriers(&hand_overs, &walked.barriers, &batched, scoped.steps.len());
+    Ok(emit::emit(emit::Parts {
+        frame,
+        device,
+        grids: &grids,
+        live,
+        notes,
+        adapted,
+        scoped,
+        retained,
+        states,
+        placed,
+        pending: walked.barriers,
+        batched,
+        memory: memory_barriers,
+        exact_memory: memory.exact(),
+    }))
 }

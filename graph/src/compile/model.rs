@@ -1,40 +1,106 @@
-//! What `adapt` hands to the stages after it: physical images, and operations that use them.
+//! What `adapt` hands to the stages after it: physical images and buffers, and operations that use them.
 
-use crate::device::ImageDescriptor;
-use crate::frame::ImageIndex;
-use crate::plan::{Cause, Note, Subresources};
+use super::parts::{Grid, Grids};
+use crate::device::{BufferDescriptor, ImageDescriptor};
+use crate::frame::{ImageIndex, Resource};
+use crate::plan::{Note, Subresources};
 use crate::source::Place;
-use crate::vocabulary::{Filter, ResolveMode, Stages, Usage};
+use crate::vocabulary::{Accesses, FillValue, Filter, Layout, ResolveMode, Stages, State, Usage};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A physical image.
+/// A physical image or buffer.
 #[derive(Debug, Clone)]
 pub(super) struct Store {
-    pub(super) name: Arc<str>,
-    pub(super) cause: Cause,
-    pub(super) descriptor: ImageDescriptor,
-    /// Whether it leaves the frame.
-    pub(super) output: bool,
+    /// Its number among the images of the Plan, or among the buffers.
+    pub(super) id: u32,
+    /// What it was made for.
+    pub(super) of: Resource,
+    /// Its name, if that isn't the one of what it was made for.
+    pub(super) renamed: Option<Arc<str>>,
+    /// Why it was inserted, if it was.
+    pub(super) inserted: Option<Box<Reason>>,
+    pub(super) kind: Kind,
+    pub(super) home: Home,
+    /// The state in which it is to be left, if one was asked for.
+    pub(super) after: Option<State>,
+    /// The first of its cells: what is tracked by itself.
+    pub(super) first_cell: u32,
+}
+
+/// Why something was inserted.
+#[derive(Debug, Clone)]
+pub(super) struct Reason {
+    pub(super) because: String,
+    pub(super) at: Option<Place>,
+}
+
+/// Image or buffer.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Kind {
+    Image(ImageDescriptor),
+    Buffer(BufferDescriptor),
+}
+
+/// Where its memory comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Home {
+    /// It shares memory with others.
+    Transient,
+    /// Memory of its own, without contents from before the frame.
+    Output,
+    /// Its contents stay, and are found as those of `becomes` in the next frame.
+    Persistent { becomes: StoreIndex, initial: FillValue },
+    /// It is handed in in this state.
+    Imported { before: State },
 }
 
 impl Store {
-    /// All of it.
-    pub(super) fn range(&self) -> Subresources {
-        Subresources::all(self.descriptor.format, self.descriptor.mips, self.descriptor.layers)
+    /// The descriptor, if it is an image.
+    pub(super) fn image(&self) -> Option<&ImageDescriptor> {
+        match &self.kind {
+            Kind::Image(descriptor) => Some(descriptor),
+            Kind::Buffer(_) => None,
+        }
+    }
+
+    /// How it is cut; `None`: it is one part.
+    pub(super) fn grid<'g>(&self, grids: &'g Grids) -> Option<&'g Grid> {
+        match self.of {
+            Resource::Image(image) => grids.of(image),
+            Resource::Buffer(_) => None,
+        }
+    }
+
+    /// All of an image.
+    pub(super) fn all(&self) -> Subresources {
+        match &self.kind {
+            Kind::Image(image) => Subresources::all(image.format, image.mips, image.layers),
+            Kind::Buffer(_) => Subresources::WHOLE,
+        }
+    }
+
+    pub(super) fn is_transient(&self) -> bool {
+        self.home == Home::Transient
     }
 }
 
 /// Index into [`Adapted::stores`].
 pub(super) type StoreIndex = u32;
+/// Number of a part of a physical image, or of a buffer, among all of them.
+pub(super) type CellIndex = u32;
 
-/// Physical images and the operations on them, in frame order.
+/// Physical images and buffers, and the operations on them, in frame order.
 #[derive(Debug, Default)]
 pub(super) struct Adapted {
     pub(super) stores: Vec<Store>,
     pub(super) ops: Vec<Op>,
     pub(super) uses: Vec<Use>,
-    /// Stores of the frame's outputs, in its order.
+    /// Ranges that are not all of their image.
+    pub(super) ranges: Vec<Subresources>,
+    /// Number of cells of all stores.
+    pub(super) cells: u32,
+    /// The frame's outputs, in its order.
     pub(super) outputs: Vec<StoreIndex>,
     pub(super) notes: Vec<Note>,
 }
@@ -42,7 +108,25 @@ pub(super) struct Adapted {
 impl Adapted {
     /// The uses of operation number `op`.
     pub(super) fn uses(&self, op: u32) -> &[Use] {
-        &self.uses[self.ops[op as usize].uses.start as usize..self.ops[op as usize].uses.end as usize]
+        let Range { start, end } = self.ops[op as usize].uses;
+        &self.uses[start as usize..end as usize]
+    }
+
+    /// The part of its image that a use is about.
+    pub(super) fn range(&self, used: &Use) -> Subresources {
+        match self.ranges.get(used.range as usize) {
+            Some(range) => *range,
+            None => self.stores[used.store as usize].all(),
+        }
+    }
+
+    /// The cells that a use is about.
+    pub(super) fn for_each_cell(&self, grids: &Grids, used: &Use, mut visit: impl FnMut(CellIndex)) {
+        let store = &self.stores[used.store as usize];
+        match store.grid(grids) {
+            None => visit(store.first_cell),
+            Some(grid) => grid.cover(self.range(used)).for_each(|part| visit(store.first_cell + part)),
+        }
     }
 }
 
@@ -59,8 +143,8 @@ pub(super) struct Op {
 pub(super) enum OpKind {
     /// A raster pass of the frame.
     Draw(u32),
-    /// A compute pass of the frame.
-    Dispatch(u32),
+    /// A pass of the frame that is not drawn.
+    Pass(u32),
     /// A full-screen copy that stands in for a pass of the frame that is off.
     ForwardDraw {
         /// The pass of the frame.
@@ -68,110 +152,132 @@ pub(super) enum OpKind {
         /// Filter between texels of the source.
         filter: Filter,
         /// Why.
-        because: String,
+        why: Box<Reason>,
     },
-    /// A resolve; its uses are source and target.
+    /// An inserted resolve; its uses are source and target.
     Resolve {
         /// How samples become one value.
         mode: ResolveMode,
         /// Why.
-        because: String,
-        /// The place that made it necessary.
-        at: Option<Place>,
+        why: Box<Reason>,
     },
-    /// A copy; its uses are source and target.
-    Copy {
-        /// Why.
-        because: String,
-        /// The place that made it necessary.
-        at: Option<Place>,
-    },
+    /// An inserted copy; its uses are source and target.
+    Copy(Box<Reason>),
 }
 
-/// One use of a physical image by an operation.
+impl OpKind {
+    /// The pass of the frame that it is or stands in for.
+    pub(super) fn pass(&self) -> Option<u32> {
+        match self {
+            OpKind::Draw(pass) | OpKind::Pass(pass) | OpKind::ForwardDraw { pass, .. } => Some(*pass),
+            OpKind::Resolve { .. } | OpKind::Copy(_) => None,
+        }
+    }
+
+    /// Whether it draws into attachments.
+    pub(super) fn draws(&self) -> bool {
+        matches!(self, OpKind::Draw(_) | OpKind::ForwardDraw { .. })
+    }
+}
+
+/// One use of a physical image or buffer by an operation.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Use {
     pub(super) store: StoreIndex,
+    /// Into [`Adapted::ranges`]; [`Use::ALL`]: all of it.
+    pub(super) range: u32,
+    /// Which entry of the pass's list of such uses it is.
+    pub(super) entry: u32,
     pub(super) role: Role,
+    /// What an attachment starts from.
+    pub(super) start: Start,
+    /// Whether it needs what earlier operations left.
+    pub(super) reads: bool,
+    /// Whether it changes it.
+    pub(super) writes: bool,
+    pub(super) layout: Layout,
+    pub(super) stages: Stages,
+    pub(super) accesses: Accesses,
 }
 
-/// The role in which an operation uses an image.
-#[derive(Debug, Clone, Copy, PartialEq)]
+impl Use {
+    /// All of a store.
+    pub(super) const ALL: u32 = u32::MAX;
+}
+
+/// The role in which an operation uses an image or buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
-    /// Sampled by shaders, as the pass's sampled image number `entry`.
-    Sampled { entry: u32, stages: Stages },
-    /// Accessed by shaders without sampling, as the pass's storage image number `entry`.
-    Storage { entry: u32, stages: Stages, read: bool, write: bool },
-    /// Colour attachment, as the pass's target number `entry`.
-    Color { entry: u32, start: Start, blends: bool },
+    /// Sampled by shaders.
+    Sampled,
+    /// Read by fragment shaders at their own position.
+    Input,
+    /// Accessed by shaders without sampling.
+    Storage,
+    /// Colour attachment.
+    Color,
     /// Depth attachment.
-    Depth { start: Start, write: bool },
-    /// Source of a resolve or copy.
+    Depth,
+    /// Stencil attachment.
+    Stencil,
+    /// A buffer, in the way that its pass says.
+    Buffer,
+    /// Source of a transfer.
     Source,
-    /// Target of a resolve or copy.
+    /// Target of a transfer.
     Target,
 }
 
+impl Role {
+    /// Whether it is an attachment of a rendering scope.
+    pub(super) fn is_attachment(self) -> bool {
+        matches!(self, Role::Color | Role::Depth | Role::Stencil)
+    }
+
+    /// The usage that it takes of an image.
+    pub(super) fn usage(self) -> Usage {
+        match self {
+            Role::Sampled => Usage::SAMPLED,
+            Role::Input => Usage::INPUT_ATTACHMENT,
+            Role::Storage => Usage::STORAGE,
+            Role::Color => Usage::COLOR_ATTACHMENT,
+            Role::Depth | Role::Stencil => Usage::DEPTH_STENCIL_ATTACHMENT,
+            Role::Source => Usage::TRANSFER_SRC,
+            Role::Target => Usage::TRANSFER_DST,
+            Role::Buffer => Usage::empty(),
+        }
+    }
+}
+
 /// What a pass finds in its attachment.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Start {
     /// A clear value.
-    Clear([f32; 4]),
+    Clear,
     /// What was there.
     Keep,
     /// Nothing: it covers every pixel.
     Discard,
 }
 
-impl Role {
-    /// Whether it is an attachment of a rendering scope.
-    pub(super) fn is_attachment(&self) -> bool {
-        matches!(self, Role::Color { .. } | Role::Depth { .. })
-    }
-
-    /// Whether it changes the image.
-    pub(super) fn writes(&self) -> bool {
-        match self {
-            Role::Sampled { .. } | Role::Source => false,
-            Role::Storage { write, .. } => *write,
-            Role::Depth { start, write } => *write || *start != Start::Keep,
-            Role::Color { .. } | Role::Target => true,
-        }
-    }
-
-    /// Whether it needs what earlier operations left in the image.
-    pub(super) fn reads(&self) -> bool {
-        match self {
-            Role::Sampled { .. } | Role::Source => true,
-            Role::Storage { read, .. } => *read,
-            Role::Color { start, .. } | Role::Depth { start, .. } => *start == Start::Keep,
-            Role::Target => false,
-        }
-    }
-
-    /// The usage that it takes; a resolve that a scope carries takes that of attachments instead.
-    pub(super) fn usage(&self) -> Usage {
-        match self {
-            Role::Sampled { .. } => Usage::SAMPLED,
-            Role::Storage { .. } => Usage::STORAGE,
-            Role::Color { .. } => Usage::COLOR_ATTACHMENT,
-            Role::Depth { .. } => Usage::DEPTH_STENCIL_ATTACHMENT,
-            Role::Source => Usage::TRANSFER_SRC,
-            Role::Target => Usage::TRANSFER_DST,
-        }
-    }
-}
-
-/// Sample counts in force, for each image of the frame.
+/// What was found out about each image of the frame before anything is decided.
 #[derive(Debug)]
-pub(super) struct Samples {
-    pub(super) of: Vec<u32>,
+pub(super) struct Negotiated {
+    /// Samples in force.
+    pub(super) samples: Vec<u32>,
+    /// Uses by the passes that stay.
+    pub(super) usage: Vec<Usage>,
     pub(super) notes: Vec<Note>,
 }
 
-impl Samples {
-    /// The count of one image.
-    pub(super) fn of(&self, image: ImageIndex) -> u32 {
-        self.of[image.0 as usize]
+impl Negotiated {
+    /// The sample count of one image.
+    pub(super) fn samples(&self, image: ImageIndex) -> u32 {
+        self.samples[image.0 as usize]
+    }
+
+    /// Whether an image is a depth or stencil attachment somewhere.
+    pub(super) fn is_depth_attachment(&self, image: ImageIndex) -> bool {
+        self.usage[image.0 as usize].contains(Usage::DEPTH_STENCIL_ATTACHMENT)
     }
 }

@@ -1,9 +1,9 @@
 //! `place`: transient images get an offset in memory that they share with others that live at other times.
 
 use super::Options;
-use super::model::{Adapted, StoreIndex};
+use super::model::{Adapted, Kind, StoreIndex};
 use super::pack::{self, Block, Packing};
-use super::retain::Retained;
+use super::synchronise::NEVER;
 use crate::describe::Diagnostic;
 use crate::device::{MemoryNeeds, MemoryProvider, Profile};
 use crate::plan::{Heap, Placement, StepId};
@@ -20,75 +20,107 @@ pub(super) struct Placed {
     pub(super) transient_bytes: u64,
     /// Largest total alive at one step.
     pub(super) live_peak_bytes: u64,
-    /// Bytes of output images.
-    pub(super) output_bytes: u64,
+    /// Bytes of what outlives the frame.
+    pub(super) kept_bytes: u64,
+}
+
+/// A heap with what shares it.
+struct Members {
+    /// Images don't share memory with buffers: rows of texels and bytes may need a distance (`bufferImageGranularity`).
+    images: bool,
+    list: Vec<(StoreIndex, Block)>,
 }
 
 pub(super) fn place(
     adapted: &Adapted,
-    retained: &Retained,
+    lifetimes: &[[u32; 2]],
     device: &Profile,
     memory: &mut dyn MemoryProvider,
     options: &Options,
 ) -> Result<Placed, Vec<Diagnostic>> {
     let mut placed = Placed {
         heaps: Vec::new(),
-        placements: vec![None; adapted.stores.len()],
+        placements: Vec::with_capacity(adapted.stores.len()),
         transient_bytes: 0,
         live_peak_bytes: 0,
-        output_bytes: 0,
+        kept_bytes: 0,
     };
-    let mut members: Vec<Vec<(StoreIndex, Block)>> = Vec::new();
-    for (store, at) in adapted.stores.iter().zip(0_u32..) {
-        let (Some(first), Some(last)) = (retained.of(at).first(), retained.of(at).last()) else { continue };
-        let needs = memory.image(&store.descriptor);
-        if store.output {
-            placed.output_bytes = placed.output_bytes.saturating_add(needs.bytes);
+    let mut members: Vec<Members> = Vec::new();
+    for ((store, [first, last]), at) in adapted.stores.iter().zip(lifetimes).zip(0_u32..) {
+        if *first == NEVER && store.is_transient() {
+            placed.placements.push(None);
             continue;
         }
-        let lazily = device.lazily_allocated_memory && store.descriptor.usage.contains(Usage::TRANSIENT_ATTACHMENT);
-        let heap = choose_heap(&mut placed.heaps, &needs, lazily);
-        members.resize_with(placed.heaps.len(), Vec::new);
-        members[heap]
-            .push((at, Block { first: first.step, last: last.step, bytes: needs.bytes, alignment: needs.alignment }));
+        let (needs, lazily) = match &store.kind {
+            Kind::Image(image) => {
+                let transient = image.usage.contains(Usage::TRANSIENT_ATTACHMENT);
+                (memory.image(image), device.lazily_allocated_memory && transient)
+            }
+            Kind::Buffer(buffer) => (memory.buffer(buffer), false),
+        };
+        if !store.is_transient() {
+            placed.kept_bytes = placed.kept_bytes.saturating_add(needs.bytes);
+            placed.placements.push(None);
+            continue;
+        }
+        let heap = choose_heap(&mut placed.heaps, &mut members, &needs, lazily, store.image().is_some());
+        let block = Block { first: *first, last: *last, bytes: needs.bytes, alignment: needs.alignment };
+        members[heap].list.push((at, block));
         placed.transient_bytes = placed.transient_bytes.saturating_add(needs.bytes);
-        placed.placements[at as usize] = Some(Placement {
+        placed.placements.push(Some(Placement {
             heap: heap as u32,
             offset: 0,
             bytes: needs.bytes,
             alignment: needs.alignment,
             type_bits: needs.type_bits,
-            lifetime: [StepId(first.step), StepId(last.step)],
-        });
+            lifetime: [StepId(*first), StepId(*last)],
+        }));
     }
     // Offsets and heights of whatever packing stay below this sum, so none of them overflows.
-    let padding = members.iter().flatten().map(|(_, block)| block.alignment).fold(0, u64::saturating_add);
-    let most = placed.transient_bytes.saturating_add(padding).saturating_add(placed.output_bytes);
+    let blocks = members.iter().flat_map(|members| &members.list);
+    let padding = blocks.map(|(_, block)| block.alignment).fold(0, u64::saturating_add);
+    let most = placed.transient_bytes.saturating_add(padding).saturating_add(placed.kept_bytes);
     if most > i64::MAX as u64 {
-        let message = "the frame's images take more memory than can be addressed".to_owned();
-        return Err(vec![Diagnostic::new(Span::NONE, message).help("make images smaller or fewer")]);
+        let message = "the frame's images and buffers take more memory than can be addressed".to_owned();
+        return Err(vec![Diagnostic::new(Span::NONE, message).help("make them smaller or fewer")]);
     }
-    for (heap, members) in placed.heaps.iter_mut().zip(&members) {
-        let blocks: Vec<Block> = members.iter().map(|(_, block)| *block).collect();
+    for (heap, members) in placed.heaps.iter_mut().zip(&mut members) {
+        let in_order = |(_, block): &(StoreIndex, Block)| block.first;
+        if !members.list.is_sorted_by_key(in_order) {
+            members.list.sort_by_key(in_order);
+        }
+        let blocks: Vec<Block> = members.list.iter().map(|(_, block)| *block).collect();
         let live_peak = pack::live_peak(&blocks);
         let packing = if options.alias { pack::pack(&blocks, live_peak) } else { side_by_side(&blocks) };
         heap.bytes = packing.height;
-        for ((store, _), offset) in members.iter().zip(packing.offsets) {
+        for ((store, _), offset) in members.list.iter().zip(packing.offsets) {
             if let Some(placement) = &mut placed.placements[*store as usize] {
                 placement.offset = offset;
             }
         }
+        placed.live_peak_bytes = live_peak;
     }
-    let all: Vec<Block> = members.iter().flatten().map(|(_, block)| *block).collect();
-    placed.live_peak_bytes = pack::live_peak(&all);
+    if members.len() > 1 {
+        let all: Vec<Block> = members.iter().flat_map(|members| &members.list).map(|(_, block)| *block).collect();
+        placed.live_peak_bytes = pack::live_peak(&all);
+    }
     Ok(placed)
 }
 
 /// The first heap whose memory types fit, narrowed to those that both accept.
-fn choose_heap(heaps: &mut Vec<Heap>, needs: &MemoryNeeds, lazily: bool) -> usize {
-    let fits = |heap: &Heap| heap.lazily_allocated == lazily && heap.type_bits & needs.type_bits != 0;
-    let at = heaps.iter().position(fits).unwrap_or_else(|| {
+fn choose_heap(
+    heaps: &mut Vec<Heap>,
+    members: &mut Vec<Members>,
+    needs: &MemoryNeeds,
+    lazily: bool,
+    images: bool,
+) -> usize {
+    let fits = |(heap, members): (&Heap, &Members)| {
+        members.images == images && heap.lazily_allocated == lazily && heap.type_bits & needs.type_bits != 0
+    };
+    let at = heaps.iter().zip(members.iter()).position(fits).unwrap_or_else(|| {
         heaps.push(Heap { bytes: 0, alignment: 1, type_bits: needs.type_bits, lazily_allocated: lazily });
+        members.push(Members { images, list: Vec::new() });
         heaps.len() - 1
     });
     heaps[at].type_bits &= needs.type_bits;

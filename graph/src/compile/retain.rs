@@ -1,294 +1,243 @@
-//! `retain`: what each step needs of each image, and from that the load and store operations: contents are kept only
-//! where somebody needs them.
+//! `retain`: load and store operations of attachments. Contents are kept only where somebody needs them.
 
-use super::Options;
-use super::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
-use super::scope::{Scope, Scoped, Step};
-use crate::vocabulary::{Accesses, Layout, LoadOp, Stages, StoreOp, Usage};
+use super::model::{Adapted, Home, OpKind, Role, Start, Use};
+use super::parts::Grids;
+use super::scope::{Scope, Scoped, Step, Target};
+use crate::frame::Frame;
+use crate::vocabulary::{Accesses, LoadOp, Stages, StoreOp};
 
-/// Everything that one step does with one image.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Need {
-    pub(super) store: StoreIndex,
-    pub(super) step: u32,
-    /// The first operation of the step that uses it, unless that is a resolve that the scope carries.
-    pub(super) op: Option<u32>,
-    pub(super) stages: Stages,
-    pub(super) accesses: Accesses,
-    pub(super) layout: Layout,
-    /// Whether it needs what was there before.
-    pub(super) keeps: bool,
-    /// Load and store operations, if it is an attachment.
-    pub(super) attachment: Option<AttachmentOps>,
-}
-
-/// Load and store operations of an attachment.
+/// Load and store operations of one attachment of a scope.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AttachmentOps {
+    pub(super) target: Target,
+    pub(super) role: Role,
     pub(super) load: LoadOp,
     pub(super) store: StoreOp,
     pub(super) clear: Option<[f32; 4]>,
+    /// The operation that uses it first.
+    pub(super) first: u32,
+    /// Who uses its contents next.
+    pub(super) next: Next,
     /// Whether a pass of the scope writes it.
     written: bool,
 }
 
-/// All needs, image by image, each in execution order.
-#[derive(Debug)]
+/// Who uses an attachment's contents next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Next {
+    /// Nobody.
+    Nobody,
+    /// Somebody starts afresh.
+    Replaced,
+    /// An operation.
+    Op(u32),
+    /// What comes after the frame.
+    After,
+}
+
+/// Load and store operations of all attachments.
+#[derive(Debug, Default)]
 pub(super) struct Retained {
-    needs: Vec<Need>,
+    ops: Vec<AttachmentOps>,
+    /// For each step where its attachments begin; empty if nothing is drawn.
     starts: Vec<u32>,
 }
 
 impl Retained {
-    /// The needs of one image.
-    pub(super) fn of(&self, store: StoreIndex) -> &[Need] {
-        &self.needs[self.starts[store as usize] as usize..self.starts[store as usize + 1] as usize]
-    }
-
-    /// What step number `step` needs of an image.
-    pub(super) fn at(&self, store: StoreIndex, step: u32) -> Option<&Need> {
-        let needs = self.of(store);
-        needs.binary_search_by_key(&step, |need| need.step).ok().map(|at| &needs[at])
-    }
-
-    /// The need after that of step number `step`.
-    pub(super) fn after(&self, store: StoreIndex, step: u32) -> Option<&Need> {
-        let needs = self.of(store);
-        needs.get(needs.partition_point(|need| need.step <= step))
+    /// The attachments of a step: colour by location, then depth, then stencil.
+    pub(super) fn of(&self, step: u32) -> &[AttachmentOps] {
+        match self.starts.get(step as usize..step as usize + 2) {
+            Some([start, end]) => &self.ops[*start as usize..*end as usize],
+            _ => &[],
+        }
     }
 }
 
-/// The state that outputs are left in: a copy to the host comes next.
-pub(super) const EXPORTED: (Stages, Accesses, Layout) =
-    (Stages::COPY, Accesses::TRANSFER_READ, Layout::TransferSrcOptimal);
-
-pub(super) fn retain(adapted: &mut Adapted, scoped: &Scoped, options: &Options) -> Retained {
-    note_usage(adapted, scoped);
-    let in_step_order = gather(adapted, scoped);
-    let mut retained = by_store(&in_step_order, adapted.stores.len());
-    for store in 0..adapted.stores.len() {
-        let range = retained.starts[store] as usize..retained.starts[store + 1] as usize;
-        decide_store_ops(&mut retained.needs[range]);
+impl AttachmentOps {
+    /// Stages and accesses of its load operation.
+    pub(super) fn load_access(&self) -> (Stages, Accesses) {
+        let loads = self.load == LoadOp::Load;
+        if self.role == Role::Color {
+            let access = if loads { Accesses::COLOR_ATTACHMENT_READ } else { Accesses::COLOR_ATTACHMENT_WRITE };
+            return (Stages::COLOR_ATTACHMENT_OUTPUT, access);
+        }
+        let access =
+            if loads { Accesses::DEPTH_STENCIL_ATTACHMENT_READ } else { Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE };
+        (Stages::EARLY_FRAGMENT_TESTS, access)
     }
-    note_purpose(adapted, &retained, options);
-    retained
+
+    /// Stages and accesses of its store operation; a store operation `NONE` is no access.
+    pub(super) fn store_access(&self) -> Option<(Stages, Accesses)> {
+        match (self.store, self.role) {
+            (StoreOp::None, _) => None,
+            (_, Role::Color) => Some((Stages::COLOR_ATTACHMENT_OUTPUT, Accesses::COLOR_ATTACHMENT_WRITE)),
+            (_, _) => Some((Stages::LATE_FRAGMENT_TESTS, Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE)),
+        }
+    }
 }
 
-/// Needs in the order of steps.
-struct Gathered {
-    needs: Vec<Need>,
-    /// For each store where its last need stands.
+pub(super) fn retain(frame: &Frame, grids: &Grids, adapted: &Adapted, scoped: &Scoped) -> Retained {
+    if !scoped.steps.iter().any(|step| matches!(step, Step::Scope(_))) {
+        return Retained::default();
+    }
+    let mut walk = Walk { frame, grids, adapted, ops: Vec::new(), last: vec![NONE; adapted.cells as usize] };
+    let mut starts = Vec::with_capacity(scoped.steps.len() + 1);
+    for step in &scoped.steps {
+        starts.push(walk.ops.len() as u32);
+        match step {
+            Step::Scope(scope) => walk.scope(scope),
+            Step::Single(op) => adapted.uses(*op).iter().for_each(|used| walk.touch(*op, used)),
+            Step::Export => {}
+        }
+    }
+    starts.push(walk.ops.len() as u32);
+    walk.after();
+    let Walk { mut ops, .. } = walk;
+    for attachment in &mut ops {
+        attachment.store = match (attachment.written, attachment.next) {
+            (false, _) => StoreOp::None,
+            (true, Next::Op(_) | Next::After) => StoreOp::Store,
+            (true, Next::Nobody | Next::Replaced) => StoreOp::DontCare,
+        };
+    }
+    Retained { ops, starts }
+}
+
+/// No attachment.
+const NONE: u32 = u32::MAX;
+
+struct Walk<'w> {
+    frame: &'w Frame,
+    grids: &'w Grids,
+    adapted: &'w Adapted,
+    ops: Vec<AttachmentOps>,
+    /// For each cell the attachment that holds what it contains.
     last: Vec<u32>,
 }
 
-fn gather(adapted: &Adapted, scoped: &Scoped) -> Vec<Need> {
-    let mut gathered =
-        Gathered { needs: Vec::with_capacity(adapted.uses.len()), last: vec![u32::MAX; adapted.stores.len()] };
-    for (step, number) in scoped.steps.iter().zip(0_u32..) {
-        match step {
-            Step::Scope(scope) => gather_scope(adapted, scope, number, &mut gathered),
-            Step::Single(op) => {
-                let resolves = matches!(adapted.ops[*op as usize].kind, OpKind::Resolve { .. });
-                let stage = if resolves { Stages::RESOLVE } else { Stages::COPY };
-                for used in adapted.uses(*op) {
-                    gathered.add(Need { op: Some(*op), ..need(adapted, used, number, stage) });
-                }
+impl Walk<'_> {
+    fn scope(&mut self, scope: &Scope) {
+        let first = self.ops.len();
+        let roles = scope.color.iter().map(|target| (*target, Role::Color));
+        let depth = scope.depth.map(|target| (target, Role::Depth));
+        let stencil = scope.stencil.map(|target| (target, Role::Stencil));
+        for (target, role) in roles.chain(depth).chain(stencil) {
+            let made = self.attachment(scope, target, role);
+            self.ops.push(made);
+        }
+        for at in first..self.ops.len() {
+            if self.ops[at].load == LoadOp::Load {
+                let AttachmentOps { target, first, .. } = self.ops[at];
+                self.each(target, |walk, cell| walk.needed(cell, Next::Op(first)));
             }
-            Step::Export => gathered.needs.extend(adapted.outputs.iter().map(|store| {
-                let (stages, accesses, layout) = EXPORTED;
-                Need { store: *store, step: number, op: None, stages, accesses, layout, keeps: true, attachment: None }
-            })),
+        }
+        for op in &scope.ops {
+            for used in self.adapted.uses(*op).iter().filter(|used| !used.role.is_attachment()) {
+                self.touch(*op, used);
+            }
+        }
+        for at in first..self.ops.len() {
+            if self.ops[at].written {
+                let target = self.ops[at].target;
+                self.each(target, |walk, cell| walk.replaced(cell, at as u32));
+            }
+        }
+        for op in scope.carries() {
+            if let Some(target) = self.adapted.uses(op).get(1) {
+                self.touch(op, target);
+            }
         }
     }
-    gathered.needs
-}
 
-fn gather_scope(adapted: &Adapted, scope: &Scope, step: u32, gathered: &mut Gathered) {
-    let first = gathered.needs.len();
-    for op in &scope.ops {
-        for used in adapted.uses(*op) {
-            gathered.add(Need { op: Some(*op), ..need(adapted, used, step, Stages::COPY) });
-        }
-    }
-    for op in scope.carries() {
-        let [source, target] = adapted.uses(op) else { continue };
-        let stages = Stages::COLOR_ATTACHMENT_OUTPUT;
-        let layout = match adapted.stores[target.store as usize].descriptor.format.is_depth() {
-            true => Layout::DepthStencilAttachmentOptimal,
-            false => Layout::ColorAttachmentOptimal,
+    /// An attachment by what its first and all its uses in the scope are.
+    fn attachment(&self, scope: &Scope, target: Target, role: Role) -> AttachmentOps {
+        let Walk { frame, adapted, .. } = self;
+        let is_it = |used: &&Use| {
+            used.role == role && used.store == target.store && adapted.range(used) == target.range
         };
-        let attach =
-            |store, accesses| Need { store, step, op: None, stages, accesses, layout, keeps: false, attachment: None };
-        gathered.add(attach(source.store, Accesses::COLOR_ATTACHMENT_READ));
-        gathered.add(attach(target.store, Accesses::COLOR_ATTACHMENT_WRITE));
-    }
-    for need in &mut gathered.needs[first..] {
-        let Some(ops) = &mut need.attachment else { continue };
-        if scope.depth == Some(need.store) && !ops.written {
-            need.layout = Layout::DepthStencilReadOnlyOptimal;
-        }
-        let (stage, read, write) = load_access(scope.depth == Some(need.store));
-        need.stages |= stage;
-        need.accesses |= if ops.load == LoadOp::Load { read } else { write };
-    }
-}
-
-/// Stage and accesses of load operations.
-fn load_access(depth: bool) -> (Stages, Accesses, Accesses) {
-    if depth {
-        (
-            Stages::EARLY_FRAGMENT_TESTS,
-            Accesses::DEPTH_STENCIL_ATTACHMENT_READ,
-            Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE,
-        )
-    } else {
-        (Stages::COLOR_ATTACHMENT_OUTPUT, Accesses::COLOR_ATTACHMENT_READ, Accesses::COLOR_ATTACHMENT_WRITE)
-    }
-}
-
-impl Gathered {
-    /// Joins what one step needs of one image in several ways. The first use says what is kept.
-    fn add(&mut self, new: Need) {
-        let last = &mut self.last[new.store as usize];
-        let Some(old) = self.needs.get_mut(*last as usize).filter(|old| old.step == new.step) else {
-            *last = self.needs.len() as u32;
-            return self.needs.push(new);
+        let mut made = AttachmentOps {
+            target,
+            role,
+            load: LoadOp::Load,
+            store: StoreOp::None,
+            clear: None,
+            first: NONE,
+            next: Next::Nobody,
+            written: false,
         };
-        old.stages |= new.stages;
-        old.accesses |= new.accesses;
-        old.attachment = match (old.attachment, new.attachment) {
-            (Some(a), Some(b)) => Some(AttachmentOps { written: a.written || b.written, ..a }),
-            (a, b) => a.or(b),
-        };
-        if old.layout != new.layout {
-            let depth =
-                |layout| matches!(layout, Layout::DepthStencilReadOnlyOptimal | Layout::DepthStencilAttachmentOptimal);
-            old.layout = if depth(old.layout) && depth(new.layout) {
-                Layout::DepthStencilReadOnlyOptimal
-            } else {
-                Layout::General
+        for op in &scope.ops {
+            let Some(used) = adapted.uses(*op).iter().find(is_it) else { continue };
+            made.written |= used.writes;
+            if made.first != NONE {
+                continue;
+            }
+            made.first = *op;
+            (made.load, made.clear) = match used.start {
+                Start::Keep => (LoadOp::Load, None),
+                Start::Discard => (LoadOp::DontCare, None),
+                Start::Clear => (LoadOp::Clear, clear_value(frame, &adapted.ops[*op as usize].kind, used)),
             };
         }
+        made
     }
-}
 
-fn need(adapted: &Adapted, used: &Use, step: u32, transfer: Stages) -> Need {
-    let attached_depth = adapted.stores[used.store as usize].descriptor.usage.contains(Usage::DEPTH_STENCIL_ATTACHMENT);
-    let (stages, accesses, layout, attachment) = match used.role {
-        Role::Sampled { stages, .. } => {
-            let layout =
-                if attached_depth { Layout::DepthStencilReadOnlyOptimal } else { Layout::ShaderReadOnlyOptimal };
-            (stages, Accesses::SHADER_SAMPLED_READ, layout, None)
+    fn each(&mut self, target: Target, mut visit: impl FnMut(&mut Self, u32)) {
+        let store = &self.adapted.stores[target.store as usize];
+        match store.grid(self.grids) {
+            None => visit(self, store.first_cell),
+            Some(grid) => grid.cover(target.range).for_each(|part| visit(self, store.first_cell + part)),
         }
-        Role::Storage { stages, read, write, .. } => {
-            let mut accesses = Accesses::empty();
-            accesses.set(Accesses::SHADER_STORAGE_READ, read);
-            accesses.set(Accesses::SHADER_STORAGE_WRITE, write);
-            (stages, accesses, Layout::General, None)
-        }
-        Role::Color { start, blends, .. } => {
-            let mut accesses = Accesses::COLOR_ATTACHMENT_WRITE;
-            accesses.set(Accesses::COLOR_ATTACHMENT_READ, blends);
-            let ops = attachment_ops(start, true);
-            (Stages::COLOR_ATTACHMENT_OUTPUT, accesses, Layout::ColorAttachmentOptimal, Some(ops))
-        }
-        Role::Depth { start, write } => {
-            let mut accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_READ;
-            accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE, write);
-            let ops = attachment_ops(start, write || start != Start::Keep);
-            let stages = Stages::EARLY_FRAGMENT_TESTS | Stages::LATE_FRAGMENT_TESTS;
-            (stages, accesses, Layout::DepthStencilAttachmentOptimal, Some(ops))
-        }
-        Role::Source => (transfer, Accesses::TRANSFER_READ, Layout::TransferSrcOptimal, None),
-        Role::Target => (transfer, Accesses::TRANSFER_WRITE, Layout::TransferDstOptimal, None),
-    };
-    Need { store: used.store, step, op: None, stages, accesses, layout, keeps: used.role.reads(), attachment }
-}
-
-fn attachment_ops(start: Start, written: bool) -> AttachmentOps {
-    let (load, clear) = match start {
-        Start::Clear(value) => (LoadOp::Clear, Some(value)),
-        Start::Keep => (LoadOp::Load, None),
-        Start::Discard => (LoadOp::DontCare, None),
-    };
-    AttachmentOps { load, store: StoreOp::None, clear, written }
-}
-
-/// Groups needs by image; the order within an image stays.
-fn by_store(needs: &[Need], stores: usize) -> Retained {
-    let mut starts = vec![0_u32; stores + 1];
-    for need in needs {
-        starts[need.store as usize + 1] += 1;
     }
-    for store in 0..stores {
-        starts[store + 1] += starts[store];
-    }
-    let mut next = starts.clone();
-    let mut order = vec![0_u32; needs.len()];
-    for (need, at) in needs.iter().zip(0_u32..) {
-        let slot = &mut next[need.store as usize];
-        order[*slot as usize] = at;
-        *slot += 1;
-    }
-    Retained { needs: order.iter().map(|at| needs[*at as usize]).collect(), starts }
-}
 
-/// Keeps what a later step needs; what only was tested is left alone.
-fn decide_store_ops(needs: &mut [Need]) {
-    for at in 0..needs.len() {
-        let needed = needs.get(at + 1).is_some_and(|next| next.keeps);
-        let need = &mut needs[at];
-        let Some(ops) = &mut need.attachment else { continue };
-        ops.store = match (ops.written, needed) {
-            (false, _) => StoreOp::None,
-            (true, true) => StoreOp::Store,
-            (true, false) => StoreOp::DontCare,
-        };
-        if ops.store != StoreOp::None {
-            let depth = need.accesses.intersects(Accesses::DEPTH_STENCIL_ATTACHMENT_READ);
-            need.stages |= if depth { Stages::LATE_FRAGMENT_TESTS } else { Stages::COLOR_ATTACHMENT_OUTPUT };
-            need.accesses |=
-                if depth { Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE } else { Accesses::COLOR_ATTACHMENT_WRITE };
+    fn touch(&mut self, op: u32, used: &Use) {
+        let (adapted, grids) = (self.adapted, self.grids);
+        adapted.for_each_cell(grids, used, |cell| {
+            if used.reads {
+                self.needed(cell, Next::Op(op));
+            }
+            if used.writes {
+                self.replaced(cell, NONE);
+            }
+        });
+    }
+
+    /// Somebody needs what a cell contains.
+    fn needed(&mut self, cell: u32, by: Next) {
+        if let Some(attachment) = self.ops.get_mut(self.last[cell as usize] as usize)
+            && !matches!(attachment.next, Next::Op(_))
+        {
+            attachment.next = by;
+        }
+    }
+
+    /// Somebody writes a cell.
+    fn replaced(&mut self, cell: u32, by: u32) {
+        let last = std::mem::replace(&mut self.last[cell as usize], by);
+        if let Some(attachment) = self.ops.get_mut(last as usize).filter(|_| last != by)
+            && attachment.next == Next::Nobody
+        {
+            attachment.next = Next::Replaced;
+        }
+    }
+
+    /// What outlives the frame is needed.
+    fn after(&mut self) {
+        for (store, next) in self.adapted.stores.iter().zip(self.adapted.stores.iter().skip(1).map(Some).chain([None])) {
+            if store.home != Home::Transient {
+                let end = next.map_or(self.adapted.cells, |next| next.first_cell);
+                (store.first_cell..end).for_each(|cell| self.needed(cell, Next::After));
+            }
         }
     }
 }
 
-/// Usage exactly as used.
-fn note_usage(adapted: &mut Adapted, scoped: &Scoped) {
-    let mut usage = vec![Usage::empty(); adapted.stores.len()];
-    for step in &scoped.steps {
-        let carried = match step {
-            Step::Scope(scope) => Some(scope.carries()),
-            Step::Single(_) | Step::Export => None,
-        };
-        for used in step.ops().iter().flat_map(|op| adapted.uses(*op)) {
-            usage[used.store as usize] |= used.role.usage();
-        }
-        for used in carried.into_iter().flatten().flat_map(|op| adapted.uses(op)) {
-            let depth = adapted.stores[used.store as usize].descriptor.format.is_depth();
-            usage[used.store as usize] |= if depth { Usage::DEPTH_STENCIL_ATTACHMENT } else { Usage::COLOR_ATTACHMENT };
-        }
-    }
-    for (store, usage) in adapted.stores.iter_mut().zip(usage) {
-        store.descriptor.usage = usage;
-    }
-}
-
-/// Usage that follows from an image's part in the frame: outputs are copied from; images that never leave their one scope
-/// become transient attachments.
-fn note_purpose(adapted: &mut Adapted, retained: &Retained, options: &Options) {
-    let attachments_only = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT;
-    let stays =
-        |need: &Need| need.attachment.is_some_and(|ops| ops.load != LoadOp::Load && ops.store != StoreOp::Store);
-    for (store, at) in adapted.stores.iter_mut().zip(0_u32..) {
-        let needs = retained.of(at);
-        let usage = &mut store.descriptor.usage;
-        if store.output {
-            *usage |= Usage::TRANSFER_SRC;
-        } else if options.poison {
-            *usage |= Usage::TRANSFER_DST;
-        } else if needs.len() == 1 && needs.iter().all(stays) && attachments_only.contains(*usage) {
-            *usage |= Usage::TRANSIENT_ATTACHMENT;
-        }
+/// The clear value that a pass of the frame gives.
+fn clear_value(frame: &Frame, kind: &OpKind, used: &Use) -> Option<[f32; 4]> {
+    let pass = &frame.passes[kind.pass()? as usize];
+    match used.role {
+        Role::Color => pass.color.get(used.entry as usize)?.clear,
+        Role::Depth => pass.depth.as_ref()?.clear.map(|value| [value, 0.0, 0.0, 0.0]),
+        Role::Stencil => pass.depth.as_ref()?.stencil?.clear.map(|value| [f32::from(value), 0.0, 0.0, 0.0]),
+        _ => None,
     }
 }

@@ -1,58 +1,83 @@
 //! First part of `adapt`: sample counts, formats and sizes meet what the device has.
 
-use super::model::Samples;
+use super::model::Negotiated;
+use super::parts;
 use crate::describe::Diagnostic;
-use crate::device::Profile;
+use crate::device::{FormatSupport, Profile};
 use crate::format::Format;
-use crate::frame::{Blend, Frame, ImageIndex, Pass, Work};
+use crate::frame::{Blend, Frame, Image, ImageIndex, Pass, Resource, Shape, Work};
 use crate::plan::{Note, Stage};
 use crate::source::Span;
-use crate::vocabulary::{Filter, Usage};
+use crate::vocabulary::{Filter, Subresources, Usage};
 use petgraph::unionfind::UnionFind;
 use std::collections::BTreeMap;
 
+/// What a device can do with each format, found at once.
+struct Supports<'d> {
+    device: &'d Profile,
+    of: Vec<Option<&'d FormatSupport>>,
+}
+
+impl<'d> Supports<'d> {
+    fn new(device: &'d Profile) -> Supports<'d> {
+        Supports { device, of: Format::ALL.iter().map(|format| device.format(*format)).collect() }
+    }
+
+    fn of(&self, format: Format) -> Option<&'d FormatSupport> {
+        self.of[format as usize]
+    }
+}
+
 /// Lowers each sample count to the highest that every image attached together with it supports.
-pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result<Samples, Vec<Diagnostic>> {
-    let mut together = UnionFind::<u32>::new(frame.images.len());
+pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result<Negotiated, Vec<Diagnostic>> {
+    let supports = Supports::new(device);
+    let multisampled = frame.images.iter().any(|image| image.samples > 1);
+    let mut together = UnionFind::<u32>::new(if multisampled { frame.images.len() } else { 0 });
     let mut usage = vec![Usage::empty(); frame.images.len()];
-    let mut touched = vec![false; frame.images.len()];
+    let mut forwarded = Vec::new();
     let mut errors = Vec::new();
     for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
         note_usage(frame, pass, &mut usage);
-        let attached = attachments(pass);
-        for pair in attached.windows(2) {
-            together.union(pair[0].0, pair[1].0);
+        if let Some((first, _)) = attachments(pass).next() {
+            if multisampled {
+                attachments(pass).for_each(|(other, _)| drop(together.union(first.0, other.0)));
+            }
+            errors.extend(disagreement(frame, pass));
         }
-        errors.extend(disagreement(frame, pass, &attached));
-        check_operations(frame, pass, device, &mut errors);
+        check_operations(frame, pass, &supports, &mut errors);
         let (targets, most) = (pass.color.len(), device.max_color_attachments);
         if targets > most as usize {
             let message = format!("`{}` draws into {targets} colour images; `{}` has {most}", pass.name, device.name);
             errors.push(Diagnostic::new(pass.span, message).help("split the pass"));
         }
         if let Work::Forward { from, to, .. } = pass.work {
-            touched[to.0 as usize] = true;
-            if frame.images[from.0 as usize].samples == frame.images[to.0 as usize].samples {
+            forwarded.push(to);
+            if multisampled && frame.images[from.0 as usize].samples == frame.images[to.0 as usize].samples {
                 together.union(from.0, to.0);
             }
         }
     }
+    for (image, used) in usage.iter().enumerate().filter(|(_, used)| !used.is_empty()) {
+        check_support(&frame.images[image], *used, &supports, &mut errors);
+    }
     let mut groups: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for (image, used) in usage.iter().enumerate().filter(|(image, used)| touched[*image] || !used.is_empty()) {
-        check_support(frame, image, *used, device, &mut errors);
-        if frame.images[image].samples > 1 {
+    for (image, _) in frame.images.iter().enumerate().filter(|(_, image)| image.samples > 1) {
+        if !usage[image].is_empty() || forwarded.contains(&ImageIndex(image as u32)) {
             groups.entry(together.find(image as u32)).or_default().push(image);
         }
     }
-    let mut samples = Samples { of: frame.images.iter().map(|image| image.samples).collect(), notes: Vec::new() };
+    let samples = frame.images.iter().map(|image| image.samples).collect();
+    let mut negotiated = Negotiated { samples, usage, notes: Vec::new() };
     for group in groups.values() {
-        lower(frame, group, device, &mut samples);
+        lower(frame, group, &supports, &mut negotiated);
     }
-    if errors.is_empty() { Ok(samples) } else { Err(errors) }
+    if errors.is_empty() { Ok(negotiated) } else { Err(errors) }
 }
 
-fn attachments(pass: &Pass) -> Vec<ImageIndex> {
-    pass.color.iter().map(|target| target.image).chain(pass.depth.as_ref().map(|depth| depth.image)).collect()
+/// The images that a pass draws into, and which parts of them.
+fn attachments(pass: &Pass) -> impl Iterator<Item = (ImageIndex, Subresources)> + '_ {
+    let color = pass.color.iter().map(|target| (target.image, target.range));
+    color.chain(pass.depth.as_ref().map(|depth| (depth.image, depth.range)))
 }
 
 fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
@@ -65,6 +90,11 @@ fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
     pass.storage.iter().for_each(|storage| add(storage.image, Usage::STORAGE));
     pass.color.iter().for_each(|target| add(target.image, Usage::COLOR_ATTACHMENT));
     pass.depth.iter().for_each(|depth| add(depth.image, Usage::DEPTH_STENCIL_ATTACHMENT));
+    for transfer in &pass.transfers {
+        if let Resource::Image(image) = transfer.resource {
+            add(image, if transfer.write { Usage::TRANSFER_DST } else { Usage::TRANSFER_SRC });
+        }
+    }
     if let Work::Forward { from, to, .. } = pass.work
         && shape(from) != shape(to)
     {
@@ -73,19 +103,22 @@ fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
     }
 }
 
-/// Attachments of one pass must have one size and one sample count.
-fn disagreement(frame: &Frame, pass: &Pass, attached: &[ImageIndex]) -> Option<Diagnostic> {
-    let (first, rest) = attached.split_first()?;
-    let shape = |image: &ImageIndex| {
+/// Attachments of one pass must have one size, one number of layers and one sample count.
+fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
+    let shape = |(image, range): (ImageIndex, Subresources)| {
         let image = &frame.images[image.0 as usize];
-        (image.extent, image.layers, image.samples)
+        let part = parts::resolve(image, range);
+        (image.extent.map(|side| (side >> part.base_mip.min(31)).max(1)), part.layers, image.samples)
     };
-    let other = rest.iter().find(|other| shape(other) != shape(first))?;
-    let words = |image: &ImageIndex| {
-        let image = &frame.images[image.0 as usize];
-        format!("{}×{} with {} samples", image.extent[0], image.extent[1], image.samples)
+    let mut attached = attachments(pass);
+    let first = attached.next()?;
+    let other = attached.find(|other| shape(*other) != shape(first))?;
+    let words = |part| {
+        let ([width, height, _], layers, samples) = shape(part);
+        let layers = if layers == 1 { String::new() } else { format!(", {layers} layers") };
+        format!("{width}×{height}{layers} with {samples} samples")
     };
-    let (a, b) = (&frame.images[first.0 as usize], &frame.images[other.0 as usize]);
+    let (a, b) = (&frame.images[first.0.0 as usize], &frame.images[other.0.0 as usize]);
     Some(
         Diagnostic::new(
             pass.span,
@@ -100,17 +133,26 @@ fn disagreement(frame: &Frame, pass: &Pass, attached: &[ImageIndex]) -> Option<D
     )
 }
 
-fn check_support(frame: &Frame, image: usize, used: Usage, device: &Profile, errors: &mut Vec<Diagnostic>) {
-    let declared = &frame.images[image];
-    let largest = declared.extent[0].max(declared.extent[1]);
-    if largest > device.max_attachment_extent || declared.extent.contains(&0) {
-        let [width, height, _] = declared.extent;
-        let message = format!("`{}` is {width}×{height}", declared.name);
-        let limit =
-            format!("`{}` has images from 1×1 to {limit}×{limit}", device.name, limit = device.max_attachment_extent);
-        errors.push(Diagnostic::new(declared.span, message).help(limit));
+fn check_support(declared: &Image, used: Usage, supports: &Supports<'_>, errors: &mut Vec<Diagnostic>) {
+    let device = supports.device;
+    let [width, height, depth] = declared.extent;
+    let largest = if declared.shape == Shape::D3 { device.max_extent_3d } else { device.max_attachment_extent };
+    if width.max(height).max(depth) > largest {
+        let (size, limit) = match declared.shape {
+            Shape::D3 => (format!("{width}×{height}×{depth}"), format!("{largest}×{largest}×{largest}")),
+            Shape::D2 | Shape::Cube => (format!("{width}×{height}"), format!("{largest}×{largest}")),
+        };
+        let message = format!("`{}` is {size}", declared.name);
+        let least = if declared.shape == Shape::D3 { "1×1×1" } else { "1×1" };
+        let help = format!("`{}` has images from {least} to {limit}", device.name);
+        errors.push(Diagnostic::new(declared.span, message).help(help));
     }
-    let supported = device.format(declared.format).map_or(Usage::empty(), |support| support.usage);
+    if declared.layers > device.max_layers {
+        let message = format!("`{}` has {} layers", declared.name, declared.layers);
+        let help = format!("`{}` has images of up to {} layers", device.name, device.max_layers);
+        errors.push(Diagnostic::new(declared.span, message).help(help));
+    }
+    let supported = supports.of(declared.format).map_or(Usage::empty(), |support| support.usage);
     if !supported.contains(used) {
         let missing = used.difference(supported).iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
         let message = format!("`{}` can't be {} on `{}`: no {missing}", declared.name, declared.format, device.name);
@@ -119,16 +161,16 @@ fn check_support(frame: &Frame, image: usize, used: Usage, device: &Profile, err
 }
 
 /// A format can be sampled without being filtered, and drawn into without being blended.
-fn check_operations(frame: &Frame, pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>) {
+fn check_operations(frame: &Frame, pass: &Pass, supports: &Supports<'_>, errors: &mut Vec<Diagnostic>) {
     let mut refuse = |image: ImageIndex, span: Span, what: &str, help: &str| {
         let image = &frame.images[image.0 as usize];
         let message = format!(
             "`{}` can't {what} `{}`: `{}` can't do that with {}",
-            pass.name, image.name, device.name, image.format
+            pass.name, image.name, supports.device.name, image.format
         );
         errors.push(Diagnostic::new(span, message).label(image.span, "declared here").help(help));
     };
-    let support = |image: ImageIndex| device.format(frame.images[image.0 as usize].format);
+    let support = |image: ImageIndex| supports.of(frame.images[image.0 as usize].format);
     for sampled in pass.sampled.iter().filter(|sampled| sampled.filter == Filter::Linear) {
         if support(sampled.image).is_some_and(|support| !support.linear_filter) {
             refuse(sampled.image, sampled.span, "filter", "write `filter: Nearest`, or choose another format");
@@ -141,23 +183,23 @@ fn check_operations(frame: &Frame, pass: &Pass, device: &Profile, errors: &mut V
     }
 }
 
-fn lower(frame: &Frame, group: &[usize], device: &Profile, samples: &mut Samples) {
+fn lower(frame: &Frame, group: &[usize], supports: &Supports<'_>, negotiated: &mut Negotiated) {
     let wanted = group.iter().map(|image| frame.images[*image].samples).max().unwrap_or(1);
-    let counts = |format: Format| device.format(format).map_or(&[][..], |support| &support.samples);
+    let counts = |format: Format| supports.of(format).map_or(&[][..], |support| &support.samples);
     let supported = |count: u32| group.iter().all(|image| counts(frame.images[*image].format).contains(&count));
     let chosen = (1..=wanted).rev().find(|count| supported(*count)).unwrap_or(1);
     for image in group {
-        samples.of[*image] = chosen;
+        negotiated.samples[*image] = chosen;
     }
     if chosen != wanted {
         let first = &frame.images[group[0]];
         let formats = group.iter().map(|image| frame.images[*image].format.name()).collect::<Vec<_>>().join(" with ");
-        samples.notes.push(Note {
+        negotiated.notes.push(Note {
             stage: Stage::Adapt,
             subject: first.name.clone(),
             text: format!(
                 "{wanted} samples were asked for, {chosen} are used: the most, up to {wanted}, that `{}` has for {formats}",
-                device.name
+                supports.device.name
             ),
             at: frame.sources.place(first.span),
         });

@@ -2,16 +2,24 @@
 //! fold into the scope that wrote last.
 
 use super::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
+use super::parts::Grids;
 use crate::frame::Frame;
-use crate::plan::{Note, Stage};
+use crate::plan::{Note, Stage, Subresources};
 use std::sync::Arc;
 
 /// Steps in execution order.
 #[derive(Debug)]
 pub(super) struct Scoped {
     pub(super) steps: Vec<Step>,
-    /// Why a pass shares its scope with the pass before it, for each operation.
+    /// Why a pass shares its scope with the pass before it, for each operation; empty if nothing is drawn.
     pub(super) merged: Vec<Option<String>>,
+}
+
+impl Scoped {
+    /// Why operation number `op` shares its scope with the one before it.
+    pub(super) fn merged(&self, op: u32) -> Option<&String> {
+        self.merged.get(op as usize)?.as_ref()
+    }
 }
 
 /// One step.
@@ -21,16 +29,30 @@ pub(super) enum Step {
     Scope(Scope),
     /// One operation that is not drawn.
     Single(u32),
-    /// The promised state of the outputs.
+    /// The promised state of what outlives the frame.
     Export,
+}
+
+/// An attachment: which part of which image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Target {
+    pub(super) store: StoreIndex,
+    pub(super) range: Subresources,
+}
+
+impl Target {
+    fn of(adapted: &Adapted, used: &Use) -> Target {
+        Target { store: used.store, range: adapted.range(used) }
+    }
 }
 
 /// A rendering scope.
 #[derive(Debug, Default)]
 pub(super) struct Scope {
     /// Colour attachments by location.
-    pub(super) color: Vec<StoreIndex>,
-    pub(super) depth: Option<StoreIndex>,
+    pub(super) color: Vec<Target>,
+    pub(super) depth: Option<Target>,
+    pub(super) stencil: Option<Target>,
     /// Operations that draw.
     pub(super) ops: Vec<u32>,
     /// For each colour attachment the resolve operation that it carries.
@@ -41,29 +63,27 @@ pub(super) struct Scope {
 
 /// The name of an operation's pass.
 pub(super) fn op_name<'f>(frame: &'f Frame, adapted: &Adapted, op: u32) -> Option<&'f Arc<str>> {
-    match &adapted.ops[op as usize].kind {
-        OpKind::Draw(pass) | OpKind::Dispatch(pass) | OpKind::ForwardDraw { pass, .. } => {
-            Some(&frame.passes[*pass as usize].name)
-        }
-        OpKind::Resolve { .. } | OpKind::Copy { .. } => None,
-    }
+    adapted.ops[op as usize].kind.pass().map(|pass| &frame.passes[pass as usize].name)
 }
 
-pub(super) fn scope(frame: &Frame, adapted: &mut Adapted, order: &[u32]) -> Scoped {
+pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &mut Adapted, order: &[u32]) -> Scoped {
+    if !adapted.ops.iter().any(|op| op.kind.draws()) {
+        let mut steps = Vec::with_capacity(order.len() + 1);
+        steps.extend(order.iter().map(|op| Step::Single(*op)));
+        return Scoped { steps, merged: Vec::new() };
+    }
     let mut builder = Builder {
         frame,
+        grids,
         adapted,
         steps: Vec::with_capacity(order.len() + 1),
-        merged: vec![None; 0],
-        traces: Vec::new(),
+        merged: vec![None; adapted.ops.len()],
+        traces: vec![Trace::default(); adapted.cells as usize],
         notes: Vec::new(),
     };
-    builder.merged.resize(builder.adapted.ops.len(), None);
-    builder.traces.resize(builder.adapted.stores.len(), Trace::default());
     for op in order {
         builder.op(*op);
     }
-    builder.steps.push(Step::Export);
     let Builder { steps, merged, notes, .. } = builder;
     adapted.notes.extend(notes);
     Scoped { steps, merged }
@@ -71,15 +91,16 @@ pub(super) fn scope(frame: &Frame, adapted: &mut Adapted, order: &[u32]) -> Scop
 
 struct Builder<'a> {
     frame: &'a Frame,
+    grids: &'a Grids,
     adapted: &'a Adapted,
     steps: Vec<Step>,
     merged: Vec<Option<String>>,
-    /// For each store what is known of it.
+    /// For each cell what is known of it.
     traces: Vec<Trace>,
     notes: Vec<Note>,
 }
 
-/// What steps did to a store so far; steps are indices into [`Builder::steps`].
+/// What steps did to a cell so far; steps are indices into [`Builder::steps`].
 #[derive(Debug, Clone, Copy, Default)]
 struct Trace {
     /// The last step that used it.
@@ -92,7 +113,7 @@ struct Trace {
     ways: Ways,
 }
 
-/// Ways in which the passes of one scope use a store.
+/// Ways in which the passes of one scope use a cell.
 #[derive(Debug, Clone, Copy, Default)]
 struct Ways {
     attached: bool,
@@ -104,20 +125,20 @@ struct Ways {
 
 impl Ways {
     /// Whether a use can't be in one scope with these.
-    fn clash(self, role: &Role) -> bool {
+    fn clash(self, used: &Use) -> bool {
         let Ways { attached, sampled, stored, shaded } = self;
-        let others = if matches!(role, Role::Sampled { .. }) { stored } else { sampled };
-        match role.is_attachment() {
+        let others = if used.role == Role::Sampled { stored } else { sampled };
+        match used.role.is_attachment() {
             true => sampled || stored,
-            false => attached || shaded || others || (role.writes() && (sampled || stored)),
+            false => attached || shaded || others || (used.writes && (sampled || stored)),
         }
     }
 
-    fn add(&mut self, role: &Role) {
-        self.attached |= role.is_attachment();
-        self.sampled |= matches!(role, Role::Sampled { .. });
-        self.stored |= matches!(role, Role::Storage { .. });
-        self.shaded |= !role.is_attachment() && role.writes();
+    fn add(&mut self, used: &Use) {
+        self.attached |= used.role.is_attachment();
+        self.sampled |= used.role == Role::Sampled;
+        self.stored |= matches!(used.role, Role::Storage | Role::Buffer);
+        self.shaded |= !used.role.is_attachment() && used.writes;
     }
 }
 
@@ -128,13 +149,13 @@ impl Builder<'_> {
             OpKind::Resolve { .. } => match self.fold(op) {
                 Ok(()) => {}
                 Err(why) => {
-                    let subject = self.adapted.stores[self.adapted.uses(op)[0].store as usize].name.clone();
+                    let subject = self.name(self.adapted.uses(op)[0].store).into();
                     let text = format!("is resolved by a step of its own: {why}");
                     self.notes.push(Note { stage: Stage::Scope, subject, text, at: None });
                     self.single(op);
                 }
             },
-            OpKind::Copy { .. } | OpKind::Dispatch(_) => self.single(op),
+            OpKind::Copy(_) | OpKind::Pass(_) => self.single(op),
         }
     }
 
@@ -145,17 +166,20 @@ impl Builder<'_> {
 
     /// Notes what step number `at` does by this operation.
     fn trace(&mut self, op: u32, at: usize) {
-        for used in self.adapted.uses(op) {
-            let trace = &mut self.traces[used.store as usize];
-            if trace.used != Some(at) {
-                trace.ways = Ways::default();
-            }
-            trace.ways.add(&used.role);
-            trace.used = trace.used.max(Some(at));
-            if used.role.writes() {
-                trace.written = trace.written.max(Some(at));
-                trace.drawn = if used.role.is_attachment() { Some(at) } else { trace.drawn };
-            }
+        let Builder { adapted, grids, traces, .. } = self;
+        for used in adapted.uses(op) {
+            adapted.for_each_cell(grids, used, |cell| {
+                let trace = &mut traces[cell as usize];
+                if trace.used != Some(at) {
+                    trace.ways = Ways::default();
+                }
+                trace.ways.add(used);
+                trace.used = trace.used.max(Some(at));
+                if used.writes {
+                    trace.written = trace.written.max(Some(at));
+                    trace.drawn = if used.role.is_attachment() { Some(at) } else { trace.drawn };
+                }
+            });
         }
     }
 
@@ -164,8 +188,12 @@ impl Builder<'_> {
         let uses = adapted.uses(op);
         let neighbour = match self.steps.last() {
             Some(Step::Scope(scope)) => Some(scope.compare(adapted, uses, |used| {
-                let trace = &self.traces[used.store as usize];
-                trace.used == Some(self.steps.len() - 1) && trace.ways.clash(&used.role)
+                let mut clashes = false;
+                adapted.for_each_cell(self.grids, used, |cell| {
+                    let trace = &self.traces[cell as usize];
+                    clashes |= trace.used == Some(self.steps.len() - 1) && trace.ways.clash(used);
+                });
+                clashes
             })),
             _ => None,
         };
@@ -173,7 +201,8 @@ impl Builder<'_> {
             Some(Meeting::Merge) => {
                 let text = self.gain(uses);
                 let Some(Step::Scope(scope)) = self.steps.last_mut() else { return };
-                scope.depth = scope.depth.or_else(|| depth_of(uses));
+                scope.depth = scope.depth.or_else(|| plane_of(adapted, uses, Role::Depth));
+                scope.stencil = scope.stencil.or_else(|| plane_of(adapted, uses, Role::Stencil));
                 scope.ops.push(op);
                 self.merged[op as usize] = Some(text);
             }
@@ -189,12 +218,13 @@ impl Builder<'_> {
     }
 
     fn open(&mut self, op: u32) {
-        let uses = self.adapted.uses(op);
-        let color = colors_of(uses);
+        let (adapted, uses) = (self.adapted, self.adapted.uses(op));
+        let color = colors_of(adapted, uses);
         let resolves = vec![None; color.len()];
         self.steps.push(Step::Scope(Scope {
             color,
-            depth: depth_of(uses),
+            depth: plane_of(adapted, uses, Role::Depth),
+            stencil: plane_of(adapted, uses, Role::Stencil),
             ops: vec![op],
             resolves,
             depth_resolve: None,
@@ -205,18 +235,10 @@ impl Builder<'_> {
     fn gain(&self, uses: &[Use]) -> String {
         let Some(Step::Scope(scope)) = self.steps.last() else { return String::new() };
         let before = scope.ops.last().and_then(|op| op_name(self.frame, self.adapted, *op));
-        let shared: Vec<&Use> =
-            uses.iter().filter(|used| scope.color.contains(&used.store) || scope.depth == Some(used.store)).collect();
-        let bytes: u64 = shared
-            .iter()
-            .map(|used| {
-                let descriptor = &self.adapted.stores[used.store as usize].descriptor;
-                let texels = descriptor.extent.iter().fold(1_u64, |area, side| area.saturating_mul(u64::from(*side)));
-                texels.saturating_mul(descriptor.format.texel_bytes()).saturating_mul(u64::from(descriptor.samples))
-            })
-            .fold(0, u64::saturating_add);
-        let names: Vec<String> =
-            shared.iter().map(|used| format!("`{}`", self.adapted.stores[used.store as usize].name)).collect();
+        let attached = |used: &&Use| used.role.is_attachment() && scope.attaches(self.adapted, used);
+        let shared: Vec<&Use> = uses.iter().filter(attached).collect();
+        let bytes = shared.iter().map(|used| self.bytes(used)).fold(0, u64::saturating_add);
+        let names: Vec<String> = shared.iter().map(|used| format!("`{}`", self.name(used.store))).collect();
         let before = before.map_or("", |name| name);
         let mebibytes = bytes as f64 / f64::from(1 << 20);
         format!(
@@ -225,9 +247,22 @@ impl Builder<'_> {
         )
     }
 
+    /// Bytes of the part that a use is about.
+    fn bytes(&self, used: &Use) -> u64 {
+        let Some(image) = self.adapted.stores[used.store as usize].image() else { return 0 };
+        let range = self.adapted.range(used);
+        let sides = image.extent.map(|side| u64::from((side >> range.base_mip.min(31)).max(1)));
+        let texels = sides.into_iter().fold(u64::from(range.layers), u64::saturating_mul);
+        texels.saturating_mul(image.format.texel_bytes()).saturating_mul(u64::from(image.samples))
+    }
+
+    fn name(&self, store: StoreIndex) -> &str {
+        store_name(self.frame, self.adapted, store)
+    }
+
     fn refuse(&mut self, op: u32, why: Refusal) {
         let Some(name) = op_name(self.frame, self.adapted, op) else { return };
-        let store = |store: StoreIndex| &self.adapted.stores[store as usize].name;
+        let store = |store: StoreIndex| self.name(store);
         let why = match why {
             Refusal::OtherAttachments => "its attachments are not the same".to_owned(),
             Refusal::Clears(image) => format!("it starts by clearing `{}`", store(image)),
@@ -248,13 +283,14 @@ impl Builder<'_> {
     fn fold(&mut self, op: u32) -> Result<(), &'static str> {
         let [source, target] = self.adapted.uses(op) else { return Err("it is no resolve from image to image") };
         let (source, target) = (source.store, target.store);
-        let descriptor = &self.adapted.stores[source as usize].descriptor;
-        if (descriptor.mips, descriptor.layers) != (1, 1) {
-            return Err("it has several mip levels or layers");
+        let [source_store, target_store] = [source, target].map(|store| &self.adapted.stores[store as usize]);
+        if source_store.grid(self.grids).is_some() || source_store.image().is_none_or(|image| image.layers > 1) {
+            return Err("it has several layers");
         }
-        let Trace { drawn, written, .. } = self.traces[source as usize];
+        let Trace { drawn, written, .. } = self.traces[source_store.first_cell as usize];
+        let target_cell = target_store.first_cell as usize;
         let Some(at) = drawn else { return Err("no rendering scope drew it") };
-        if written != drawn || self.traces[target as usize].used >= drawn {
+        if written != drawn || self.traces[target_cell].used >= drawn {
             return Err("its target is in use since it was drawn, or it was written by other means");
         }
         let Step::Scope(scope) = &mut self.steps[at] else { return Err("no rendering scope drew it") };
@@ -262,7 +298,8 @@ impl Builder<'_> {
             Some(slot @ None) => *slot = Some(op),
             _ => return Err("the scope that drew it resolves it into another image"),
         }
-        let trace = &mut self.traces[target as usize];
+        debug_assert_ne!(source, target);
+        let trace = &mut self.traces[target_cell];
         (trace.used, trace.written) = (Some(at), Some(at));
         Ok(())
     }
@@ -296,10 +333,10 @@ enum Refusal {
 
 impl Scope {
     fn compare(&self, adapted: &Adapted, uses: &[Use], clashes: impl Fn(&Use) -> bool) -> Meeting {
-        let attached = |store: StoreIndex| self.color.contains(&store) || self.depth == Some(store);
-        let shares = uses.iter().any(|used| used.role.is_attachment() && attached(used.store));
+        let attached = |used: &Use| self.attaches(adapted, used);
+        let shares = uses.iter().any(|used| used.role.is_attachment() && attached(used));
         let refuse = |why| Meeting::Apart(Some(why));
-        if let Some(used) = uses.iter().find(|used| !used.role.is_attachment() && attached(used.store)) {
+        if let Some(used) = uses.iter().find(|used| !used.role.is_attachment() && self.overlaps(adapted, used)) {
             return refuse(Refusal::Uses(used.store));
         }
         if let Some(store) = self.carried(adapted).find(|store| uses.iter().any(|used| used.store == *store)) {
@@ -308,24 +345,25 @@ impl Scope {
         if !shares {
             return Meeting::Apart(None);
         }
-        let same_depth = match (self.depth, depth_of(uses)) {
+        let same = |ours: Option<Target>, role| match (ours, plane_of(adapted, uses, role)) {
             (Some(a), Some(b)) => a == b,
             _ => true,
         };
-        let color = colors_of(uses);
-        if color != self.color || !same_depth || !self.same_area(adapted, uses) {
+        let one_image = |role, other: Option<Target>| match (plane_of(adapted, uses, role), other) {
+            (Some(a), Some(b)) => a.store == b.store,
+            _ => true,
+        };
+        let planes = same(self.depth, Role::Depth) && same(self.stencil, Role::Stencil);
+        let planes = planes && one_image(Role::Depth, self.stencil) && one_image(Role::Stencil, self.depth);
+        if colors_of(adapted, uses) != self.color || !planes || !self.same_area(adapted, uses) {
             return refuse(Refusal::OtherAttachments);
         }
         for used in uses {
-            let starts_over = match used.role {
-                Role::Color { start, .. } | Role::Depth { start, .. } => start != Start::Keep,
-                _ => false,
-            };
-            if starts_over && attached(used.store) {
+            if used.role.is_attachment() && used.start != Start::Keep && attached(used) {
                 return refuse(Refusal::Clears(used.store));
             }
             if clashes(used) {
-                return refuse(if used.role.writes() {
+                return refuse(if used.writes {
                     Refusal::Writes(used.store)
                 } else {
                     Refusal::Uses(used.store)
@@ -345,9 +383,9 @@ impl Scope {
 
     /// Where the resolve of an attachment is noted.
     fn resolve_of(&mut self, attachment: StoreIndex) -> Option<&mut Option<u32>> {
-        match self.color.iter().position(|color| *color == attachment) {
+        match self.color.iter().position(|color| color.store == attachment) {
             Some(location) => self.resolves.get_mut(location),
-            None => Some(&mut self.depth_resolve).filter(|_| self.depth == Some(attachment)),
+            None => Some(&mut self.depth_resolve).filter(|_| self.depth.is_some_and(|depth| depth.store == attachment)),
         }
     }
 
@@ -356,22 +394,56 @@ impl Scope {
         self.carries().filter_map(|op| adapted.uses(op).get(1)).map(|target| target.store)
     }
 
+    /// All attachments.
+    pub(super) fn targets(&self) -> impl Iterator<Item = Target> + '_ {
+        self.color.iter().copied().chain(self.depth).chain(self.stencil)
+    }
+
+    /// Whether a use is about exactly one of the attachments.
+    fn attaches(&self, adapted: &Adapted, used: &Use) -> bool {
+        let target = Target::of(adapted, used);
+        self.targets().any(|ours| ours == target)
+    }
+
+    /// Whether a use is about some of what is attached.
+    fn overlaps(&self, adapted: &Adapted, used: &Use) -> bool {
+        let range = adapted.range(used);
+        let meet = |a: u32, some: u32, b: u32, others: u32| a < b + others && b < a + some;
+        self.targets().any(|ours| {
+            ours.store == used.store
+                && ours.range.aspects.intersects(range.aspects)
+                && meet(ours.range.base_mip, ours.range.mips, range.base_mip, range.mips)
+                && meet(ours.range.base_layer, ours.range.layers, range.base_layer, range.layers)
+        })
+    }
+
     fn same_area(&self, adapted: &Adapted, uses: &[Use]) -> bool {
-        let shape = |store: StoreIndex| {
-            let descriptor = &adapted.stores[store as usize].descriptor;
-            (descriptor.extent, descriptor.samples)
+        let shape = |target: Target| {
+            let image = adapted.stores[target.store as usize].image();
+            let mip = target.range.base_mip.min(31);
+            image.map(|image| (image.extent.map(|side| (side >> mip).max(1)), target.range.layers, image.samples))
         };
-        let first = self.color.first().copied().or(self.depth);
+        let first = self.targets().next();
         first.is_none_or(|first| {
-            uses.iter().filter(|used| used.role.is_attachment()).all(|used| shape(used.store) == shape(first))
+            let attached = uses.iter().filter(|used| used.role.is_attachment());
+            attached.map(|used| Target::of(adapted, used)).all(|target| shape(target) == shape(first))
         })
     }
 }
 
-fn colors_of(uses: &[Use]) -> Vec<StoreIndex> {
-    uses.iter().filter(|used| matches!(used.role, Role::Color { .. })).map(|used| used.store).collect()
+/// The name of a physical image or buffer.
+pub(super) fn store_name<'n>(frame: &'n Frame, adapted: &'n Adapted, store: StoreIndex) -> &'n Arc<str> {
+    let store = &adapted.stores[store as usize];
+    store.renamed.as_ref().unwrap_or(match store.of {
+        crate::frame::Resource::Image(image) => &frame.images[image.0 as usize].name,
+        crate::frame::Resource::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
+    })
 }
 
-fn depth_of(uses: &[Use]) -> Option<StoreIndex> {
-    uses.iter().find(|used| matches!(used.role, Role::Depth { .. })).map(|used| used.store)
+fn colors_of(adapted: &Adapted, uses: &[Use]) -> Vec<Target> {
+    uses.iter().filter(|used| used.role == Role::Color).map(|used| Target::of(adapted, used)).collect()
+}
+
+fn plane_of(adapted: &Adapted, uses: &[Use], role: Role) -> Option<Target> {
+    uses.iter().find(|used| used.role == role).map(|used| Target::of(adapted, used))
 }

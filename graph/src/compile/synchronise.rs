@@ -1,229 +1,345 @@
-//! `synchronise`: exact barriers, all of a step in one call.
+//! `synchronise`, first part: what each step does to each cell, in order, and the barriers between.
 //!
-//! Reads in one layout follow each other without a barrier: the one before the first of them already names them all.
-//!
-//! Where memory changes hands, the new occupant's first barrier names the *stages* of the previous occupant's last
-//! accesses; their writes are named by a memory barrier (see `hand_over`). Frames follow each other, so the first occupant
-//! comes after the last.
+//! Reads in one layout follow each other without a barrier: the one before the first of them is made to name them all.
+//! What a cell's first use of the frame waits for is found later, when memory has its place (`take_over`).
 
-use super::hand_over::{HandOver, memory_barriers};
-use super::model::{Adapted, StoreIndex};
-use super::place::Placed;
-use super::retain::{EXPORTED, Need, Retained};
-use crate::plan::{Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId};
-use crate::vocabulary::{Accesses, Layout, Stages};
-use std::collections::BTreeMap;
+use super::model::{Adapted, CellIndex, Role, StoreIndex, Use};
+use super::parts::Grids;
+use super::retain::Retained;
+use super::scope::{Scoped, Step, Target};
+use crate::plan::Hazard;
+use crate::vocabulary::{Accesses, BufferUsage, Layout, Stages, State};
 
-/// Barriers by step.
-#[derive(Debug)]
-pub(super) struct Barriers {
-    pub(super) image: Vec<Vec<ImageBarrier>>,
-    pub(super) memory: Vec<Option<MemoryBarrier>>,
-}
+/// No step, no barrier.
+pub(super) const NEVER: u32 = u32::MAX;
 
-/// Needs that no barrier separates: reads in one layout, or a single write.
+/// What is known of a cell: its accesses since the last barrier, which is one write, or reads in one layout.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Group {
-    /// The first and the last step.
-    pub(super) first: u32,
-    pub(super) last: u32,
+pub(super) struct Cell {
     pub(super) stages: Stages,
     pub(super) accesses: Accesses,
-    layout: Layout,
-    keeps: bool,
+    /// Usage bits of all steps, of an image or a buffer.
+    usage: u32,
+    /// The barrier before the first use, and the one before the last.
+    pub(super) first_barrier: u32,
+    barrier: u32,
+    /// The last step that uses it.
+    pub(super) last: u32,
+    /// Which of the needs of the last step that uses it it is.
+    need: u32,
+    pub(super) layout: Layout,
 }
 
-impl Group {
-    fn writes(&self) -> bool {
+impl Cell {
+    const UNTOUCHED: Cell = Cell {
+        stages: Stages::empty(),
+        accesses: Accesses::empty(),
+        usage: 0,
+        first_barrier: NEVER,
+        barrier: NEVER,
+        last: NEVER,
+        need: NEVER,
+        layout: Layout::Undefined,
+    };
+
+    pub(super) fn is_touched(&self) -> bool {
+        self.last != NEVER
+    }
+
+    pub(super) fn writes(&self) -> bool {
         !self.accesses.writes().is_empty()
     }
+
+    /// Whether the frame only reads it, in one layout.
+    pub(super) fn is_only_read(&self) -> bool {
+        !self.writes() && self.first_barrier == self.barrier
+    }
 }
 
-pub(super) fn synchronise(adapted: &Adapted, retained: &Retained, placed: &Placed, steps: usize) -> Barriers {
-    let mut image_barriers = vec![Vec::new(); steps];
-    let mut hand_overs = Vec::new();
-    let before = occupants_before(retained, placed);
-    for (store, at) in adapted.stores.iter().zip(0_u32..) {
-        let mut previous: Option<Group> = None;
-        for group in groups(retained.of(at)) {
-            let barrier = match previous {
-                None => first_use(at, &group, &before[at as usize], store.output, retained, &mut hand_overs),
-                Some(previous) => between(at, &previous, &group),
-            };
-            image_barriers[group.first as usize].push(ImageBarrier { range: store.range(), ..barrier });
-            previous = Some(group);
+/// A barrier of one cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pending {
+    pub(super) cell: CellIndex,
+    pub(super) store: StoreIndex,
+    /// The step that it must stand before; `NEVER`: it is not needed after all.
+    pub(super) step: u32,
+    /// The step that it must stand behind, `NEVER` if none of this frame.
+    pub(super) after: u32,
+    pub(super) src_stages: Stages,
+    pub(super) src_accesses: Accesses,
+    pub(super) dst_stages: Stages,
+    pub(super) dst_accesses: Accesses,
+    pub(super) old_layout: Layout,
+    pub(super) new_layout: Layout,
+    pub(super) hazard: Hazard,
+    /// Whether it keeps what was there before the frame.
+    pub(super) keeps: bool,
+}
+
+/// The state after the walk.
+#[derive(Debug)]
+pub(super) struct Walked {
+    pub(super) cells: Vec<Cell>,
+    /// In the order of steps.
+    pub(super) barriers: Vec<Pending>,
+    /// For each store the first and the last step that use it.
+    pub(super) lifetimes: Vec<[u32; 2]>,
+}
+
+impl Walked {
+    /// Usage bits of a store.
+    pub(super) fn usage(&self, cells: std::ops::Range<u32>) -> u32 {
+        self.cells[cells.start as usize..cells.end as usize].iter().fold(0, |usage, cell| usage | cell.usage)
+    }
+}
+
+/// What one step does with one cell.
+#[derive(Debug, Clone, Copy)]
+struct Need {
+    cell: CellIndex,
+    store: StoreIndex,
+    stages: Stages,
+    accesses: Accesses,
+    layout: Layout,
+    /// Whether it needs what was there before.
+    keeps: bool,
+    usage: u32,
+}
+
+impl Walked {
+    /// Lets the last barrier before a cell's reads serve more of them.
+    pub(super) fn read_also(&mut self, cell: CellIndex, stages: Stages, accesses: Accesses) {
+        let known = &mut self.cells[cell as usize];
+        known.stages |= stages;
+        known.accesses |= accesses;
+        if let Some(barrier) = self.barriers.get_mut(known.barrier as usize) {
+            barrier.dst_stages |= stages;
+            barrier.dst_accesses |= accesses;
         }
     }
-    let export = steps.saturating_sub(1);
-    for barrier in image_barriers.get_mut(export).into_iter().flatten() {
-        barrier.hazard = Hazard::Export;
-    }
-    let memory = memory_barriers(hand_overs, &image_barriers);
-    Barriers { image: image_barriers, memory }
-}
 
-/// Splits an image's needs where a barrier is due.
-fn groups(needs: &[Need]) -> impl Iterator<Item = Group> + '_ {
-    let mut at = 0;
-    std::iter::from_fn(move || {
-        let first = needs.get(at)?;
-        let mut group = Group {
-            first: first.step,
-            last: first.step,
-            stages: first.stages,
-            accesses: first.accesses,
-            layout: first.layout,
-            keeps: first.keeps,
+    /// A read of a cell in `layout` after the last step: what is promised to whoever comes after the frame.
+    pub(super) fn promise(&mut self, store: StoreIndex, cell: CellIndex, step: u32, state: State) {
+        let need = Need {
+            cell,
+            store,
+            stages: state.stages,
+            accesses: state.accesses,
+            layout: state.layout,
+            keeps: true,
+            usage: 0,
         };
-        at += 1;
-        while !group.writes()
-            && let Some(next) = needs.get(at)
-            && next.accesses.writes().is_empty()
-            && next.layout == group.layout
-        {
-            group.last = next.step;
-            group.stages |= next.stages;
-            group.accesses |= next.accesses;
-            at += 1;
-        }
-        Some(group)
-    })
+        let first = self.barriers.len();
+        apply(self, &need, step, false);
+        self.barriers[first..].iter_mut().for_each(|barrier| barrier.hazard = Hazard::Export);
+    }
 }
 
-/// The barrier between two groups of one image.
-fn between(store: StoreIndex, previous: &Group, group: &Group) -> ImageBarrier {
-    let hazard = match (previous.writes(), group.writes()) {
-        (true, false) => Hazard::ReadAfterWrite,
-        (true, true) => Hazard::WriteAfterWrite,
-        (false, true) => Hazard::WriteAfterRead,
-        (false, false) => Hazard::LayoutChange,
+pub(super) fn walk(grids: &Grids, adapted: &mut Adapted, scoped: &Scoped, retained: &Retained) -> Walked {
+    let mut walk = Walk {
+        grids,
+        walked: Walked {
+            cells: vec![Cell::UNTOUCHED; adapted.cells as usize],
+            barriers: Vec::with_capacity(adapted.uses.len() + adapted.uses.len() / 4),
+            lifetimes: vec![[NEVER, 0]; adapted.stores.len()],
+        },
+        needs: Vec::new(),
+        mixed: false,
     };
-    ImageBarrier {
-        src_stages: previous.stages,
-        src_accesses: previous.accesses.writes(),
-        old_layout: if group.keeps { previous.layout } else { Layout::Undefined },
-        hazard,
-        after: Some(StepId(previous.last)),
-        ..towards(store, group)
+    for (step, number) in scoped.steps.iter().zip(0_u32..) {
+        walk.step(adapted, step, number, retained);
     }
+    walk.walked
 }
 
-/// A barrier into a group, from nowhere yet. The range is the caller's.
-fn towards(store: StoreIndex, group: &Group) -> ImageBarrier {
-    ImageBarrier {
-        image: ImageId(store),
-        range: crate::plan::Subresources::all(crate::format::Format::R8_UNORM, 1, 1),
-        src_stages: Stages::empty(),
-        src_accesses: Accesses::empty(),
-        dst_stages: group.stages,
-        dst_accesses: group.accesses,
-        old_layout: Layout::Undefined,
-        new_layout: group.layout,
-        ownership: None,
-        hazard: Hazard::FirstUse,
-        after: None,
-    }
+struct Walk<'g> {
+    grids: &'g Grids,
+    walked: Walked,
+    /// Needs of the step at hand.
+    needs: Vec<Need>,
+    /// Whether the step at hand uses a cell in several layouts.
+    mixed: bool,
 }
 
-/// The barrier before an image's first use; writes to its memory that it can't name itself become hand-overs.
-fn first_use(
-    store: StoreIndex,
-    group: &Group,
-    occupants: &[Occupant],
-    output: bool,
-    retained: &Retained,
-    hand_overs: &mut Vec<HandOver>,
-) -> ImageBarrier {
-    let mut barrier = towards(store, group);
-    if output {
-        barrier.src_stages = EXPORTED.0;
-        return barrier;
-    }
-    let first_hand_over = hand_overs.len();
-    for occupant in occupants {
-        let Some(last) = groups(retained.of(occupant.store)).last() else { continue };
-        barrier.src_stages |= last.stages;
-        if occupant.this_frame {
-            barrier.after = barrier.after.max(Some(StepId(last.last)));
+impl Walk<'_> {
+    fn step(&mut self, adapted: &mut Adapted, step: &Step, number: u32, retained: &Retained) {
+        self.needs.clear();
+        self.mixed = false;
+        for op in step.ops() {
+            for used in adapted.uses(*op) {
+                self.used(adapted, used);
+            }
         }
-        if last.writes() && occupant.store == store {
-            barrier.src_accesses |= last.accesses.writes();
-        } else if last.writes() {
-            hand_overs.push(HandOver {
-                images: [ImageId(occupant.store), ImageId(store)],
-                write: last,
-                this_frame: occupant.this_frame,
-                first: *group,
-                waits_for: Stages::empty(),
-            });
-        }
-    }
-    for hand_over in &mut hand_overs[first_hand_over..] {
-        hand_over.waits_for = barrier.src_stages;
-    }
-    barrier
-}
-
-/// An image whose memory, or part of it, goes to another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Occupant {
-    store: StoreIndex,
-    this_frame: bool,
-}
-
-/// For each store, whose memory it takes over: those before it in the frame, or, for bytes that nobody used before it,
-/// those that used them last in the frame before.
-fn occupants_before(retained: &Retained, placed: &Placed) -> Vec<Vec<Occupant>> {
-    let mut previous = vec![Vec::new(); placed.placements.len()];
-    let mut members: Vec<Vec<StoreIndex>> = vec![Vec::new(); placed.heaps.len()];
-    for (placement, store) in placed.placements.iter().zip(0_u32..) {
-        if let Some(placement) = placement {
-            members[placement.heap as usize].push(store);
-        }
-    }
-    for stores in &mut members {
-        stores.sort_by_key(|store| (retained.of(*store).first().map(|need| need.step), *store));
-        let mut map = OccupantMap::default();
-        for this_frame in [false, true] {
-            for (rank, store) in stores.iter().enumerate() {
-                let Some(placement) = &placed.placements[*store as usize] else { continue };
-                let found =
-                    map.replace(placement.offset, placement.offset + placement.bytes, (*store, this_frame, rank));
-                if this_frame {
-                    previous[*store as usize] =
-                        found.into_iter().map(|(store, this_frame, _)| Occupant { store, this_frame }).collect();
+        if let Step::Scope(scope) = step {
+            for attachment in retained.of(number) {
+                let (stages, accesses) = attachment.load_access();
+                self.also(adapted, attachment.target, stages, accesses);
+                if let Some((stages, accesses)) = attachment.store_access() {
+                    self.also(adapted, attachment.target, stages, accesses);
+                }
+            }
+            for op in scope.carries() {
+                let [source, target] = adapted.uses(op) else { continue };
+                for (used, accesses) in
+                    [(source, Accesses::COLOR_ATTACHMENT_READ), (target, Accesses::COLOR_ATTACHMENT_WRITE)]
+                {
+                    self.resolved(adapted, used, accesses);
                 }
             }
         }
+        for at in 0..self.needs.len() {
+            let need = self.needs[at];
+            apply(&mut self.walked, &need, number, true);
+        }
+        if self.mixed {
+            self.settle_layouts(adapted, step);
+        }
     }
-    previous
+
+    fn used(&mut self, adapted: &Adapted, used: &Use) {
+        let usage = usage_bits(used);
+        let need = |cell| Need {
+            cell,
+            store: used.store,
+            stages: used.stages,
+            accesses: used.accesses,
+            layout: used.layout,
+            keeps: used.reads,
+            usage,
+        };
+        let grids = self.grids;
+        adapted.for_each_cell(grids, used, |cell| self.need(need(cell)));
+    }
+
+    /// A resolve that a scope carries, source or target.
+    fn resolved(&mut self, adapted: &Adapted, used: &Use, accesses: Accesses) {
+        let Some(image) = adapted.stores[used.store as usize].image() else { return };
+        let (layout, role) = match image.format.is_depth() {
+            true => (Layout::DepthStencilAttachmentOptimal, Role::Depth),
+            false => (Layout::ColorAttachmentOptimal, Role::Color),
+        };
+        let carried = Use { stages: Stages::COLOR_ATTACHMENT_OUTPUT, accesses, layout, role, ..*used };
+        self.used(adapted, &carried);
+    }
+
+    /// Accesses to an attachment beside those of the passes, which are noted already.
+    fn also(&mut self, adapted: &Adapted, target: Target, stages: Stages, accesses: Accesses) {
+        let store = &adapted.stores[target.store as usize];
+        let Walk { walked, needs, .. } = self;
+        let mut add = |cell: CellIndex| {
+            let known = &walked.cells[cell as usize];
+            if let Some(need) = needs.get_mut(known.need as usize).filter(|need| need.cell == cell) {
+                need.stages |= stages;
+                need.accesses |= accesses;
+            }
+        };
+        match store.grid(self.grids) {
+            None => add(store.first_cell),
+            Some(grid) => grid.cover(target.range).for_each(|part| add(store.first_cell + part)),
+        }
+    }
+
+    /// Joins what one step needs of one cell in several ways. The first use says what is kept.
+    fn need(&mut self, new: Need) {
+        let known = &mut self.walked.cells[new.cell as usize];
+        // An index of an earlier step finds no need, or that of another cell.
+        let Some(need) = self.needs.get_mut(known.need as usize).filter(|need| need.cell == new.cell) else {
+            known.need = self.needs.len() as u32;
+            return self.needs.push(new);
+        };
+        need.stages |= new.stages;
+        need.accesses |= new.accesses;
+        need.usage |= new.usage;
+        if need.layout != new.layout {
+            self.mixed = true;
+            need.layout = join_layouts(need.layout, new.layout);
+        }
+    }
+
+    /// Lets all uses of a step name the layout that was found for all of them together.
+    fn settle_layouts(&self, adapted: &mut Adapted, step: &Step) {
+        for op in step.ops() {
+            let range = adapted.ops[*op as usize].uses.clone();
+            for at in range {
+                let used = adapted.uses[at as usize];
+                let mut layout = used.layout;
+                adapted.for_each_cell(self.grids, &used, |cell| layout = self.walked.cells[cell as usize].layout);
+                adapted.uses[at as usize].layout = layout;
+            }
+        }
+    }
 }
 
-/// Who holds which bytes: store, whether in this frame, and rank in order of first use.
-#[derive(Default)]
-struct OccupantMap(BTreeMap<u64, (u64, (StoreIndex, bool, usize))>);
-
-impl OccupantMap {
-    /// Gives `start..end` to a new holder and returns those who held parts of it, each once, in order of first use.
-    fn replace(&mut self, start: u64, end: u64, holder: (StoreIndex, bool, usize)) -> Vec<(StoreIndex, bool, usize)> {
-        let mut found = Vec::new();
-        while let Some((at, (until, old))) =
-            self.0.range(..end).next_back().map(|(at, held)| (*at, *held)).filter(|(_, (until, _))| *until > start)
-        {
-            self.0.remove(&at);
-            if at < start {
-                self.0.insert(at, (start, old));
-            }
-            if until > end {
-                self.0.insert(end, (until, old));
-            }
-            found.push(old);
-        }
-        if start < end {
-            self.0.insert(start, (end, holder));
-        }
-        found.sort_unstable_by_key(|(store, this_frame, rank)| (*this_frame, *rank, *store));
-        found.dedup();
-        found
+/// Puts a barrier before a need, or lets the one before earlier reads serve it too.
+fn apply(walked: &mut Walked, need: &Need, step: u32, lasts: bool) {
+    let Walked { cells, barriers, lifetimes } = walked;
+    let cell = &mut cells[need.cell as usize];
+    let writes = !need.accesses.writes().is_empty();
+    cell.usage |= need.usage;
+    if lasts {
+        let lifetime = &mut lifetimes[need.store as usize];
+        *lifetime = [lifetime[0].min(step), step];
     }
+    let barrier = barriers.len() as u32;
+    let mut pending = Pending {
+        cell: need.cell,
+        store: need.store,
+        step,
+        after: cell.last,
+        src_stages: cell.stages,
+        src_accesses: cell.accesses.writes(),
+        dst_stages: need.stages,
+        dst_accesses: need.accesses,
+        old_layout: if need.keeps { cell.layout } else { Layout::Undefined },
+        new_layout: need.layout,
+        hazard: Hazard::FirstUse,
+        keeps: need.keeps,
+    };
+    if !cell.is_touched() {
+        cell.first_barrier = barrier;
+    } else if !writes && !cell.writes() && cell.layout == need.layout {
+        cell.stages |= need.stages;
+        cell.accesses |= need.accesses;
+        cell.last = step;
+        let before = &mut barriers[cell.barrier as usize];
+        before.dst_stages |= need.stages;
+        before.dst_accesses |= need.accesses;
+        return;
+    } else {
+        pending.hazard = match (cell.writes(), writes) {
+            (true, false) => Hazard::ReadAfterWrite,
+            (true, true) => Hazard::WriteAfterWrite,
+            (false, true) => Hazard::WriteAfterRead,
+            (false, false) => Hazard::LayoutChange,
+        };
+    }
+    (cell.stages, cell.accesses, cell.layout) = (need.stages, need.accesses, need.layout);
+    (cell.last, cell.barrier) = (step, barrier);
+    barriers.push(pending);
+}
+
+/// The layout in which one step can use a cell in two ways.
+fn join_layouts(a: Layout, b: Layout) -> Layout {
+    let attached = |read_only, attachment| (a, b) == (read_only, attachment) || (a, b) == (attachment, read_only);
+    let planes = [
+        (Layout::DepthStencilReadOnlyOptimal, Layout::DepthStencilAttachmentOptimal),
+        (Layout::DepthReadOnlyOptimal, Layout::DepthAttachmentOptimal),
+        (Layout::StencilReadOnlyOptimal, Layout::StencilAttachmentOptimal),
+    ];
+    planes.into_iter().find(|(read, write)| attached(*read, *write)).map_or(Layout::General, |(_, write)| write)
+}
+
+/// The usage that a use takes, as the bits of `VkImageUsageFlags` or `VkBufferUsageFlags`.
+fn usage_bits(used: &Use) -> u32 {
+    if used.role != Role::Buffer {
+        return used.role.usage().bits();
+    }
+    let usage = |access, usage| if used.accesses.intersects(access) { usage } else { BufferUsage::empty() };
+    let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
+    let all = usage(Accesses::UNIFORM_READ, BufferUsage::UNIFORM_BUFFER)
+        | usage(storage, BufferUsage::STORAGE_BUFFER)
+        | usage(Accesses::VERTEX_ATTRIBUTE_READ, BufferUsage::VERTEX_BUFFER)
+        | usage(Accesses::INDEX_READ, BufferUsage::INDEX_BUFFER)
+        | usage(Accesses::INDIRECT_COMMAND_READ, BufferUsage::INDIRECT_BUFFER);
+    all.bits()
 }

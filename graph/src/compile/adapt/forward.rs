@@ -1,30 +1,73 @@
 //! Passes that are off: their target takes what another image holds.
 
-use super::Adapter;
-use crate::compile::model::{OpKind, Role, Start, StoreIndex, Use};
+use super::{Adapter, access};
+use crate::compile::cull::Live;
+use crate::compile::model::{OpKind, StoreIndex, Use};
+use crate::compile::parts::outlives;
 use crate::describe::Diagnostic;
-use crate::frame::{ImageIndex, Pass};
-use crate::plan::Cause;
-use crate::vocabulary::{Filter, Stages};
+use crate::device::ImageDescriptor;
+use crate::frame::{Frame, ImageIndex, Pass, Resource, Work};
+use crate::vocabulary::Filter;
+
+/// For each image of the frame the last pass that stays and touches it, and the last that writes it.
+#[derive(Debug, Default)]
+pub(super) struct Later {
+    access: Vec<Option<u32>>,
+    write: Vec<Option<u32>>,
+}
+
+impl Later {
+    pub(super) fn of(frame: &Frame, live: &Live) -> Later {
+        let mut later = Later { access: vec![None; frame.images.len()], write: vec![None; frame.images.len()] };
+        for number in &live.passes {
+            let pass = &frame.passes[*number as usize];
+            let mut touch = |image: ImageIndex, writes: bool| {
+                later.access[image.0 as usize] = Some(*number);
+                if writes {
+                    later.write[image.0 as usize] = Some(*number);
+                }
+            };
+            pass.sampled.iter().for_each(|sampled| touch(sampled.image, false));
+            pass.storage.iter().for_each(|storage| touch(storage.image, storage.write));
+            pass.color.iter().for_each(|target| touch(target.image, true));
+            pass.depth.iter().for_each(|depth| {
+                let format = frame.images[depth.image.0 as usize].format;
+                touch(depth.image, depth.planes(format).any(|(_, _, writes)| writes));
+            });
+            for transfer in &pass.transfers {
+                if let Resource::Image(image) = transfer.resource {
+                    touch(image, transfer.write);
+                }
+            }
+            if let Work::Forward { from, to, .. } = pass.work {
+                touch(from, false);
+                touch(to, true);
+            }
+        }
+        later
+    }
+}
 
 impl Adapter<'_> {
     /// `to` takes what `from` holds: as the same image if nothing tells them apart, else by a copy or a draw.
     pub(super) fn forward(&mut self, number: u32, pass: &Pass, from: ImageIndex, to: ImageIndex, because: &str) {
-        let frame = self.frame;
+        let frame = self.input.frame;
         if from == to {
             let name = &frame.images[to.0 as usize].name;
             return self.note(name, format!("`{}` is off ({because}) and leaves it as it is", pass.name), pass.span);
         }
         let (source_image, target_image) = (&frame.images[from.0 as usize], &frame.images[to.0 as usize]);
+        let count = self.current_samples(from);
+        let wanted = self.input.negotiated.samples(to);
         let alike = (source_image.format, source_image.extent) == (target_image.format, target_image.extent)
-            && self.samples.of(from) == self.samples.of(to);
-        let resolves = self.samples.of(from) > 1 && !alike;
+            && count == wanted;
+        let resolves = count > 1 && !alike;
         let why = format!(
             "`{}` is off ({because}) and forwards `{}` to `{}`",
             pass.name, source_image.name, target_image.name
         );
         let source = if resolves {
-            let why = format!("{why}; `{}` has {} samples", source_image.name, self.samples.of(from));
+            let why = format!("{why}; `{}` has {count} samples", source_image.name);
             match self.resolved(from, why, pass.span) {
                 Some(source) => source,
                 None => return,
@@ -32,25 +75,20 @@ impl Adapter<'_> {
         } else {
             self.current(from)
         };
-        let same = {
-            let held = self.adapted.stores[source as usize].descriptor;
-            (held.format, held.extent, held.mips, held.layers, held.samples)
-                == (
-                    target_image.format,
-                    target_image.extent,
-                    target_image.mips,
-                    target_image.layers,
-                    self.samples.of(to),
-                )
-        };
-        if same && self.may_share(number, source, to) {
+        let same = self.adapted.stores[source as usize].image().is_some_and(|held| {
+            let ImageDescriptor { format, shape, extent, mips, layers, samples, .. } = *held;
+            (format, shape, extent) == (target_image.format, target_image.shape, target_image.extent)
+                && (mips, layers, samples) == (target_image.mips, target_image.layers, wanted)
+        });
+        if same && self.may_share(number, source, from, to) {
             let name = target_image.name.clone();
+            let why_inserted = self.reason(why.clone(), pass.span);
             let store = &mut self.adapted.stores[source as usize];
             if !resolves {
-                store.cause = Cause::Inserted { because: why.clone(), at: frame.sources.place(pass.span) };
+                store.inserted = Some(why_inserted);
             }
-            store.name = name.clone();
-            self.named = true;
+            store.renamed = Some(name.clone());
+            self.renamed = true;
             self.store_of[to.0 as usize] = Some(source);
             self.resolved_of[to.0 as usize] = None;
             let what = if resolves { "the resolve goes straight into it" } else { "they are one image" };
@@ -58,27 +96,27 @@ impl Adapter<'_> {
         }
         if same {
             let target = self.written(to, false);
-            let uses = [Use { store: source, role: Role::Source }, Use { store: target, role: Role::Target }];
-            let at = self.place(pass.span);
-            let because = format!("{why}; one of them is used again later");
-            return self.push(OpKind::Copy { because, at }, &uses);
+            let why = self.reason(format!("{why}; one of them is used again later"), pass.span);
+            return self.push_transfer(OpKind::Copy(why), source, target, Use::ALL);
         }
         self.forward_by_draw(number, pass, source, to, why);
     }
 
     fn forward_by_draw(&mut self, number: u32, pass: &Pass, source: StoreIndex, to: ImageIndex, why: String) {
-        let held = self.adapted.stores[source as usize].descriptor;
-        let target_image = &self.frame.images[to.0 as usize];
+        let target_image = &self.input.frame.images[to.0 as usize];
+        let Some(held) = self.adapted.stores[source as usize].image().copied() else { return };
         let drawable = |depth: bool, integer: bool| !depth && !integer;
         if !drawable(held.format.is_depth(), held.format.is_integer())
             || !drawable(target_image.format.is_depth(), target_image.format.is_integer())
+            || held.layers > 1
+            || target_image.layers > 1
         {
             let message = format!("{why}, but {} can't be drawn into {}", held.format, target_image.format);
             self.errors.push(Diagnostic::new(pass.span, message).help("give both the same format, size and samples"));
             return;
         }
         let filtered = held.extent != target_image.extent
-            && self.device.format(held.format).is_some_and(|support| support.linear_filter);
+            && self.input.device.format(held.format).is_some_and(|support| support.linear_filter);
         let filter = if filtered { Filter::Linear } else { Filter::Nearest };
         let differ = match (held.format == target_image.format, held.extent == target_image.extent) {
             (false, true) => format!("formats differ ({} and {})", held.format, target_image.format),
@@ -87,26 +125,35 @@ impl Adapter<'_> {
             (true, true) => "sample counts differ".to_owned(),
         };
         let target = self.written(to, false);
-        let uses = [
-            Use { store: source, role: Role::Sampled { entry: 0, stages: Stages::FRAGMENT_SHADER } },
-            Use { store: target, role: Role::Color { entry: 0, start: Start::Discard, blends: false } },
-        ];
-        self.push(OpKind::ForwardDraw { pass: number, filter, because: format!("{why}; {differ}") }, &uses);
+        let why = self.reason(format!("{why}; {differ}"), pass.span);
+        let uses = access::forward_draw(source, target);
+        self.push(OpKind::ForwardDraw { pass: number, filter, why }, &uses);
     }
 
     /// Whether `to` may live in `store` from pass `number` on: nobody must be able to tell. That holds unless somebody
-    /// writes the store under one name while it is still used under another.
-    fn may_share(&mut self, number: u32, store: StoreIndex, to: ImageIndex) -> bool {
-        let Adapter { live, store_of, resolved_of, is_output, known_as, image_of, .. } = self;
-        let later = |pass: Option<u32>| pass.is_some_and(|pass| pass > number);
-        let held = |image: usize| store_of[image] == Some(store) || image == to.0 as usize;
-        let known = known_as.entry(store).or_insert_with(|| vec![image_of[store as usize]]);
+    /// writes the store under one name while it is still used under another, or one of them has memory of its own.
+    fn may_share(&mut self, number: u32, store: StoreIndex, from: ImageIndex, to: ImageIndex) -> bool {
+        let images = &self.input.frame.images;
+        let cut = self.input.grids.of(from) != self.input.grids.of(to);
+        if cut || [from, to].iter().any(|image| outlives(&images[image.0 as usize].lifetime)) {
+            return false;
+        }
+        let Adapter { later, store_of, resolved_of, is_output, known_as, adapted, .. } = self;
+        let after = |pass: Option<u32>| pass.is_some_and(|pass| pass > number);
+        let held = |image: ImageIndex| store_of[image.0 as usize] == Some(store) || image == to;
+        let first = match adapted.stores[store as usize].of {
+            Resource::Image(image) => vec![image],
+            Resource::Buffer(_) => Vec::new(),
+        };
+        let known = known_as.entry(store).or_insert(first);
         // What isn't used any more by now never is again, so a long chain of forwards is no long list.
-        known.retain(|image| (later(live.last_access[*image]) || is_output[*image]) && *image != to.0 as usize);
-        known.retain(|image| held(*image) || resolved_of[*image] == Some(store));
-        known.push(to.0 as usize);
-        let both_leave = known.iter().filter(|image| is_output[**image]).count() > 1;
-        let told_apart = known.len() > 1 && known.iter().any(|image| held(*image) && later(live.last_write[*image]));
+        let used = |image: &ImageIndex| after(later.access[image.0 as usize]) || is_output[image.0 as usize];
+        known.retain(|image| used(image) && *image != to);
+        known.retain(|image| held(*image) || resolved_of[image.0 as usize] == Some(store));
+        known.push(to);
+        let both_leave = known.iter().filter(|image| is_output[image.0 as usize]).count() > 1;
+        let told_apart =
+            known.len() > 1 && known.iter().any(|image| held(*image) && after(later.write[image.0 as usize]));
         !both_leave && !told_apart
     }
 }

@@ -1,0 +1,147 @@
+//! Which stages, accesses and layouts each use of an image or buffer takes.
+
+use super::TRANSFER;
+use crate::compile::link::buffer_access;
+use crate::compile::model::{OpKind, Role, Start, StoreIndex, Use};
+use crate::format::Format;
+use crate::frame::{Blend, BufferRole, BufferUse, ColorTarget, Frame, Sampled, Storage, TransferUse, Work};
+use crate::vocabulary::{Accesses, Aspects, Layout, Stages};
+
+const DEPTH_TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
+
+/// A use that reads, to be changed.
+fn used(store: StoreIndex, range: u32, role: Role) -> Use {
+    Use {
+        store,
+        range,
+        entry: 0,
+        role,
+        start: Start::Keep,
+        reads: true,
+        writes: false,
+        layout: Layout::Undefined,
+        stages: Stages::empty(),
+        accesses: Accesses::empty(),
+    }
+}
+
+pub(super) fn sampled(
+    sampled: &Sampled,
+    entry: u32,
+    store: StoreIndex,
+    range: u32,
+    depth_attachment: bool,
+    frame: &Frame,
+) -> Use {
+    let format = frame.images[sampled.image.0 as usize].format;
+    let planes = if sampled.range.aspects.is_empty() { format.aspects() } else { sampled.range.aspects };
+    let layout = if depth_attachment { read_only(format, planes) } else { Layout::ShaderReadOnlyOptimal };
+    let accesses = Accesses::SHADER_SAMPLED_READ;
+    Use { entry, layout, stages: sampled.stages, accesses, ..used(store, range, Role::Sampled) }
+}
+
+/// The layout of planes that are attachments somewhere, where they are only read.
+fn read_only(format: Format, planes: Aspects) -> Layout {
+    match (format.aspects().contains(Aspects::STENCIL), planes == Aspects::STENCIL) {
+        (false, _) => Layout::DepthStencilReadOnlyOptimal,
+        (true, false) => Layout::DepthReadOnlyOptimal,
+        (true, true) => Layout::StencilReadOnlyOptimal,
+    }
+}
+
+/// The layout of a plane that is an attachment and written.
+pub(in crate::compile) fn attached(format: Format, plane: Aspects) -> Layout {
+    match (format.aspects().contains(Aspects::STENCIL), plane == Aspects::STENCIL) {
+        (false, _) => Layout::DepthStencilAttachmentOptimal,
+        (true, false) => Layout::DepthAttachmentOptimal,
+        (true, true) => Layout::StencilAttachmentOptimal,
+    }
+}
+
+pub(super) fn storage(storage: &Storage, entry: u32, store: StoreIndex, range: u32) -> Use {
+    let mut accesses = Accesses::empty();
+    accesses.set(Accesses::SHADER_STORAGE_READ, storage.read);
+    accesses.set(Accesses::SHADER_STORAGE_WRITE, storage.write);
+    let (reads, writes, stages) = (storage.read, storage.write, storage.stages);
+    Use { entry, reads, writes, layout: Layout::General, stages, accesses, ..used(store, range, Role::Storage) }
+}
+
+pub(super) fn color(target: &ColorTarget, entry: u32, store: StoreIndex, range: u32, start: Start) -> Use {
+    let mut accesses = Accesses::COLOR_ATTACHMENT_WRITE;
+    accesses.set(Accesses::COLOR_ATTACHMENT_READ, target.blend != Blend::Replace);
+    let (stages, layout) = (Stages::COLOR_ATTACHMENT_OUTPUT, Layout::ColorAttachmentOptimal);
+    let reads = start == Start::Keep;
+    Use { entry, start, reads, writes: true, layout, stages, accesses, ..used(store, range, Role::Color) }
+}
+
+pub(super) fn depth(plane: Aspects, store: StoreIndex, range: u32, start: Start, writes: bool, format: Format) -> Use {
+    let role = if plane == Aspects::STENCIL { Role::Stencil } else { Role::Depth };
+    let mut accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_READ;
+    accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE, writes);
+    let layout = if writes { attached(format, plane) } else { read_only(format, plane) };
+    let reads = start == Start::Keep;
+    Use { start, reads, writes, layout, stages: DEPTH_TESTS, accesses, ..used(store, range, role) }
+}
+
+pub(super) fn buffer(buffer: &BufferUse, entry: u32, store: StoreIndex) -> Use {
+    let (reads, writes) = buffer_access(buffer);
+    let (stages, accesses) = match buffer.role {
+        BufferRole::Uniform => (buffer.stages, Accesses::UNIFORM_READ),
+        BufferRole::Storage { read, write } => {
+            let mut accesses = Accesses::empty();
+            accesses.set(Accesses::SHADER_STORAGE_READ, read);
+            accesses.set(Accesses::SHADER_STORAGE_WRITE, write);
+            (buffer.stages, accesses)
+        }
+        BufferRole::Vertex => (Stages::VERTEX_INPUT, Accesses::VERTEX_ATTRIBUTE_READ),
+        BufferRole::Index => (Stages::VERTEX_INPUT, Accesses::INDEX_READ),
+        BufferRole::Indirect => (Stages::DRAW_INDIRECT, Accesses::INDIRECT_COMMAND_READ),
+    };
+    Use { entry, reads, writes, stages, accesses, ..used(store, Use::ALL, Role::Buffer) }
+}
+
+/// What a pass transfers.
+pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, store: StoreIndex, range: u32) -> Use {
+    let stages = match work {
+        Work::Blit { .. } => Stages::BLIT,
+        Work::Fill { .. } => Stages::CLEAR,
+        Work::Copy => Stages::COPY,
+        _ => Stages::COPY | Stages::BLIT | Stages::CLEAR,
+    };
+    let made = if transfer.write { target(store, range, stages) } else { source(store, range, stages) };
+    Use { entry, ..made }
+}
+
+pub(super) fn source(store: StoreIndex, range: u32, stages: Stages) -> Use {
+    Use { layout: TRANSFER[0], stages, accesses: Accesses::TRANSFER_READ, ..used(store, range, Role::Source) }
+}
+
+pub(super) fn target(store: StoreIndex, range: u32, stages: Stages) -> Use {
+    let accesses = Accesses::TRANSFER_WRITE;
+    Use { reads: false, writes: true, layout: TRANSFER[1], stages, accesses, ..used(store, range, Role::Target) }
+}
+
+/// The stage in which an inserted transfer happens, if no scope carries it.
+pub(super) fn transfer_stage(kind: &OpKind) -> Stages {
+    if matches!(kind, OpKind::Resolve { .. }) { Stages::RESOLVE } else { Stages::COPY }
+}
+
+/// The uses of a full-screen draw of one image into another.
+pub(super) fn forward_draw(source: StoreIndex, target: StoreIndex) -> [Use; 2] {
+    let read = Use {
+        layout: Layout::ShaderReadOnlyOptimal,
+        stages: Stages::FRAGMENT_SHADER,
+        accesses: Accesses::SHADER_SAMPLED_READ,
+        ..used(source, Use::ALL, Role::Sampled)
+    };
+    let write = Use {
+        start: Start::Discard,
+        reads: false,
+        writes: true,
+        layout: Layout::ColorAttachmentOptimal,
+        stages: Stages::COLOR_ATTACHMENT_OUTPUT,
+        accesses: Accesses::COLOR_ATTACHMENT_WRITE,
+        ..used(target, Use::ALL, Role::Color)
+    };
+    [read, write]
+}

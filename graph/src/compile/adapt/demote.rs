@@ -1,0 +1,129 @@
+//! Demotion: a full-screen draw that covers every pixel of a multisampled image gains nothing from the samples. Unless
+//! geometry is drawn on top of what it draws, or single samples of it are read, it moves to a single-sampled image.
+
+use super::{Input, has_edges};
+use crate::compile::link::covers;
+use crate::frame::{Draw, ImageIndex, Pass, Work};
+use crate::plan::{Note, Stage};
+use crate::compile::parts::outlives;
+use std::collections::BTreeSet;
+
+/// Which draws move, and what is worth saying about images that need no resolve.
+#[derive(Debug, Default)]
+pub(super) struct Demotions {
+    /// Pass and image.
+    moved: BTreeSet<(u32, ImageIndex)>,
+    /// Images that geometry is drawn into, where more samples would have meant a resolve; until that was said.
+    of_geometry: Vec<bool>,
+}
+
+impl Demotions {
+    /// Whether pass number `pass` draws `image` with a single sample.
+    pub(super) fn moves(&self, pass: u32, image: ImageIndex) -> bool {
+        !self.moved.is_empty() && self.moved.contains(&(pass, image))
+    }
+
+    /// Whether it should be said of an image with one sample that it needs no resolve. Said once.
+    pub(super) fn is_worth_a_note(&mut self, image: ImageIndex) -> bool {
+        self.of_geometry.get_mut(image.0 as usize).is_some_and(std::mem::take)
+    }
+}
+
+/// Why a version of an image needs its samples.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+enum Needs {
+    /// It doesn't.
+    #[default]
+    Nothing,
+    /// A pass draws geometry onto it.
+    Edges(u32),
+    /// A pass reads single samples of it.
+    Samples(u32),
+}
+
+/// Walks back through the frame: what comes later decides whether samples are needed.
+pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
+    let Input { frame, live, negotiated, options, .. } = input;
+    let mut demotions = Demotions::default();
+    let passes = || live.passes.iter().map(|number| (*number, &frame.passes[*number as usize]));
+    if passes().any(|(_, pass)| matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. })) {
+        demotions.of_geometry = vec![false; frame.images.len()];
+        for (_, pass) in passes().filter(|(_, pass)| matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. })) {
+            pass.color.iter().for_each(|target| demotions.of_geometry[target.image.0 as usize] = true);
+        }
+    }
+    let multisampled = |image: ImageIndex| negotiated.samples(image) > 1;
+    if !negotiated.samples.iter().any(|count| *count > 1) {
+        return demotions;
+    }
+    let mut needs = vec![Needs::Nothing; frame.images.len()];
+    for (number, pass) in passes().collect::<Vec<_>>().into_iter().rev() {
+        for target in pass.color.iter().filter(|target| multisampled(target.image)) {
+            let later = &mut needs[target.image.0 as usize];
+            let keeps = target.clear.is_none() && !covers(pass, target);
+            let fixed = outlives(&frame.images[target.image.0 as usize].lifetime);
+            match (is_flat(pass), keeps) {
+                // It follows its image to wherever that is.
+                (true, true) => {}
+                (true, false) => {
+                    let later = std::mem::take(later);
+                    let covers = target.clear.is_none();
+                    if covers && !fixed && options.demote {
+                        match later {
+                            Needs::Nothing => drop(demotions.moved.insert((number, target.image))),
+                            why => notes.push(stays(input, pass, target.image, why)),
+                        }
+                    }
+                }
+                (false, true) => *later = Needs::Edges(number),
+                (false, false) => *later = Needs::Nothing,
+            }
+        }
+        if let Work::Forward { from, to, .. } = pass.work {
+            let later = std::mem::take(&mut needs[to.0 as usize]);
+            if later != Needs::Nothing {
+                needs[from.0 as usize] = later;
+            }
+        }
+        for sampled in pass.sampled.iter().filter(|sampled| sampled.per_sample) {
+            needs[sampled.image.0 as usize] = Needs::Samples(number);
+        }
+    }
+    for (number, image) in &demotions.moved {
+        let pass = &frame.passes[*number as usize];
+        let name = &frame.images[image.0 as usize].name;
+        notes.push(Note {
+            stage: Stage::Adapt,
+            subject: pass.name.clone(),
+            text: format!(
+                "draws `{name}` with 1 sample instead of {}: it covers every pixel, and no geometry is drawn onto it \
+                 afterwards",
+                negotiated.samples(*image)
+            ),
+            at: frame.sources.place(pass.span),
+        });
+    }
+    demotions
+}
+
+/// Whether a pass could as well draw into a single-sampled image: one that fills its only attachment evenly.
+fn is_flat(pass: &Pass) -> bool {
+    let once = matches!(pass.work, Work::Draw { per_sample: false, .. });
+    once && !has_edges(pass) && pass.depth.is_none() && pass.color.len() == 1
+}
+
+fn stays(input: &Input<'_>, pass: &Pass, image: ImageIndex, why: Needs) -> Note {
+    let frame = input.frame;
+    let name = &frame.images[image.0 as usize].name;
+    let because = match why {
+        Needs::Nothing => String::new(),
+        Needs::Edges(later) => format!("`{}` draws onto it afterwards", frame.passes[later as usize].name),
+        Needs::Samples(later) => format!("`{}` reads its single samples", frame.passes[later as usize].name),
+    };
+    Note {
+        stage: Stage::Adapt,
+        subject: pass.name.clone(),
+        text: format!("draws `{name}` with {} samples: {because}", input.negotiated.samples(image)),
+        at: frame.sources.place(pass.span),
+    }
+}

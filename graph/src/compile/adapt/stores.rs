@@ -1,0 +1,247 @@
+//! Physical images and buffers: made when first touched, replaced when a version can't stay where it is.
+
+use super::Adapter;
+use crate::compile::model::{Home, Kind, Reason, Store, StoreIndex, Use};
+use crate::compile::parts;
+use crate::describe::Diagnostic;
+use crate::device::{BufferDescriptor, ImageDescriptor};
+use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
+use crate::plan::Sharing;
+use crate::vocabulary::{Aspects, BufferUsage, FillValue, Usage};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Numbers physical images of one name, as an image gets that others are forwarded to; the last one keeps the name.
+pub(super) fn distinct_names(frame: &Frame, stores: &mut [Store]) {
+    let own = |of: Resource| match of {
+        Resource::Image(image) => &frame.images[image.0 as usize].name,
+        Resource::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
+    };
+    let mut used: HashMap<Arc<str>, u32> = HashMap::with_capacity(stores.len());
+    for store in stores.iter_mut().rev() {
+        let name = store.renamed.as_ref().unwrap_or(own(store.of)).clone();
+        let mut shown = name.clone();
+        while let Some(number) = used.get_mut(&shown) {
+            // Counting goes on where it stopped: many images may have one name.
+            *number += 1;
+            shown = format!("{name} ({number})").into();
+            store.renamed = Some(shown.clone());
+        }
+        used.insert(shown, 1);
+    }
+}
+
+impl Adapter<'_> {
+    /// The physical image with the current version; there is one, since `link` saw a version.
+    pub(super) fn current(&mut self, image: ImageIndex) -> StoreIndex {
+        match self.store_of[image.0 as usize] {
+            Some(store) => store,
+            None => self.first_store(image),
+        }
+    }
+
+    /// The samples of an image's current version.
+    pub(super) fn current_samples(&mut self, image: ImageIndex) -> u32 {
+        let store = self.current(image);
+        self.adapted.stores[store as usize].image().map_or(1, |descriptor| descriptor.samples)
+    }
+
+    /// The physical image that takes the next version.
+    pub(super) fn written(&mut self, image: ImageIndex, keeps: bool) -> StoreIndex {
+        debug_assert!(
+            !keeps
+                || self.store_of[image.0 as usize].is_some()
+                || parts::outlives(&self.input.frame.images[image.0 as usize].lifetime),
+            "link saw a version to keep"
+        );
+        self.resolved_of[image.0 as usize] = None;
+        self.current(image)
+    }
+
+    fn first_store(&mut self, image: ImageIndex) -> StoreIndex {
+        let declared = &self.input.frame.images[image.0 as usize];
+        let samples = self.input.negotiated.samples(image);
+        let (name, lifetime) = (&declared.name, &declared.lifetime);
+        let first = self.add_lives(Resource::Image(image), name, lifetime, |adapter| adapter.add_image(image, samples));
+        self.store_of[image.0 as usize] = Some(first);
+        first
+    }
+
+    /// The physical buffer that holds what a buffer held some frames ago.
+    pub(super) fn buffer(&mut self, buffer: BufferIndex, frames_ago: u32) -> StoreIndex {
+        let first = match self.buffer_store_of[buffer.0 as usize] {
+            Some(store) => store,
+            None => {
+                let declared = &self.input.frame.buffers[buffer.0 as usize];
+                let (name, lifetime) = (&declared.name, &declared.lifetime);
+                self.add_lives(Resource::Buffer(buffer), name, lifetime, |adapter| adapter.add_buffer(buffer))
+            }
+        };
+        self.buffer_store_of[buffer.0 as usize] = Some(first);
+        first + frames_ago
+    }
+
+    /// Adds what a lifetime takes: one store, or with history one for each frame, the newest first.
+    fn add_lives(
+        &mut self,
+        of: Resource,
+        name: &Arc<str>,
+        lifetime: &Lifetime,
+        mut add: impl FnMut(&mut Self) -> StoreIndex,
+    ) -> StoreIndex {
+        let first = add(self);
+        let home = |initial: FillValue, becomes: StoreIndex| Home::Persistent { becomes, initial };
+        match *lifetime {
+            Lifetime::Transient => {}
+            Lifetime::Persistent { initial } => self.adapted.stores[first as usize].home = home(initial, first),
+            Lifetime::History { frames, initial } => {
+                for ago in 1..=frames {
+                    let older = add(self);
+                    let words = if ago == 1 { "1 frame ago".to_owned() } else { format!("{ago} frames ago") };
+                    self.adapted.stores[older as usize].renamed = Some(format!("{name} ({words})").into());
+                    self.renamed = true;
+                }
+                for store in first..=first + frames {
+                    let becomes = if store == first + frames { first } else { store + 1 };
+                    self.adapted.stores[store as usize].home = home(initial, becomes);
+                }
+            }
+            Lifetime::Imported { before, after } => {
+                let store = &mut self.adapted.stores[first as usize];
+                (store.home, store.after) = (Home::Imported { before }, after);
+            }
+        }
+        debug_assert_eq!(self.adapted.stores[first as usize].of, of);
+        first
+    }
+
+    /// A further physical image for `image`, which holds no version yet.
+    pub(super) fn second(&mut self, image: ImageIndex, what: &str, why: Box<Reason>, samples: u32) -> StoreIndex {
+        let count = self.inserted_for.entry(image).or_insert(0);
+        *count += 1;
+        let name = &self.input.frame.images[image.0 as usize].name;
+        let name = if *count == 1 { format!("{name} ({what})") } else { format!("{name} ({what} {count})") };
+        self.renamed = true;
+        let store = self.add_image(image, samples);
+        let made = &mut self.adapted.stores[store as usize];
+        (made.renamed, made.inserted) = (Some(name.into()), Some(why));
+        store
+    }
+
+    /// A further physical image for `image`, which takes its next version.
+    pub(super) fn replace(&mut self, image: ImageIndex, what: &str, why: Box<Reason>, samples: u32) -> StoreIndex {
+        self.resolved_of[image.0 as usize] = None;
+        let store = self.second(image, what, why, samples);
+        self.store_of[image.0 as usize] = Some(store);
+        store
+    }
+
+    fn add_image(&mut self, image: ImageIndex, samples: u32) -> StoreIndex {
+        let declared = &self.input.frame.images[image.0 as usize];
+        let descriptor = ImageDescriptor {
+            format: declared.format,
+            shape: declared.shape,
+            extent: declared.extent,
+            mips: declared.mips,
+            layers: declared.layers,
+            samples,
+            usage: Usage::empty(),
+            sharing: Sharing::Exclusive,
+        };
+        let cells = self.input.grids.of(image).map_or(1, |grid| grid.len());
+        self.images += 1;
+        self.add(Resource::Image(image), self.images - 1, Kind::Image(descriptor), cells)
+    }
+
+    fn add_buffer(&mut self, buffer: BufferIndex) -> StoreIndex {
+        let bytes = self.input.frame.buffers[buffer.0 as usize].bytes;
+        let descriptor = BufferDescriptor { bytes, usage: BufferUsage::empty(), sharing: Sharing::Exclusive };
+        self.buffers += 1;
+        self.add(Resource::Buffer(buffer), self.buffers - 1, Kind::Buffer(descriptor), 1)
+    }
+
+    fn add(&mut self, of: Resource, id: u32, kind: Kind, cells: u32) -> StoreIndex {
+        self.adapted.stores.push(Store {
+            id,
+            of,
+            renamed: None,
+            inserted: None,
+            kind,
+            home: Home::Transient,
+            after: None,
+            first_cell: self.adapted.cells,
+        });
+        self.adapted.cells += cells;
+        self.adapted.stores.len() as StoreIndex - 1
+    }
+
+    /// What a pass transfers, and which part of it; a multisampled source is resolved first.
+    pub(super) fn transferred(&mut self, pass: &Pass, used: &TransferUse) -> Option<(StoreIndex, u32)> {
+        let image = match used.resource {
+            Resource::Buffer(buffer) => return Some((self.buffer(buffer, used.frames_ago), Use::ALL)),
+            Resource::Image(image) => image,
+        };
+        let range = self.range(image, used.range);
+        if used.frames_ago > 0 {
+            return Some((self.current(image) + used.frames_ago, range));
+        }
+        let declared = &self.input.frame.images[image.0 as usize];
+        if used.write {
+            return Some((self.written(image, range != Use::ALL), range));
+        }
+        let count = self.current_samples(image);
+        if count == 1 {
+            return Some((self.current(image), range));
+        }
+        let because = format!("`{}` transfers from `{}` and it has {count} samples", pass.name, declared.name);
+        Some((self.resolved(image, because, used.span)?, range))
+    }
+
+    /// Whether a draw wrote an image's current version: then its rendering scope can carry a resolve.
+    fn drawn_last(&mut self, image: ImageIndex) -> bool {
+        let store = self.current(image);
+        let writes = |op: &u32| self.adapted.uses(*op).iter().any(|used| used.store == store && used.writes);
+        let last = (0..self.adapted.ops.len() as u32).rev().find(writes);
+        last.is_some_and(|op| self.adapted.ops[op as usize].kind.draws())
+    }
+
+    pub(super) fn output(&mut self, output: &Output) {
+        let image = match output.resource {
+            Resource::Buffer(buffer) => {
+                let store = self.buffer(buffer, 0);
+                return self.leaves(store, output);
+            }
+            Resource::Image(image) => image,
+        };
+        let declared = &self.input.frame.images[image.0 as usize];
+        let count = self.current_samples(image);
+        if count > 1 && declared.format.aspects().contains(Aspects::STENCIL) {
+            let message =
+                format!("`{}` is an output with {count} samples, and stencil can't be resolved", declared.name);
+            let help = format!("choose a depth format without stencil, or give `{}` 1 sample", declared.name);
+            return self.errors.push(Diagnostic::new(output.span, message).help(help));
+        }
+        if count > 1 && declared.format.is_depth() && !self.drawn_last(image) {
+            let message = format!("`{}` is an output with {count} samples that were not drawn into it", declared.name);
+            let help =
+                format!("depth is resolved where it is drawn: draw into `{}`, or give it 1 sample", declared.name);
+            return self.errors.push(Diagnostic::new(output.span, message).help(help));
+        }
+        let store = if count > 1 {
+            let because = format!("`{}` is an output and has {count} samples", declared.name);
+            self.single_sample(image, because, output.span)
+        } else {
+            self.current(image)
+        };
+        self.leaves(store, output);
+    }
+
+    fn leaves(&mut self, store: StoreIndex, output: &Output) {
+        let leaving = &mut self.adapted.stores[store as usize];
+        if leaving.is_transient() {
+            leaving.home = Home::Output;
+        }
+        leaving.after = output.after.or(leaving.after);
+        self.adapted.outputs.push(store);
+    }
+}

@@ -1,0 +1,88 @@
+//! Rendering scopes of the Plan, and why their attachments are loaded and stored as they are.
+
+use super::{Parts, cause, passes};
+use crate::compile::model::{OpKind, Role};
+use crate::compile::retain::{AttachmentOps, Next};
+use crate::compile::scope::{Scope, op_name};
+use crate::plan::{Attachment, AttachmentResolve, ImageId, RenderScope};
+use crate::vocabulary::{Layout, LoadOp, StoreOp};
+
+pub(super) fn scope(parts: &Parts<'_>, scope: &Scope, step: u32) -> RenderScope {
+    let stores = &parts.adapted.stores;
+    let first = scope.targets().next();
+    let shape = first.and_then(|target| Some((stores[target.store as usize].image()?, target.range)));
+    let (extent, layers, samples) = shape.map_or(([1, 1], 1, 1), |(image, range)| {
+        let side = |at: usize| (image.extent[at] >> range.base_mip.min(31)).max(1);
+        ([side(0), side(1)], range.layers, image.samples)
+    });
+    let attachments = parts.retained.of(step);
+    let color = attachments.iter().filter(|ops| ops.role == Role::Color).zip(&scope.resolves);
+    let plane = |role: Role| attachments.iter().find(|ops| ops.role == role);
+    RenderScope {
+        extent,
+        layers,
+        samples,
+        color: color.map(|(ops, resolve)| attachment(parts, scope, ops, *resolve)).collect(),
+        depth: plane(Role::Depth).map(|ops| attachment(parts, scope, ops, scope.depth_resolve)),
+        stencil: plane(Role::Stencil).map(|ops| attachment(parts, scope, ops, None)),
+        passes: scope.ops.iter().map(|op| passes::pass(parts, *op)).collect(),
+    }
+}
+
+fn attachment(parts: &Parts<'_>, scope: &Scope, ops: &AttachmentOps, resolve: Option<u32>) -> Attachment {
+    let mut uses = scope.ops.iter().flat_map(|op| parts.adapted.uses(*op));
+    let used = uses.find(|used| used.role == ops.role && used.store == ops.target.store);
+    Attachment {
+        image: ImageId(parts.adapted.stores[ops.target.store as usize].id),
+        range: ops.target.range,
+        layout: used.map_or(Layout::General, |used| used.layout),
+        load: ops.load,
+        store: ops.store,
+        clear: ops.clear,
+        resolve: resolve.and_then(|op| attachment_resolve(parts, op)),
+        because: format!("{}; {}", load_reason(parts, ops), store_reason(parts, ops)),
+    }
+}
+
+fn attachment_resolve(parts: &Parts<'_>, number: u32) -> Option<AttachmentResolve> {
+    let op = &parts.adapted.ops[number as usize];
+    let OpKind::Resolve { mode, .. } = op.kind else { return None };
+    let target = parts.adapted.uses(number).get(1)?;
+    let store = &parts.adapted.stores[target.store as usize];
+    let layout = match store.image()?.format.is_depth() {
+        true => Layout::DepthStencilAttachmentOptimal,
+        false => Layout::ColorAttachmentOptimal,
+    };
+    Some(AttachmentResolve { image: ImageId(store.id), range: store.all(), layout, mode, cause: cause(parts, op) })
+}
+
+fn name<'n>(parts: &'n Parts<'_>, op: u32) -> &'n str {
+    op_name(parts.frame, &parts.adapted, op).map_or("", |name| name)
+}
+
+fn load_reason(parts: &Parts<'_>, ops: &AttachmentOps) -> String {
+    let name = if ops.first == u32::MAX { "" } else { name(parts, ops.first) };
+    match ops.load {
+        LoadOp::Clear => format!("`{name}` clears it"),
+        LoadOp::Load => format!("`{name}` continues on what is there"),
+        LoadOp::DontCare => format!("`{name}` covers every pixel"),
+    }
+}
+
+fn store_reason(parts: &Parts<'_>, ops: &AttachmentOps) -> String {
+    let words = match ops.next {
+        Next::Op(op) => match op_name(parts.frame, &parts.adapted, op) {
+            Some(name) => Some(format!("`{name}` uses it next")),
+            None => Some("it is resolved or copied next".to_owned()),
+        },
+        Next::After => Some("it outlives the frame".to_owned()),
+        Next::Nobody | Next::Replaced => None,
+    };
+    match (ops.store, words, ops.next) {
+        (StoreOp::Store, Some(words), _) => words,
+        (StoreOp::None, Some(words), _) => format!("only tested here, and {words}"),
+        (StoreOp::None, None, _) => "only tested here".to_owned(),
+        (_, _, Next::Replaced) => "what comes next starts afresh".to_owned(),
+        (_, _, _) => "nobody needs it afterwards".to_owned(),
+    }
+}

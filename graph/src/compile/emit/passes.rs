@@ -1,0 +1,175 @@
+//! Passes, copies, blits, fills and resolves of the Plan.
+
+use super::{Parts, cause, frame_work};
+use crate::compile::model::{Kind, Op, OpKind, Role, Use};
+use crate::frame::{Blend, DepthTarget, Draw, Pass as FramePass, Work as FrameWork};
+use crate::plan::{
+    Access, Binding, BindingKind, BufferAccess, BufferId, DepthState, Fill, ImageId, Param, Pass, Side, Transfer, Work,
+};
+use crate::vocabulary::{Aspects, Filter};
+use std::sync::Arc;
+
+/// The shader that draws one image into another.
+const COPY_SHADER: &str = "copy";
+/// The name by which it knows its source.
+const COPY_SOURCE: &str = "source";
+
+/// The work of an operation that is not drawn.
+pub(super) fn single(parts: &Parts<'_>, number: u32) -> Work {
+    let op = &parts.adapted.ops[number as usize];
+    if matches!(op.kind, OpKind::Resolve { .. }) {
+        return Work::Resolve(transfer(parts, op, number, None));
+    }
+    match frame_work(parts, op) {
+        None | Some(FrameWork::Copy) => Work::Copy(transfer(parts, op, number, None)),
+        Some(FrameWork::Blit { filter }) => Work::Blit(transfer(parts, op, number, Some(*filter))),
+        Some(FrameWork::Fill { value }) => {
+            let target = parts.adapted.uses(number).first().map_or(NOTHING, |used| side(parts, used));
+            Work::Fill(Fill { name: name(parts, op), cause: cause(parts, op), target, value: *value })
+        }
+        Some(FrameWork::Custom { .. }) => Work::Custom(pass(parts, number)),
+        Some(FrameWork::Dispatch { .. } | FrameWork::Draw { .. } | FrameWork::Forward { .. }) => {
+            Work::Dispatch(pass(parts, number))
+        }
+    }
+}
+
+/// What a transfer without sides would move; `legal` has seen to it that there is none.
+const NOTHING: Side = Side::Buffer { buffer: BufferId(0), bytes: 0 };
+
+fn name(parts: &Parts<'_>, op: &Op) -> Option<Arc<str>> {
+    op.kind.pass().map(|pass| parts.frame.passes[pass as usize].name.clone())
+}
+
+fn transfer(parts: &Parts<'_>, op: &Op, number: u32, filter: Option<Filter>) -> Transfer {
+    let uses = parts.adapted.uses(number);
+    let [mut source, mut target] = [0, 1].map(|at| uses.get(at).map_or(NOTHING, |used| side(parts, used)));
+    // Beside an image only the bytes of its texels count; between buffers those of the source.
+    if let Side::Image { image, range, extent, .. } = source
+        && let Side::Buffer { bytes, .. } = &mut target
+    {
+        *bytes = texel_bytes(parts, uses, 0, image, range.layers, extent);
+    } else if let Side::Image { image, range, extent, .. } = target
+        && let Side::Buffer { bytes, .. } = &mut source
+    {
+        *bytes = texel_bytes(parts, uses, 1, image, range.layers, extent);
+    } else if let (Side::Buffer { bytes: some, .. }, Side::Buffer { bytes: others, .. }) = (source, &mut target) {
+        *others = some;
+    }
+    Transfer { name: name(parts, op), cause: cause(parts, op), source, target, filter }
+}
+
+fn texel_bytes(parts: &Parts<'_>, uses: &[Use], at: usize, _: ImageId, layers: u32, extent: [u32; 3]) -> u64 {
+    let image = parts.adapted.stores[uses[at].store as usize].image();
+    let bytes = image.map_or(0, |image| image.format.texel_bytes());
+    extent.iter().fold(bytes.saturating_mul(layers.into()), |all, side| all.saturating_mul((*side).into()))
+}
+
+fn side(parts: &Parts<'_>, used: &Use) -> Side {
+    let store = &parts.adapted.stores[used.store as usize];
+    match &store.kind {
+        Kind::Image(image) => {
+            let range = parts.adapted.range(used);
+            let extent = image.extent.map(|side| (side >> range.base_mip.min(31)).max(1));
+            Side::Image { image: ImageId(store.id), range, extent, layout: used.layout }
+        }
+        Kind::Buffer(buffer) => Side::Buffer { buffer: BufferId(store.id), bytes: buffer.bytes },
+    }
+}
+
+/// A pass of the Plan.
+pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
+    let op = &parts.adapted.ops[number as usize];
+    let uses = parts.adapted.uses(number);
+    let Some(declared) = op.kind.pass().map(|pass| &parts.frame.passes[pass as usize]) else {
+        return empty(parts, op);
+    };
+    let buffers = uses.iter().filter(|used| matches!(parts.adapted.stores[used.store as usize].kind, Kind::Buffer(_)));
+    let mut planned = Pass {
+        name: declared.name.clone(),
+        accesses: Vec::with_capacity(uses.len()),
+        buffers: buffers.map(|used| buffer_access(parts, used, declared)).collect(),
+        merged: parts.scoped.merged(number).cloned(),
+        ..empty(parts, op)
+    };
+    if let OpKind::ForwardDraw { filter, .. } = op.kind {
+        let binding = || Some(Binding { name: COPY_SOURCE.into(), kind: BindingKind::Sampled(filter) });
+        let accesses = uses.iter().map(|used| access(parts, used, (used.role == Role::Sampled).then(binding).flatten()));
+        planned.accesses = accesses.collect();
+        (planned.draw, planned.shader, planned.blend) = (Some(Draw::FullScreen), COPY_SHADER.into(), vec![Blend::Replace]);
+        return planned;
+    }
+    (planned.draw, planned.groups, planned.shader) = match &declared.work {
+        FrameWork::Draw { draw, shader, .. } => (Some(*draw), None, shader.clone()),
+        FrameWork::Dispatch { shader, groups } => (None, Some(*groups), shader.clone()),
+        FrameWork::Custom { callback } => (None, None, callback.clone()),
+        FrameWork::Copy | FrameWork::Blit { .. } | FrameWork::Fill { .. } | FrameWork::Forward { .. } => {
+            (None, None, planned.shader)
+        }
+    };
+    planned.blend = declared.color.iter().map(|target| target.blend).collect();
+    let depth = declared.depth.as_ref();
+    planned.depth = depth.map(|DepthTarget { test, write, .. }| DepthState { test: *test, write: *write });
+    let has_stencil = uses.iter().any(|used| used.role == Role::Stencil);
+    planned.stencil = depth.and_then(|depth| depth.stencil).filter(|_| has_stencil);
+    for used in uses.iter().filter(|used| parts.adapted.stores[used.store as usize].image().is_some()) {
+        planned.accesses.push(access(parts, used, binding(used, declared)));
+    }
+    planned.params = declared.params.iter().map(|(name, value)| Param { name: name.clone(), value: *value }).collect();
+    planned
+}
+
+fn empty(parts: &Parts<'_>, op: &Op) -> Pass {
+    Pass {
+        name: Arc::default(),
+        cause: cause(parts, op),
+        draw: None,
+        groups: None,
+        shader: Arc::default(),
+        blend: Vec::new(),
+        depth: None,
+        stencil: None,
+        params: Vec::new(),
+        accesses: Vec::new(),
+        buffers: Vec::new(),
+        local_barrier: false,
+        merged: None,
+    }
+}
+
+fn binding(used: &Use, declared: &FramePass) -> Option<Binding> {
+    let entry = used.entry as usize;
+    match used.role {
+        Role::Sampled => {
+            let sampled = &declared.sampled[entry];
+            Some(Binding { name: sampled.binding.clone(), kind: BindingKind::Sampled(sampled.filter) })
+        }
+        Role::Input => {
+            Some(Binding { name: declared.sampled[entry].binding.clone(), kind: BindingKind::InputAttachment })
+        }
+        Role::Storage => Some(Binding { name: declared.storage[entry].binding.clone(), kind: BindingKind::Storage }),
+        Role::Color | Role::Depth | Role::Stencil | Role::Buffer | Role::Source | Role::Target => None,
+    }
+}
+
+/// One access of a pass; load, store and resolve operations are the scope's.
+fn access(parts: &Parts<'_>, used: &Use, binding: Option<Binding>) -> Access {
+    let mut range = parts.adapted.range(used);
+    // Shaders see one plane; of depth with stencil, plain sampling means depth.
+    if binding.is_some() && range.aspects == Aspects::DEPTH | Aspects::STENCIL {
+        range.aspects = Aspects::DEPTH;
+    }
+    let image = ImageId(parts.adapted.stores[used.store as usize].id);
+    Access { image, range, stages: used.stages, accesses: used.accesses, layout: used.layout, binding }
+}
+
+fn buffer_access(parts: &Parts<'_>, used: &Use, declared: &FramePass) -> BufferAccess {
+    let named = declared.buffers.get(used.entry as usize).filter(|_| used.role == Role::Buffer);
+    BufferAccess {
+        buffer: BufferId(parts.adapted.stores[used.store as usize].id),
+        role: named.map(|named| named.role),
+        stages: used.stages,
+        accesses: used.accesses,
+        binding: named.and_then(|named| named.binding.clone()),
+    }
+}

@@ -1,0 +1,175 @@
+//! Parts of images that are tracked by themselves: planes, and the mip levels and layers that accesses tell apart.
+//!
+//! An image that is only ever used whole is one part. Else its planes, mip levels and layers are cut where an access begins
+//! or ends, and each piece of that grid is a part.
+
+use crate::frame::{Frame, Image, ImageIndex, Lifetime, Resource};
+use crate::vocabulary::{Aspects, Subresources};
+
+/// How one image is cut. Parts are numbered plane by plane, in each mip level by mip level, in each layer by layer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Grid {
+    planes: Aspects,
+    /// Where mip levels are cut: rising, from 0 to their number.
+    mips: Vec<u32>,
+    /// Where layers are cut: rising, from 0 to their number.
+    layers: Vec<u32>,
+}
+
+/// How all images are cut.
+#[derive(Debug, Default)]
+pub(super) struct Grids {
+    grids: Vec<Grid>,
+    /// For each image of the frame its grid, [`WHOLE`] if it is one part; empty if all are.
+    of: Vec<u32>,
+}
+
+/// The grid of an image that is one part.
+const WHOLE: u32 = u32::MAX;
+
+impl Grids {
+    /// Cuts images as the passes of `frame` use them; ranges must lie inside their images.
+    pub(super) fn new(frame: &Frame) -> Grids {
+        let mut grids = Grids::default();
+        for (image, number) in frame.images.iter().zip(0_u32..) {
+            if image.format.aspects().bits().count_ones() > 1 {
+                grids.grid(frame, ImageIndex(number), image);
+            }
+        }
+        for pass in &frame.passes {
+            let depth = pass.depth.iter().map(|depth| (depth.image, depth.range));
+            let color = pass.color.iter().map(|target| (target.image, target.range));
+            let sampled = pass.sampled.iter().map(|sampled| (sampled.image, sampled.range));
+            let storage = pass.storage.iter().map(|storage| (storage.image, storage.range));
+            let transfers = pass.transfers.iter().filter_map(|transfer| match transfer.resource {
+                Resource::Image(image) => Some((image, transfer.range)),
+                Resource::Buffer(_) => None,
+            });
+            for (image, range) in sampled.chain(storage).chain(color).chain(depth).chain(transfers) {
+                if range != Subresources::WHOLE {
+                    grids.cut(frame, image, range);
+                }
+            }
+        }
+        grids
+    }
+
+    fn grid(&mut self, frame: &Frame, index: ImageIndex, image: &Image) -> &mut Grid {
+        if self.of.is_empty() {
+            self.of.resize(frame.images.len(), WHOLE);
+        }
+        let at = &mut self.of[index.0 as usize];
+        if *at == WHOLE {
+            *at = self.grids.len() as u32;
+            let (mips, layers) = (vec![0, image.mips], vec![0, image.layers]);
+            self.grids.push(Grid { planes: image.format.aspects(), mips, layers });
+        }
+        &mut self.grids[*at as usize]
+    }
+
+    fn cut(&mut self, frame: &Frame, index: ImageIndex, range: Subresources) {
+        let image = &frame.images[index.0 as usize];
+        let range = resolve(image, range);
+        if range == Subresources::all(image.format, image.mips, image.layers) {
+            return;
+        }
+        let grid = self.grid(frame, index, image);
+        for (cuts, at) in [
+            (&mut grid.mips, [range.base_mip, range.base_mip + range.mips]),
+            (&mut grid.layers, [range.base_layer, range.base_layer + range.layers]),
+        ] {
+            for at in at {
+                if let Err(place) = cuts.binary_search(&at) {
+                    cuts.insert(place, at);
+                }
+            }
+        }
+    }
+
+    /// How an image of the frame is cut; `None`: it is one part.
+    pub(super) fn of(&self, image: ImageIndex) -> Option<&Grid> {
+        let at = *self.of.get(image.0 as usize)?;
+        self.grids.get(at as usize)
+    }
+}
+
+/// The part of `image` that `range` means: counts without `REMAINING`, planes named.
+pub(super) fn resolve(image: &Image, range: Subresources) -> Subresources {
+    let count = |count: u32, base: u32, all: u32| {
+        if count == Subresources::REMAINING { all.saturating_sub(base) } else { count }
+    };
+    Subresources {
+        aspects: if range.aspects.is_empty() { image.format.aspects() } else { range.aspects },
+        base_mip: range.base_mip,
+        mips: count(range.mips, range.base_mip, image.mips),
+        base_layer: range.base_layer,
+        layers: count(range.layers, range.base_layer, image.layers),
+    }
+}
+
+/// Whether two ranges of `image` have a part in common.
+pub(super) fn overlap(image: &Image, a: Subresources, b: Subresources) -> bool {
+    let (a, b) = (resolve(image, a), resolve(image, b));
+    let meet = |a: u32, some: u32, b: u32, others: u32| a < b + others && b < a + some;
+    a.aspects.intersects(b.aspects)
+        && meet(a.base_mip, a.mips, b.base_mip, b.mips)
+        && meet(a.base_layer, a.layers, b.base_layer, b.layers)
+}
+
+/// Whether contents of earlier frames can be found in it.
+pub(super) fn outlives(lifetime: &Lifetime) -> bool {
+    !matches!(lifetime, Lifetime::Transient)
+}
+
+impl Grid {
+    /// Number of parts.
+    pub(super) fn len(&self) -> u32 {
+        self.planes.bits().count_ones() * self.mip_rows() * self.layer_columns()
+    }
+
+    fn mip_rows(&self) -> u32 {
+        self.mips.len() as u32 - 1
+    }
+
+    fn layer_columns(&self) -> u32 {
+        self.layers.len() as u32 - 1
+    }
+
+    /// The parts that `range` (resolved) covers, by number.
+    pub(super) fn cover(&self, range: Subresources) -> impl Iterator<Item = u32> + '_ {
+        let place = |cuts: &[u32], at: u32| cuts.partition_point(|cut| *cut < at) as u32;
+        let (rows, columns) = (self.mip_rows(), self.layer_columns());
+        let mips = place(&self.mips, range.base_mip)..place(&self.mips, range.base_mip + range.mips);
+        let layers = place(&self.layers, range.base_layer)..place(&self.layers, range.base_layer + range.layers);
+        let planes = self.planes.iter().zip(0_u32..).filter(move |(plane, _)| range.aspects.contains(*plane));
+        planes.flat_map(move |(_, plane)| {
+            let layers = layers.clone();
+            mips.clone().flat_map(move |mip| layers.clone().map(move |layer| (plane * rows + mip) * columns + layer))
+        })
+    }
+
+    /// What part number `part` is.
+    pub(super) fn range(&self, part: u32) -> Subresources {
+        let (rows, columns) = (self.mip_rows(), self.layer_columns());
+        let (layer, mip, plane) = (part % columns, part / columns % rows, part / columns / rows);
+        let span = |cuts: &[u32], at: u32| (cuts[at as usize], cuts[at as usize + 1] - cuts[at as usize]);
+        let ((base_mip, mips), (base_layer, layers)) = (span(&self.mips, mip), span(&self.layers, layer));
+        let aspects = self.planes.iter().nth(plane as usize).unwrap_or(self.planes);
+        Subresources { aspects, base_mip, mips, base_layer, layers }
+    }
+}
+
+/// Joins two parts of one image into one range, if together they are one.
+pub(super) fn join(a: Subresources, b: Subresources) -> Option<Subresources> {
+    let same_mips = (a.base_mip, a.mips) == (b.base_mip, b.mips);
+    let same_layers = (a.base_layer, a.layers) == (b.base_layer, b.layers);
+    if a.aspects == b.aspects && same_mips && a.base_layer + a.layers == b.base_layer {
+        Some(Subresources { layers: a.layers + b.layers, ..a })
+    } else if a.aspects == b.aspects && same_layers && a.base_mip + a.mips == b.base_mip {
+        Some(Subresources { mips: a.mips + b.mips, ..a })
+    } else if same_mips && same_layers && !a.aspects.intersects(b.aspects) {
+        Some(Subresources { aspects: a.aspects | b.aspects, ..a })
+    } else {
+        None
+    }
+}

@@ -1,0 +1,63 @@
+//! What each image and buffer is made for: exactly the uses that the steps make of it, and what follows from its part in the
+//! frame.
+
+use super::Options;
+use super::model::{Adapted, Home, Kind};
+use super::outlive::cells;
+use super::parts::Grids;
+use super::retain::Retained;
+use super::scope::{Scoped, Step};
+use super::synchronise::Walked;
+use crate::vocabulary::{BufferUsage, LoadOp, StoreOp, Usage};
+
+/// Notes usages: what outlives the frame can be copied from, what has initial contents can be copied to; images that never
+/// leave their one scope become transient attachments.
+pub(super) fn note(
+    grids: &Grids,
+    adapted: &mut Adapted,
+    walked: &Walked,
+    retained: &Retained,
+    scoped: &Scoped,
+    options: &Options,
+) {
+    let attachments_only = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT;
+    for at in 0..adapted.stores.len() {
+        let store = &adapted.stores[at];
+        let bits = walked.usage(cells(grids, store));
+        let [first, last] = walked.lifetimes[at];
+        let in_one_scope =
+            first == last && matches!(scoped.steps.get(first as usize), Some(Step::Scope(_)));
+        let stays = in_one_scope
+            && retained.of(first).iter().filter(|ops| ops.target.store == at as u32).all(|ops| {
+                ops.load != LoadOp::Load && ops.store != StoreOp::Store
+            });
+        let store = &mut adapted.stores[at];
+        let home = store.home;
+        match &mut store.kind {
+            Kind::Image(image) => {
+                image.usage = Usage::from_bits_truncate(bits);
+                match home {
+                    Home::Transient if options.poison => image.usage |= Usage::TRANSFER_DST,
+                    Home::Transient if stays && attachments_only.contains(image.usage) => {
+                        image.usage |= Usage::TRANSIENT_ATTACHMENT;
+                    }
+                    Home::Transient => {}
+                    Home::Persistent { .. } => image.usage |= Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
+                    Home::Imported { .. } => image.usage |= Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
+                    Home::Output => image.usage |= Usage::TRANSFER_SRC,
+                }
+            }
+            Kind::Buffer(buffer) => {
+                buffer.usage = BufferUsage::from_bits_truncate(bits);
+                match home {
+                    Home::Transient if options.poison => buffer.usage |= BufferUsage::TRANSFER_DST,
+                    Home::Transient => {}
+                    Home::Persistent { .. } | Home::Imported { .. } => {
+                        buffer.usage |= BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST;
+                    }
+                    Home::Output => buffer.usage |= BufferUsage::TRANSFER_SRC,
+                }
+            }
+        }
+    }
+}
