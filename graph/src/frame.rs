@@ -5,7 +5,7 @@
 
 use crate::format::Format;
 use crate::source::{Sources, Span};
-use crate::vocabulary::{CompareOp, FillValue, Filter, Stages, State, StencilOp, Subresources};
+use crate::vocabulary::{Aspects, CompareOp, FillValue, Filter, Stages, State, StencilOp, Subresources};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

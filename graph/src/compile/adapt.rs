@@ -10,7 +10,7 @@ mod stores;
 
 use super::cull::Live;
 use super::link::covers;
-use super::model::{Adapted, Negotiated, Op, OpKind, Reason, Role, Start, StoreIndex, Use};
+use super::model::{Adapted, Negotiated, Op, OpKind, Reason, Start, StoreIndex, Use};
 use super::parts::{self, Grids};
 use super::Options;
 use crate::describe::Diagnostic;
@@ -254,7 +254,8 @@ impl Adapter<'_> {
         let declared = &self.input.frame.images[image.0 as usize];
         let because = format!("`{}` samples `{}` while it writes it", pass.name, declared.name);
         let why = self.reason(because, sampled.span);
-        let copy = self.second(image, "copy", why.clone(), self.current_samples(image));
+        let samples = self.current_samples(image);
+        let copy = self.second(image, "copy", why.clone(), samples);
         let range = self.range(image, sampled.range);
         self.push_transfer(OpKind::Copy(why), before, copy, range);
         self.copies.push((before, copy));

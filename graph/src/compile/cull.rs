@@ -15,8 +15,9 @@ pub(super) struct Live {
 pub(super) fn cull(frame: &Frame, linked: &Linked) -> Live {
     let mut needed = linked.needed.clone();
     let (mut passes, mut culled) = (Vec::with_capacity(frame.passes.len()), Vec::new());
-    for (number, pass) in (0_u32..).zip(&frame.passes).rev() {
-        let uses = linked.uses(number as usize);
+    for (number, pass) in frame.passes.iter().enumerate().rev() {
+        let uses = linked.uses(number);
+        let number = number as u32;
         if !pass.side_effect && !uses.iter().any(|used| used.writes() && needed[used.part()]) {
             culled.push(number);
             continue;

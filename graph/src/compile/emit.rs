@@ -13,7 +13,7 @@ use super::parts::Grids;
 use super::place::Placed;
 use super::retain::Retained;
 use super::scope::{Scoped, Step as Grouped, store_name};
-use super::synchronise::{NEVER, Pending};
+use super::synchronise::Pending;
 use crate::device::Profile;
 use crate::frame::{Frame, Resource as Declared, Work as FrameWork};
 use crate::plan::{
@@ -180,11 +180,6 @@ fn cause(parts: &Parts<'_>, op: &Op) -> Cause {
             Cause::Inserted { because: why.because.clone(), at: why.at.clone() }
         }
     }
-}
-
-/// Whether a barrier is needed after all.
-fn is_needed(pending: &Pending) -> bool {
-    pending.step != NEVER
 }
 
 /// The work of the pass that an operation is or stands in for.

@@ -40,7 +40,9 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
         note_usage(frame, pass, &mut usage);
         if let Some((first, _)) = attachments(pass).next() {
             if multisampled {
-                attachments(pass).for_each(|(other, _)| drop(together.union(first.0, other.0)));
+                for (other, _) in attachments(pass) {
+                    together.union(first.0, other.0);
+                }
             }
             errors.extend(disagreement(frame, pass));
         }

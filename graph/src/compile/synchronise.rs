@@ -49,11 +49,6 @@ impl Cell {
     pub(super) fn writes(&self) -> bool {
         !self.accesses.writes().is_empty()
     }
-
-    /// Whether the frame only reads it, in one layout.
-    pub(super) fn is_only_read(&self) -> bool {
-        !self.writes() && self.first_barrier == self.barrier
-    }
 }
 
 /// A barrier of one cell.

@@ -84,7 +84,7 @@ fn image_barrier(pending: &Pending, image: u32, range: Subresources) -> ImageBar
 /// Adds a barrier, joined with those before it that differ from it only in their part of the image.
 fn add(barriers: &mut Vec<ImageBarrier>, mut new: ImageBarrier) {
     while let Some(last) = barriers.last()
-        && ImageBarrier { range: new.range, after: new.after, hazard: new.hazard, ..last.clone() } == new
+        && (ImageBarrier { range: new.range, after: new.after, hazard: new.hazard, ..last.clone() }) == new
         && let Some(range) = join(last.range, new.range)
     {
         new = ImageBarrier { range, after: last.after.max(new.after), ..new };
