@@ -86,7 +86,7 @@ fn beside(figure: String, goal: Option<String>) -> String {
 
 fn measure(name: &str, frame: &Frame, device: &Profile, goals: Goals) -> Row {
     let compiled = || {
-        compile(frame, device, &mut Estimated(&device.memory), &Options::default())
+        compile(frame, device, &mut Estimated(device), &Options::default())
             .expect("the measured graphs are legal")
     };
     let plan = compiled();

@@ -14,7 +14,7 @@ use raster::{Raster, forward};
 fn compiled(frame: &Frame) -> Plan {
     let device = raster::device();
     let plan =
-        compile(frame, &device, &mut Estimated(&device.memory), &Options::default()).expect("the frame is legal");
+        compile(frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is legal");
     assert_eq!(verify(&plan), [], "{}", plan.tree());
     plan
 }
@@ -61,7 +61,7 @@ fn without_hdr_and_tone_mapping_the_scene_goes_straight_into_the_output() {
     let plan = compiled(&forward(1, false, false));
     assert_eq!(scopes(&plan).len(), 1);
     assert_eq!(plan.images.len(), 2, "the screen and the depth");
-    assert!(matches!(plan.image(scopes(&plan)[0].color[0].image).role, Role::Output { .. }));
+    assert!(matches!(plan.image(scopes(&plan)[0].color[0].image).role, Role::External { .. }));
     assert!(note(&plan, Stage::Adapt, "screen").contains("they are one image"), "{:?}", plan.notes);
 }
 
@@ -70,7 +70,7 @@ fn a_forward_that_only_loses_samples_is_the_resolve() {
     let plan = compiled(&forward(4, false, false));
     assert_eq!((plan.totals.resolves, plan.totals.folded_resolves, plan.totals.inserted_passes), (1, 1, 0));
     let resolve = scopes(&plan)[0].color[0].resolve.as_ref().expect("a folded resolve");
-    assert!(matches!(plan.image(resolve.image).role, Role::Output { .. }));
+    assert!(matches!(plan.image(resolve.image).role, Role::External { .. }));
 }
 
 #[test]
@@ -189,7 +189,7 @@ fn an_unsupported_sample_count_is_lowered_and_said() {
     for support in &mut device.formats {
         support.samples = if support.format == D32_SFLOAT { vec![1, 2] } else { vec![1, 2, 4] };
     }
-    let plan = compile(&forward(8, true, true), &device, &mut Estimated(&device.memory), &Options::default())
+    let plan = compile(&forward(8, true, true), &device, &mut Estimated(&device), &Options::default())
         .expect("the frame is legal");
     let color = plan.images.iter().find(|image| &*image.name == "color").expect("there is a color");
     assert_eq!(color.samples, 2);
@@ -256,7 +256,7 @@ fn a_pass_that_samples_multisampled_depth_as_one_value_is_refused() {
     raster.full_screen("fog").sample(depth).color(screen, Blend::Replace);
     let device = raster::device();
     let refused =
-        compile(&raster.output(screen), &device, &mut Estimated(&device.memory), &Options::default()).unwrap_err();
+        compile(&raster.output(screen), &device, &mut Estimated(&device), &Options::default()).unwrap_err();
     assert_eq!(refused.len(), 1);
     assert!(refused[0].message.contains("`fog` samples `depth` and it has 4 samples"), "{refused:?}");
 }
@@ -275,7 +275,7 @@ fn what_a_device_can_neither_filter_nor_blend_is_refused_by_name() {
     raster.objects("opaque").clear(color).clear_depth(depth);
     raster.objects("glass").color(color, Blend::Alpha).test_depth(depth);
     raster.full_screen("fog").sample_by(color, Filter::Linear).sample_by(depth, Filter::Linear).clear(screen);
-    let refused = compile(&raster.output(screen), &device, &mut Estimated(&device.memory), &Options::default());
+    let refused = compile(&raster.output(screen), &device, &mut Estimated(&device), &Options::default());
     let said: Vec<String> = refused.expect_err("it can't be drawn").into_iter().map(|error| error.message).collect();
     assert_eq!(
         said,
@@ -310,7 +310,7 @@ fn the_live_peak_is_that_of_all_heaps_together() {
     raster.full_screen("first").sample(color).color(near, Blend::Replace);
     raster.full_screen("second").sample(near).color(far, Blend::Replace);
     raster.full_screen("last").sample(near).sample(far).color(screen, Blend::Replace);
-    let plan = compile(&raster.output(screen), &device, &mut Estimated(&device.memory), &Options::default())
+    let plan = compile(&raster.output(screen), &device, &mut Estimated(&device), &Options::default())
         .expect("the frame is legal");
     assert_eq!(plan.heaps.len(), 2);
     assert_eq!(verify(&plan), [], "{}", plan.tree());
@@ -379,7 +379,7 @@ fn multisampled_depth_that_was_not_drawn_last_is_refused_as_an_output() {
     raster.forward("shift", near, far);
     let device = raster::device();
     let frame = raster.outputs(&[near, far]);
-    let errors = compile(&frame, &device, &mut Estimated(&device.memory), &Options::default())
+    let errors = compile(&frame, &device, &mut Estimated(&device), &Options::default())
         .expect_err("only a rendering scope resolves depth");
     assert!(errors[0].message.contains("`far`"), "{errors:?}");
 }

@@ -27,11 +27,19 @@ fn frame() -> Frame {
 
 fn dispatch(name: &str, image: ImageIndex) -> Pass {
     let stages = Stages::COMPUTE_SHADER;
-    let target = Storage { binding: "target".into(), image, span: Span::NONE, read: false, write: true, stages };
+    let target = Storage {
+        binding: "target".into(),
+        image,
+        range: Subresources::WHOLE,
+        span: Span::NONE,
+        read: false,
+        write: true,
+        stages,
+    };
     Pass {
         name: name.into(),
         span: Span::NONE,
-        work: Work::Dispatch { shader: name.into() },
+        work: Work::Dispatch { shader: name.into(), groups: Groups::Count([1; 3]) },
         sampled: Vec::new(),
         storage: vec![target],
         color: Vec::new(),
@@ -41,7 +49,7 @@ fn dispatch(name: &str, image: ImageIndex) -> Pass {
 }
 
 fn refusals(frame: &Frame, device: &Profile) -> Vec<String> {
-    match compile(frame, device, &mut Estimated(&device.memory), &Options::default()) {
+    match compile(frame, device, &mut Estimated(&device), &Options::default()) {
         Ok(plan) => panic!("it was compiled:\n{}", plan.tree()),
         Err(errors) => errors.into_iter().map(|error| error.message).collect(),
     }
@@ -118,7 +126,7 @@ fn attachments_of_one_pass_have_as_many_layers_and_are_no_more_than_the_device_h
 #[test]
 fn an_empty_frame_is_an_empty_plan() {
     let device = raster::device();
-    let plan = compile(&Frame::default(), &device, &mut Estimated(&device.memory), &Options::default());
+    let plan = compile(&Frame::default(), &device, &mut Estimated(&device), &Options::default());
     let plan = plan.expect("there is nothing to refuse");
     assert_eq!((plan.images.len(), plan.steps.len()), (0, 1));
     assert_eq!(verify(&plan), []);
@@ -127,7 +135,7 @@ fn an_empty_frame_is_an_empty_plan() {
 #[test]
 fn the_unchanged_frame_is_compiled() {
     let device = raster::device();
-    let plan = compile(&frame(), &device, &mut Estimated(&device.memory), &Options::default());
+    let plan = compile(&frame(), &device, &mut Estimated(&device), &Options::default());
     assert_eq!(verify(&plan.expect("it is legal")), []);
 }
 
@@ -143,7 +151,7 @@ fn forwarded_images_are_lowered_together() {
     let normal = raster.image("normal", R16G16B16A16_SFLOAT, 4);
     raster.objects("opaque").clear(color).clear(normal);
     raster.forward("glow", color, other);
-    let plan = compile(&raster.output(other), &device, &mut Estimated(&device.memory), &Options::default());
+    let plan = compile(&raster.output(other), &device, &mut Estimated(&device), &Options::default());
     let plan = plan.expect("the frame is legal");
     assert_eq!(plan.totals.inserted_passes, 0, "{}", plan.tree());
 }

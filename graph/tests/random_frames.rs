@@ -59,7 +59,7 @@ impl Maker {
         let name = format!("pass{}", self.frame.passes.len());
         let kind = self.byte() % 9;
         let draw = if kind < 3 { Draw::Objects(DrawList::Opaque) } else { Draw::FullScreen };
-        let work = Work::Draw { draw, shader: name.as_str().into(), discards: kind == 3 };
+        let work = Work::Draw { draw, shader: name.as_str().into(), discards: kind == 3, per_sample: false };
         let mut pass = Pass {
             name: name.as_str().into(),
             span: Span::NONE,
@@ -100,7 +100,7 @@ impl Maker {
             let test = if self.one_in(4) { CompareOp::Always } else { CompareOp::GreaterOrEqual };
             let write = self.one_in(2);
             let image = ImageIndex(depth as u32);
-            pass.depth = Some(DepthTarget { image, span: Span::NONE, clear, test, write });
+            pass.depth = Some(DepthTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, test, write, stencil: None });
         }
         let covers = matches!(pass.work, Work::Draw { draw: Draw::FullScreen, discards: false, .. })
             && pass.depth.as_ref().is_none_or(|depth| depth.test == CompareOp::Always);
@@ -115,7 +115,8 @@ impl Maker {
     fn color(&mut self, pass: &mut Pass, image: usize) {
         let blend = if self.one_in(2) && !IMAGES[image].0.is_integer() { Blend::Alpha } else { Blend::Replace };
         let clear = self.one_in(4).then_some([0.5; 4]);
-        pass.color.push(ColorTarget { image: ImageIndex(image as u32), span: Span::NONE, clear, blend });
+        let image = ImageIndex(image as u32);
+        pass.color.push(ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, blend });
     }
 
     /// Up to three images that are written by now; depth only where the pass doesn't change it.
@@ -138,7 +139,7 @@ impl Maker {
     }
 
     fn dispatch(&mut self, pass: &mut Pass) {
-        pass.work = Work::Dispatch { shader: pass.name.clone() };
+        pass.work = Work::Dispatch { shader: pass.name.clone(), groups: Groups::Count([1; 3]) };
         for number in 0..1 + self.byte() % 3 {
             let taken: Vec<u32> = pass.storage.iter().map(|storage| storage.image.0).collect();
             let fits = |_: &Maker, image: usize| IMAGES[image].1 == 1 && !taken.contains(&(image as u32));
@@ -192,14 +193,14 @@ fn frame(passes: &[Vec<u8>], about: [bool; IMAGES.len()], outputs: &[u8]) -> Fra
         if let Some(image) =
             maker.pick(|maker, image| maker.written[image] && image != 9 && !listed.contains(&(image as u32)))
         {
-            maker.frame.outputs.push(Output { image: ImageIndex(image as u32), span: Span::NONE });
+            maker.frame.outputs.push(Output { resource: Resource::Image(ImageIndex(image as u32)), span: Span::NONE, after: None });
         }
     }
     maker.frame
 }
 
 fn compiled(frame: &Frame, device: &Profile, options: &Options) -> Plan {
-    compile(frame, device, &mut Estimated(&device.memory), options)
+    compile(frame, device, &mut Estimated(&device), options)
         .unwrap_or_else(|errors| panic!("the frame is legal: {errors:?}"))
 }
 

@@ -1,10 +1,10 @@
 //! The graphs that the compiler is measured on, built in memory, and a device that has everything.
 
-use framewright_graph::device::{FormatSupport, MemoryModel, Profile};
+use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Frame, Image, ImageIndex, Output, Pass, Sampled, Storage, Work};
+use framewright_graph::frame::{Frame, Groups, Image, ImageIndex, Output, Pass, Resource, Sampled, Storage, Work};
 use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{Filter, Stages, Usage};
+use framewright_graph::vocabulary::{Filter, Stages, Subresources, Usage};
 use std::sync::Arc;
 
 /// A device that has every format at 1, 4 and 8 samples and adds nothing to an image's bytes.
@@ -24,7 +24,21 @@ pub(crate) fn device() -> Profile {
         max_color_attachments: 8,
         lazily_allocated_memory: false,
         formats: Format::ALL.iter().map(support).collect(),
-        memory: MemoryModel { alignment: 256, row_texels: 1, rows: 1 },
+        max_extent_3d: 2048,
+        max_layers: 2048,
+        queues: Queues::default(),
+        local_read: false,
+        memory: MemoryModel {
+            alignment: 256,
+            row_texels: 1,
+            row_bytes: 1,
+            rows: 1,
+            separate_stencil: false,
+            buffer_alignment: 256,
+            type_bits: 1,
+        },
+        known_needs: Vec::new(),
+        unknown: Vec::new(),
     }
 }
 
@@ -39,15 +53,7 @@ pub(crate) struct Builder {
 impl Builder {
     /// An image of one mip and one layer.
     pub(crate) fn image(&mut self, name: &str, format: Format, width: u32, height: u32) -> ImageIndex {
-        let image = Image {
-            name: name.into(),
-            span: Span::NONE,
-            format,
-            extent: [width, height, 1],
-            mips: 1,
-            layers: 1,
-            samples: 1,
-        };
+        let image = Image::new(name, format, width, height);
         self.frame.images.push(image);
         ImageIndex(self.frame.images.len() as u32 - 1)
     }
@@ -60,34 +66,35 @@ impl Builder {
         let sample = |image: &ImageIndex| Sampled {
             binding: sampled.clone(),
             image: *image,
+            range: Subresources::WHOLE,
+            frames_ago: 0,
             span: Span::NONE,
             per_sample: false,
+            own_pixel: false,
             filter: Filter::Nearest,
             stages,
         };
         let store = |(image, read): &(ImageIndex, bool)| Storage {
             binding: stored.clone(),
             image: *image,
+            range: Subresources::WHOLE,
             span: Span::NONE,
             read: *read,
             write: true,
             stages,
         };
+        let work = Work::Dispatch { shader: sampled.clone(), groups: Groups::Invocations([256, 256, 1]) };
         self.frame.passes.push(Pass {
-            name: name.into(),
-            span: Span::NONE,
-            work: Work::Dispatch { shader: sampled.clone() },
             sampled: reads.iter().map(sample).collect(),
             storage: writes.iter().map(store).collect(),
-            color: Vec::new(),
-            depth: None,
-            params: Vec::new(),
+            ..Pass::new(name, work)
         });
     }
 
     /// The frame, made for `output`.
     pub(crate) fn output(mut self, output: ImageIndex) -> Frame {
-        self.frame.outputs.push(Output { image: output, span: Span::NONE });
+        let resource = Resource::Image(output);
+        self.frame.outputs.push(Output { resource, span: Span::NONE, after: None });
         self.frame
     }
 }

@@ -6,10 +6,10 @@ pub(crate) mod graphs;
 
 use framewright_graph::format::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Image, ImageIndex, Output, Pass, Sampled, Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Image, ImageIndex, Output, Pass, Resource, Sampled, Work,
 };
 use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{CompareOp, Filter, Stages};
+use framewright_graph::vocabulary::{CompareOp, Filter, Stages, Subresources};
 pub(crate) use graphs::device;
 
 /// Builds a frame of raster passes, all images 64×64.
@@ -18,31 +18,21 @@ pub(crate) struct Raster(Frame);
 
 impl Raster {
     pub(crate) fn image(&mut self, name: &str, format: Format, samples: u32) -> ImageIndex {
-        let extent = [64, 64, 1];
-        self.0.images.push(Image { name: name.into(), span: Span::NONE, format, extent, mips: 1, layers: 1, samples });
+        self.0.images.push(Image { samples, ..Image::new(name, format, 64, 64) });
         ImageIndex(self.0.images.len() as u32 - 1)
     }
 
     fn pass(&mut self, name: &str, work: Work) -> Added<'_> {
-        self.0.passes.push(Pass {
-            name: name.into(),
-            span: Span::NONE,
-            work,
-            sampled: Vec::new(),
-            storage: Vec::new(),
-            color: Vec::new(),
-            depth: None,
-            params: Vec::new(),
-        });
+        self.0.passes.push(Pass::new(name, work));
         Added(self.0.passes.last_mut().expect("one was just added"))
     }
 
     pub(crate) fn objects(&mut self, name: &str) -> Added<'_> {
-        self.pass(name, Work::Draw { draw: Draw::Objects(DrawList::Opaque), shader: name.into(), discards: false })
+        self.pass(name, Work::Draw { draw: Draw::Objects(DrawList::Opaque), shader: name.into(), discards: false, per_sample: false })
     }
 
     pub(crate) fn full_screen(&mut self, name: &str) -> Added<'_> {
-        self.pass(name, Work::Draw { draw: Draw::FullScreen, shader: name.into(), discards: false })
+        self.pass(name, Work::Draw { draw: Draw::FullScreen, shader: name.into(), discards: false, per_sample: false })
     }
 
     pub(crate) fn forward(&mut self, name: &str, from: ImageIndex, to: ImageIndex) {
@@ -54,7 +44,7 @@ impl Raster {
     }
 
     pub(crate) fn outputs(mut self, images: &[ImageIndex]) -> Frame {
-        self.0.outputs = images.iter().map(|image| Output { image: *image, span: Span::NONE }).collect();
+        self.0.outputs = images.iter().map(|image| Output { resource: Resource::Image(*image), span: Span::NONE, after: None }).collect();
         self.0
     }
 }
@@ -64,7 +54,7 @@ pub(crate) struct Added<'a>(&'a mut Pass);
 
 impl Added<'_> {
     fn target(self, image: ImageIndex, clear: Option<[f32; 4]>, blend: Blend) -> Self {
-        self.0.color.push(ColorTarget { image, span: Span::NONE, clear, blend });
+        self.0.color.push(ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, blend });
         self
     }
 
@@ -77,7 +67,7 @@ impl Added<'_> {
     }
 
     fn depth(self, image: ImageIndex, clear: Option<f32>, test: CompareOp, write: bool) -> Self {
-        self.0.depth = Some(DepthTarget { image, span: Span::NONE, clear, test, write });
+        self.0.depth = Some(DepthTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, test, write, stencil: None });
         self
     }
 
@@ -111,8 +101,11 @@ impl Added<'_> {
         self.0.sampled.push(Sampled {
             binding: format!("source{}", self.0.sampled.len()).into(),
             image,
+            range: Subresources::WHOLE,
+            frames_ago: 0,
             span: Span::NONE,
             per_sample,
+            own_pixel: false,
             filter,
             stages: Stages::FRAGMENT_SHADER,
         });

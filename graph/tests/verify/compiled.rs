@@ -19,7 +19,7 @@ const OPTIONS: [Options; 4] = [
 ];
 
 fn compiled(frame: &Frame, device: &Profile, options: &Options) -> Plan {
-    compile(frame, device, &mut Estimated(&device.memory), options).expect("the frame is legal")
+    compile(frame, device, &mut Estimated(&device), options).expect("the frame is legal")
 }
 
 /// Two versions of a multisampled image, each read by others; two outputs.
