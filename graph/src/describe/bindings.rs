@@ -1,10 +1,13 @@
-//! `sample` and `params`: what a pass gives to its shader, by the shader's own names.
+//! `sample`, `storage`, `uniform` and `params`: what a pass gives to its shader, by the shader's own names.
 
 use super::Diagnostic;
 use super::leaf::{Entries, Leaf, Shape};
 use super::names::Scope;
-use super::pipeline::{Face, ImageRef, Name, Param, ParamValue, Sample};
+use super::parts::{self, Selected};
+use super::pass::{Face, Param, ParamValue, Part, Sample, Storage, StorageAccess, Uniform};
+use super::pipeline::Name;
 use super::reader::Reader;
+use super::values;
 use crate::vocabulary::Filter;
 use serde::Deserialize;
 use std::collections::HashMap;
@@ -14,52 +17,121 @@ use std::collections::HashMap;
 struct SampleFields<'src> {
     #[serde(borrow)]
     image: Leaf<'src>,
+    mip: Option<Leaf<'src>>,
+    mips: Option<Leaf<'src>>,
+    layer: Option<Leaf<'src>>,
+    layers: Option<Leaf<'src>>,
+    plane: Option<Leaf<'src>>,
+    previous: Option<Leaf<'src>>,
     filter: Option<Leaf<'src>>,
+    own_pixel: Option<Leaf<'src>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StorageFields<'src> {
+    #[serde(borrow)]
+    image: Option<Leaf<'src>>,
+    buffer: Option<Leaf<'src>>,
+    mip: Option<Leaf<'src>>,
+    layer: Option<Leaf<'src>>,
+    layers: Option<Leaf<'src>>,
+    previous: Option<Leaf<'src>>,
+    access: Option<Leaf<'src>>,
 }
 
 const IMAGES: &str = "a sampled image is `\"image\"`, `Samples(\"image\")`, `Resolved(\"image\")` or \
-                      `(image: \"image\", filter: Nearest)`";
+                      `(image: \"image\", mip: 0, filter: Nearest)`";
+
+/// Filters, by name.
+pub(super) const FILTERS: [(&str, Filter); 2] = [("Nearest", Filter::Nearest), ("Linear", Filter::Linear)];
+
+const ACCESSES: [(&str, StorageAccess); 3] =
+    [("Read", StorageAccess::Read), ("Write", StorageAccess::Write), ("ReadWrite", StorageAccess::ReadWrite)];
 
 /// Images by the shader's names.
 pub(super) fn samples<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Sample>> {
-    let images = entries(reader, leaf, "`sample`", "a sampled image", |reader, value| {
-        let (leaf, filter) = match value.shape() {
+    entries(reader, leaf, "`sample`", "a sampled image", |reader, binding, value| {
+        let (name, selected, filter, own_pixel) = match value.shape() {
             Shape::Parentheses => {
                 let fields: SampleFields<'_> = reader.read(value, "a sampled image")?;
-                (fields.image, fields.filter)
+                let SampleFields { image, mip, mips, layer, layers, plane, previous, filter, own_pixel } = fields;
+                (image, Selected { mip, mips, layer, layers, plane, previous }, filter, own_pixel)
             }
-            _ => (value, None),
+            _ => (value, Selected::default(), None, None),
         };
-        let image = image(reader, scope, leaf);
+        let image = face(reader, name).map(|(name, face)| (parts::image_part(reader, scope, name, selected), face));
         let filter = match filter {
             Some(leaf) => {
-                let (word, rest) =
-                    reader.word(leaf, "a filter", &["Nearest", "Linear"], "write `Nearest` or `Linear`")?;
-                reader.bare(word, rest)?;
-                Some(reader.spanned(leaf, if word == "Linear" { Filter::Linear } else { Filter::Nearest }))
+                values::choice(reader, leaf, "a filter", &FILTERS).map(|filter| Some(reader.spanned(leaf, filter)))
             }
-            None => None,
+            None => Some(None),
         };
-        let (image, face) = image?;
-        Some((image, face, filter))
-    })?;
-    let sample = |(binding, (image, face, filter))| Sample { binding, image, face, filter };
-    Some(images.into_iter().map(sample).collect())
+        let own_pixel = match own_pixel {
+            Some(leaf) => reader.truth(leaf).map(|own| Some(reader.spanned(leaf, own))),
+            None => Some(None),
+        };
+        let (part, face) = image?;
+        Some(Sample { binding: binding?, part: part?, face, filter: filter?, own_pixel: own_pixel? })
+    })
 }
 
-fn image<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<(ImageRef, Face)> {
+/// An image's name, and which of its faces is meant.
+fn face<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<(Leaf<'src>, Face)> {
     if let Shape::Text = leaf.shape() {
-        return Some((scope.image(reader, leaf)?, Face::Plain));
+        return Some((leaf, Face::Plain));
     }
     let (word, rest) = reader.word(leaf, "a face of an image", &["Samples", "Resolved"], IMAGES)?;
     let (inner,): (Leaf<'_>,) = reader.inside(leaf, rest, &format!("{word}(\"image\")"))?;
-    let face = if word == "Samples" { Face::Samples } else { Face::Resolved };
-    Some((scope.image(reader, inner)?, face))
+    Some((inner, if word == "Samples" { Face::Samples } else { Face::Resolved }))
+}
+
+/// Images and buffers that the shader reads and writes, by its names.
+pub(super) fn storage<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Storage>> {
+    entries(reader, leaf, "`storage`", "a storage image or buffer", |reader, binding, value| {
+        let Shape::Parentheses = value.shape() else {
+            let part = parts::any(reader, scope, value);
+            return Some(Storage { binding: binding?, part: part?, access: None });
+        };
+        let fields: StorageFields<'_> = reader.read(value, "a storage image or buffer")?;
+        let StorageFields { image, buffer, mip, layer, layers, previous, access } = fields;
+        let selected = Selected { mip, layer, layers, previous, ..Selected::default() };
+        let part = parts::one_of(reader, scope, value, image, buffer, selected);
+        let access = match access {
+            Some(leaf) => {
+                values::choice(reader, leaf, "an access", &ACCESSES).map(|access| Some(reader.spanned(leaf, access)))
+            }
+            None => Some(None),
+        };
+        let (part, access) = (part?, access?);
+        if let Some(previous) = part.previous()
+            && access.is_none_or(|access| access.value != StorageAccess::Read)
+        {
+            let written = Diagnostic::new(previous.span, "what an earlier frame left can only be read");
+            reader.report(written.help("add `access: Read`"));
+            return None;
+        }
+        if let (Part::Image(image), Some(previous)) = (part, part.previous()) {
+            let sampled =
+                Diagnostic::new(previous.span, "images of earlier frames can be sampled, not read as storage");
+            reader.report(sampled.label(image.image.span, "this image").help("name it in `sample`"));
+            return None;
+        }
+        Some(Storage { binding: binding?, part, access })
+    })
+}
+
+/// Buffers that the shader reads as uniform blocks, by its names.
+pub(super) fn uniforms<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Uniform>> {
+    entries(reader, leaf, "`uniform`", "a uniform block", |reader, binding, value| {
+        let part = parts::buffer(reader, scope, value);
+        Some(Uniform { binding: binding?, part: part? })
+    })
 }
 
 /// Values by the names of the shader's parameters.
 pub(super) fn params<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Param>> {
-    let values = entries(reader, leaf, "`params`", "a parameter", |reader, leaf| {
+    entries(reader, leaf, "`params`", "a parameter", |reader, name, leaf| {
         let value = match leaf.shape() {
             Shape::Text => ParamValue::Setting(scope.any_setting(reader, leaf)?),
             Shape::Word("true" | "false", None) => ParamValue::Bool(reader.truth(leaf)?),
@@ -72,9 +144,8 @@ pub(super) fn params<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: L
                 return None;
             }
         };
-        Some(reader.spanned(leaf, value))
-    })?;
-    Some(values.into_iter().map(|(name, value)| Param { name, value }).collect())
+        Some(Param { name: name?, value: reader.spanned(leaf, value) })
+    })
 }
 
 /// The entries of a map whose keys are names, each once.
@@ -83,8 +154,8 @@ fn entries<'src, T>(
     leaf: Leaf<'src>,
     map: &str,
     what: &str,
-    mut lower: impl FnMut(&mut Reader<'src>, Leaf<'src>) -> Option<T>,
-) -> Option<Vec<(Name, T)>> {
+    mut lower: impl FnMut(&mut Reader<'src>, Option<Name>, Leaf<'src>) -> Option<T>,
+) -> Option<Vec<T>> {
     let Entries(pairs) = reader.map(leaf, map)?;
     let mut names = HashMap::new();
     let mut list = Vec::new();
@@ -98,9 +169,9 @@ fn entries<'src, T>(
             reader.report(twice.remark("again here").label(first, "first here"));
             complete = false;
         }
-        match (name, lower(reader, value)) {
-            (Some(name), Some(value)) => list.push((name, value)),
-            _ => complete = false,
+        match lower(reader, name, value) {
+            Some(value) => list.push(value),
+            None => complete = false,
         }
     }
     complete.then_some(list)

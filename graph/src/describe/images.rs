@@ -1,14 +1,22 @@
-//! `images`: format, size and samples, each its own or another image's.
+//! `images`: format, size, samples, mip levels, layers, shape and lifetime, most its own or another image's.
 
 use super::leaf::{Leaf, Shape};
 use super::names::Scope;
-use super::pipeline::{Format, Image, ImageRef, Samples, SettingKind, Size, Value};
+use super::pipeline::{ImageRef, Name, SettingKind, Value};
 use super::reader::Reader;
+use super::resources::{Format, Image, Layers, Lifetime, Mips, Samples, Shape as ImageShape, Size};
+use super::{Spanned, lifetimes, values};
 use crate::format;
 use serde::Deserialize;
 
 /// Largest width and height that a file may ask for.
 pub(crate) const LARGEST_SIZE: u32 = 16384;
+
+/// Most array layers that a file may ask for: what desktop devices have.
+pub(crate) const MOST_LAYERS: i64 = 2048;
+
+/// Mip levels that an image of the largest size has.
+const MOST_MIPS: i64 = 15;
 
 /// Sample counts that a file may ask for.
 pub(crate) const SAMPLE_COUNTS: [i64; 5] = [1, 2, 4, 8, 16];
@@ -21,6 +29,10 @@ pub(super) struct ImageFields<'src> {
     format: Leaf<'src>,
     size: Leaf<'src>,
     samples: Option<Leaf<'src>>,
+    mips: Option<Leaf<'src>>,
+    layers: Option<Leaf<'src>>,
+    shape: Option<Leaf<'src>>,
+    lifetime: Option<Leaf<'src>>,
 }
 
 #[derive(Deserialize)]
@@ -30,7 +42,7 @@ struct ColorFields<'src> {
     hdr: Option<Leaf<'src>>,
 }
 
-const FORMATS: &str = "a format is `Color(hdr: …)`, `Depth`, `Output`, `Like(\"image\")` or one of Vulkan's, such as `R16G16B16A16_SFLOAT`";
+const FORMATS: &str = "a format is `Color(hdr: …)`, `Depth`, `DepthStencil`, `Output`, `Like(\"image\")` or one of Vulkan's, such as `R16G16B16A16_SFLOAT`";
 const SIZES: &str =
     "a size is `Output`, `Scaled(0.5)`, `Scaled(0.5, \"image\")`, `Fixed(640, 480)` or `Like(\"image\")`";
 const COUNTS: &str = "sample counts are 1, 2, 4, 8, 16, the name of a setting, or `Like(\"image\")`";
@@ -40,16 +52,41 @@ pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, fields: 
     let name = reader.name(fields.name, "an image");
     let format = format(reader, scope, fields.format);
     let size = size(reader, scope, fields.size);
-    let samples = match fields.samples {
-        Some(leaf) => samples(reader, scope, leaf).map(|samples| reader.spanned(leaf, samples)),
-        None => name.as_ref().map(|name| super::Spanned { value: Samples::Count(Value::Constant(1)), span: name.span }),
+    let samples = or(reader, fields.samples, &name, Samples::Count(Value::Constant(1)), |reader, leaf| {
+        samples(reader, scope, leaf)
+    });
+    let mips =
+        or(reader, fields.mips, &name, Mips::Count(Value::Constant(1)), |reader, leaf| mips(reader, scope, leaf));
+    let layers = or(reader, fields.layers, &name, Layers::Default, |reader, leaf| layers(reader, scope, leaf));
+    let shape = or(reader, fields.shape, &name, ImageShape::D2, |reader, leaf| shape(reader, scope, leaf));
+    let lifetime = match fields.lifetime {
+        Some(leaf) => lifetimes::lower(reader, scope, leaf, lifetimes::Of::Image),
+        None => name.as_ref().map(|name| Spanned { value: Lifetime::Transient, span: name.span }),
     };
     Some(Image {
         name: name?,
         format: reader.spanned(fields.format, format?),
         size: reader.spanned(fields.size, size?),
         samples: samples?,
+        mips: mips?,
+        layers: layers?,
+        shape: shape?,
+        lifetime: lifetime?,
     })
+}
+
+/// The value of a field that may be absent; its place is then the image's name.
+fn or<'src, T>(
+    reader: &mut Reader<'src>,
+    leaf: Option<Leaf<'src>>,
+    name: &Option<Name>,
+    absent: T,
+    lower: impl FnOnce(&mut Reader<'src>, Leaf<'src>) -> Option<T>,
+) -> Option<Spanned<T>> {
+    match leaf {
+        Some(leaf) => lower(reader, leaf).map(|value| reader.spanned(leaf, value)),
+        None => name.as_ref().map(|name| Spanned { value: absent, span: name.span }),
+    }
 }
 
 /// `("image")`, what stands behind `Like`.
@@ -64,8 +101,10 @@ fn like<'src>(
 }
 
 fn format<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Format> {
-    let known: Vec<&str> =
-        ["Color", "Depth", "Output", "Like"].into_iter().chain(format::Format::ALL.iter().map(|f| f.name())).collect();
+    let known: Vec<&str> = ["Color", "Depth", "DepthStencil", "Output", "Like"]
+        .into_iter()
+        .chain(format::Format::ALL.iter().map(|f| f.name()))
+        .collect();
     let (word, rest) = reader.word(leaf, "a format", &known, FORMATS)?;
     match word {
         "Color" => {
@@ -90,6 +129,7 @@ fn format<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) 
             Some(Format::Color { hdr })
         }
         "Depth" => reader.bare(word, rest).map(|()| Format::Depth),
+        "DepthStencil" => reader.bare(word, rest).map(|()| Format::DepthStencil),
         "Output" => reader.bare(word, rest).map(|()| Format::Output),
         "Like" => like(reader, scope, leaf, rest).map(Format::Like),
         vulkan => {
@@ -189,6 +229,40 @@ fn samples<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>)
         _ => {
             let (_, rest) = reader.word(leaf, "a sample count", &["Like"], COUNTS)?;
             like(reader, scope, leaf, rest).map(Samples::Like)
+        }
+    }
+}
+
+fn mips<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Mips> {
+    let forms = "mip levels are a number, the name of a setting, `Full` or `Like(\"image\")`";
+    if let Shape::Text | Shape::Number = leaf.shape() {
+        return values::whole(reader, scope, leaf, "number of mip levels", 1..=MOST_MIPS).map(Mips::Count);
+    }
+    let (word, rest) = reader.word(leaf, "a number of mip levels", &["Full", "Like"], forms)?;
+    match word {
+        "Full" => reader.bare(word, rest).map(|()| Mips::Full),
+        _ => like(reader, scope, leaf, rest).map(Mips::Like),
+    }
+}
+
+fn layers<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Layers> {
+    let forms = "layers are a number, the name of a setting or `Like(\"image\")`";
+    if let Shape::Text | Shape::Number = leaf.shape() {
+        return values::whole(reader, scope, leaf, "number of layers", 1..=MOST_LAYERS).map(Layers::Count);
+    }
+    let (_, rest) = reader.word(leaf, "a number of layers", &["Like"], forms)?;
+    like(reader, scope, leaf, rest).map(Layers::Like)
+}
+
+fn shape<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<ImageShape> {
+    let forms = "a shape is `D2`, `D3(depth)` or `Cube`";
+    let (word, rest) = reader.word(leaf, "a shape", &["D2", "D3", "Cube"], forms)?;
+    match word {
+        "D2" => reader.bare(word, rest).map(|()| ImageShape::D2),
+        "Cube" => reader.bare(word, rest).map(|()| ImageShape::Cube),
+        _ => {
+            let (depth,): (Leaf<'_>,) = reader.inside(leaf, rest, "D3(64)")?;
+            values::whole(reader, scope, depth, "depth", 1..=i64::from(LARGEST_SIZE)).map(ImageShape::D3)
         }
     }
 }

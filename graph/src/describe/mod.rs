@@ -7,61 +7,107 @@
 //! depends on chosen settings, the scene, the view and the shaders comes in [`crate::expand`].
 //!
 //! # The language
+//! `docs/pipeline-format.md` tells what each field means; this is its grammar.
 //! ```text
-//! Pipeline(version: 1, settings: [SETTING…], images: [IMAGE…], passes: [PASS…], outputs: ["image"…])
+//! Pipeline(version: 1, settings: [SETTING…], images: [IMAGE…], buffers: [BUFFER…], passes: [PASS…], outputs: [OUTPUT…])
 //!
 //! SETTING    (name: "…", value: KIND, about: "…")                  `about` may be left out
 //! KIND       Bool(default: true) | OneOf(default: 4, of: [1, 4])
 //!            | Number(default: 1.0, min: 0.0, max: 2.0) | Integer(default: 1, min: 0, max: 9)
 //!
-//! IMAGE      (name: "…", format: FORMAT, size: SIZE, samples: SAMPLES)     without `samples`: 1
-//! FORMAT     Color(hdr: true | "setting") | Depth | Output | Like("image") | R8_UNORM and others by Vulkan's name
+//! IMAGE      (name: "…", format: FORMAT, size: SIZE, samples: SAMPLES, mips: MIPS, layers: LAYERS, shape: SHAPE,
+//!             lifetime: LIFETIME)
+//! FORMAT     Color(hdr: true | "setting") | Depth | DepthStencil | Output | Like("image") | R8_UNORM and others of Vulkan
 //! SIZE       Output | Scaled(FACTOR) | Scaled(FACTOR, "image") | Fixed(640, 480) | Like("image")
 //! FACTOR     0.5 | "setting"                                       of the frame or an image, rounded down, at least 1
-//! SAMPLES    4 | "setting" | Like("image")
+//! SAMPLES    4 | "setting" | Like("image")                         by default 1
+//! MIPS       4 | "setting" | Full | Like("image")                  by default 1
+//! LAYERS     4 | "setting" | Like("image")                         by default 1, of a cube 6
+//! SHAPE      D2 | D3(64 | "setting") | Cube                        by default D2; D3 takes the depth
+//! BUFFER     (name: "…", bytes: BYTES, lifetime: LIFETIME)
+//! BYTES      4096 | "setting" | Times(16, "setting") | PerTexel(4, "image") | Like("buffer")
+//! LIFETIME   Transient | Persistent(initial: VALUE) | History(frames: 1, initial: VALUE)
+//!            | Imported(before: STATE, after: STATE) | Like("name")           `initial`, `frames`, `after` may be left out
+//! VALUE      0 | (0.0, 0) | (0.0, 0.0, 0.0, 1.0)                   every component or word | depth, stencil | colour
+//! STATE      Undefined | ColorAttachment | DepthAttachment | Sampled | Storage | Uniform | Vertex | Index | Indirect
+//!            | TransferSource | TransferTarget | Present | Host | (stages: [STAGE…], accesses: [ACCESS…], layout: LAYOUT)
 //!
-//! PASS       (name: "…", draw: DRAW, shader: "…", sample: {"shader's name": SAMPLED…}, color: [COLOR…], depth: DEPTH,
-//!             params: {"shader's name": PARAM…}, when: "CONDITION", otherwise: Forward(from: "image", to: "image"))
-//! DRAW       Objects(Opaque | Masked | Transparent)                with `shader`
+//! PASS       (name: "…", WORK, sample: {"shader's name": SAMPLED…}, storage: {"shader's name": STORAGE…},
+//!             uniform: {"shader's name": BUFFERS…}, params: {"shader's name": PARAM…}, color: [COLOR…], depth: DEPTH,
+//!             side_effect: true, when: "CONDITION", otherwise: Forward(from: "image", to: "image"))
+//! WORK       draw: DRAW | dispatch: "shader", groups: GROUPS | copy: (from: PART, to: PART)
+//!            | blit: (from: PART, to: PART, filter: FILTER) | fill: (to: PART, value: VALUE)
+//!            | custom: "name", reads: [PART…], writes: [PART…]
+//! DRAW       Objects(Opaque | Masked | Transparent), shader: "…" | FullScreen("shader")
 //!            | Sky                                                 without `shader`: "sky"
-//!            | FullScreen("shader")
-//! SAMPLED    FACE | (image: FACE, filter: Nearest | Linear)        by default Linear for colour, else Nearest
+//!            | Vertices(COUNT, COUNT), shader: "…", vertex: BUFFERS, index: BUFFERS       vertices, instances
+//!            | Indirect(BUFFERS), shader: "…", vertex: BUFFERS, index: BUFFERS
+//! GROUPS     Count(COUNT, COUNT, COUNT) | Invocations(COUNT, COUNT, COUNT) | Texels(IMAGES) | Indirect(BUFFERS, OFFSET)
+//! COUNT      8 | "setting"
+//! PART       IMAGES | BUFFERS
+//! IMAGES     "image" | (image: "…", SELECTED)
+//! SELECTED   mip: 1, mips: 2 | Rest, layer: 1, layers: 2 | Rest, plane: Depth | Stencil, previous: 1
+//! BUFFERS    "buffer" | (buffer: "…", previous: 1)
+//! SAMPLED    FACE | (image: FACE, SELECTED, filter: FILTER, own_pixel: true)
+//! FILTER     Nearest | Linear                                      by default Linear for colour, else Nearest
 //! FACE       "image" | Samples("image") | Resolved("image")        the plain name: as the shader declares it
-//! COLOR      "image" | (image: "…", clear: (r, g, b, a), blend: Replace | Alpha | Premultiplied | Additive)
-//! DEPTH      "image" | (image: "…", clear: 0.0, test: GreaterOrEqual, write: true)
+//! STORAGE    PART | (image: "…", SELECTED, access: ACCESS) | (buffer: "…", previous: 1, access: ACCESS)
+//! ACCESS     Read | Write | ReadWrite                              by default as the shader declares it
+//! COLOR      "image" | (image: "…", SELECTED, clear: (r, g, b, a), blend: Replace | Alpha | Premultiplied | Additive)
+//! DEPTH      "image" | (image: "…", SELECTED, clear: 0.0, test: GreaterOrEqual, write: true, stencil: STENCIL)
+//! STENCIL    (clear: 0, test: Always, reference: 0, pass: Keep)
 //! PARAM      1.0 | 1 | true | "setting"
+//! OUTPUT     "name" | (image: "…", after: STATE) | (buffer: "…", after: STATE)
 //! CONDITION  names of settings and facts (`scene.has_opaque`, `scene.has_alpha_clip`, `scene.has_transparent`) with `!`,
 //!            `&&` and `||`, the last binding least
 //! ```
 //! Names that a file gives begin with a letter or `_` and go on with letters, digits, `_` and `-`, at most 64 bytes.
 
 mod bindings;
+mod buffers;
 mod circles;
 mod condition;
 mod diagnostic;
 mod images;
 mod json;
 mod leaf;
+mod lifetimes;
 mod names;
+mod outputs;
+mod parts;
+mod pass;
 mod passes;
 mod pipeline;
+mod previous;
 mod reader;
 mod render;
+mod resources;
 mod reword;
 mod settings;
 mod suggest;
 mod targets;
+mod values;
+mod work;
 
+pub(crate) use buffers::LARGEST_BUFFER;
 pub use diagnostic::{Diagnostic, Label};
 pub(crate) use images::{LARGEST_SIZE, SAMPLE_COUNTS};
 pub use json::to_json;
+pub use pass::{
+    BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, Param, ParamValue, Part, Pass, Sample, Selection,
+    Storage, StorageAccess, Uniform, Work,
+};
 pub use pipeline::{
-    Color, Condition, Depth, Face, Fact, Format, Forward, Image, ImageRef, Name, Param, ParamValue, Pass, Pipeline,
-    Sample, Samples, Setting, SettingKind, SettingRef, Size, Spanned, Subject, Term, Value,
+    BufferRef, Condition, Fact, ImageRef, Name, Output, Pipeline, ResourceRef, Setting, SettingKind, SettingRef,
+    Spanned, Subject, Term, Value,
 };
 pub use render::{escape, render};
+pub use resources::{
+    Buffer, Bytes, Fill, Format, Image, Layers, Lifetime, Mips, Samples, Shape as ImageShape, Size, State, StateWord,
+};
 pub(crate) use settings::shown as shown_number;
 pub use suggest::{help as suggestion, nearest};
+pub(crate) use work::MOST_GROUPS;
 
 /// What readers of RON files are made of: pipelines here, scenes elsewhere.
 pub mod text {
@@ -75,7 +121,6 @@ use leaf::{Leaf, Shape};
 use names::{Names, Scope};
 use reader::Reader;
 use serde::Deserialize;
-use std::collections::HashMap;
 
 /// The version of the language that this library reads.
 pub const LANGUAGE_VERSION: i64 = 1;
@@ -90,6 +135,7 @@ struct PipelineFields<'src> {
     _version: Leaf<'src>,
     settings: Option<Leaf<'src>>,
     images: Leaf<'src>,
+    buffers: Option<Leaf<'src>>,
     passes: Leaf<'src>,
     outputs: Leaf<'src>,
 }
@@ -205,18 +251,30 @@ fn whole<'src>(reader: &mut Reader<'src>, text: &'src str) -> Option<Pipeline> {
     };
     let mut image_names = Names::new("image");
     let images = entries(reader, fields.images, "`images`", "image", &mut image_names);
-    let scope = Scope { settings: &setting_names, kinds: &kinds, images: &image_names };
+    let mut buffer_names = Names::new("buffer");
+    let buffers = match fields.buffers {
+        Some(list) => entries(reader, list, "`buffers`", "buffer", &mut buffer_names),
+        None => Vec::new(),
+    };
+    let scope = Scope { settings: &setting_names, kinds: &kinds, images: &image_names, buffers: &buffer_names };
+    scope.images_and_buffers_differ(reader);
     let images: Vec<Option<Image>> =
         images.iter().map(|fields| fields.as_ref().and_then(|fields| images::lower(reader, &scope, fields))).collect();
-    circles::find(&images, &mut reader.errors);
+    let buffers: Vec<Option<Buffer>> = buffers
+        .iter()
+        .map(|fields| fields.as_ref().and_then(|fields| buffers::lower(reader, &scope, fields)))
+        .collect();
+    circles::find(&images, &buffers, &mut reader.errors);
     let passes: Vec<Option<Pass>> = entries(reader, fields.passes, "`passes`", "pass", &mut Names::new("pass"))
         .iter()
         .map(|fields| fields.as_ref().and_then(|fields| passes::lower(reader, &scope, fields)))
         .collect();
-    let outputs = outputs(reader, &scope, fields.outputs)?;
+    previous::check(&images, &buffers, &passes, &mut reader.errors);
+    let outputs = outputs::lower(reader, &scope, fields.outputs)?;
     Some(Pipeline {
         settings: kinds.into_iter().collect::<Option<_>>()?,
         images: images.into_iter().collect::<Option<_>>()?,
+        buffers: buffers.into_iter().collect::<Option<_>>()?,
         passes: passes.into_iter().collect::<Option<_>>()?,
         outputs,
     })
@@ -248,22 +306,4 @@ fn entries<'src, T: Deserialize<'src>>(
             reader.read(leaf, &known)
         })
         .collect()
-}
-
-/// The images that leave the frame, each once.
-fn outputs<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, list: Leaf<'src>) -> Option<Vec<ImageRef>> {
-    let leaves = reader.list(list, "`outputs`")?;
-    if leaves.is_empty() {
-        reader.wrong(list, "a frame without outputs shows nothing", "name the image that is shown: `outputs: [\"…\"]`");
-        return None;
-    }
-    let images: Vec<Option<ImageRef>> = leaves.into_iter().map(|leaf| scope.image(reader, leaf)).collect();
-    let mut first = HashMap::new();
-    for image in images.iter().flatten() {
-        if let Some(first) = first.insert(image.index, image.span) {
-            let twice = Diagnostic::new(image.span, "this image is an output twice");
-            reader.report(twice.remark("again here").label(first, "first here"));
-        }
-    }
-    images.into_iter().collect()
 }

@@ -1,11 +1,11 @@
-//! `passes`: what each draws, when, and what stands in for it when it is off.
+//! `passes`: what each does, when, and what stands in for it when it is off.
 
 use super::leaf::Leaf;
 use super::names::Scope;
-use super::pipeline::{Color, Depth, Forward, Name, Pass};
+use super::pass::{Color, Depth, Forward, Part, Pass, Work};
+use super::pipeline::ImageRef;
 use super::reader::Reader;
-use super::{Diagnostic, bindings, condition, targets};
-use crate::frame::{Draw, DrawList};
+use super::{Diagnostic, bindings, condition, parts, targets, work};
 use serde::Deserialize;
 use std::collections::HashMap;
 
@@ -13,13 +13,26 @@ use std::collections::HashMap;
 #[serde(rename = "Pass", deny_unknown_fields)]
 pub(super) struct PassFields<'src> {
     #[serde(borrow)]
-    name: Leaf<'src>,
-    draw: Leaf<'src>,
-    shader: Option<Leaf<'src>>,
-    sample: Option<Leaf<'src>>,
-    color: Option<Leaf<'src>>,
-    depth: Option<Leaf<'src>>,
-    params: Option<Leaf<'src>>,
+    pub(super) name: Leaf<'src>,
+    pub(super) draw: Option<Leaf<'src>>,
+    pub(super) dispatch: Option<Leaf<'src>>,
+    pub(super) copy: Option<Leaf<'src>>,
+    pub(super) blit: Option<Leaf<'src>>,
+    pub(super) fill: Option<Leaf<'src>>,
+    pub(super) custom: Option<Leaf<'src>>,
+    pub(super) shader: Option<Leaf<'src>>,
+    pub(super) groups: Option<Leaf<'src>>,
+    pub(super) sample: Option<Leaf<'src>>,
+    pub(super) storage: Option<Leaf<'src>>,
+    pub(super) uniform: Option<Leaf<'src>>,
+    pub(super) vertex: Option<Leaf<'src>>,
+    pub(super) index: Option<Leaf<'src>>,
+    pub(super) color: Option<Leaf<'src>>,
+    pub(super) depth: Option<Leaf<'src>>,
+    pub(super) reads: Option<Leaf<'src>>,
+    pub(super) writes: Option<Leaf<'src>>,
+    pub(super) params: Option<Leaf<'src>>,
+    pub(super) side_effect: Option<Leaf<'src>>,
     when: Option<Leaf<'src>>,
     otherwise: Option<Leaf<'src>>,
 }
@@ -32,39 +45,46 @@ struct ForwardFields<'src> {
     to: Leaf<'src>,
 }
 
-const DRAWS: &str = "a draw is `Objects(Opaque)`, `Objects(Masked)`, `Objects(Transparent)`, `Sky` or \
-                     `FullScreen(\"shader\")`";
-
 /// A pass, once its fields are told apart.
 pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, fields: &PassFields<'src>) -> Option<Pass> {
     let name = reader.name(fields.name, "a pass");
     let what = name.as_ref().map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
-    let draw = draw(reader, fields, &what);
+    let work = work::lower(reader, scope, fields, &what);
     let when = optional(fields.when, |leaf| condition::lower(reader, scope, leaf));
     let sample = optional(fields.sample, |leaf| bindings::samples(reader, scope, leaf));
+    let storage = optional(fields.storage, |leaf| bindings::storage(reader, scope, leaf));
+    let uniform = optional(fields.uniform, |leaf| bindings::uniforms(reader, scope, leaf));
+    let vertex = optional(fields.vertex, |leaf| parts::buffer(reader, scope, leaf));
+    let index = optional(fields.index, |leaf| parts::buffer(reader, scope, leaf));
     let color = optional(fields.color, |leaf| targets::color(reader, scope, leaf));
     let depth = optional(fields.depth, |leaf| targets::depth(reader, scope, leaf));
     let params = optional(fields.params, |leaf| bindings::params(reader, scope, leaf));
+    let side_effect = optional(fields.side_effect, |leaf| reader.truth(leaf));
     let otherwise = optional(fields.otherwise, |leaf| forward(reader, scope, leaf));
 
     if let (Some(color), Some(depth)) = (&color, &depth) {
         targets_make_sense(reader, fields, &what, color.as_deref().unwrap_or(&[]), depth.as_ref());
-        if let (Some(otherwise), Some(leaf)) = (otherwise.flatten(), fields.otherwise) {
-            forward_makes_sense(reader, fields, leaf, &otherwise, color.as_deref().unwrap_or(&[]), depth.as_ref());
-        }
     }
-    let (draw, shader) = draw?;
-    Some(Pass {
+    let pass = Pass {
         name: name?,
         when: when?,
-        draw,
-        shader,
+        work: work?,
         sample: sample?.unwrap_or_default(),
+        storage: storage?.unwrap_or_default(),
+        uniform: uniform?.unwrap_or_default(),
+        vertex: vertex?,
+        index: index?,
         color: color?.unwrap_or_default(),
         depth: depth?,
         params: params?.unwrap_or_default(),
+        side_effect: side_effect?.unwrap_or_default(),
         otherwise: otherwise?,
-    })
+    };
+    bindings_differ(reader, &pass);
+    if let (Some(otherwise), Some(leaf)) = (pass.otherwise, fields.otherwise) {
+        forward_makes_sense(reader, fields, leaf, &otherwise, &pass);
+    }
+    Some(pass)
 }
 
 /// A field that may be absent: `None` if it is there and wrong.
@@ -72,45 +92,6 @@ fn optional<'src, T>(leaf: Option<Leaf<'src>>, lower: impl FnOnce(Leaf<'src>) ->
     match leaf {
         Some(leaf) => lower(leaf).map(Some),
         None => Some(None),
-    }
-}
-
-/// What is drawn, by which shader.
-fn draw<'src>(reader: &mut Reader<'src>, fields: &PassFields<'src>, what: &str) -> Option<(Draw, Name)> {
-    let leaf = fields.draw;
-    let (word, rest) = reader.word(leaf, "a draw", &["Objects", "Sky", "FullScreen"], DRAWS)?;
-    match word {
-        "FullScreen" => {
-            let (shader,): (Leaf<'_>,) = reader.inside(leaf, rest, "FullScreen(\"shader\")")?;
-            if let Some(second) = fields.shader {
-                reader.wrong(second, format!("{what} names its shader in `FullScreen(…)` already"), "");
-                return None;
-            }
-            Some((Draw::FullScreen, reader.name(shader, "a shader")?))
-        }
-        "Sky" => {
-            reader.bare(word, rest)?;
-            let shader = match fields.shader {
-                Some(shader) => reader.name(shader, "a shader")?,
-                None => Name { text: "sky".into(), span: reader.span(leaf.0) },
-            };
-            Some((Draw::Sky, shader))
-        }
-        _ => {
-            let (list,): (Leaf<'_>,) = reader.inside(leaf, rest, "Objects(Opaque)")?;
-            let (list, rest) = reader.word(list, "a draw list", &["Opaque", "Masked", "Transparent"], DRAWS)?;
-            reader.bare(list, rest)?;
-            let list = match list {
-                "Opaque" => DrawList::Opaque,
-                "Masked" => DrawList::Masked,
-                _ => DrawList::Transparent,
-            };
-            let Some(shader) = fields.shader else {
-                reader.wrong(leaf, format!("{what} draws objects and needs a shader"), "add `shader: \"…\"`");
-                return None;
-            };
-            Some((Draw::Objects(list), reader.name(shader, "a shader")?))
-        }
     }
 }
 
@@ -123,7 +104,7 @@ fn forward<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>)
     Some(Forward { from: from?, to: to? })
 }
 
-/// A pass draws into something, and into each image once.
+/// A draw has targets, and none of them twice.
 fn targets_make_sense(
     reader: &mut Reader<'_>,
     fields: &PassFields<'_>,
@@ -131,27 +112,60 @@ fn targets_make_sense(
     color: &[Color],
     depth: Option<&Depth>,
 ) {
-    if color.is_empty() && depth.is_none() {
+    if fields.draw.is_some() && color.is_empty() && depth.is_none() {
         let nothing = Diagnostic::new(reader.span(fields.name.0), format!("{what} draws into nothing"));
         reader.report(nothing.help("give it `color: [\"image\"]` or `depth: \"image\"`"));
     }
     let mut first = HashMap::new();
-    for target in color.iter().map(|c| c.image).chain(depth.map(|d| d.image)) {
-        if let Some(first) = first.insert(target.index, target.span) {
-            let twice = Diagnostic::new(target.span, format!("{what} draws into this image twice"));
+    for target in color.iter().map(|c| c.part).chain(depth.map(|d| d.part)) {
+        let numbers = [target.mips, target.layers].map(|selection| {
+            let number = |number: Option<super::Spanned<u32>>| number.map(|number| number.value);
+            (number(selection.first), number(selection.count))
+        });
+        if let Some(first) = first.insert((target.image.index, numbers), target.image.span) {
+            let twice = Diagnostic::new(target.image.span, format!("{what} draws into this image twice"));
             reader.report(twice.remark("again here").label(first, "first here"));
         }
     }
 }
 
-/// A stand-in fills one of the pass's own targets, from another image.
+/// A name of the shader stands in one map only.
+fn bindings_differ(reader: &mut Reader<'_>, pass: &Pass) {
+    let sampled = pass.sample.iter().map(|sample| &sample.binding);
+    let storage = pass.storage.iter().map(|storage| &storage.binding);
+    let names = sampled.chain(storage).chain(pass.uniform.iter().map(|uniform| &uniform.binding));
+    let mut first = HashMap::new();
+    for name in names {
+        if let Some(first) = first.insert(name.text.clone(), name.span) {
+            let message = format!("pass `{}` gives `{}` in two ways", pass.name.text, name.text);
+            reader.report(Diagnostic::new(name.span, message).remark("again here").label(first, "first here"));
+        }
+    }
+}
+
+/// Images that a pass may write.
+fn written(pass: &Pass) -> impl Iterator<Item = ImageRef> {
+    let targets = pass.color.iter().map(|color| color.part).chain(pass.depth.as_ref().map(|depth| depth.part));
+    let storage = pass.storage.iter().map(|storage| storage.part);
+    let transferred = match &pass.work {
+        Work::Copy { to, .. } | Work::Blit { to, .. } | Work::Fill { to, .. } => std::slice::from_ref(to),
+        Work::Custom { writes, .. } => writes,
+        Work::Draw { .. } | Work::Dispatch { .. } => &[],
+    };
+    let parts = storage.chain(transferred.iter().copied()).filter_map(|part| match part {
+        Part::Image(part) => Some(part),
+        Part::Buffer(_) => None,
+    });
+    targets.chain(parts).map(|part| part.image)
+}
+
+/// A stand-in fills one of the pass's own images, from another image.
 fn forward_makes_sense(
     reader: &mut Reader<'_>,
     fields: &PassFields<'_>,
     leaf: Leaf<'_>,
     forward: &Forward,
-    color: &[Color],
-    depth: Option<&Depth>,
+    pass: &Pass,
 ) {
     if fields.when.is_none() {
         let idle = Diagnostic::new(reader.span(leaf.0), "`otherwise` never comes to pass: there is no `when`");
@@ -162,9 +176,8 @@ fn forward_makes_sense(
         reader.report(same.label(forward.from.span, "the same image"));
         return;
     }
-    let mut targets = color.iter().map(|c| c.image).chain(depth.map(|d| d.image));
-    if !targets.any(|target| target.index == forward.to.index) {
-        let foreign = Diagnostic::new(forward.to.span, "`otherwise` fills an image that this pass doesn't draw into");
-        reader.report(foreign.help("`to` is one of the pass's `color` images, or its `depth`"));
+    if !written(pass).any(|image| image.index == forward.to.index) {
+        let foreign = Diagnostic::new(forward.to.span, "`otherwise` fills an image that this pass doesn't write");
+        reader.report(foreign.help("`to` is one of the images that the pass draws into or writes"));
     }
 }

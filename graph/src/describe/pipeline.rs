@@ -1,9 +1,9 @@
 //! What a pipeline file says, as owned data: every name is found, every value has its place.
 
-use crate::format;
-use crate::frame::{Blend, Draw, ImageIndex};
+use super::pass::Pass;
+use super::resources::{Buffer, Image, State};
+use crate::frame::{BufferIndex, ImageIndex, Resource};
 use crate::source::Span;
-use crate::vocabulary::{CompareOp, Filter};
 use std::sync::Arc;
 
 /// A pipeline file, read and checked on its own: names are unique, everything that is referred to exists and has the
@@ -15,10 +15,21 @@ pub struct Pipeline {
     pub settings: Vec<Setting>,
     /// Images; an [`ImageIndex`] is an index into this list.
     pub images: Vec<Image>,
+    /// Buffers; a [`BufferIndex`] is an index into this list.
+    pub buffers: Vec<Buffer>,
     /// Passes in the order that gives them meaning.
     pub passes: Vec<Pass>,
-    /// Images that leave the frame.
-    pub outputs: Vec<ImageRef>,
+    /// Images and buffers that leave the frame.
+    pub outputs: Vec<Output>,
+}
+
+/// An image or buffer that leaves the frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Output {
+    /// Which one.
+    pub resource: ResourceRef,
+    /// The state in which it is to be left, if the file asks for one.
+    pub after: Option<Spanned<State>>,
 }
 
 /// A value and where it was written.
@@ -44,6 +55,24 @@ pub struct Name {
 pub struct ImageRef {
     /// Index into [`Pipeline::images`].
     pub index: ImageIndex,
+    /// Where it was named.
+    pub span: Span,
+}
+
+/// A buffer that is referred to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BufferRef {
+    /// Index into [`Pipeline::buffers`].
+    pub index: BufferIndex,
+    /// Where it was named.
+    pub span: Span,
+}
+
+/// An image or buffer that is referred to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ResourceRef {
+    /// Index into [`Pipeline::images`] or [`Pipeline::buffers`].
+    pub resource: Resource,
     /// Where it was named.
     pub span: Span,
 }
@@ -110,166 +139,6 @@ pub enum Value<T> {
     Constant(T),
     /// A setting's.
     Setting(SettingRef),
-}
-
-/// An image.
-#[derive(Debug, Clone)]
-pub struct Image {
-    /// Unique name.
-    pub name: Name,
-    /// Texel format.
-    pub format: Spanned<Format>,
-    /// Width and height.
-    pub size: Spanned<Size>,
-    /// Samples a texel.
-    pub samples: Spanned<Samples>,
-}
-
-/// A texel format, by purpose or by name.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Format {
-    /// Colour: `R16G16B16A16_SFLOAT` with high dynamic range, else `R8G8B8A8_SRGB`.
-    Color {
-        /// Whether values above 1 are kept.
-        hdr: Value<bool>,
-    },
-    /// Depth: `D32_SFLOAT`.
-    Depth,
-    /// What leaves the frame: `R8G8B8A8_SRGB`.
-    Output,
-    /// Vulkan's name.
-    Named(format::Format),
-    /// That of another image.
-    Like(ImageRef),
-}
-
-/// Width and height of an image.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Size {
-    /// The frame's.
-    Output,
-    /// The frame's or another image's, times a factor greater than 0; rounded down, at least 1.
-    Scaled {
-        /// The factor.
-        by: Value<f64>,
-        /// Of which image; `None`: of the frame.
-        of: Option<ImageRef>,
-    },
-    /// So many texels, 1 to 16384 each.
-    Fixed([u32; 2]),
-    /// That of another image.
-    Like(ImageRef),
-}
-
-/// Samples a texel.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Samples {
-    /// As many as written here (1, 2, 4, 8 or 16) or as a whole-number setting says.
-    Count(Value<u32>),
-    /// As another image has.
-    Like(ImageRef),
-}
-
-/// A pass.
-#[derive(Debug, Clone)]
-pub struct Pass {
-    /// Unique name.
-    pub name: Name,
-    /// When it runs; `None`: always.
-    pub when: Option<Condition>,
-    /// What it draws.
-    pub draw: Draw,
-    /// By which shader.
-    pub shader: Name,
-    /// Images that its shader samples.
-    pub sample: Vec<Sample>,
-    /// Colour targets by location.
-    pub color: Vec<Color>,
-    /// Depth target.
-    pub depth: Option<Depth>,
-    /// Values for the shader's block `params`.
-    pub params: Vec<Param>,
-    /// What its target takes instead when it is off.
-    pub otherwise: Option<Forward>,
-}
-
-/// An image that a shader samples.
-#[derive(Debug, Clone)]
-pub struct Sample {
-    /// The shader's name for it.
-    pub binding: Name,
-    /// Which image.
-    pub image: ImageRef,
-    /// Which of its faces.
-    pub face: Face,
-    /// Filter, if the file chooses one.
-    pub filter: Option<Spanned<Filter>>,
-}
-
-/// A face of an image.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Face {
-    /// Whichever the shader's declaration asks for.
-    Plain,
-    /// Each sample by itself.
-    Samples,
-    /// One value a texel.
-    Resolved,
-}
-
-/// A colour target.
-#[derive(Debug, Clone)]
-pub struct Color {
-    /// Which image.
-    pub image: ImageRef,
-    /// Clear value (linear red, green, blue, alpha).
-    pub clear: Option<[f32; 4]>,
-    /// How new colour meets old.
-    pub blend: Spanned<Blend>,
-}
-
-/// A depth target.
-#[derive(Debug, Clone)]
-pub struct Depth {
-    /// Which image.
-    pub image: ImageRef,
-    /// Clear value, 0 (infinitely far) to 1.
-    pub clear: Option<f32>,
-    /// The comparison.
-    pub test: CompareOp,
-    /// Whether passing fragments write depth.
-    pub write: bool,
-}
-
-/// A value for a member of the shader's block `params`.
-#[derive(Debug, Clone)]
-pub struct Param {
-    /// The member's name.
-    pub name: Name,
-    /// Its value.
-    pub value: Spanned<ParamValue>,
-}
-
-/// A parameter's value.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ParamValue {
-    /// `true` or `false`.
-    Bool(bool),
-    /// A whole number.
-    Integer(i64),
-    /// A finite number.
-    Number(f64),
-    /// A setting's.
-    Setting(SettingRef),
-}
-
-/// What a target takes when its pass is off: `to` gets what `from` holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Forward {
-    /// Source.
-    pub from: ImageRef,
-    /// Target, one of the pass's own.
-    pub to: ImageRef,
 }
 
 /// When a pass runs: if all terms of any of the groups hold (`a && !b || c`).

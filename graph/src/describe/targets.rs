@@ -1,11 +1,14 @@
 //! `color` and `depth`: what a pass draws into, and how.
 
+use super::Spanned;
 use super::leaf::{Leaf, Shape};
 use super::names::Scope;
-use super::pipeline::{Color, Depth};
+use super::parts::{self, Selected};
+use super::pass::{Color, Depth};
 use super::reader::Reader;
-use crate::frame::Blend;
-use crate::vocabulary::CompareOp;
+use super::values::{self, choice};
+use crate::frame::{Blend, StencilState};
+use crate::vocabulary::{CompareOp, StencilOp};
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -13,6 +16,9 @@ use serde::Deserialize;
 struct ColorFields<'src> {
     #[serde(borrow)]
     image: Leaf<'src>,
+    mip: Option<Leaf<'src>>,
+    layer: Option<Leaf<'src>>,
+    layers: Option<Leaf<'src>>,
     clear: Option<Leaf<'src>>,
     blend: Option<Leaf<'src>>,
 }
@@ -22,9 +28,23 @@ struct ColorFields<'src> {
 struct DepthFields<'src> {
     #[serde(borrow)]
     image: Leaf<'src>,
+    mip: Option<Leaf<'src>>,
+    layer: Option<Leaf<'src>>,
+    layers: Option<Leaf<'src>>,
     clear: Option<Leaf<'src>>,
     test: Option<Leaf<'src>>,
     write: Option<Leaf<'src>>,
+    stencil: Option<Leaf<'src>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StencilFields<'src> {
+    #[serde(borrow)]
+    clear: Option<Leaf<'src>>,
+    test: Option<Leaf<'src>>,
+    reference: Option<Leaf<'src>>,
+    pass: Option<Leaf<'src>>,
 }
 
 const BLENDS: [(&str, Blend); 4] = [
@@ -45,6 +65,15 @@ const TESTS: [(&str, CompareOp); 8] = [
     ("Always", CompareOp::Always),
 ];
 
+const OPERATIONS: [(&str, StencilOp); 6] = [
+    ("Keep", StencilOp::Keep),
+    ("Zero", StencilOp::Zero),
+    ("Replace", StencilOp::Replace),
+    ("IncrementAndClamp", StencilOp::IncrementAndClamp),
+    ("DecrementAndClamp", StencilOp::DecrementAndClamp),
+    ("Invert", StencilOp::Invert),
+];
+
 /// The list of colour targets.
 pub(super) fn color<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Color>> {
     let entries = reader.list(leaf, "`color`")?;
@@ -55,10 +84,12 @@ pub(super) fn color<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Le
 fn color_target<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Color> {
     let replace = reader.spanned(leaf, Blend::Replace);
     match leaf.shape() {
-        Shape::Text => Some(Color { image: scope.image(reader, leaf)?, clear: None, blend: replace }),
+        Shape::Text => Some(Color { part: parts::image(reader, scope, leaf)?, clear: None, blend: replace }),
         Shape::Parentheses => {
             let fields: ColorFields<'_> = reader.read(leaf, "a colour target")?;
-            let image = scope.image(reader, fields.image);
+            let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
+            let part =
+                parts::image_part(reader, scope, fields.image, Selected { mip, layer, layers, ..Selected::default() });
             let clear = match fields.clear {
                 Some(clear) => clear_color(reader, clear).map(Some),
                 None => Some(None),
@@ -67,7 +98,7 @@ fn color_target<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'
                 Some(blend) => choice(reader, blend, "a blend", &BLENDS).map(|value| reader.spanned(blend, value)),
                 None => Some(replace),
             };
-            Some(Color { image: image?, clear: clear?, blend: blend? })
+            Some(Color { part: part?, clear: clear?, blend: blend? })
         }
         _ => {
             reader
@@ -81,10 +112,15 @@ fn color_target<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'
 pub(super) fn depth<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Depth> {
     let (test, write) = (CompareOp::GreaterOrEqual, true);
     match leaf.shape() {
-        Shape::Text => Some(Depth { image: scope.image(reader, leaf)?, clear: None, test, write }),
+        Shape::Text => {
+            let part = parts::image(reader, scope, leaf)?;
+            Some(Depth { part, clear: None, test, write, stencil: None })
+        }
         Shape::Parentheses => {
             let fields: DepthFields<'_> = reader.read(leaf, "a depth target")?;
-            let image = scope.image(reader, fields.image);
+            let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
+            let part =
+                parts::image_part(reader, scope, fields.image, Selected { mip, layer, layers, ..Selected::default() });
             let clear = match fields.clear {
                 Some(clear) => clear_depth(reader, clear).map(Some),
                 None => Some(None),
@@ -97,7 +133,11 @@ pub(super) fn depth<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Le
                 Some(write) => reader.truth(write),
                 None => Some(write),
             };
-            Some(Depth { image: image?, clear: clear?, test: test?, write: write? })
+            let stencil = match fields.stencil {
+                Some(leaf) => stencil(reader, leaf).map(Some),
+                None => Some(None),
+            };
+            Some(Depth { part: part?, clear: clear?, test: test?, write: write?, stencil: stencil? })
         }
         _ => {
             reader.expected(leaf, "a depth target: `\"image\"` or `(image: \"image\", clear: 0.0, test: …, write: …)`");
@@ -106,18 +146,32 @@ pub(super) fn depth<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Le
     }
 }
 
-/// One of a few words.
-fn choice<'src, T: Copy>(
-    reader: &mut Reader<'src>,
-    leaf: Leaf<'src>,
-    what: &str,
-    choices: &[(&'static str, T)],
-) -> Option<T> {
-    let words: Vec<&'static str> = choices.iter().map(|(word, _)| *word).collect();
-    let forms = format!("write {}", words.join(", "));
-    let (word, rest) = reader.word(leaf, what, &words, &forms)?;
-    reader.bare(word, rest)?;
-    choices.iter().find(|(choice, _)| *choice == word).map(|(_, value)| *value)
+/// What happens to the stencil plane.
+fn stencil<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<Spanned<StencilState>> {
+    let Shape::Parentheses = leaf.shape() else {
+        reader.expected(leaf, "a stencil state: `(clear: 0, test: Equal, reference: 1, pass: Replace)`");
+        return None;
+    };
+    let fields: StencilFields<'_> = reader.read(leaf, "a stencil state")?;
+    let byte = |reader: &mut Reader<'src>, leaf| values::constant::<u8>(reader, leaf, "stencil value", 0..=255);
+    let clear = match fields.clear {
+        Some(clear) => byte(reader, clear).map(Some),
+        None => Some(None),
+    };
+    let test = match fields.test {
+        Some(test) => choice(reader, test, "a stencil test", &TESTS),
+        None => Some(CompareOp::Always),
+    };
+    let reference = match fields.reference {
+        Some(reference) => byte(reader, reference),
+        None => Some(0),
+    };
+    let pass = match fields.pass {
+        Some(pass) => choice(reader, pass, "a stencil operation", &OPERATIONS),
+        None => Some(StencilOp::Keep),
+    };
+    let state = StencilState { clear: clear?, test: test?, reference: reference?, pass: pass? };
+    Some(reader.spanned(leaf, state))
 }
 
 fn clear_color<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<[f32; 4]> {

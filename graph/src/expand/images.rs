@@ -2,8 +2,10 @@
 
 use super::Chosen;
 use super::settings::{SettingValue, show};
+use super::shapes;
 use crate::describe::{
-    self, Diagnostic, Format as Described, ImageRef, LARGEST_SIZE, SAMPLE_COUNTS, Samples, Size, Value, shown_number,
+    self, Diagnostic, Format as Described, ImageRef, LARGEST_SIZE, Layers, Mips, SAMPLE_COUNTS, Samples, Size, Value,
+    shown_number,
 };
 use crate::format::Format;
 use crate::frame::{Image, ParamValue};
@@ -45,12 +47,32 @@ pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Di
         },
         |image, followed| samples(chosen, image, followed, errors),
     );
-    let all = images.iter().zip(formats).zip(extents).zip(samples);
-    all.map(|(((image, format), extent), samples)| {
+    let layers = follow(
+        images,
+        |image| match image.layers.value {
+            Layers::Like(of) => Some(of),
+            _ => None,
+        },
+        |image, followed| shapes::layers(chosen, image, followed),
+    );
+    let mips = follow(
+        images,
+        |image| match image.mips.value {
+            Mips::Like(of) => Some(of),
+            _ => None,
+        },
+        |image, followed| match image.mips.value {
+            Mips::Count(count) => chosen.whole(count).map(shapes::Levels::Count),
+            Mips::Full => Some(shapes::Levels::Full),
+            Mips::Like(_) => followed,
+        },
+    );
+    let all = images.iter().zip(formats).zip(extents).zip(samples).zip(layers).zip(mips);
+    all.map(|(((((described, format), extent), samples), layers), mips)| {
         let ([width, height], (samples, samples_because)) = (extent?, samples?);
-        let (name, span) = (&image.name.text, image.name.span);
-        let format = format?;
-        let image = Image { span, samples, ..Image::new(name, format, width, height) };
+        let image =
+            Image { span: described.name.span, samples, ..Image::new(&described.name.text, format?, width, height) };
+        let image = shapes::shaped(chosen, described, image, layers?, mips?, errors)?;
         Some(Resolved { image, samples_because })
     })
     .collect()
@@ -94,6 +116,7 @@ fn format(chosen: &Chosen<'_>, image: &describe::Image, followed: Option<Format>
             Some(if hdr { Format::R16G16B16A16_SFLOAT } else { Format::R8G8B8A8_SRGB })
         }
         Described::Depth => Some(Format::D32_SFLOAT),
+        Described::DepthStencil => Some(Format::D32_SFLOAT_S8_UINT),
         Described::Output => Some(Format::R8G8B8A8_SRGB),
         Described::Named(format) => Some(format),
         Described::Like(_) => followed,
@@ -163,6 +186,18 @@ fn samples(
                 return None;
             }
             u32::try_from(count).ok().map(|count| (count, Some(because)))
+        }
+    }
+}
+
+impl Resolved {
+    /// How many samples, and why: "4 samples (msaa = 4)".
+    pub(super) fn samples_words(&self) -> String {
+        let samples = self.image.samples;
+        let count = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
+        match &self.samples_because {
+            Some(because) => format!("{count} ({because})"),
+            None => count,
         }
     }
 }

@@ -1,27 +1,41 @@
 //! Settings, conditions, facts and sizes are put in: a pipeline becomes one flat frame.
 //!
 //! ```text
-//! Pipeline ─► settings ─► images (sizes, formats, samples) ─► conditions ─► passes (targets, shader) ─► order ─► Frame
+//! Pipeline ─► settings ─► images and buffers ─► conditions ─► passes (parts, shaders) ─► order ─► Frame
 //! ```
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
 mod conditions;
 mod facts;
+mod fills;
 mod images;
 mod order;
 mod params;
+mod parts;
 mod passes;
+mod sampled;
 mod settings;
 mod shader;
+mod shapes;
+mod states;
+mod storage;
 mod supplied;
+mod targets;
+mod things;
+mod touches;
+mod transfers;
+mod waits;
+mod work;
+mod written;
 
 pub use facts::Facts;
 
 use crate::describe::{self, Diagnostic, LARGEST_SIZE, Pipeline, suggestion};
-use crate::frame::{Frame, ImageIndex, Output, Pass, Resource, SwitchedOff, Work};
+use crate::frame::{Frame, ImageIndex, Output, ParamValue, Resource, SwitchedOff};
 use crate::interface::ShaderInterfaces;
 use crate::source::{Sources, Span};
 use std::sync::Arc;
+use things::Things;
 
 /// What a pipeline is put together with.
 #[derive(Debug, Clone, Copy)]
@@ -53,7 +67,7 @@ pub fn check_inputs(pipeline: &Pipeline, inputs: &Inputs<'_>) -> Vec<Diagnostic>
     let mut errors = Vec::new();
     settings::choose(pipeline, inputs.set, &mut errors);
     check_extent(inputs.output_extent, &mut errors);
-    outputs(pipeline, inputs.dump, &mut errors);
+    dumped(pipeline, inputs.dump, &mut Vec::new(), &mut errors);
     errors
 }
 
@@ -83,39 +97,35 @@ pub fn expand(
     if errors.len() > before {
         return Err(errors);
     }
-    let images = images::resolve(&chosen, inputs.output_extent, &mut errors);
+    let things = Things::resolve(&chosen, inputs.output_extent, &mut errors);
 
     let mut checked = shader::Checked::new(shaders);
     let mut states = Vec::with_capacity(pipeline.passes.len());
-    let mut passes = Vec::new();
     let mut switched_off = Vec::new();
     for pass in &pipeline.passes {
-        passes::targets_fit(&chosen, &images, pass, &mut errors);
+        targets::fit(&chosen, &things, pass, &mut errors);
         let because = pass.when.as_ref().and_then(|condition| conditions::failing(&chosen, condition));
-        let mut state = order::State { pass, off: because.clone(), discards: false };
-        match (because, &pass.when) {
+        states.push(match (because, &pass.when) {
             (Some(because), Some(condition)) => {
                 let name = pass.name.text.clone();
                 switched_off.push(SwitchedOff { name, span: condition.span, because: because.clone() });
-                passes.extend(passes::stand_in(pass, because));
+                // What a pass that is off would do wrong does no harm.
+                let would = passes::draft(&chosen, &things, pass, None, &mut Vec::new());
+                order::State::Off { would, stand_in: passes::stand_in(pass, because.clone()), because }
             }
-            _ => {
-                let lowered = passes::lower(&chosen, &images, pass, &mut checked, &mut errors);
-                if let Some(Pass { work: Work::Draw { discards, .. }, .. }) = &lowered {
-                    state.discards = *discards;
-                }
-                passes.extend(lowered);
-            }
-        }
-        states.push(state);
+            _ => order::State::On(passes::lower(&chosen, &things, pass, &mut checked, &mut errors)),
+        });
     }
-    let outputs = outputs(pipeline, inputs.dump, &mut errors);
-    order::check(pipeline, &states, &outputs, &mut errors);
+    let outputs = outputs(&chosen, &things, inputs.dump, &mut errors);
+    order::check(&chosen, &things, &states, &outputs, &mut errors);
 
-    match images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>() {
-        Some(images) if errors.is_empty() => {
+    let Things { images, buffers } = things;
+    let images = images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>();
+    match (images, buffers.into_iter().collect::<Option<Vec<_>>>()) {
+        (Some(images), Some(buffers)) if errors.is_empty() => {
             let settings = settings::shown(pipeline, &chosen.values);
-            Ok(Frame { sources, settings, images, buffers: Vec::new(), passes, outputs, switched_off })
+            let passes = states.into_iter().filter_map(order::State::into_pass).collect();
+            Ok(Frame { sources, settings, images, buffers, passes, outputs, switched_off })
         }
         _ => {
             errors.sort_by_key(|error| error.labels.first().map_or(0, |label| label.span.start));
@@ -125,21 +135,32 @@ pub fn expand(
 }
 
 /// The pipeline's outputs, then dumped images that aren't among them.
-fn outputs(pipeline: &Pipeline, dump: &[String], errors: &mut Vec<Diagnostic>) -> Vec<Output> {
-    let output = |image, span| Output { resource: Resource::Image(image), span, after: None };
-    let mut outputs: Vec<Output> = pipeline.outputs.iter().map(|image| output(image.index, image.span)).collect();
+fn outputs(chosen: &Chosen<'_>, things: &Things, dump: &[String], errors: &mut Vec<Diagnostic>) -> Vec<Output> {
+    let pipeline = chosen.pipeline;
+    let mut outputs = Vec::with_capacity(pipeline.outputs.len() + dump.len());
+    for output in &pipeline.outputs {
+        let describe::ResourceRef { resource, span } = output.resource;
+        let after = output.after.and_then(|after| things.left(chosen, resource, after, errors));
+        outputs.push(Output { resource, span, after });
+    }
+    dumped(pipeline, dump, &mut outputs, errors);
+    outputs
+}
+
+/// Adds images that are dumped.
+fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, errors: &mut Vec<Diagnostic>) {
     for name in dump {
         let Some(index) = pipeline.images.iter().position(|image| *image.name.text == **name) else {
             let help = suggestion(name, pipeline.images.iter().map(|image| &*image.name.text));
             errors.push(Diagnostic { help, ..nowhere(format!("there is no image named `{name}` to dump")) });
             continue;
         };
-        let Ok(index) = u32::try_from(index).map(ImageIndex) else { continue };
-        if outputs.iter().all(|output| output.resource != Resource::Image(index)) {
-            outputs.push(output(index, Span::NONE));
+        let Ok(index) = u32::try_from(index) else { continue };
+        let resource = Resource::Image(ImageIndex(index));
+        if outputs.iter().all(|output| output.resource != resource) {
+            outputs.push(Output { resource, span: Span::NONE, after: None });
         }
     }
-    outputs
 }
 
 /// A mistake that stands in no file.
@@ -154,5 +175,16 @@ impl<'a> Chosen<'a> {
 
     fn setting(&self, reference: describe::SettingRef) -> (&'a describe::Setting, settings::SettingValue) {
         (&self.pipeline.settings[reference.index], self.values[reference.index])
+    }
+
+    /// A constant, or the value of a whole-number setting. `None` only for what reading a pipeline rules out.
+    fn whole<T: TryFrom<i64>>(&self, value: describe::Value<T>) -> Option<T> {
+        match value {
+            describe::Value::Constant(value) => Some(value),
+            describe::Value::Setting(reference) => match self.setting(reference).1 {
+                ParamValue::Integer(value) => T::try_from(value).ok(),
+                ParamValue::Bool(_) | ParamValue::Number(_) => None,
+            },
+        }
     }
 }

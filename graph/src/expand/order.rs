@@ -1,162 +1,299 @@
 //! The order of passes: nothing is read before it is written, and whoever writes first covers or clears.
 
-use crate::describe::{Diagnostic, Pass, Pipeline};
-use crate::frame::{Blend, Draw, ImageIndex, Output, Resource};
+use super::parts::Cells;
+use super::things::Things;
+use super::touches::{self, Read, Write};
+use super::waits::{self, Need};
+use super::written::{Cell, Written};
+use super::{Chosen, passes};
+use crate::describe::Diagnostic;
+use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::source::Span;
-use crate::vocabulary::CompareOp;
+use crate::vocabulary::{Aspects, Layout};
 
-/// A pass as it runs in this frame.
-pub(super) struct State<'a> {
-    pub(super) pass: &'a Pass,
-    /// Why it is off; `None` if it runs.
-    pub(super) off: Option<String>,
-    /// Whether its fragment shader discards fragments.
-    pub(super) discards: bool,
+/// After so many mistakes it is no longer looked for which writer was meant: that would take long in a large file.
+const MANY_MISTAKES: usize = 100;
+
+/// A pass as it runs in this frame, or doesn't.
+pub(super) enum State {
+    /// It runs.
+    On(Pass),
+    /// It is off.
+    Off {
+        /// What it would do.
+        would: Pass,
+        /// What runs instead.
+        stand_in: Option<Pass>,
+        /// Why it is off.
+        because: String,
+    },
 }
 
-impl State<'_> {
-    /// Whether what it draws replaces every texel of a target that isn't blended.
-    fn covers(&self) -> bool {
-        let tested = self.pass.depth.as_ref().is_some_and(|depth| depth.test != CompareOp::Always);
-        self.pass.draw == Draw::FullScreen && !self.discards && !tested
-    }
-
-    /// Images that it draws into, and where it names them.
-    fn targets(&self) -> impl Iterator<Item = (ImageIndex, Span)> {
-        let color = self.pass.color.iter().map(|color| color.image);
-        color.chain(self.pass.depth.as_ref().map(|depth| depth.image)).map(|image| (image.index, image.span))
+impl State {
+    /// The pass that runs, if one does.
+    pub(super) fn into_pass(self) -> Option<Pass> {
+        match self {
+            State::On(pass) => Some(pass),
+            State::Off { stand_in, .. } => stand_in,
+        }
     }
 }
 
-/// A pass that has an image as its target.
+/// A pass that writes an image or buffer, and where it names it.
 #[derive(Clone, Copy)]
-struct Writer<'a> {
-    pass: &'a Pass,
+struct Writer {
     position: usize,
     span: Span,
-    off: Option<&'a str>,
+}
+
+/// Writers of each image and buffer, in the order of passes.
+pub(super) struct Writers {
+    images: usize,
+    /// Those that run.
+    on: Vec<Vec<Writer>>,
+    /// Those that are off and have no stand-in.
+    off: Vec<Vec<Writer>>,
+}
+
+impl Writers {
+    fn find(chosen: &Chosen<'_>, things: &Things, states: &[State]) -> Writers {
+        let images = chosen.pipeline.images.len();
+        let count = images + chosen.pipeline.buffers.len();
+        let mut writers = Writers { images, on: vec![Vec::new(); count], off: vec![Vec::new(); count] };
+        for (position, state) in states.iter().enumerate() {
+            let stood_for = chosen.pipeline.passes[position].otherwise.map(|forward| Resource::Image(forward.to.index));
+            for write in state.runs().into_iter().flat_map(|pass| touches::writes(things, pass)) {
+                let at = writers.index(write.resource);
+                writers.on[at].push(Writer { position, span: write.span });
+            }
+            if let State::Off { would, .. } = state {
+                for (resource, span) in passes::would_write(would).filter(|(of, _)| Some(*of) != stood_for) {
+                    let at = writers.index(resource);
+                    writers.off[at].push(Writer { position, span });
+                }
+            }
+        }
+        writers
+    }
+
+    fn index(&self, of: Resource) -> usize {
+        match of {
+            Resource::Image(index) => index.0 as usize,
+            Resource::Buffer(index) => self.images + index.0 as usize,
+        }
+    }
+
+    /// The last pass before `position` that writes it.
+    pub(super) fn last_before(&self, of: Resource, position: usize) -> Option<usize> {
+        let all = &self.on[self.index(of)];
+        let before = all.partition_point(|writer| writer.position < position);
+        before.checked_sub(1).map(|at| all[at].position)
+    }
 }
 
 struct Check<'a> {
-    pipeline: &'a Pipeline,
-    /// The first pass that runs and draws into each image.
-    first_on: Vec<Option<Writer<'a>>>,
-    /// The first pass that is off, has no stand-in and would draw into each image.
-    first_off: Vec<Option<Writer<'a>>>,
-    /// Whether each image holds something by now. True after a mistake was reported: once is enough.
-    written: Vec<bool>,
+    chosen: &'a Chosen<'a>,
+    things: &'a Things,
+    states: &'a [State],
+    writers: Writers,
+    /// What holds something by now. All that was reported as holding nothing does: once is enough.
+    written: Vec<Written>,
     errors: &'a mut Vec<Diagnostic>,
 }
 
 /// Walks through the passes in their order.
-pub(super) fn check(pipeline: &Pipeline, states: &[State<'_>], outputs: &[Output], errors: &mut Vec<Diagnostic>) {
-    let count = pipeline.images.len();
-    let (mut first_on, mut first_off) = (vec![None; count], vec![None; count]);
+pub(super) fn check(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    states: &[State],
+    outputs: &[Output],
+    errors: &mut Vec<Diagnostic>,
+) {
+    let writers = Writers::find(chosen, things, states);
+    let written = writers.on.iter().map(|_| Written::default()).collect();
+    let mut check = Check { chosen, things, states, writers, written, errors };
     for (position, state) in states.iter().enumerate() {
-        for (image, span) in state.targets() {
-            if state.pass.otherwise.is_some_and(|forward| state.off.is_some() && forward.to.index == image) {
-                continue;
+        let name = &chosen.pipeline.passes[position].name.text;
+        match state {
+            State::On(pass) => check.runs(position, pass, &format!("pass `{name}`"), None),
+            State::Off { stand_in: Some(pass), .. } => {
+                let named = chosen.pipeline.passes[position].otherwise.map(|forward| forward.from.span);
+                check.runs(position, pass, &format!("the stand-in of pass `{name}`"), named);
             }
-            let writer = Writer { pass: state.pass, position, span, off: state.off.as_deref() };
-            let list = if state.off.is_some() { &mut first_off } else { &mut first_on };
-            list[image.0 as usize].get_or_insert(writer);
+            State::Off { stand_in: None, .. } => {}
         }
     }
-    let mut check = Check { pipeline, first_on, first_off, written: vec![false; count], errors };
     for (position, state) in states.iter().enumerate() {
-        if state.off.is_none() {
-            check.runs(position, state);
-        } else if let Some(forward) = state.pass.otherwise {
-            let name = &state.pass.name.text;
-            check.needs(position, forward.from.index, forward.from.span, &format!("the stand-in of pass `{name}`"));
-            check.written[forward.to.index.0 as usize] = true;
+        for read in state.runs().into_iter().flat_map(|pass| touches::reads(things, pass)) {
+            if read.frames_ago > 0 {
+                let reader = format!("pass `{}`", chosen.pipeline.passes[position].name.text);
+                check.needs(states.len(), &read, &reader);
+            }
         }
     }
     for output in outputs {
         let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
-        if let Resource::Image(image) = output.resource {
-            check.needs(states.len(), image, output.span, reader);
+        if let Some(cells) = touches::whole(things, output.resource) {
+            let read = Read { resource: output.resource, cells, frames_ago: 0, span: output.span };
+            check.needs(states.len(), &read, reader);
         }
     }
 }
 
 impl Check<'_> {
-    fn runs(&mut self, position: usize, state: &State<'_>) {
-        let pass = state.pass;
-        let reader = format!("pass `{}`", pass.name.text);
-        for sample in &pass.sample {
-            self.needs(position, sample.image.index, sample.image.span, &reader);
+    /// Reads, then writes. `named` is where a stand-in's source is named.
+    fn runs(&mut self, position: usize, pass: &Pass, reader: &str, named: Option<Span>) {
+        for read in touches::reads(self.things, pass).into_iter().filter(|read| read.frames_ago == 0) {
+            let span = named.unwrap_or(read.span);
+            self.needs(position, &Read { span, ..read }, reader);
         }
-        for target in &pass.color {
-            let whole = target.clear.is_some() || (state.covers() && target.blend.value == Blend::Replace);
-            if !whole {
-                let clear = "(image: \"…\", clear: (0.0, 0.0, 0.0, 1.0))";
-                self.continues(position, state, target.image.index, target.image.span, clear);
+        for write in touches::writes(self.things, pass) {
+            if let Some(clear) = write.continues {
+                self.continues(position, pass, &write, clear);
             }
-            self.written[target.image.index.0 as usize] = true;
-        }
-        if let Some(depth) = &pass.depth {
-            let whole = depth.clear.is_some() || (state.covers() && depth.write);
-            if !whole {
-                self.continues(position, state, depth.image.index, depth.image.span, "(image: \"…\", clear: 0.0)");
-            }
-            self.written[depth.image.index.0 as usize] = true;
+            self.add(write.resource, &write.cells);
         }
     }
 
-    /// Demands that an image holds something that `reader` can read at `span`.
-    fn needs(&mut self, position: usize, image: ImageIndex, span: Span, reader: &str) {
-        let at = image.0 as usize;
-        if std::mem::replace(&mut self.written[at], true) {
-            return;
+    fn add(&mut self, of: Resource, cells: &Cells) {
+        if let Some(whole) = touches::whole(self.things, of) {
+            let at = self.writers.index(of);
+            self.written[at].add(cells, &whole);
         }
-        let name = &self.pipeline.images[at].name.text;
-        let diagnostic = if let Some((writer, because)) = self.off_before(image, position) {
-            let off = &writer.pass.name.text;
-            let message = format!("{reader} needs `{name}`, but pass `{off}`, which fills it, is off ({because})");
-            Diagnostic::new(span, message)
-                .remark("needed here")
-                .label(writer.span, "filled here, if the pass runs")
-                .help(format!("say what `{name}` takes instead: `otherwise: Forward(from: \"…\", to: \"{name}\")`"))
-        } else if let Some(writer) = self.first_on[at] {
-            let below = &writer.pass.name.text;
-            let diagnostic =
-                Diagnostic::new(span, format!("`{name}` is read before it is written")).remark("read here");
-            if writer.position == position {
-                let help = "a pass reads what stood in an image before the pass";
-                diagnostic.label(writer.span, "first written here, by the same pass").help(help)
-            } else {
-                let help = format!("move pass `{below}` up: the order of passes gives them their meaning");
-                diagnostic.label(writer.span, "first written here, further below").help(help)
+    }
+
+    /// The first of `cells` that holds nothing when the frame has come this far.
+    fn missing(&self, of: Resource, cells: &Cells, frames_ago: u32) -> Option<Cell> {
+        let holds = match self.things.lifetime(of)? {
+            Lifetime::Transient => false,
+            Lifetime::Persistent { .. } => true,
+            Lifetime::History { .. } => false,
+            Lifetime::Imported { before, .. } => {
+                matches!(of, Resource::Buffer(_)) || before.layout != Layout::Undefined
             }
+        };
+        if holds && frames_ago == 0 { None } else { self.written[self.writers.index(of)].missing(cells) }
+    }
+
+    /// Demands that something holds what `reader` can read.
+    fn needs(&mut self, position: usize, read: &Read, reader: &str) {
+        let of = read.resource;
+        let Some(cell) = self.missing(of, &read.cells, read.frames_ago) else { return };
+        let what = self.words(of, &read.cells, cell);
+        self.add(of, &read.cells);
+        let declared = self.chosen.name(of);
+        let (name, span) = (&declared.text, read.span);
+        let diagnostic = if let Some((writer, because)) = self.off_before(of, position) {
+            let off = &self.chosen.pipeline.passes[writer.position].name.text;
+            let message = format!("{reader} needs {what}, but pass `{off}`, which fills it, is off ({because})");
+            let wrong = Diagnostic::new(span, message)
+                .remark("needed here")
+                .label(writer.span, "filled here, if the pass runs");
+            match of {
+                Resource::Image(_) => wrong.help(format!(
+                    "say what `{name}` takes instead: `otherwise: Forward(from: \"…\", to: \"{name}\")`"
+                )),
+                Resource::Buffer(_) => {
+                    wrong.help("let another pass fill it then, such as `fill: (to: \"…\", value: 0)`")
+                }
+            }
+        } else if read.frames_ago > 0 {
+            let message = format!("{reader} reads what an earlier frame left of {what}, but no pass writes it");
+            let wrong = Diagnostic::new(span, message).remark("read here").label(declared.span, "declared here");
+            wrong.help("each frame writes what has history anew")
+        } else if let Some(writer) = self.writer_of(of, cell) {
+            self.too_early(position, read, &what, writer)
+        } else if let Some(Lifetime::Imported { .. }) = self.things.lifetime(of) {
+            let message = format!("{reader} reads {what}, which is handed in without contents, and no pass writes it");
+            let wrong = Diagnostic::new(span, message).remark("read here").label(declared.span, "imported here");
+            wrong.help("`before: Undefined` says that there is nothing to read: say in which state it really is")
         } else {
-            let declared = self.pipeline.images[at].name.span;
-            let diagnostic = Diagnostic::new(span, format!("{reader} needs `{name}`, but no pass writes it"));
-            diagnostic.remark("needed here").label(declared, "declared here")
+            let message = format!("{reader} needs {what}, but no pass writes it");
+            Diagnostic::new(span, message).remark("needed here").label(declared.span, "declared here")
         };
         self.errors.push(diagnostic);
     }
 
-    /// Demands that an image holds something that a draw can be added to.
-    fn continues(&mut self, position: usize, state: &State<'_>, image: ImageIndex, span: Span, clear: &str) {
-        let at = image.0 as usize;
-        if self.written[at] {
-            return;
+    /// A read that stands before the first write.
+    fn too_early(&self, position: usize, read: &Read, what: &str, writer: Writer) -> Diagnostic {
+        let of = read.resource;
+        let wrong = Diagnostic::new(read.span, format!("{what} is read before it is written")).remark("read here");
+        if writer.position == position {
+            let help = "a pass reads what stood in an image before the pass";
+            return wrong.label(writer.span, "first written here, by the same pass").help(help);
         }
-        let (pass, name) = (&state.pass.name.text, &self.pipeline.images[at].name.text);
-        let message = format!("pass `{pass}` is the first to draw into `{name}` and may leave texels untouched");
+        let first = Need { pass: position, resource: of, span: read.span, writer: writer.position };
+        let few = self.errors.len() < MANY_MISTAKES;
+        if few && let Some(circle) = waits::circle(self.things, self.states, &self.writers, first) {
+            return waits::report(self.chosen, &circle);
+        }
+        let below = &self.chosen.pipeline.passes[writer.position].name.text;
+        let wrong = wrong.label(writer.span, "first written here, further below");
+        if let Some(Lifetime::History { .. }) = self.things.lifetime(of) {
+            let name = &self.chosen.name(of).text;
+            let kind = if matches!(of, Resource::Image(_)) { "image" } else { "buffer" };
+            return wrong.help(format!(
+                "what the frame before left is `({kind}: \"{name}\", previous: 1)`; else move pass `{below}` up"
+            ));
+        }
+        wrong.help(format!("move pass `{below}` up: the order of passes gives them their meaning"))
+    }
+
+    /// Demands that a target holds something that a draw can be added to.
+    fn continues(&mut self, position: usize, pass: &Pass, write: &Write, clear: &str) {
+        let Some(cell) = self.missing(write.resource, &write.cells, 0) else { return };
+        let what = self.words(write.resource, &write.cells, cell);
+        let name = &self.chosen.name(write.resource).text;
+        let message = format!("pass `{}` is the first to draw into {what} and may leave texels untouched", pass.name);
         let clear = clear.replace('…', name);
-        let mut diagnostic = Diagnostic::new(span, message).help(format!("clear it: `{clear}`"));
-        if let Some((writer, because)) = self.off_before(image, position) {
-            let remark = format!("pass `{}` would come first, but is off ({because})", writer.pass.name.text);
-            diagnostic = diagnostic.label(writer.span, remark);
+        let mut diagnostic = Diagnostic::new(write.span, message).help(format!("clear it: `{clear}`"));
+        if let Some((writer, because)) = self.off_before(write.resource, position) {
+            let off = &self.chosen.pipeline.passes[writer.position].name.text;
+            diagnostic =
+                diagnostic.label(writer.span, format!("pass `{off}` would come first, but is off ({because})"));
         }
         self.errors.push(diagnostic);
     }
 
-    /// The pass before `position` that would have filled `image` and is off, and why.
-    fn off_before(&self, image: ImageIndex, position: usize) -> Option<(Writer<'_>, &str)> {
-        let writer = self.first_off[image.0 as usize].filter(|writer| writer.position < position)?;
-        Some((writer, writer.off?))
+    /// "`color`", or "mip level 2 of `color`" where a part of `cells` alone is missing.
+    fn words(&self, of: Resource, cells: &Cells, cell: Cell) -> String {
+        let name = &self.chosen.name(of).text;
+        let Some(whole) = touches::whole(self.things, of) else { return format!("`{name}`") };
+        if *cells == whole && self.written[self.writers.index(of)].is_blank() {
+            return format!("`{name}`");
+        }
+        let mut words = Vec::new();
+        if whole.planes.bits().count_ones() > 1 {
+            words.push(if cell.plane == Aspects::DEPTH { "the depth".to_owned() } else { "the stencil".to_owned() });
+        }
+        if whole.mips.len() > 1 {
+            words.push(format!("mip level {}", cell.mip));
+        }
+        if whole.layers.len() > 1 {
+            words.push(format!("layer {}", cell.layer));
+        }
+        if words.is_empty() { format!("`{name}`") } else { format!("{} of `{name}`", words.join(", ")) }
+    }
+
+    /// The first pass that runs and writes `cell`, or after many mistakes any part.
+    fn writer_of(&self, of: Resource, cell: Cell) -> Option<Writer> {
+        let writers = &self.writers.on[self.writers.index(of)];
+        let few = self.errors.len() < MANY_MISTAKES;
+        let writes = |writer: &&Writer| {
+            let pass = self.states[writer.position].runs();
+            let writes = pass.into_iter().flat_map(|pass| touches::writes(self.things, pass));
+            writes.into_iter().any(|write| write.resource == of && write.cells.contains(cell))
+        };
+        let first = if few { writers.iter().find(writes) } else { writers.first() };
+        first.copied()
+    }
+
+    /// The pass before `position` that would have filled it and is off, and why.
+    fn off_before(&self, of: Resource, position: usize) -> Option<(Writer, &str)> {
+        let writer = *self.writers.off[self.writers.index(of)].first().filter(|writer| writer.position < position)?;
+        match &self.states[writer.position] {
+            State::Off { because, .. } => Some((writer, because)),
+            State::On(_) => None,
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::shader::PARAMS;
 use super::{Chosen, settings};
-use crate::describe::{self, Diagnostic, nearest, suggestion};
+use crate::describe::{self, Diagnostic, Name, nearest, suggestion};
 use crate::frame::ParamValue;
 use crate::interface::{BindingKind, Block, PASS_SET, ShaderInterface};
 use std::sync::Arc;
@@ -14,7 +14,7 @@ pub(super) fn give(
     interface: &ShaderInterface,
     errors: &mut Vec<Diagnostic>,
 ) -> Vec<(Arc<str>, ParamValue)> {
-    let shader = &pass.shader.text;
+    let Some(Name { text: shader, span: named }) = pass.shader() else { return Vec::new() };
     let none = Block::default();
     let block = block(interface).unwrap_or(&none);
     let mut given = Vec::new();
@@ -50,10 +50,15 @@ pub(super) fn give(
                 "float" | "int" | "uint" | "bool" => format!("add `params: {{\"{name}\": …}}`; its type is `{ty}`"),
                 _ => format!("its type is `{ty}`, and pipeline files give single numbers only: split it into several"),
             };
-            errors.push(Diagnostic::new(pass.shader.span, message).help(help));
+            errors.push(Diagnostic::new(*named, message).help(help));
         }
     }
     given
+}
+
+/// Values as the file has them, for what the embedding program records: no block says their types.
+pub(super) fn as_written(chosen: &Chosen<'_>, pass: &describe::Pass) -> Vec<(Arc<str>, ParamValue)> {
+    pass.params.iter().map(|param| (param.name.text.clone(), value(chosen, param).0)).collect()
 }
 
 fn block(interface: &ShaderInterface) -> Option<&Block> {

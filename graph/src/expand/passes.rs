@@ -1,57 +1,147 @@
-//! Passes of the frame: targets that fit each other, and what the shader is given.
+//! Passes of the frame: what each does with which parts, and what its shader is given.
 
-use super::images::Resolved;
-use super::shader::{self, Checked};
-use super::{Chosen, params, supplied};
-use crate::describe::{self, Diagnostic, ImageRef};
-use crate::frame::{Blend, ColorTarget, DepthTarget, Pass, Work};
-use crate::vocabulary::Subresources;
+use super::shader::Checked;
+use super::things::Things;
+use super::{Chosen, params, parts, sampled, shader, storage, supplied, targets, work};
+use crate::describe::{self, Diagnostic, Work as Described};
+use crate::frame::{BufferRole, BufferUse, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
+use crate::interface::ShaderInterface;
+use crate::vocabulary::{Stages, Subresources};
 
-/// The pass as it runs. `None` if its shader can't be had; mistakes were reported then.
+/// The pass as it runs, checked against its shader. Of a shader that can't be had nothing is known: mistakes were
+/// reported then, and what it would write counts as written.
 pub(super) fn lower(
     chosen: &Chosen<'_>,
-    images: &[Option<Resolved>],
+    things: &Things,
     pass: &describe::Pass,
     shaders: &mut Checked<'_>,
     errors: &mut Vec<Diagnostic>,
-) -> Option<Pass> {
-    let interface = shaders.interface(pass, errors)?;
-    supplied::check(shaders, pass, &interface, errors);
-    let sampled = shader::sampled(chosen, images, pass, &interface, errors);
-    let params = params::give(chosen, pass, &interface, errors);
-    shader::outputs(images, pass, &interface, errors);
-    let work = Work::Draw {
-        draw: pass.draw,
-        shader: pass.shader.text.clone(),
-        discards: interface.discards,
-        per_sample: interface.per_sample,
-    };
-    Some(Pass {
-        span: pass.name.span,
-        sampled,
-        color: pass
-            .color
-            .iter()
-            .map(|target| ColorTarget {
-                image: target.image.index,
-                range: Subresources::WHOLE,
-                span: target.image.span,
-                clear: target.clear,
-                blend: target.blend.value,
-            })
-            .collect(),
-        depth: pass.depth.as_ref().map(|target| DepthTarget {
-            image: target.image.index,
-            range: Subresources::WHOLE,
-            span: target.image.span,
+) -> Pass {
+    let interface = shaders.interface(chosen, pass, errors);
+    let mut lowered = draft(chosen, things, pass, interface.as_ref(), errors);
+    work::check(chosen, things, pass, &lowered, interface.as_ref(), errors);
+    if let Some(interface) = &interface {
+        supplied::check(chosen, shaders, pass, interface, errors);
+        let mut misspelt = sampled::check(chosen, things, pass, &lowered, interface, errors);
+        misspelt.extend(storage::check(chosen, things, pass, &lowered, interface, errors));
+        shader::missing(pass, interface, &misspelt, errors);
+        lowered.params = params::give(chosen, pass, interface, errors);
+        targets::fed(things, pass, interface, errors);
+    } else if let Described::Custom { .. } = pass.work {
+        lowered.params = params::as_written(chosen, pass);
+    }
+    lowered
+}
+
+/// The pass without what its shader's parameters are. Stages, and what is done with storage, are the shader's.
+pub(super) fn draft(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    pass: &describe::Pass,
+    interface: Option<&ShaderInterface>,
+    errors: &mut Vec<Diagnostic>,
+) -> Pass {
+    let raster = !pass.color.is_empty() || pass.depth.is_some();
+    let mut lowered = Pass::new(&pass.name.text, work::lower(chosen, things, pass, interface));
+    lowered.span = pass.name.span;
+    lowered.side_effect = pass.side_effect;
+    for sample in &pass.sample {
+        let range = parts::range(chosen, things, &sample.part, errors);
+        lowered.sampled.extend(sampled::lower(things, sample, range, interface, raster));
+    }
+    for part in &pass.storage {
+        storage::lower(chosen, things, part, interface, raster, &mut lowered, errors);
+    }
+    for target in &pass.color {
+        lowered.color.push(ColorTarget {
+            image: target.part.image.index,
+            range: parts::range(chosen, things, &target.part, errors),
+            span: target.part.image.span,
             clear: target.clear,
-            test: target.test,
-            write: target.write,
-            stencil: None,
-        }),
-        params,
-        ..Pass::new(&pass.name.text, work)
-    })
+            blend: target.blend.value,
+        });
+    }
+    lowered.depth = pass.depth.as_ref().map(|target| DepthTarget {
+        image: target.part.image.index,
+        range: parts::range(chosen, things, &target.part, errors),
+        span: target.part.image.span,
+        clear: target.clear,
+        test: target.test,
+        write: target.write,
+        stencil: target.stencil.map(|stencil| stencil.value),
+    });
+    buffers(pass, interface, raster, &mut lowered);
+    transfers(chosen, things, pass, &mut lowered, errors);
+    lowered
+}
+
+/// Buffers that are read as uniform blocks, vertices, indices and counts.
+fn buffers(pass: &describe::Pass, interface: Option<&ShaderInterface>, raster: bool, lowered: &mut Pass) {
+    for uniform in &pass.uniform {
+        let stages = storage::stages(interface, &uniform.binding.text, raster);
+        let binding = Some(uniform.binding.text.clone());
+        lowered.buffers.push(used(&uniform.part, binding, BufferRole::Uniform, stages));
+    }
+    let indirect = match &pass.work {
+        Described::Draw { draw: describe::Draw::Indirect(buffer), .. } => Some(buffer),
+        Described::Dispatch { groups, .. } => match &groups.value {
+            describe::Groups::Indirect { buffer, .. } => Some(buffer),
+            _ => None,
+        },
+        _ => None,
+    };
+    let roles = [
+        (pass.vertex.as_ref(), BufferRole::Vertex),
+        (pass.index.as_ref(), BufferRole::Index),
+        (indirect, BufferRole::Indirect),
+    ];
+    for (part, role) in roles {
+        lowered.buffers.extend(part.map(|part| used(part, None, role, Stages::empty())));
+    }
+}
+
+/// One use of a buffer.
+pub(super) fn used(
+    part: &describe::BufferPart,
+    binding: Option<std::sync::Arc<str>>,
+    role: BufferRole,
+    stages: Stages,
+) -> BufferUse {
+    BufferUse {
+        binding,
+        buffer: part.buffer.index,
+        frames_ago: part.previous.map_or(0, |previous| previous.value),
+        span: part.buffer.span,
+        role,
+        stages,
+    }
+}
+
+fn transfers(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    pass: &describe::Pass,
+    lowered: &mut Pass,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let (reads, writes) = match &pass.work {
+        Described::Copy { from, to } | Described::Blit { from, to, .. } => {
+            (std::slice::from_ref(from), std::slice::from_ref(to))
+        }
+        Described::Fill { to, .. } => (&[][..], std::slice::from_ref(to)),
+        Described::Custom { reads, writes, .. } => (&reads[..], &writes[..]),
+        Described::Draw { .. } | Described::Dispatch { .. } => return,
+    };
+    let parts = reads.iter().map(|part| (part, false)).chain(writes.iter().map(|part| (part, true)));
+    for (part, write) in parts {
+        let describe::ResourceRef { resource, span } = part.resource();
+        let range = match part {
+            describe::Part::Image(part) => parts::range(chosen, things, part, errors),
+            describe::Part::Buffer(_) => Subresources::WHOLE,
+        };
+        let frames_ago = part.previous().map_or(0, |previous| previous.value);
+        lowered.transfers.push(TransferUse { resource, range, frames_ago, span, write });
+    }
 }
 
 /// What runs in place of a pass that is off, if its target must be filled all the same.
@@ -61,99 +151,15 @@ pub(super) fn stand_in(pass: &describe::Pass, because: String) -> Option<Pass> {
     Some(Pass { span: pass.name.span, ..Pass::new(&pass.name.text, work) })
 }
 
-/// Targets have formats that fit their use, and agree in size and sample count; a stand-in keeps to one kind of image.
-pub(super) fn targets_fit(
-    chosen: &Chosen<'_>,
-    images: &[Option<Resolved>],
-    pass: &describe::Pass,
-    errors: &mut Vec<Diagnostic>,
-) {
-    let resolved = |image: ImageRef| images[image.index.0 as usize].as_ref();
-    let declared = |image: ImageRef| chosen.image(image.index).format.span;
-    for target in &pass.color {
-        let Some(image) = resolved(target.image) else { continue };
-        let format = image.image.format;
-        if format.is_depth() {
-            let message = format!("`{}` is a depth image ({format}) and can't be a colour target", image.image.name);
-            errors.push(Diagnostic::new(target.image.span, message).label(declared(target.image), "its format"));
-        } else if format.is_integer() && target.blend.value != Blend::Replace {
-            let message = format!("`{}` holds integers ({format}), which can't be blended", image.image.name);
-            errors.push(Diagnostic::new(target.blend.span, message).label(declared(target.image), "its format"));
-        }
-    }
-    if let Some(target) = &pass.depth
-        && let Some(image) = resolved(target.image)
-        && !image.image.format.is_depth()
-    {
-        let message = format!("`{}` has no depth ({})", image.image.name, image.image.format);
-        errors.push(Diagnostic::new(target.image.span, message).label(declared(target.image), "its format"));
-    }
-    agree(images, pass, errors);
-    if let Some(forward) = pass.otherwise
-        && let (Some(from), Some(to)) = (resolved(forward.from), resolved(forward.to))
-        && kind(from) != kind(to)
-    {
-        let message = format!("`{}` can't take what `{}` holds", to.image.name, from.image.name);
-        errors.push(
-            Diagnostic::new(forward.from.span, message)
-                .remark(format!("{} ({})", kind(from), from.image.format))
-                .label(forward.to.span, format!("{} ({})", kind(to), to.image.format)),
-        );
-    }
-}
-
-/// What an image holds, in words.
-fn kind(image: &Resolved) -> &'static str {
-    match image.image.format {
-        format if format.is_depth() => "depth",
-        format if format.is_integer() => "integers",
-        _ => "colour",
-    }
-}
-
-/// All targets of a pass have one size and one sample count.
-fn agree(images: &[Option<Resolved>], pass: &describe::Pass, errors: &mut Vec<Diagnostic>) {
-    let targets = pass.color.iter().map(|target| target.image).chain(pass.depth.iter().map(|target| target.image));
-    let mut resolved = targets.filter_map(|target| Some((target, images[target.index.0 as usize].as_ref()?)));
-    let Some((first, with)) = resolved.next() else { return };
-    for (target, image) in resolved {
-        let (one, other) = (&with.image, &image.image);
-        if one.extent != other.extent {
-            let size = |image: &crate::frame::Image| format!("{}×{}", image.extent[0], image.extent[1]);
-            let message = format!(
-                "pass `{}` draws into images of different sizes: `{}` and `{}`",
-                pass.name.text, one.name, other.name
-            );
-            errors.push(
-                Diagnostic::new(target.span, message)
-                    .remark(size(other))
-                    .label(first.span, size(one))
-                    .help(format!("let one follow the other: `size: Like(\"{}\")`", one.name)),
-            );
-        }
-        if one.samples != other.samples {
-            let message = format!(
-                "pass `{}` draws into images with different sample counts: `{}` and `{}`",
-                pass.name.text, one.name, other.name
-            );
-            errors.push(
-                Diagnostic::new(target.span, message)
-                    .remark(image.samples_words())
-                    .label(first.span, with.samples_words())
-                    .help(format!("let one follow the other: `samples: Like(\"{}\")`", one.name)),
-            );
-        }
-    }
-}
-
-impl Resolved {
-    /// How many samples, and why: "4 samples (msaa = 4)".
-    pub(super) fn samples_words(&self) -> String {
-        let samples = self.image.samples;
-        let count = if samples == 1 { "1 sample".to_owned() } else { format!("{samples} samples") };
-        match &self.samples_because {
-            Some(because) => format!("{count} ({because})"),
-            None => count,
-        }
-    }
+/// Images and buffers whose contents `pass` would make, were it on.
+pub(super) fn would_write(pass: &Pass) -> impl Iterator<Item = (Resource, crate::source::Span)> {
+    let color = pass.color.iter().map(|target| (Resource::Image(target.image), target.span));
+    let depth = pass.depth.iter().map(|target| (Resource::Image(target.image), target.span));
+    let storage = pass.storage.iter().filter(|storage| storage.write);
+    let storage = storage.map(|storage| (Resource::Image(storage.image), storage.span));
+    let buffers = pass.buffers.iter().filter(|used| matches!(used.role, BufferRole::Storage { write: true, .. }));
+    let buffers = buffers.map(|used| (Resource::Buffer(used.buffer), used.span));
+    let transfers = pass.transfers.iter().filter(|transfer| transfer.write);
+    let transfers = transfers.map(|transfer| (transfer.resource, transfer.span));
+    color.chain(depth).chain(storage).chain(buffers).chain(transfers)
 }

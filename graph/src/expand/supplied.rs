@@ -1,7 +1,8 @@
 //! A shader meets whoever draws: vertex attributes, and the resources of sets from 1 on.
 
+use super::Chosen;
 use super::shader::Checked;
-use crate::describe::{self, Diagnostic, suggestion};
+use crate::describe::{self, Diagnostic, Draw, Name, Work, suggestion};
 use crate::interface::{
     Binding, BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterface, Supplied,
     SuppliedKind,
@@ -9,47 +10,68 @@ use crate::interface::{
 
 /// Reports what the shader wants and whoever draws doesn't bring along.
 pub(super) fn check(
+    chosen: &Chosen<'_>,
     shaders: &mut Checked<'_>,
     pass: &describe::Pass,
     interface: &ShaderInterface,
     errors: &mut Vec<Diagnostic>,
 ) {
-    let Some(brought) = shaders.brought_along_first(pass) else { return };
-    attributes(pass, interface, &brought, errors);
+    let Some(shader) = pass.shader() else { return };
+    let own = matches!(&pass.work, Work::Draw { draw: Draw::Vertices { .. } | Draw::Indirect(_), .. });
+    if own {
+        own_attributes(pass, shader, interface, errors);
+    }
+    let Some(brought) = shaders.brought_along_first(chosen, pass) else { return };
+    if !own {
+        attributes(shader, interface, &brought, errors);
+    }
     for binding in interface.bindings.iter().filter(|binding| binding.set != PASS_SET) {
-        resource(pass, binding, &brought.supplied, errors);
+        resource(shader, binding, &brought.supplied, errors);
     }
 }
 
-fn attributes(
-    pass: &describe::Pass,
-    interface: &ShaderInterface,
-    brought: &DrawInterface,
-    errors: &mut Vec<Diagnostic>,
-) {
-    let shader = &pass.shader.text;
+/// A pass that brings its own vertices names their buffer, if and only if its shader reads attributes.
+fn own_attributes(pass: &describe::Pass, shader: &Name, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
+    match (interface.vertex_inputs.first(), &pass.vertex) {
+        (Some(input), None) => {
+            let message = format!(
+                "shader `{}` reads the vertex attribute `{}`, and pass `{}` has no buffer of vertices",
+                shader.text, input.name, pass.name.text
+            );
+            errors.push(Diagnostic::new(shader.span, message).help("add `vertex: \"…\"`"));
+        }
+        (None, Some(part)) => {
+            let message = format!("shader `{}` reads no vertex attributes", shader.text);
+            errors.push(Diagnostic::new(part.buffer.span, message).help("remove `vertex`, or name it in `storage`"));
+        }
+        _ => {}
+    }
+}
+
+fn attributes(shader: &Name, interface: &ShaderInterface, brought: &DrawInterface, errors: &mut Vec<Diagnostic>) {
+    let Name { text: shader, span } = shader;
     for input in &interface.vertex_inputs {
         let (name, ty) = (&input.name, &input.ty);
         if !brought.attributes.iter().any(|attribute| attribute.name == name) {
             let message = format!("shader `{shader}` reads the vertex attribute `{name}`, which doesn't exist");
             let help = suggestion(name, brought.attributes.iter().map(|attribute| attribute.name))
                 .or_else(|| Some("what this pass draws has no vertex attributes".to_owned()));
-            errors.push(Diagnostic { help, ..Diagnostic::new(pass.shader.span, message) });
+            errors.push(Diagnostic { help, ..Diagnostic::new(*span, message) });
         } else if !matches!(&**ty, "float" | "vec2" | "vec3" | "vec4") {
             let message = format!("shader `{shader}` reads the vertex attribute `{name}` as `{ty}`");
             let help = "vertex attributes are floating point: `float`, `vec2`, `vec3` or `vec4`";
-            errors.push(Diagnostic::new(pass.shader.span, message).help(help));
+            errors.push(Diagnostic::new(*span, message).help(help));
         }
     }
 }
 
-fn resource(pass: &describe::Pass, binding: &Binding, supplied: &[Supplied], errors: &mut Vec<Diagnostic>) {
-    let (shader, name) = (&pass.shader.text, &binding.name);
+fn resource(shader: &Name, binding: &Binding, supplied: &[Supplied], errors: &mut Vec<Diagnostic>) {
+    let (Name { text: shader, span }, name) = (shader, &binding.name);
     let wanted = format!("shader `{shader}` uses `{name}` (set {}, binding {})", binding.set, binding.binding);
-    let here = |message: String| Diagnostic::new(pass.shader.span, message);
+    let here = |message: String| Diagnostic::new(*span, message);
     let Some(there) = supplied.iter().find(|there| there.name == name) else {
         let help = suggestion(name, supplied.iter().map(|there| there.name))
-            .or_else(|| Some(format!("images and parameters of a pass belong into set {PASS_SET}")));
+            .or_else(|| Some(format!("what a pass gives belongs into set {PASS_SET}")));
         let unknown = here(format!("{wanted}, which whoever draws doesn't bring along"));
         errors.push(Diagnostic { help, ..unknown });
         return;

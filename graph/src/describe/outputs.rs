@@ -1,0 +1,69 @@
+//! `outputs`: what leaves the frame, and in which state.
+
+use super::leaf::{Leaf, Shape};
+use super::names::Scope;
+use super::pipeline::{Output, ResourceRef};
+use super::reader::Reader;
+use super::{Diagnostic, lifetimes};
+use crate::frame::Resource;
+use serde::Deserialize;
+use std::collections::HashMap;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OutputFields<'src> {
+    #[serde(borrow)]
+    image: Option<Leaf<'src>>,
+    buffer: Option<Leaf<'src>>,
+    after: Option<Leaf<'src>>,
+}
+
+/// The images and buffers that leave the frame, each once.
+pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, list: Leaf<'src>) -> Option<Vec<Output>> {
+    let leaves = reader.list(list, "`outputs`")?;
+    if leaves.is_empty() {
+        reader.wrong(list, "a frame without outputs shows nothing", "name the image that is shown: `outputs: [\"…\"]`");
+        return None;
+    }
+    let outputs: Vec<Option<Output>> = leaves.into_iter().map(|leaf| output(reader, scope, leaf)).collect();
+    let mut first = HashMap::new();
+    for output in outputs.iter().flatten() {
+        let ResourceRef { resource, span } = output.resource;
+        if let Some(first) = first.insert(resource, span) {
+            let what = if matches!(resource, Resource::Image(_)) { "image" } else { "buffer" };
+            let twice = Diagnostic::new(span, format!("this {what} is an output twice"));
+            reader.report(twice.remark("again here").label(first, "first here"));
+        }
+    }
+    outputs.into_iter().collect()
+}
+
+fn output<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Output> {
+    let Shape::Parentheses = leaf.shape() else {
+        return Some(Output { resource: scope.resource(reader, leaf)?, after: None });
+    };
+    let fields: OutputFields<'_> = reader.read(leaf, "an output")?;
+    let (resource, of) = match (fields.image, fields.buffer) {
+        (Some(image), None) => {
+            let image = scope.image(reader, image);
+            let resource = image.map(|image| ResourceRef { resource: Resource::Image(image.index), span: image.span });
+            (resource, lifetimes::Of::Image)
+        }
+        (None, Some(buffer)) => {
+            let buffer = scope.buffer(reader, buffer);
+            let resource =
+                buffer.map(|buffer| ResourceRef { resource: Resource::Buffer(buffer.index), span: buffer.span });
+            (resource, lifetimes::Of::Buffer)
+        }
+        _ => {
+            let help = "write `(image: \"…\", after: …)` or `(buffer: \"…\", after: …)`";
+            reader.wrong(leaf, "an output is one image or one buffer", help);
+            return None;
+        }
+    };
+    let after = match fields.after {
+        Some(after) => lifetimes::state(reader, after, of).map(Some),
+        None => Some(None),
+    };
+    Some(Output { resource: resource?, after: after? })
+}

@@ -1,0 +1,186 @@
+//! Parts of images and buffers, as passes name them: mip levels, layers, planes, earlier frames.
+
+use super::leaf::{Leaf, Shape};
+use super::names::Scope;
+use super::pass::{BufferPart, ImagePart, Part, Selection};
+use super::reader::Reader;
+use super::values;
+use crate::vocabulary::{Aspects, Subresources};
+use serde::Deserialize;
+
+/// An image or buffer can be read at most this many frames back.
+pub(super) const MOST_FRAMES: i64 = 64;
+
+/// Larger numbers of mip levels and layers stand in no image.
+const MOST_PARTS: i64 = 65535;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PartFields<'src> {
+    #[serde(borrow)]
+    image: Option<Leaf<'src>>,
+    buffer: Option<Leaf<'src>>,
+    mip: Option<Leaf<'src>>,
+    mips: Option<Leaf<'src>>,
+    layer: Option<Leaf<'src>>,
+    layers: Option<Leaf<'src>>,
+    plane: Option<Leaf<'src>>,
+    previous: Option<Leaf<'src>>,
+}
+
+/// What is said about a part besides the image's name.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Selected<'src> {
+    pub(super) mip: Option<Leaf<'src>>,
+    pub(super) mips: Option<Leaf<'src>>,
+    pub(super) layer: Option<Leaf<'src>>,
+    pub(super) layers: Option<Leaf<'src>>,
+    pub(super) plane: Option<Leaf<'src>>,
+    pub(super) previous: Option<Leaf<'src>>,
+}
+
+const PLANES: [(&str, Aspects); 2] = [("Depth", Aspects::DEPTH), ("Stencil", Aspects::STENCIL)];
+
+/// `"name"` or `(image: "name", mip: 1, …)` or `(buffer: "name", …)`.
+pub(super) fn any<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Part> {
+    match leaf.shape() {
+        Shape::Text => Some(match scope.resource(reader, leaf)?.resource {
+            crate::frame::Resource::Image(_) => Part::Image(image(reader, scope, leaf)?),
+            crate::frame::Resource::Buffer(_) => Part::Buffer(buffer(reader, scope, leaf)?),
+        }),
+        Shape::Parentheses => {
+            let fields: PartFields<'_> = reader.read(leaf, "a part of an image or buffer")?;
+            let PartFields { image, buffer, mip, mips, layer, layers, plane, previous } = fields;
+            let selected = Selected { mip, mips, layer, layers, plane, previous };
+            one_of(reader, scope, leaf, image, buffer, selected)
+        }
+        _ => {
+            reader
+                .expected(leaf, "an image or buffer: `\"name\"`, `(image: \"name\", mip: 1)` or `(buffer: \"name\")`");
+            None
+        }
+    }
+}
+
+/// The part of whichever of `image` and `buffer` is there.
+pub(super) fn one_of<'src>(
+    reader: &mut Reader<'src>,
+    scope: &Scope<'_>,
+    whole: Leaf<'src>,
+    image: Option<Leaf<'src>>,
+    buffer: Option<Leaf<'src>>,
+    selected: Selected<'src>,
+) -> Option<Part> {
+    match (image, buffer) {
+        (Some(image), None) => image_part(reader, scope, image, selected).map(Part::Image),
+        (None, Some(buffer)) => {
+            let Selected { mip, mips, layer, layers, plane, previous } = selected;
+            for foreign in [mip, mips, layer, layers, plane].into_iter().flatten() {
+                reader.wrong(foreign, "a buffer has no mip levels, layers and planes", "");
+            }
+            buffer_part(reader, scope, buffer, previous).map(Part::Buffer)
+        }
+        (Some(_), Some(buffer)) => {
+            reader.wrong(buffer, "an image and a buffer can't be named in one place", "");
+            None
+        }
+        (None, None) => {
+            reader.wrong(whole, "this names neither an image nor a buffer", "add `image: \"…\"` or `buffer: \"…\"`");
+            None
+        }
+    }
+}
+
+/// `"name"` or `(image: "name", mip: 1, …)`.
+pub(super) fn image<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<ImagePart> {
+    if let Shape::Parentheses = leaf.shape() {
+        return match any(reader, scope, leaf)? {
+            Part::Image(part) => Some(part),
+            Part::Buffer(_) => {
+                reader.wrong(leaf, "an image is needed here", "");
+                None
+            }
+        };
+    }
+    image_part(reader, scope, leaf, Selected::default())
+}
+
+/// `"name"` or `(buffer: "name", previous: 1)`.
+pub(super) fn buffer<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<BufferPart> {
+    if let Shape::Parentheses = leaf.shape() {
+        return match any(reader, scope, leaf)? {
+            Part::Buffer(part) => Some(part),
+            Part::Image(_) => {
+                reader.wrong(leaf, "a buffer is needed here", "");
+                None
+            }
+        };
+    }
+    buffer_part(reader, scope, leaf, None)
+}
+
+fn buffer_part<'src>(
+    reader: &mut Reader<'src>,
+    scope: &Scope<'_>,
+    buffer: Leaf<'src>,
+    previous: Option<Leaf<'src>>,
+) -> Option<BufferPart> {
+    let buffer = scope.buffer(reader, buffer);
+    let previous = frames(reader, previous);
+    Some(BufferPart { buffer: buffer?, previous: previous? })
+}
+
+/// The part of the image that `name` names.
+pub(super) fn image_part<'src>(
+    reader: &mut Reader<'src>,
+    scope: &Scope<'_>,
+    name: Leaf<'src>,
+    selected: Selected<'src>,
+) -> Option<ImagePart> {
+    let image = scope.image(reader, name);
+    let mips = selection(reader, selected.mip, selected.mips, "mip level", "number of mip levels");
+    let layers = selection(reader, selected.layer, selected.layers, "layer", "number of layers");
+    let plane = match selected.plane {
+        Some(plane) => {
+            values::choice(reader, plane, "a plane", &PLANES).map(|value| Some(reader.spanned(plane, value)))
+        }
+        None => Some(None),
+    };
+    let previous = frames(reader, selected.previous);
+    Some(ImagePart { image: image?, mips: mips?, layers: layers?, plane: plane?, previous: previous? })
+}
+
+fn frames<'src>(reader: &mut Reader<'src>, leaf: Option<Leaf<'src>>) -> Option<Option<super::Spanned<u32>>> {
+    let Some(leaf) = leaf else { return Some(None) };
+    let frames = values::constant(reader, leaf, "number of frames to look back", 1..=MOST_FRAMES)?;
+    Some(Some(reader.spanned(leaf, frames)))
+}
+
+fn selection<'src>(
+    reader: &mut Reader<'src>,
+    first: Option<Leaf<'src>>,
+    count: Option<Leaf<'src>>,
+    one: &str,
+    several: &str,
+) -> Option<Selection> {
+    let first = match first {
+        Some(leaf) => Some((leaf, values::constant(reader, leaf, one, 0..=MOST_PARTS))),
+        None => None,
+    };
+    let count = match count {
+        Some(leaf) if matches!(leaf.shape(), Shape::Word("Rest", None)) => Some((leaf, Some(Subresources::REMAINING))),
+        Some(leaf) if matches!(leaf.shape(), Shape::Number) => {
+            Some((leaf, values::constant(reader, leaf, several, 1..=MOST_PARTS)))
+        }
+        Some(leaf) => {
+            reader.expected(leaf, "a whole number or `Rest`");
+            return None;
+        }
+        None => None,
+    };
+    let spanned = |part: Option<(Leaf<'src>, Option<u32>)>| match part {
+        Some((leaf, value)) => value.map(|value| Some(reader.spanned(leaf, value))),
+        None => Some(None),
+    };
+    Some(Selection { first: spanned(first)?, count: spanned(count)? })
+}

@@ -1,0 +1,316 @@
+//! What a pipeline file says of a pass: what it does, with which parts of which images and buffers, and when.
+
+use super::pipeline::{BufferRef, Condition, ImageRef, Name, ResourceRef, SettingRef, Spanned, Value};
+use super::resources::Fill;
+use crate::frame::{Blend, DrawList, StencilState};
+use crate::vocabulary::{Aspects, CompareOp, Filter};
+
+/// A pass.
+#[derive(Debug, Clone)]
+pub struct Pass {
+    /// Unique name.
+    pub name: Name,
+    /// When it runs; `None`: always.
+    pub when: Option<Condition>,
+    /// What it does.
+    pub work: Work,
+    /// Images that its shaders sample.
+    pub sample: Vec<Sample>,
+    /// Images and buffers that its shaders read and write by themselves.
+    pub storage: Vec<Storage>,
+    /// Buffers that its shaders read as uniform blocks.
+    pub uniform: Vec<Uniform>,
+    /// The buffer of its vertex attributes.
+    pub vertex: Option<BufferPart>,
+    /// The buffer of its indices.
+    pub index: Option<BufferPart>,
+    /// Colour targets by location.
+    pub color: Vec<Color>,
+    /// Depth (and stencil) target.
+    pub depth: Option<Depth>,
+    /// Values for the shader's block `params`.
+    pub params: Vec<Param>,
+    /// Whether it has an effect that no image or buffer shows.
+    pub side_effect: bool,
+    /// What its target takes instead when it is off.
+    pub otherwise: Option<Forward>,
+}
+
+/// What a pass does.
+#[derive(Debug, Clone)]
+pub enum Work {
+    /// It draws into its targets.
+    Draw {
+        /// What.
+        draw: Draw,
+        /// By which shader.
+        shader: Name,
+    },
+    /// It runs a compute shader.
+    Dispatch {
+        /// Which one.
+        shader: Name,
+        /// How many workgroups.
+        groups: Spanned<Groups>,
+    },
+    /// It copies.
+    Copy {
+        /// What.
+        from: Part,
+        /// To where.
+        to: Part,
+    },
+    /// It copies an image and scales it.
+    Blit {
+        /// What.
+        from: Part,
+        /// To where.
+        to: Part,
+        /// Filter, if the file chooses one.
+        filter: Option<Spanned<Filter>>,
+    },
+    /// It sets an image or buffer to a value.
+    Fill {
+        /// Which one.
+        to: Part,
+        /// The value.
+        value: Spanned<Fill>,
+    },
+    /// The embedding program records it.
+    Custom {
+        /// The name by which the program knows it.
+        callback: Name,
+        /// What it reads by transfer.
+        reads: Vec<Part>,
+        /// What it writes by transfer.
+        writes: Vec<Part>,
+    },
+}
+
+/// What a raster pass draws.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Draw {
+    /// One of the scene's draw lists.
+    Objects(DrawList),
+    /// The sky.
+    Sky,
+    /// One triangle that covers every pixel.
+    FullScreen,
+    /// So many vertices (or indices) of triangles.
+    Vertices {
+        /// How many.
+        count: Value<u32>,
+        /// How many times.
+        instances: Value<u32>,
+    },
+    /// As many as a buffer says.
+    Indirect(BufferPart),
+}
+
+/// How many workgroups a dispatch has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Groups {
+    /// So many in x, y and z.
+    Count([Value<u32>; 3]),
+    /// As many as cover so many invocations in x, y and z.
+    Invocations([Value<u32>; 3]),
+    /// As many as cover one invocation for each texel of an image, its layers or depth in z.
+    Texels(ImagePart),
+    /// As many as a buffer says.
+    Indirect {
+        /// Which one.
+        buffer: BufferPart,
+        /// Where in it, in bytes.
+        offset: u64,
+    },
+}
+
+/// An image or buffer, or a part of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Part {
+    /// Of an image.
+    Image(ImagePart),
+    /// A buffer.
+    Buffer(BufferPart),
+}
+
+/// A part of an image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImagePart {
+    /// Which image.
+    pub image: ImageRef,
+    /// Which mip levels.
+    pub mips: Selection,
+    /// Which array layers.
+    pub layers: Selection,
+    /// Which plane; `None`: all that it has.
+    pub plane: Option<Spanned<Aspects>>,
+    /// Of how many frames before this one.
+    pub previous: Option<Spanned<u32>>,
+}
+
+/// A buffer, of this frame or an earlier one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BufferPart {
+    /// Which buffer.
+    pub buffer: BufferRef,
+    /// Of how many frames before this one.
+    pub previous: Option<Spanned<u32>>,
+}
+
+/// Some of the mip levels or array layers of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Selection {
+    /// The first; `None`: from the beginning.
+    pub first: Option<Spanned<u32>>,
+    /// How many, [`REMAINING`](crate::vocabulary::Subresources::REMAINING) for all further ones; `None`: one, or all if
+    /// `first` is `None` too.
+    pub count: Option<Spanned<u32>>,
+}
+
+/// An image that a shader samples.
+#[derive(Debug, Clone)]
+pub struct Sample {
+    /// The shader's name for it.
+    pub binding: Name,
+    /// Which part of which image.
+    pub part: ImagePart,
+    /// Which of its faces.
+    pub face: Face,
+    /// Filter, if the file chooses one.
+    pub filter: Option<Spanned<Filter>>,
+    /// Whether each fragment reads only the texel at its own position, if the file says so.
+    pub own_pixel: Option<Spanned<bool>>,
+}
+
+/// A face of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Face {
+    /// Whichever the shader's declaration asks for.
+    Plain,
+    /// Each sample by itself.
+    Samples,
+    /// One value a texel.
+    Resolved,
+}
+
+/// An image or buffer that a shader reads and writes by itself.
+#[derive(Debug, Clone)]
+pub struct Storage {
+    /// The shader's name for it.
+    pub binding: Name,
+    /// Which part of which image, or which buffer.
+    pub part: Part,
+    /// What is done with it; `None`: what the shader's declaration allows.
+    pub access: Option<Spanned<StorageAccess>>,
+}
+
+/// What a shader does with an image or buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StorageAccess {
+    /// It is read.
+    Read,
+    /// It is written anew, all of it.
+    Write,
+    /// It is read and written, or written in some places and kept in others.
+    ReadWrite,
+}
+
+/// A buffer that a shader reads as a uniform block.
+#[derive(Debug, Clone)]
+pub struct Uniform {
+    /// The shader's name for it.
+    pub binding: Name,
+    /// Which one.
+    pub part: BufferPart,
+}
+
+/// A colour target.
+#[derive(Debug, Clone)]
+pub struct Color {
+    /// Which part of which image.
+    pub part: ImagePart,
+    /// Clear value (linear red, green, blue, alpha).
+    pub clear: Option<[f32; 4]>,
+    /// How new colour meets old.
+    pub blend: Spanned<Blend>,
+}
+
+/// A depth target.
+#[derive(Debug, Clone)]
+pub struct Depth {
+    /// Which part of which image.
+    pub part: ImagePart,
+    /// Clear value, 0 (infinitely far) to 1.
+    pub clear: Option<f32>,
+    /// The comparison.
+    pub test: CompareOp,
+    /// Whether passing fragments write depth.
+    pub write: bool,
+    /// What happens to the stencil plane.
+    pub stencil: Option<Spanned<StencilState>>,
+}
+
+/// A value for a member of the shader's block `params`.
+#[derive(Debug, Clone)]
+pub struct Param {
+    /// The member's name.
+    pub name: Name,
+    /// Its value.
+    pub value: Spanned<ParamValue>,
+}
+
+/// A parameter's value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ParamValue {
+    /// `true` or `false`.
+    Bool(bool),
+    /// A whole number.
+    Integer(i64),
+    /// A finite number.
+    Number(f64),
+    /// A setting's.
+    Setting(SettingRef),
+}
+
+/// What a target takes when its pass is off: `to` gets what `from` holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Forward {
+    /// Source.
+    pub from: ImageRef,
+    /// Target, one of the pass's own.
+    pub to: ImageRef,
+}
+
+impl Part {
+    /// Which image or buffer, and where it was named.
+    #[must_use]
+    pub const fn resource(&self) -> ResourceRef {
+        use crate::frame::Resource::{Buffer, Image};
+        match self {
+            Part::Image(part) => ResourceRef { resource: Image(part.image.index), span: part.image.span },
+            Part::Buffer(part) => ResourceRef { resource: Buffer(part.buffer.index), span: part.buffer.span },
+        }
+    }
+
+    /// Of how many frames before this one.
+    #[must_use]
+    pub const fn previous(&self) -> Option<Spanned<u32>> {
+        match self {
+            Part::Image(part) => part.previous,
+            Part::Buffer(part) => part.previous,
+        }
+    }
+}
+
+impl Pass {
+    /// The name of its shader, or of what the embedding program records; copies, blits and fills have none.
+    #[must_use]
+    pub const fn shader(&self) -> Option<&Name> {
+        match &self.work {
+            Work::Draw { shader, .. } | Work::Dispatch { shader, .. } => Some(shader),
+            Work::Custom { callback, .. } => Some(callback),
+            Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! What a pipeline file says of an image or a buffer: what it is like, and how long it lives.
+
+use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, SettingRef, Spanned, Value};
+use crate::format;
+use crate::vocabulary;
+
+/// An image.
+#[derive(Debug, Clone)]
+pub struct Image {
+    /// Unique name, among buffers too.
+    pub name: Name,
+    /// Texel format.
+    pub format: Spanned<Format>,
+    /// Width and height.
+    pub size: Spanned<Size>,
+    /// Samples a texel.
+    pub samples: Spanned<Samples>,
+    /// Mip levels.
+    pub mips: Spanned<Mips>,
+    /// Array layers.
+    pub layers: Spanned<Layers>,
+    /// Flat, deep, or a cube.
+    pub shape: Spanned<Shape>,
+    /// How long its contents live.
+    pub lifetime: Spanned<Lifetime>,
+}
+
+/// A texel format, by purpose or by name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Format {
+    /// Colour: `R16G16B16A16_SFLOAT` with high dynamic range, else `R8G8B8A8_SRGB`.
+    Color {
+        /// Whether values above 1 are kept.
+        hdr: Value<bool>,
+    },
+    /// Depth: `D32_SFLOAT`.
+    Depth,
+    /// Depth and stencil: `D32_SFLOAT_S8_UINT`.
+    DepthStencil,
+    /// What leaves the frame: `R8G8B8A8_SRGB`.
+    Output,
+    /// Vulkan's name.
+    Named(format::Format),
+    /// That of another image.
+    Like(ImageRef),
+}
+
+/// Width and height of an image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Size {
+    /// The frame's.
+    Output,
+    /// The frame's or another image's, times a factor greater than 0; rounded down, at least 1.
+    Scaled {
+        /// The factor.
+        by: Value<f64>,
+        /// Of which image; `None`: of the frame.
+        of: Option<ImageRef>,
+    },
+    /// So many texels, 1 to 16384 each.
+    Fixed([u32; 2]),
+    /// That of another image.
+    Like(ImageRef),
+}
+
+/// Samples a texel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Samples {
+    /// As many as written here (1, 2, 4, 8 or 16) or as a whole-number setting says.
+    Count(Value<u32>),
+    /// As another image has.
+    Like(ImageRef),
+}
+
+/// Mip levels of an image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Mips {
+    /// So many.
+    Count(Value<u32>),
+    /// Down to a single texel.
+    Full,
+    /// As another image has.
+    Like(ImageRef),
+}
+
+/// Array layers of an image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Layers {
+    /// One, or the six of a cube: the file says nothing.
+    Default,
+    /// So many; of a cube a multiple of 6.
+    Count(Value<u32>),
+    /// As another image has.
+    Like(ImageRef),
+}
+
+/// The shape of an image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// Two-dimensional, or an array of such layers.
+    D2,
+    /// Three-dimensional, so many texels deep.
+    D3(Value<u32>),
+    /// Six square layers that may be sampled as a cube, or several times six.
+    Cube,
+}
+
+/// A buffer.
+#[derive(Debug, Clone)]
+pub struct Buffer {
+    /// Unique name, among images too.
+    pub name: Name,
+    /// Size in bytes.
+    pub bytes: Spanned<Bytes>,
+    /// How long its contents live.
+    pub lifetime: Spanned<Lifetime>,
+}
+
+/// Size of a buffer, in bytes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bytes {
+    /// So many, a multiple of 4.
+    Count(Value<u64>),
+    /// So many for each of as many things as a setting says; rounded up to a multiple of 4.
+    Times(u64, SettingRef),
+    /// So many for each texel of an image's first mip level, layers and depth included; rounded up to a multiple of 4.
+    PerTexel(u64, ImageRef),
+    /// As another buffer has.
+    Like(BufferRef),
+}
+
+/// How long the contents of an image or buffer live.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Lifetime {
+    /// Within the frame.
+    Transient,
+    /// From frame to frame.
+    Persistent {
+        /// What the first frame finds; `None`: zero.
+        initial: Option<Spanned<Fill>>,
+    },
+    /// What earlier frames left can be read beside what this one writes.
+    History {
+        /// How many frames back, at least 1.
+        frames: u32,
+        /// What stands for frames before the first; `None`: zero.
+        initial: Option<Spanned<Fill>>,
+    },
+    /// The embedding program hands it in.
+    Imported {
+        /// In which state.
+        before: Spanned<State>,
+        /// In which state it is to be left, if the file asks for one.
+        after: Option<Spanned<State>>,
+    },
+    /// As long as those of another image or buffer.
+    Like(ResourceRef),
+}
+
+/// A value for all texels or words; what it means is up to what it fills.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fill {
+    /// Every component, the depth (and no stencil), or the word of a buffer.
+    Number(f64),
+    /// Depth and stencil.
+    DepthStencil(f64, f64),
+    /// Red, green, blue and alpha.
+    Color([f64; 4]),
+}
+
+/// The last or next use of what comes from outside of the frame or leaves it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum State {
+    /// By purpose.
+    Word(StateWord),
+    /// In Vulkan's words.
+    Named(vocabulary::State),
+}
+
+/// The purposes that a state may be named by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StateWord {
+    /// An image without contents.
+    Undefined,
+    /// Drawn into as colour.
+    ColorAttachment,
+    /// Drawn into as depth or stencil.
+    DepthAttachment,
+    /// Sampled by shaders.
+    Sampled,
+    /// Read and written by shaders.
+    Storage,
+    /// Read as a uniform block.
+    Uniform,
+    /// Read as vertex attributes.
+    Vertex,
+    /// Read as indices.
+    Index,
+    /// Read as counts of draws and dispatches.
+    Indirect,
+    /// Source of copies and blits.
+    TransferSource,
+    /// Target of copies, blits and clears.
+    TransferTarget,
+    /// Shown in a window.
+    Present,
+    /// Written by the host before the frame, or read by it afterwards.
+    Host,
+}

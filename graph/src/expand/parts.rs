@@ -1,0 +1,106 @@
+//! Parts of images: the mip levels, layers and planes that a pass names, against those that there are.
+
+use super::Chosen;
+use super::things::Things;
+use crate::describe::{Diagnostic, ImagePart, Selection, Spanned};
+use crate::frame::{Image, Shape};
+use crate::source::Span;
+use crate::vocabulary::{Aspects, Subresources};
+use std::ops::Range;
+
+/// A part of an image, counted out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Cells {
+    pub(super) mips: Range<u32>,
+    pub(super) layers: Range<u32>,
+    pub(super) planes: Aspects,
+}
+
+/// A part of `image`, counted out.
+pub(super) fn cells(image: &Image, range: &Subresources) -> Cells {
+    let counted = |base: u32, count: u32, all: u32| match count {
+        Subresources::REMAINING => base..all.max(base),
+        count => base..base.saturating_add(count).min(all.max(base)),
+    };
+    let all = image.format.aspects();
+    Cells {
+        mips: counted(range.base_mip, range.mips, image.mips),
+        layers: counted(range.base_layer, range.layers, image.layers),
+        planes: if range.aspects.is_empty() { all } else { range.aspects & all },
+    }
+}
+
+/// Width, height and depth of `image` at a mip level, in texels.
+pub(super) fn extent(image: &Image, mip: u32) -> [u32; 3] {
+    image.extent.map(|extent| extent.checked_shr(mip).unwrap_or(0).max(1))
+}
+
+/// The part that a pass names; all of the image if it names no more than the image, or after a mistake was reported.
+pub(super) fn range(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    part: &ImagePart,
+    errors: &mut Vec<Diagnostic>,
+) -> Subresources {
+    let Some(image) = things.image(part.image.index).map(|image| &image.image) else { return Subresources::WHOLE };
+    let declared = chosen.image(part.image.index);
+    let mips = selected(image, part.mips, image.mips, "mip level", declared.mips.span, errors);
+    let layers = selected(image, part.layers, image.layers, "layer", declared.layers.span, errors);
+    let aspects = match part.plane {
+        Some(plane) if !image.format.aspects().contains(plane.value) => {
+            let what = if plane.value == Aspects::DEPTH { "depth" } else { "stencil" };
+            let message = format!("`{}` has no {what} plane ({})", image.name, image.format);
+            errors.push(Diagnostic::new(plane.span, message).label(declared.format.span, "its format"));
+            Aspects::empty()
+        }
+        Some(plane) => plane.value,
+        None => Aspects::empty(),
+    };
+    let ((base_mip, mips), (base_layer, layers)) = (mips, layers);
+    Subresources { aspects, base_mip, mips, base_layer, layers }
+}
+
+/// First and count of what is selected of `all`.
+fn selected(
+    image: &Image,
+    selection: Selection,
+    all: u32,
+    what: &str,
+    declared: Span,
+    errors: &mut Vec<Diagnostic>,
+) -> (u32, u32) {
+    let whole = (0, Subresources::REMAINING);
+    let (first, span) = match (selection.first, selection.count) {
+        (None, None) => return whole,
+        (Some(first), _) => (first.value, first.span),
+        (None, Some(count)) => (0, count.span),
+    };
+    let there = match (all, image.shape) {
+        (1, Shape::D3) if what == "layer" => "it is three-dimensional and has one layer".to_owned(),
+        (1, _) => format!("it has one {what}"),
+        _ => format!("it has {all} {what}s, 0 to {}", all - 1),
+    };
+    let mut out_of_range = |span: Span, which: String| {
+        let message = format!("`{}` has no {which}", image.name);
+        errors.push(Diagnostic::new(span, message).remark(there.clone()).label(declared, "declared here"));
+        whole
+    };
+    if first >= all {
+        return out_of_range(span, format!("{what} {first}"));
+    }
+    match selection.count.map(|count: Spanned<u32>| (count.value, count.span)) {
+        None => (first, 1),
+        Some((Subresources::REMAINING, _)) => (first, all - first),
+        Some((count, span)) if count > all - first => {
+            let last = u64::from(first) + u64::from(count) - 1;
+            out_of_range(span, format!("{what} {last}"))
+        }
+        Some((count, _)) => (first, count),
+    }
+}
+
+/// Where the file names a part: the mip level or layer if it says one, else the image.
+pub(super) fn place(part: &ImagePart) -> Span {
+    let number = part.mips.first.or(part.mips.count).or(part.layers.first).or(part.layers.count);
+    number.map_or(part.image.span, |number| number.span)
+}

@@ -1,0 +1,284 @@
+//! Images that a shader samples: the parts that the pass gives, against what the shader declares.
+
+use super::images::Resolved;
+use super::parts::{self, Cells};
+use super::shader::{component_words, shape_words};
+use super::things::Things;
+use super::{Chosen, storage};
+use crate::describe::{self, Diagnostic, Face, nearest, suggestion};
+use crate::frame::{Pass, Sampled, Shape};
+use crate::interface::{BindingKind, Component, Dimension, ImageShape, PASS_SET, ShaderInterface};
+use crate::vocabulary::{Aspects, Filter, Subresources};
+
+/// A sampled image as its shader declares it.
+#[derive(Clone, Copy)]
+struct Declared {
+    shape: ImageShape,
+    /// Whether it is read at the fragment's own position only, by its declaration.
+    input: bool,
+}
+
+/// The shader's declaration of the sampled image `name`.
+fn declared(interface: &ShaderInterface, name: &str) -> Option<Declared> {
+    let mut all = interface.bindings.iter();
+    let binding = all.find(|binding| binding.set == PASS_SET && binding.name == name)?;
+    match binding.kind {
+        BindingKind::SampledImage(shape) => Some(Declared { shape, input: false }),
+        BindingKind::InputAttachment { multisampled, component } => {
+            let shape = ImageShape { dimension: Dimension::D2, arrayed: false, multisampled, component };
+            Some(Declared { shape, input: true })
+        }
+        _ => None,
+    }
+}
+
+/// Names of images that a shader samples.
+fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
+    let of_pass = interface.bindings.iter().filter(|binding| binding.set == PASS_SET);
+    let sampled =
+        |kind: &BindingKind| matches!(kind, BindingKind::SampledImage(_) | BindingKind::InputAttachment { .. });
+    of_pass.filter(move |binding| sampled(&binding.kind)).map(|binding| &*binding.name)
+}
+
+/// A sampled image of the frame. `None` if the image or the shader's name isn't known; mistakes are reported elsewhere.
+pub(super) fn lower(
+    things: &Things,
+    sample: &describe::Sample,
+    mut range: Subresources,
+    interface: Option<&ShaderInterface>,
+    raster: bool,
+) -> Option<Sampled> {
+    let image = &things.image(sample.part.image.index)?.image;
+    let name = &sample.binding.text;
+    let declared = match interface {
+        Some(interface) => Some(declared(interface, name)?),
+        None => None,
+    };
+    let (shape, input) = declared.map_or((None, false), |known| (Some(known.shape), known.input));
+    let both = Aspects::DEPTH | Aspects::STENCIL;
+    if range.aspects.is_empty() && image.format.aspects() == both {
+        // A shader that reads integers of depth and stencil wants the stencil.
+        let integers = shape.is_some_and(|shape| shape.component != Component::Float);
+        range.aspects = if integers { Aspects::STENCIL } else { Aspects::DEPTH };
+    }
+    let per_sample = shape.map_or(sample.face == Face::Samples, |shape| shape.multisampled);
+    let exact = image.format.is_depth() || image.format.is_integer() || per_sample || input;
+    let default = if exact { Filter::Nearest } else { Filter::Linear };
+    Some(Sampled {
+        binding: name.clone(),
+        image: sample.part.image.index,
+        range,
+        frames_ago: sample.part.previous.map_or(0, |previous| previous.value),
+        span: sample.part.image.span,
+        per_sample,
+        own_pixel: sample.own_pixel.map_or(input, |own| own.value),
+        filter: sample.filter.map_or(default, |filter| filter.value),
+        stages: storage::stages(interface, name, raster),
+    })
+}
+
+/// Reports what doesn't fit the shader's declarations. Returns names that were probably meant by misspelt ones.
+pub(super) fn check<'i>(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    pass: &describe::Pass,
+    lowered: &Pass,
+    interface: &'i ShaderInterface,
+    errors: &mut Vec<Diagnostic>,
+) -> Vec<&'i str> {
+    let shader = pass.shader().map_or("", |shader| &*shader.text);
+    let mut misspelt = Vec::new();
+    for sample in &pass.sample {
+        let name = &sample.binding.text;
+        let Some(declared) = declared(interface, name) else {
+            misspelt.extend(nearest(name, names(interface)));
+            let unknown = format!("shader `{shader}` samples no image named `{name}`");
+            let help = suggestion(name, names(interface))
+                .or_else(|| Some(format!("shader `{shader}` samples no images at all in set {PASS_SET}")));
+            errors.push(Diagnostic { help, ..Diagnostic::new(sample.binding.span, unknown) });
+            continue;
+        };
+        let Some(image) = things.image(sample.part.image.index) else { continue };
+        let Some(sampled) = lowered.sampled.iter().find(|sampled| sampled.binding == *name) else { continue };
+        let cells = parts::cells(&image.image, &sampled.range);
+        let check = Check { chosen, pass, sample, shader, image, cells, shape: declared.shape };
+        let before = errors.len();
+        check.dimension(errors);
+        if errors.len() == before {
+            check.component(errors);
+            check.samples(errors);
+            check.filter(errors);
+            check.own_pixel(things, lowered, declared.input, sampled.own_pixel, errors);
+        }
+    }
+    misspelt
+}
+
+struct Check<'a> {
+    chosen: &'a Chosen<'a>,
+    pass: &'a describe::Pass,
+    sample: &'a describe::Sample,
+    shader: &'a str,
+    image: &'a Resolved,
+    /// The part that is given.
+    cells: Cells,
+    shape: ImageShape,
+}
+
+impl Check<'_> {
+    /// The part has the shape that the shader declares.
+    fn dimension(&self, errors: &mut Vec<Diagnostic>) {
+        let (name, image) = (&self.sample.binding.text, &self.image.image);
+        let layers = self.cells.layers.len();
+        let span = parts::place(&self.sample.part);
+        let shape = self.chosen.image(self.sample.part.image.index).shape.span;
+        if dimension(self.shader, name, self.shape, image, span, shape, errors) {
+            return;
+        }
+        if let Some(message) = layers_fit(self.shape, layers) {
+            let message =
+                format!("shader `{}` declares `{name}` as {}, {message}", self.shader, shape_words(self.shape));
+            let help = format!("say which: `(image: \"{}\", layer: 0)`", image.name);
+            let wrong = Diagnostic::new(span, message);
+            errors.push(if layers > 1 { wrong.help(help) } else { wrong });
+        }
+    }
+
+    /// Components are what the shader reads.
+    fn component(&self, errors: &mut Vec<Diagnostic>) {
+        let (name, image) = (&self.sample.binding.text, &self.image.image);
+        let stencil = self.cells.planes == Aspects::STENCIL;
+        let holds = if stencil { Component::Uint } else { Component::of(image.format) };
+        if self.shape.component != holds {
+            let (wanted, held) = (component_words(self.shape.component), component_words(holds));
+            let shader = self.shader;
+            let message = format!(
+                "shader `{shader}` reads {wanted} from `{name}`, but `{}` holds {held} ({})",
+                image.name, image.format
+            );
+            let declared = self.chosen.image(self.sample.part.image.index).format.span;
+            errors.push(Diagnostic::new(self.sample.part.image.span, message).label(declared, "its format"));
+        }
+    }
+
+    /// Single samples are read where there are several, and where the pass gives them.
+    fn samples(&self, errors: &mut Vec<Diagnostic>) {
+        let (name, image_name, shader) = (&self.sample.binding.text, &self.image.image.name, self.shader);
+        let contradicts = match self.sample.face {
+            Face::Samples if !self.shape.multisampled => Some(("single samples", "one value a texel", "sampler2D")),
+            Face::Resolved if self.shape.multisampled => Some(("one value a texel", "single samples", "sampler2DMS")),
+            _ => None,
+        };
+        let span = self.sample.part.image.span;
+        if let Some((given, wanted, declaration)) = contradicts {
+            let message = format!(
+                "pass `{}` gives {given} of `{image_name}`, but shader `{shader}` reads {wanted}",
+                self.pass.name.text
+            );
+            let help =
+                format!("`{name}` is a `{declaration}` in the shader; the plain name `\"{image_name}\"` fits either");
+            errors.push(Diagnostic::new(span, message).help(help));
+        } else if self.shape.multisampled && self.image.image.samples == 1 {
+            let message = format!(
+                "shader `{shader}` reads single samples of `{name}`, but `{image_name}` has {}",
+                self.image.samples_words()
+            );
+            let fewer = "declare it `sampler2D` in the shader, or give the image more samples";
+            let declared = self.chosen.image(self.sample.part.image.index).samples.span;
+            errors.push(Diagnostic::new(span, message).label(declared, "its samples").help(fewer));
+        }
+    }
+
+    /// What is filtered can be.
+    fn filter(&self, errors: &mut Vec<Diagnostic>) {
+        let Some(filter) = self.sample.filter.filter(|filter| filter.value == Filter::Linear) else { return };
+        let (image, shader) = (&self.image.image, self.shader);
+        let why = match () {
+            () if image.format.is_integer() => format!("`{}` holds integers ({})", image.name, image.format),
+            () if self.cells.planes == Aspects::STENCIL => format!("the stencil of `{}` holds integers", image.name),
+            () if self.shape.multisampled => format!("shader `{shader}` reads single samples of it"),
+            () => return,
+        };
+        errors.push(Diagnostic::new(filter.span, format!("a linear filter can't be used: {why}")));
+    }
+
+    /// A fragment can read its own texel only of an image that lies under the pass's targets.
+    fn own_pixel(&self, things: &Things, lowered: &Pass, input: bool, own_pixel: bool, errors: &mut Vec<Diagnostic>) {
+        let (name, image) = (&self.sample.binding.text, &self.image.image);
+        if input && !own_pixel {
+            let message = format!("shader `{}` reads `{name}` at the fragment's own position only", self.shader);
+            let span = self.sample.own_pixel.map_or(self.sample.binding.span, |own| own.span);
+            errors.push(Diagnostic::new(span, message).help("`own_pixel` is true then; it may be left out"));
+        }
+        if !own_pixel {
+            return;
+        }
+        let span = self.sample.own_pixel.map_or(self.sample.part.image.span, |own| own.span);
+        let target = lowered.color.iter().map(|target| (target.image, target.range));
+        let target = target.chain(lowered.depth.iter().map(|target| (target.image, target.range))).next();
+        let Some((target, range)) = target else {
+            let message = format!("pass `{}` draws no pixels, so it has no own ones", self.pass.name.text);
+            errors.push(Diagnostic::new(span, message).help("`own_pixel` is for passes that draw"));
+            return;
+        };
+        let Some(target) = things.image(target).map(|target| &target.image) else { return };
+        let extent = |image: &crate::frame::Image, mip| {
+            let [width, height, _] = parts::extent(image, mip);
+            [width, height]
+        };
+        let (own, drawn) =
+            (extent(image, self.cells.mips.start), extent(target, parts::cells(target, &range).mips.start));
+        if own != drawn || self.cells.mips.len() > 1 || self.cells.layers.len() > 1 {
+            let message = format!(
+                "`{}` can't be read at the fragment's own position: it isn't the size of what pass `{}` draws into",
+                image.name, self.pass.name.text
+            );
+            let words = |[width, height]: [u32; 2]| format!("{width}×{height}");
+            let levels = self.cells.mips.len();
+            let more = if levels > 1 { format!("{}, {levels} mip levels", words(own)) } else { words(own) };
+            let targets = format!("`{}` is {}", target.name, words(drawn));
+            errors.push(Diagnostic::new(span, message).remark(more).help(targets));
+        }
+    }
+}
+
+/// Reports an image of another dimension than the shader declares.
+pub(super) fn dimension(
+    shader: &str,
+    name: &str,
+    shape: ImageShape,
+    image: &crate::frame::Image,
+    span: crate::source::Span,
+    declared: crate::source::Span,
+    errors: &mut Vec<Diagnostic>,
+) -> bool {
+    let is = match image.shape {
+        Shape::D2 => "two-dimensional",
+        Shape::D3 => "three-dimensional",
+        Shape::Cube => "a cube",
+    };
+    let fits = match shape.dimension {
+        Dimension::D2 => image.shape != Shape::D3,
+        Dimension::D3 => image.shape == Shape::D3,
+        Dimension::Cube => image.shape == Shape::Cube,
+        Dimension::D1 | Dimension::Buffer => false,
+    };
+    if !fits {
+        let message =
+            format!("shader `{shader}` declares `{name}` as {}, but `{}` is {is}", shape_words(shape), image.name);
+        errors.push(Diagnostic::new(span, message).label(declared, "declared here"));
+    }
+    !fits
+}
+
+/// Why so many layers don't fit the declared shape.
+pub(super) fn layers_fit(shape: ImageShape, layers: usize) -> Option<String> {
+    let count = if layers == 1 { "1 layer".to_owned() } else { format!("{layers} layers") };
+    let fits = match (shape.dimension, shape.arrayed) {
+        (Dimension::Cube, false) => layers == 6,
+        (Dimension::Cube, true) => layers.is_multiple_of(6),
+        (_, true) => true,
+        (_, false) => layers == 1,
+    };
+    (!fits).then(|| format!("but is given {count}"))
+}

@@ -1,0 +1,228 @@
+//! Images and buffers that a shader reads and writes by itself, against what it declares.
+
+use super::shader::{PARAMS, component_words, shape_words};
+use super::things::Things;
+use super::{Chosen, parts, passes, sampled, transfers, work};
+use crate::describe::{self, Diagnostic, Part, StorageAccess, nearest, suggestion};
+use crate::format::{Format, Numeric};
+use crate::frame::{BufferRole, Image, Pass, Storage};
+use crate::interface::{Binding, BindingKind, Component, ImageShape, PASS_SET, ShaderInterface};
+use crate::vocabulary::{Stages, Subresources};
+
+/// The stages that use the shader's resource `name`; of what the embedding program records, those that may.
+pub(super) fn stages(interface: Option<&ShaderInterface>, name: &str, raster: bool) -> Stages {
+    let Some(interface) = interface else {
+        let drawn = Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER;
+        return if raster { drawn } else { Stages::COMPUTE_SHADER };
+    };
+    of_pass(interface, name).map_or(Stages::empty(), |binding| binding.stages)
+}
+
+fn of_pass<'a>(interface: &'a ShaderInterface, name: &str) -> Option<&'a Binding> {
+    interface.bindings.iter().find(|binding| binding.set == PASS_SET && binding.name == name)
+}
+
+/// Whether a shader may read and write what it declares so.
+fn allowed(kind: &BindingKind) -> Option<(bool, bool)> {
+    match kind {
+        BindingKind::StorageImage { readable, writable, .. } | BindingKind::StorageBlock { readable, writable } => {
+            Some((*readable, *writable))
+        }
+        _ => None,
+    }
+}
+
+/// What is done with a storage image or buffer: what the file says, else what the shader's declaration allows. Without
+/// either, it is written.
+fn access(storage: &describe::Storage, interface: Option<&ShaderInterface>) -> (bool, bool) {
+    match storage.access.map(|access| access.value) {
+        Some(StorageAccess::Read) => (true, false),
+        Some(StorageAccess::Write) => (false, true),
+        Some(StorageAccess::ReadWrite) => (true, true),
+        None => {
+            let declared = interface.and_then(|interface| of_pass(interface, &storage.binding.text));
+            declared.and_then(|binding| allowed(&binding.kind)).unwrap_or((false, true))
+        }
+    }
+}
+
+/// Adds a storage image or buffer to the frame's pass.
+pub(super) fn lower(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    storage: &describe::Storage,
+    interface: Option<&ShaderInterface>,
+    raster: bool,
+    lowered: &mut Pass,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let binding = storage.binding.text.clone();
+    let (read, write) = access(storage, interface);
+    let stages = stages(interface, &binding, raster);
+    match &storage.part {
+        Part::Buffer(part) => {
+            let used = passes::used(part, Some(binding), BufferRole::Storage { read, write }, stages);
+            lowered.buffers.push(used);
+        }
+        Part::Image(part) => {
+            let range = parts::range(chosen, things, part, errors);
+            let (image, span) = (part.image.index, part.image.span);
+            lowered.storage.push(Storage { binding, image, range, span, read, write, stages });
+        }
+    }
+}
+
+/// Names of storage images, storage blocks and uniform blocks that a shader has.
+fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
+    let of_pass = interface.bindings.iter().filter(|binding| binding.set == PASS_SET && binding.name != PARAMS);
+    let fits = |kind: &BindingKind| allowed(kind).is_some() || matches!(kind, BindingKind::UniformBlock(_));
+    of_pass.filter(move |binding| fits(&binding.kind)).map(|binding| &*binding.name)
+}
+
+/// Reports what doesn't fit the shader's declarations. Returns names that were probably meant by misspelt ones.
+pub(super) fn check<'i>(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    pass: &describe::Pass,
+    lowered: &Pass,
+    interface: &'i ShaderInterface,
+    errors: &mut Vec<Diagnostic>,
+) -> Vec<&'i str> {
+    let shader = pass.shader().map_or("", |shader| &*shader.text);
+    let mut misspelt = Vec::new();
+    let mut unknown = |name: &describe::Name, what: &str, errors: &mut Vec<Diagnostic>| {
+        misspelt.extend(nearest(&name.text, names(interface)));
+        let message = format!("shader `{shader}` has {what} named `{}`", name.text);
+        let help = suggestion(&name.text, names(interface))
+            .or_else(|| Some(format!("shader `{shader}` has none at all in set {PASS_SET}")));
+        errors.push(Diagnostic { help, ..Diagnostic::new(name.span, message) });
+    };
+    for storage in &pass.storage {
+        let name = &storage.binding;
+        let kind = of_pass(interface, &name.text).map(|binding| &binding.kind);
+        match (&storage.part, kind) {
+            (Part::Image(part), Some(BindingKind::StorageImage { shape, format, .. })) => {
+                let Some(image) = things.image(part.image.index).map(|image| &image.image) else { continue };
+                let Some(given) = lowered.storage.iter().find(|given| given.binding == name.text) else { continue };
+                let check = ImageCheck { chosen, shader, name: &name.text, image, part };
+                check.fits(given.range, *shape, *format, errors);
+            }
+            (Part::Buffer(_), Some(BindingKind::StorageBlock { .. })) => {}
+            (Part::Image(_), _) => {
+                unknown(name, "no storage image", errors);
+                continue;
+            }
+            (Part::Buffer(_), _) => {
+                unknown(name, "no storage block", errors);
+                continue;
+            }
+        }
+        if let Some((readable, writable)) = kind.and_then(allowed) {
+            access_fits(shader, storage, readable, writable, errors);
+        }
+    }
+    for uniform in &pass.uniform {
+        let name = &uniform.binding;
+        match of_pass(interface, &name.text).map(|binding| &binding.kind) {
+            Some(BindingKind::UniformBlock(block)) if *name.text != *PARAMS => {
+                let what = format!("the members of the block `{}`", name.text);
+                let (buffer, span) = (&uniform.part.buffer, uniform.part.buffer.span);
+                work::holds(things, buffer, u64::from(block.bytes), &what, span, errors);
+            }
+            Some(BindingKind::UniformBlock(_)) => {
+                let message = format!("the block `{PARAMS}` takes the pass's parameters, not a buffer");
+                errors.push(Diagnostic::new(name.span, message).help(format!("write `{PARAMS}: {{\"…\": …}}`")));
+            }
+            _ => unknown(name, "no uniform block", errors),
+        }
+    }
+    misspelt
+}
+
+fn access_fits(
+    shader: &str,
+    storage: &describe::Storage,
+    readable: bool,
+    writable: bool,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let name = &storage.binding.text;
+    if storage.part.previous().is_some() && writable {
+        let message = format!("shader `{shader}` may write `{name}`, but what an earlier frame left can only be read");
+        let help = "declare it `readonly` in the shader";
+        errors.push(Diagnostic::new(storage.binding.span, message).help(help));
+        return;
+    }
+    let Some(access) = storage.access else { return };
+    let (message, help) = match access.value {
+        StorageAccess::Read if writable => ("may write", "declare it `readonly` in the shader, or say `ReadWrite`"),
+        StorageAccess::Write | StorageAccess::ReadWrite if !writable => {
+            ("only reads", "remove `readonly` in the shader, or say `Read`")
+        }
+        // What is written in some places keeps the others: a shader that can't read may say `ReadWrite`.
+        StorageAccess::Read | StorageAccess::Write | StorageAccess::ReadWrite => {
+            if !readable && access.value == StorageAccess::Read {
+                ("doesn't read", "remove `writeonly` in the shader")
+            } else {
+                return;
+            }
+        }
+    };
+    errors.push(Diagnostic::new(access.span, format!("shader `{shader}` {message} `{name}`")).help(help));
+}
+
+struct ImageCheck<'a> {
+    chosen: &'a Chosen<'a>,
+    shader: &'a str,
+    name: &'a str,
+    image: &'a Image,
+    part: &'a describe::ImagePart,
+}
+
+impl ImageCheck<'_> {
+    fn fits(&self, range: Subresources, shape: ImageShape, format: Option<Format>, errors: &mut Vec<Diagnostic>) {
+        let (shader, name, image) = (self.shader, self.name, self.image);
+        let declared = self.chosen.image(self.part.image.index);
+        let span = parts::place(self.part);
+        let cells = parts::cells(image, &range);
+        if sampled::dimension(shader, name, shape, image, span, declared.shape.span, errors) {
+            return;
+        }
+        if let Some(message) = sampled::layers_fit(shape, cells.layers.len()) {
+            let message = format!("shader `{shader}` declares `{name}` as {}, {message}", shape_words(shape));
+            errors.push(Diagnostic::new(span, message));
+        }
+        if transfers::one_mip(self.chosen, image, self.part, &cells, "the shader accesses", errors).is_none() {
+            return;
+        }
+        let here =
+            |message: String| Diagnostic::new(self.part.image.span, message).label(declared.format.span, "its format");
+        if image.format.is_depth() || image.format.numeric() == Numeric::Srgb {
+            let what = if image.format.is_depth() { "depth" } else { "sRGB colour" };
+            let message = format!("`{}` holds {what} ({}), which no shader can store", image.name, image.format);
+            errors.push(here(message).help("store into an image of another format, and copy, blit or draw from there"));
+            return;
+        }
+        if image.samples > 1 || shape.multisampled {
+            let message = format!("`{}` has {} samples; shaders store one value a texel", image.name, image.samples);
+            let wrong = Diagnostic::new(self.part.image.span, message);
+            errors.push(wrong.label(declared.samples.span, "its samples"));
+            return;
+        }
+        let holds = Component::of(image.format);
+        if shape.component != holds {
+            let (wanted, held) = (component_words(shape.component), component_words(holds));
+            let message = format!(
+                "shader `{shader}` takes `{name}` for {wanted}, but `{}` holds {held} ({})",
+                image.name, image.format
+            );
+            errors.push(here(message));
+        } else if let Some(format) = format
+            && format != image.format
+        {
+            let message =
+                format!("shader `{shader}` declares `{name}` as {format}, but `{}` is {}", image.name, image.format);
+            errors.push(here(message).help("the format in the shader's `layout(…)` is the image's own"));
+        }
+    }
+}

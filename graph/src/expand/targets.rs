@@ -1,0 +1,190 @@
+//! What passes draw into: formats that fit, targets that agree, and shaders that feed them.
+
+use super::images::Resolved;
+use super::shader::component_words;
+use super::things::Things;
+use super::{Chosen, parts, transfers};
+use crate::describe::{self, Diagnostic, ImagePart, ImageRef};
+use crate::frame::{Blend, Shape};
+use crate::interface::{Component, ShaderInterface};
+use crate::vocabulary::Aspects;
+
+/// Targets have formats that fit their use, and agree in size and sample count; a stand-in keeps to one kind of image.
+pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass, errors: &mut Vec<Diagnostic>) {
+    let resolved = |image: ImageRef| things.image(image.index);
+    let declared = |image: ImageRef| chosen.image(image.index).format.span;
+    for target in &pass.color {
+        let Some(image) = resolved(target.part.image) else { continue };
+        let format = image.image.format;
+        if format.is_depth() {
+            let message = format!("`{}` is a depth image ({format}) and can't be a colour target", image.image.name);
+            errors.push(
+                Diagnostic::new(target.part.image.span, message).label(declared(target.part.image), "its format"),
+            );
+        } else if format.is_integer() && target.blend.value != Blend::Replace {
+            let message = format!("`{}` holds integers ({format}), which can't be blended", image.image.name);
+            errors.push(Diagnostic::new(target.blend.span, message).label(declared(target.part.image), "its format"));
+        }
+    }
+    if let Some(target) = &pass.depth
+        && let Some(image) = resolved(target.part.image)
+        && !image.image.format.is_depth()
+    {
+        let message = format!("`{}` has no depth ({})", image.image.name, image.image.format);
+        errors.push(Diagnostic::new(target.part.image.span, message).label(declared(target.part.image), "its format"));
+    }
+    if let Some(target) = &pass.depth
+        && let (Some(stencil), Some(image)) = (target.stencil, resolved(target.part.image))
+        && image.image.format.is_depth()
+        && !image.image.format.aspects().contains(Aspects::STENCIL)
+    {
+        let message = format!("`{}` has no stencil plane ({})", image.image.name, image.image.format);
+        let wrong = Diagnostic::new(stencil.span, message).label(declared(target.part.image), "its format");
+        errors.push(wrong.help("`format: DepthStencil` has one"));
+    }
+    let parts = pass.color.iter().map(|target| &target.part).chain(pass.depth.as_ref().map(|target| &target.part));
+    let parts: Vec<Part<'_>> = parts.filter_map(|part| drawn(chosen, things, part, errors)).collect();
+    agree(pass, &parts, errors);
+    if let Some(forward) = pass.otherwise
+        && let (Some(from), Some(to)) = (resolved(forward.from), resolved(forward.to))
+        && kind(from) != kind(to)
+    {
+        let message = format!("`{}` can't take what `{}` holds", to.image.name, from.image.name);
+        errors.push(
+            Diagnostic::new(forward.from.span, message)
+                .remark(format!("{} ({})", kind(from), from.image.format))
+                .label(forward.to.span, format!("{} ({})", kind(to), to.image.format)),
+        );
+    }
+}
+
+/// What an image holds, in words.
+fn kind(image: &Resolved) -> &'static str {
+    match image.image.format {
+        format if format.is_depth() => "depth",
+        format if format.is_integer() => "integers",
+        _ => "colour",
+    }
+}
+
+/// A part of an image that is drawn into.
+struct Part<'a> {
+    part: &'a ImagePart,
+    image: &'a Resolved,
+    extent: [u32; 2],
+    layers: usize,
+}
+
+/// The one mip level, and the layers, that are drawn into. `None` if that can't be; mistakes were reported then.
+fn drawn<'a>(
+    chosen: &Chosen<'_>,
+    things: &'a Things,
+    part: &'a ImagePart,
+    errors: &mut Vec<Diagnostic>,
+) -> Option<Part<'a>> {
+    let resolved = things.image(part.image.index)?;
+    let (image, name) = (&resolved.image, &resolved.image.name);
+    if image.shape == Shape::D3 {
+        let message = format!("`{name}` is three-dimensional and can't be drawn into");
+        let declared = chosen.image(part.image.index).shape.span;
+        let wrong = Diagnostic::new(part.image.span, message).label(declared, "its shape");
+        errors.push(wrong.help("let a dispatch store into it"));
+        return None;
+    }
+    // What is out of range is reported with the pass.
+    let mut known = Vec::new();
+    let cells = parts::cells(image, &parts::range(chosen, things, part, &mut known));
+    if !known.is_empty() {
+        return None;
+    }
+    transfers::one_mip(chosen, image, part, &cells, "is drawn into", errors)?;
+    let layers = cells.layers.len();
+    if layers > 1 && part.layers.first.is_none() && part.layers.count.is_none() {
+        let declared = chosen.image(part.image.index).layers.span;
+        let message = format!("`{name}` has {layers} layers: say which one is drawn into");
+        let help =
+            format!("write `(image: \"{name}\", layer: 0)`; `layers: Rest` is for shaders that choose by `gl_Layer`");
+        errors.push(Diagnostic::new(part.image.span, message).label(declared, "declared here").help(help));
+        return None;
+    }
+    let [width, height, _] = parts::extent(image, cells.mips.start);
+    Some(Part { part, image: resolved, extent: [width, height], layers })
+}
+
+/// All targets of a pass have one size, one sample count and as many layers.
+fn agree(pass: &describe::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>) {
+    let Some((first, others)) = parts.split_first() else { return };
+    for other in others {
+        let (one, another) = (&first.image.image, &other.image.image);
+        let span = other.part.image.span;
+        if first.extent != other.extent {
+            let size = |[width, height]: [u32; 2]| format!("{width}×{height}");
+            let message = format!(
+                "pass `{}` draws into images of different sizes: `{}` and `{}`",
+                pass.name.text, one.name, another.name
+            );
+            let wrong = Diagnostic::new(span, message)
+                .remark(size(other.extent))
+                .label(first.part.image.span, size(first.extent));
+            let whole = one.extent != another.extent;
+            let help = format!("let one follow the other: `size: Like(\"{}\")`", one.name);
+            errors.push(if whole { wrong.help(help) } else { wrong.help("draw into the same mip level of both") });
+        }
+        if one.samples != another.samples {
+            let message = format!(
+                "pass `{}` draws into images with different sample counts: `{}` and `{}`",
+                pass.name.text, one.name, another.name
+            );
+            errors.push(
+                Diagnostic::new(span, message)
+                    .remark(other.image.samples_words())
+                    .label(first.part.image.span, first.image.samples_words())
+                    .help(format!("let one follow the other: `samples: Like(\"{}\")`", one.name)),
+            );
+        }
+        if first.layers != other.layers {
+            let layers = |count: usize| if count == 1 { "1 layer".to_owned() } else { format!("{count} layers") };
+            let message = format!(
+                "pass `{}` draws into different numbers of layers: `{}` and `{}`",
+                pass.name.text, one.name, another.name
+            );
+            let wrong = Diagnostic::new(span, message).remark(layers(other.layers));
+            errors.push(wrong.label(first.part.image.span, layers(first.layers)));
+        }
+    }
+}
+
+/// Every colour target is fed by an output of the same type.
+pub(super) fn fed(things: &Things, pass: &describe::Pass, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
+    let shader = pass.shader().map_or("", |shader| &*shader.text);
+    for (location, target) in (0..).zip(&pass.color) {
+        let Some(image) = things.image(target.part.image.index) else { continue };
+        let (name, format) = (&image.image.name, image.image.format);
+        let Some(output) = interface.outputs.iter().find(|output| output.location == location) else {
+            let message = format!("shader `{shader}` has no output at location {location} for `{name}`");
+            let help = match interface.outputs.len() {
+                0 => "it writes no colour at all".to_owned(),
+                1 => "it writes one colour".to_owned(),
+                count => format!("it writes {count} colours"),
+            };
+            errors.push(Diagnostic::new(target.part.image.span, message).help(help));
+            continue;
+        };
+        let holds = Component::of(format);
+        if output.component != holds {
+            let (written, held) = (component_words(output.component), component_words(holds));
+            let message = format!(
+                "shader `{shader}` writes {written} to `{}`, but `{name}` holds {held} ({format})",
+                output.name
+            );
+            errors.push(Diagnostic::new(target.part.image.span, message));
+        } else if output.components < format.components() {
+            let message = format!(
+                "shader `{shader}` writes {} of the {} components of `{name}` ({format}): the others would be undefined",
+                output.components,
+                format.components()
+            );
+            errors.push(Diagnostic::new(target.part.image.span, message));
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! Images and buffers of the frame, each from what the file says and what it follows.
+
+use super::fills;
+use super::states::{self, Subject, When};
+use super::{Chosen, images};
+use crate::describe::{self, Bytes, Diagnostic, LARGEST_BUFFER, Lifetime as Described, Name, Spanned};
+use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
+use crate::source::Span;
+use crate::vocabulary::State;
+
+/// Everything that passes name; `None` where a mistake was reported.
+pub(super) struct Things {
+    pub(super) images: Vec<Option<images::Resolved>>,
+    pub(super) buffers: Vec<Option<Buffer>>,
+}
+
+impl Things {
+    /// Resolves all of them.
+    pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Diagnostic>) -> Things {
+        let mut images = images::resolve(chosen, output, errors);
+        for (image, described) in images.iter_mut().zip(&chosen.pipeline.images) {
+            if let Some(resolved) = image {
+                let (format, samples) = (Some(resolved.image.format), resolved.image.samples);
+                let subject = Subject { name: &described.name.text, format, samples };
+                match lifetime(chosen, described.lifetime, subject, errors) {
+                    Some(lifetime) => resolved.image.lifetime = lifetime,
+                    None => *image = None,
+                }
+            }
+        }
+        let mut sizes: Vec<Option<Option<u64>>> = vec![None; chosen.pipeline.buffers.len()];
+        let buffers = &chosen.pipeline.buffers;
+        let buffers = buffers.iter().enumerate().map(|(at, buffer)| {
+            let bytes = followed(chosen, &images, &mut sizes, at, errors);
+            let subject = Subject { name: &buffer.name.text, format: None, samples: 1 };
+            let lifetime = lifetime(chosen, buffer.lifetime, subject, errors);
+            let (name, span) = (buffer.name.text.clone(), buffer.name.span);
+            Some(Buffer { name, span, bytes: bytes?, lifetime: lifetime? })
+        });
+        let buffers = buffers.collect();
+        Things { images, buffers }
+    }
+
+    /// The image, if it could be resolved.
+    pub(super) fn image(&self, index: ImageIndex) -> Option<&images::Resolved> {
+        self.images.get(index.0 as usize)?.as_ref()
+    }
+
+    /// The buffer, if it could be resolved.
+    pub(super) fn buffer(&self, index: BufferIndex) -> Option<&Buffer> {
+        self.buffers.get(index.0 as usize)?.as_ref()
+    }
+
+    /// The state in which an output is to be left, if nothing contradicts it.
+    pub(super) fn left(
+        &self,
+        chosen: &Chosen<'_>,
+        of: Resource,
+        after: Spanned<describe::State>,
+        errors: &mut Vec<Diagnostic>,
+    ) -> Option<State> {
+        let image = match of {
+            Resource::Image(index) => Some(&self.image(index)?.image),
+            Resource::Buffer(_) => None,
+        };
+        let (format, samples) = (image.map(|image| image.format), image.map_or(1, |image| image.samples));
+        let name = chosen.name(of);
+        let lowered = states::lower(after, Subject { name: &name.text, format, samples }, When::After, errors)?;
+        if let Some(Lifetime::Imported { after: Some(promised), .. }) = self.lifetime(of)
+            && promised != lowered
+        {
+            let message = format!("`{}` is to be left in two states", name.text);
+            let wrong = Diagnostic::new(after.span, message).remark("one is asked for here");
+            errors.push(wrong.label(name.span, "the other where it is imported").help("leave one of them out"));
+            return None;
+        }
+        Some(lowered)
+    }
+
+    /// How long the contents of an image or buffer live.
+    pub(super) fn lifetime(&self, of: Resource) -> Option<Lifetime> {
+        match of {
+            Resource::Image(index) => self.image(index).map(|image| image.image.lifetime),
+            Resource::Buffer(index) => self.buffer(index).map(|buffer| buffer.lifetime),
+        }
+    }
+}
+
+impl<'a> Chosen<'a> {
+    /// The name of an image or buffer.
+    pub(super) fn name(&self, of: Resource) -> &'a Name {
+        match of {
+            Resource::Image(index) => &self.pipeline.images[index.0 as usize].name,
+            Resource::Buffer(index) => &self.pipeline.buffers[index.0 as usize].name,
+        }
+    }
+}
+
+/// The size of the buffer numbered `at`, along the buffers that it follows. Every size is found once.
+fn followed(
+    chosen: &Chosen<'_>,
+    images: &[Option<images::Resolved>],
+    sizes: &mut [Option<Option<u64>>],
+    at: usize,
+    errors: &mut Vec<Diagnostic>,
+) -> Option<u64> {
+    let mut path = vec![at];
+    let size = loop {
+        let last = *path.last()?;
+        if let Some(known) = sizes[last] {
+            break known;
+        }
+        match chosen.pipeline.buffers[last].bytes.value {
+            // A circle would be longer than all buffers together; reading a pipeline has ruled it out.
+            Bytes::Like(of) if path.len() <= sizes.len() => path.push(of.index.0 as usize),
+            _ => break own(chosen, images, &chosen.pipeline.buffers[last], errors),
+        }
+    };
+    for at in path {
+        sizes[at] = Some(size);
+    }
+    size
+}
+
+/// The size of a buffer that follows no other.
+fn own(
+    chosen: &Chosen<'_>,
+    images: &[Option<images::Resolved>],
+    buffer: &describe::Buffer,
+    errors: &mut Vec<Diagnostic>,
+) -> Option<u64> {
+    let (bytes, because) = match buffer.bytes.value {
+        Bytes::Count(bytes) => {
+            let bytes = chosen.whole(bytes)?;
+            (bytes.checked_next_multiple_of(4), format!("{bytes} bytes"))
+        }
+        Bytes::Times(each, setting) => {
+            let (setting, value) = chosen.setting(setting);
+            let crate::frame::ParamValue::Integer(count) = value else { return None };
+            let bytes = each.checked_mul(u64::try_from(count).ok()?);
+            (bytes, format!("{each} bytes times {count} ({} = {count})", setting.name.text))
+        }
+        Bytes::PerTexel(each, of) => {
+            let image = &images[of.index.0 as usize].as_ref()?.image;
+            let [width, height, depth] = image.extent.map(u64::from);
+            let texels = width * height * depth * u64::from(image.layers);
+            (each.checked_mul(texels), format!("{each} bytes times {texels} texels of `{}`", image.name))
+        }
+        Bytes::Like(_) => return None,
+    };
+    let most = LARGEST_BUFFER.unsigned_abs();
+    let rounded = bytes.and_then(|bytes| bytes.checked_next_multiple_of(4)).filter(|bytes| *bytes <= most);
+    if rounded.is_none() {
+        let message = format!("buffer `{}` would be too large: {most} bytes are allowed", buffer.name.text);
+        errors.push(Diagnostic::new(buffer.bytes.span, message).remark(because));
+    }
+    rounded
+}
+
+fn lifetime(
+    chosen: &Chosen<'_>,
+    described: Spanned<Described>,
+    of: Subject<'_>,
+    errors: &mut Vec<Diagnostic>,
+) -> Option<Lifetime> {
+    let mut value = described;
+    // A circle would be longer than everything together; reading a pipeline has ruled it out.
+    for _ in 0..chosen.pipeline.images.len() + chosen.pipeline.buffers.len() {
+        let Described::Like(other) = value.value else { break };
+        value = match other.resource {
+            Resource::Image(index) => chosen.pipeline.images[index.0 as usize].lifetime,
+            Resource::Buffer(index) => chosen.pipeline.buffers[index.0 as usize].lifetime,
+        };
+    }
+    // What is wrong with a followed lifetime is shown at the one that follows, too: there it may mean something else.
+    let here = |span: Span| if value.span == described.span { span } else { described.span };
+    let initial = |fill: Option<Spanned<describe::Fill>>, errors: &mut Vec<Diagnostic>| {
+        let Some(fill) = fill else { return Some(fills::zero(of.format)) };
+        match fills::typed(fill.value, of.format) {
+            Ok(value) => Some(value),
+            Err((message, help)) => {
+                let message = format!("`{}` can't begin like this: {message}", of.name);
+                errors.push(Diagnostic::new(here(fill.span), message).help(help));
+                None
+            }
+        }
+    };
+    Some(match value.value {
+        Described::Transient | Described::Like(_) => Lifetime::Transient,
+        Described::Persistent { initial: fill } => Lifetime::Persistent { initial: initial(fill, errors)? },
+        Described::History { frames, initial: fill } => Lifetime::History { frames, initial: initial(fill, errors)? },
+        Described::Imported { before, after } => {
+            let state = |state: Spanned<describe::State>, when, errors: &mut Vec<Diagnostic>| {
+                states::lower(Spanned { span: here(state.span), ..state }, of, when, errors)
+            };
+            let before = state(before, When::Before, errors);
+            let after = match after {
+                Some(after) => state(after, When::After, errors).map(Some),
+                None => Some(None),
+            };
+            Lifetime::Imported { before: before?, after: after? }
+        }
+    })
+}

@@ -1,0 +1,280 @@
+//! Copies, blits and fills: what goes from where to where must fit.
+
+use super::Chosen;
+use super::fills;
+use super::parts::{self, Cells};
+use super::things::Things;
+use crate::describe::{self, Diagnostic, Fill, ImagePart, Part, Spanned};
+use crate::format::Format;
+use crate::frame::{Image, Pass, TransferUse};
+use crate::vocabulary::{Aspects, Filter};
+
+/// One side of a transfer that is an image.
+struct Side<'a> {
+    image: &'a Image,
+    part: &'a ImagePart,
+    cells: Cells,
+    extent: [u32; 3],
+}
+
+impl Side<'_> {
+    fn layers(&self) -> u32 {
+        self.cells.layers.end - self.cells.layers.start
+    }
+
+    /// "640×360", "64×64×64", "640×360, 6 layers"
+    fn size(&self) -> String {
+        let [width, height, depth] = self.extent;
+        let deep = if depth > 1 { format!("×{depth}") } else { String::new() };
+        let layers = match self.layers() {
+            1 => String::new(),
+            several => format!(", {several} layers"),
+        };
+        format!("{width}×{height}{deep}{layers}")
+    }
+
+    /// Bytes of a texel of its planes, in a buffer.
+    fn texel_bytes(&self) -> u64 {
+        match (self.image.format, self.cells.planes) {
+            (_, planes) if planes == Aspects::STENCIL => 1,
+            (Format::D24_UNORM_S8_UINT | Format::D32_SFLOAT_S8_UINT, _) => 4,
+            (format, _) => format.texel_bytes(),
+        }
+    }
+}
+
+/// The side as an image of one mip level. `None` if it is a buffer, or after a mistake was reported.
+fn side<'a>(
+    chosen: &Chosen<'_>,
+    things: &'a Things,
+    part: &'a Part,
+    transfer: &TransferUse,
+    errors: &mut Vec<Diagnostic>,
+) -> Option<Side<'a>> {
+    let Part::Image(part) = part else { return None };
+    let image = &things.image(part.image.index)?.image;
+    let cells = parts::cells(image, &transfer.range);
+    one_mip(chosen, image, part, &cells, "is copied", errors)?;
+    let extent = parts::extent(image, cells.mips.start);
+    Some(Side { image, part, cells, extent })
+}
+
+/// Reports a part of several mip levels where one is needed.
+pub(super) fn one_mip(
+    chosen: &Chosen<'_>,
+    image: &Image,
+    part: &ImagePart,
+    cells: &Cells,
+    what: &str,
+    errors: &mut Vec<Diagnostic>,
+) -> Option<()> {
+    if cells.mips.len() == 1 {
+        return Some(());
+    }
+    let (name, count) = (&image.name, image.mips);
+    let message = format!("`{name}` has {count} mip levels: say which one {what}");
+    let declared = chosen.image(part.image.index).mips.span;
+    errors.push(
+        Diagnostic::new(parts::place(part), message)
+            .label(declared, "declared here")
+            .help(format!("write `(image: \"{name}\", mip: 0)`")),
+    );
+    None
+}
+
+/// Reports a copy that can't be.
+pub(super) fn copy(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    [from, to]: [&Part; 2],
+    lowered: &Pass,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let [source, target] = &lowered.transfers[..] else { return };
+    match (from, to) {
+        (Part::Buffer(one), Part::Buffer(other)) => {
+            let (Some(source), Some(target)) = (things.buffer(one.buffer.index), things.buffer(other.buffer.index))
+            else {
+                return;
+            };
+            if one.buffer.index == other.buffer.index && one.previous.is_none() {
+                errors.push(Diagnostic::new(other.buffer.span, "a buffer can't be copied to itself"));
+            } else if source.bytes != target.bytes {
+                let message = format!(
+                    "`{}` has {} bytes and `{}` has {}: a copy fills its target whole",
+                    source.name, source.bytes, target.name, target.bytes
+                );
+                let help = format!("let one follow the other: `bytes: Like(\"{}\")`", source.name);
+                errors.push(Diagnostic::new(other.buffer.span, message).help(help));
+            }
+        }
+        (Part::Image(_), Part::Image(_)) => {
+            let (one, other) = (side(chosen, things, from, source, errors), side(chosen, things, to, target, errors));
+            if let (Some(one), Some(other)) = (one, other) {
+                images_fit(&one, &other, source.frames_ago == 0, errors);
+                same_texels(chosen, &one, &other, errors);
+            }
+        }
+        (Part::Image(_), Part::Buffer(buffer)) => {
+            if let Some(image) = side(chosen, things, from, source, errors) {
+                rows_fit(things, &image, &buffer.buffer, true, errors);
+            }
+        }
+        (Part::Buffer(buffer), Part::Image(_)) => {
+            if let Some(image) = side(chosen, things, to, target, errors) {
+                rows_fit(things, &image, &buffer.buffer, false, errors);
+            }
+        }
+    }
+}
+
+/// Texels have as many bytes, samples and planes, and lie in as large images.
+fn same_texels(chosen: &Chosen<'_>, from: &Side<'_>, to: &Side<'_>, errors: &mut Vec<Diagnostic>) {
+    let (one, other) = (from.image, to.image);
+    let depth = one.format.is_depth() || other.format.is_depth();
+    let alike = if depth {
+        one.format == other.format && from.cells.planes == to.cells.planes
+    } else {
+        one.format.texel_bytes() == other.format.texel_bytes()
+    };
+    let formats = |span| (span, format!("{}", one.format));
+    if !alike {
+        let message = format!("`{}` can't be copied to `{}`: their texels differ", one.name, other.name);
+        let (span, remark) = formats(from.part.image.span);
+        errors.push(
+            Diagnostic::new(to.part.image.span, message)
+                .remark(format!("{}", other.format))
+                .label(span, remark)
+                .help("a copy takes bits as they are: a blit or a draw converts"),
+        );
+    }
+    if one.samples != other.samples {
+        let message = format!("`{}` can't be copied to `{}`: their sample counts differ", one.name, other.name);
+        let declared = chosen.image(from.part.image.index).samples.span;
+        errors.push(
+            Diagnostic::new(to.part.image.span, message)
+                .remark(format!("{} samples a texel", other.samples))
+                .label(declared, format!("{} samples a texel", one.samples)),
+        );
+    }
+    if from.size() != to.size() {
+        let message = format!("`{}` can't be copied to `{}`: their sizes differ", one.name, other.name);
+        errors.push(
+            Diagnostic::new(to.part.image.span, message)
+                .remark(to.size())
+                .label(from.part.image.span, from.size())
+                .help("a blit scales"),
+        );
+    }
+}
+
+/// An image is not copied onto itself.
+fn images_fit(from: &Side<'_>, to: &Side<'_>, same_frame: bool, errors: &mut Vec<Diagnostic>) {
+    let (one, other) = (&from.cells, &to.cells);
+    let meet = |a: &std::ops::Range<u32>, b: &std::ops::Range<u32>| a.start < b.end && b.start < a.end;
+    let overlap =
+        one.planes.intersects(other.planes) && meet(&one.mips, &other.mips) && meet(&one.layers, &other.layers);
+    if from.part.image.index == to.part.image.index && same_frame && overlap {
+        let itself = Diagnostic::new(to.part.image.span, "a part of an image can't be copied to itself");
+        errors.push(itself.label(from.part.image.span, "copied from here"));
+    }
+}
+
+/// The texels of one plane fill the buffer, or lie in it.
+fn rows_fit(
+    things: &Things,
+    image: &Side<'_>,
+    buffer: &describe::BufferRef,
+    filled: bool,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let name = &image.image.name;
+    if image.image.samples > 1 {
+        let message = format!("`{name}` has {} samples, which a buffer can't take or give", image.image.samples);
+        errors.push(Diagnostic::new(image.part.image.span, message));
+    }
+    if image.cells.planes.bits().count_ones() > 1 {
+        let message = format!("`{name}` has depth and stencil ({}): say which of them", image.image.format);
+        let help = format!("write `(image: \"{name}\", plane: Depth)`");
+        errors.push(Diagnostic::new(image.part.image.span, message).help(help));
+    }
+    let Some(there) = things.buffer(buffer.index) else { return };
+    let [width, height, depth] = image.extent.map(u64::from);
+    // At most 2^14 to the third, 2^11 layers and 2^4 bytes: no more than 2^57.
+    let bytes = width * height * depth * u64::from(image.layers()) * image.texel_bytes();
+    let fits = if filled { bytes.next_multiple_of(4) == there.bytes } else { bytes <= there.bytes };
+    if !fits {
+        let wanted = bytes.next_multiple_of(4);
+        let message = format!("`{}` has {} bytes, but the texels of `{name}` take {bytes}", there.name, there.bytes);
+        let help =
+            if filled { format!("a copy fills its target whole: give it `bytes: {wanted}`") } else { String::new() };
+        let wrong = Diagnostic::new(buffer.span, message).remark("too small").label(there.span, "declared here");
+        let wrong = if filled && bytes < there.bytes { wrong.remark("only a part would be filled") } else { wrong };
+        errors.push(if help.is_empty() { wrong } else { wrong.help(help) });
+    }
+}
+
+/// Reports a blit that can't be.
+pub(super) fn blit(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    [from, to]: [&Part; 2],
+    filter: Option<Spanned<Filter>>,
+    lowered: &Pass,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let [source, target] = &lowered.transfers[..] else { return };
+    let (one, other) = (side(chosen, things, from, source, errors), side(chosen, things, to, target, errors));
+    let (Some(one), Some(other)) = (one, other) else { return };
+    images_fit(&one, &other, source.frames_ago == 0, errors);
+    for side in [&one, &other] {
+        if side.image.samples > 1 {
+            let message = format!("`{}` has {} samples and can't be scaled", side.image.name, side.image.samples);
+            let help = "draw it, or let a pass that samples it have it resolved";
+            errors.push(Diagnostic::new(side.part.image.span, message).help(help));
+        }
+    }
+    let kinds = [&one, &other].map(|side| {
+        let format = side.image.format;
+        (format.is_integer(), format.is_depth().then_some(format))
+    });
+    if kinds[0] != kinds[1] {
+        let message = format!("`{}` can't be scaled into `{}`", one.image.name, other.image.name);
+        errors.push(
+            Diagnostic::new(other.part.image.span, message)
+                .remark(format!("{}", other.image.format))
+                .label(one.part.image.span, format!("{}", one.image.format))
+                .help("integers go to integers, and depth to the same format"),
+        );
+    }
+    if let Some(filter) = filter
+        && filter.value == Filter::Linear
+        && (kinds[0].0 || kinds[0].1.is_some())
+    {
+        let held = if kinds[0].0 { "integers" } else { "depth" };
+        let why = format!("`{}` holds {held} ({})", one.image.name, one.image.format);
+        errors.push(Diagnostic::new(filter.span, format!("a linear filter can't be used: {why}")));
+    }
+    if one.layers() != other.layers() || (one.extent[2] > 1) != (other.extent[2] > 1) {
+        let message = format!("`{}` can't be scaled into `{}`: their layers differ", one.image.name, other.image.name);
+        let wrong = Diagnostic::new(other.part.image.span, message).remark(other.size());
+        errors.push(wrong.label(one.part.image.span, one.size()));
+    }
+}
+
+/// Reports a fill whose value doesn't fit.
+pub(super) fn fill(things: &Things, to: &Part, value: Spanned<Fill>, errors: &mut Vec<Diagnostic>) {
+    let (format, name) = match to {
+        Part::Image(part) => {
+            let Some(image) = things.image(part.image.index) else { return };
+            (Some(image.image.format), &image.image.name)
+        }
+        Part::Buffer(part) => {
+            let Some(buffer) = things.buffer(part.buffer.index) else { return };
+            (None, &buffer.name)
+        }
+    };
+    if let Err((message, help)) = fills::typed(value.value, format) {
+        errors.push(Diagnostic::new(value.span, format!("`{name}` can't be filled: {message}")).help(help));
+    }
+}

@@ -1,0 +1,91 @@
+//! Passes that wait for each other: moving one up doesn't help where the other needs it.
+
+use super::order::Writers;
+use super::things::Things;
+use super::touches;
+use super::{Chosen, order};
+use crate::describe::Diagnostic;
+use crate::frame::Resource;
+use crate::source::Span;
+use std::collections::{HashMap, VecDeque};
+
+/// A longer circle is not shown whole.
+const MOST_SHOWN: usize = 10;
+
+/// One pass needs what another writes.
+#[derive(Clone, Copy)]
+pub(super) struct Need {
+    /// The pass that needs it.
+    pub(super) pass: usize,
+    pub(super) resource: Resource,
+    pub(super) span: Span,
+    /// The pass that writes it.
+    pub(super) writer: usize,
+}
+
+/// The circle that `first`, a read of what a pass further below writes, is part of; `None` if that pass doesn't depend
+/// on the reader.
+pub(super) fn circle(things: &Things, states: &[order::State], writers: &Writers, first: Need) -> Option<Vec<Need>> {
+    let mut found: HashMap<usize, Need> = HashMap::new();
+    let mut queue = VecDeque::from([first.writer]);
+    while let Some(at) = queue.pop_front() {
+        let Some(pass) = states.get(at).and_then(order::State::runs) else { continue };
+        let read = touches::reads(things, pass).into_iter().filter(|read| read.frames_ago == 0);
+        let read = read.map(|read| (read.resource, read.span));
+        let continued = touches::writes(things, pass).into_iter().filter(|write| write.continues.is_some());
+        for (resource, span) in read.chain(continued.map(|write| (write.resource, write.span))) {
+            let Some(writer) = writers.last_before(resource, at).filter(|writer| *writer >= first.pass) else {
+                continue;
+            };
+            let need = Need { pass: at, resource, span, writer };
+            if writer == first.pass {
+                return Some(path(first, need, &found));
+            }
+            if writer != first.writer && !found.contains_key(&writer) {
+                found.insert(writer, need);
+                queue.push_back(writer);
+            }
+        }
+    }
+    None
+}
+
+/// From the first need to the one that closes the circle.
+fn path(first: Need, last: Need, found: &HashMap<usize, Need>) -> Vec<Need> {
+    let mut path = vec![last];
+    let mut at = last.pass;
+    while let Some(need) = found.get(&at) {
+        path.push(*need);
+        at = need.pass;
+    }
+    path.push(first);
+    path.reverse();
+    path
+}
+
+/// The circle in words, with its places.
+pub(super) fn report(chosen: &Chosen<'_>, circle: &[Need]) -> Diagnostic {
+    let name = |at: usize| &*chosen.pipeline.passes[at].name.text;
+    let most = circle.len().min(MOST_SHOWN);
+    let mut path: Vec<String> = circle[..most].iter().map(|need| format!("`{}`", name(need.pass))).collect();
+    if most < circle.len() {
+        path.push("…".to_owned());
+    }
+    path.extend(circle.first().map(|need| format!("`{}`", name(need.pass))));
+    let remark = |need: &Need| {
+        let below = if need.writer > need.pass { " further below" } else { "" };
+        let resource = &chosen.name(need.resource).text;
+        format!("`{}` reads `{resource}`, which `{}` writes{below}", name(need.pass), name(need.writer))
+    };
+    let message = format!("passes wait for each other in a circle: {}", path.join(" → "));
+    let mut labels = circle[..most].iter().map(|need| (need.span, remark(need)));
+    let (span, text) = labels.next().unwrap_or((Span::NONE, String::new()));
+    let mut diagnostic = Diagnostic::new(span, message).remark(text);
+    for (span, text) in labels {
+        diagnostic = diagnostic.label(span, text);
+    }
+    let start = circle.first().map_or("", |need| &*chosen.name(need.resource).text);
+    diagnostic.help(format!(
+        "let one of them read what the frame before left: `lifetime: History` for `{start}`, and `previous: 1` here"
+    ))
+}

@@ -1,0 +1,188 @@
+//! What passes do: draws, dispatches and their groups, copies, blits, fills; and whether they can.
+
+use super::things::Things;
+use super::{Chosen, fills, parts, transfers};
+use crate::describe::{self, Diagnostic, Groups as Described, MOST_GROUPS};
+use crate::frame::{Draw, Groups, Pass, Work};
+use crate::interface::ShaderInterface;
+use crate::source::Span;
+use crate::vocabulary::{FillValue, Filter};
+
+/// What `draw` comes to in the frame.
+pub(super) fn draw(chosen: &Chosen<'_>, draw: &describe::Draw) -> Draw {
+    match draw {
+        describe::Draw::Objects(list) => Draw::Objects(*list),
+        describe::Draw::Sky => Draw::Sky,
+        describe::Draw::FullScreen => Draw::FullScreen,
+        describe::Draw::Vertices { count, instances } => Draw::Vertices {
+            count: chosen.whole(*count).unwrap_or(1),
+            instances: chosen.whole(*instances).unwrap_or(1),
+        },
+        describe::Draw::Indirect(_) => Draw::Indirect,
+    }
+}
+
+/// What the pass does. After a mistake it does something like it.
+pub(super) fn lower(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    pass: &describe::Pass,
+    interface: Option<&ShaderInterface>,
+) -> Work {
+    let drawn = |draw, shader: &describe::Name| Work::Draw {
+        draw,
+        shader: shader.text.clone(),
+        discards: interface.is_some_and(|interface| interface.discards),
+        per_sample: interface.is_some_and(|interface| interface.per_sample),
+    };
+    match &pass.work {
+        describe::Work::Draw { draw: what, shader } => drawn(draw(chosen, what), shader),
+        describe::Work::Dispatch { shader, groups } => {
+            Work::Dispatch { shader: shader.text.clone(), groups: self::groups(chosen, things, &groups.value) }
+        }
+        describe::Work::Copy { .. } => Work::Copy,
+        describe::Work::Blit { from, filter, .. } => {
+            let format = match from {
+                describe::Part::Image(part) => things.image(part.image.index).map(|image| image.image.format),
+                describe::Part::Buffer(_) => None,
+            };
+            let filtered = format.is_none_or(|format| !format.is_depth() && !format.is_integer());
+            let default = if filtered { Filter::Linear } else { Filter::Nearest };
+            Work::Blit { filter: filter.map_or(default, |filter| filter.value) }
+        }
+        describe::Work::Fill { to, value } => {
+            let format = match to {
+                describe::Part::Image(part) => things.image(part.image.index).map(|image| image.image.format),
+                describe::Part::Buffer(_) => None,
+            };
+            Work::Fill { value: fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4])) }
+        }
+        describe::Work::Custom { callback, .. } if !pass.color.is_empty() || pass.depth.is_some() => {
+            drawn(Draw::Custom, callback)
+        }
+        describe::Work::Custom { callback, .. } => Work::Custom { callback: callback.text.clone() },
+    }
+}
+
+fn groups(chosen: &Chosen<'_>, things: &Things, groups: &Described) -> Groups {
+    let three = |values: &[describe::Value<u32>; 3]| (*values).map(|value| chosen.whole(value).unwrap_or(1));
+    match groups {
+        Described::Count(count) => Groups::Count(three(count)),
+        Described::Invocations(count) => Groups::Invocations(three(count)),
+        Described::Texels(part) => Groups::Invocations(texels(chosen, things, part)),
+        Described::Indirect { offset, .. } => Groups::Indirect { offset: *offset },
+    }
+}
+
+/// Width, height, and depth or layers of a part of an image.
+fn texels(chosen: &Chosen<'_>, things: &Things, part: &describe::ImagePart) -> [u32; 3] {
+    let Some(image) = things.image(part.image.index).map(|image| &image.image) else { return [1; 3] };
+    let cells = parts::cells(image, &parts::range(chosen, things, part, &mut Vec::new()));
+    let [width, height, depth] = parts::extent(image, cells.mips.start);
+    [width, height, depth.saturating_mul(cells.layers.end - cells.layers.start)]
+}
+
+/// Reports what the pass can't do.
+pub(super) fn check(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    pass: &describe::Pass,
+    lowered: &Pass,
+    interface: Option<&ShaderInterface>,
+    errors: &mut Vec<Diagnostic>,
+) {
+    match &pass.work {
+        describe::Work::Draw { draw, .. } => counts_fit(things, pass, draw, lowered, errors),
+        describe::Work::Dispatch { groups, .. } => {
+            dispatch_fits(chosen, things, pass, groups, lowered, interface, errors);
+        }
+        describe::Work::Copy { from, to } => transfers::copy(chosen, things, [from, to], lowered, errors),
+        describe::Work::Blit { from, to, filter } => {
+            transfers::blit(chosen, things, [from, to], *filter, lowered, errors);
+        }
+        describe::Work::Fill { to, value } => transfers::fill(things, to, *value, errors),
+        describe::Work::Custom { .. } => {}
+    }
+}
+
+/// Indices and counts lie within their buffers.
+fn counts_fit(
+    things: &Things,
+    pass: &describe::Pass,
+    draw: &describe::Draw,
+    lowered: &Pass,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let indexed = pass.index.is_some();
+    if let describe::Draw::Indirect(part) = draw {
+        // VkDrawIndexedIndirectCommand and VkDrawIndirectCommand.
+        let (bytes, what) = if indexed { (20, "VkDrawIndexedIndirectCommand") } else { (16, "VkDrawIndirectCommand") };
+        holds(things, &part.buffer, bytes, &format!("the counts of a draw ({what})"), part.buffer.span, errors);
+    }
+    if let (Some(part), Work::Draw { draw: Draw::Vertices { count, .. }, .. }) = (&pass.index, &lowered.work) {
+        let what = format!("{count} indices of 4 bytes");
+        holds(things, &part.buffer, u64::from(*count) * 4, &what, part.buffer.span, errors);
+    }
+}
+
+/// Reports a buffer that is too small for what is read there.
+pub(super) fn holds(
+    things: &Things,
+    buffer: &describe::BufferRef,
+    bytes: u64,
+    what: &str,
+    span: Span,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let Some(there) = things.buffer(buffer.index) else { return };
+    if there.bytes < bytes {
+        let message = format!("`{}` has {} bytes; {what} take {bytes}", there.name, there.bytes);
+        errors.push(Diagnostic::new(span, message).label(there.span, "declared here"));
+    }
+}
+
+fn dispatch_fits(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    pass: &describe::Pass,
+    groups: &describe::Spanned<Described>,
+    lowered: &Pass,
+    interface: Option<&ShaderInterface>,
+    errors: &mut Vec<Diagnostic>,
+) {
+    match &groups.value {
+        Described::Indirect { buffer, offset } => {
+            if !offset.is_multiple_of(4) {
+                let message = format!("counts of a dispatch stand at a multiple of 4 bytes, not at {offset}");
+                errors.push(Diagnostic::new(groups.span, message));
+            }
+            // VkDispatchIndirectCommand.
+            let what = format!("the counts of a dispatch at byte {offset}, up to their end,");
+            holds(things, &buffer.buffer, offset.saturating_add(12), &what, buffer.buffer.span, errors);
+        }
+        Described::Texels(part) => {
+            parts::range(chosen, things, part, errors);
+            if let Some(previous) = part.previous {
+                errors
+                    .push(Diagnostic::new(previous.span, "an image has one size in all frames: leave `previous` out"));
+            }
+        }
+        Described::Count(_) | Described::Invocations(_) => {}
+    }
+    let (Work::Dispatch { groups: Groups::Invocations(wanted), .. }, Some(interface)) = (&lowered.work, interface)
+    else {
+        return;
+    };
+    let size = interface.workgroup_size.unwrap_or([1; 3]);
+    for ((axis, wanted), size) in ["x", "y", "z"].into_iter().zip(*wanted).zip(size) {
+        let count = wanted.div_ceil(size.max(1));
+        if i64::from(count) > MOST_GROUPS {
+            let message = format!(
+                "pass `{}` runs {wanted} invocations in {axis}: {count} workgroups of {size}; {MOST_GROUPS} are allowed",
+                pass.name.text
+            );
+            let help = "give the shader larger workgroups, or each invocation more to do";
+            errors.push(Diagnostic::new(groups.span, message).help(help));
+        }
+    }
+}
