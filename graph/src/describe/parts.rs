@@ -163,10 +163,7 @@ fn selection<'src>(
     one: &str,
     several: &str,
 ) -> Option<Selection> {
-    let first = match first {
-        Some(leaf) => Some((leaf, values::constant(reader, leaf, one, 0..=MOST_PARTS))),
-        None => None,
-    };
+    let first = first.map(|leaf| (leaf, values::constant(reader, leaf, one, 0..=MOST_PARTS)));
     let count = match count {
         Some(leaf) if matches!(leaf.shape(), Shape::Word("Rest", None)) => Some((leaf, Some(Subresources::REMAINING))),
         Some(leaf) if matches!(leaf.shape(), Shape::Number) => {

@@ -111,7 +111,7 @@ pub fn expand(
                 switched_off.push(SwitchedOff { name, span: condition.span, because: because.clone() });
                 // What a pass that is off would do wrong does no harm.
                 let would = passes::draft(&chosen, &things, pass, None, &mut Vec::new());
-                order::State::Off { would, stand_in: passes::stand_in(pass, because.clone()), because }
+                order::State::Off { would, stand_in: passes::stand_in(pass, because.clone()).map(Box::new), because }
             }
             _ => order::State::On(passes::lower(&chosen, &things, pass, &mut checked, &mut errors)),
         });

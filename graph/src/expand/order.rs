@@ -23,7 +23,7 @@ pub(super) enum State {
         /// What it would do.
         would: Pass,
         /// What runs instead.
-        stand_in: Option<Pass>,
+        stand_in: Option<Box<Pass>>,
         /// Why it is off.
         because: String,
     },
@@ -34,7 +34,7 @@ impl State {
     pub(super) fn into_pass(self) -> Option<Pass> {
         match self {
             State::On(pass) => Some(pass),
-            State::Off { stand_in, .. } => stand_in,
+            State::Off { stand_in, .. } => stand_in.map(|pass| *pass),
         }
     }
 }

@@ -130,7 +130,7 @@ impl State {
     pub(super) fn runs(&self) -> Option<&Pass> {
         match self {
             State::On(pass) => Some(pass),
-            State::Off { stand_in, .. } => stand_in.as_ref(),
+            State::Off { stand_in, .. } => stand_in.as_deref(),
         }
     }
 }

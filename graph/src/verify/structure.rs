@@ -5,7 +5,9 @@ use super::scopes::impossible;
 use super::touches;
 use super::violation::{Rule, Violation};
 use crate::plan::names::vulkan;
-use crate::plan::{Image, ImageBarrier, ImageId, Placement, Plan, Resource, Role, Step, StepId, Subresources, Totals, Work};
+use crate::plan::{
+    Image, ImageBarrier, ImageId, Placement, Plan, Resource, Role, Step, StepId, Subresources, Totals, Work,
+};
 use crate::vocabulary::{Accesses, Layout, Stages, Usage};
 use std::collections::HashSet;
 

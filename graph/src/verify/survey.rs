@@ -73,7 +73,9 @@ fn check_usage(plan: &Plan, found: &mut Findings, id: StepId, step: &Step, touch
 /// What an image must be made for to be touched so.
 fn usage(step: &Step, touch: &Touch, image: &Image) -> Usage {
     match (&step.work, touch.attachment) {
-        (Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_), _) if touch.pairs.writes().is_empty() => Usage::TRANSFER_SRC,
+        (Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_), _) if touch.pairs.writes().is_empty() => {
+            Usage::TRANSFER_SRC
+        }
         (Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_), _) => Usage::TRANSFER_DST,
         (_, true) if image.format.is_depth() => Usage::DEPTH_STENCIL_ATTACHMENT,
         (_, true) => Usage::COLOR_ATTACHMENT,

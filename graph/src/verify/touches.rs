@@ -53,7 +53,8 @@ fn side(side: &Side, stages: Stages, accesses: Accesses, touches: &mut Vec<Touch
 
 fn render(scope: &RenderScope, touches: &mut Vec<Touch>) {
     let color = scope.color.iter().map(|attachment| (attachment, true));
-    let attachments = || color.clone().chain(scope.depth.iter().chain(&scope.stencil).map(|attachment| (attachment, false)));
+    let attachments =
+        || color.clone().chain(scope.depth.iter().chain(&scope.stencil).map(|attachment| (attachment, false)));
     for (attachment, is_color) in attachments() {
         let (stages, read, write) = if is_color { COLOR_LOAD } else { DEPTH_LOAD };
         let accesses = if attachment.load == LoadOp::Load { read } else { write };

@@ -268,7 +268,8 @@ impl<'p> Check<'_, 'p> {
                 Some(BindingKind::InputAttachment) => access.accesses.intersects(Accesses::INPUT_ATTACHMENT_READ),
             };
             self.demand(fits, access.image, "is accessed by a shader without such a binding");
-            let linear = access.binding.as_ref().map(|binding| binding.kind) == Some(BindingKind::Sampled(Filter::Linear));
+            let linear =
+                access.binding.as_ref().map(|binding| binding.kind) == Some(BindingKind::Sampled(Filter::Linear));
             let integer = self.plan.image(access.image).format.is_integer();
             self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
         }
