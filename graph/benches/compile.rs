@@ -85,10 +85,8 @@ fn beside(figure: String, goal: Option<String>) -> String {
 }
 
 fn measure(name: &str, frame: &Frame, device: &Profile, goals: Goals) -> Row {
-    let compiled = || {
-        compile(frame, device, &mut Estimated(device), &Options::default())
-            .expect("the measured graphs are legal")
-    };
+    let compiled =
+        || compile(frame, device, &mut Estimated(device), &Options::default()).expect("the measured graphs are legal");
     let plan = compiled();
     let passes = frame.passes.len() as u32;
     let a_pass = |time: Duration| time.as_secs_f64() * 1e6 / f64::from(passes);

@@ -10,8 +10,7 @@ use framewright_graph::verify::verify;
 
 fn compiled(frame: &Frame) -> Plan {
     let device = graphs::device();
-    let plan =
-        compile(frame, &device, &mut Estimated(&device), &Options::default()).expect("the graph is legal");
+    let plan = compile(frame, &device, &mut Estimated(&device), &Options::default()).expect("the graph is legal");
     assert_eq!(verify(&plan), [], "{}", plan.tree());
     plan
 }

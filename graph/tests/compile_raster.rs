@@ -6,15 +6,14 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Estimated;
 use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::{Blend, Frame};
-use framewright_graph::plan::{Plan, RenderScope, Role, Stage, Work};
+use framewright_graph::plan::{Plan, RenderScope, Resource, Role, Stage, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Filter, Layout, LoadOp, ResolveMode, StoreOp, Usage};
 use raster::{Raster, forward};
 
 fn compiled(frame: &Frame) -> Plan {
     let device = raster::device();
-    let plan =
-        compile(frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is legal");
+    let plan = compile(frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is legal");
     assert_eq!(verify(&plan), [], "{}", plan.tree());
     plan
 }
@@ -132,7 +131,7 @@ fn a_draw_that_samples_what_it_replaces_gets_a_second_image() {
     raster.full_screen("blur").sample(color).color(color, Blend::Replace);
     let plan = compiled(&raster.output(color));
     let blur = &scopes(&plan)[1];
-    assert_ne!(blur.color[0].image, blur.passes[0].bindings[0].image);
+    assert_ne!(blur.color[0].image, blur.passes[0].accesses[0].image);
     assert_eq!(plan.totals.copies, 0);
 }
 
@@ -145,7 +144,7 @@ fn a_draw_that_samples_what_it_blends_onto_gets_a_copy() {
     let plan = compiled(&raster.output(color));
     assert_eq!(plan.totals.copies, 1);
     let haze = &scopes(&plan)[1];
-    assert_ne!(haze.color[0].image, haze.passes[0].bindings[0].image);
+    assert_ne!(haze.color[0].image, haze.passes[0].accesses[0].image);
     assert_eq!(haze.color[0].load, LoadOp::Load);
 }
 
@@ -243,7 +242,7 @@ fn multisampled_depth_that_leaves_the_frame_is_its_sample_zero() {
     assert_eq!((plan.totals.resolves, plan.totals.folded_resolves, plan.totals.scopes), (2, 2, 1));
     let resolve = scopes(&plan)[0].depth.as_ref().and_then(|depth| depth.resolve.as_ref()).expect("a folded resolve");
     assert_eq!(resolve.mode, ResolveMode::SampleZero);
-    assert_eq!(plan.outputs[1], resolve.image);
+    assert_eq!(plan.outputs[1], Resource::Image(resolve.image));
 }
 
 #[test]
@@ -255,8 +254,7 @@ fn a_pass_that_samples_multisampled_depth_as_one_value_is_refused() {
     raster.objects("opaque").clear(color).clear_depth(depth);
     raster.full_screen("fog").sample(depth).color(screen, Blend::Replace);
     let device = raster::device();
-    let refused =
-        compile(&raster.output(screen), &device, &mut Estimated(&device), &Options::default()).unwrap_err();
+    let refused = compile(&raster.output(screen), &device, &mut Estimated(&device), &Options::default()).unwrap_err();
     assert_eq!(refused.len(), 1);
     assert!(refused[0].message.contains("`fog` samples `depth` and it has 4 samples"), "{refused:?}");
 }
@@ -340,7 +338,8 @@ fn an_image_that_another_is_forwarded_to_may_have_been_used_before() {
     let plan = compiled(&raster.outputs(&[screen, second]));
     let names: Vec<&str> = plan.images.iter().map(|image| &*image.name).collect();
     assert_eq!(names, ["screen (2)", "second", "screen"]);
-    assert_eq!(&*plan.image(plan.outputs[0]).name, "screen");
+    let Resource::Image(screen) = plan.outputs[0] else { panic!("it is an image") };
+    assert_eq!(&*plan.image(screen).name, "screen");
 }
 
 #[test]

@@ -6,10 +6,10 @@ mod raster;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
-use framewright_graph::frame::{Blend, Frame, Image, ImageIndex, Pass, Storage, Work};
+use framewright_graph::frame::{Blend, Frame, Groups, Image, ImageIndex, Pass, Resource, Storage, Work};
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::Stages;
+use framewright_graph::vocabulary::{Stages, Subresources};
 use raster::Raster;
 
 /// Draws into `color`, filters it to `screen`, and has a compute pass write `noise`, which is filtered, too.
@@ -36,16 +36,8 @@ fn dispatch(name: &str, image: ImageIndex) -> Pass {
         write: true,
         stages,
     };
-    Pass {
-        name: name.into(),
-        span: Span::NONE,
-        work: Work::Dispatch { shader: name.into(), groups: Groups::Count([1; 3]) },
-        sampled: Vec::new(),
-        storage: vec![target],
-        color: Vec::new(),
-        depth: None,
-        params: Vec::new(),
-    }
+    let work = Work::Dispatch { shader: name.into(), groups: Groups::Count([1; 3]) };
+    Pass { storage: vec![target], ..Pass::new(name, work) }
 }
 
 fn refusals(frame: &Frame, device: &Profile) -> Vec<String> {
@@ -82,8 +74,8 @@ fn what_cannot_be_is_refused_in_words() {
         ("multisampled and has mip levels", |frame| frame.images[0].mips = 2),
         ("`blend` draws into `screen`, which has mip levels", |frame| frame.images[2].mips = 2),
         ("`blend` draws into `screen`, which has mip levels or depth", |frame| frame.images[2].extent[2] = 2),
-        ("image number 9 does not exist", |frame| frame.outputs[0].image = ImageIndex(9)),
-        ("image number 9 does not exist", |frame| frame.passes[0].storage[0].image = ImageIndex(9)),
+        ("an output does not exist", |frame| frame.outputs[0].resource = Resource::Image(ImageIndex(9))),
+        ("names image number 9, which does not exist", |frame| frame.passes[0].storage[0].image = ImageIndex(9)),
         ("`screen` is an output twice", |frame| frame.outputs.push(frame.outputs[0].clone())),
         ("`fill` has attachments and doesn't draw", |frame| frame.passes[0].color = frame.passes[1].color.clone()),
         ("`blend` accesses `source1` in stages", |frame| frame.passes[2].sampled[1].stages = Stages::COMPUTE_SHADER),

@@ -8,12 +8,13 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Image, ImageIndex, Output, Pass, Sampled, Storage, Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image, ImageIndex, Output, Pass, Resource, Sampled,
+    Storage, Work,
 };
 use framewright_graph::plan::Plan;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{CompareOp, Filter, Stages};
+use framewright_graph::vocabulary::{CompareOp, Filter, Stages, Subresources};
 use proptest::prelude::*;
 
 /// Images of every random frame: format and samples.
@@ -60,16 +61,7 @@ impl Maker {
         let kind = self.byte() % 9;
         let draw = if kind < 3 { Draw::Objects(DrawList::Opaque) } else { Draw::FullScreen };
         let work = Work::Draw { draw, shader: name.as_str().into(), discards: kind == 3, per_sample: false };
-        let mut pass = Pass {
-            name: name.as_str().into(),
-            span: Span::NONE,
-            work,
-            sampled: Vec::new(),
-            storage: Vec::new(),
-            color: Vec::new(),
-            depth: None,
-            params: Vec::new(),
-        };
+        let mut pass = Pass::new(&name, work);
         match kind {
             0..=5 => self.draw(&mut pass),
             6 => self.dispatch(&mut pass),
@@ -100,7 +92,15 @@ impl Maker {
             let test = if self.one_in(4) { CompareOp::Always } else { CompareOp::GreaterOrEqual };
             let write = self.one_in(2);
             let image = ImageIndex(depth as u32);
-            pass.depth = Some(DepthTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, test, write, stencil: None });
+            pass.depth = Some(DepthTarget {
+                image,
+                range: Subresources::WHOLE,
+                span: Span::NONE,
+                clear,
+                test,
+                write,
+                stencil: None,
+            });
         }
         let covers = matches!(pass.work, Work::Draw { draw: Draw::FullScreen, discards: false, .. })
             && pass.depth.as_ref().is_none_or(|depth| depth.test == CompareOp::Always);
@@ -130,8 +130,11 @@ impl Maker {
             pass.sampled.push(Sampled {
                 binding: format!("source{number}").into(),
                 image: ImageIndex(image as u32),
+                range: Subresources::WHOLE,
+                frames_ago: 0,
                 span: Span::NONE,
                 per_sample,
+                own_pixel: false,
                 filter: Filter::Nearest,
                 stages,
             });
@@ -148,6 +151,7 @@ impl Maker {
             pass.storage.push(Storage {
                 binding: format!("store{number}").into(),
                 image: ImageIndex(image as u32),
+                range: Subresources::WHOLE,
                 span: Span::NONE,
                 read,
                 write: !read || self.one_in(2),
@@ -176,24 +180,21 @@ impl Maker {
 fn frame(passes: &[Vec<u8>], about: [bool; IMAGES.len()], outputs: &[u8]) -> Frame {
     let mut maker = Maker { frame: Frame::default(), written: [false; IMAGES.len()], about, bytes: Vec::new() };
     for (number, (format, samples)) in IMAGES.into_iter().enumerate() {
-        maker.frame.images.push(Image {
-            name: format!("image{number}").into(),
-            span: Span::NONE,
-            format,
-            extent: [64, 64, 1],
-            mips: 1,
-            layers: 1,
-            samples,
-        });
+        let image = Image::new(&format!("image{number}"), format, 64, 64);
+        maker.frame.images.push(Image { samples, ..image });
     }
     passes.iter().for_each(|bytes| maker.pass(bytes));
     maker.bytes = outputs.to_vec();
     for _ in outputs {
-        let listed: Vec<u32> = maker.frame.outputs.iter().map(|output| output.image.0).collect();
-        if let Some(image) =
-            maker.pick(|maker, image| maker.written[image] && image != 9 && !listed.contains(&(image as u32)))
-        {
-            maker.frame.outputs.push(Output { resource: Resource::Image(ImageIndex(image as u32)), span: Span::NONE, after: None });
+        let listed: Vec<Resource> = maker.frame.outputs.iter().map(|output| output.resource).collect();
+        if let Some(image) = maker.pick(|maker, image| {
+            maker.written[image] && image != 9 && !listed.contains(&Resource::Image(ImageIndex(image as u32)))
+        }) {
+            maker.frame.outputs.push(Output {
+                resource: Resource::Image(ImageIndex(image as u32)),
+                span: Span::NONE,
+                after: None,
+            });
         }
     }
     maker.frame
@@ -236,7 +237,7 @@ fn whatever_the_options_the_checker_finds_nothing_and_the_outputs_hold_what_the_
     check(1500, |frame, device| {
         let expected = symbolic::of_frame(frame);
         for [alias, poison] in [[true, false], [false, false], [true, true], [false, true]] {
-            let plan = compiled(frame, device, &Options { alias, poison });
+            let plan = compiled(frame, device, &Options { alias, poison, demote: false, ..Options::default() });
             assert_eq!(verify(&plan), [], "{}\n{}", words(frame), plan.tree());
             assert_eq!(symbolic::of_plan(&plan), expected, "{}\n{}", words(frame), plan.tree());
         }
@@ -247,7 +248,7 @@ fn whatever_the_options_the_checker_finds_nothing_and_the_outputs_hold_what_the_
 fn no_barrier_can_be_left_out() {
     check(200, |frame, device| {
         // A memory barrier covers everything, so it may stand in for image barriers: those are looked at where there is none.
-        let apart = compiled(frame, device, &Options { alias: false, poison: false });
+        let apart = compiled(frame, device, &Options { alias: false, ..Options::default() });
         for (step, number) in apart.steps.iter().zip(0..) {
             for barrier in 0..step.image_barriers.len() {
                 let mut less = apart.clone();

@@ -8,11 +8,11 @@ mod demote;
 mod forward;
 mod stores;
 
+use super::Options;
 use super::cull::Live;
 use super::link::covers;
 use super::model::{Adapted, Negotiated, Op, OpKind, Reason, Start, StoreIndex, Use};
 use super::parts::{self, Grids};
-use super::Options;
 use crate::describe::Diagnostic;
 use crate::device::Profile;
 use crate::frame::{Draw, Frame, ImageIndex, Pass, Resource, Sampled, Work};
@@ -153,7 +153,14 @@ impl Adapter<'_> {
                     if writes { self.written(depth.image, start == Start::Keep) } else { self.current(depth.image) };
                 self.refuse_depth_feedback(pass, depth.image, depth.range, plane, writes);
                 let range = self.range(depth.image, Subresources { aspects: plane, ..depth.range });
-                uses.push(access::depth(plane, store, range, start, writes, frame.images[depth.image.0 as usize].format));
+                uses.push(access::depth(
+                    plane,
+                    store,
+                    range,
+                    start,
+                    writes,
+                    frame.images[depth.image.0 as usize].format,
+                ));
             }
         }
         for (entry, used) in (0_u32..).zip(&pass.buffers) {
@@ -267,9 +274,11 @@ impl Adapter<'_> {
         let image = sampled.image;
         let moves = |range: Subresources, keeps: bool| self.moves_on(number, image, range, keeps);
         let overlaps = |range: Subresources| self.overlap(image, range, sampled.range);
-        let color = pass.color.iter().filter(|target| target.image == image && overlaps(target.range)).any(|target| {
-            !moves(target.range, target.clear.is_none() && !covers(pass, target))
-        });
+        let color = pass
+            .color
+            .iter()
+            .filter(|target| target.image == image && overlaps(target.range))
+            .any(|target| !moves(target.range, target.clear.is_none() && !covers(pass, target)));
         let mut storage = pass.storage.iter().filter(|storage| storage.image == image && storage.write);
         color || storage.any(|storage| overlaps(storage.range) && !moves(storage.range, storage.read))
     }
@@ -313,7 +322,8 @@ impl Adapter<'_> {
             same && (sampled.per_sample || wanted == 1)
         });
         if samples_it && self.store_of[image.0 as usize].is_some() && self.moves_on(number, image, range, keeps) {
-            let because = format!("`{}` samples `{}` while it replaces it", pass.name, frame.images[image.0 as usize].name);
+            let because =
+                format!("`{}` samples `{}` while it replaces it", pass.name, frame.images[image.0 as usize].name);
             let why = self.reason(because, span);
             return self.replace(image, "next", why, wanted);
         }

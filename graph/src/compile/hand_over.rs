@@ -90,8 +90,7 @@ pub(super) fn memory_barriers(
     for time in 0..2 * steps {
         let (step, second_frame) = (time % steps, time >= steps);
         let here = of_step(&due, step as u32, |due| due.at);
-        let now: Vec<&Due> =
-            here.iter().filter(|due| due.this_frame != second_frame && !done(&passed, due)).collect();
+        let now: Vec<&Due> = here.iter().filter(|due| due.this_frame != second_frame && !done(&passed, due)).collect();
         add(&mut barriers[step], &now);
         let images = of_step(batched, step as u32, |it| it.at).iter().map(|it| &pending[it.barrier as usize]);
         pass(&mut passed, time, barriers[step].as_ref(), images);
@@ -150,8 +149,7 @@ fn pass<'p>(
     images: impl Iterator<Item = &'p Pending>,
 ) {
     let memory_scopes = memory.map(|it| (it.src_stages, it.dst_stages));
-    let scopes: Vec<(Stages, Stages)> =
-        images.map(|it| (it.src_stages, it.dst_stages)).chain(memory_scopes).collect();
+    let scopes: Vec<(Stages, Stages)> = images.map(|it| (it.src_stages, it.dst_stages)).chain(memory_scopes).collect();
     for barrier in passed.iter_mut() {
         let follows = |(src, _): &&(Stages, Stages)| and_earlier(*src).intersects(barrier.reach);
         let next = scopes.iter().filter(follows).fold(barrier.reach, |reach, (_, dst)| reach | and_later(*dst));

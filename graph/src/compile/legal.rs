@@ -194,7 +194,8 @@ impl Check<'_> {
         let inside = |base: u32, count: u32, all: u32| count > 0 && base < all && count <= all - base;
         let planes = !part.aspects.is_empty() && image.format.aspects().contains(part.aspects);
         if !planes || !inside(part.base_mip, part.mips, image.mips) {
-            let what = format!("names a part of `{}` that it doesn't have: it has {} mip levels", image.name, image.mips);
+            let what =
+                format!("names a part of `{}` that it doesn't have: it has {} mip levels", image.name, image.mips);
             self.wrong(span, &what);
         } else if !inside(part.base_layer, part.layers, image.layers) {
             let what = format!("names a part of `{}` that it doesn't have: it has {} layers", image.name, image.layers);
@@ -356,9 +357,7 @@ impl Check<'_> {
         }
         let overlaps = match source.resource {
             Resource::Buffer(_) => true,
-            Resource::Image(image) => {
-                parts::overlap(&self.frame.images[image.0 as usize], source.range, target.range)
-            }
+            Resource::Image(image) => parts::overlap(&self.frame.images[image.0 as usize], source.range, target.range),
         };
         if overlaps {
             self.wrong(self.pass.span, "transfers from and to the same part");

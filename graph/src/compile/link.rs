@@ -181,15 +181,7 @@ impl Linker<'_> {
         }
     }
 
-    fn image(
-        &mut self,
-        pass: &Pass,
-        image: ImageIndex,
-        range: Subresources,
-        span: Span,
-        reads: bool,
-        writes: bool,
-    ) {
+    fn image(&mut self, pass: &Pass, image: ImageIndex, range: Subresources, span: Span, reads: bool, writes: bool) {
         let Some(grid) = self.grids.of(image) else {
             return self.access(pass, Resource::Image(image), 0, span, reads, writes);
         };

@@ -85,7 +85,7 @@ pub fn compile(
     let notes = std::mem::take(&mut negotiated.notes);
     let input = adapt::Input { frame, grids: &grids, live: &live, negotiated: &negotiated, device, options };
     let mut adapted = adapt::adapt(input)?;
-    let order = schedule::schedule(&adapted);
+    let order = schedule::schedule(&grids, &adapted, options.order);
     let mut scoped = scope::scope(frame, &grids, &mut adapted, &order);
     let retained = retain::retain(frame, &grids, &adapted, &scoped);
     let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained);

@@ -25,12 +25,13 @@ pub(super) fn note(
         let store = &adapted.stores[at];
         let bits = walked.usage(cells(grids, store));
         let [first, last] = walked.lifetimes[at];
-        let in_one_scope =
-            first == last && matches!(scoped.steps.get(first as usize), Some(Step::Scope(_)));
+        let in_one_scope = first == last && matches!(scoped.steps.get(first as usize), Some(Step::Scope(_)));
         let stays = in_one_scope
-            && retained.of(first).iter().filter(|ops| ops.target.store == at as u32).all(|ops| {
-                ops.load != LoadOp::Load && ops.store != StoreOp::Store
-            });
+            && retained
+                .of(first)
+                .iter()
+                .filter(|ops| ops.target.store == at as u32)
+                .all(|ops| ops.load != LoadOp::Load && ops.store != StoreOp::Store);
         let store = &mut adapted.stores[at];
         let home = store.home;
         match &mut store.kind {

@@ -152,9 +152,8 @@ impl Walk<'_> {
     /// An attachment by what its first and all its uses in the scope are.
     fn attachment(&self, scope: &Scope, target: Target, role: Role) -> AttachmentOps {
         let Walk { frame, adapted, .. } = self;
-        let is_it = |used: &&Use| {
-            used.role == role && used.store == target.store && adapted.range(used) == target.range
-        };
+        let is_it =
+            |used: &&Use| used.role == role && used.store == target.store && adapted.range(used) == target.range;
         let mut made = AttachmentOps {
             target,
             role,
@@ -222,7 +221,8 @@ impl Walk<'_> {
 
     /// What outlives the frame is needed.
     fn after(&mut self) {
-        for (store, next) in self.adapted.stores.iter().zip(self.adapted.stores.iter().skip(1).map(Some).chain([None])) {
+        for (store, next) in self.adapted.stores.iter().zip(self.adapted.stores.iter().skip(1).map(Some).chain([None]))
+        {
             if store.home != Home::Transient {
                 let end = next.map_or(self.adapted.cells, |next| next.first_cell);
                 (store.first_cell..end).for_each(|cell| self.needed(cell, Next::After));

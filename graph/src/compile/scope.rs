@@ -363,11 +363,7 @@ impl Scope {
                 return refuse(Refusal::Clears(used.store));
             }
             if clashes(used) {
-                return refuse(if used.writes {
-                    Refusal::Writes(used.store)
-                } else {
-                    Refusal::Uses(used.store)
-                });
+                return refuse(if used.writes { Refusal::Writes(used.store) } else { Refusal::Uses(used.store) });
             }
         }
         match self.carries().next() {

@@ -28,7 +28,15 @@ impl Raster {
     }
 
     pub(crate) fn objects(&mut self, name: &str) -> Added<'_> {
-        self.pass(name, Work::Draw { draw: Draw::Objects(DrawList::Opaque), shader: name.into(), discards: false, per_sample: false })
+        self.pass(
+            name,
+            Work::Draw {
+                draw: Draw::Objects(DrawList::Opaque),
+                shader: name.into(),
+                discards: false,
+                per_sample: false,
+            },
+        )
     }
 
     pub(crate) fn full_screen(&mut self, name: &str) -> Added<'_> {
@@ -44,7 +52,10 @@ impl Raster {
     }
 
     pub(crate) fn outputs(mut self, images: &[ImageIndex]) -> Frame {
-        self.0.outputs = images.iter().map(|image| Output { resource: Resource::Image(*image), span: Span::NONE, after: None }).collect();
+        self.0.outputs = images
+            .iter()
+            .map(|image| Output { resource: Resource::Image(*image), span: Span::NONE, after: None })
+            .collect();
         self.0
     }
 }
@@ -67,7 +78,15 @@ impl Added<'_> {
     }
 
     fn depth(self, image: ImageIndex, clear: Option<f32>, test: CompareOp, write: bool) -> Self {
-        self.0.depth = Some(DepthTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, test, write, stencil: None });
+        self.0.depth = Some(DepthTarget {
+            image,
+            range: Subresources::WHOLE,
+            span: Span::NONE,
+            clear,
+            test,
+            write,
+            stencil: None,
+        });
         self
     }
 

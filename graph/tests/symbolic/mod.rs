@@ -3,7 +3,7 @@
 //! A frame and its Plan are followed separately, each by its own meaning. The checker can tell whether a Plan keeps its own
 //! promises; only this can tell whether those are the frame's.
 
-use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Pass, Work};
+use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Pass, Resource, Work};
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, LoadOp, StoreOp};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -44,7 +44,11 @@ pub(crate) fn of_frame(frame: &Frame) -> Vec<u64> {
         1 => held[image.0 as usize],
         _ => resolved(held[image.0 as usize]),
     };
-    frame.outputs.iter().map(|output| single(output.image)).collect()
+    let image = |resource: Resource| match resource {
+        Resource::Image(image) => image,
+        Resource::Buffer(_) => unreachable!("these frames have no buffers"),
+    };
+    frame.outputs.iter().map(|output| single(image(output.resource))).collect()
 }
 
 fn frame_pass(frame: &Frame, pass: &Pass, held: &mut [u64]) {
@@ -120,23 +124,35 @@ pub(crate) fn of_plan(plan: &Plan) -> Vec<u64> {
                 }
             }
             plan::Work::Dispatch(pass) => plan_pass(pass, None, &mut held),
-            plan::Work::Resolve(it) => held[it.target.0 as usize] = resolved(held[it.source.0 as usize]),
-            plan::Work::Copy(it) => held[it.target.0 as usize] = held[it.source.0 as usize],
+            plan::Work::Resolve(it) => held[side(&it.target)] = resolved(held[side(&it.source)]),
+            plan::Work::Copy(it) => held[side(&it.target)] = held[side(&it.source)],
+            plan::Work::Custom(_) | plan::Work::Blit(_) | plan::Work::Fill(_) => unreachable!("these frames have none"),
             plan::Work::Export => {}
         }
     }
-    plan.outputs.iter().map(|image| held[image.0 as usize]).collect()
+    plan.outputs.iter().map(|output| held[number(*output)]).collect()
+}
+
+fn side(side: &plan::Side) -> usize {
+    number(side.resource())
+}
+
+fn number(resource: plan::Resource) -> usize {
+    match resource {
+        plan::Resource::Image(image) => image.0 as usize,
+        plan::Resource::Buffer(_) => unreachable!("these frames have no buffers"),
+    }
 }
 
 fn plan_pass(pass: &plan::Pass, scope: Option<&plan::RenderScope>, held: &mut [u64]) {
-    let accessed = |binding: &plan::Binding, accesses: Accesses| {
-        pass.accesses.iter().any(|access| access.image == binding.image && access.accesses.intersects(accesses))
+    let bound = |accesses: Accesses| {
+        let some = pass.accesses.iter().filter(move |access| access.accesses.intersects(accesses));
+        some.filter_map(|access| Some((access.binding.as_ref()?.name.to_string(), access.image.0 as usize)))
     };
     let reads = Accesses::SHADER_SAMPLED_READ | Accesses::SHADER_STORAGE_READ;
-    let bound = pass.bindings.iter().filter(|binding| accessed(binding, reads));
-    let read: Vec<_> = bound.map(|binding| (binding.name.to_string(), held[binding.image.0 as usize])).collect();
-    for binding in pass.bindings.iter().filter(|binding| accessed(binding, Accesses::SHADER_STORAGE_WRITE)) {
-        held[binding.image.0 as usize] = made(&pass.name, &binding.name, ANYTHING, ANYTHING, &read);
+    let read: Vec<_> = bound(reads).map(|(name, image)| (name, held[image])).collect();
+    for (name, image) in bound(Accesses::SHADER_STORAGE_WRITE) {
+        held[image] = made(&pass.name, &name, ANYTHING, ANYTHING, &read);
     }
     let Some(scope) = scope else { return };
     let depth_image = scope.depth.as_ref().filter(|_| pass.depth.is_some()).map(|depth| depth.image.0 as usize);

@@ -3,9 +3,9 @@
 
 use super::{Input, has_edges};
 use crate::compile::link::covers;
+use crate::compile::parts::outlives;
 use crate::frame::{Draw, ImageIndex, Pass, Work};
 use crate::plan::{Note, Stage};
-use crate::compile::parts::outlives;
 use std::collections::BTreeSet;
 
 /// Which draws move, and what is worth saying about images that need no resolve.

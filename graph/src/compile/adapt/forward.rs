@@ -59,8 +59,8 @@ impl Adapter<'_> {
         let (source_image, target_image) = (&frame.images[from.0 as usize], &frame.images[to.0 as usize]);
         let count = self.current_samples(from);
         let wanted = self.input.negotiated.samples(to);
-        let alike = (source_image.format, source_image.extent) == (target_image.format, target_image.extent)
-            && count == wanted;
+        let alike =
+            (source_image.format, source_image.extent) == (target_image.format, target_image.extent) && count == wanted;
         let resolves = count > 1 && !alike;
         let why = format!(
             "`{}` is off ({because}) and forwards `{}` to `{}`",

@@ -94,9 +94,11 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     };
     if let OpKind::ForwardDraw { filter, .. } = op.kind {
         let binding = || Some(Binding { name: COPY_SOURCE.into(), kind: BindingKind::Sampled(filter) });
-        let accesses = uses.iter().map(|used| access(parts, used, (used.role == Role::Sampled).then(binding).flatten()));
+        let accesses =
+            uses.iter().map(|used| access(parts, used, (used.role == Role::Sampled).then(binding).flatten()));
         planned.accesses = accesses.collect();
-        (planned.draw, planned.shader, planned.blend) = (Some(Draw::FullScreen), COPY_SHADER.into(), vec![Blend::Replace]);
+        (planned.draw, planned.shader, planned.blend) =
+            (Some(Draw::FullScreen), COPY_SHADER.into(), vec![Blend::Replace]);
         return planned;
     }
     (planned.draw, planned.groups, planned.shader) = match &declared.work {
