@@ -27,6 +27,12 @@ struct Range {
     next: u32,
 }
 
+impl Range {
+    fn fits(&self, bytes: u64, alignment: u64) -> bool {
+        self.bytes >= bytes && self.bytes - bytes >= align(self.offset, alignment) - self.offset
+    }
+}
+
 /// An end of a free range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
@@ -41,25 +47,40 @@ pub(super) struct Gaps {
     joined: Vec<u32>,
     /// The highest range.
     top: u32,
-    /// The first of each list of free ranges.
+    /// A free range in no list, which nobody had before, and which is taken before those in lists.
+    fresh: u32,
+    /// Whether free neighbours are left as they were given back.
+    apart: bool,
+    /// The first and the last of each list of free ranges.
     heads: [u32; 64 << FINE_BITS],
+    tails: [u32; 64 << FINE_BITS],
     /// Which powers of two have a list that is not empty, and which of their lists.
     coarse: u64,
     fine: [u8; 64],
 }
 
 impl Gaps {
-    /// Free memory of that many bytes, which grows where it has to.
-    pub(super) fn new(bytes: u64) -> Gaps {
-        let mut gaps = Gaps {
+    /// Free memory of that many bytes, at least 1, which grows where it has to.
+    ///
+    /// What nobody had before is taken first, then what was given back first, as it was given back, while that goes well.
+    pub(super) fn spread(bytes: u64) -> Gaps {
+        Gaps {
             ranges: vec![Range { offset: 0, bytes, below: NONE, above: NONE, previous: TAKEN, next: NONE }],
             joined: Vec::new(),
             top: 0,
+            fresh: 0,
+            apart: true,
             heads: [NONE; 64 << FINE_BITS],
+            tails: [NONE; 64 << FINE_BITS],
             coarse: 0,
             fine: [0; 64],
-        };
-        gaps.list(0);
+        }
+    }
+
+    /// Free memory of that many bytes, at least 1, which grows where it has to. Small gaps are taken before large ones.
+    pub(super) fn tight(bytes: u64) -> Gaps {
+        let mut gaps = Gaps::spread(bytes);
+        gaps.join_all();
         gaps
     }
 
@@ -68,15 +89,9 @@ impl Gaps {
         self.ranges[range as usize].offset
     }
 
-    /// Takes `bytes`, at least 1, from one end of a small free range that fits, or grows the top.
+    /// Takes `bytes`, at least 1, from one end of the fresh range or of a small one that fits, or grows the top.
     pub(super) fn take(&mut self, bytes: u64, alignment: u64, end: End) -> u32 {
-        let at = match self.smallest(bytes, alignment) {
-            Some(at) => {
-                self.unlist(at);
-                at
-            }
-            None => self.grow(bytes, alignment),
-        };
+        let (at, fresh) = self.find(bytes, alignment);
         let Range { offset, bytes: size, below, above, .. } = self.ranges[at as usize];
         let mut padding = align(offset, alignment) - offset;
         let mut rest = size.saturating_sub(padding).saturating_sub(bytes);
@@ -87,17 +102,27 @@ impl Gaps {
         self.ranges[at as usize].offset = offset + padding;
         self.ranges[at as usize].bytes = bytes;
         if padding > 0 {
-            self.insert(Range { offset, bytes: padding, below, above: at, previous: TAKEN, next: NONE });
+            let range = Range { offset, bytes: padding, below, above: at, previous: TAKEN, next: NONE };
+            self.insert(range, fresh && end == End::High);
         }
         if rest > 0 {
             let offset = offset.saturating_add(padding).saturating_add(bytes);
-            self.insert(Range { offset, bytes: rest, below: at, above, previous: TAKEN, next: NONE });
+            let range = Range { offset, bytes: rest, below: at, above, previous: TAKEN, next: NONE };
+            self.insert(range, fresh && end == End::Low);
         }
         at
     }
 
-    /// Gives a range back, joined with its free neighbours.
+    /// Gives a range back.
     pub(super) fn free(&mut self, at: u32) {
+        if !self.apart {
+            self.join(at);
+        }
+        self.list(at);
+    }
+
+    /// Joins a range, in no list, with its free neighbours.
+    fn join(&mut self, at: u32) {
         let Range { below, above, .. } = self.ranges[at as usize];
         if self.is_free(below) {
             self.unlist(below);
@@ -114,10 +139,46 @@ impl Gaps {
             self.link(at, joined.above);
             self.joined.push(above);
         }
-        self.list(at);
     }
 
-    /// The smallest free range found that fits.
+    /// Joins all free neighbours, and from now on each range that is given back.
+    fn join_all(&mut self) {
+        self.apart = false;
+        if self.fresh != NONE {
+            self.list(self.fresh);
+            self.fresh = NONE;
+        }
+        let mut at = self.top;
+        while at != NONE {
+            if self.is_free(at) {
+                self.unlist(at);
+                self.join(at);
+                self.list(at);
+            }
+            at = self.ranges[at as usize].below;
+        }
+    }
+
+    /// A range in no list in which that many bytes fit, and whether it is the fresh one.
+    fn find(&mut self, bytes: u64, alignment: u64) -> (u32, bool) {
+        if self.fresh != NONE && self.ranges[self.fresh as usize].fits(bytes, alignment) {
+            return (std::mem::replace(&mut self.fresh, NONE), true);
+        }
+        let mut found = self.smallest(bytes, alignment);
+        if found.is_none() && self.apart {
+            self.join_all();
+            found = self.smallest(bytes, alignment);
+        }
+        match found {
+            Some(at) => {
+                self.unlist(at);
+                (at, false)
+            }
+            None => (self.grow(bytes, alignment), false),
+        }
+    }
+
+    /// The smallest free range found that fits, of equal ones that which was given back first.
     fn smallest(&self, bytes: u64, alignment: u64) -> Option<u32> {
         let (mut power, first) = list_of(bytes);
         let mut lists = self.fine[power] & (u8::MAX << first);
@@ -147,8 +208,7 @@ impl Gaps {
                 break;
             }
             let range = &self.ranges[at as usize];
-            let padding = align(range.offset, alignment) - range.offset;
-            if range.bytes >= bytes && range.bytes - bytes >= padding {
+            if range.fits(bytes, alignment) {
                 if range.bytes == bytes {
                     return Some(at);
                 }
@@ -176,12 +236,16 @@ impl Gaps {
         self.top
     }
 
-    /// Adds a free range between two others, neither of them free.
-    fn insert(&mut self, range: Range) {
+    /// Adds a free range between two others, neither of them in a list.
+    fn insert(&mut self, range: Range, fresh: bool) {
         let at = self.push(range);
         self.link(range.below, at);
         self.link(at, range.above);
-        self.list(at);
+        if fresh {
+            self.fresh = at;
+        } else {
+            self.list(at);
+        }
     }
 
     fn push(&mut self, range: Range) -> u32 {
@@ -213,35 +277,42 @@ impl Gaps {
         at != NONE && self.ranges[at as usize].previous != TAKEN
     }
 
-    /// Puts a range first in the list of its size.
+    /// Puts a range last in the list of its size.
     fn list(&mut self, at: u32) {
         let (power, fine) = list_of(self.ranges[at as usize].bytes);
         let list = power << FINE_BITS | fine;
-        let next = self.heads[list];
-        self.heads[list] = at;
-        self.ranges[at as usize].previous = NONE;
-        self.ranges[at as usize].next = next;
-        if next != NONE {
-            self.ranges[next as usize].previous = at;
+        let previous = std::mem::replace(&mut self.tails[list], at);
+        self.ranges[at as usize].previous = previous;
+        self.ranges[at as usize].next = NONE;
+        if previous == NONE {
+            self.heads[list] = at;
+            self.coarse |= 1 << power;
+            self.fine[power] |= 1 << fine;
+        } else {
+            self.ranges[previous as usize].next = at;
         }
-        self.coarse |= 1 << power;
-        self.fine[power] |= 1 << fine;
     }
 
     /// Takes a range out of its list.
     fn unlist(&mut self, at: u32) {
         let Range { bytes, previous, next, .. } = self.ranges[at as usize];
         self.ranges[at as usize].previous = TAKEN;
-        if next != NONE {
-            self.ranges[next as usize].previous = previous;
-        }
-        if previous != NONE {
+        if previous != NONE && next != NONE {
             self.ranges[previous as usize].next = next;
+            self.ranges[next as usize].previous = previous;
             return;
         }
         let (power, fine) = list_of(bytes);
-        self.heads[power << FINE_BITS | fine] = next;
-        if next == NONE {
+        let list = power << FINE_BITS | fine;
+        match next {
+            NONE => self.tails[list] = previous,
+            _ => self.ranges[next as usize].previous = previous,
+        }
+        match previous {
+            NONE => self.heads[list] = next,
+            _ => self.ranges[previous as usize].next = next,
+        }
+        if self.heads[list] == NONE {
             self.fine[power] &= !(1 << fine);
             if self.fine[power] == 0 {
                 self.coarse &= !(1 << power);

@@ -1,8 +1,10 @@
 //! Packing in the plane lifetime × offset: the least height found within a bound on the effort.
 //!
 //! ```text
-//! sweep ─► (height above the live peak?) ─► search
+//! spread ─► (height above the live peak?) ─► tight ─► (above?) ─► search
 //! ```
+//! The first of them takes memory that nobody had before, and then that which was given back first: whoever takes memory
+//! over waits for the one before, and the longer ago that was, the more passes share a barrier or need none.
 
 mod gaps;
 mod search;
@@ -10,6 +12,7 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 
+use gaps::Gaps;
 use std::borrow::Cow;
 
 /// A block that needs `bytes` from step `first` to step `last`.
@@ -39,8 +42,13 @@ pub(super) fn live_peak(blocks: &[Block]) -> u64 {
 /// and the height end at `u64::MAX` if the bytes and alignments of all blocks together are more than that.
 pub(super) fn pack(blocks: &[Block], bound: u64) -> Packing {
     let blocks = dense(blocks);
-    let swept = sweep::sweep(&blocks, peak(&blocks));
-    if swept.height <= bound { swept } else { search::search(&blocks, bound, swept) }
+    let peak = peak(&blocks);
+    let spread = sweep::sweep(&blocks, peak, Gaps::spread(bound.max(1)));
+    if spread.height <= bound {
+        return spread;
+    }
+    let tight = sweep::sweep(&blocks, peak, Gaps::tight(bound.max(1)));
+    if tight.height <= bound { tight } else { search::search(&blocks, bound, tight) }
 }
 
 /// The first of the steps at which the most is alive.

@@ -11,7 +11,7 @@ const NONE: u32 = u32::MAX;
 ///
 /// Blocks that end before the step of the live peak go to the high ends of gaps. So those that are alive at the peak lie
 /// close together at the low ends, with no small gap among them at the one step where none can be afforded.
-pub(super) fn sweep(blocks: &[Block], peak: Peak) -> Packing {
+pub(super) fn sweep(blocks: &[Block], peak: Peak, mut gaps: Gaps) -> Packing {
     let mut packing = Packing { offsets: vec![0; blocks.len()], height: 0 };
     let mut order: Vec<u32> = (0..blocks.len() as u32).collect();
     order.sort_by_key(|at| (blocks[*at as usize].first, Reverse(blocks[*at as usize].bytes)));
@@ -19,7 +19,6 @@ pub(super) fn sweep(blocks: &[Block], peak: Peak) -> Packing {
     // For each step the blocks that end there, as lists.
     let mut heads = vec![NONE; steps(blocks)];
     let mut next = vec![NONE; blocks.len()];
-    let mut gaps = Gaps::new(peak.bytes.max(1));
     let mut step = 0;
     for at in order {
         let block = &blocks[at as usize];

@@ -123,7 +123,20 @@ fn one_walk_leaves_no_gap_among_the_blocks_of_the_peak() {
     // The second dies before the peak; the third, beside it, lives on into it.
     let blocks = [block(0, 3, 64, 1), block(1, 2, 2, 1), block(2, 3, 2, 1), block(3, 4, 16, 1)];
     assert_eq!(live_peak(&blocks), 82);
-    assert_eq!(super::sweep::sweep(&blocks, super::peak(&blocks)).height, 82);
+    assert_eq!(super::sweep::sweep(&blocks, super::peak(&blocks), super::Gaps::tight(82)).height, 82);
+}
+
+#[test]
+fn memory_is_taken_over_as_late_as_it_can_be() {
+    let one_by_one = (0..8).map(|step| block(step, step, 64, 64));
+    let at_once = (0..4).map(|_| block(8, 8, 64, 64));
+    let blocks: Vec<Block> = one_by_one.chain(at_once).collect();
+    let packing = packed(&blocks);
+    assert_eq!(packing.height, 256);
+    for step in 4..8 {
+        let before = packing.offsets[..step].iter().rposition(|offset| *offset == packing.offsets[step]);
+        assert_eq!(before, Some(step - 4), "who had the memory of step {step}");
+    }
 }
 
 #[test]
