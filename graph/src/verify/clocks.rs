@@ -1,12 +1,15 @@
 //! What is ordered after what, as clocks: constant work a barrier, constant work a question.
 //!
-//! A *time* numbers a step in the walk. For each stage `q` the clock row says how far back work in `q` that starts now
-//! is ordered: everything in stage `s` at times below `ordered[s]`. A barrier from stages S to stages D joins the rows of S
-//! (its source scope, and all that an execution dependency chain through S brings along), sets its own stages to now, and
-//! raises the rows of D to that. Chains need no search: they are what joining rows means.
+//! A *time* numbers a step in the walk. For each stage `q` of a queue the clock row says how far back work in `q` that
+//! starts now is ordered: everything in stage `s` of some queue at times below `ordered[queue][s]`. A barrier from stages S
+//! to stages D joins the rows of S (its source scope, and all that an execution dependency chain through S brings along),
+//! sets its own stages to now, and raises the rows of D to that. Chains need no search: they are what joining rows means.
+//! A semaphore is a barrier from everything on one queue to everything on another.
 //!
-//! Availability and visibility by *memory barriers*, which cover everything, are clocks of the same kind. Those by image
-//! barriers, which cover one image, are kept with that image: see [`super::cells`].
+//! Availability and visibility by *memory barriers* and semaphores, which cover everything, are clocks of the same kind.
+//! Those by image barriers, which cover one image, are kept with that image: see [`super::cells`].
+//!
+//! `Q` is the number of queues: a Plan on one queue pays for one.
 
 use super::scopes::{PAIRS, PairSet, STAGES, StageSet, WRITE_PAIRS};
 
@@ -17,111 +20,149 @@ pub(super) type Time = u32;
 const LANES: usize = 16;
 const _: () = assert!(STAGES <= LANES && WRITE_PAIRS <= LANES);
 
+/// A time for each stage, or each pair that writes, of each queue.
+type Row<const Q: usize> = [[Time; LANES]; Q];
+
 /// How far back something is ordered.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Clock {
-    ordered: [Time; LANES],
-    available: [Time; LANES],
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Clock<const Q: usize> {
+    ordered: Row<Q>,
+    available: Row<Q>,
 }
 
 /// What a write became available by: an image barrier, or a layout change, which makes itself available.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Availability {
     /// When.
     pub(super) time: Time,
     /// Stages that wait for it.
     pub(super) stages: StageSet,
+    /// The queue that it ran on.
+    pub(super) queue: u8,
 }
 
-impl Clock {
-    fn join(&mut self, other: &Clock) {
+/// Stands for whichever queue comes first: what was there before the frame, every queue may rely on.
+pub(super) const ANY_QUEUE: u8 = u8::MAX;
+
+impl<const Q: usize> Clock<Q> {
+    pub(super) const START: Clock<Q> = Clock { ordered: [[0; LANES]; Q], available: [[0; LANES]; Q] };
+
+    pub(super) fn join(&mut self, other: &Clock<Q>) {
         raise(&mut self.ordered, &other.ordered);
         raise(&mut self.available, &other.available);
     }
 
-    /// Whether work in `stage` at `time` comes before.
-    pub(super) fn is_after(&self, stage: usize, time: Time) -> bool {
-        self.ordered[stage] > time
+    /// Whether work in `stage` of `queue` at `time` comes before.
+    pub(super) fn is_after(&self, queue: u8, stage: usize, time: Time) -> bool {
+        reaches(&self.ordered, queue, stage, time)
     }
 
-    /// Whether the write `pair` at `time` was made available by a memory barrier that comes before.
-    pub(super) fn has_available(&self, pair: usize, time: Time) -> bool {
-        self.available[pair] > time
+    /// Whether the write `pair` of `queue` at `time` was made available, by more than an image barrier, before.
+    pub(super) fn has_available(&self, queue: u8, pair: usize, time: Time) -> bool {
+        reaches(&self.available, queue, pair, time)
     }
 
     /// Whether an image barrier comes before.
-    pub(super) fn is_after_barrier(&self, barrier: Availability) -> bool {
-        barrier.stages.iter().any(|stage| self.ordered[stage] > barrier.time)
+    pub(super) fn is_after_barrier(&self, barrier: &Availability) -> bool {
+        barrier.stages.iter().any(|stage| reaches(&self.ordered, barrier.queue, stage, barrier.time))
     }
 
-    /// A memory barrier with this as its source makes the writes `pairs` available.
-    pub(super) fn make_available(&mut self, pairs: PairSet, now: Time) {
-        pairs.writes().iter().for_each(|pair| self.available[pair] = now);
+    /// A memory barrier on `queue` with this as its source makes the writes `pairs` available.
+    pub(super) fn make_available(&mut self, queue: u8, pairs: PairSet, now: Time) {
+        pairs.writes().iter().for_each(|pair| self.available[usize::from(queue)][pair] = now);
     }
 }
 
-/// The clocks of all stages, and of all that memory barriers have made visible.
-#[derive(Debug, Default)]
-pub(super) struct Clocks {
-    stages: [Clock; STAGES],
-    /// For each pair: which writes memory barriers have made visible to it.
-    visible: [[Time; LANES]; PAIRS],
-    /// For each pair: which image barriers come before a memory barrier that made things visible to it.
-    through: [[Time; LANES]; PAIRS],
+/// The clocks of all stages, and of all that memory barriers and semaphores have made visible.
+#[derive(Debug)]
+pub(super) struct Clocks<const Q: usize> {
+    stages: [[Clock<Q>; STAGES]; Q],
+    /// For each pair of each queue: which writes have been made visible to it.
+    visible: [[Row<Q>; PAIRS]; Q],
+    /// For each pair of each queue: which image barriers come before whatever made things visible to it.
+    through: [[Row<Q>; PAIRS]; Q],
 }
 
-impl Clocks {
-    /// What comes before a barrier at `now` whose source stages, earlier ones included, are `source`.
-    pub(super) fn before(&self, source: StageSet, now: Time) -> Clock {
-        let mut joined = Clock::default();
+impl<const Q: usize> Clocks<Q> {
+    pub(super) fn new() -> Clocks<Q> {
+        let none = [[[[0; LANES]; Q]; PAIRS]; Q];
+        Clocks { stages: [[Clock::START; STAGES]; Q], visible: none, through: none }
+    }
+
+    /// What comes before a barrier on `queue` at `now` whose source stages, earlier ones included, are `source`.
+    pub(super) fn before(&self, queue: u8, source: StageSet, now: Time) -> Clock<Q> {
+        let queue = usize::from(queue);
+        let mut joined = Clock::START;
         for stage in source.iter() {
-            joined.join(&self.stages[stage]);
+            joined.join(&self.stages[queue][stage]);
         }
-        source.iter().for_each(|stage| joined.ordered[stage] = now);
+        source.iter().for_each(|stage| joined.ordered[queue][stage] = now);
         joined
     }
 
-    /// Work in `stages`, later ones included, waits for `before` from now on.
-    pub(super) fn hold_up(&mut self, stages: StageSet, before: &Clock) {
-        stages.iter().for_each(|stage| self.stages[stage].join(before));
+    /// What comes before somebody who waits for all that `queue` was given before `now`: all of it, made available.
+    pub(super) fn signal(&self, queue: u8, now: Time) -> Clock<Q> {
+        let mut joined = self.before(queue, StageSet::ALL, now);
+        joined.available[usize::from(queue)] = [now; LANES];
+        joined
     }
 
-    /// A memory barrier with `before` as its source makes what is available visible to `pairs`.
-    pub(super) fn show(&mut self, pairs: PairSet, before: &Clock) {
+    /// What comes before somebody who knows that `stages`, of whichever queue, are over.
+    pub(super) fn after_all_queues(&self, stages: StageSet, now: Time) -> Clock<Q> {
+        let mut joined = Clock::START;
+        for queue in 0..Q as u8 {
+            joined.join(&self.before(queue, stages, now));
+        }
+        joined
+    }
+
+    /// Work in `stages` of `queue`, later ones included, waits for `before` from now on.
+    pub(super) fn hold_up(&mut self, queue: u8, stages: StageSet, before: &Clock<Q>) {
+        stages.iter().for_each(|stage| self.stages[usize::from(queue)][stage].join(before));
+    }
+
+    /// What is available `before` becomes visible to `pairs` of `queue`.
+    pub(super) fn show(&mut self, queue: u8, pairs: PairSet, before: &Clock<Q>) {
         for pair in pairs.iter() {
-            raise(&mut self.visible[pair], &before.available);
-            raise(&mut self.through[pair], &before.ordered);
+            raise(&mut self.visible[usize::from(queue)][pair], &before.available);
+            raise(&mut self.through[usize::from(queue)][pair], &before.ordered);
         }
     }
 
-    /// Whether work in `stage` now comes after work in `earlier` at `time`.
-    pub(super) fn is_after(&self, stage: usize, earlier: usize, time: Time) -> bool {
-        self.stages[stage].is_after(earlier, time)
+    /// What work in `stage` of `queue` comes after now.
+    pub(super) fn of(&self, queue: u8, stage: usize) -> &Clock<Q> {
+        &self.stages[usize::from(queue)][stage]
     }
 
-    /// Whether work in `stage` now comes after an image barrier.
-    pub(super) fn is_after_barrier(&self, stage: usize, barrier: Availability) -> bool {
-        barrier.stages.contains(stage) || self.stages[stage].is_after_barrier(barrier)
+    /// Whether work in `stage` of `queue` now comes after an image barrier.
+    pub(super) fn is_after_barrier(&self, queue: u8, stage: usize, barrier: &Availability) -> bool {
+        barrier.queue == queue && barrier.stages.contains(stage) || self.of(queue, stage).is_after_barrier(barrier)
     }
 
-    /// Whether a memory barrier that work in `stage` now comes after made the write `write` at `time` available.
-    pub(super) fn has_available(&self, stage: usize, write: usize, time: Time) -> bool {
-        self.stages[stage].has_available(write, time)
+    /// Whether the write `write` of the queue `by` at `time` is visible to `pair` of `queue` without an image barrier.
+    pub(super) fn is_visible(&self, queue: u8, pair: usize, by: u8, write: usize, time: Time) -> bool {
+        reaches(&self.visible[usize::from(queue)][pair], by, write, time)
     }
 
-    /// Whether memory barriers alone have made the write `write` at `time` visible to `pair`.
-    pub(super) fn is_visible(&self, pair: usize, write: usize, time: Time) -> bool {
-        self.visible[pair][write] > time
-    }
-
-    /// Whether a memory barrier after this image barrier has made what it made available visible to `pair`.
-    pub(super) fn is_visible_through(&self, pair: usize, barrier: Availability) -> bool {
-        barrier.stages.iter().any(|stage| self.through[pair][stage] > barrier.time)
+    /// Whether what this image barrier made available was made visible to `pair` of `queue` after it.
+    pub(super) fn is_visible_through(&self, queue: u8, pair: usize, barrier: &Availability) -> bool {
+        let through = &self.through[usize::from(queue)][pair];
+        barrier.stages.iter().any(|stage| reaches(through, barrier.queue, stage, barrier.time))
     }
 }
 
-fn raise(times: &mut [Time; LANES], to: &[Time; LANES]) {
-    for (time, other) in times.iter_mut().zip(to) {
-        *time = (*time).max(*other);
+/// Whether a row reaches beyond `time` in the lane of `queue`.
+fn reaches<const Q: usize>(row: &Row<Q>, queue: u8, lane: usize, time: Time) -> bool {
+    match queue {
+        ANY_QUEUE => row.iter().any(|times| times[lane] > time),
+        queue => row[usize::from(queue)][lane] > time,
+    }
+}
+
+fn raise<const Q: usize>(times: &mut Row<Q>, to: &Row<Q>) {
+    for (times, others) in times.iter_mut().zip(to) {
+        for (time, other) in times.iter_mut().zip(others) {
+            *time = (*time).max(*other);
+        }
     }
 }

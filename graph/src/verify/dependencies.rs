@@ -6,8 +6,8 @@
 //! - A layout change is a write. It needs the last write available, and reads waited for; it is then available itself and
 //!   visible to the second scope of its barrier.
 //!
-//! Execution dependencies are global, whichever barrier makes them. Memory dependencies of an image barrier cover the
-//! barrier's own range, those of a memory barrier everything.
+//! Execution dependencies are global, whichever barrier or semaphore makes them. Memory dependencies of an image barrier
+//! cover the barrier's own range, those of memory barriers and semaphores everything.
 
 use super::cells::{Cell, Write};
 use super::clocks::{Clock, Clocks, Time};
@@ -43,71 +43,117 @@ impl Gap {
     }
 }
 
-/// What is missing before an access in `stages` by `pairs`.
-pub(super) fn before_access(cell: &Cell, clocks: &Clocks, stages: StageSet, pairs: PairSet) -> Option<Gap> {
-    let writes = cell.writes.iter().find_map(|write| {
-        let gap = |later, missing| Some(Gap { time: write.time, earlier: touched(write), later, missing });
-        if let Some(stage) = stages.iter().find(|stage| !is_after_write(clocks, *stage, write)) {
-            let pair = pairs.iter().find(|pair| stage_of(*pair) == stage);
-            return gap(pair.map_or(Touched::Wait(stage_word(stage)), by), Missing::Execution);
-        }
-        let hidden = pairs.iter().find(|pair| !is_visible(clocks, *pair, write))?;
-        let available = stages.iter().all(|stage| is_available(clocks, stage, write));
-        gap(by(hidden), if available { Missing::Visibility } else { Missing::Availability })
-    });
-    writes.or_else(|| {
-        let mut conflicts = pairs.writes().iter().flat_map(|pair| cell.reads.iter().map(move |read| (pair, read)));
-        let (pair, (stage, time)) =
-            conflicts.find(|(pair, (stage, time))| !clocks.is_after(stage_of(*pair), *stage, *time))?;
-        Some(Gap { time, earlier: Touched::Read(stage_word(stage)), later: by(pair), missing: Missing::Execution })
+/// What is missing before an access in `stages` of `queue` by `pairs`.
+pub(super) fn before_access<const Q: usize>(
+    cell: &Cell<Q>,
+    clocks: &Clocks<Q>,
+    queue: u8,
+    stages: StageSet,
+    pairs: PairSet,
+) -> Option<Gap> {
+    if cell.write.exists()
+        && let Some(gap) = after_write(&cell.write, clocks, queue, stages, pairs)
+    {
+        return Some(gap);
+    }
+    let writes = pairs.writes();
+    if writes.is_empty() {
+        return None;
+    }
+    cell.reads.iter().find_map(|read| {
+        let early = |pair: &usize| !clocks.of(queue, stage_of(*pair)).is_after(read.queue, read.stage, read.time);
+        let later = by(writes.iter().find(early)?);
+        Some(Gap {
+            time: read.time,
+            earlier: Touched::Read(stage_word(read.stage)),
+            later,
+            missing: Missing::Execution,
+        })
     })
+}
+
+fn after_write<const Q: usize>(
+    write: &Write,
+    clocks: &Clocks<Q>,
+    queue: u8,
+    stages: StageSet,
+    pairs: PairSet,
+) -> Option<Gap> {
+    if let Some(stage) = stages.iter().find(|stage| !is_after_write(clocks, queue, *stage, write)) {
+        let pair = pairs.iter().find(|pair| stage_of(*pair) == stage);
+        let missed =
+            write.pairs.iter().find(|pair| !clocks.of(queue, stage).is_after(write.queue, stage_of(*pair), write.time));
+        let later = pair.map_or(Touched::Wait(stage_word(stage)), by);
+        let earlier = missed.map_or(Touched::LayoutChange, by);
+        return Some(Gap { time: write.time, earlier, later, missing: Missing::Execution });
+    }
+    if write.is_shown(queue, pairs) {
+        return None;
+    }
+    let hidden = pairs.iter().find(|pair| !is_visible(clocks, queue, *pair, write))?;
+    let available = stages.iter().all(|stage| is_available(clocks, queue, stage, write));
+    let missing = if available { Missing::Visibility } else { Missing::Availability };
+    let dark = write.pairs.iter().find(|pair| !clocks.is_visible(queue, hidden, write.queue, *pair, write.time));
+    Some(Gap { time: write.time, earlier: dark.map_or(Touched::LayoutChange, by), later: by(hidden), missing })
 }
 
 /// What is missing before a layout change, or before the memory is given away, by a barrier that comes after `before` and
 /// makes the writes `source` available itself.
-pub(super) fn before_layout_change(cell: &Cell, before: &Clock, source: PairSet) -> Option<Gap> {
+pub(super) fn before_layout_change<const Q: usize>(cell: &Cell<Q>, before: &Clock<Q>, source: PairSet) -> Option<Gap> {
     let gap = |time, earlier, missing| Gap { time, earlier, later: Touched::LayoutChange, missing };
-    let read = cell.reads.iter().find(|(stage, time)| !before.is_after(*stage, *time));
-    if let Some((stage, time)) = read {
-        return Some(gap(time, Touched::Read(stage_word(stage)), Missing::Execution));
+    if let Some(read) = cell.reads.iter().find(|read| !before.is_after(read.queue, read.stage, read.time)) {
+        return Some(gap(read.time, Touched::Read(stage_word(read.stage)), Missing::Execution));
     }
-    let write = cell.writes.iter().find(|write| !makes_available(write, before, source))?;
-    let waited = write.pair().is_some_and(|pair| before.is_after(stage_of(pair), write.time));
-    Some(gap(write.time, touched(write), if waited { Missing::Availability } else { Missing::Execution }))
+    let write = &cell.write;
+    if !write.exists() || makes_available(write, before, source) {
+        return None;
+    }
+    let late = |pair: &usize| !before.is_after(write.queue, stage_of(*pair), write.time);
+    if let Some(pair) = write.pairs.iter().find(late) {
+        return Some(gap(write.time, by(pair), Missing::Execution));
+    }
+    let left = |pair: &usize| !source.contains(*pair) && !before.has_available(write.queue, *pair, write.time);
+    let (earlier, missing) = match write.pairs.iter().find(left) {
+        Some(pair) => (by(pair), Missing::Availability),
+        None => (Touched::LayoutChange, Missing::Execution),
+    };
+    Some(gap(write.time, earlier, missing))
 }
 
 /// Whether `write` is available once a barrier with the source `before` and `source` is over.
-pub(super) fn makes_available(write: &Write, before: &Clock, source: PairSet) -> bool {
-    let by_image_barrier = || write.barriers().iter().any(|barrier| before.is_after_barrier(*barrier));
-    match write.pair() {
-        None => by_image_barrier(),
-        Some(pair) => {
-            before.is_after(stage_of(pair), write.time)
-                && (source.contains(pair) || before.has_available(pair, write.time) || by_image_barrier())
-        }
+pub(super) fn makes_available<const Q: usize>(write: &Write, before: &Clock<Q>, source: PairSet) -> bool {
+    let by_image_barrier = || write.barriers().iter().any(|barrier| before.is_after_barrier(barrier));
+    if write.pairs.is_empty() {
+        return by_image_barrier();
     }
+    let waited = write.stages.iter().all(|stage| before.is_after(write.queue, stage, write.time));
+    let left = || write.pairs.without(source).iter().any(|pair| !before.has_available(write.queue, pair, write.time));
+    waited && (!left() || by_image_barrier())
 }
 
-fn is_after_write(clocks: &Clocks, stage: usize, write: &Write) -> bool {
-    match write.pair() {
-        Some(pair) => clocks.is_after(stage, stage_of(pair), write.time),
-        None => write.barriers().iter().any(|barrier| clocks.is_after_barrier(stage, *barrier)),
+fn is_after_write<const Q: usize>(clocks: &Clocks<Q>, queue: u8, stage: usize, write: &Write) -> bool {
+    if write.pairs.is_empty() {
+        return write.barriers().iter().any(|barrier| clocks.is_after_barrier(queue, stage, barrier));
     }
+    let clock = clocks.of(queue, stage);
+    write.stages.iter().all(|earlier| clock.is_after(write.queue, earlier, write.time))
 }
 
-fn is_visible(clocks: &Clocks, pair: usize, write: &Write) -> bool {
-    write.visible.contains(pair)
-        || write.pair().is_some_and(|earlier| clocks.is_visible(pair, earlier, write.time))
-        || write.barriers().iter().any(|barrier| clocks.is_visible_through(pair, *barrier))
+fn is_visible<const Q: usize>(clocks: &Clocks<Q>, queue: u8, pair: usize, write: &Write) -> bool {
+    let by_memory_barriers = || {
+        let mut pairs = write.pairs.iter();
+        !write.pairs.is_empty() && pairs.all(|earlier| clocks.is_visible(queue, pair, write.queue, earlier, write.time))
+    };
+    write.is_shown(queue, PairSet::only(pair))
+        || by_memory_barriers()
+        || write.barriers().iter().any(|barrier| clocks.is_visible_through(queue, pair, barrier))
 }
 
-fn is_available(clocks: &Clocks, stage: usize, write: &Write) -> bool {
-    write.pair().is_some_and(|pair| clocks.has_available(stage, pair, write.time))
-        || write.barriers().iter().any(|barrier| clocks.is_after_barrier(stage, *barrier))
-}
-
-fn touched(write: &Write) -> Touched {
-    write.pair().map_or(Touched::LayoutChange, by)
+fn is_available<const Q: usize>(clocks: &Clocks<Q>, queue: u8, stage: usize, write: &Write) -> bool {
+    let clock = clocks.of(queue, stage);
+    let by_memory_barriers = || write.pairs.iter().all(|pair| clock.has_available(write.queue, pair, write.time));
+    !write.pairs.is_empty() && by_memory_barriers()
+        || write.barriers().iter().any(|barrier| clocks.is_after_barrier(queue, stage, barrier))
 }
 
 /// A pair in Vulkan's words.

@@ -1,61 +1,92 @@
-//! Whether each transient image has its bytes to itself while it lives, and takes them over properly.
+//! Whether each transient image and buffer has its bytes to itself while it lives, and takes them over properly.
 //!
-//! **The rule of a hand-over.** An image takes its bytes with its first barrier from `UNDEFINED` and keeps them until
-//! another one takes some of them. When B takes bytes of A, in the same frame or with A's use in the frame before:
+//! **The rule of a hand-over.** An image takes its bytes with its first barrier from `UNDEFINED`, a buffer with its first
+//! access in which it doesn't have them; they keep them until another one takes some of them. When B takes bytes of A, in
+//! the same frame or with A's use in the frame before:
 //! 1. no access of A in this frame may come before *and* another one after that: their uses don't interleave;
-//! 2. B's first barrier on each part of itself must be execution-ordered after every last access of A;
+//! 2. the first barrier on each part of an image B must be execution-ordered after every last access of A; so must every
+//!    access of the first step that uses a buffer B;
 //! 3. A's last write must be available by then: by an image barrier on A, by a memory barrier in the batch of B's
-//!    barrier or earlier, or because B's barrier names that write's stage and access in its own source scopes. (An
-//!    image barrier's memory scope is its own image; sharing the bytes, B is taken to speak for A.)
+//!    barrier or earlier, by a semaphore, or because B's barrier names that write's stage and access in its own source
+//!    scopes. (An image barrier's memory scope is its own image; sharing the bytes, B is taken to speak for A.) To the
+//!    first accesses of a buffer B, which no barrier of its own protects, it must be visible as well.
 
+use super::Finding;
+use super::cells::{Cell, Contents, Lost};
 use super::clocks::Clock;
-use super::dependencies::{Missing, before_layout_change};
+use super::dependencies::{Missing, before_access, before_layout_change};
+use super::program::Touch;
 use super::scopes::PairSet;
 use super::violation::{Rule, StepName};
 use super::walk::Walk;
-use super::{Finding, cells::Contents, cells::Lost};
-use crate::plan::{ImageId, Placement, Plan, Role, StepId, Subresources};
+use crate::plan::{Placement, Plan, Role, StepId};
 use std::collections::BTreeMap;
 
-/// Who has which bytes.
+/// Who has which bytes. Images and buffers are numbered in one row.
 #[derive(Debug)]
 pub(super) struct Memory {
-    /// For each heap: start of a piece → its end and the image that took it last.
-    owners: Vec<BTreeMap<u64, (u64, ImageId)>>,
-    /// For each image: how often it took its bytes.
-    occupations: Vec<u32>,
-    /// For each image: whether it still has all of them.
-    held: Vec<bool>,
-    /// For each image: from whom it took them last.
-    predecessors: Vec<Vec<ImageId>>,
+    /// For each heap: start of a piece → its end and who took it last.
+    owners: Vec<BTreeMap<u64, (u64, u32)>>,
+    /// For each image and buffer: how it stands to its bytes.
+    holders: Vec<Holder>,
+    /// From whom bytes were taken, one taking after the other.
+    predecessors: Vec<u32>,
+}
+
+/// How an image or buffer stands to its bytes.
+#[derive(Debug, Clone, Copy, Default)]
+struct Holder {
+    /// How often it took them.
+    occupations: u32,
+    /// Whether it still has all of them.
+    held: bool,
+    /// When it took them last.
+    taken: u32,
+    /// From whom it took them last: a part of [`Memory::predecessors`].
+    predecessors: [u32; 2],
+}
+
+/// What takes memory.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Taking<'t, const Q: usize> {
+    /// An image barrier: what comes before it, and the writes that it and the memory barriers beside it make available.
+    Barrier(&'t Clock<Q>, PairSet),
+    /// An access to a buffer, on that queue.
+    Access(u8, &'t Touch),
 }
 
 impl Memory {
     pub(super) fn new(plan: &Plan) -> Memory {
         Memory {
             owners: vec![BTreeMap::new(); plan.heaps.len()],
-            occupations: vec![0; plan.images.len()],
-            held: vec![false; plan.images.len()],
-            predecessors: vec![Vec::new(); plan.images.len()],
+            holders: vec![Holder::default(); plan.images.len() + plan.buffers.len()],
+            predecessors: Vec::new(),
         }
     }
 
-    /// Which occupation an image's parts belong to now.
-    pub(super) fn occupation(&self, image: ImageId) -> u32 {
-        self.occupations[image.0 as usize]
+    /// Which occupation the parts of an image belong to now.
+    pub(super) fn occupation(&self, resource: u32) -> u32 {
+        self.holders[resource as usize].occupations
     }
 
-    /// Gives the bytes of `placement` to `image`; who had them before.
-    fn take(&mut self, image: ImageId, placement: &Placement) -> Vec<ImageId> {
+    /// Gives the bytes of `placement` to `resource`; who had them before is added to the predecessors.
+    fn take(&mut self, resource: u32, placement: &Placement) {
         let owners = &mut self.owners[placement.heap as usize];
         let (start, end) = (placement.offset, placement.offset + placement.bytes);
+        if let Some((until, owner)) = owners.get_mut(&start)
+            && *until == end
+        {
+            let before = std::mem::replace(owner, resource);
+            self.predecessors.extend((before != resource).then_some(before));
+            return;
+        }
         let first = owners.range(..=start).next_back().map_or(start, |(first, _)| *first);
         let pieces: Vec<_> = owners
             .range(first..end)
             .map(|(from, (to, owner))| (*from, *to, *owner))
             .filter(|(_, to, _)| *to > start)
             .collect();
-        let mut before = Vec::new();
+        let known = self.predecessors.len();
         for (from, to, owner) in pieces {
             owners.remove(&from);
             if from < start {
@@ -64,92 +95,125 @@ impl Memory {
             if to > end {
                 owners.insert(end, (to, owner));
             }
-            if owner != image && !before.contains(&owner) {
-                before.push(owner);
+            if owner != resource && !self.predecessors[known..].contains(&owner) {
+                self.predecessors.push(owner);
             }
         }
-        owners.insert(start, (end, image));
-        before
+        owners.insert(start, (end, resource));
     }
 }
 
-impl Walk<'_, '_> {
-    /// `image` takes its bytes, unless it has them, with a barrier on `range`.
-    pub(super) fn occupy(&mut self, step: StepId, image: ImageId, range: Subresources) {
-        let Role::Transient(placement) = &self.plan.image(image).role else { return };
-        if std::mem::replace(&mut self.memory.held[image.0 as usize], true) {
+impl<const Q: usize> Walk<'_, '_, Q> {
+    /// An image or buffer takes its bytes, unless it has them.
+    pub(super) fn occupy(&mut self, step: StepId, resource: u32) {
+        let Role::Transient(placement) = super::role(self.plan, resource) else { return };
+        let now = self.now(step);
+        let holder = &mut self.memory.holders[resource as usize];
+        if std::mem::replace(&mut holder.held, true) {
             return;
         }
-        self.memory.occupations[image.0 as usize] += 1;
-        let mut before = self.memory.take(image, placement);
-        before.retain(|owner| {
-            if let Some(last) = self.needs_until(*owner, step) {
-                let with = self.plan.image(*owner).name.clone();
+        holder.occupations += 1;
+        holder.taken = now;
+        let first = self.memory.predecessors.len();
+        self.memory.take(resource, placement);
+        let mut kept = first;
+        for at in first..self.memory.predecessors.len() {
+            let owner = self.memory.predecessors[at];
+            if let Some(last) = self.needs_until(owner, step) {
                 self.found.push(Finding {
-                    rule: Rule::Overlap { with },
+                    rule: Rule::Overlap { with: super::name(self.plan, owner).clone() },
                     step,
-                    other: Some(StepName::new(self.plan, last, false)),
-                    image,
-                    range: Some(range),
-                    bytes: self.shared_bytes(image, *owner),
+                    other: Some(StepName::new(self.plan, last, 0)),
+                    resource,
+                    range: self.first_range(resource),
+                    bytes: self.shared_bytes(resource, owner),
                 });
-                return false;
-            }
-            true
-        });
-        for owner in &before {
-            self.memory.held[owner.0 as usize] = false;
-            let now = self.now(step);
-            let frame_start = self.frame_start();
-            for index in self.cells.all(*owner) {
-                let cell = self.cells.at(index);
-                cell.layout = crate::vocabulary::Layout::Undefined;
-                cell.contents = match cell.contents {
-                    Contents::Defined if cell.filled > frame_start => Contents::Lost(Lost::Taken(image), now),
-                    Contents::Defined => Contents::Unwritten,
-                    lost => lost,
-                };
+            } else {
+                self.memory.predecessors[kept] = owner;
+                kept += 1;
+                self.lose_bytes(owner, resource, now);
             }
         }
-        self.memory.predecessors[image.0 as usize] = before;
+        self.memory.predecessors.truncate(kept);
+        self.memory.holders[resource as usize].predecessors = [first as u32, kept as u32];
     }
 
-    /// The last step that touches `image` in a frame, if `step` lies between its first and its last.
-    fn needs_until(&self, image: ImageId, step: StepId) -> Option<StepId> {
-        let [first, last] = self.touched[image.0 as usize]?;
-        (first..=last).contains(&step.0).then_some(StepId(last))
+    fn lose_bytes(&mut self, owner: u32, to: u32, now: u32) {
+        self.memory.holders[owner as usize].held = false;
+        let frame_start = self.frame_start();
+        let mut part = self.parts.whole(owner);
+        while let Some(index) = self.parts.next(&mut part) {
+            let cell = &mut self.cells[index];
+            cell.layout = crate::vocabulary::Layout::Undefined;
+            cell.contents = match cell.contents {
+                Contents::Defined if cell.filled > frame_start => Contents::Lost(Lost::Taken(to), now),
+                Contents::Defined => Contents::Unwritten,
+                lost => lost,
+            };
+        }
     }
 
-    /// Rules 2 and 3 for one part of `image`, whose barrier comes after `before`; `source`: the writes that the barrier
-    /// and the memory barriers beside it make available.
-    pub(super) fn check_hand_over(
-        &mut self,
-        step: StepId,
-        image: ImageId,
-        cell: usize,
-        before: &Clock,
-        source: PairSet,
-    ) {
-        for at in 0..self.memory.predecessors[image.0 as usize].len() {
-            let from = self.memory.predecessors[image.0 as usize][at];
-            let gap = self.cells.all(from).find_map(|index| before_layout_change(self.cells.at(index), before, source));
-            if let Some(gap) = gap {
-                let name = self.plan.image(from).name.clone();
-                let waited = gap.missing == Missing::Availability;
+    /// A step accesses a buffer: if it is transient, it may have to take its bytes.
+    pub(super) fn occupy_buffer(&mut self, step: StepId, queue: u8, touch: &Touch) {
+        let resource = touch.resource;
+        let before = self.memory.occupation(resource);
+        self.occupy(step, resource);
+        let holder = self.memory.holders[resource as usize];
+        if holder.occupations != before {
+            // What it did before it lost its bytes is what those who took them had to wait for.
+            let mut part = self.parts.whole(resource);
+            while let Some(index) = self.parts.next(&mut part) {
+                let contents = self.cells[index].contents;
+                self.cells[index] = Cell { contents, owner: self.cells[index].owner, ..Cell::FRESH };
+            }
+        }
+        if holder.taken == self.now(step) {
+            self.check_hand_over(step, resource, None, Taking::Access(queue, touch));
+        }
+    }
+
+    /// The last step that touches `resource` in a frame, if `step` lies between its first and its last.
+    fn needs_until(&self, resource: u32, step: StepId) -> Option<StepId> {
+        let [first, last] = self.program.used[resource as usize].steps()?;
+        (first..=last).contains(&step).then_some(last)
+    }
+
+    /// Rules 2 and 3 for one part of an image or for a buffer.
+    pub(super) fn check_hand_over(&mut self, step: StepId, resource: u32, index: Option<usize>, taking: Taking<'_, Q>) {
+        let [first, end] = self.memory.holders[resource as usize].predecessors;
+        for at in first..end {
+            let from = self.memory.predecessors[at as usize];
+            let mut part = self.parts.whole(from);
+            let mut missing = None;
+            while let (None, Some(index)) = (missing, self.parts.next(&mut part)) {
+                let cell = &self.cells[index];
+                missing = match taking {
+                    Taking::Barrier(before, source) => before_layout_change(cell, before, source),
+                    Taking::Access(queue, touch) => before_access(cell, &self.clocks, queue, touch.stages, touch.pairs),
+                };
+            }
+            if let Some(gap) = missing {
+                let name = super::name(self.plan, from).clone();
+                let waited = gap.missing != Missing::Execution;
                 self.found.push(Finding {
                     rule: Rule::HandOver { from: name, earlier: gap.earlier, waited },
                     step,
                     other: self.name_at(gap.time, from),
-                    image,
-                    range: Some(self.cells.range(self.plan.image(image), cell)),
-                    bytes: self.shared_bytes(image, from),
+                    resource,
+                    range: index.and_then(|index| self.range(resource, index)),
+                    bytes: self.shared_bytes(resource, from),
                 });
             }
         }
     }
 
-    fn shared_bytes(&self, one: ImageId, other: ImageId) -> Option<[u64; 2]> {
-        match (&self.plan.image(one).role, &self.plan.image(other).role) {
+    fn first_range(&self, resource: u32) -> Option<crate::plan::Subresources> {
+        let mut part = self.parts.whole(resource);
+        self.parts.next(&mut part).and_then(|index| self.range(resource, index))
+    }
+
+    fn shared_bytes(&self, one: u32, other: u32) -> Option<[u64; 2]> {
+        match (super::role(self.plan, one), super::role(self.plan, other)) {
             (Role::Transient(one), Role::Transient(other)) => {
                 let end = (one.offset + one.bytes).min(other.offset + other.bytes);
                 Some([one.offset.max(other.offset), end])

@@ -1,6 +1,6 @@
 //! Stages and accesses in a dense form: one bit a stage, one bit a pair of stage and access.
 //!
-//! Only what can happen to an image has a pair. The order of the graphics pipeline's stages and which access belongs to
+//! Only what can happen to an image or a buffer has a pair. The order of the graphics pipeline's stages and which access belongs to
 //! which stage are those of the Vulkan specification, chapter "Synchronization and Cache Control".
 
 use crate::vocabulary::{Accesses, Stages};
@@ -10,7 +10,7 @@ pub(super) const STAGES: usize = 13;
 /// Number of pairs that write; they come first.
 pub(super) const WRITE_PAIRS: usize = 11;
 /// Number of pairs.
-pub(super) const PAIRS: usize = 24;
+pub(super) const PAIRS: usize = 31;
 
 /// A set of stages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -20,6 +20,8 @@ pub(super) struct StageSet(pub(super) u16);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct PairSet(pub(super) u32);
 
+const DRAW_INDIRECT: usize = 0;
+const VERTEX_INPUT: usize = 1;
 const VERTEX_SHADER: usize = 2;
 const FRAGMENT_SHADER: usize = 3;
 const EARLY_TESTS: usize = 4;
@@ -34,7 +36,8 @@ const CLEAR: usize = 12;
 
 /// The graphics pipeline in logical order: indirect, vertex input, vertex shader, early tests, fragment shader, late
 /// tests, colour output.
-const PIPELINE: [usize; 7] = [0, 1, VERTEX_SHADER, EARLY_TESTS, FRAGMENT_SHADER, LATE_TESTS, COLOR_OUTPUT];
+const PIPELINE: [usize; 7] =
+    [DRAW_INDIRECT, VERTEX_INPUT, VERTEX_SHADER, EARLY_TESTS, FRAGMENT_SHADER, LATE_TESTS, COLOR_OUTPUT];
 
 /// Everything but the host: `ALL_COMMANDS` leaves it out.
 const ALL_COMMANDS: u16 = ((1 << STAGES) - 1) & !(1 << HOST);
@@ -64,11 +67,19 @@ const PAIR: [(usize, Accesses); PAIRS] = [
     (RESOLVE, Accesses::TRANSFER_READ),
     (BLIT, Accesses::TRANSFER_READ),
     (HOST, Accesses::HOST_READ),
+    (DRAW_INDIRECT, Accesses::INDIRECT_COMMAND_READ),
+    (VERTEX_INPUT, Accesses::INDEX_READ),
+    (VERTEX_INPUT, Accesses::VERTEX_ATTRIBUTE_READ),
+    (VERTEX_SHADER, Accesses::UNIFORM_READ),
+    (FRAGMENT_SHADER, Accesses::UNIFORM_READ),
+    (COMPUTE_SHADER, Accesses::UNIFORM_READ),
+    (FRAGMENT_SHADER, Accesses::INPUT_ATTACHMENT_READ),
 ];
 
 const EARLIER: [u16; STAGES] = closure(true);
 const LATER: [u16; STAGES] = closure(false);
 const PAIRS_OF_STAGE: [u32; STAGES] = pairs_of_stages();
+const PAIRS_OF_ACCESS: [u32; 64] = pairs_of_accesses();
 
 const fn closure(earlier: bool) -> [u16; STAGES] {
     let mut reach = [0; STAGES];
@@ -92,9 +103,9 @@ const fn closure(earlier: bool) -> [u16; STAGES] {
     }
     // A compute pipeline is two stages long: indirect, compute.
     if earlier {
-        reach[COMPUTE_SHADER] |= 1 << PIPELINE[0];
+        reach[COMPUTE_SHADER] |= 1 << DRAW_INDIRECT;
     } else {
-        reach[PIPELINE[0]] |= 1 << COMPUTE_SHADER;
+        reach[DRAW_INDIRECT] |= 1 << COMPUTE_SHADER;
     }
     reach
 }
@@ -109,7 +120,25 @@ const fn pairs_of_stages() -> [u32; STAGES] {
     pairs
 }
 
+/// The pairs of each access, by the number of its bit.
+const fn pairs_of_accesses() -> [u32; 64] {
+    let mut pairs = [0; 64];
+    let mut pair = 0;
+    while pair < PAIRS {
+        pairs[PAIR[pair].1.bits().trailing_zeros() as usize] |= 1 << pair;
+        pair += 1;
+    }
+    pairs[Accesses::MEMORY_WRITE.bits().trailing_zeros() as usize] = WRITES;
+    pairs[Accesses::MEMORY_READ.bits().trailing_zeros() as usize] = !WRITES & ((1 << PAIRS) - 1);
+    pairs
+}
+
+const WRITES: u32 = (1 << WRITE_PAIRS) - 1;
+
 impl StageSet {
+    /// Every stage of a device.
+    pub(super) const ALL: StageSet = StageSet(ALL_COMMANDS);
+
     /// Exactly these stages; `ALL_COMMANDS` stands for every one on a device.
     pub(super) fn of(stages: Stages) -> StageSet {
         let bits = stages.bits();
@@ -135,31 +164,45 @@ impl StageSet {
 
     /// Indices of its stages.
     pub(super) fn iter(self) -> impl Iterator<Item = usize> {
-        bits(u32::from(self.0))
+        bits(self.0.into())
     }
 
     pub(super) fn contains(self, stage: usize) -> bool {
         self.0 >> stage & 1 == 1
+    }
+
+    pub(super) fn union(self, other: StageSet) -> StageSet {
+        StageSet(self.0 | other.0)
     }
 }
 
 impl PairSet {
     /// Every pair of one of these stages, as they are written, and one of these accesses.
     pub(super) fn of(stages: Stages, accesses: Accesses) -> PairSet {
-        let of_stages = StageSet::of(stages).iter().fold(0, |set, stage| set | PAIRS_OF_STAGE[stage]);
-        PairSet(bits(of_stages).filter(|pair| covers(accesses, PAIR[*pair].1)).fold(0, |set, pair| set | 1 << pair))
+        let of_accesses = bits(accesses.bits()).fold(0, |set, access| set | PAIRS_OF_ACCESS[access]);
+        PairSet(PairSet::of_stages(StageSet::of(stages)).0 & of_accesses)
+    }
+
+    /// One pair.
+    pub(super) fn only(pair: usize) -> PairSet {
+        PairSet(1 << pair)
+    }
+
+    /// Every pair of one of these stages.
+    pub(super) fn of_stages(stages: StageSet) -> PairSet {
+        PairSet(stages.iter().fold(0, |set, stage| set | PAIRS_OF_STAGE[stage]))
     }
 
     pub(super) fn writes(self) -> PairSet {
-        PairSet(self.0 & ((1 << WRITE_PAIRS) - 1))
+        PairSet(self.0 & WRITES)
     }
 
     pub(super) fn reads(self) -> PairSet {
-        PairSet(self.0 & !((1 << WRITE_PAIRS) - 1))
+        PairSet(self.0 & !WRITES)
     }
 
     pub(super) fn iter(self) -> impl Iterator<Item = usize> {
-        bits(self.0)
+        bits(self.0.into())
     }
 
     pub(super) fn contains(self, pair: usize) -> bool {
@@ -170,9 +213,14 @@ impl PairSet {
         self.0 == 0
     }
 
-    /// Whether all of it is sampling.
-    pub(super) fn is_sampling(self) -> bool {
-        self.iter().all(|pair| PAIR[pair].1 == Accesses::SHADER_SAMPLED_READ)
+    /// Whether all of `other` is among these.
+    pub(super) fn contains_all(self, other: PairSet) -> bool {
+        other.0 & !self.0 == 0
+    }
+
+    /// What `other` leaves of these.
+    pub(super) fn without(self, other: PairSet) -> PairSet {
+        PairSet(self.0 & !other.0)
     }
 
     pub(super) fn union(self, other: PairSet) -> PairSet {
@@ -217,28 +265,15 @@ pub(super) fn stage_word(stage: usize) -> Stages {
 
 /// Accesses among `accesses` that none of `stages` can make.
 pub(super) fn impossible(stages: Stages, accesses: Accesses) -> Accesses {
-    const BUFFERS: [(Stages, Accesses); 5] = [
-        (Stages::DRAW_INDIRECT, Accesses::INDIRECT_COMMAND_READ),
-        (Stages::VERTEX_INPUT, Accesses::INDEX_READ.union(Accesses::VERTEX_ATTRIBUTE_READ)),
-        (Stages::VERTEX_SHADER, Accesses::UNIFORM_READ),
-        (Stages::FRAGMENT_SHADER, Accesses::UNIFORM_READ),
-        (Stages::COMPUTE_SHADER, Accesses::UNIFORM_READ),
-    ];
     if stages.contains(Stages::ALL_COMMANDS) {
         return accesses & (Accesses::HOST_READ | Accesses::HOST_WRITE);
     }
+    let pairs = PairSet::of_stages(StageSet::of(stages));
     let any = Accesses::MEMORY_READ | Accesses::MEMORY_WRITE;
-    let of_buffers = BUFFERS.iter().filter(|(stage, _)| stages.contains(*stage)).map(|(_, accesses)| *accesses);
-    let of_images = PAIR.iter().filter(|(stage, _)| StageSet::of(stages).contains(*stage)).map(|(_, access)| *access);
-    of_buffers.chain(of_images).fold(accesses - any, |left, possible| left - possible)
+    pairs.iter().fold(accesses - any, |left, pair| left - PAIR[pair].1)
 }
 
-fn covers(named: Accesses, access: Accesses) -> bool {
-    let any = if Accesses::WRITES.contains(access) { Accesses::MEMORY_WRITE } else { Accesses::MEMORY_READ };
-    named.intersects(access.union(any))
-}
-
-fn bits(mut set: u32) -> impl Iterator<Item = usize> {
+fn bits(mut set: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let lowest = set.trailing_zeros();
         set &= set.checked_sub(1)?;

@@ -1,23 +1,73 @@
-//! Everything that a step's work does to images, as a list of accesses.
+//! Everything that a step's work does to images and buffers, as a list of accesses.
 //!
 //! Load, store and resolve operations become accesses in the stages that Vulkan gives them: colour operations and every
 //! resolve, of depth too, in `COLOR_ATTACHMENT_OUTPUT`; depth loads in `EARLY_FRAGMENT_TESTS`, depth stores in
 //! `LATE_FRAGMENT_TESTS`. A `DONT_CARE` load or store is a write; a `NONE` store is nothing.
+//!
+//! Beside each access stands what it does to contents. Whether a draw covers its attachment isn't judged, with one
+//! exception: where *contents that the frame had written* were lost, be it to a `DONT_CARE` load, a barrier from
+//! `UNDEFINED` or another image, only a full-screen draw without blending, depth or stencil test makes the image whole
+//! again, or what writes without attachments.
 
+use super::parts::overlap;
+use super::program::Builder;
 use super::scopes::{PairSet, StageSet};
-use crate::plan::{Access, Attachment, ImageId, RenderScope, Side, Step, Subresources, Transfer, Work};
-use crate::vocabulary::{Accesses, Layout, LoadOp, Stages, StoreOp};
+use crate::frame::{Blend, Draw};
+use crate::plan::{
+    Access, Attachment, BufferAccess, BufferId, ImageId, Pass, RenderScope, Side, Subresources, Transfer, Work,
+};
+use crate::vocabulary::{Accesses, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Usage};
 
-/// One access of a step's work.
+/// How an access is kept apart from others of its step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Not at all.
+    Plain,
+    /// As an attachment: by rasterisation order.
+    Attachment,
+    /// As an attachment that its own scope has drawn to, read at its own position: by barriers within the scope.
+    Local,
+}
+
+/// What an access does to contents: any of these, in this order.
+pub(super) mod does {
+    /// Needs them.
+    pub(crate) const READ: u8 = 1;
+    /// Sets all of them.
+    pub(crate) const FILL: u8 = 2;
+    /// Writes some of them.
+    pub(crate) const ADD: u8 = 4;
+    /// Loses them at the beginning of a rendering scope.
+    pub(crate) const NOT_LOAD: u8 = 8;
+    /// Loses them at the end of a rendering scope.
+    pub(crate) const NOT_STORE: u8 = 16;
+    /// Loses what the scope has written, and keeps what stood before it.
+    pub(crate) const STORE_NONE: u8 = 32;
+}
+
+/// An access to an image, before it is numbered.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Touch {
+pub(super) struct ImageTouch {
     pub(super) image: ImageId,
     pub(super) range: Subresources,
     pub(super) layout: Layout,
     pub(super) stages: StageSet,
     pub(super) pairs: PairSet,
-    /// Whether rasterisation order keeps it apart from other such accesses of its scope.
-    pub(super) attachment: bool,
+    pub(super) kind: Kind,
+    pub(super) contents: u8,
+    /// What the image must have been made for.
+    pub(super) usage: Usage,
+}
+
+/// An access to a buffer, before it is numbered.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BufferTouch {
+    pub(super) buffer: BufferId,
+    pub(super) stages: StageSet,
+    pub(super) pairs: PairSet,
+    pub(super) contents: u8,
+    /// What the buffer must have been made for.
+    pub(super) usage: BufferUsage,
 }
 
 /// Accesses of images as attachments.
@@ -26,58 +76,111 @@ pub(super) const ATTACHMENT: Accesses = Accesses::COLOR_ATTACHMENT_READ
     .union(Accesses::DEPTH_STENCIL_ATTACHMENT_READ)
     .union(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE);
 
-/// Lists what the work of `step` touches, in the order in which it happens.
-pub(super) fn list(step: &Step, touches: &mut Vec<Touch>) {
-    touches.clear();
-    match &step.work {
-        Work::Render(scope) => render(scope, touches),
-        Work::Dispatch(pass) | Work::Custom(pass) => touches.extend(pass.accesses.iter().map(pass_access)),
-        Work::Resolve(transfer) => both(transfer, Stages::RESOLVE, touches),
-        Work::Copy(transfer) => both(transfer, Stages::COPY, touches),
-        Work::Blit(transfer) => both(transfer, Stages::BLIT, touches),
-        Work::Fill(fill) => side(&fill.target, Stages::CLEAR, Accesses::TRANSFER_WRITE, touches),
+/// Lists what `work` touches, in the order in which it happens.
+pub(super) fn list(work: &Work, to: &mut Builder) {
+    match work {
+        Work::Render(scope) => render(scope, to),
+        Work::Dispatch(pass) | Work::Custom(pass) => pass_accesses(pass, None, to),
+        Work::Resolve(transfer) => both(transfer, Stages::RESOLVE, to),
+        Work::Copy(transfer) => both(transfer, Stages::COPY, to),
+        Work::Blit(transfer) => both(transfer, Stages::BLIT, to),
+        Work::Fill(fill) => written(&fill.target, Stages::CLEAR, to),
         Work::Export => {}
     }
 }
 
-fn both(transfer: &Transfer, stages: Stages, touches: &mut Vec<Touch>) {
-    side(&transfer.source, stages, Accesses::TRANSFER_READ, touches);
-    side(&transfer.target, stages, Accesses::TRANSFER_WRITE, touches);
+fn both(transfer: &Transfer, stages: Stages, to: &mut Builder) {
+    let access = Accesses::TRANSFER_READ;
+    side(
+        &transfer.source,
+        stages,
+        access,
+        [Usage::TRANSFER_SRC.bits(), BufferUsage::TRANSFER_SRC.bits()],
+        does::READ,
+        to,
+    );
+    written(&transfer.target, stages, to);
 }
 
-fn side(side: &Side, stages: Stages, accesses: Accesses, touches: &mut Vec<Touch>) {
-    if let Side::Image { image, range, layout, .. } = *side {
-        touches.push(touch(image, range, layout, stages, accesses));
+/// The target of a transfer: what doesn't reach all of it leaves the rest as it was.
+fn written(target: &Side, stages: Stages, to: &mut Builder) {
+    let whole = match *target {
+        Side::Image { image, range, extent, .. } => {
+            extent == to.plan.image(image).extent.map(|texels| texels.checked_shr(range.base_mip).unwrap_or(0).max(1))
+        }
+        Side::Buffer { buffer, bytes } => bytes == to.plan.buffers[buffer.0 as usize].bytes,
+    };
+    let contents = if whole { does::FILL } else { 0 };
+    let usage = [Usage::TRANSFER_DST.bits(), BufferUsage::TRANSFER_DST.bits()];
+    side(target, stages, Accesses::TRANSFER_WRITE, usage, contents, to);
+}
+
+fn side(side: &Side, stages: Stages, accesses: Accesses, usage: [u32; 2], contents: u8, to: &mut Builder) {
+    let (stages, pairs) = (StageSet::of(stages), PairSet::of(stages, accesses));
+    match *side {
+        Side::Image { image, range, layout, .. } => {
+            let usage = Usage::from_bits_truncate(usage[0]);
+            to.image(ImageTouch { image, range, layout, stages, pairs, kind: Kind::Plain, contents, usage });
+        }
+        Side::Buffer { buffer, .. } => {
+            let usage = BufferUsage::from_bits_truncate(usage[1]);
+            to.buffer(BufferTouch { buffer, stages, pairs, contents, usage });
+        }
     }
 }
 
-fn render(scope: &RenderScope, touches: &mut Vec<Touch>) {
+/// The attachments of a scope: whether they are of colour beside each.
+pub(super) fn attachments(scope: &RenderScope) -> impl Iterator<Item = (&Attachment, bool)> {
     let color = scope.color.iter().map(|attachment| (attachment, true));
-    let attachments =
-        || color.clone().chain(scope.depth.iter().chain(&scope.stencil).map(|attachment| (attachment, false)));
-    for (attachment, is_color) in attachments() {
+    color.chain(scope.depth.iter().chain(&scope.stencil).map(|attachment| (attachment, false)))
+}
+
+fn render(scope: &RenderScope, to: &mut Builder) {
+    to.drawn.clear();
+    let local = attachments(scope)
+        .any(|(attachment, _)| matches!(attachment.layout, Layout::RenderingLocalReadKhr | Layout::General));
+    for (attachment, is_color) in attachments(scope) {
         let (stages, read, write) = if is_color { COLOR_LOAD } else { DEPTH_LOAD };
-        let accesses = if attachment.load == LoadOp::Load { read } else { write };
-        touches.push(of_attachment(attachment, stages, accesses));
+        let (accesses, contents) = match attachment.load {
+            LoadOp::Load => (read, does::READ),
+            LoadOp::Clear => (write, does::FILL),
+            LoadOp::DontCare => (write, does::NOT_LOAD),
+        };
+        if local && attachment.load != LoadOp::Load {
+            to.drawn.push((attachment.image, attachment.range));
+        }
+        to.image(attached(attachment, is_color, stages, accesses, contents));
     }
     for pass in &scope.passes {
-        touches.extend(pass.accesses.iter().map(pass_access));
+        pass_accesses(pass, Some(scope), to);
+        if local {
+            let writes =
+                pass.accesses.iter().filter(|access| access.accesses.intersects(ATTACHMENT & Accesses::WRITES));
+            let writes = writes.map(|access| (access.image, access.range));
+            let new: Vec<_> = writes.filter(|write| !to.drawn.contains(write)).collect();
+            to.drawn.extend(new);
+        }
     }
-    for (attachment, is_color) in attachments() {
+    for (attachment, is_color) in attachments(scope) {
         if let Some(resolve) = &attachment.resolve {
             let output = Stages::COLOR_ATTACHMENT_OUTPUT;
-            touches.push(of_attachment(attachment, output, Accesses::COLOR_ATTACHMENT_READ));
-            let write = Accesses::COLOR_ATTACHMENT_WRITE;
-            touches.push(touch(resolve.image, resolve.range, resolve.layout, output, write));
+            to.image(attached(attachment, is_color, output, Accesses::COLOR_ATTACHMENT_READ, does::READ));
+            let part = (resolve.image, resolve.range, resolve.layout);
+            to.image(part_attached(part, is_color, output, Accesses::COLOR_ATTACHMENT_WRITE, does::FILL));
         }
-        if attachment.store != StoreOp::None {
-            let (stages, write) = if is_color {
-                (Stages::COLOR_ATTACHMENT_OUTPUT, Accesses::COLOR_ATTACHMENT_WRITE)
-            } else {
-                (Stages::LATE_FRAGMENT_TESTS, Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE)
-            };
-            touches.push(of_attachment(attachment, stages, write));
-        }
+    }
+    for (attachment, is_color) in attachments(scope) {
+        let (stages, write) = if is_color {
+            (Stages::COLOR_ATTACHMENT_OUTPUT, Accesses::COLOR_ATTACHMENT_WRITE)
+        } else {
+            (Stages::LATE_FRAGMENT_TESTS, Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE)
+        };
+        let (stages, accesses, contents) = match attachment.store {
+            StoreOp::Store => (stages, write, 0),
+            StoreOp::DontCare => (stages, write, does::NOT_STORE),
+            StoreOp::None => (Stages::empty(), Accesses::empty(), does::STORE_NONE),
+        };
+        to.image(attached(attachment, is_color, stages, accesses, contents));
     }
 }
 
@@ -86,15 +189,96 @@ const COLOR_LOAD: (Stages, Accesses, Accesses) =
 const DEPTH_LOAD: (Stages, Accesses, Accesses) =
     (Stages::EARLY_FRAGMENT_TESTS, Accesses::DEPTH_STENCIL_ATTACHMENT_READ, Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE);
 
-fn of_attachment(attachment: &Attachment, stages: Stages, accesses: Accesses) -> Touch {
-    touch(attachment.image, attachment.range, attachment.layout, stages, accesses)
+fn attached(attachment: &Attachment, color: bool, stages: Stages, accesses: Accesses, contents: u8) -> ImageTouch {
+    part_attached((attachment.image, attachment.range, attachment.layout), color, stages, accesses, contents)
 }
 
-fn pass_access(access: &Access) -> Touch {
-    touch(access.image, access.range, access.layout, access.stages, access.accesses)
+fn part_attached(
+    (image, range, layout): (ImageId, Subresources, Layout),
+    color: bool,
+    stages: Stages,
+    accesses: Accesses,
+    contents: u8,
+) -> ImageTouch {
+    let usage = if color { Usage::COLOR_ATTACHMENT } else { Usage::DEPTH_STENCIL_ATTACHMENT };
+    let (stages, pairs) = (StageSet::of(stages), PairSet::of(stages, accesses));
+    ImageTouch { image, range, layout, stages, pairs, kind: Kind::Attachment, contents, usage }
 }
 
-fn touch(image: ImageId, range: Subresources, layout: Layout, stages: Stages, accesses: Accesses) -> Touch {
-    let attachment = accesses.intersects(ATTACHMENT);
-    Touch { image, range, layout, stages: StageSet::of(stages), pairs: PairSet::of(stages, accesses), attachment }
+fn pass_accesses(pass: &Pass, scope: Option<&RenderScope>, to: &mut Builder) {
+    for access in &pass.accesses {
+        let Access { image, range, layout, .. } = *access;
+        let (stages, pairs) = (StageSet::of(access.stages), PairSet::of(access.stages, access.accesses));
+        let attachment = access.accesses.intersects(ATTACHMENT);
+        let own = || to.drawn.iter().any(|(drawn, part)| *drawn == image && overlap(*part, range));
+        let kind = match access.accesses {
+            _ if attachment => Kind::Attachment,
+            accesses if accesses.intersects(Accesses::INPUT_ATTACHMENT_READ) && own() => Kind::Local,
+            _ => Kind::Plain,
+        };
+        let whole = |scope| if attachment { replaces(scope, pass, access) } else { true };
+        let read = if pairs.reads().is_empty() { 0 } else { does::READ };
+        let write = match (pairs.writes().is_empty(), scope) {
+            (true, _) => 0,
+            (false, None) => does::FILL,
+            (false, Some(scope)) if whole(scope) => does::FILL,
+            (false, Some(_)) => does::ADD,
+        };
+        let usage = image_usage(access.accesses, to.plan.image(image).format.is_depth());
+        to.image(ImageTouch { image, range, layout, stages, pairs, kind, contents: read | write, usage });
+    }
+    for access in &pass.buffers {
+        let BufferAccess { buffer, stages, accesses, .. } = *access;
+        let (stages, pairs) = (StageSet::of(stages), PairSet::of(stages, accesses));
+        let read = if pairs.reads().is_empty() { 0 } else { does::READ };
+        let write = if pairs.writes().is_empty() { 0 } else { does::FILL };
+        let usage = buffer_usage(accesses);
+        to.buffer(BufferTouch { buffer, stages, pairs, contents: read | write, usage });
+    }
+}
+
+/// Whether a draw is sure to set every texel of its attachment.
+fn replaces(scope: &RenderScope, pass: &Pass, access: &Access) -> bool {
+    let untested = pass.depth.is_none_or(|depth| depth.test == CompareOp::Always);
+    let unmasked = pass.stencil.is_none_or(|stencil| stencil.test == CompareOp::Always);
+    let same = |attachment: &Attachment| attachment.image == access.image && attachment.range == access.range;
+    let set = pass.stencil.is_some_and(|stencil| matches!(stencil.pass, StencilOp::Zero | StencilOp::Replace));
+    let mut targets = scope.color.iter().zip(&pass.blend);
+    pass.draw == Some(Draw::FullScreen)
+        && untested
+        && unmasked
+        && (targets.any(|(target, blend)| same(target) && *blend == Blend::Replace)
+            || set && scope.stencil.as_ref().is_some_and(same))
+}
+
+fn image_usage(accesses: Accesses, depth: bool) -> Usage {
+    let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
+    let attachment = if depth { Usage::DEPTH_STENCIL_ATTACHMENT } else { Usage::COLOR_ATTACHMENT };
+    [
+        (ATTACHMENT, attachment),
+        (Accesses::SHADER_SAMPLED_READ, Usage::SAMPLED),
+        (storage, Usage::STORAGE),
+        (Accesses::INPUT_ATTACHMENT_READ, Usage::INPUT_ATTACHMENT),
+        (Accesses::TRANSFER_READ, Usage::TRANSFER_SRC),
+        (Accesses::TRANSFER_WRITE, Usage::TRANSFER_DST),
+    ]
+    .into_iter()
+    .filter(|(those, _)| accesses.intersects(*those))
+    .fold(Usage::empty(), |all, (_, usage)| all | usage)
+}
+
+fn buffer_usage(accesses: Accesses) -> BufferUsage {
+    let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
+    [
+        (Accesses::UNIFORM_READ, BufferUsage::UNIFORM_BUFFER),
+        (storage, BufferUsage::STORAGE_BUFFER),
+        (Accesses::VERTEX_ATTRIBUTE_READ, BufferUsage::VERTEX_BUFFER),
+        (Accesses::INDEX_READ, BufferUsage::INDEX_BUFFER),
+        (Accesses::INDIRECT_COMMAND_READ, BufferUsage::INDIRECT_BUFFER),
+        (Accesses::TRANSFER_READ, BufferUsage::TRANSFER_SRC),
+        (Accesses::TRANSFER_WRITE, BufferUsage::TRANSFER_DST),
+    ]
+    .into_iter()
+    .filter(|(those, _)| accesses.intersects(*those))
+    .fold(BufferUsage::empty(), |all, (_, usage)| all | usage)
 }

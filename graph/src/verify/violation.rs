@@ -1,7 +1,7 @@
 //! What the checker reports: data first, a sentence where it is shown.
 
 use crate::plan::names::{Shown, vulkan};
-use crate::plan::{Plan, StepId, Subresources};
+use crate::plan::{Plan, Queue, StepId, Subresources};
 use crate::vocabulary::{Accesses, Layout, Stages};
 use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
@@ -15,11 +15,11 @@ pub struct Violation {
     pub step: Option<StepName>,
     /// The step that it collides with, or that should have been waited for.
     pub other: Option<StepName>,
-    /// The image.
-    pub image: Option<Arc<str>>,
+    /// The image or buffer, by its name.
+    pub resource: Option<Arc<str>>,
     /// The part of the image.
     pub range: Option<Subresources>,
-    /// First byte and one past the last byte in the image's heap, where memory is the matter.
+    /// First byte and one past the last byte: in its heap where memory is the matter, else of the buffer.
     pub bytes: Option<[u64; 2]>,
 }
 
@@ -30,8 +30,8 @@ pub struct StepName {
     pub step: StepId,
     /// Its passes, or what it moves; escaped.
     pub name: String,
-    /// Whether it ran in the frame before.
-    pub frame_before: bool,
+    /// How many frames before it ran.
+    pub frames_ago: u32,
 }
 
 /// The rules of a Plan.
@@ -96,6 +96,11 @@ pub enum Rule {
         /// The stated first and last step.
         stated: [StepId; 2],
     },
+    /// An image or buffer that one queue at a time may use is used on another than its own.
+    Ownership {
+        /// How.
+        fault: OwnershipFault,
+    },
     /// A sum is wrong.
     Total {
         /// Its field.
@@ -118,6 +123,42 @@ pub enum Touched {
     LayoutChange,
     /// Nothing more than waiting.
     Wait(Stages),
+    /// Whatever comes after the frame and relies on the promised state.
+    AfterFrame,
+}
+
+/// How queues disagree about who may use something. The other step is the one that used it, or handed it over, last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OwnershipFault {
+    /// It belongs to another queue and was not handed over.
+    Elsewhere {
+        /// The queue that it belongs to.
+        owner: Queue,
+        /// The queue that uses it.
+        user: Queue,
+    },
+    /// It was released, and used before it was acquired.
+    NotAcquired {
+        /// The two queues of the release.
+        released: [Queue; 2],
+    },
+    /// It is acquired and was not released.
+    NotReleased {
+        /// The two queues of the acquiring barrier.
+        acquired: [Queue; 2],
+    },
+    /// The two halves name other queues, ranges or layouts.
+    Unequal {
+        /// The two queues of the release.
+        released: [Queue; 2],
+        /// The two queues of the acquiring barrier.
+        acquired: [Queue; 2],
+    },
+    /// It was released, and its contents were forgotten instead of acquired.
+    NeverAcquired {
+        /// The two queues of the release.
+        released: [Queue; 2],
+    },
 }
 
 /// How contents were lost.
@@ -137,15 +178,19 @@ pub enum Loss {
 }
 
 impl StepName {
-    pub(super) fn new(plan: &Plan, step: StepId, frame_before: bool) -> StepName {
-        StepName { step, name: plan.step_name(step), frame_before }
+    pub(super) fn new(plan: &Plan, step: StepId, frames_ago: u32) -> StepName {
+        StepName { step, name: plan.step_name(step), frames_ago }
     }
 }
 
 impl Display for StepName {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "step {} {}", self.step.0, self.name)?;
-        if self.frame_before { f.write_str(" of the frame before") } else { Ok(()) }
+        match self.frames_ago {
+            0 => Ok(()),
+            1 => f.write_str(" of the frame before"),
+            more => write!(f, " of {more} frames before"),
+        }
     }
 }
 
@@ -156,6 +201,7 @@ impl Display for Touched {
             Touched::Read(stages) => write!(f, "the read in {}", vulkan(stages)),
             Touched::LayoutChange => f.write_str("the layout change"),
             Touched::Wait(stages) => vulkan(stages).fmt(f),
+            Touched::AfterFrame => f.write_str("what relies on the state after the frame"),
         }
     }
 }
@@ -166,8 +212,8 @@ impl Display for Violation {
             Some(step) => step.fmt(f)?,
             None => f.write_str("the Plan")?,
         }
-        if let Some(image) = &self.image {
-            write!(f, ": `{}`", Shown(image))?;
+        if let Some(resource) = &self.resource {
+            write!(f, ": `{}`", Shown(resource))?;
         }
         match (&self.range, &self.bytes) {
             (Some(range), None) => write!(f, " ({range})")?,
@@ -218,6 +264,32 @@ impl Display for Violation {
             }
             Rule::Lifetime { stated: [first, last] } => {
                 write!(f, "used outside its stated lifetime, steps {} to {} (nearest: {other})", first.0, last.0)
+            }
+            Rule::Ownership { fault } => {
+                let queues = |[from, to]: &[Queue; 2]| format!("{} to {}", vulkan(from), vulkan(to));
+                match fault {
+                    OwnershipFault::Elsewhere { owner, user } => {
+                        let (owner, user) = (vulkan(owner), vulkan(user));
+                        write!(f, "used on {user}, but it belongs to {owner} since {other} and isn't handed over")
+                    }
+                    OwnershipFault::NotAcquired { released } => {
+                        write!(f, "used before a barrier acquires what {other} released from {}", queues(released))
+                    }
+                    OwnershipFault::NotReleased { acquired } => {
+                        write!(f, "acquired from {}, but not released since {other}", queues(acquired))
+                    }
+                    OwnershipFault::Unequal { released, acquired } => {
+                        let (released, acquired) = (queues(released), queues(acquired));
+                        write!(
+                            f,
+                            "acquired from {acquired} with another range, other layouts or queues than {other} "
+                        )?;
+                        write!(f, "released it with from {released}")
+                    }
+                    OwnershipFault::NeverAcquired { released } => {
+                        write!(f, "begun anew, but {other} released it from {} for nothing", queues(released))
+                    }
+                }
             }
             Rule::Total { field, stated, counted } => {
                 write!(f, "totals.{field} is {stated}, its parts add up to {counted}")

@@ -1,156 +1,202 @@
-//! The walk over the steps, twice in a row.
+//! The walk over the steps, frame after frame.
 
-use super::cells::{Cell, Cells, Contents, Lost, Write};
+use super::cells::{Cell, Contents, Lost, Owner, Write};
 use super::clocks::{Availability, Clock, Clocks, Time};
 use super::dependencies::{before_access, before_layout_change, makes_available};
-use super::memory::Memory;
+use super::frames::Frames;
+use super::memory::{Memory, Taking};
+use super::parts::Parts;
+use super::program::{Barrier, Program, Span, Touch};
 use super::scopes::{PairSet, StageSet};
-use super::survey::Survey;
-use super::touches::{self, Touch};
+use super::touches::Kind;
 use super::violation::{Rule, StepName};
 use super::{Finding, Findings};
-use crate::plan::{ImageBarrier, ImageId, Plan, Role, Step, StepId, Subresources};
-use crate::vocabulary::{Layout, State};
+use crate::plan::{Plan, StepId, Subresources};
+use crate::vocabulary::Layout;
 
 /// All that is known between two steps.
-pub(super) struct Walk<'w, 'p> {
+pub(super) struct Walk<'w, 'p, const Q: usize> {
     pub(super) plan: &'p Plan,
     pub(super) found: &'w mut Findings<'p>,
-    /// For each image: the first and the last step that touch it.
-    pub(super) touched: &'w [Option<[u32; 2]>],
-    pub(super) cells: Cells,
+    pub(super) program: &'w Program,
+    pub(super) parts: Parts,
+    pub(super) cells: Vec<Cell<Q>>,
     pub(super) memory: Memory,
-    clocks: Clocks,
-    frame: u32,
-    batch: Vec<(Clock, StageSet, PairSet)>,
-    touches: Vec<Touch>,
+    pub(super) clocks: Clocks<Q>,
+    pub(super) frame: u32,
+    batch: Vec<(Clock<Q>, StageSet, PairSet)>,
+    /// What each queue has waited for with semaphores.
+    waited: [Clock<Q>; Q],
+    /// For each frame, what comes before somebody who waits for a step: for each step that is waited for.
+    signalled: Vec<Vec<Clock<Q>>>,
 }
 
-/// Walks the steps of `plan` twice.
-pub(super) fn twice<'p>(plan: &'p Plan, survey: &Survey, found: &mut Findings<'p>) {
-    let mut walk = Walk {
-        plan,
-        found,
-        touched: &survey.touched,
-        cells: Cells::new(&plan.images, survey.ranges.iter().copied()),
-        memory: Memory::new(plan),
-        clocks: Clocks::default(),
-        frame: 0,
-        batch: Vec::new(),
-        touches: Vec::new(),
-    };
-    for frame in 0..2 {
-        walk.frame = frame;
-        walk.begin_frame();
-        for (id, step) in (0..).map(StepId).zip(&plan.steps) {
-            walk.barriers(id, step);
-            walk.work(id, step);
-            walk.contents(id, step);
-        }
-        walk.end_frame();
+/// Walks the steps of `plan` so many times.
+pub(super) fn walk<'p>(plan: &'p Plan, program: &Program, frames: Frames, found: &mut Findings<'p>) {
+    if program.several_queues {
+        Walk::<3>::new(plan, program, found).all(frames);
+    } else {
+        Walk::<1>::new(plan, program, found).all(frames);
     }
 }
 
-impl Walk<'_, '_> {
-    fn begin_frame(&mut self) {
-        let time = self.frame_start();
-        for (image, before, ..) in outputs(self.plan) {
-            let (stages, pairs) = scopes(before);
-            for index in self.cells.all(image) {
-                let cell = self.cells.at(index);
-                cell.layout = before.layout;
-                cell.contents = Contents::Unwritten;
-                cell.writes.clear();
-                cell.reads.clear();
-                cell.excused = false;
-                record_writes(cell, pairs, time);
-                cell.reads.insert(stages, time);
+impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
+    fn new(plan: &'p Plan, program: &'w Program, found: &'w mut Findings<'p>) -> Self {
+        let parts = Parts::new(plan, &program.ranges);
+        Walk {
+            plan,
+            found,
+            program,
+            cells: vec![Cell::FRESH; parts.count()],
+            parts,
+            memory: Memory::new(plan),
+            clocks: Clocks::new(),
+            frame: 0,
+            batch: Vec::new(),
+            waited: [Clock::START; Q],
+            signalled: Vec::new(),
+        }
+    }
+
+    fn all(&mut self, frames: Frames) {
+        for frame in 0..frames.count {
+            self.frame = frame;
+            self.begin_frame();
+            for step in 0..self.program.steps() {
+                self.step(StepId(step));
+            }
+            self.end_frame();
+            self.become_next(&frames);
+        }
+    }
+
+    fn step(&mut self, id: StepId) {
+        let span = self.program.span(id.0);
+        if Q > 1 {
+            self.wait(&span);
+        }
+        self.barriers(id, &span);
+        self.work(id, &span);
+        if Q > 1 {
+            self.releases(id, &span);
+            self.signal(id, span.queue);
+        }
+    }
+
+    /// The whole step, barriers included, comes after what its queue waits for.
+    fn wait(&mut self, span: &Span) {
+        for wait in &self.program.waits[span.waits.clone()] {
+            let signal = self.program.signals.binary_search(&wait.step);
+            let frame = self.frame.checked_sub(wait.frames_ago).and_then(|frame| self.signalled.get(frame as usize));
+            // In the first frames there is nothing yet to wait for.
+            if let (Some(frame), Ok(signal)) = (frame, signal)
+                && let Some(before) = frame.get(signal)
+            {
+                self.clocks.hold_up(span.queue, StageSet::ALL, before);
+                self.clocks.show(span.queue, PairSet::of_stages(wait.stages), before);
+                self.waited[usize::from(span.queue)].join(before);
             }
         }
     }
 
-    /// Whoever gets the outputs finds them as the last step leaves them.
-    fn end_frame(&mut self) {
-        let last = StepId(length(self.plan) - 1);
-        for (id, _, after, range) in outputs(self.plan) {
-            let (stages, pairs) = scopes(after);
-            let touch = Touch { image: id, range, layout: after.layout, stages, pairs, attachment: false };
-            self.access(last, &touch);
-            self.read(last, id, range);
+    fn signal(&mut self, id: StepId, queue: u8) {
+        let signalled = self.signalled.last_mut();
+        if let Some(signalled) = signalled.filter(|before| self.program.signals.get(before.len()) == Some(&id.0)) {
+            signalled.push(self.clocks.signal(queue, self.frame * (self.program.steps() + 1) + id.0 + 2));
         }
     }
 
-    fn barriers(&mut self, id: StepId, step: &Step) {
-        let now = self.now(id);
+    /// Makes room for the semaphores of a new frame.
+    pub(super) fn begin_signals(&mut self) {
+        self.signalled.push(Vec::new());
+    }
+
+    fn barriers(&mut self, id: StepId, span: &Span) {
+        if span.memory_barriers.is_empty() && span.barriers.is_empty() {
+            return;
+        }
+        let (now, queue, program) = (self.now(id), span.queue, self.program);
         let mut batch = std::mem::take(&mut self.batch);
         batch.clear();
         let mut beside = PairSet::default();
-        for barrier in &step.memory_barriers {
-            let source = PairSet::of(barrier.src_stages, barrier.src_accesses);
-            let mut before = self.clocks.before(StageSet::of(barrier.src_stages).and_earlier(), now);
-            before.make_available(source, now);
-            beside = beside.union(source);
-            let shown = PairSet::of(barrier.dst_stages, barrier.dst_accesses);
-            batch.push((before, StageSet::of(barrier.dst_stages).and_later(), shown));
+        for barrier in &program.memory_barriers[span.memory_barriers.clone()] {
+            let mut before = self.before(queue, barrier.from, now);
+            before.make_available(queue, barrier.source, now);
+            beside = beside.union(barrier.source);
+            batch.push((before, barrier.to, barrier.shown));
         }
         let mut last = None;
-        for barrier in &step.image_barriers {
-            let stages = (barrier.src_stages, barrier.dst_stages);
+        for (barrier, number) in program.barriers[span.barriers.clone()].iter().zip(span.barriers.start as u32..) {
+            let stages = (barrier.scopes.from, barrier.scopes.to);
             // Neighbours mostly wait for the same stages: what came before those is then known already.
             if last != Some(stages) {
-                let before = self.clocks.before(StageSet::of(barrier.src_stages).and_earlier(), now);
-                batch.push((before, StageSet::of(barrier.dst_stages).and_later(), PairSet::default()));
+                batch.push((self.before(queue, stages.0, now), stages.1, PairSet::default()));
                 last = Some(stages);
             }
             if let Some((before, _, _)) = batch.last() {
-                self.image_barrier(id, barrier, before, beside);
+                self.image_barrier(id, queue, barrier, number, before, beside);
             }
         }
         // Barriers of one call don't order each other: none takes effect before all are judged.
         for (before, stages, shown) in &batch {
-            self.clocks.hold_up(*stages, before);
-            self.clocks.show(*shown, before);
+            self.clocks.hold_up(queue, *stages, before);
+            self.clocks.show(queue, *shown, before);
         }
         self.batch = batch;
     }
 
-    fn image_barrier(&mut self, id: StepId, barrier: &ImageBarrier, before: &Clock, beside: PairSet) {
-        let source = PairSet::of(barrier.src_stages, barrier.src_accesses);
-        let shown = PairSet::of(barrier.dst_stages, barrier.dst_accesses);
-        let available = Availability { time: self.now(id), stages: StageSet::of(barrier.dst_stages).and_later() };
-        let forgets = barrier.old_layout == Layout::Undefined;
+    fn before(&self, queue: u8, stages: StageSet, now: Time) -> Clock<Q> {
+        let mut before = self.clocks.before(queue, stages, now);
+        if Q > 1 {
+            before.join(&self.waited[usize::from(queue)]);
+        }
+        before
+    }
+
+    fn image_barrier(
+        &mut self,
+        id: StepId,
+        queue: u8,
+        barrier: &Barrier,
+        number: u32,
+        before: &Clock<Q>,
+        beside: PairSet,
+    ) {
+        let scopes = &barrier.scopes;
+        let available = Availability { time: self.now(id), stages: scopes.to, queue };
+        let forgets = barrier.old == Layout::Undefined;
         if forgets {
-            self.occupy(id, barrier.image, barrier.range);
+            self.occupy(id, barrier.image);
         }
         let occupation = self.memory.occupation(barrier.image);
-        for index in self.cells.cover(barrier.image, barrier.range) {
-            if !forgets {
-                self.check_layout(id, barrier.image, index, barrier.old_layout);
-                if barrier.old_layout == barrier.new_layout {
-                    for write in &mut self.cells.at(index).writes {
-                        if makes_available(write, before, source) {
-                            write.visible = write.visible.union(shown);
-                            write.became_available(available);
-                        }
+        let frame_start = self.frame_start();
+        let mut part = self.parts.of(barrier.image, barrier.range);
+        while let Some(index) = self.parts.next(&mut part) {
+            let acquired = Q > 1 && self.own_by_barrier(id, queue, barrier, number, index);
+            if !forgets && !acquired {
+                self.check_layout(id, barrier.image, index, barrier.old);
+                if barrier.old == barrier.new && barrier.ownership.is_none() {
+                    let write = &mut self.cells[index].write;
+                    if write.exists() && makes_available(write, before, scopes.source) {
+                        write.shown(available, scopes.shown);
                     }
                     continue;
                 }
             }
-            let cell = self.cells.at(index);
+            let cell = &self.cells[index];
             if cell.occupation != occupation {
                 // What it did before it lost its bytes is what the image that took them had to wait for.
-                self.check_hand_over(id, barrier.image, index, before, source.union(beside));
+                let source = scopes.source.union(beside);
+                self.check_hand_over(id, barrier.image, Some(index), Taking::Barrier(before, source));
             } else if !cell.excused
-                && let Some(gap) = before_layout_change(cell, before, source)
+                && let Some(gap) = before_layout_change(cell, before, scopes.source)
             {
                 self.report(id, barrier.image, index, gap.rule(), gap.time);
             }
-            let frame_start = self.frame_start();
-            let cell = self.cells.at(index);
+            let cell = &mut self.cells[index];
             cell.occupation = occupation;
-            cell.layout = barrier.new_layout;
-            cell.writes.clear();
-            cell.writes.push(Write::layout_change(available, shown));
+            cell.layout = barrier.new;
+            cell.write = Write::layout_change(available, scopes.shown);
             cell.reads.clear();
             cell.excused = false;
             if forgets {
@@ -163,66 +209,119 @@ impl Walk<'_, '_> {
         }
     }
 
-    fn work(&mut self, id: StepId, step: &Step) {
-        let now = self.now(id);
-        let mut touches = std::mem::take(&mut self.touches);
-        touches::list(step, &mut touches);
-        // Attachments of a scope are kept in order by rasterisation: its accesses are held against what came before
-        // it, not against each other, and up to its own first write.
-        for touch in touches.iter().filter(|touch| touch.attachment) {
-            self.access(id, touch);
-            let writes = touch.pairs.reads().is_empty();
-            let cover = self.cells.cover(touch.image, touch.range).filter(|_| writes);
-            cover.for_each(|index| self.cells.at(index).rasterised = now);
-        }
-        for touch in touches.iter().filter(|touch| !touch.attachment) {
-            self.access(id, touch);
-            self.record(touch, now);
-        }
-        for touch in touches.iter().filter(|touch| touch.attachment) {
-            self.record(touch, now);
-        }
-        self.touches = touches;
-    }
-
-    fn access(&mut self, step: StepId, touch: &Touch) {
-        for index in self.cells.cover(touch.image, touch.range) {
-            self.check_layout(step, touch.image, index, touch.layout);
-            let ordered = touch.attachment && self.cells.at(index).rasterised == self.now(step);
-            let cell = self.cells.at(index);
-            if !ordered
-                && !cell.excused
-                && let Some(gap) = before_access(cell, &self.clocks, touch.stages, touch.pairs)
-            {
-                cell.excused = true;
-                self.report(step, touch.image, index, gap.rule(), gap.time);
+    /// The first halves of ownership transfers: from here on nobody may use the image, before the other half.
+    fn releases(&mut self, id: StepId, span: &Span) {
+        let (now, queue, program) = (self.now(id), span.queue, self.program);
+        for (barrier, number) in program.barriers[span.releases.clone()].iter().zip(span.releases.start as u32..) {
+            let before = self.before(queue, barrier.scopes.from, now + 1);
+            let mut part = self.parts.of(barrier.image, barrier.range);
+            while let Some(index) = self.parts.next(&mut part) {
+                self.use_on(id, queue, barrier.image, index);
+                self.check_layout(id, barrier.image, index, barrier.old);
+                let cell = &self.cells[index];
+                if !cell.excused
+                    && let Some(gap) = before_layout_change(cell, &before, barrier.scopes.source)
+                {
+                    self.report(id, barrier.image, index, gap.rule(), gap.time);
+                }
+                let cell = &mut self.cells[index];
+                cell.layout = barrier.new;
+                // Its own second scope counts for nothing: only a semaphore leads on from here.
+                let released = Availability { time: now, stages: StageSet::ALL, queue };
+                cell.write = Write::layout_change(released, PairSet::default());
+                cell.reads.clear();
+                cell.excused = false;
+                cell.owner = Owner::Released(number);
             }
         }
     }
 
-    fn record(&mut self, touch: &Touch, now: Time) {
-        for index in self.cells.cover(touch.image, touch.range) {
-            let cell = self.cells.at(index);
-            record_writes(cell, touch.pairs, now);
-            cell.reads.insert(touch.pairs.reads().stages(), now);
+    fn work(&mut self, id: StepId, span: &Span) {
+        let (now, queue) = (self.now(id), span.queue);
+        let touches = &self.program.touches[span.touches.clone()];
+        // Attachments of a scope are kept in order by rasterisation: its accesses are held against what came before
+        // it, not against each other, and up to its own first write.
+        for touch in touches.iter().filter(|touch| touch.kind == Kind::Attachment) {
+            self.access(id, queue, touch);
+            if touch.pairs.reads().is_empty() && !touch.pairs.is_empty() {
+                let mut part = self.parts.of(touch.resource, touch.range);
+                while let Some(index) = self.parts.next(&mut part) {
+                    self.cells[index].rasterised = now;
+                }
+            }
+        }
+        for touch in touches.iter().filter(|touch| touch.kind != Kind::Attachment) {
+            self.access(id, queue, touch);
+            self.record(queue, touch, now);
+        }
+        for touch in touches.iter().filter(|touch| touch.kind == Kind::Attachment) {
+            self.record(queue, touch, now);
+        }
+        for touch in touches.iter().filter(|touch| touch.contents != 0) {
+            self.contents(id, touch);
         }
     }
 
-    fn check_layout(&mut self, step: StepId, image: ImageId, index: usize, needed: Layout) {
-        let cell = self.cells.at(index);
+    fn access(&mut self, step: StepId, queue: u8, touch: &Touch) {
+        if touch.resource as usize >= self.plan.images.len() {
+            self.occupy_buffer(step, queue, touch);
+        }
+        let mut part = self.parts.of(touch.resource, touch.range);
+        while let Some(index) = self.parts.next(&mut part) {
+            if Q > 1 {
+                self.use_on(step, queue, touch.resource, index);
+            }
+            self.check_layout(step, touch.resource, index, touch.layout);
+            let cell = &self.cells[index];
+            let ordered = match touch.kind {
+                Kind::Plain => false,
+                Kind::Attachment => cell.rasterised == self.now(step),
+                Kind::Local => true,
+            };
+            if !ordered
+                && !cell.excused
+                && let Some(gap) = before_access(cell, &self.clocks, queue, touch.stages, touch.pairs)
+            {
+                self.cells[index].excused = true;
+                self.report(step, touch.resource, index, gap.rule(), gap.time);
+            }
+        }
+    }
+
+    fn record(&mut self, queue: u8, touch: &Touch, now: Time) {
+        let mut part = self.parts.of(touch.resource, touch.range);
+        while let Some(index) = self.parts.next(&mut part) {
+            self.cells[index].record(queue, touch.pairs, now);
+        }
+    }
+
+    pub(super) fn check_layout(&mut self, step: StepId, resource: u32, index: usize, needed: Layout) {
+        let cell = &mut self.cells[index];
         let found = std::mem::replace(&mut cell.layout, needed);
         if found != needed {
             cell.excused = true;
-            let writes = cell.writes.iter().map(|write| write.time);
-            let last = writes.chain(cell.reads.iter().map(|(_, time)| time)).max().unwrap_or(0);
-            self.report(step, image, index, Rule::Layout { found, needed }, last);
+            let last = cell.last();
+            self.report(step, resource, index, Rule::Layout { found, needed }, last);
         }
     }
 
-    fn report(&mut self, step: StepId, image: ImageId, index: usize, rule: Rule, time: Time) {
-        let range = Some(self.cells.range(self.plan.image(image), index));
-        let other = self.name_at(time, image);
-        self.found.push(Finding { rule, step, other, image, range, bytes: None });
+    pub(super) fn report(&mut self, step: StepId, resource: u32, index: usize, rule: Rule, time: Time) {
+        let other = self.name_at(time, resource);
+        let range = self.range(resource, index);
+        let bytes = self.buffer_bytes(resource);
+        self.found.push(Finding { rule, step, other, resource, range, bytes });
+    }
+
+    /// The part of an image that a cell stands for.
+    pub(super) fn range(&self, resource: u32, index: usize) -> Option<Subresources> {
+        let image = self.plan.images.get(resource as usize)?;
+        Some(self.parts.range(image, index))
+    }
+
+    /// All bytes of a buffer.
+    pub(super) fn buffer_bytes(&self, resource: u32) -> Option<[u64; 2]> {
+        let buffer = (resource as usize).checked_sub(self.plan.images.len())?;
+        Some([0, self.plan.buffers[buffer].bytes])
     }
 
     /// The time of a step in the frame that is walked.
@@ -232,49 +331,19 @@ impl Walk<'_, '_> {
 
     /// The time before the first step of the frame that is walked.
     pub(super) fn frame_start(&self) -> Time {
-        self.frame * (length(self.plan) + 1)
+        self.frame * (self.program.steps() + 1)
     }
 
-    /// The step at `time`; before the frame, the step that touched `image` last in the frame before.
-    pub(super) fn name_at(&self, time: Time, image: ImageId) -> Option<StepName> {
-        let frame = length(self.plan) + 1;
-        let step = match time % frame {
-            0 => return self.touched[image.0 as usize].map(|[_, last]| StepName::new(self.plan, StepId(last), true)),
-            after => StepId(after - 1),
-        };
-        Some(StepName::new(self.plan, step, time / frame < self.frame))
-    }
-}
-
-/// Number of steps. [`super::structure`] has seen to it that two walks can be numbered.
-fn length(plan: &Plan) -> u32 {
-    u32::try_from(plan.steps.len()).unwrap_or(u32::MAX / 4)
-}
-
-/// A write replaces what an earlier step did; the pairs of one step stand side by side.
-fn record_writes(cell: &mut Cell, pairs: PairSet, now: Time) {
-    for pair in pairs.writes().iter() {
-        if cell.writes.first().is_some_and(|write| write.time != now || write.pair().is_none()) {
-            cell.writes.clear();
-            cell.reads.clear();
-            cell.excused = false;
-        }
-        if cell.writes.iter().all(|write| write.pair() != Some(pair)) {
-            cell.writes.push(Write::access(now, pair));
+    /// The step at `time`; at the beginning of a frame, the step that touched it last in the frame before.
+    pub(super) fn name_at(&self, time: Time, resource: u32) -> Option<StepName> {
+        let frame = self.program.steps() + 1;
+        let ago = self.frame.saturating_sub(time / frame);
+        match time % frame {
+            0 => {
+                let [_, last] = self.program.used[resource as usize].steps()?;
+                Some(StepName::new(self.plan, last, ago + 1))
+            }
+            after => Some(StepName::new(self.plan, StepId(after - 1), ago)),
         }
     }
-}
-
-/// The outputs: image, state before the frame, state after it, all of the image.
-fn outputs(plan: &Plan) -> impl Iterator<Item = (ImageId, State, State, Subresources)> + '_ {
-    plan.images.iter().filter_map(|image| match image.role {
-        Role::Transient(_) => None,
-        Role::External { before, after } | Role::Persistent { before, after, .. } => {
-            Some((image.id, before, after, Subresources::all(image.format, image.mips, image.layers)))
-        }
-    })
-}
-
-fn scopes(state: State) -> (StageSet, PairSet) {
-    (StageSet::of(state.stages), PairSet::of(state.stages, state.accesses))
 }

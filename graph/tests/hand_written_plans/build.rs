@@ -2,10 +2,10 @@
 
 use super::lifetime;
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Draw};
+use framewright_graph::frame::{Blend, Draw, Groups, Shape};
 use framewright_graph::plan::*;
 use framewright_graph::source::Place;
-use framewright_graph::vocabulary::{Accesses, Filter, Layout, LoadOp, Stages, StoreOp, Usage};
+use framewright_graph::vocabulary::{self, Accesses, Filter, Layout, LoadOp, Stages, StoreOp, Usage};
 
 /// A stage, an access and a layout.
 pub(crate) type State = (Stages, Accesses, Layout);
@@ -47,14 +47,16 @@ pub(crate) fn output(id: u32, name: &str, format: Format, usage: Usage) -> Image
         name: name.into(),
         cause: at(4 + id),
         format,
+        shape: Shape::D2,
         extent: SIZE,
         mips: 1,
         layers: 1,
         samples: 1,
         usage,
-        role: Role::Output {
-            before: ImageState { stages: Stages::COPY, accesses: Accesses::empty(), layout: UNDEFINED },
-            after: ImageState { stages, accesses, layout },
+        sharing: Sharing::Exclusive,
+        role: Role::External {
+            before: vocabulary::State { stages: Stages::COPY, accesses: Accesses::empty(), layout: UNDEFINED },
+            after: vocabulary::State { stages, accesses, layout },
         },
     }
 }
@@ -80,6 +82,7 @@ pub(crate) fn barrier(
         dst_accesses,
         old_layout,
         new_layout,
+        ownership: None,
         hazard,
         after: after.map(StepId),
     }
@@ -91,11 +94,18 @@ pub(crate) fn between(image: &Image, from: State, to: State, hazard: Hazard, aft
 }
 
 pub(crate) fn access(image: &Image, (stages, accesses, layout): State) -> Access {
-    Access { image: image.id, range: range(image.format), stages, accesses, layout }
+    Access { image: image.id, range: range(image.format), stages, accesses, layout, binding: None }
 }
 
-pub(crate) fn bound(name: &str, image: &Image, layout: Layout, filter: Option<Filter>) -> Binding {
-    Binding { name: name.into(), image: image.id, range: range(image.format), layout, filter }
+/// A storage image by its shader's name.
+pub(crate) fn storage(name: &str, image: &Image, state: State) -> Access {
+    Access { binding: Some(Binding { name: name.into(), kind: BindingKind::Storage }), ..access(image, state) }
+}
+
+/// A sampled image by its shader's name.
+pub(crate) fn sampled(name: &str, image: &Image, state: State) -> Access {
+    let kind = BindingKind::Sampled(Filter::Nearest);
+    Access { binding: Some(Binding { name: name.into(), kind }), ..access(image, state) }
 }
 
 pub(crate) fn attachment(image: &Image, layout: Layout, load: LoadOp, store: StoreOp, because: &str) -> Attachment {
@@ -123,26 +133,36 @@ pub(crate) fn draw(
         name: name.into(),
         cause: at(line),
         draw: Some(draw),
+        groups: None,
         shader: name.into(),
         blend: blend.to_vec(),
         depth,
-        bindings: Vec::new(),
+        stencil: None,
         params: Vec::new(),
         accesses,
+        buffers: Vec::new(),
+        local_barrier: false,
         merged: None,
     }
 }
 
-pub(crate) fn dispatch(name: &str, line: u32, bindings: Vec<Binding>, accesses: Vec<Access>) -> Pass {
-    Pass { draw: None, bindings, ..draw(name, line, Draw::Sky, &[], None, accesses) }
+pub(crate) fn dispatch(name: &str, line: u32, accesses: Vec<Access>) -> Pass {
+    Pass { draw: None, groups: Some(Groups::Count([8, 4, 1])), ..draw(name, line, Draw::Sky, &[], None, accesses) }
 }
 
 pub(crate) fn scope(samples: u32, color: Vec<Attachment>, depth: Option<Attachment>, passes: Vec<Pass>) -> Work {
-    Work::Render(RenderScope { extent: [SIZE[0], SIZE[1]], layers: 1, samples, color, depth, passes })
+    Work::Render(RenderScope { extent: [SIZE[0], SIZE[1]], layers: 1, samples, color, depth, stencil: None, passes })
 }
 
 pub(crate) fn step(image_barriers: Vec<ImageBarrier>, work: Work) -> Step {
-    Step { queue: Queue::Graphics, memory_barriers: Vec::new(), image_barriers, work }
+    Step {
+        queue: Queue::Graphics,
+        waits: Vec::new(),
+        memory_barriers: Vec::new(),
+        image_barriers,
+        work,
+        releases: Vec::new(),
+    }
 }
 
 /// Samples `source` and covers the output, which the next step, the last, leaves to be read back.
@@ -153,9 +173,8 @@ pub(crate) fn tone_map(source: &Image, written: State, screen: &Image, step_numb
         Draw::FullScreen,
         &[Blend::Replace],
         None,
-        vec![access(source, SAMPLED), access(screen, COLOR)],
+        vec![sampled("source", source, SAMPLED), access(screen, COLOR)],
     );
-    pass.bindings = vec![bound("source", source, SAMPLED.2, Some(Filter::Nearest))];
     pass.params = vec![Param { name: "white_point".into(), value: framewright_graph::frame::ParamValue::Number(0.1) }];
     let covered = attachment(screen, COLOR.2, LoadOp::DontCare, StoreOp::Store, "`tonemap` covers it; it is an output");
     let barriers = vec![
@@ -169,14 +188,15 @@ pub(crate) fn tone_map(source: &Image, written: State, screen: &Image, step_numb
 }
 
 pub(crate) fn plan(images: Vec<Image>, heap_bytes: u64, steps: Vec<Step>) -> Plan {
-    let outputs =
-        images.iter().filter(|image| matches!(image.role, Role::Output { .. })).map(|image| image.id).collect();
+    let outputs = images.iter().filter(|image| matches!(image.role, Role::External { .. }));
+    let outputs = outputs.map(|image| Resource::Image(image.id)).collect();
     let heap = Heap { bytes: heap_bytes, alignment: HEAP_ALIGNMENT, type_bits: 0b1, lazily_allocated: false };
     let mut plan = Plan {
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: "made up".to_owned(), exact_memory: false },
         settings: vec![SettingUsed { name: "msaa".into(), value: "4".to_owned() }],
         images,
+        buffers: Vec::new(),
         heaps: vec![heap],
         steps,
         outputs,
@@ -186,7 +206,7 @@ pub(crate) fn plan(images: Vec<Image>, heap_bytes: u64, steps: Vec<Step>) -> Pla
             text: "begins a scope of its own: it samples what the scope before it writes".to_owned(),
             at: Some(Place { file: "pipeline.ron".into(), line: 40, column: 9 }),
         }],
-        totals: Totals { output_bytes: 8192, ..Totals::default() },
+        totals: Totals { kept_bytes: 8192, ..Totals::default() },
     };
     super::recount(&mut plan);
     plan

@@ -18,11 +18,9 @@ pub(crate) fn plan() -> Plan {
     let screen = output(3, "screen", Format::R8G8B8A8_SRGB, Usage::COLOR_ATTACHMENT | Usage::TRANSFER_SRC);
     let [written, read, both]: [State; 3] = [(CS, WRITE, GENERAL), (CS, READ, GENERAL), (CS, READ | WRITE, GENERAL)];
 
-    let sow = dispatch("sow", 10, vec![bound("target", &seed, GENERAL, None)], vec![access(&seed, written)]);
-    let bindings = vec![bound("field", &seed, GENERAL, None), bound("target", &grown, GENERAL, None)];
-    let grow = dispatch("grow", 20, bindings, vec![access(&seed, both), access(&grown, written)]);
-    let bindings = vec![bound("source", &grown, GENERAL, None), bound("target", &blurred, GENERAL, None)];
-    let blur = dispatch("blur", 30, bindings, vec![access(&grown, read), access(&blurred, written)]);
+    let sow = dispatch("sow", 10, vec![storage("target", &seed, written)]);
+    let grow = dispatch("grow", 20, vec![storage("field", &seed, both), storage("target", &grown, written)]);
+    let blur = dispatch("blur", 30, vec![storage("source", &grown, read), storage("target", &blurred, written)]);
 
     let mut steps = vec![
         // In the frame before, the memory belonged to `blurred`, which `tonemap` samples.
@@ -48,7 +46,8 @@ pub(crate) fn plan() -> Plan {
         src_accesses: WRITE,
         dst_stages: CS,
         dst_accesses: READ,
-        hand_overs: vec![[seed.id, blurred.id]],
+        hand_overs: vec![[Resource::Image(seed.id), Resource::Image(blurred.id)]],
+        buffers: Vec::new(),
     });
     steps.extend(tone_map(&blurred, written, &screen, 3));
     super::build::plan(vec![seed, grown, blurred, screen], 32768, steps)

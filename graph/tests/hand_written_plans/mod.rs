@@ -5,7 +5,7 @@ mod compute_chain;
 mod multisampled;
 mod read_only_depth;
 
-use framewright_graph::plan::{Image, Placement, Plan, Role, StepId, Totals};
+use framewright_graph::plan::{Buffer, Image, Placement, Plan, Role, StepId, Totals};
 
 /// All of them.
 pub(crate) fn all() -> [(&'static str, Plan); 3] {
@@ -18,7 +18,8 @@ pub(crate) fn all() -> [(&'static str, Plan); 3] {
 
 /// Makes the totals right again after a change, so that they don't give it away.
 pub(crate) fn recount(plan: &mut Plan) {
-    let placements: Vec<&Placement> = plan.images.iter().filter_map(placement).collect();
+    let placements: Vec<&Placement> =
+        plan.images.iter().filter_map(placement).chain(plan.buffers.iter().filter_map(buffer_placement)).collect();
     let live = |step: u32| {
         let alive = |placement: &&&Placement| (placement.lifetime[0].0..=placement.lifetime[1].0).contains(&step);
         placements.iter().filter(alive).map(|placement| placement.bytes).sum::<u64>()
@@ -27,15 +28,23 @@ pub(crate) fn recount(plan: &mut Plan) {
         transient_bytes: placements.iter().map(|placement| placement.bytes).sum(),
         placed_bytes: plan.heaps.iter().map(|heap| heap.bytes).sum(),
         live_peak_bytes: (0..plan.steps.len() as u32).map(live).max().unwrap_or(0),
-        output_bytes: plan.totals.output_bytes,
+        kept_bytes: plan.totals.kept_bytes,
         ..Totals::count(&plan.steps)
     };
 }
 
 pub(crate) fn placement(image: &Image) -> Option<&Placement> {
-    match &image.role {
+    placed(&image.role)
+}
+
+fn buffer_placement(buffer: &Buffer) -> Option<&Placement> {
+    placed(&buffer.role)
+}
+
+fn placed(role: &Role) -> Option<&Placement> {
+    match role {
         Role::Transient(placement) => Some(placement),
-        Role::Output { .. } => None,
+        Role::External { .. } | Role::Persistent { .. } => None,
     }
 }
 

@@ -4,7 +4,7 @@ use super::build::*;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Draw, DrawList};
 use framewright_graph::plan::*;
-use framewright_graph::vocabulary::{Accesses, CompareOp, Filter, Layout, LoadOp, Stages, StoreOp, Usage};
+use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, LoadOp, Stages, StoreOp, Usage};
 
 const READ: Accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_READ;
 const WRITE: Accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE;
@@ -27,10 +27,9 @@ pub(crate) fn plan() -> Plan {
     let only_tested = DepthState { test: CompareOp::GreaterOrEqual, write: false };
     let tested = access(&depth, (TESTS, READ, READ_ONLY));
     let kept = || attachment(&depth, READ_ONLY, LoadOp::Load, StoreOp::None, "it is only tested and sampled");
-    let sampled: State = (SAMPLED.0, SAMPLED.1, READ_ONLY);
-    let accesses = vec![access(&color, COLOR), tested, access(&depth, sampled)];
-    let mut soft = draw("soft", 20, objects, &[Blend::Replace], Some(only_tested), accesses);
-    soft.bindings = vec![bound("depth", &depth, READ_ONLY, Some(Filter::Nearest))];
+    let read: State = (SAMPLED.0, SAMPLED.1, READ_ONLY);
+    let accesses = vec![access(&color, COLOR), tested.clone(), sampled("depth", &depth, read)];
+    let soft = draw("soft", 20, objects, &[Blend::Replace], Some(only_tested), accesses);
     let cleared = attachment(&color, COLOR.2, LoadOp::Clear, StoreOp::Store, "`soft` clears it; `glass` reads it");
 
     let blended: State = (COLOR.0, Accesses::COLOR_ATTACHMENT_READ | Accesses::COLOR_ATTACHMENT_WRITE, COLOR.2);

@@ -21,6 +21,7 @@ fn with_redundant_barriers() -> Plan {
         dst_stages: Stages::ALL_COMMANDS,
         dst_accesses: Accesses::MEMORY_READ | Accesses::MEMORY_WRITE,
         hand_overs: Vec::new(),
+        buffers: Vec::new(),
     });
     let again = ImageBarrier { old_layout: Layout::TransferSrcOptimal, ..plan.steps[2].image_barriers[0].clone() };
     let mut step = plan.steps[2].clone();

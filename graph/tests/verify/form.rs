@@ -3,7 +3,7 @@
 use crate::hand_written_plans;
 use framewright_graph::format::Format;
 use framewright_graph::frame::Blend;
-use framewright_graph::plan::{Plan, PlanError, RenderScope, Role, Work};
+use framewright_graph::plan::{Plan, PlanError, RenderScope, Resource, Role, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Accesses, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage};
 use serde_json::Value;
@@ -25,13 +25,16 @@ fn scope(plan: &mut Plan, step: usize) -> &mut RenderScope {
 fn every_mistake_of_form_is_said() {
     type Change = fn(&mut Plan);
     let changes: &[(Change, &str)] = &[
-        (|plan| plan.format_version = 2, "format version 2 is not known"),
+        (|plan| plan.format_version = 1, "format version 1 is not known"),
         (|plan| plan.images[1].name = "color".into(), "`color`: has the name of another image"),
         (|plan| plan.images[0].extent[0] = 0, "`color`: is empty"),
         (|plan| plan.images[3].mips = 20, "`screen`: has more mip levels than its size allows"),
         (|plan| plan.images[0].samples = 3, "`color`: has a sample count that is not"),
         (|plan| plan.images[2].usage = Usage::SAMPLED, "is used as COLOR_ATTACHMENT, which its usage leaves out"),
-        (|plan| plan.outputs.clear(), "`screen`: has an output's role and is not listed as an output"),
+        (
+            |plan| plan.outputs.push(Resource::Image(framewright_graph::plan::ImageId(2))),
+            "`color.resolved`: is listed as an output and is transient",
+        ),
         (|plan| plan.heaps[0].bytes = 1024, "reaches beyond heap 0, which has 1024 bytes"),
         (|plan| plan.heaps[0].type_bits = 0b100, "accepts the memory types 0b11, its heap may be of 0b100"),
         (|plan| plan.heaps[0].lazily_allocated = true, "lies in lazily allocated memory"),
@@ -47,8 +50,14 @@ fn every_mistake_of_form_is_said() {
         (|plan| scope(plan, 0).passes[0].blend = vec![Blend::Alpha], "doesn't list its COLOR_ATTACHMENT_READ"),
         (|plan| scope(plan, 0).passes[0].accesses.clear(), "doesn't list its COLOR_ATTACHMENT_WRITE"),
         (|plan| scope(plan, 0).passes[0].draw = None, "is in a rendering scope and draws nothing"),
-        (|plan| scope(plan, 1).passes[0].bindings.clear(), "is accessed by a shader without such a binding"),
-        (|plan| scope(plan, 1).passes[0].accesses.truncate(0), "is bound without such an access"),
+        (|plan| scope(plan, 1).passes[0].accesses[0].binding = None, "is accessed by a shader without such a binding"),
+        (
+            |plan| {
+                let sampled = scope(plan, 1).passes[0].accesses[0].binding.clone();
+                scope(plan, 1).passes[0].accesses[1].binding = sampled;
+            },
+            "is bound without such an access",
+        ),
         (|plan| scope(plan, 1).passes[0].name = "sky".into(), "a pass has the name of another pass"),
         (|plan| plan.images[2].format = Format::R8G8B8A8_UNORM, "is the target of a resolve from another format"),
         (
@@ -64,7 +73,7 @@ fn every_mistake_of_form_is_said() {
         ),
         (
             |plan| {
-                let mut sampled = scope(plan, 1).passes[0].accesses[0];
+                let mut sampled = scope(plan, 1).passes[0].accesses[0].clone();
                 sampled.image = framewright_graph::plan::ImageId(3);
                 scope(plan, 1).passes[0].accesses.push(sampled);
             },
@@ -137,8 +146,8 @@ fn a_text_that_is_no_plan_is_refused_with_its_reason() {
         Plan::from_json(&text.replacen(from, to, 1)).expect_err(to).to_string()
     };
     assert_eq!(
-        changed("\"format_version\": 1", "\"format_version\": 7"),
-        "the Plan has format version 7, this program reads version 1: compile it again"
+        changed("\"format_version\": 2", "\"format_version\": 7"),
+        "the Plan has format version 7, this program reads version 2: compile it again"
     );
     assert_eq!(changed("\"id\": 0", "\"id\": 9"), "images[0] has the id 9: ids are indices");
     assert_eq!(changed("\"heap\": 0", "\"heap\": 5"), "images[0] `color` names heaps[5], but there are only 1");
@@ -210,9 +219,9 @@ fn names_from_files_are_shown_without_control_characters() {
 #[test]
 fn a_plan_without_steps_is_refused() {
     let mut plan = multisampled();
-    plan.images.retain(|image| matches!(image.role, Role::Output { .. }));
+    plan.images.retain(|image| matches!(image.role, Role::External { .. }));
     plan.images[0].id.0 = 0;
-    plan.outputs = vec![plan.images[0].id];
+    plan.outputs = vec![Resource::Image(plan.images[0].id)];
     plan.steps.clear();
     plan.notes.clear();
     let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();

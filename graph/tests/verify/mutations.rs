@@ -178,7 +178,10 @@ fn attachments(plan: &mut Plan) -> impl Iterator<Item = (usize, &mut Attachment)
             Work::Render(scope) => Some(scope),
             _ => None,
         };
-        scope.into_iter().flat_map(|scope| scope.color.iter_mut().chain(&mut scope.depth)).map(move |of| (step, of))
+        scope
+            .into_iter()
+            .flat_map(|scope| scope.color.iter_mut().chain(&mut scope.depth).chain(&mut scope.stencil))
+            .map(move |of| (step, of))
     })
 }
 
@@ -205,7 +208,7 @@ fn with_lost_contents(plan: &Plan) -> Vec<Mutant> {
 
 /// Whether it names both steps, the image and the part of it, in its data and in its sentence.
 pub(crate) fn names_all(violation: &Violation) -> bool {
-    let Violation { step: Some(step), other: Some(other), image: Some(image), range: Some(range), .. } = violation
+    let Violation { step: Some(step), other: Some(other), resource: Some(image), range: Some(range), .. } = violation
     else {
         return false;
     };

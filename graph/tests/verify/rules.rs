@@ -1,8 +1,6 @@
 //! The rules of synchronisation, one by one, on dispatches that share two images.
 
-use crate::hand_written_plans::build::{
-    self, State, UNDEFINED, access, barrier, between, bound, dispatch, step, transient,
-};
+use crate::hand_written_plans::build::{self, State, UNDEFINED, barrier, between, dispatch, step, storage, transient};
 use framewright_graph::format::Format;
 use framewright_graph::plan::{Hazard, Image, ImageBarrier, MemoryBarrier, Plan, Role, Step, Subresources, Work};
 use framewright_graph::verify::{Rule, Violation, verify};
@@ -27,13 +25,12 @@ fn images(steps: u32) -> [Image; 2] {
 
 /// A dispatch that does this to the images.
 fn uses(name: &str, line: u32, of: &[(&Image, State)]) -> Work {
-    let bindings = of.iter().map(|(image, state)| bound(&image.name, image, state.2, None)).collect();
-    Work::Dispatch(dispatch(name, line, bindings, of.iter().map(|(image, state)| access(image, *state)).collect()))
+    Work::Dispatch(dispatch(name, line, of.iter().map(|(image, state)| storage(&image.name, image, *state)).collect()))
 }
 
 fn memory(src: (Stages, Accesses), dst: (Stages, Accesses)) -> MemoryBarrier {
     let [(src_stages, src_accesses), (dst_stages, dst_accesses)] = [src, dst];
-    MemoryBarrier { src_stages, src_accesses, dst_stages, dst_accesses, hand_overs: Vec::new() }
+    MemoryBarrier { src_stages, src_accesses, dst_stages, dst_accesses, hand_overs: Vec::new(), buffers: Vec::new() }
 }
 
 /// The first barrier on an image: waits for all of the frame before.
@@ -145,7 +142,7 @@ fn what_only_goes_wrong_in_the_next_frame_is_found() {
     let [a, _] = &images;
     let hasty = barrier(a, (Stages::COPY, NONE), UNDEFINED, WRITES, Hazard::FirstUse, None);
     let violation = only(verify(&plan_of(&images, vec![step(vec![hasty], uses("write", 1, &[(a, WRITES)]))])));
-    assert!(violation.other.as_ref().is_some_and(|other| other.frame_before), "{violation}");
+    assert!(violation.other.as_ref().is_some_and(|other| other.frames_ago == 1), "{violation}");
     assert!(violation.to_string().contains("by step 0 `write` of the frame before"), "{violation}");
 }
 
@@ -161,7 +158,6 @@ fn each_mip_level_is_followed_on_its_own() {
         if let Work::Dispatch(pass) = &mut work {
             for (at, (mip, _)) in uses_of.iter().enumerate() {
                 pass.accesses[at].range = level(*mip);
-                pass.bindings[at].range = level(*mip);
             }
         }
         work

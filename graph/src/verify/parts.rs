@@ -1,0 +1,213 @@
+//! Which cells stand for which parts of images.
+//!
+//! Parts that every range of the Plan names together are one cell: an image that is only used as a whole has one, a mip
+//! chain that is built level by level has one a level. So the work grows with what the Plan tells apart, not with the
+//! number of subresources. Images and buffers are numbered in one row, buffers after images; a buffer is one cell.
+
+use crate::plan::{Image, Plan, Role, Subresources};
+use crate::vocabulary::Aspects;
+use std::collections::BTreeMap;
+
+/// A range of an image that steps name; the whole of an image or buffer is the range 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct RangeId(u32);
+
+impl RangeId {
+    /// All of whatever image or buffer.
+    pub(super) const WHOLE: RangeId = RangeId(0);
+}
+
+/// Ranges that are less than their images, before they are cut.
+#[derive(Debug, Default)]
+pub(super) struct Ranges {
+    ranges: Vec<(u32, Subresources)>,
+}
+
+/// The cells of all images and buffers.
+#[derive(Debug)]
+pub(super) struct Parts {
+    /// The first cell of each image and buffer, and behind all of them the number of cells.
+    first: Vec<u32>,
+    grids: BTreeMap<u32, Grid>,
+    /// For each range, where its cells stand in `listed`.
+    ranges: Vec<[u32; 2]>,
+    listed: Vec<u32>,
+}
+
+/// The cells of a range: numbers, or places in a list of numbers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    next: u32,
+    end: u32,
+    listed: bool,
+}
+
+/// Where the cells of an image are cut.
+#[derive(Debug, Clone)]
+struct Grid {
+    /// First level of each part, rising, then the number of levels.
+    mips: Vec<u32>,
+    /// First layer of each part, rising, then the number of layers.
+    layers: Vec<u32>,
+    /// Planes.
+    planes: Vec<Aspects>,
+}
+
+/// Whether two ranges of one image share anything.
+pub(super) fn overlap(one: Subresources, other: Subresources) -> bool {
+    let meet = |base: u32, count: u32, other_base: u32, other_count: u32| {
+        base < other_base.saturating_add(other_count) && other_base < base.saturating_add(count)
+    };
+    one.aspects.intersects(other.aspects)
+        && meet(one.base_mip, one.mips, other.base_mip, other.mips)
+        && meet(one.base_layer, one.layers, other.base_layer, other.layers)
+}
+
+/// Whether a range lies within its image.
+pub(super) fn fits(image: &Image, range: Subresources) -> bool {
+    let within = |base: u32, count: u32, all: u32| count > 0 && base.checked_add(count).is_some_and(|end| end <= all);
+    !range.aspects.is_empty()
+        && image.format.aspects().contains(range.aspects)
+        && within(range.base_mip, range.mips, image.mips)
+        && within(range.base_layer, range.layers, image.layers)
+}
+
+impl Ranges {
+    /// The number of a range that lies within its image.
+    pub(super) fn number(&mut self, image: &Image, range: Subresources) -> RangeId {
+        if range == Subresources::all(image.format, image.mips, image.layers) {
+            return RangeId::WHOLE;
+        }
+        // Steps name the same range several times in a row.
+        if self.ranges.last() != Some(&(image.id.0, range)) {
+            self.ranges.push((image.id.0, range));
+        }
+        RangeId(self.ranges.len() as u32)
+    }
+
+    /// The range with this number; `None`: the whole of whatever image.
+    pub(super) fn get(&self, range: RangeId) -> Option<Subresources> {
+        let index = range.0.checked_sub(1)?;
+        Some(self.ranges[index as usize].1)
+    }
+}
+
+impl Grid {
+    fn whole(image: &Image) -> Grid {
+        let planes = image.format.aspects().iter().collect();
+        Grid { mips: vec![0, image.mips], layers: vec![0, image.layers], planes }
+    }
+
+    fn cut(&mut self, range: Subresources) {
+        self.mips.extend([range.base_mip, range.base_mip + range.mips]);
+        self.layers.extend([range.base_layer, range.base_layer + range.layers]);
+    }
+
+    fn sort(&mut self) {
+        for cuts in [&mut self.mips, &mut self.layers] {
+            cuts.sort_unstable();
+            cuts.dedup();
+        }
+    }
+
+    fn count(&self) -> u32 {
+        ((self.mips.len() - 1) * (self.layers.len() - 1) * self.planes.len()) as u32
+    }
+
+    /// Adds the cells of `range`, counted from `first`, to `listed`.
+    fn list(&self, first: u32, range: Subresources, listed: &mut Vec<u32>) {
+        let part = |cuts: &[u32], base: u32, count: u32| {
+            cuts.partition_point(|cut| *cut < base)..cuts.partition_point(|cut| *cut < base + count)
+        };
+        let [mips, layers] = [self.mips.len() - 1, self.layers.len() - 1];
+        for (plane, aspect) in self.planes.iter().enumerate() {
+            if !range.aspects.intersects(*aspect) {
+                continue;
+            }
+            for layer in part(&self.layers, range.base_layer, range.layers) {
+                for mip in part(&self.mips, range.base_mip, range.mips) {
+                    listed.push(first + ((plane * layers + layer) * mips + mip) as u32);
+                }
+            }
+        }
+    }
+}
+
+impl Parts {
+    /// Cells, cut so that each of `ranges` is made of whole cells. Images that become each other are cut alike.
+    pub(super) fn new(plan: &Plan, ranges: &Ranges) -> Parts {
+        let mut grids = BTreeMap::new();
+        for (id, range) in &ranges.ranges {
+            let mut image = *id;
+            loop {
+                let described = &plan.images[image as usize];
+                grids.entry(image).or_insert_with(|| Grid::whole(described)).cut(*range);
+                match described.role {
+                    Role::Persistent { becomes, .. } if becomes != *id => image = becomes,
+                    _ => break,
+                }
+            }
+        }
+        grids.values_mut().for_each(Grid::sort);
+        let resources = plan.images.len() + plan.buffers.len();
+        let mut first = Vec::with_capacity(resources + 1);
+        let mut cells = 0;
+        for resource in 0..resources as u32 {
+            first.push(cells);
+            cells += grids.get(&resource).map_or(1, Grid::count);
+        }
+        first.push(cells);
+        let mut parts = Parts { first, grids, ranges: vec![[0, 0]], listed: Vec::new() };
+        for (image, range) in &ranges.ranges {
+            let start = parts.listed.len() as u32;
+            parts.grids[image].list(parts.first[*image as usize], *range, &mut parts.listed);
+            parts.ranges.push([start, parts.listed.len() as u32]);
+        }
+        parts
+    }
+
+    /// How many cells there are.
+    pub(super) fn count(&self) -> usize {
+        self.first.last().map_or(0, |cells| *cells as usize)
+    }
+
+    /// The cells of a range of an image, or of a buffer.
+    pub(super) fn of(&self, resource: u32, range: RangeId) -> Part {
+        if range == RangeId::WHOLE {
+            return self.whole(resource);
+        }
+        let [next, end] = self.ranges[range.0 as usize];
+        Part { next, end, listed: true }
+    }
+
+    /// Every cell of an image or buffer.
+    pub(super) fn whole(&self, resource: u32) -> Part {
+        Part { next: self.first[resource as usize], end: self.first[resource as usize + 1], listed: false }
+    }
+
+    /// The next cell of a part.
+    pub(super) fn next(&self, part: &mut Part) -> Option<usize> {
+        let place = part.next;
+        (place < part.end).then(|| {
+            part.next += 1;
+            if part.listed { self.listed[place as usize] as usize } else { place as usize }
+        })
+    }
+
+    /// The part of `image` that a cell stands for.
+    pub(super) fn range(&self, image: &Image, cell: usize) -> Subresources {
+        let Some(grid) = self.grids.get(&image.id.0) else {
+            return Subresources::all(image.format, image.mips, image.layers);
+        };
+        let index = cell - self.first[image.id.0 as usize] as usize;
+        let [mips, layers] = [grid.mips.len() - 1, grid.layers.len() - 1];
+        let (mip, layer) = (index % mips, index / mips % layers);
+        Subresources {
+            aspects: grid.planes[index / (mips * layers)],
+            base_mip: grid.mips[mip],
+            mips: grid.mips[mip + 1] - grid.mips[mip],
+            base_layer: grid.layers[layer],
+            layers: grid.layers[layer + 1] - grid.layers[layer],
+        }
+    }
+}

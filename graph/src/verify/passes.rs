@@ -1,0 +1,248 @@
+//! Whether each pass is well formed: what it draws or dispatches, and what it accesses.
+
+use super::barriers::{check_scope, planes, possible};
+use super::touches::{ATTACHMENT, attachments};
+use super::work::{Check, is_read_only, is_written};
+use crate::frame::{Blend, BufferRole, Draw, Groups};
+use crate::plan::names::{Shown, vulkan};
+use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Pass, RenderScope};
+use crate::vocabulary::{Accesses, CompareOp, Filter, Layout, Stages, StencilOp};
+
+const STORAGE: Accesses = Accesses::SHADER_STORAGE_READ.union(Accesses::SHADER_STORAGE_WRITE);
+const SHADER: Accesses = STORAGE.union(Accesses::SHADER_SAMPLED_READ).union(Accesses::INPUT_ATTACHMENT_READ);
+const TRANSFER: Accesses = Accesses::TRANSFER_READ.union(Accesses::TRANSFER_WRITE);
+const SHADERS: Stages = Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER);
+const TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
+
+impl<'p> Check<'_, 'p> {
+    pub(super) fn draw(&mut self, scope: &RenderScope, pass: &'p Pass) {
+        self.named(&pass.name);
+        if pass.draw.is_none() || pass.groups.is_some() {
+            self.wrong_pass(pass, "is in a rendering scope and draws nothing");
+        }
+        if pass.blend.len() != scope.color.len() {
+            self.wrong_pass(pass, "doesn't say how each colour attachment is blended");
+        }
+        let local = attachments(scope).any(|(attachment, _)| attachment.layout == Layout::RenderingLocalReadKhr);
+        for (attachment, blend) in scope.color.iter().zip(&pass.blend) {
+            let reads = *blend != Blend::Replace;
+            let integer = self.plan.image(attachment.image).format.is_integer();
+            self.demand(!(reads && integer), attachment.image, "has integers, which can't be blended");
+            // A scope with local reads holds the attachments of passes that draw to different ones.
+            let drawn = !local || !listed(pass, attachment).is_empty();
+            if drawn {
+                let read = if reads { Accesses::COLOR_ATTACHMENT_READ } else { Accesses::empty() };
+                self.attached(pass, attachment, Accesses::COLOR_ATTACHMENT_WRITE | read);
+            }
+        }
+        self.depth(scope, pass);
+        self.stencil(scope, pass);
+        let tests = if scope.depth.is_some() || scope.stencil.is_some() { TESTS } else { Stages::empty() };
+        let graphics = SHADERS | tests | Stages::COLOR_ATTACHMENT_OUTPUT;
+        for access in &pass.accesses {
+            self.access(access, graphics, ATTACHMENT | SHADER);
+            let attached = attachments(scope).any(|(attachment, _)| {
+                (attachment.image, attachment.range, attachment.layout) == (access.image, access.range, access.layout)
+            });
+            let stray = access.accesses.intersects(ATTACHMENT) && !attached;
+            self.demand(!stray, access.image, "is accessed as an attachment that its scope doesn't have");
+        }
+        let indexed = pass.buffers.iter().any(|access| access.role == Some(BufferRole::Index));
+        if let (Some(Draw::Vertices { count, .. }), true) = (pass.draw, indexed) {
+            self.holds(pass, BufferRole::Index, u64::from(count) * 4);
+        }
+        if pass.draw == Some(Draw::Indirect) {
+            self.holds(pass, BufferRole::Indirect, if indexed { 20 } else { 16 });
+        }
+        self.buffers(pass, SHADERS | Stages::VERTEX_INPUT | Stages::DRAW_INDIRECT);
+    }
+
+    fn depth(&mut self, scope: &RenderScope, pass: &Pass) {
+        let (state, attachment) = match (&pass.depth, &scope.depth) {
+            (Some(state), Some(attachment)) => (state, attachment),
+            (Some(_), None) => return self.wrong_pass(pass, "tests depth without a depth attachment"),
+            (None, _) => return,
+        };
+        let tests = !matches!(state.test, CompareOp::Always | CompareOp::Never);
+        self.plane(pass, attachment, tests, state.write);
+    }
+
+    fn stencil(&mut self, scope: &RenderScope, pass: &Pass) {
+        let (state, attachment) = match (&pass.stencil, &scope.stencil) {
+            (Some(state), Some(attachment)) => (state, attachment),
+            (Some(_), None) => return self.wrong_pass(pass, "tests stencil without a stencil attachment"),
+            (None, _) => return,
+        };
+        let tests = !matches!(state.test, CompareOp::Always | CompareOp::Never);
+        let counts = !matches!(state.pass, StencilOp::Keep | StencilOp::Zero | StencilOp::Replace);
+        self.plane(pass, attachment, tests || counts, state.pass != StencilOp::Keep);
+    }
+
+    /// Whether `pass` lists what it does to the depth or stencil attachment.
+    fn plane(&mut self, pass: &Pass, attachment: &Attachment, reads: bool, writes: bool) {
+        let read = if reads { Accesses::DEPTH_STENCIL_ATTACHMENT_READ } else { Accesses::empty() };
+        let write = if writes { Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE } else { Accesses::empty() };
+        self.attached(pass, attachment, read | write);
+        // It may be tested and written before the fragment shader and after it: an access in one isn't the whole.
+        let same = |access: &&Access| access.image == attachment.image && access.range == attachment.range;
+        let mut accesses = pass.accesses.iter().filter(same);
+        let partial = accesses.any(|access| access.accesses.intersects(ATTACHMENT) && !access.stages.contains(TESTS));
+        self.demand(!partial, attachment.image, "is tested in EARLY_FRAGMENT_TESTS and LATE_FRAGMENT_TESTS alike");
+        let written = writes && is_read_only(attachment.layout);
+        self.demand(!written, attachment.image, "is attached read-only and written");
+    }
+
+    /// Whether `pass` says that it makes these accesses to an attachment.
+    fn attached(&mut self, pass: &Pass, attachment: &Attachment, wanted: Accesses) {
+        let listed = listed(pass, attachment);
+        if !listed.contains(wanted) {
+            let what = format!("pass `{}` doesn't list its {}", Shown(&pass.name), vulkan(&(wanted - listed)));
+            self.wrong(attachment.image, what);
+        }
+    }
+
+    pub(super) fn dispatch(&mut self, pass: &'p Pass) {
+        self.outside(pass);
+        match pass.groups {
+            None => self.wrong_pass(pass, "is a dispatch and doesn't say of how many workgroups"),
+            Some(Groups::Indirect { offset }) => {
+                if !offset.is_multiple_of(4) {
+                    self.wrong_pass(pass, "reads its counts from an offset that is no multiple of 4");
+                }
+                self.holds(pass, BufferRole::Indirect, offset.saturating_add(12));
+            }
+            Some(Groups::Count(_) | Groups::Invocations(_)) => {}
+        }
+        for access in &pass.accesses {
+            self.access(access, Stages::COMPUTE_SHADER, STORAGE | Accesses::SHADER_SAMPLED_READ);
+        }
+        self.buffers(pass, Stages::COMPUTE_SHADER | Stages::DRAW_INDIRECT);
+    }
+
+    pub(super) fn custom(&mut self, pass: &'p Pass) {
+        self.outside(pass);
+        if pass.groups.is_some() {
+            self.wrong_pass(pass, "is recorded by the program and has workgroups");
+        }
+        let transfers = Stages::COPY | Stages::RESOLVE | Stages::BLIT | Stages::CLEAR | Stages::ALL_COMMANDS;
+        let possible = possible(self.queue) & (SHADERS | Stages::COMPUTE_SHADER | transfers);
+        for access in &pass.accesses {
+            self.access(access, possible, STORAGE | Accesses::SHADER_SAMPLED_READ | TRANSFER);
+        }
+        self.buffers(pass, possible | Stages::VERTEX_INPUT | Stages::DRAW_INDIRECT);
+    }
+
+    /// A pass outside of rendering scopes.
+    fn outside(&mut self, pass: &'p Pass) {
+        self.named(&pass.name);
+        let drawn = pass.draw.is_some() || !pass.blend.is_empty() || pass.depth.is_some() || pass.stencil.is_some();
+        if drawn || pass.local_barrier || pass.merged.is_some() {
+            self.wrong_pass(pass, "is no draw and has the state of one");
+        }
+    }
+
+    fn access(&mut self, access: &Access, stages: Stages, accesses: Accesses) {
+        check_scope(self.id, Some(access.image.0), access.stages, access.accesses, self.found);
+        if access.stages.is_empty() || access.accesses.is_empty() || !stages.contains(access.stages) {
+            self.wrong(access.image, format!("is accessed in {}", vulkan(&access.stages)));
+        }
+        self.demand(accesses.contains(access.accesses), access.image, "is accessed as a pass can't");
+        let read_only = access.accesses.writes().is_empty();
+        let sampled = Accesses::SHADER_SAMPLED_READ | Accesses::INPUT_ATTACHMENT_READ;
+        let fits = match access.layout {
+            Layout::General => true,
+            layout if is_read_only(layout) => {
+                (Accesses::DEPTH_STENCIL_ATTACHMENT_READ | sampled).contains(access.accesses)
+            }
+            layout if is_written(layout) => ATTACHMENT.contains(access.accesses),
+            Layout::RenderingLocalReadKhr => (ATTACHMENT | Accesses::INPUT_ATTACHMENT_READ).contains(access.accesses),
+            Layout::ShaderReadOnlyOptimal => sampled.contains(access.accesses),
+            Layout::TransferSrcOptimal => access.accesses == Accesses::TRANSFER_READ,
+            Layout::TransferDstOptimal => access.accesses == Accesses::TRANSFER_WRITE,
+            _ => false,
+        };
+        let planes = planes(access.layout, self.plan.image(access.image).format.aspects());
+        let what = if read_only { "can't be read so in its layout" } else { "can't be written so in its layout" };
+        self.demand(fits && planes.contains(access.range.aspects), access.image, what);
+        self.binding(access);
+    }
+
+    /// Each shader access is bound as what it is, and nothing else is bound.
+    fn binding(&mut self, access: &Access) {
+        let of_shader = access.accesses & SHADER;
+        let Some(binding) = &access.binding else {
+            self.demand(of_shader.is_empty(), access.image, "is accessed by a shader without such a binding");
+            return;
+        };
+        let possible = match binding.kind {
+            BindingKind::Sampled(_) => Accesses::SHADER_SAMPLED_READ,
+            BindingKind::Storage => STORAGE,
+            BindingKind::InputAttachment => Accesses::INPUT_ATTACHMENT_READ,
+        };
+        self.demand(!of_shader.is_empty(), access.image, "is bound without such an access");
+        self.demand(possible.contains(of_shader), access.image, "is accessed by a shader without such a binding");
+        let linear = binding.kind == BindingKind::Sampled(Filter::Linear);
+        let integer = self.plan.image(access.image).format.is_integer();
+        self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
+    }
+
+    fn buffers(&mut self, pass: &Pass, stages: Stages) {
+        for access in &pass.buffers {
+            self.buffer(access, stages);
+        }
+    }
+
+    fn buffer(&mut self, access: &BufferAccess, possible: Stages) {
+        let resource = Some(self.plan.images.len() as u32 + access.buffer.0);
+        check_scope(self.id, resource, access.stages, access.accesses, self.found);
+        let of = |on: bool, access: Accesses| if on { access } else { Accesses::empty() };
+        let (stages, accesses) = match access.role {
+            Some(BufferRole::Uniform) => (SHADERS | Stages::COMPUTE_SHADER, Accesses::UNIFORM_READ),
+            Some(BufferRole::Storage { read, write }) => (
+                SHADERS | Stages::COMPUTE_SHADER,
+                of(read, Accesses::SHADER_STORAGE_READ) | of(write, Accesses::SHADER_STORAGE_WRITE),
+            ),
+            Some(BufferRole::Vertex) => (Stages::VERTEX_INPUT, Accesses::VERTEX_ATTRIBUTE_READ),
+            Some(BufferRole::Index) => (Stages::VERTEX_INPUT, Accesses::INDEX_READ),
+            Some(BufferRole::Indirect) => (Stages::DRAW_INDIRECT, Accesses::INDIRECT_COMMAND_READ),
+            None => (Stages::all(), access.accesses & TRANSFER),
+        };
+        if access.stages.is_empty() || !(stages & possible).contains(access.stages) {
+            let what = format!("is accessed in {}", vulkan(&access.stages));
+            self.found.structure(Some(self.id), resource, what);
+        }
+        if access.accesses.is_empty() || access.accesses != accesses {
+            let what = format!("is accessed by {}, which isn't what it is for", vulkan(&access.accesses));
+            self.found.structure(Some(self.id), resource, what);
+        }
+        let named = matches!(access.role, Some(BufferRole::Uniform | BufferRole::Storage { .. }));
+        if named != access.binding.is_some() {
+            self.found.structure(Some(self.id), resource, "has a shader's name exactly if a shader names it");
+        }
+    }
+
+    /// Whether the pass has one buffer for this, with so many bytes at least.
+    fn holds(&mut self, pass: &Pass, role: BufferRole, bytes: u64) {
+        let mut buffers = pass.buffers.iter().filter(|access| access.role == Some(role));
+        match (buffers.next(), buffers.next()) {
+            (Some(access), None) => {
+                let has = self.plan.buffers[access.buffer.0 as usize].bytes;
+                if has < bytes {
+                    let resource = Some(self.plan.images.len() as u32 + access.buffer.0);
+                    let what = format!("has {has} bytes, and pass `{}` reads {bytes}", Shown(&pass.name));
+                    self.found.structure(Some(self.id), resource, what);
+                }
+            }
+            (None, _) => self.wrong_pass(pass, "has no buffer for its counts or indices"),
+            (Some(_), Some(_)) => self.wrong_pass(pass, "has several buffers for its counts or indices"),
+        }
+    }
+}
+
+/// The accesses to an attachment that a pass lists.
+fn listed(pass: &Pass, attachment: &Attachment) -> Accesses {
+    pass.accesses
+        .iter()
+        .filter(|access| access.image == attachment.image && access.range == attachment.range)
+        .fold(Accesses::empty(), |all, access| all | access.accesses & ATTACHMENT)
+}
