@@ -3,23 +3,22 @@
 use crate::accepts::accept;
 use crate::mutations::{names_all, without_a_barrier};
 use crate::raster::{self, Raster, forward, graphs};
-use framewright_graph::compile::{Options, compile};
+use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{D24_UNORM_S8_UINT, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::verify::{Loss, Rule, Violation, verify};
-use framewright_graph::vocabulary::{Layout, LoadOp, Stages};
+use framewright_graph::vocabulary::{Aspects, Layout, LoadOp, Stages};
 
-const OPTIONS: [Options; 4] = [
-    Options { alias: true, poison: false },
-    Options { alias: false, poison: false },
-    Options { alias: true, poison: true },
-    Options { alias: false, poison: true },
-];
+fn options() -> [Options; 5] {
+    let with = |alias, poison| Options { alias, poison, ..Options::default() };
+    let low = Options { order: Order::LowMemory, ..Options::default() };
+    [with(true, false), with(false, false), with(true, true), with(false, true), low]
+}
 
 fn compiled(frame: &Frame, device: &Profile, options: &Options) -> Plan {
-    compile(frame, device, &mut Estimated(&device), options).expect("the frame is legal")
+    compile(frame, device, &mut Estimated(device), options).expect("the frame is legal")
 }
 
 /// Two versions of a multisampled image, each read by others; two outputs.
@@ -45,7 +44,10 @@ fn depth_sampled(samples: u32, format: framewright_graph::format::Format) -> Fra
     raster.full_screen("fog").sample(depth).sample(color).color(screen, Blend::Replace);
     raster.objects("glass").color(screen, Blend::Alpha).test_depth(depth);
     raster.objects("soft").sample(depth).color(screen, Blend::Premultiplied).test_depth(depth);
-    raster.output(screen)
+    let mut frame = raster.output(screen);
+    let sampled = frame.passes.iter_mut().flat_map(|pass| &mut pass.sampled).filter(|sampled| sampled.image == depth);
+    sampled.for_each(|sampled| sampled.range.aspects = Aspects::DEPTH);
+    frame
 }
 
 /// Draws that sample what they draw into, and an image that is read after it was forwarded.
@@ -92,7 +94,7 @@ fn frames() -> Vec<(String, Frame, Profile)> {
 #[test]
 fn compiled_plans_are_accepted() {
     for (name, frame, device) in frames() {
-        for options in OPTIONS {
+        for options in options() {
             accept(&format!("{name} {options:?}"), &compiled(&frame, &device, &options));
         }
     }
