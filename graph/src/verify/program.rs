@@ -106,6 +106,8 @@ pub(super) struct Used {
     pub(super) queue: u8,
     /// The queue of the last one.
     pub(super) last_queue: u8,
+    /// Whether the work of the last one does, not only its barriers.
+    worked: bool,
     /// Whether only one queue at a time may use it.
     pub(super) exclusive: bool,
 }
@@ -165,7 +167,7 @@ impl<'b, 'p> Builder<'b, 'p> {
     pub(super) fn new(plan: &'p Plan, found: &'b mut Findings<'p>) -> Builder<'b, 'p> {
         let used = |sharing| {
             let exclusive = sharing == Sharing::Exclusive;
-            Used { first: u32::MAX, last: 0, queue: 0, last_queue: 0, exclusive }
+            Used { first: u32::MAX, last: 0, queue: 0, last_queue: 0, worked: false, exclusive }
         };
         let sharing = plan.images.iter().map(|image| image.sharing).chain(plan.buffers.iter().map(|it| it.sharing));
         let program = Program {
@@ -216,7 +218,7 @@ impl<'b, 'p> Builder<'b, 'p> {
 
     fn barrier(&mut self, barrier: &ImageBarrier) {
         let Some(range) = self.range(barrier.image, barrier.range) else { return };
-        self.touch(barrier.image.0, Some(barrier.range));
+        self.touch(barrier.image.0, Some(barrier.range), true);
         self.program.barriers.push(Barrier {
             image: barrier.image.0,
             range,
@@ -236,7 +238,7 @@ impl<'b, 'p> Builder<'b, 'p> {
     pub(super) fn image(&mut self, touch: ImageTouch) {
         let ImageTouch { image, range, layout, stages, pairs, kind, contents, usage } = touch;
         let Some(number) = self.range(image, range) else { return };
-        self.touch(image.0, Some(range));
+        self.touch(image.0, Some(range), false);
         let missing = usage.difference(self.plan.image(image).usage);
         if !missing.is_empty() {
             let what = format!("is used as {}, which its usage leaves out", vulkan(&missing));
@@ -249,7 +251,7 @@ impl<'b, 'p> Builder<'b, 'p> {
     pub(super) fn buffer(&mut self, touch: BufferTouch) {
         let BufferTouch { buffer, stages, pairs, contents, usage } = touch;
         let resource = self.plan.images.len() as u32 + buffer.0;
-        self.touch(resource, None);
+        self.touch(resource, None, false);
         let missing = usage.difference(self.plan.buffers[buffer.0 as usize].usage);
         if !missing.is_empty() {
             let what = format!("is used as {}, which its usage leaves out", vulkan(&missing));
@@ -269,16 +271,17 @@ impl<'b, 'p> Builder<'b, 'p> {
         None
     }
 
-    fn touch(&mut self, resource: u32, range: Option<Subresources>) {
+    /// Barriers may stand before the stated lifetime: whether the memory is free by then is found out on the way.
+    fn touch(&mut self, resource: u32, range: Option<Subresources>, barrier: bool) {
         let used = &mut self.program.used[resource as usize];
         if used.steps().is_none() {
-            *used = Used { first: self.step.0, last: self.step.0, queue: self.queue, ..*used };
-        } else if used.last == self.step.0 {
+            *used = Used { first: self.step.0, queue: self.queue, ..*used };
+        } else if used.last == self.step.0 && used.worked {
             return;
         }
-        (used.last, used.last_queue) = (self.step.0, self.queue);
+        (used.last, used.last_queue, used.worked) = (self.step.0, self.queue, !barrier);
         if let Role::Transient(placement) = role(self.plan, resource)
-            && !(placement.lifetime[0]..=placement.lifetime[1]).contains(&self.step)
+            && (self.step > placement.lifetime[1] || !barrier && self.step < placement.lifetime[0])
         {
             let nearest = placement.lifetime[usize::from(self.step > placement.lifetime[1])];
             self.found.push(Finding {
