@@ -14,6 +14,7 @@ pub(crate) struct Caches {
     pub(crate) set_layouts: Cache<Vec<LayoutBinding>, vk::DescriptorSetLayout>,
     pub(crate) pipeline_layouts: Cache<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
     pub(crate) pipelines: Cache<crate::pipeline::PipelineDescriptor, vk::Pipeline>,
+    pub(crate) compute_pipelines: Cache<(crate::shaders::Spirv, vk::PipelineLayout), vk::Pipeline>,
 }
 
 /// One kind of object by its description.
@@ -154,6 +155,7 @@ impl Caches {
         // SAFETY: the caller's promise.
         unsafe {
             self.pipelines.drain().into_iter().for_each(|it| device.destroy_pipeline(it, None));
+            self.compute_pipelines.drain().into_iter().for_each(|it| device.destroy_pipeline(it, None));
             self.pipeline_layouts.drain().into_iter().for_each(|it| device.destroy_pipeline_layout(it, None));
             self.set_layouts.drain().into_iter().for_each(|it| device.destroy_descriptor_set_layout(it, None));
             self.samplers.drain().into_iter().for_each(|it| device.destroy_sampler(it, None));

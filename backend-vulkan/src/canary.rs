@@ -11,7 +11,8 @@ use crate::validation::{Message, MessageKind, Severity};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::format::Format;
-use framewright_graph::plan::Subresources;
+use framewright_graph::frame::Shape;
+use framewright_graph::plan::{Queue, Sharing, Subresources};
 use framewright_graph::vocabulary::Usage;
 use std::sync::Arc;
 
@@ -40,16 +41,18 @@ impl Device {
         let validation = validation.ok_or(Error::NoValidationLayer { layer_path: None })?;
         let descriptor = ImageDescriptor {
             format: Format::R8G8B8A8_UNORM,
+            shape: Shape::D2,
             extent: [EXTENT, EXTENT, 1],
             mips: 1,
             layers: 1,
             samples: 1,
             usage: Usage::TRANSFER_DST | Usage::COLOR_ATTACHMENT,
+            sharing: Sharing::Exclusive,
         };
         let image = Arc::new(Image::with_own_memory(&self.shared, "canary", &descriptor)?);
         let range = Subresources::all(descriptor.format, 1, 1);
         let view = View::new(&image, range, ViewShape::Flat)?;
-        let mut commands = Commands::new(&self.shared)?;
+        let mut commands = Commands::new(&self.shared, Queue::Graphics)?;
         let mut plant = |hazard: &dyn Fn(vk::CommandBuffer)| {
             let (recorded, messages) = validation.messages.apart(|| {
                 commands.record(|buffer| {

@@ -2,85 +2,27 @@
 
 use crate::convert;
 use crate::device::Shared;
+use crate::features::Features;
+use crate::queues::Families;
 use ash::vk;
-use framewright_graph::device::{FormatSupport, ImageDescriptor, MemoryModel, MemoryNeeds, Profile};
+use framewright_graph::device::{
+    BufferDescriptor, FormatSupport, ImageDescriptor, MemoryModel, Profile, Queues,
+};
 use framewright_graph::format::Format;
-use framewright_graph::vocabulary::Usage;
+use framewright_graph::frame::Shape;
+use framewright_graph::plan::Sharing;
+use framewright_graph::vocabulary::{BufferUsage, Usage};
 
 /// The Vulkan version that devices and the loader must have.
 pub const MINIMUM_VERSION: u32 = vk::API_VERSION_1_3;
 
-/// Feature structures in the order in which they are chained.
-#[derive(Default)]
-pub(crate) struct Features {
-    core: vk::PhysicalDeviceFeatures,
-    v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
-}
-
-/// The features that a device must have beside [`MINIMUM_VERSION`], by Vulkan's names.
-pub fn minimum_features() -> impl Iterator<Item = &'static str> {
-    MINIMUM_FEATURES.iter().map(|(name, _)| *name)
-}
-
-/// Reaches one feature's flag.
-type Flag = fn(&mut Features) -> &mut vk::Bool32;
-
-/// The minimum device, feature by feature: Vulkan's name, what needs it, the flag. All of these are switched on.
-const MINIMUM_FEATURES: [(&str, Flag); 9] = [
-    // Rendering scopes without render pass objects.
-    ("dynamicRendering", |it| &mut it.v1_3.dynamic_rendering),
-    // Barriers as the Plan writes them.
-    ("synchronization2", |it| &mut it.v1_3.synchronization2),
-    // Memory needs of images that don't exist yet.
-    ("maintenance4", |it| &mut it.v1_3.maintenance4),
-    // `discard` in SPIR-V 1.6.
-    ("shaderDemoteToHelperInvocation", |it| &mut it.v1_3.shader_demote_to_helper_invocation),
-    ("shaderTerminateInvocation", |it| &mut it.v1_3.shader_terminate_invocation),
-    // What a model file says about vertices can't reach beyond their buffer.
-    ("robustBufferAccess", |it| &mut it.core.robust_buffer_access),
-    // Another blend for each attachment.
-    ("independentBlend", |it| &mut it.core.independent_blend),
-    // Storage images that fragment shaders write.
-    ("fragmentStoresAndAtomics", |it| &mut it.core.fragment_stores_and_atomics),
-    // Fragment shaders that run once a sample.
-    ("sampleRateShading", |it| &mut it.core.sample_rate_shading),
-];
-
-impl Features {
-    /// What `physical` has.
-    pub(crate) fn of(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Features {
-        let mut v1_3 = vk::PhysicalDeviceVulkan13Features::default();
-        let mut all = vk::PhysicalDeviceFeatures2::default().push_next(&mut v1_3);
-        // SAFETY: `physical` belongs to `instance`, and the chained structure outlives the call.
-        unsafe { instance.get_physical_device_features2(physical, &mut all) };
-        let core = all.features;
-        v1_3.p_next = std::ptr::null_mut();
-        Features { core, v1_3 }
-    }
-
-    /// The features of the minimum.
-    pub(crate) fn minimum() -> Features {
-        let mut features = Features::default();
-        for (_, flag) in MINIMUM_FEATURES {
-            *flag(&mut features) = vk::TRUE;
-        }
-        features
-    }
-
-    /// For a device's creation.
-    pub(crate) fn parts(&mut self) -> (&vk::PhysicalDeviceFeatures, &mut vk::PhysicalDeviceVulkan13Features<'static>) {
-        (&self.core, &mut self.v1_3)
-    }
-}
-
-/// The first queue family that does graphics.
-pub(crate) fn graphics_family(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Option<(u32, u32)> {
+/// Whether `physical` offers `VK_KHR_dynamic_rendering_local_read`.
+pub(crate) fn has_local_read(instance: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
     // SAFETY: `physical` belongs to `instance`.
-    let families = unsafe { instance.get_physical_device_queue_family_properties(physical) };
-    (0..)
-        .zip(families)
-        .find(|(_, family)| family.queue_flags.contains(vk::QueueFlags::GRAPHICS))
-        .map(|(index, family)| (index, family.timestamp_valid_bits))
+    let extensions = unsafe { instance.enumerate_device_extension_properties(physical) }.unwrap_or_default();
+    let name = ash::khr::dynamic_rendering_local_read::NAME;
+    extensions.iter().any(|it| it.extension_name_as_c_str() == Ok(name))
+        && Features::of(instance, physical, true).local_read()
 }
 
 /// All that `physical` lacks of the minimum, by Vulkan's names.
@@ -91,12 +33,13 @@ pub(crate) fn missing(instance: &ash::Instance, physical: vk::PhysicalDevice) ->
         // Its 1.3 features can't even be asked for.
         return vec![format!("Vulkan {} (it has {})", version(MINIMUM_VERSION), version(properties.api_version))];
     }
-    let mut has = Features::of(instance, physical);
-    let features = MINIMUM_FEATURES.iter().filter(|(_, flag)| *flag(&mut has) == vk::FALSE);
-    let mut missing: Vec<String> = features.map(|(name, _)| format!("the feature {name}")).collect();
-    match graphics_family(instance, physical) {
-        None => missing.push("a queue for graphics".to_owned()),
-        Some((_, 0)) => missing.push("timestamps on its graphics queue".to_owned()),
+    let features = Features::of(instance, physical, false).missing();
+    let mut missing: Vec<String> = features.iter().map(|name| format!("the feature {name}")).collect();
+    match Families::of(instance, physical) {
+        None => missing.push("a queue for graphics and compute".to_owned()),
+        Some(families) if families.graphics.timestamp_bits == 0 => {
+            missing.push("timestamps on its graphics queue".to_owned());
+        }
         Some(_) => {}
     }
     missing
@@ -108,13 +51,10 @@ pub(crate) fn version(packed: u32) -> String {
     format!("{major}.{}.{}", vk::api_version_minor(packed), vk::api_version_patch(packed))
 }
 
-/// The capabilities of `physical`. `needs` asks the opened device for an image's memory needs.
-pub(crate) fn profile(
-    instance: &ash::Instance,
-    physical: vk::PhysicalDevice,
-    source: String,
-    needs: impl Fn(&ImageDescriptor) -> MemoryNeeds,
-) -> Profile {
+/// The capabilities of an open device.
+pub(crate) fn profile(shared: &Shared, source: String) -> Profile {
+    let (instance, physical) = (&shared.instance.raw, shared.physical);
+    let families = &shared.queues.families;
     // SAFETY: `physical` belongs to `instance`.
     let (properties, memory) = unsafe {
         (instance.get_physical_device_properties(physical), instance.get_physical_device_memory_properties(physical))
@@ -133,13 +73,23 @@ pub(crate) fn profile(
         .into_iter()
         .min()
         .unwrap_or(0),
+        max_extent_3d: limits.max_image_dimension3_d,
+        max_layers: limits.max_image_array_layers,
         max_color_attachments: limits.max_color_attachments,
         lazily_allocated_memory: memory
             .memory_types_as_slice()
             .iter()
             .any(|ty| ty.property_flags.contains(vk::MemoryPropertyFlags::LAZILY_ALLOCATED)),
+        queues: Queues {
+            compute: families.compute.is_some(),
+            transfer: families.transfer.is_some(),
+            sharing: Sharing::Exclusive,
+        },
+        local_read: shared.local_read.is_some(),
         formats: Format::ALL.iter().filter_map(|format| support(instance, physical, *format)).collect(),
-        memory: memory_model(needs),
+        memory: memory_model(shared),
+        known_needs: Vec::new(),
+        unknown: Vec::new(),
     }
 }
 
@@ -149,15 +99,22 @@ impl Shared {
         let [width, height, depth] = descriptor.extent;
         let levels = u32::BITS - width.max(height).max(depth).leading_zeros();
         let attachment = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT;
-        let may_be_asked = !descriptor.usage.is_empty()
+        let square = width == height && depth == 1 && descriptor.layers.is_multiple_of(6);
+        let shaped = match descriptor.shape {
+            Shape::D2 => depth == 1,
+            Shape::D3 => descriptor.layers == 1 && descriptor.samples == 1 && !attachment.intersects(descriptor.usage),
+            Shape::Cube => square && descriptor.samples == 1,
+        };
+        let may_be_asked = shaped
+            && !descriptor.usage.is_empty()
             && (attachment.intersects(descriptor.usage) || !descriptor.usage.contains(Usage::TRANSIENT_ATTACHMENT))
             && descriptor.samples.is_power_of_two()
-            && (descriptor.samples == 1 || (descriptor.mips == 1 && depth == 1))
+            && (descriptor.samples == 1 || descriptor.mips == 1)
             && descriptor.mips <= levels;
         if !may_be_asked {
             return false;
         }
-        let info = crate::image::create_info(descriptor);
+        let info = crate::image::create_info(descriptor, &self.queues.families.indices);
         // SAFETY: the physical device belongs to the instance.
         let limits = unsafe {
             self.instance.raw.get_physical_device_image_format_properties(
@@ -178,6 +135,15 @@ impl Shared {
         })
     }
 
+    /// Whether the device can make a buffer of this description.
+    pub(crate) fn can_make_buffer(&self, descriptor: &BufferDescriptor) -> bool {
+        let mut v1_3 = vk::PhysicalDeviceVulkan13Properties::default();
+        let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut v1_3);
+        // SAFETY: the physical device belongs to the instance, and the chained structure outlives the call.
+        unsafe { self.instance.raw.get_physical_device_properties2(self.physical, &mut all) };
+        (1..=v1_3.max_buffer_size.saturating_sub(3)).contains(&descriptor.bytes) && !descriptor.usage.is_empty()
+    }
+
     /// What images of a format can do.
     pub(crate) fn format_features(&self, format: Format) -> vk::FormatFeatureFlags {
         let format = convert::format(format);
@@ -186,13 +152,14 @@ impl Shared {
             .optimal_tiling_features
     }
 
-    /// How rendering scopes can resolve depth.
-    pub(crate) fn depth_resolve_modes(&self) -> vk::ResolveModeFlags {
+    /// How rendering scopes can resolve depth and stencil.
+    pub(crate) fn depth_stencil_resolve(&self) -> vk::PhysicalDeviceDepthStencilResolveProperties<'static> {
         let mut resolve = vk::PhysicalDeviceDepthStencilResolveProperties::default();
         let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut resolve);
         // SAFETY: the physical device belongs to the instance, and the chained structure outlives the call.
         unsafe { self.instance.raw.get_physical_device_properties2(self.physical, &mut all) };
-        resolve.supported_depth_resolve_modes
+        resolve.p_next = std::ptr::null_mut();
+        resolve
     }
 }
 
@@ -219,7 +186,7 @@ fn support(instance: &ash::Instance, physical: vk::PhysicalDevice, format: Forma
     let attachment = usage & (Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT);
     let mut samples = Vec::new();
     if !attachment.is_empty() {
-        usage |= Usage::TRANSIENT_ATTACHMENT;
+        usage |= Usage::TRANSIENT_ATTACHMENT | Usage::INPUT_ATTACHMENT;
         // SAFETY: `physical` belongs to `instance`.
         let properties = unsafe {
             instance.get_physical_device_image_format_properties(
@@ -243,23 +210,48 @@ fn support(instance: &ash::Instance, physical: vk::PhysicalDevice, format: Forma
     })
 }
 
-/// Fits the model of [`MemoryModel`] to a device by asking for a column and a row of texels.
-fn memory_model(needs: impl Fn(&ImageDescriptor) -> MemoryNeeds) -> MemoryModel {
+/// Fits the model of [`MemoryModel`] to a device by asking for columns and rows of texels.
+fn memory_model(shared: &Shared) -> MemoryModel {
     const LONG: u32 = 1024;
-    let of = |extent: [u32; 2]| {
-        needs(&ImageDescriptor {
-            format: Format::R8G8B8A8_UNORM,
-            extent: [extent[0], extent[1], 1],
+    let of = |format: Format, [width, height]: [u32; 2]| {
+        shared.memory_needs(&ImageDescriptor {
+            format,
+            shape: Shape::D2,
+            extent: [width, height, 1],
             mips: 1,
             layers: 1,
             samples: 1,
-            usage: Usage::COLOR_ATTACHMENT | Usage::SAMPLED,
+            usage: Usage::SAMPLED | Usage::TRANSFER_DST,
+            sharing: Sharing::Exclusive,
         })
     };
-    let texels = |needs: MemoryNeeds| {
-        let texels = needs.bytes / Format::R8G8B8A8_UNORM.texel_bytes() / u64::from(LONG);
-        u32::try_from(texels).unwrap_or(1).max(1)
+    // How many texels as long as the image stand for its one column or row.
+    let beside = |format: Format, extent: [u32; 2]| {
+        let texels = of(format, extent).bytes / format.texel_bytes() / u64::from(LONG);
+        u32::try_from(texels).unwrap_or(1).max(1).next_power_of_two()
     };
-    let column = of([1, LONG]);
-    MemoryModel { alignment: column.alignment, row_texels: texels(column), rows: texels(of([LONG, 1])) }
+    let (narrow, wide) = (Format::R8_UNORM, Format::R8G8B8A8_UNORM);
+    let column = [narrow, wide].map(|format| beside(format, [1, LONG]));
+    // Padding to texels is the same for every format, padding to bytes is not.
+    let (row_texels, row_bytes) = if column[0] == column[1] { (column[0], 1) } else { (1, column[0]) };
+    let stencil = Format::D32_SFLOAT_S8_UINT;
+    let apart = support(&shared.instance.raw, shared.physical, stencil).is_some() && {
+        let square = [LONG, LONG];
+        of(stencil, square).bytes < of(Format::D32_SFLOAT, square).bytes * 2
+    };
+    let buffer = shared.buffer_memory_needs(&BufferDescriptor {
+        bytes: u64::from(LONG),
+        usage: BufferUsage::all(),
+        sharing: Sharing::Exclusive,
+    });
+    let needs = of(wide, [LONG, 1]);
+    MemoryModel {
+        alignment: needs.alignment,
+        row_texels,
+        row_bytes,
+        rows: beside(wide, [LONG, 1]),
+        separate_stencil: apart,
+        buffer_alignment: buffer.alignment,
+        type_bits: needs.type_bits & buffer.type_bits,
+    }
 }

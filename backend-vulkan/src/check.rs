@@ -1,15 +1,14 @@
 //! Whether a Plan can be executed on a device as it is.
 
-use crate::convert;
+use crate::check_work::executable;
 use crate::device::Shared;
 use crate::error::Error;
-use crate::prepare::descriptor;
-use ash::vk;
-use framewright_graph::device::MemoryNeeds;
-use framewright_graph::frame::Blend;
-use framewright_graph::plan::{Image, ImageId, Placement, Plan, RenderScope, Role, Work};
+use crate::physical::{buffer_descriptor, cycle, descriptor};
+use crate::standing::Standing;
+use framewright_graph::device::{ImageDescriptor, MemoryNeeds};
+use framewright_graph::plan::{Buffer, Image, Placement, Plan, Queue, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vocabulary::{Filter, Usage};
+use framewright_graph::vocabulary::{Aspects, BufferUsage, Usage};
 
 /// Which of the Plan's own mistakes are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,110 +19,126 @@ pub(crate) enum Refuse {
     Malformed,
 }
 
-/// Checks `plan` for itself and against the device; with `poison`, also that its images can be poisoned.
+/// Checks `plan` for itself and against the device; with `poison`, also that its images and buffers can be poisoned.
 pub(crate) fn check(shared: &Shared, plan: &Plan, refuse: Refuse, poison: bool) -> Result<(), Error> {
     let refused = |it: &Violation| refuse == Refuse::Violations || matches!(it.rule, Rule::Structure { .. });
     let violations: Vec<_> = verify(plan).into_iter().filter(refused).collect();
     if !violations.is_empty() {
         return Err(Error::Violations { violations });
     }
+    Standing::new(plan)?;
     for image in &plan.images {
-        supported(shared, image)?;
-        match &image.role {
-            Role::Transient(place) => {
-                memory(shared, plan, image, place)?;
-                if poison && !image.usage.contains(Usage::TRANSFER_DST) {
-                    return bad(format!("`{}` can't be poisoned: compile the Plan with poison", image.name));
-                }
-            }
-            Role::Output { .. } if image.samples > 1 => {
-                return bad(format!("the output `{}` has {} samples and can't be read", image.name, image.samples));
-            }
-            Role::Output { .. } => {}
-        }
+        checked_image(shared, plan, image, poison)?;
     }
-    for step in &plan.steps {
-        if let Work::Render(scope) = &step.work {
-            renderable(shared, plan, scope)?;
-        }
+    for buffer in &plan.buffers {
+        checked_buffer(shared, plan, buffer, poison)?;
     }
-    let dispatched = plan.steps.iter().find_map(|step| match &step.work {
-        Work::Dispatch(pass) => Some(&pass.name),
-        _ => None,
-    });
-    match dispatched {
-        Some(name) => bad(format!("pass `{name}` dispatches, and this version executes draws only")),
-        None => Ok(()),
-    }
+    queues(shared, plan)?;
+    plan.steps.iter().try_for_each(|step| executable(shared, plan, step))
 }
 
-fn bad(what: String) -> Result<(), Error> {
+pub(crate) fn bad(what: String) -> Result<(), Error> {
     Err(Error::BadPlan { what })
 }
 
-/// Whether the device can make such an image.
-fn supported(shared: &Shared, image: &Image) -> Result<(), Error> {
-    let descriptor = descriptor(image);
-    if shared.can_make(&descriptor) {
-        Ok(())
-    } else {
-        bad(format!("{} has no images like `{}`: {descriptor:?}", shared.summary.name, image.name))
+fn checked_image(shared: &Shared, plan: &Plan, image: &Image, poison: bool) -> Result<(), Error> {
+    let (name, descriptor) = (&image.name, descriptor(image));
+    if !shared.can_make(&descriptor) {
+        return bad(format!("{} has no images like `{name}`: {descriptor:?}", shared.summary.name));
+    }
+    match &image.role {
+        Role::Transient(place) => {
+            memory(shared, plan, name, place, shared.memory_needs(&descriptor))?;
+            if poison && !image.usage.contains(Usage::TRANSFER_DST) {
+                return bad(format!("`{name}` can't be poisoned: compile the Plan with poison"));
+            }
+            Ok(())
+        }
+        Role::Persistent { .. } => {
+            let plain = |image: &Image| ImageDescriptor { usage: Usage::empty(), ..self::descriptor(image) };
+            let others = cycle(image.id.0, |id| &plan.images[id as usize].role).map(|id| &plan.images[id as usize]);
+            match others.into_iter().find(|other| plain(other) != plain(image)) {
+                Some(other) => bad(format!("`{name}` and `{}` change places and differ", other.name)),
+                None => Ok(()),
+            }
+        }
+        Role::External { .. } if image.samples > 1 && plan.outputs.contains(&Resource::Image(image.id)) => {
+            bad(format!("the output `{name}` has {} samples and can't be read", image.samples))
+        }
+        Role::External { .. } => Ok(()),
     }
 }
 
-/// Whether the device can render such a scope, blend and resolve its attachments, and filter what its passes sample.
-fn renderable(shared: &Shared, plan: &Plan, scope: &RenderScope) -> Result<(), Error> {
+fn checked_buffer(shared: &Shared, plan: &Plan, buffer: &Buffer, poison: bool) -> Result<(), Error> {
+    let (name, descriptor) = (&buffer.name, buffer_descriptor(buffer));
     let limits = &shared.limits;
-    let [width, height] = scope.extent;
-    let fits = width <= limits.max_framebuffer_width.min(limits.max_viewport_dimensions[0])
-        && height <= limits.max_framebuffer_height.min(limits.max_viewport_dimensions[1])
-        && scope.layers <= limits.max_framebuffer_layers
-        && scope.color.len() <= limits.max_color_attachments as usize;
-    if !fits {
-        let (count, layers) = (scope.color.len(), scope.layers);
-        return bad(format!("{count} colour attachments of {width}×{height}, {layers} layers: too many or too large"));
+    let too_large = |usage, most: u32| buffer.usage.contains(usage) && buffer.bytes > u64::from(most);
+    if !shared.can_make_buffer(&descriptor)
+        || too_large(BufferUsage::UNIFORM_BUFFER, limits.max_uniform_buffer_range)
+        || too_large(BufferUsage::STORAGE_BUFFER, limits.max_storage_buffer_range)
+    {
+        return bad(format!("{} has no buffers like `{name}`: {descriptor:?}", shared.summary.name));
     }
-    let lacks = |image: ImageId, feature: vk::FormatFeatureFlags, what: &str| {
-        let image = plan.image(image);
-        if shared.format_features(image.format).contains(feature) {
-            return Ok(());
+    match &buffer.role {
+        Role::Transient(place) => {
+            memory(shared, plan, name, place, shared.buffer_memory_needs(&descriptor))?;
+            if poison && !buffer.usage.contains(BufferUsage::TRANSFER_DST) {
+                return bad(format!("`{name}` can't be poisoned: compile the Plan with poison"));
+            }
+            Ok(())
         }
-        bad(format!("{} can't {what} `{}` ({})", shared.summary.name, image.name, image.format))
-    };
-    for pass in &scope.passes {
-        for (attachment, _) in scope.color.iter().zip(&pass.blend).filter(|(_, blend)| **blend != Blend::Replace) {
-            lacks(attachment.image, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND, "blend into")?;
+        Role::Persistent { .. } => {
+            let plain = |buffer: &Buffer| (buffer.bytes, buffer.sharing);
+            let others = cycle(buffer.id.0, |id| &plan.buffers[id as usize].role).map(|id| &plan.buffers[id as usize]);
+            match others.into_iter().find(|other| plain(other) != plain(buffer)) {
+                Some(other) => bad(format!("`{name}` and `{}` change places and differ", other.name)),
+                None => Ok(()),
+            }
         }
-        for bound in pass.bindings.iter().filter(|bound| bound.filter == Some(Filter::Linear)) {
-            lacks(bound.image, vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR, "filter")?;
-        }
-    }
-    match scope.depth.as_ref().and_then(|depth| depth.resolve.as_ref()) {
-        Some(resolve) if !shared.depth_resolve_modes().contains(convert::resolve(resolve.mode)) => {
-            let target = &plan.image(resolve.image).name;
-            bad(format!("{} can't resolve depth into `{target}` by {:?}", shared.summary.name, resolve.mode))
-        }
-        _ => Ok(()),
+        Role::External { .. } => Ok(()),
     }
 }
 
-/// Whether the image takes here what the Plan gives it: exactly that, or where the Plan only estimated, not more.
-fn memory(shared: &Shared, plan: &Plan, image: &Image, place: &Placement) -> Result<(), Error> {
-    let actual = shared.memory_needs(&descriptor(image));
+/// Images are handed over between queue families only: where the Plan has an image change queues, the device must have
+/// both, in two families.
+fn queues(shared: &Shared, plan: &Plan) -> Result<(), Error> {
+    let families = &shared.queues.families;
+    for step in &plan.steps {
+        for barrier in step.image_barriers.iter().chain(&step.releases) {
+            let Some([from, to]) = barrier.ownership else { continue };
+            if families.family(from) == families.family(to) {
+                let image = &plan.image(barrier.image).name;
+                let (device, missing) = (&shared.summary.name, if to == Queue::Graphics { from } else { to });
+                return bad(format!(
+                    "it hands `{image}` over to another queue, and {device} has no {missing:?} queue beside the first"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether the image or buffer takes here what the Plan gives it: exactly that, or where the Plan only estimated, not more.
+fn memory(shared: &Shared, plan: &Plan, name: &str, place: &Placement, actual: MemoryNeeds) -> Result<(), Error> {
     let planned = MemoryNeeds { bytes: place.bytes, alignment: place.alignment, type_bits: place.type_bits };
-    let heap_types = plan.heaps[place.heap as usize].type_bits;
+    let heap = &plan.heaps[place.heap as usize];
     let enough = actual.bytes <= planned.bytes
         && place.offset.is_multiple_of(actual.alignment.max(1))
-        && plan.heaps[place.heap as usize].alignment >= actual.alignment
-        && heap_types & !actual.type_bits == 0;
+        && heap.alignment >= actual.alignment
+        && heap.type_bits & !actual.type_bits == 0;
     if actual == planned || (!plan.device.exact_memory && enough) {
         return Ok(());
     }
     Err(Error::OtherMemoryNeeds {
-        image: image.name.to_string(),
+        resource: name.to_owned(),
         device: shared.summary.name.clone(),
         planned_for: plan.device.name.clone(),
         actual,
         planned,
     })
+}
+
+/// Whether `aspects` hold a depth or stencil plane.
+pub(crate) fn is_depth_stencil(aspects: Aspects) -> bool {
+    aspects.intersects(Aspects::DEPTH | Aspects::STENCIL)
 }

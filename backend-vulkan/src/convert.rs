@@ -4,7 +4,8 @@ use ash::vk;
 use framewright_graph::format::Format;
 use framewright_graph::plan::Subresources;
 use framewright_graph::vocabulary::{
-    Accesses, Aspects, CompareOp, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage,
+    Accesses, Aspects, BufferUsage, CompareOp, FillValue, Filter, Layout, LoadOp, ResolveMode, Stages, StencilOp,
+    StoreOp, Usage,
 };
 
 pub(crate) fn format(format: Format) -> vk::Format {
@@ -21,6 +22,10 @@ pub(crate) fn accesses(accesses: Accesses) -> vk::AccessFlags2 {
 
 pub(crate) fn usage(usage: Usage) -> vk::ImageUsageFlags {
     vk::ImageUsageFlags::from_raw(usage.bits())
+}
+
+pub(crate) fn buffer_usage(usage: BufferUsage) -> vk::BufferUsageFlags {
+    vk::BufferUsageFlags::from_raw(usage.bits())
 }
 
 pub(crate) fn aspects(aspects: Aspects) -> vk::ImageAspectFlags {
@@ -58,10 +63,15 @@ pub(crate) fn layout(layout: Layout) -> vk::ImageLayout {
         Layout::ColorAttachmentOptimal => vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
         Layout::DepthStencilAttachmentOptimal => vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
         Layout::DepthStencilReadOnlyOptimal => vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+        Layout::DepthAttachmentOptimal => vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
+        Layout::DepthReadOnlyOptimal => vk::ImageLayout::DEPTH_READ_ONLY_OPTIMAL,
+        Layout::StencilAttachmentOptimal => vk::ImageLayout::STENCIL_ATTACHMENT_OPTIMAL,
+        Layout::StencilReadOnlyOptimal => vk::ImageLayout::STENCIL_READ_ONLY_OPTIMAL,
         Layout::ShaderReadOnlyOptimal => vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
         Layout::TransferSrcOptimal => vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
         Layout::TransferDstOptimal => vk::ImageLayout::TRANSFER_DST_OPTIMAL,
         Layout::PresentSrcKhr => vk::ImageLayout::PRESENT_SRC_KHR,
+        Layout::RenderingLocalReadKhr => vk::ImageLayout::RENDERING_LOCAL_READ_KHR,
     }
 }
 
@@ -100,5 +110,72 @@ pub(crate) fn compare(op: CompareOp) -> vk::CompareOp {
         CompareOp::NotEqual => vk::CompareOp::NOT_EQUAL,
         CompareOp::GreaterOrEqual => vk::CompareOp::GREATER_OR_EQUAL,
         CompareOp::Always => vk::CompareOp::ALWAYS,
+    }
+}
+
+pub(crate) fn stencil(op: StencilOp) -> vk::StencilOp {
+    match op {
+        StencilOp::Keep => vk::StencilOp::KEEP,
+        StencilOp::Zero => vk::StencilOp::ZERO,
+        StencilOp::Replace => vk::StencilOp::REPLACE,
+        StencilOp::IncrementAndClamp => vk::StencilOp::INCREMENT_AND_CLAMP,
+        StencilOp::DecrementAndClamp => vk::StencilOp::DECREMENT_AND_CLAMP,
+        StencilOp::Invert => vk::StencilOp::INVERT,
+    }
+}
+
+pub(crate) fn filter(filter: Filter) -> vk::Filter {
+    match filter {
+        Filter::Nearest => vk::Filter::NEAREST,
+        Filter::Linear => vk::Filter::LINEAR,
+    }
+}
+
+pub(crate) fn extent([width, height, depth]: [u32; 3]) -> vk::Extent3D {
+    vk::Extent3D { width, height, depth }
+}
+
+/// A colour attachment's clear value in the form that its components need.
+pub(crate) fn clear_color(format: Format, value: [f32; 4]) -> vk::ClearColorValue {
+    if format.is_integer() {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, as a clear should")]
+        let uint32 = value.map(|component| component as u32);
+        vk::ClearColorValue { uint32 }
+    } else {
+        vk::ClearColorValue { float32: value }
+    }
+}
+
+/// What a clear by transfer writes.
+pub(crate) enum Clear {
+    /// Into an image of colours.
+    Color(vk::ClearColorValue),
+    /// Into an image of depth or stencil.
+    DepthStencil(vk::ClearDepthStencilValue),
+    /// Into a buffer, word by word.
+    Word(u32),
+}
+
+/// What `value` is to an image of `format`, or (`None`) to a buffer. A value of another kind than the format counts by its
+/// components: the checker has refused it before.
+pub(crate) fn clear(format: Option<Format>, value: FillValue) -> Clear {
+    let depth_stencil = |depth: f32, stencil: u8| {
+        Clear::DepthStencil(vk::ClearDepthStencilValue { depth, stencil: u32::from(stencil) })
+    };
+    match (format, value) {
+        (None, FillValue::Bits([word, ..])) => Clear::Word(word),
+        (None, FillValue::Color([value, ..]) | FillValue::Depth(value, _)) => Clear::Word(value.to_bits()),
+        (Some(format), FillValue::Depth(depth, stencil)) if !format.aspects().contains(Aspects::COLOR) => {
+            depth_stencil(depth, stencil)
+        }
+        (Some(format), FillValue::Color([depth, ..])) if !format.aspects().contains(Aspects::COLOR) => {
+            depth_stencil(depth, 0)
+        }
+        (Some(format), FillValue::Bits([_, stencil, ..])) if !format.aspects().contains(Aspects::COLOR) => {
+            depth_stencil(0.0, u8::try_from(stencil).unwrap_or(u8::MAX))
+        }
+        (Some(_), FillValue::Bits(uint32)) => Clear::Color(vk::ClearColorValue { uint32 }),
+        (Some(format), FillValue::Color(color)) => Clear::Color(clear_color(format, color)),
+        (Some(format), FillValue::Depth(value, _)) => Clear::Color(clear_color(format, [value; 4])),
     }
 }

@@ -3,8 +3,8 @@
 use crate::caches::LayoutBinding;
 use crate::device::{Device, Shared};
 use crate::error::Error;
-use crate::prepare::check_brought;
 use crate::resources::{Buffer, Texture};
+use crate::shader_fit::check_brought;
 use ash::vk;
 use framewright_graph::interface::{DrawInterface, PASS_SET, SuppliedKind};
 use std::sync::Arc;

@@ -1,13 +1,15 @@
 //! Choosing, opening and sharing a device.
 
-use crate::capabilities::{self, Features};
+use crate::capabilities;
 use crate::error::Error;
+use crate::features::Features;
 use crate::instance::Instance;
 use crate::memory::LiveMemory;
+use crate::queues::{Families, Queues};
 use crate::validation::Messages;
-use ash::{ext, vk};
+use ash::{ext, khr, vk};
 use framewright_graph::describe::nearest;
-use framewright_graph::device::{ImageDescriptor, MemoryNeeds, Profile};
+use framewright_graph::device::{BufferDescriptor, ImageDescriptor, MemoryNeeds, Profile};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::ffi::{CStr, FromBytesUntilNulError};
 use std::mem::ManuallyDrop;
@@ -69,14 +71,21 @@ pub(crate) struct Shared {
     pub(crate) physical: vk::PhysicalDevice,
     pub(crate) limits: vk::PhysicalDeviceLimits,
     pub(crate) labels: Option<ext::debug_utils::Device>,
-    pub(crate) queue_family: u32,
-    pub(crate) timestamp_bits: u32,
+    /// The commands of `VK_KHR_dynamic_rendering_local_read`, where the device has it.
+    pub(crate) local_read: Option<khr::dynamic_rendering_local_read::Device>,
+    pub(crate) queues: Queues,
     pub(crate) summary: DeviceSummary,
     pub(crate) caches: crate::caches::Caches,
-    queue: Mutex<vk::Queue>,
     allocator: ManuallyDrop<Mutex<Allocator>>,
-    abandoned: OnceLock<vk::Fence>,
+    abandoned: OnceLock<Unfinished>,
     pub(crate) instance: ManuallyDrop<Instance>,
+}
+
+/// Work that the device didn't finish in time: these timeline semaphores have not reached these values.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Unfinished {
+    pub(crate) semaphores: Vec<vk::Semaphore>,
+    pub(crate) values: Vec<u64>,
 }
 
 impl Device {
@@ -99,18 +108,19 @@ impl Device {
         if !summary.missing.is_empty() {
             return Err(Error::Lacking { device: summary.name, missing: summary.missing });
         }
-        let (queue_family, timestamp_bits) =
-            capabilities::graphics_family(&instance.raw, physical).ok_or(Error::NoDevice)?;
-        let mut features = Features::minimum();
-        let (core, v1_3) = features.parts();
-        let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&[1.0])];
-        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_features(core).push_next(v1_3);
-        // SAFETY: `physical` belongs to the instance and has these features and this queue family.
+        let families = Families::of(&instance.raw, physical).ok_or(Error::NoDevice)?;
+        let has_local_read = capabilities::has_local_read(&instance.raw, physical);
+        let mut features = Features::minimum(has_local_read);
+        let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
+        let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();
+        let extensions = if has_local_read { &[khr::dynamic_rendering_local_read::NAME.as_ptr()][..] } else { &[] };
+        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(extensions);
+        let info = features.chain(info);
+        // SAFETY: `physical` belongs to the instance and has these features, extensions and queue families.
         let raw = unsafe { instance.raw.create_device(physical, &info, None) }
             .map_err(Error::vulkan("opening the device"))?;
-        // SAFETY: the device was created with one queue of this family; `physical` belongs to the instance.
-        let (queue, properties) =
-            unsafe { (raw.get_device_queue(queue_family, 0), instance.raw.get_physical_device_properties(physical)) };
+        // SAFETY: `physical` belongs to the instance.
+        let properties = unsafe { instance.raw.get_physical_device_properties(physical) };
         let allocator = Allocator::new(&AllocatorCreateDesc {
             instance: instance.raw.clone(),
             device: raw.clone(),
@@ -127,16 +137,16 @@ impl Device {
                 return Err(Error::OutOfMemory { what: "the device".into(), bytes: 0, reason: error.to_string() });
             }
         };
+        let local_read = has_local_read.then(|| khr::dynamic_rendering_local_read::Device::new(&instance.raw, &raw));
         let labels = instance.labels.then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
         let shared = Shared {
             physical,
             limits: properties.limits,
             labels,
-            queue_family,
-            timestamp_bits,
+            local_read,
+            queues: Queues::new(&raw, families),
             summary,
             caches: crate::caches::Caches::default(),
-            queue: Mutex::new(queue),
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
             abandoned: OnceLock::new(),
             raw,
@@ -149,11 +159,10 @@ impl Device {
     #[must_use]
     pub fn profile(&self) -> Profile {
         let source = format!("{}, Vulkan {}, live", self.shared.summary.driver, self.shared.summary.vulkan);
-        let needs = |descriptor: &ImageDescriptor| self.shared.memory_needs(descriptor);
-        capabilities::profile(&self.shared.instance.raw, self.shared.physical, source, needs)
+        capabilities::profile(&self.shared, source)
     }
 
-    /// What images take of this device's memory, for [`framewright_graph::compile`].
+    /// What images and buffers take of this device's memory, for [`framewright_graph::compile`].
     #[must_use]
     pub fn memory(&self) -> LiveMemory {
         LiveMemory::new(self)
@@ -172,6 +181,19 @@ impl Device {
         self.shared.instance.validation.as_ref().map_or_else(Messages::default, |it| it.messages.clone())
     }
 
+    /// Vulkan's own device, for programs that record commands of their own. All its functions are unsafe; it must not be
+    /// destroyed, nor used after the last clone of this device is gone.
+    #[must_use]
+    pub fn raw(&self) -> &ash::Device {
+        &self.shared.raw
+    }
+
+    /// Vulkan's own instance and physical device, under the rules of [`Device::raw`].
+    #[must_use]
+    pub fn raw_physical(&self) -> (&ash::Instance, ash::vk::PhysicalDevice) {
+        (&self.shared.instance.raw, self.shared.physical)
+    }
+
     /// The validation layer that watches, in words.
     #[must_use]
     pub fn validation_layer(&self) -> Option<&str> {
@@ -180,20 +202,15 @@ impl Device {
 }
 
 impl Shared {
-    /// The queue, for one thread at a time.
-    pub(crate) fn queue(&self) -> MutexGuard<'_, vk::Queue> {
-        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// The allocator, for one thread at a time.
     pub(crate) fn allocator(&self) -> MutexGuard<'_, Allocator> {
         self.allocator.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Notes that the device didn't finish the work behind `fence` in time. It may still be using anything, so nothing is
-    /// freed from now on.
-    pub(crate) fn abandon(&self, fence: vk::Fence) {
-        self.abandoned.get_or_init(|| fence);
+    /// Notes that the device didn't finish its work in time. It may still be using anything, so nothing is freed from now
+    /// on.
+    pub(crate) fn abandon(&self, unfinished: Unfinished) {
+        self.abandoned.get_or_init(|| unfinished);
     }
 
     /// Whether things may still be in use although nobody waits for them.
@@ -203,22 +220,32 @@ impl Shared {
 
     /// What an image of this description needs of memory.
     pub(crate) fn memory_needs(&self, descriptor: &ImageDescriptor) -> MemoryNeeds {
-        let create = crate::image::create_info(descriptor);
+        let create = crate::image::create_info(descriptor, &self.queues.families.indices);
         let info = vk::DeviceImageMemoryRequirements::default().create_info(&create);
         let mut needs = vk::MemoryRequirements2::default();
         // SAFETY: maintenance4 is on, and both structures outlive the call.
         unsafe { self.raw.get_device_image_memory_requirements(&info, &mut needs) };
-        let vk::MemoryRequirements { size, alignment, memory_type_bits } = needs.memory_requirements;
-        MemoryNeeds { bytes: size, alignment, type_bits: memory_type_bits }
+        memory_needs(needs.memory_requirements)
     }
+
+    /// What a buffer of this description needs of memory.
+    pub(crate) fn buffer_memory_needs(&self, descriptor: &BufferDescriptor) -> MemoryNeeds {
+        memory_needs(crate::buffer::needs(self, &crate::buffer::create_info(descriptor, &self.queues.families.indices)))
+    }
+}
+
+fn memory_needs(requirements: vk::MemoryRequirements) -> MemoryNeeds {
+    let vk::MemoryRequirements { size, alignment, memory_type_bits } = requirements;
+    MemoryNeeds { bytes: size, alignment, type_bits: memory_type_bits }
 }
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        if let Some(fence) = self.abandoned.get() {
+        if let Some(Unfinished { semaphores, values }) = self.abandoned.get() {
             // A software driver's threads crash if the process ends under them: a device that is merely slow gets a chance.
-            // SAFETY: neither fence nor device was destroyed. Whatever comes of the wait, nothing more is done.
-            let _ = unsafe { self.raw.wait_for_fences(&[*fence], true, LAST_CHANCE_NANOSECONDS) };
+            let wait = vk::SemaphoreWaitInfo::default().semaphores(semaphores).values(values);
+            // SAFETY: neither semaphores nor device were destroyed. Whatever comes of the wait, nothing more is done.
+            let _ = unsafe { self.raw.wait_semaphores(&wait, LAST_CHANCE_NANOSECONDS) };
             return;
         }
         // SAFETY: everything made from the device held on to it and is gone. The allocator frees its blocks before the

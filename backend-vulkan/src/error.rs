@@ -135,16 +135,16 @@ pub enum Error {
         /// Each mistake.
         violations: Vec<Violation>,
     },
-    /// An image takes other memory here than the Plan assumes.
+    /// An image or buffer takes other memory here than the Plan assumes.
     #[error(
-        "image `{}` needs {actual:?} on {}, and the Plan, made for {}, gives it {planned:?}: compile it for this device",
-        escape(image),
+        "`{}` needs {actual:?} on {}, and the Plan, made for {}, gives it {planned:?}: compile it for this device",
+        escape(resource),
         escape(device),
         escape(planned_for)
     )]
     OtherMemoryNeeds {
-        /// The image.
-        image: String,
+        /// The image or buffer.
+        resource: String,
         /// This device.
         device: String,
         /// The device that the Plan was made for.

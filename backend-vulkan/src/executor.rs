@@ -1,49 +1,63 @@
 //! Executing a Plan, frame by frame.
 
 use crate::check::{Refuse, check};
+use crate::contents::initialise;
 use crate::device::{Device, Shared};
 use crate::error::Error;
+use crate::frames::{Beside, Frames};
+use crate::hand_in::HandIn;
+use crate::keep::Keep;
 use crate::prepare::Prepared;
-use crate::readback::{self, Texels};
 use crate::record::Frame;
 use crate::recorder::DrawSource;
 use crate::shaders::ShaderLibrary;
-use crate::submit::Commands;
-use crate::timing::{FrameReport, Timing};
-use framewright_graph::plan::{Plan, Role};
+use crate::timing::FrameReport;
+use crate::uses::Uses;
+use framewright_graph::plan::Plan;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// How a Plan is executed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExecutorOptions {
-    /// Whether each transient image is filled with conspicuous values when the frame takes it into use, which must not
-    /// change the picture. Needs a Plan that was compiled with poison.
+    /// Whether each transient image and buffer is filled with conspicuous values when the frame takes it into use, which
+    /// must not change the picture. Needs a Plan that was compiled with poison.
     pub poison: bool,
     /// How long the device may take for a frame. If it takes longer the device is given up: nothing that was made from it
     /// can be used any more.
     pub timeout: Duration,
+    /// How many frames may be on their way before [`Executor::submit`] waits for the oldest; 0 counts as 1.
+    pub frames_in_flight: u32,
+    /// Whether each frame copies its outputs to the host (colour or depth of the first mip level), for
+    /// [`Executor::kept_image`] and [`Executor::kept_buffer`].
+    pub keep_outputs: bool,
 }
 
 impl Default for ExecutorOptions {
     fn default() -> Self {
-        ExecutorOptions { poison: false, timeout: Duration::from_secs(120) }
+        ExecutorOptions { poison: false, timeout: Duration::from_secs(120), frames_in_flight: 1, keep_outputs: false }
     }
 }
 
-/// A Plan on a device, ready to draw frames. One frame is in flight at a time: [`Executor::frame`] waits for it.
+/// A Plan on a device, ready to draw frames.
+///
+/// [`Executor::frame`] draws one and waits for it. [`Executor::submit`] and [`Executor::wait`] let several be on their way;
+/// the pictures are the same.
 pub struct Executor {
-    shared: Arc<Shared>,
-    plan: Plan,
+    pub(crate) shared: Arc<Shared>,
+    pub(crate) plan: Plan,
     options: ExecutorOptions,
-    commands: Commands,
-    timing: Timing,
-    prepared: Prepared,
-    drawn: bool,
+    hand_ins: Vec<HandIn>,
+    keep: Vec<Keep>,
+    pub(crate) uses: Uses,
+    /// Before what it uses: dropping it waits for every frame.
+    pub(crate) frames: Frames,
+    pub(crate) prepared: Prepared,
+    initialised: bool,
 }
 
 impl Executor {
-    /// Makes everything that `plan` needs on `device`: memory, images, pipelines, descriptor sets.
+    /// Makes everything that `plan` needs on `device`: memory, images, buffers, pipelines, descriptor sets.
     ///
     /// # Errors
     /// [`Error::Violations`] if the Plan is wrong in itself, [`Error::BadPlan`] or [`Error::OtherMemoryNeeds`] if this
@@ -83,44 +97,70 @@ impl Executor {
     ) -> Result<Executor, Error> {
         let shared = &device.shared;
         check(shared, plan, refuse, options.poison)?;
+        let uses = Uses::new(plan);
+        let hand_ins = HandIn::all(plan, &uses);
         Ok(Executor {
             shared: shared.clone(),
-            commands: Commands::new(shared)?,
-            timing: Timing::new(shared, plan)?,
+            keep: if options.keep_outputs { Keep::all(plan, &uses)? } else { Vec::new() },
+            frames: Frames::new(shared, plan, &hand_ins, options.frames_in_flight, options.timeout)?,
             prepared: Prepared::new(shared, plan, shaders)?,
             plan: plan.clone(),
             options: options.clone(),
-            drawn: false,
+            hand_ins,
+            uses,
+            initialised: false,
         })
     }
 
     /// Draws a frame and waits until the device is done.
     ///
     /// # Errors
-    /// What `source` returns, [`Error::Recording`] if it misused its recorder, [`Error::DeviceLost`], [`Error::Timeout`].
+    /// Those of [`Executor::submit`] and [`Executor::wait`].
     pub fn frame(&mut self, source: &mut dyn DrawSource) -> Result<FrameReport, Error> {
-        let frame =
-            Frame { shared: &self.shared, plan: &self.plan, prepared: &self.prepared, poison: self.options.poison };
-        let timing = &mut self.timing;
-        let recorded = self.commands.record(|commands| frame.record(commands, source, timing))?;
-        self.commands.submit("drawing a frame", self.options.timeout)?;
-        self.drawn = true;
-        self.timing.report(&self.plan, &recorded.draws)
+        let frame = self.submit(source)?;
+        self.wait(frame)
     }
 
-    /// The output number `output` of the Plan, as the last frame left it.
+    /// Records and submits a frame, and returns its number, from 0. If as many frames as may be are on their way, it waits
+    /// for the oldest first.
     ///
     /// # Errors
-    /// [`Error::BadResource`] if there is no such output or no frame yet, [`Error::OutOfMemory`], [`Error::DeviceLost`].
-    pub fn read(&self, output: usize) -> Result<Texels, Error> {
-        let bad = |what: &str| Error::BadResource { what: format!("output {output} can't be read: {what}") };
-        let image = *self.plan.outputs.get(output).ok_or_else(|| bad("the Plan has fewer"))?;
-        match self.plan.image(image).role {
-            Role::Output { after, .. } if self.drawn => {
-                readback::read(&self.shared, &self.prepared.images[image.0 as usize], after)
-            }
-            Role::Output { .. } => Err(bad("no frame was drawn yet")),
-            Role::Transient(_) => Err(bad("it is transient")),
+    /// What `source` returns, [`Error::Recording`] if it misused its recorder, [`Error::OutOfMemory`],
+    /// [`Error::DeviceLost`], [`Error::Timeout`].
+    pub fn submit(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
+        self.frames.make_room()?;
+        self.ready()?;
+        let number = self.frames.next();
+        self.prepared.turn_to(&self.shared, &self.plan, number)?;
+        let frame = Frame {
+            shared: &self.shared,
+            plan: &self.plan,
+            prepared: &self.prepared,
+            number,
+            poison: self.options.poison,
+        };
+        let beside = Beside { hand_ins: &self.hand_ins, keep: &self.keep };
+        self.frames.submit(&frame, source, &beside)?;
+        Ok(number)
+    }
+
+    /// Waits until the device is done with a frame.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if it was never submitted, or so many were since that its report is gone;
+    /// [`Error::DeviceLost`], [`Error::Timeout`].
+    pub fn wait(&mut self, frame: u64) -> Result<FrameReport, Error> {
+        self.frames.wait(frame)?;
+        let gone = || Error::BadResource { what: format!("frame {frame} was not submitted, or its report is gone") };
+        self.frames.report(&self.plan, frame).ok_or_else(gone)?
+    }
+
+    /// Gives what outlives the frame its first contents, unless that is done.
+    pub(crate) fn ready(&mut self) -> Result<(), Error> {
+        if !self.initialised {
+            initialise(&self.shared, &self.plan, &self.prepared.physical)?;
+            self.initialised = true;
         }
+        Ok(())
     }
 }

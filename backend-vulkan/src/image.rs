@@ -6,22 +6,32 @@ use crate::error::Error;
 use crate::memory::Memory;
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
-use framewright_graph::plan::Subresources;
+use framewright_graph::frame::Shape;
+use framewright_graph::plan::{Sharing, Subresources};
 use std::sync::Arc;
 
 /// How an image of this description is created: the one place that knows, so that memory needs are those of the image.
-pub(crate) fn create_info(descriptor: &ImageDescriptor) -> vk::ImageCreateInfo<'static> {
-    let [width, height, depth] = descriptor.extent;
-    vk::ImageCreateInfo::default()
-        .image_type(if depth > 1 { vk::ImageType::TYPE_3D } else { vk::ImageType::TYPE_2D })
+/// `families` are all that may use a shared image.
+pub(crate) fn create_info<'f>(descriptor: &ImageDescriptor, families: &'f [u32]) -> vk::ImageCreateInfo<'f> {
+    let info = vk::ImageCreateInfo::default()
+        .image_type(if descriptor.shape == Shape::D3 { vk::ImageType::TYPE_3D } else { vk::ImageType::TYPE_2D })
         .format(convert::format(descriptor.format))
-        .extent(vk::Extent3D { width, height, depth })
+        .extent(convert::extent(descriptor.extent))
         .mip_levels(descriptor.mips)
         .array_layers(descriptor.layers)
         .samples(convert::samples(descriptor.samples))
         .tiling(vk::ImageTiling::OPTIMAL)
         .usage(convert::usage(descriptor.usage))
-        .initial_layout(vk::ImageLayout::UNDEFINED)
+        .flags(match descriptor.shape {
+            Shape::Cube => vk::ImageCreateFlags::CUBE_COMPATIBLE,
+            Shape::D2 | Shape::D3 => vk::ImageCreateFlags::empty(),
+        })
+        .initial_layout(vk::ImageLayout::UNDEFINED);
+    if descriptor.sharing == Sharing::Concurrent && families.len() > 1 {
+        info.sharing_mode(vk::SharingMode::CONCURRENT).queue_family_indices(families)
+    } else {
+        info
+    }
 }
 
 /// An image bound to memory. The memory lives at least as long.
@@ -29,7 +39,8 @@ pub(crate) struct Image {
     pub(crate) shared: Arc<Shared>,
     pub(crate) raw: vk::Image,
     pub(crate) descriptor: ImageDescriptor,
-    _memory: Arc<Memory>,
+    /// `None`: it belongs to somebody else.
+    memory: Option<Arc<Memory>>,
 }
 
 impl Image {
@@ -41,11 +52,11 @@ impl Image {
         memory: Arc<Memory>,
         offset: u64,
     ) -> Result<Image, Error> {
-        let info = create_info(descriptor);
+        let info = create_info(descriptor, &shared.queues.families.indices);
         // SAFETY: the device lives; formats, extents and usages were checked against the device by whoever planned.
         let raw = unsafe { shared.raw.create_image(&info, None) }.map_err(Error::vulkan("creating an image"))?;
-        let image = Image { shared: shared.clone(), raw, descriptor: *descriptor, _memory: memory };
-        let (block, begin) = image._memory.place();
+        let (block, begin) = memory.place();
+        let image = Image { shared: shared.clone(), raw, descriptor: *descriptor, memory: Some(memory) };
         // SAFETY: the image is new; size, alignment and type of the memory were checked by whoever placed the image.
         unsafe { shared.raw.bind_image_memory(raw, block, begin + offset) }
             .map_err(Error::vulkan("binding an image to memory"))?;
@@ -65,11 +76,24 @@ impl Image {
         let memory = Memory::new(shared, name, requirements, crate::memory::Kind::Images)?;
         Image::new(shared, name, descriptor, Arc::new(memory), 0)
     }
+
+    /// Somebody else's image of this description.
+    ///
+    /// # Safety
+    /// It must have been made by the same device and live as long as this.
+    pub(crate) unsafe fn foreign(shared: &Arc<Shared>, descriptor: &ImageDescriptor, raw: vk::Image) -> Image {
+        Image { shared: shared.clone(), raw, descriptor: *descriptor, memory: None }
+    }
+
+    /// Whether it belongs to somebody else.
+    pub(crate) fn is_foreign(&self) -> bool {
+        self.memory.is_none()
+    }
 }
 
 impl Drop for Image {
     fn drop(&mut self) {
-        if !self.shared.is_abandoned() {
+        if self.memory.is_some() && !self.shared.is_abandoned() {
             // SAFETY: whoever uses the image waits for the device before letting go of it.
             unsafe { self.shared.raw.destroy_image(self.raw, None) };
         }

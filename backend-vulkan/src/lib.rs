@@ -16,7 +16,8 @@
 //! # The minimum device
 //!
 //! Vulkan 1.3 with a graphics queue that has timestamps, and the features of [`minimum_features`]: `dynamicRendering`,
-//! `synchronization2`, `maintenance4`, `shaderDemoteToHelperInvocation`, `shaderTerminateInvocation`, `robustBufferAccess`,
+//! `synchronization2`, `maintenance4`, `shaderDemoteToHelperInvocation`, `shaderTerminateInvocation`, `timelineSemaphore`,
+//! `hostQueryReset`, `separateDepthStencilLayouts`, `robustBufferAccess`,
 //! `independentBlend`, `fragmentStoresAndAtomics`, `sampleRateShading`. [`DeviceSummary::missing`] lists all that a device
 //! lacks of them. Shaders may need nothing beyond.
 //!
@@ -28,40 +29,61 @@
 //!
 //! This crate alone is unsafe inside. Its interface is safe, but for [`Executor::with_hazards`].
 
+mod batches;
+mod buffer;
 mod caches;
 mod canary;
 mod capabilities;
 mod check;
+mod check_work;
+mod contents;
 mod convert;
+mod custom;
 mod descriptors;
 mod device;
 mod error;
+mod exchange;
 mod executor;
+mod features;
+mod frames;
+mod hand_in;
 mod image;
 mod instance;
+mod keep;
 mod labels;
 pub mod layer;
 mod memory;
+mod params;
 mod pass_set;
+mod physical;
 mod pipeline;
 mod poison;
 mod prepare;
+mod prepare_pass;
+mod queues;
 mod readback;
 mod record;
 mod recorder;
 mod resources;
+mod shader_fit;
 pub mod shaders;
+mod standing;
 mod submit;
 mod timing;
+mod uses;
 mod validation;
 
+/// Vulkan's own types, for programs that record commands of their own or hand in images and buffers.
+pub use ash;
 pub use caches::{AddressMode, SamplerDescriptor, TexelFilter};
 pub use canary::Canary;
-pub use capabilities::{MINIMUM_VERSION, minimum_features};
+pub use capabilities::MINIMUM_VERSION;
+pub use custom::{CustomImage, CustomRecorder};
 pub use descriptors::{BindGroup, Resource};
 pub use device::{Device, DeviceChoice, DeviceOptions, DeviceSummary};
 pub use error::{Blame, Error, INSTALL};
 pub use executor::{Executor, ExecutorOptions};
+pub use features::minimum_features;
 pub use memory::LiveMemory;
 pub use readback::Texels;
 pub use recorder::{CullMode, DrawSource, FrontFace, IndexType, Recorder};

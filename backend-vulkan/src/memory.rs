@@ -1,9 +1,9 @@
-//! Device memory: blocks out of gpu-allocator, and what images need.
+//! Device memory: blocks out of gpu-allocator, and what images and buffers need.
 
 use crate::device::{Device, Shared};
 use crate::error::Error;
 use ash::vk;
-use framewright_graph::device::{ImageDescriptor, MemoryNeeds, MemoryProvider};
+use framewright_graph::device::{BufferDescriptor, ImageDescriptor, MemoryNeeds, MemoryProvider};
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 use std::sync::Arc;
@@ -25,14 +25,16 @@ impl MemoryProvider for LiveMemory {
     }
 
     fn image(&mut self, descriptor: &ImageDescriptor) -> MemoryNeeds {
-        if self.shared.can_make(descriptor) {
-            self.shared.memory_needs(descriptor)
-        } else {
-            // The driver may not even be asked; no memory is enough.
-            MemoryNeeds { bytes: u64::MAX, alignment: 1, type_bits: u32::MAX }
-        }
+        if self.shared.can_make(descriptor) { self.shared.memory_needs(descriptor) } else { IMPOSSIBLE }
+    }
+
+    fn buffer(&mut self, descriptor: &BufferDescriptor) -> MemoryNeeds {
+        if self.shared.can_make_buffer(descriptor) { self.shared.buffer_memory_needs(descriptor) } else { IMPOSSIBLE }
     }
 }
+
+/// The needs of what the driver may not even be asked about: no memory is enough.
+const IMPOSSIBLE: MemoryNeeds = MemoryNeeds { bytes: u64::MAX, alignment: 1, type_bits: u32::MAX };
 
 /// A block of memory, given back when dropped.
 pub(crate) struct Memory {
@@ -45,6 +47,8 @@ pub(crate) struct Memory {
 pub(crate) enum Kind {
     /// Images.
     Images,
+    /// Buffers that the device alone uses.
+    Buffers,
     /// A buffer that the host fills and the device reads.
     Upload,
     /// A buffer that the device fills and the host reads.
@@ -63,7 +67,7 @@ impl Memory {
             name,
             requirements,
             location: match kind {
-                Kind::Images => MemoryLocation::GpuOnly,
+                Kind::Images | Kind::Buffers => MemoryLocation::GpuOnly,
                 Kind::Upload => MemoryLocation::CpuToGpu,
                 Kind::Readback => MemoryLocation::GpuToCpu,
             },

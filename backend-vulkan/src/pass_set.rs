@@ -1,128 +1,254 @@
-//! The set that belongs to a pass: its images by the shader's names, and the block `params`.
+//! The set that belongs to a pass: its images and buffers by the shader's names, and the block `params`.
 
+use crate::buffer::RawBuffer;
 use crate::caches::{AddressMode, LayoutBinding, SamplerDescriptor, TexelFilter};
 use crate::convert;
 use crate::descriptors::{DescriptorSet, Target};
 use crate::device::Shared;
 use crate::error::Error;
-use crate::image::{Image, View, ViewShape};
+use crate::image::{View, ViewShape};
 use crate::memory::Kind;
-use crate::resources::RawBuffer;
+use crate::params::{self, PARAMS};
+use crate::physical::{Physical, part};
 use ash::vk;
-use framewright_graph::frame::ParamValue;
-use framewright_graph::interface::{self, Block, Component, Dimension, ImageShape, PASS_SET};
-use framewright_graph::plan;
-use framewright_graph::vocabulary::{Aspects, Filter, Stages};
+use framewright_graph::interface::{self, Component, Dimension, ImageShape, PASS_SET};
+use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource, Subresources};
+use framewright_graph::vocabulary::{Accesses, Aspects, Filter, Stages};
 use std::sync::Arc;
 
-/// Name of the block that holds a pass's parameters.
-pub(crate) const PARAMS: &str = "params";
+/// What a pass's own set is filled with, whatever stands for its images and buffers.
+pub(crate) struct SetTemplate {
+    pub(crate) layout: vk::DescriptorSetLayout,
+    bindings: Vec<(LayoutBinding, Bound)>,
+    params: Option<Arc<RawBuffer>>,
+}
+
+/// What is bound to one name.
+enum Bound {
+    Params,
+    Buffer(BufferId),
+    Image { image: ImageId, range: Subresources, shape: ViewShape, layout: vk::ImageLayout, sampler: vk::Sampler },
+}
 
 /// A pass's own descriptor set with all that it points to. Fields are dropped in this order.
 pub(crate) struct PassSet {
     pub(crate) set: DescriptorSet,
     _views: Vec<View>,
-    _params: Option<RawBuffer>,
+    _buffers: Vec<Arc<RawBuffer>>,
 }
 
-impl PassSet {
-    /// The set for `pass` and the interface of its shader.
+impl SetTemplate {
+    /// The set for `pass` and the bindings of its shader.
     ///
     /// # Errors
     /// [`Error::Mismatch`] where the Plan and the shader don't name the same things.
     pub(crate) fn new(
         shared: &Arc<Shared>,
-        images: &[Arc<Image>],
+        plan: &Plan,
         pass: &plan::Pass,
-        shader: &interface::ShaderInterface,
-    ) -> Result<PassSet, Error> {
+        shader: &[interface::Binding],
+    ) -> Result<SetTemplate, Error> {
         let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
-        let own = || shader.bindings.iter().filter(|it| it.set == PASS_SET);
-        if let Some(surplus) = pass.bindings.iter().find(|bound| own().all(|it| *it.name != *bound.name)) {
-            return Err(mismatch(format!("the shader has no `{}`", surplus.name)));
+        let own = || shader.iter().filter(|it| it.set == PASS_SET);
+        let images = pass.accesses.iter().filter_map(|it| it.binding.as_ref()).map(|it| &it.name);
+        let buffers = pass.buffers.iter().filter_map(|it| it.binding.as_ref());
+        if let Some(surplus) = images.chain(buffers).find(|bound| own().all(|it| *it.name != ***bound)) {
+            return Err(mismatch(format!("the shader has no `{surplus}`")));
         }
-        let (mut bindings, mut views, mut params) = (Vec::new(), Vec::new(), None);
+        let (mut bindings, mut params) = (Vec::new(), None);
         for wanted in own() {
-            let (ty, target) = match &wanted.kind {
-                interface::BindingKind::UniformBlock(block) if wanted.name == PARAMS => {
-                    let bytes = fill(block, &pass.params).map_err(mismatch)?;
+            let (ty, bound) = match &wanted.kind {
+                interface::BindingKind::UniformBlock(block)
+                    if wanted.name == PARAMS && buffer_of(pass, PARAMS).is_none() =>
+                {
+                    let bytes = params::fill(block, &pass.params).map_err(mismatch)?;
                     let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
                     let mut buffer = RawBuffer::new(shared, PARAMS, bytes.len() as u64, usage, Kind::Upload)?;
                     buffer.fill(&bytes)?;
-                    let raw = params.insert(buffer).raw;
-                    (vk::DescriptorType::UNIFORM_BUFFER, Target::Buffer(raw))
+                    params = Some(Arc::new(buffer));
+                    (vk::DescriptorType::UNIFORM_BUFFER, Bound::Params)
                 }
-                interface::BindingKind::SampledImage(shape) | interface::BindingKind::StorageImage { shape, .. } => {
-                    let bound = pass.bindings.iter().find(|it| *it.name == *wanted.name);
-                    let bound = bound.ok_or_else(|| mismatch(format!("nothing is bound to `{}`", wanted.name)))?;
-                    let (view, target) =
-                        image(shared, images, bound, *shape, &wanted.kind).map_err(|error| match error {
-                            Wrong::Shape(what) => mismatch(what),
-                            Wrong::Vulkan(error) => error,
-                        })?;
-                    views.push(view);
-                    let sampled = matches!(wanted.kind, interface::BindingKind::SampledImage(_));
-                    let sampled_type = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
-                    (if sampled { sampled_type } else { vk::DescriptorType::STORAGE_IMAGE }, target)
+                interface::BindingKind::UniformBlock(_) | interface::BindingKind::StorageBlock { .. } => {
+                    block(plan, pass, wanted).map_err(mismatch)?
                 }
-                kind => return Err(mismatch(format!("`{}` can't be in set 0: {kind:?}", wanted.name))),
+                _ => {
+                    let (ty, image) = image(plan, pass, wanted).map_err(mismatch)?;
+                    let sampler = image.filter.map(|filter| shared.sampler(sampler(filter))).transpose()?;
+                    let BoundImage { image, range, shape, layout, .. } = image;
+                    (ty, Bound::Image { image, range, shape, layout, sampler: sampler.unwrap_or_default() })
+                }
             };
-            bindings.push((LayoutBinding { binding: wanted.binding, ty, stages: stages(wanted.stages) }, target));
+            bindings.push((LayoutBinding { binding: wanted.binding, ty, stages: stages(wanted.stages) }, bound));
         }
-        let set = DescriptorSet::new(shared, &bindings)?;
-        Ok(PassSet { set, _views: views, _params: params })
+        let layout = shared.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
+        Ok(SetTemplate { layout, bindings, params })
+    }
+
+    /// A set without bindings.
+    pub(crate) fn empty(shared: &Shared) -> Result<SetTemplate, Error> {
+        Ok(SetTemplate { layout: shared.set_layout(Vec::new())?, bindings: Vec::new(), params: None })
+    }
+
+    /// What the set's contents depend on.
+    pub(crate) fn resources(&self) -> impl Iterator<Item = Resource> {
+        self.bindings.iter().filter_map(|(_, bound)| match bound {
+            Bound::Params => None,
+            Bound::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
+            Bound::Image { image, .. } => Some(Resource::Image(*image)),
+        })
+    }
+
+    /// The set for frame `frame`.
+    pub(crate) fn fill(&self, shared: &Arc<Shared>, physical: &Physical, frame: u64) -> Result<PassSet, Error> {
+        let (mut views, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
+        for (binding, bound) in &self.bindings {
+            let target = match bound {
+                Bound::Params => match &self.params {
+                    Some(params) => {
+                        buffers.push(params.clone());
+                        Target::Buffer(params.raw)
+                    }
+                    None => continue,
+                },
+                Bound::Buffer(buffer) => {
+                    let buffer = physical.buffer(*buffer, frame);
+                    buffers.push(buffer.clone());
+                    Target::Buffer(buffer.raw)
+                }
+                Bound::Image { image, range, shape, layout, sampler } => {
+                    let view = View::new(physical.image(*image, frame), *range, *shape)?;
+                    let target = Target::Image(view.raw, *layout, *sampler);
+                    views.push(view);
+                    target
+                }
+            };
+            targets.push((*binding, target));
+        }
+        let set = DescriptorSet::new(shared, &targets)?;
+        Ok(PassSet { set, _views: views, _buffers: buffers })
     }
 }
 
-/// Why an image can't be bound.
-enum Wrong {
-    Shape(String),
-    Vulkan(Error),
+/// The access to the buffer that is bound to `name`.
+fn buffer_of<'p>(pass: &'p plan::Pass, name: &str) -> Option<&'p plan::BufferAccess> {
+    pass.buffers.iter().find(|it| it.binding.as_deref() == Some(name))
 }
 
-/// A view of what is bound, in the shape that the shader declares.
+/// The buffer behind a block.
+fn block(plan: &Plan, pass: &plan::Pass, wanted: &interface::Binding) -> Result<(vk::DescriptorType, Bound), String> {
+    let name = &wanted.name;
+    let access = buffer_of(pass, name).ok_or_else(|| format!("nothing is bound to `{name}`"))?;
+    let buffer = &plan.buffers[access.buffer.0 as usize];
+    match &wanted.kind {
+        interface::BindingKind::UniformBlock(block) if access.accesses.contains(Accesses::UNIFORM_READ) => {
+            if u64::from(block.bytes) > buffer.bytes.next_multiple_of(16) {
+                let held = buffer.bytes;
+                return Err(format!("the block `{name}` takes {} bytes, and its buffer holds {held}", block.bytes));
+            }
+            Ok((vk::DescriptorType::UNIFORM_BUFFER, Bound::Buffer(access.buffer)))
+        }
+        interface::BindingKind::StorageBlock { writable, .. }
+            if access.accesses.intersects(Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE) =>
+        {
+            only_read(name, *writable, access.accesses)?;
+            Ok((vk::DescriptorType::STORAGE_BUFFER, Bound::Buffer(access.buffer)))
+        }
+        _ => Err(format!("`{name}` is a uniform block to only one of Plan and shader")),
+    }
+}
+
+/// A shader that may write what the Plan takes to be only read would race with others.
+fn only_read(name: &str, writable: bool, accesses: Accesses) -> Result<(), String> {
+    if writable && !accesses.contains(Accesses::SHADER_STORAGE_WRITE) {
+        return Err(format!("the Plan only reads `{name}`: declare it `readonly` in the shader"));
+    }
+    Ok(())
+}
+
+/// An image as it is bound.
+struct BoundImage {
+    image: ImageId,
+    range: Subresources,
+    shape: ViewShape,
+    layout: vk::ImageLayout,
+    filter: Option<Filter>,
+}
+
+/// The part of an image that is bound, in the shape that the shader declares.
 fn image(
-    shared: &Shared,
-    images: &[Arc<Image>],
-    bound: &plan::Binding,
-    shape: ImageShape,
-    kind: &interface::BindingKind,
-) -> Result<(View, Target), Wrong> {
-    let image = &images[bound.image.0 as usize];
-    let sampled = matches!(kind, interface::BindingKind::SampledImage(_));
-    if sampled != bound.filter.is_some() {
-        return Err(Wrong::Shape(format!("`{}` is sampled by only one of Plan and shader", bound.name)));
-    }
-    if shape.multisampled != (image.descriptor.samples > 1) {
-        let samples = image.descriptor.samples;
-        return Err(Wrong::Shape(format!("`{}` has {samples} samples and another kind of sampler", bound.name)));
-    }
-    if sampled && shape.component != Component::of(image.descriptor.format) {
-        let (wanted, format) = (shape.component, image.descriptor.format);
-        return Err(Wrong::Shape(format!("the shader reads {wanted:?} from `{}`, which is {format}", bound.name)));
-    }
-    let view_shape = match (shape.dimension, shape.arrayed) {
-        (Dimension::D2, false) if bound.range.layers == 1 => ViewShape::Flat,
-        (Dimension::D2, true) => ViewShape::Layers,
-        (Dimension::D3, false) => ViewShape::Volume,
-        (Dimension::Cube, false) if bound.range.layers == 6 => ViewShape::Cube,
-        _ => return Err(Wrong::Shape(format!("`{}` has another dimension than its image", bound.name))),
-    };
-    let mut range = bound.range;
-    if range.aspects.contains(Aspects::DEPTH) {
+    plan: &Plan,
+    pass: &plan::Pass,
+    wanted: &interface::Binding,
+) -> Result<(vk::DescriptorType, BoundImage), String> {
+    let name = &wanted.name;
+    let bound = pass.accesses.iter().find_map(|it| {
+        let binding = it.binding.as_ref().filter(|binding| *binding.name == **name)?;
+        Some((it, binding.kind))
+    });
+    let (access, kind) = bound.ok_or_else(|| format!("nothing is bound to `{name}`"))?;
+    let image = plan.image(access.image);
+    let mut range = part(image, access.range);
+    if image.format.aspects().contains(Aspects::DEPTH | Aspects::STENCIL) && range.aspects != Aspects::STENCIL {
         // A shader reads one plane at a time.
         range.aspects = Aspects::DEPTH;
     }
-    let view = View::new(image, range, view_shape).map_err(Wrong::Vulkan)?;
-    let sampler = match bound.filter {
-        None => vk::Sampler::null(),
-        Some(filter) => shared.sampler(sampler(filter)).map_err(Wrong::Vulkan)?,
+    let component = if range.aspects == Aspects::STENCIL { Component::Uint } else { Component::of(image.format) };
+    let read = |wanted: Component| {
+        if wanted == component {
+            return Ok(());
+        }
+        Err(format!("the shader reads {wanted:?} from `{name}`, which is {}", image.format))
     };
-    let target = Target::Image(view.raw, convert::layout(bound.layout), sampler);
-    Ok((view, target))
+    let samples = |multisampled: bool| {
+        if multisampled == (image.samples > 1) {
+            return Ok(());
+        }
+        Err(format!("`{name}` has {} samples and another kind of sampler", image.samples))
+    };
+    let layout = convert::layout(access.layout);
+    let whole = |shape, filter| BoundImage { image: access.image, range, shape, layout, filter };
+    match (&wanted.kind, kind) {
+        (interface::BindingKind::SampledImage(shape), BindingKind::Sampled(filter)) => {
+            samples(shape.multisampled)?;
+            read(shape.component)?;
+            let shape = view_shape(name, *shape, image, range)?;
+            Ok((vk::DescriptorType::COMBINED_IMAGE_SAMPLER, whole(shape, Some(filter))))
+        }
+        (interface::BindingKind::StorageImage { shape, format, writable, .. }, BindingKind::Storage) => {
+            samples(shape.multisampled)?;
+            only_read(name, *writable, access.accesses)?;
+            if *format != Some(image.format) {
+                let declared = format.map_or("no format".to_owned(), |format| format.to_string());
+                return Err(format!("the shader declares `{name}` with {declared}, and it is {}", image.format));
+            }
+            let shape = view_shape(name, *shape, image, range)?;
+            Ok((vk::DescriptorType::STORAGE_IMAGE, whole(shape, None)))
+        }
+        (interface::BindingKind::InputAttachment { multisampled, component }, BindingKind::InputAttachment) => {
+            samples(*multisampled)?;
+            read(*component)?;
+            let shape = if range.layers > 1 { ViewShape::Layers } else { ViewShape::Flat };
+            Ok((vk::DescriptorType::INPUT_ATTACHMENT, whole(shape, None)))
+        }
+        (interface::BindingKind::Other(what), _) => Err(format!("`{name}` can't be in set 0: {what}")),
+        (wanted, kind) => Err(format!("`{name}` is bound as {kind:?}, and the shader declares {wanted:?}")),
+    }
 }
 
-/// Images of a frame end at their edges and are read at one level.
+/// The view that a shader's declaration needs.
+fn view_shape(name: &str, shape: ImageShape, image: &plan::Image, range: Subresources) -> Result<ViewShape, String> {
+    let deep = image.shape == framewright_graph::frame::Shape::D3;
+    let cubic = image.shape == framewright_graph::frame::Shape::Cube;
+    match (shape.dimension, shape.arrayed) {
+        (Dimension::D2, false) if range.layers == 1 && !deep => Ok(ViewShape::Flat),
+        (Dimension::D2, true) if !deep => Ok(ViewShape::Layers),
+        (Dimension::D3, false) if deep => Ok(ViewShape::Volume),
+        (Dimension::Cube, false) if cubic && range.layers == 6 => Ok(ViewShape::Cube),
+        _ => Err(format!("`{name}` has another dimension than its image")),
+    }
+}
+
+/// Images of a frame end at their edges, and mip levels are read without filter between them.
 fn sampler(filter: Filter) -> SamplerDescriptor {
     let filter = match filter {
         Filter::Nearest => TexelFilter::Nearest,
@@ -138,106 +264,11 @@ fn sampler(filter: Filter) -> SamplerDescriptor {
 
 /// Shader stages have other values than pipeline stages.
 fn stages(stages: Stages) -> vk::ShaderStageFlags {
-    let mut flags = vk::ShaderStageFlags::empty();
-    if stages.contains(Stages::VERTEX_SHADER) {
-        flags |= vk::ShaderStageFlags::VERTEX;
-    }
-    if stages.contains(Stages::FRAGMENT_SHADER) {
-        flags |= vk::ShaderStageFlags::FRAGMENT;
-    }
-    flags
-}
-
-/// The bytes of a parameter block.
-///
-/// # Errors
-/// In words: a member without value, a value without member, or one that the member's type can't hold.
-fn fill(block: &Block, params: &[plan::Param]) -> Result<Vec<u8>, String> {
-    if let Some(surplus) = params.iter().find(|param| block.members.iter().all(|it| *it.name != *param.name)) {
-        return Err(format!("the block `{PARAMS}` has no member `{}`", surplus.name));
-    }
-    let mut bytes = vec![0; block.bytes.max(16) as usize];
-    for member in &block.members {
-        let param = params.iter().find(|it| *it.name == *member.name);
-        let param = param.ok_or_else(|| format!("`{}` of the block `{PARAMS}` has no value", member.name))?;
-        let value = value(&member.ty, param.value)
-            .ok_or_else(|| format!("`{}` is a {}, and {:?} is none", member.name, member.ty, param.value))?;
-        let at = member.offset as usize;
-        bytes
-            .get_mut(at..at + value.len())
-            .ok_or_else(|| format!("`{}` lies outside its block", member.name))?
-            .copy_from_slice(&value);
-    }
-    Ok(bytes)
-}
-
-/// A value as a member of type `ty` holds it; `None` if it can't.
-fn value(ty: &str, value: ParamValue) -> Option<[u8; 4]> {
-    let number = match value {
-        ParamValue::Bool(value) => f64::from(u8::from(value)),
-        // Beyond 2^53 no 32-bit type holds it anyway.
-        ParamValue::Integer(value) => {
-            i32::try_from(value).map(f64::from).or_else(|_| u32::try_from(value).map(f64::from)).ok()?
-        }
-        ParamValue::Number(value) => value,
-    };
-    match ty {
-        "float" => {
-            #[allow(clippy::cast_possible_truncation, reason = "shaders compute in 32 bits")]
-            let narrowed = number as f32;
-            narrowed.is_finite().then(|| narrowed.to_ne_bytes())
-        }
-        "int" if number.fract() == 0.0 && (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&number) => {
-            #[allow(clippy::cast_possible_truncation, reason = "the range was checked")]
-            let whole = number as i32;
-            Some(whole.to_ne_bytes())
-        }
-        "uint" if number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number) => {
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range was checked")]
-            let whole = number as u32;
-            Some(whole.to_ne_bytes())
-        }
-        _ => None,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use framewright_graph::interface::Member;
-
-    fn member(name: &str, offset: u32, ty: &str) -> Member {
-        Member { name: name.to_owned(), offset, ty: ty.to_owned() }
-    }
-
-    fn param(name: &str, value: ParamValue) -> plan::Param {
-        plan::Param { name: name.into(), value }
-    }
-
-    #[test]
-    fn parameters_land_at_their_members_offsets_in_their_members_types() {
-        let members = vec![member("white", 0, "float"), member("steps", 4, "int"), member("on", 12, "uint")];
-        let block = Block { bytes: 16, members };
-        let params = [
-            param("on", ParamValue::Bool(true)),
-            param("white", ParamValue::Integer(3)),
-            param("steps", ParamValue::Number(-2.0)),
-        ];
-        let mut expected = Vec::new();
-        expected.extend(3.0_f32.to_ne_bytes());
-        expected.extend((-2_i32).to_ne_bytes());
-        expected.extend([0; 4]);
-        expected.extend(1_u32.to_ne_bytes());
-        assert_eq!(fill(&block, &params), Ok(expected));
-    }
-
-    #[test]
-    fn parameters_that_do_not_fit_are_named() {
-        let block = Block { bytes: 16, members: vec![member("steps", 0, "int")] };
-        let message = |params: &[plan::Param]| fill(&block, params).err().unwrap_or_default();
-        assert_eq!(message(&[]), "`steps` of the block `params` has no value");
-        assert_eq!(message(&[param("steps", ParamValue::Number(0.5))]), "`steps` is a int, and Number(0.5) is none");
-        let two = [param("steps", ParamValue::Integer(1)), param("speed", ParamValue::Integer(1))];
-        assert_eq!(message(&two), "the block `params` has no member `speed`");
-    }
+    let pairs = [
+        (Stages::VERTEX_SHADER, vk::ShaderStageFlags::VERTEX),
+        (Stages::FRAGMENT_SHADER, vk::ShaderStageFlags::FRAGMENT),
+        (Stages::COMPUTE_SHADER, vk::ShaderStageFlags::COMPUTE),
+    ];
+    let flags = pairs.iter().filter(|(stage, _)| stages.contains(*stage)).map(|(_, flag)| *flag);
+    flags.fold(vk::ShaderStageFlags::empty(), |all, flag| all | flag)
 }

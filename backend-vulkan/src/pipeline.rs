@@ -1,4 +1,4 @@
-//! Graphics pipelines, one for each description.
+//! Pipelines, one for each description.
 
 use crate::convert;
 use crate::device::Shared;
@@ -6,36 +6,49 @@ use crate::error::Error;
 use crate::shaders::Spirv;
 use ash::vk;
 use framewright_graph::format::Format;
-use framewright_graph::frame::Blend;
+use framewright_graph::frame::{Blend, StencilState};
 use framewright_graph::plan::DepthState;
 
-/// Everything that a pipeline is made of. Viewport, scissor, cull mode and front face are set while recording.
+/// Everything that a graphics pipeline is made of. Viewport, scissor, cull mode and front face are set while recording.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct PipelineDescriptor {
     pub(crate) vertex: Spirv,
     pub(crate) fragment: Spirv,
     pub(crate) layout: vk::PipelineLayout,
-    /// Bytes from vertex to vertex; 0 without vertex buffer.
-    pub(crate) vertex_stride: u32,
+    /// Bytes from vertex to vertex in each vertex buffer.
+    pub(crate) strides: Vec<u32>,
     pub(crate) attributes: Vec<VertexAttribute>,
-    /// Format and blending of each colour attachment.
-    pub(crate) color: Vec<(Format, Blend)>,
+    /// Format and blending of each colour attachment; without blending it is not written.
+    pub(crate) color: Vec<(Format, Option<Blend>)>,
     pub(crate) depth_format: Option<Format>,
     pub(crate) depth: Option<DepthState>,
+    pub(crate) stencil_format: Option<Format>,
+    pub(crate) stencil: Option<StencilState>,
     pub(crate) samples: u32,
+    pub(crate) local: Option<LocalRead>,
 }
 
-/// A vertex attribute of 32-bit floats.
+/// How a pass of a rendering scope with local reads sees the scope's colour attachments.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) struct LocalRead {
+    /// The shader's output location of each.
+    pub(crate) locations: Vec<u32>,
+    /// The shader's input attachment index of each.
+    pub(crate) inputs: Vec<u32>,
+}
+
+/// A vertex attribute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct VertexAttribute {
     pub(crate) location: u32,
-    /// 1 to 4.
-    pub(crate) components: u32,
+    pub(crate) binding: u32,
+    pub(crate) format: vk::Format,
     pub(crate) offset: u32,
 }
 
 impl Shared {
-    /// The pipeline of this description. It bears the name of who first asked for it: others may be using it already.
+    /// The graphics pipeline of this description. It bears the name of who first asked for it: others may be using it
+    /// already.
     pub(crate) fn pipeline(&self, name: &str, descriptor: PipelineDescriptor) -> Result<vk::Pipeline, Error> {
         self.caches.pipelines.get(descriptor, |descriptor| {
             let vertex = Module::new(self, &descriptor.vertex)?;
@@ -45,6 +58,35 @@ impl Shared {
             Ok(pipeline)
         })
     }
+
+    /// The compute pipeline of a shader and a layout, named likewise.
+    pub(crate) fn compute_pipeline(
+        &self,
+        name: &str,
+        shader: Spirv,
+        layout: vk::PipelineLayout,
+    ) -> Result<vk::Pipeline, Error> {
+        self.caches.compute_pipelines.get((shader, layout), |(shader, layout)| {
+            let module = Module::new(self, shader)?;
+            let stage = vk::PipelineShaderStageCreateInfo::default()
+                .stage(vk::ShaderStageFlags::COMPUTE)
+                .module(module.raw)
+                .name(c"main");
+            let info = vk::ComputePipelineCreateInfo::default().stage(stage).layout(*layout);
+            // SAFETY: everything that `info` points to outlives the call; the interface was matched with the layout.
+            let made = unsafe { self.raw.create_compute_pipelines(vk::PipelineCache::null(), &[info], None) };
+            let pipeline = only(made)?;
+            self.name(pipeline, name);
+            Ok(pipeline)
+        })
+    }
+}
+
+/// The one pipeline that was asked for.
+fn only(made: Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>) -> Result<vk::Pipeline, Error> {
+    let doing = "creating a pipeline";
+    let made = made.map_err(|(_, result)| Error::vulkan(doing)(result))?;
+    made.first().copied().ok_or(Error::Vulkan { doing, result: vk::Result::ERROR_UNKNOWN })
 }
 
 /// A shader module, needed only while a pipeline is created.
@@ -80,11 +122,13 @@ fn create(
         vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module.raw).name(c"main")
     };
     let stages = [stage(vk::ShaderStageFlags::VERTEX, vertex), stage(vk::ShaderStageFlags::FRAGMENT, fragment)];
-    let bindings = [vk::VertexInputBindingDescription {
-        binding: 0,
-        stride: descriptor.vertex_stride,
-        input_rate: vk::VertexInputRate::VERTEX,
-    }];
+    let bindings: Vec<_> = (0..)
+        .zip(&descriptor.strides)
+        .map(|(binding, stride)| {
+            let input_rate = vk::VertexInputRate::VERTEX;
+            vk::VertexInputBindingDescription { binding, stride: *stride, input_rate }
+        })
+        .collect();
     let attributes: Vec<_> = descriptor.attributes.iter().map(attribute).collect();
     let mut vertex_input = vk::PipelineVertexInputStateCreateInfo::default().vertex_attribute_descriptions(&attributes);
     if !attributes.is_empty() {
@@ -103,6 +147,18 @@ fn create(
             .depth_write_enable(state.write)
             .depth_compare_op(convert::compare(state.test));
     }
+    if let Some(state) = descriptor.stencil {
+        let face = vk::StencilOpState {
+            fail_op: vk::StencilOp::KEEP,
+            pass_op: convert::stencil(state.pass),
+            depth_fail_op: vk::StencilOp::KEEP,
+            compare_op: convert::compare(state.test),
+            compare_mask: u32::from(u8::MAX),
+            write_mask: u32::from(u8::MAX),
+            reference: u32::from(state.reference),
+        };
+        depth = depth.stencil_test_enable(true).front(face).back(face);
+    }
     let blends: Vec<_> = descriptor.color.iter().map(|(_, blend)| blend_state(*blend)).collect();
     let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
     let dynamic = [
@@ -115,8 +171,14 @@ fn create(
     let formats: Vec<_> = descriptor.color.iter().map(|(format, _)| convert::format(*format)).collect();
     let mut rendering = vk::PipelineRenderingCreateInfo::default()
         .color_attachment_formats(&formats)
-        .depth_attachment_format(descriptor.depth_format.map_or(vk::Format::UNDEFINED, convert::format));
-    let info = vk::GraphicsPipelineCreateInfo::default()
+        .depth_attachment_format(descriptor.depth_format.map_or(vk::Format::UNDEFINED, convert::format))
+        .stencil_attachment_format(descriptor.stencil_format.map_or(vk::Format::UNDEFINED, convert::format));
+    let local = descriptor.local.as_ref();
+    let mut locations = vk::RenderingAttachmentLocationInfoKHR::default()
+        .color_attachment_locations(local.map_or(&[][..], |local| &local.locations[..]));
+    let mut inputs = vk::RenderingInputAttachmentIndexInfoKHR::default()
+        .color_attachment_input_indices(local.map_or(&[][..], |local| &local.inputs[..]));
+    let mut info = vk::GraphicsPipelineCreateInfo::default()
         .stages(&stages)
         .vertex_input_state(&vertex_input)
         .input_assembly_state(&input_assembly)
@@ -128,30 +190,22 @@ fn create(
         .dynamic_state(&dynamic)
         .layout(descriptor.layout)
         .push_next(&mut rendering);
+    if local.is_some() {
+        info = info.push_next(&mut locations).push_next(&mut inputs);
+    }
     // SAFETY: everything that `info` points to outlives the call; interfaces were matched with the layout.
-    let pipelines = unsafe { shared.raw.create_graphics_pipelines(vk::PipelineCache::null(), &[info], None) };
-    let doing = "creating a pipeline";
-    let pipelines = pipelines.map_err(|(_, result)| Error::vulkan(doing)(result))?;
-    pipelines.first().copied().ok_or(Error::Vulkan { doing, result: vk::Result::ERROR_UNKNOWN })
+    only(unsafe { shared.raw.create_graphics_pipelines(vk::PipelineCache::null(), &[info], None) })
 }
 
 fn attribute(attribute: &VertexAttribute) -> vk::VertexInputAttributeDescription {
-    vk::VertexInputAttributeDescription {
-        location: attribute.location,
-        binding: 0,
-        format: match attribute.components {
-            1 => vk::Format::R32_SFLOAT,
-            2 => vk::Format::R32G32_SFLOAT,
-            3 => vk::Format::R32G32B32_SFLOAT,
-            _ => vk::Format::R32G32B32A32_SFLOAT,
-        },
-        offset: attribute.offset,
-    }
+    let VertexAttribute { location, binding, format, offset } = *attribute;
+    vk::VertexInputAttributeDescription { location, binding, format, offset }
 }
 
-/// Alpha blends like colour, with its own new value taken whole.
-fn blend_state(blend: Blend) -> vk::PipelineColorBlendAttachmentState {
+/// Alpha blends like colour, with its own new value taken whole. Without blending nothing is written.
+fn blend_state(blend: Option<Blend>) -> vk::PipelineColorBlendAttachmentState {
     use vk::BlendFactor as Factor;
+    let Some(blend) = blend else { return vk::PipelineColorBlendAttachmentState::default() };
     let state = vk::PipelineColorBlendAttachmentState::default()
         .color_write_mask(vk::ColorComponentFlags::RGBA)
         .color_blend_op(vk::BlendOp::ADD)

@@ -1,21 +1,24 @@
-//! Outputs, copied to the host.
+//! Contents of images and buffers, copied to the host.
 
+use crate::buffer::RawBuffer;
+use crate::convert;
 use crate::device::Shared;
 use crate::error::Error;
 use crate::image::Image;
 use crate::memory::Kind;
-use crate::record::{barriers, state_change};
-use crate::resources::RawBuffer;
+use crate::record::{Place, barriers, copy_between, state_change};
 use ash::vk;
+use framewright_graph::device::ImageDescriptor;
 use framewright_graph::format::Format;
-use framewright_graph::plan::{ImageState, Subresources};
-use framewright_graph::vocabulary::{Accesses, Aspects, Layout, Stages};
+use framewright_graph::plan::Subresources;
+use framewright_graph::vocabulary::{Accesses, Aspects, Layout, Stages, State};
 use std::sync::Arc;
 
-/// Texels of an output's first mip level.
+/// Texels of one plane of one mip level of an image.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Texels {
-    /// What a texel is. Of depth-stencil formats only the depth is read: 2 bytes for `D16_UNORM`, else 4.
+    /// What a texel is. Of depth-stencil formats one plane is read: the depth takes 2 bytes for `D16_UNORM`, else 4; the
+    /// stencil takes 1.
     pub format: Format,
     /// Width, height, depth.
     pub extent: [u32; 3],
@@ -25,51 +28,113 @@ pub struct Texels {
     pub bytes: Vec<u8>,
 }
 
-/// Copies `image`, which is in the state `state` and stays in it.
-pub(crate) fn read(shared: &Arc<Shared>, image: &Image, state: ImageState) -> Result<Texels, Error> {
-    let descriptor = image.descriptor;
-    let [width, height, depth] = descriptor.extent;
-    let texels = u64::from(width) * u64::from(height) * u64::from(depth) * u64::from(descriptor.layers);
-    let bytes = texels * bytes_of(descriptor.format);
-    let buffer = RawBuffer::new(shared, "readback", bytes, vk::BufferUsageFlags::TRANSFER_DST, Kind::Readback)?;
-    let aspect = if descriptor.format.is_depth() { Aspects::DEPTH } else { Aspects::COLOR };
-    let source =
-        ImageState { stages: Stages::COPY, accesses: Accesses::TRANSFER_READ, layout: Layout::TransferSrcOptimal };
-    let whole = Subresources::all(descriptor.format, descriptor.mips, descriptor.layers);
-    shared.submit_once("reading an output back", |commands| {
-        let to_copy = state_change(image.raw, whole, Some(state), source);
-        barriers(shared, commands, &[], &[to_copy]);
-        let region = vk::BufferImageCopy::default()
-            .image_subresource(vk::ImageSubresourceLayers {
-                aspect_mask: crate::convert::aspects(aspect),
-                mip_level: 0,
-                base_array_layer: 0,
-                layer_count: descriptor.layers,
-            })
-            .image_extent(vk::Extent3D { width, height, depth });
-        let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
-        // SAFETY: the buffer holds all texels, the image is in this layout, and both live until the wait is over.
-        unsafe { shared.raw.cmd_copy_image_to_buffer(commands, image.raw, layout, buffer.raw, &[region]) };
-        let to_host = vk::MemoryBarrier2::default()
-            .src_stage_mask(vk::PipelineStageFlags2::COPY)
-            .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
-            .dst_stage_mask(vk::PipelineStageFlags2::HOST)
-            .dst_access_mask(vk::AccessFlags2::HOST_READ);
-        barriers(shared, commands, &[to_host], &[state_change(image.raw, whole, Some(source), state)]);
-    })?;
-    let wanted = usize::try_from(bytes).unwrap_or(usize::MAX);
-    let read = buffer.memory.bytes().get(..wanted).ok_or_else(|| Error::OutOfMemory {
-        what: "a buffer that the host can read".to_owned(),
-        bytes,
-        reason: "the memory isn't visible to the host".to_owned(),
-    })?;
-    Ok(Texels { format: descriptor.format, extent: descriptor.extent, layers: descriptor.layers, bytes: read.to_vec() })
+/// The state of an image while it is copied from.
+const COPIED: State =
+    State { stages: Stages::COPY, accesses: Accesses::TRANSFER_READ, layout: Layout::TransferSrcOptimal };
+
+/// A readback on its way: the device copies into it, and when that is done the host takes it out.
+pub(crate) struct Readback {
+    buffer: RawBuffer,
+    bytes: u64,
+    plane: Aspects,
+    mip: u32,
 }
 
-/// Bytes of a texel as `vkCmdCopyImageToBuffer` writes it: of depth-stencil formats the depth alone.
-fn bytes_of(format: Format) -> u64 {
-    match format {
-        Format::D32_SFLOAT_S8_UINT | Format::D24_UNORM_S8_UINT => 4,
-        format => format.texel_bytes(),
+impl Readback {
+    /// Room for one plane of one mip level of such an image.
+    pub(crate) fn of_image(
+        shared: &Arc<Shared>,
+        descriptor: &ImageDescriptor,
+        plane: Aspects,
+        mip: u32,
+    ) -> Result<Readback, Error> {
+        let texels = mip_extent(descriptor, mip)
+            .iter()
+            .fold(u64::from(descriptor.layers), |all, side| all.saturating_mul(u64::from(*side)));
+        Readback::new(shared, texels.saturating_mul(plane_bytes(descriptor.format, plane)), plane, mip)
+    }
+
+    /// Room for a buffer.
+    pub(crate) fn of_buffer(shared: &Arc<Shared>, bytes: u64) -> Result<Readback, Error> {
+        Readback::new(shared, bytes, Aspects::empty(), 0)
+    }
+
+    fn new(shared: &Arc<Shared>, bytes: u64, plane: Aspects, mip: u32) -> Result<Readback, Error> {
+        let buffer = RawBuffer::new(shared, "readback", bytes, vk::BufferUsageFlags::TRANSFER_DST, Kind::Readback)?;
+        Ok(Readback { buffer, bytes, plane, mip })
+    }
+
+    /// Copies from `image`, which is in the state `state` and stays in it.
+    pub(crate) fn record_image(&self, shared: &Shared, commands: vk::CommandBuffer, image: &Image, state: State) {
+        let descriptor = image.descriptor;
+        let whole = Subresources::all(descriptor.format, descriptor.mips, descriptor.layers);
+        barriers(shared, commands, &[], &[state_change(image.raw, whole, state, COPIED)]);
+        let range = Subresources { aspects: self.plane, base_mip: self.mip, mips: 1, ..whole };
+        let source = Place::Image {
+            image: image.raw,
+            range,
+            extent: convert::extent(mip_extent(&descriptor, self.mip)),
+            layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+        };
+        copy_between(shared, commands, source, self.place());
+        barriers(shared, commands, &[to_host()], &[state_change(image.raw, whole, COPIED, state)]);
+    }
+
+    /// Copies from `buffer`, which is in the state `state` and stays in it.
+    pub(crate) fn record_buffer(&self, shared: &Shared, commands: vk::CommandBuffer, buffer: &RawBuffer, state: State) {
+        barriers(shared, commands, &[memory_change(state, COPIED)], &[]);
+        copy_between(shared, commands, Place::Buffer { buffer: buffer.raw, bytes: self.bytes }, self.place());
+        barriers(shared, commands, &[to_host(), memory_change(COPIED, state)], &[]);
+    }
+
+    fn place(&self) -> Place {
+        Place::Buffer { buffer: self.buffer.raw, bytes: self.bytes }
+    }
+
+    /// The bytes. The copy must have been waited for.
+    pub(crate) fn bytes(&self) -> Result<Vec<u8>, Error> {
+        self.buffer.contents(usize::try_from(self.bytes).unwrap_or(usize::MAX)).map(<[u8]>::to_vec)
+    }
+
+    /// The texels of an image of this description. The copy must have been waited for.
+    pub(crate) fn texels(&self, descriptor: &ImageDescriptor) -> Result<Texels, Error> {
+        let extent = mip_extent(descriptor, self.mip);
+        Ok(Texels { format: descriptor.format, extent, layers: descriptor.layers, bytes: self.bytes()? })
+    }
+}
+
+/// A memory barrier from one state of a buffer to another.
+pub(crate) fn memory_change(from: State, to: State) -> vk::MemoryBarrier2<'static> {
+    vk::MemoryBarrier2::default()
+        .src_stage_mask(convert::stages(from.stages))
+        .src_access_mask(convert::accesses(from.accesses))
+        .dst_stage_mask(convert::stages(to.stages))
+        .dst_access_mask(convert::accesses(to.accesses))
+}
+
+fn to_host() -> vk::MemoryBarrier2<'static> {
+    vk::MemoryBarrier2::default()
+        .src_stage_mask(vk::PipelineStageFlags2::COPY)
+        .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+        .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+        .dst_access_mask(vk::AccessFlags2::HOST_READ)
+}
+
+/// Extent of a mip level.
+pub(crate) fn mip_extent(descriptor: &ImageDescriptor, mip: u32) -> [u32; 3] {
+    descriptor.extent.map(|side| side.unbounded_shr(mip).max(1))
+}
+
+/// The plane that is read where nobody says which: colour or depth.
+pub(crate) fn first_plane(format: Format) -> Aspects {
+    if format.aspects().contains(Aspects::COLOR) { Aspects::COLOR } else { Aspects::DEPTH }
+}
+
+/// Bytes of a texel of one plane as copies to buffers write it.
+pub(crate) fn plane_bytes(format: Format, plane: Aspects) -> u64 {
+    match (plane, format) {
+        (Aspects::STENCIL, _) => 1,
+        (_, Format::D32_SFLOAT_S8_UINT | Format::D24_UNORM_S8_UINT) => 4,
+        (_, format) => format.texel_bytes(),
     }
 }

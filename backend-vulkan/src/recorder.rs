@@ -1,23 +1,39 @@
 //! How whoever draws records its draws.
 
+use crate::custom::CustomRecorder;
 use crate::descriptors::BindGroup;
 use crate::device::Shared;
 use crate::error::Error;
+use crate::prepare_pass::Drawn;
 use crate::resources::Buffer;
 use ash::vk;
 use framewright_graph::frame::Draw;
+use framewright_graph::plan;
 use std::ops::Range;
 
-/// Whoever draws the objects and the sky. An engine supplies its own.
+/// Whoever draws the objects and the sky, and records custom passes. An engine supplies its own.
 pub trait DrawSource {
     /// Records the draws of `draw` and returns how many draw calls it made.
     ///
-    /// It is called once for each pass that draws, in the frame's order; never for full-screen draws. Pipeline, viewport
-    /// and the pass's own set are bound already; face culling is off and the front face is counter-clockwise.
+    /// It is called once for each pass that draws objects, the sky or something of its own ([`Draw::Custom`], where
+    /// [`Recorder::shader`] says what), in the frame's order; never for the other kinds. Pipeline, viewport and the pass's
+    /// own set are bound already; face culling is off and the front face is counter-clockwise. With several frames in
+    /// flight the frame before may still be drawn from what it was drawn from.
     ///
     /// # Errors
     /// Whatever keeps it from drawing; [`Error::DrawSource`] is for its own reasons.
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error>;
+
+    /// Records the custom pass that the pipeline knows as `callback`, outside of rendering scopes. It must do what the
+    /// pipeline says of it: write whole what it writes, and touch nothing else.
+    ///
+    /// # Errors
+    /// Whatever keeps it from recording. Unless it is overridden, that it knows no custom passes.
+    fn custom(&mut self, callback: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
+        let pass = recorder.pass();
+        let what = format!("nobody records `{callback}`, which the custom pass `{pass}` asks for");
+        Err(Error::DrawSource { what })
+    }
 }
 
 /// Which faces are left out.
@@ -58,6 +74,8 @@ pub struct Recorder<'f> {
     commands: vk::CommandBuffer,
     kept: &'f mut Kept,
     pass: &'f PassState,
+    has_pipeline: bool,
+    plan: &'f plan::Pass,
     extent: [u32; 2],
     bound: Vec<bool>,
     vertices: Option<u64>,
@@ -73,11 +91,12 @@ pub(crate) struct Kept {
 }
 
 /// What a recorder must know of the pass's pipeline.
+#[derive(Default)]
 pub(crate) struct PassState {
     pub(crate) layout: vk::PipelineLayout,
     /// Layouts of the sets from 1 on, and whether the shader reads them.
     pub(crate) supplied: Vec<(vk::DescriptorSetLayout, bool)>,
-    /// Bytes from vertex to vertex; 0 if the pipeline reads no vertex buffer.
+    /// Bytes from vertex to vertex of what whoever draws brings along; 0 if the pipeline reads no such vertex buffer.
     pub(crate) vertex_stride: u32,
 }
 
@@ -86,11 +105,36 @@ impl<'f> Recorder<'f> {
         shared: &'f Shared,
         commands: vk::CommandBuffer,
         kept: &'f mut Kept,
-        pass: &'f PassState,
+        drawn: &'f Drawn,
+        plan: &'f plan::Pass,
         extent: [u32; 2],
     ) -> Recorder<'f> {
+        let (pass, has_pipeline) = (&drawn.state, drawn.pipeline.is_some());
         let bound = pass.supplied.iter().map(|(_, needed)| !needed).collect();
-        Recorder { shared, commands, kept, pass, extent, bound, vertices: None, indices: None, misuse: None }
+        let (vertices, indices, misuse) = (None, None, None);
+        Recorder { shared, commands, kept, pass, has_pipeline, plan, extent, bound, vertices, indices, misuse }
+    }
+
+    /// The pass's name.
+    #[must_use]
+    pub fn pass(&self) -> &str {
+        &self.plan.name
+    }
+
+    /// The name of the pass's shader. For custom draws it says what is drawn; if there is no shader of that name then no
+    /// pipeline is bound, and only [`Recorder::raw`] can draw.
+    #[must_use]
+    pub fn shader(&self) -> &str {
+        &self.plan.shader
+    }
+
+    /// The command buffer, recording inside the pass's rendering scope, for commands of the program's own. To record is
+    /// unsafe: nothing but the scope's attachments and the program's own resources may be touched, and the scope must be
+    /// left open. What the recorder's own methods rely on (pipeline, sets, buffers) must be left bound, or no such method
+    /// be called any more.
+    #[must_use]
+    pub fn raw(&mut self) -> vk::CommandBuffer {
+        self.commands
     }
 
     /// Width and height of what is drawn into.
@@ -210,6 +254,35 @@ impl<'f> Recorder<'f> {
         }
     }
 
+    /// Draws the vertices, or the indices, of the pass's own buffers, which were bound and are large enough.
+    pub(crate) fn draw_own(&mut self, count: u32, instances: u32, indexed: bool) {
+        if self.may_draw() {
+            // SAFETY: everything that the pipeline reads is bound, and with robustBufferAccess an index beyond the vertices
+            // reads no foreign memory.
+            unsafe {
+                if indexed {
+                    self.shared.raw.cmd_draw_indexed(self.commands, count, instances, 0, 0, 0);
+                } else {
+                    self.shared.raw.cmd_draw(self.commands, count, instances, 0, 0);
+                }
+            }
+        }
+    }
+
+    /// Draws as often as `counts` says.
+    pub(crate) fn draw_indirect(&mut self, counts: vk::Buffer, indexed: bool) {
+        if self.may_draw() {
+            // SAFETY: as above; the buffer holds one command.
+            unsafe {
+                if indexed {
+                    self.shared.raw.cmd_draw_indexed_indirect(self.commands, counts, 0, 1, 20);
+                } else {
+                    self.shared.raw.cmd_draw_indirect(self.commands, counts, 0, 1, 16);
+                }
+            }
+        }
+    }
+
     /// Whether the buffer may be bound so; if it may, it is kept.
     fn may_bind(&mut self, buffer: &Buffer, usage: vk::BufferUsageFlags) -> bool {
         let may = buffer.0.usage.contains(usage) && buffer.0.is_of(self.shared);
@@ -223,6 +296,10 @@ impl<'f> Recorder<'f> {
     fn may_draw(&mut self) -> bool {
         if let Some(missing) = self.bound.iter().position(|bound| !bound) {
             self.misused(|| format!("a draw without a bind group for set {}", missing + 1));
+        }
+        if !self.has_pipeline {
+            let shader = &self.plan.shader;
+            self.misused(|| format!("a draw without pipeline: there is no shader `{shader}`"));
         }
         if self.pass.vertex_stride > 0 && self.vertices.is_none() {
             self.misused(|| "a draw without vertex buffer".to_owned());

@@ -1,14 +1,16 @@
 //! What whoever draws brings along: buffers and textures.
 
+use crate::buffer::RawBuffer;
 use crate::caches::SamplerDescriptor;
 use crate::device::{Device, Shared};
 use crate::error::Error;
 use crate::image::{Image, View, ViewShape};
-use crate::memory::{Kind, Memory};
+use crate::memory::Kind;
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::format::Format;
-use framewright_graph::plan::Subresources;
+use framewright_graph::frame::Shape;
+use framewright_graph::plan::{Queue, Sharing, Subresources};
 use framewright_graph::vocabulary::Usage;
 use std::sync::Arc;
 
@@ -28,15 +30,6 @@ pub enum BufferUsage {
 /// A buffer that shaders read. Clones share it.
 #[derive(Clone)]
 pub struct Buffer(pub(crate) Arc<RawBuffer>);
-
-/// A buffer and its memory.
-pub(crate) struct RawBuffer {
-    shared: Arc<Shared>,
-    pub(crate) raw: vk::Buffer,
-    pub(crate) memory: Memory,
-    pub(crate) bytes: u64,
-    pub(crate) usage: vk::BufferUsageFlags,
-}
 
 /// A texture with its sampler. Clones share it.
 #[derive(Clone)]
@@ -118,69 +111,18 @@ impl Device {
         let levels = if mips { u32::BITS - width.max(height).leading_zeros() } else { 1 };
         let descriptor = ImageDescriptor {
             format,
+            shape: Shape::D2,
             extent: [width, height, 1],
             mips: levels,
             layers: 1,
             samples: 1,
             usage: Usage::SAMPLED | Usage::TRANSFER_DST | if levels > 1 { Usage::TRANSFER_SRC } else { Usage::empty() },
+            sharing: Sharing::Exclusive,
         };
         let image = Arc::new(Image::with_own_memory(&self.shared, "texture", &descriptor)?);
         upload(&self.shared, &image, texels)?;
         let view = View::new(&image, Subresources::all(format, levels, 1), ViewShape::Flat)?;
         Ok(Texture(Arc::new(RawTexture { view, sampler: self.shared.sampler(*sampler)? })))
-    }
-}
-
-impl RawBuffer {
-    /// A buffer of `bytes` bytes, more than zero.
-    pub(crate) fn new(
-        shared: &Arc<Shared>,
-        name: &str,
-        bytes: u64,
-        usage: vk::BufferUsageFlags,
-        kind: Kind,
-    ) -> Result<RawBuffer, Error> {
-        let info = vk::BufferCreateInfo::default().size(bytes).usage(usage);
-        let needs_info = vk::DeviceBufferMemoryRequirements::default().create_info(&info);
-        let mut needs = vk::MemoryRequirements2::default();
-        // SAFETY: maintenance4 is on, and both structures outlive the call.
-        unsafe { shared.raw.get_device_buffer_memory_requirements(&needs_info, &mut needs) };
-        let memory = Memory::new(shared, name, needs.memory_requirements, kind)?;
-        // SAFETY: the device lives and the size isn't zero.
-        let raw = unsafe { shared.raw.create_buffer(&info, None) }.map_err(Error::vulkan("creating a buffer"))?;
-        let buffer = RawBuffer { shared: shared.clone(), raw, memory, bytes, usage };
-        let (block, offset) = buffer.memory.place();
-        // SAFETY: the buffer is new, and the block was made for its requirements.
-        unsafe { shared.raw.bind_buffer_memory(raw, block, offset) }
-            .map_err(Error::vulkan("binding a buffer to memory"))?;
-        shared.name(raw, name);
-        Ok(buffer)
-    }
-
-    /// Whether this device made it.
-    pub(crate) fn is_of(&self, shared: &Shared) -> bool {
-        std::ptr::eq(Arc::as_ptr(&self.shared), shared)
-    }
-
-    /// Writes the beginning of the buffer.
-    pub(crate) fn fill(&mut self, contents: &[u8]) -> Result<(), Error> {
-        let bytes = contents.len();
-        let target = self.memory.bytes_mut().get_mut(..bytes).ok_or_else(|| Error::OutOfMemory {
-            what: "a buffer that the host can write".to_owned(),
-            bytes: bytes as u64,
-            reason: "the memory isn't visible to the host".to_owned(),
-        })?;
-        target.copy_from_slice(contents);
-        Ok(())
-    }
-}
-
-impl Drop for RawBuffer {
-    fn drop(&mut self) {
-        if !self.shared.is_abandoned() {
-            // SAFETY: every submission is waited for, so nothing uses the buffer. Its memory is freed after it.
-            unsafe { self.shared.raw.destroy_buffer(self.raw, None) };
-        }
     }
 }
 
@@ -191,7 +133,7 @@ fn upload(shared: &Arc<Shared>, image: &Image, texels: &[u8]) -> Result<(), Erro
     staging.fill(texels)?;
     let levels = image.descriptor.mips;
     let [width, height, _] = image.descriptor.extent;
-    shared.submit_once("uploading a texture", |commands| {
+    shared.submit_once("uploading a texture", Queue::Graphics, |commands| {
         let copy = vk::BufferImageCopy::default().image_subresource(level(0)).image_extent(vk::Extent3D {
             width,
             height,

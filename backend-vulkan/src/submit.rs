@@ -1,58 +1,100 @@
-//! Command buffers that are recorded, submitted and waited for.
+//! Commands that are recorded, submitted and waited for at once, and timelines that tell when work is done.
 
-use crate::device::Shared;
+use crate::device::{Shared, Unfinished};
 use crate::error::Error;
 use ash::vk;
+use framewright_graph::plan::Queue;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// How long an upload or a readback may take.
 pub(crate) const TRANSFER_TIMEOUT: Duration = Duration::from_secs(60);
 
-/// One command buffer with its pool and fence, used again and again.
+/// A timeline semaphore.
+pub(crate) struct Timeline {
+    shared: Arc<Shared>,
+    pub(crate) raw: vk::Semaphore,
+}
+
+impl Timeline {
+    /// A timeline at 0.
+    pub(crate) fn new(shared: &Arc<Shared>) -> Result<Timeline, Error> {
+        let mut ty = vk::SemaphoreTypeCreateInfo::default().semaphore_type(vk::SemaphoreType::TIMELINE);
+        let info = vk::SemaphoreCreateInfo::default().push_next(&mut ty);
+        // SAFETY: the device lives.
+        let raw = unsafe { shared.raw.create_semaphore(&info, None) }
+            .map_err(Error::vulkan("making a timeline semaphore"))?;
+        Ok(Timeline { shared: shared.clone(), raw })
+    }
+}
+
+impl Drop for Timeline {
+    fn drop(&mut self) {
+        if !self.shared.is_abandoned() {
+            // SAFETY: whoever submitted with the semaphore waited before letting go of it.
+            unsafe { self.shared.raw.destroy_semaphore(self.raw, None) };
+        }
+    }
+}
+
+impl Shared {
+    /// Waits until all semaphores have reached their values. After a wait that fails the device is given up: nothing is
+    /// freed any more.
+    pub(crate) fn wait_for(&self, doing: &'static str, work: Unfinished, timeout: Duration) -> Result<(), Error> {
+        let nanoseconds = u64::try_from(timeout.as_nanos()).unwrap_or(u64::MAX);
+        let info = vk::SemaphoreWaitInfo::default().semaphores(&work.semaphores).values(&work.values);
+        // SAFETY: the semaphores live.
+        match unsafe { self.raw.wait_semaphores(&info, nanoseconds) } {
+            Ok(()) => Ok(()),
+            Err(vk::Result::TIMEOUT) => {
+                self.abandon(work);
+                Err(Error::Timeout { doing, seconds: timeout.as_secs() })
+            }
+            Err(result) => {
+                self.abandon(work);
+                Err(Error::vulkan(doing)(result))
+            }
+        }
+    }
+
+    /// Records commands for `queue`, submits them and waits until they are done.
+    pub(crate) fn submit_once(
+        self: &Arc<Shared>,
+        doing: &'static str,
+        queue: Queue,
+        work: impl FnOnce(vk::CommandBuffer),
+    ) -> Result<(), Error> {
+        let mut commands = Commands::new(self, queue)?;
+        commands.record(|buffer| {
+            work(buffer);
+            Ok(())
+        })?;
+        commands.submit(doing, TRANSFER_TIMEOUT)
+    }
+}
+
+/// One command buffer with its pool and timeline, used again and again.
 pub(crate) struct Commands {
     shared: Arc<Shared>,
-    pool: vk::CommandPool,
+    queue: Queue,
+    pool: CommandPool,
     buffer: vk::CommandBuffer,
-    fence: vk::Fence,
+    timeline: Timeline,
+    submitted: u64,
 }
 
 impl Commands {
-    /// A command buffer for the device's queue.
-    pub(crate) fn new(shared: &Arc<Shared>) -> Result<Commands, Error> {
-        const DOING: &str = "making a command buffer";
-        let info = vk::CommandPoolCreateInfo::default().queue_family_index(shared.queue_family);
-        // SAFETY: the device lives.
-        let pool = unsafe { shared.raw.create_command_pool(&info, None) }.map_err(Error::vulkan(DOING))?;
-        let mut commands =
-            Commands { shared: shared.clone(), pool, buffer: vk::CommandBuffer::null(), fence: vk::Fence::null() };
-        let info = vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
-        // SAFETY: the pool was just made.
-        let buffers = unsafe { shared.raw.allocate_command_buffers(&info) }.map_err(Error::vulkan(DOING))?;
-        commands.buffer = buffers.first().copied().unwrap_or_default();
-        // SAFETY: the device lives.
-        commands.fence =
-            unsafe { shared.raw.create_fence(&vk::FenceCreateInfo::default(), None) }.map_err(Error::vulkan(DOING))?;
-        Ok(commands)
+    /// A command buffer for a queue.
+    pub(crate) fn new(shared: &Arc<Shared>, queue: Queue) -> Result<Commands, Error> {
+        let pool = CommandPool::new(shared, queue)?;
+        let (buffer, timeline) = (pool.buffer()?, Timeline::new(shared)?);
+        Ok(Commands { shared: shared.clone(), queue, pool, buffer, timeline, submitted: 0 })
     }
 
     /// Records without submitting.
     pub(crate) fn record<T>(&mut self, work: impl FnOnce(vk::CommandBuffer) -> Result<T, Error>) -> Result<T, Error> {
-        const DOING: &str = "recording commands";
-        if self.shared.is_abandoned() {
-            return Err(Error::DeviceLost { doing: DOING });
-        }
-        let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        // SAFETY: each submission was waited for to its end, so nothing of the pool is in use.
-        unsafe {
-            let flags = vk::CommandPoolResetFlags::empty();
-            self.shared.raw.reset_command_pool(self.pool, flags).map_err(Error::vulkan(DOING))?;
-            self.shared.raw.begin_command_buffer(self.buffer, &begin).map_err(Error::vulkan(DOING))?;
-        }
-        let result = work(self.buffer)?;
-        // SAFETY: the command buffer is being recorded.
-        unsafe { self.shared.raw.end_command_buffer(self.buffer) }.map_err(Error::vulkan(DOING))?;
-        Ok(result)
+        self.pool.reset()?;
+        record(&self.shared, self.buffer, work)
     }
 
     /// Submits what was recorded and waits until the device is done.
@@ -61,62 +103,91 @@ impl Commands {
             // Another thread gave it up since the commands were recorded.
             return Err(Error::DeviceLost { doing });
         }
+        let value = self.submitted + 1;
+        let work = Unfinished { semaphores: vec![self.timeline.raw], values: vec![value] };
+        let signal = [vk::SemaphoreSubmitInfo::default()
+            .semaphore(self.timeline.raw)
+            .value(value)
+            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
         let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(self.buffer)];
-        let submits = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
-        let nanoseconds = u64::try_from(timeout.as_nanos()).unwrap_or(u64::MAX);
-        // SAFETY: the commands are recorded, and what they use outlives the wait below; after a wait that fails nothing
-        // is freed any more.
-        unsafe {
-            self.shared.raw.reset_fences(&[self.fence]).map_err(Error::vulkan(doing))?;
-            let queue = self.shared.queue();
-            let submitted = self.shared.raw.queue_submit2(*queue, &submits, self.fence);
-            drop(queue);
-            if let Err(result) = submitted {
-                if result == vk::Result::ERROR_DEVICE_LOST {
-                    // Then, and only then, the commands count as submitted all the same.
-                    self.shared.abandon(self.fence);
-                }
-                return Err(Error::vulkan(doing)(result));
+        let submits = [vk::SubmitInfo2::default().command_buffer_infos(&buffers).signal_semaphore_infos(&signal)];
+        let queues = self.shared.queues.lock();
+        let queue = queues.of(self.shared.queues.families.family(self.queue))?;
+        // SAFETY: the commands are recorded, and what they use outlives the wait below; after a wait that fails nothing is
+        // freed any more.
+        let submitted = unsafe { self.shared.raw.queue_submit2(queue, &submits, vk::Fence::null()) };
+        drop(queues);
+        if let Err(result) = submitted {
+            if result == vk::Result::ERROR_DEVICE_LOST {
+                // Then, and only then, the commands count as submitted all the same.
+                self.shared.abandon(work);
             }
-            match self.shared.raw.wait_for_fences(&[self.fence], true, nanoseconds) {
-                Ok(()) => Ok(()),
-                Err(vk::Result::TIMEOUT) => {
-                    self.shared.abandon(self.fence);
-                    Err(Error::Timeout { doing, seconds: timeout.as_secs() })
-                }
-                Err(result) => {
-                    self.shared.abandon(self.fence);
-                    Err(Error::vulkan(doing)(result))
-                }
-            }
+            return Err(Error::vulkan(doing)(result));
         }
+        self.submitted = value;
+        self.shared.wait_for(doing, work, timeout)
     }
 }
 
-impl Drop for Commands {
+/// A pool of command buffers, which are all recorded anew at a time.
+pub(crate) struct CommandPool {
+    shared: Arc<Shared>,
+    raw: vk::CommandPool,
+}
+
+impl CommandPool {
+    /// A pool for a queue's family.
+    pub(crate) fn new(shared: &Arc<Shared>, queue: Queue) -> Result<CommandPool, Error> {
+        let family = shared.queues.families.family(queue).index;
+        let info = vk::CommandPoolCreateInfo::default().queue_family_index(family);
+        // SAFETY: the device lives and has the family.
+        let raw =
+            unsafe { shared.raw.create_command_pool(&info, None) }.map_err(Error::vulkan("making a command pool"))?;
+        Ok(CommandPool { shared: shared.clone(), raw })
+    }
+
+    /// A command buffer of the pool.
+    pub(crate) fn buffer(&self) -> Result<vk::CommandBuffer, Error> {
+        let doing = "making a command buffer";
+        let info = vk::CommandBufferAllocateInfo::default().command_pool(self.raw).command_buffer_count(1);
+        // SAFETY: the pool lives.
+        let buffers = unsafe { self.shared.raw.allocate_command_buffers(&info) }.map_err(Error::vulkan(doing))?;
+        buffers.first().copied().ok_or(Error::Vulkan { doing, result: vk::Result::ERROR_UNKNOWN })
+    }
+
+    /// Makes all its command buffers ready to be recorded again. None may be in use.
+    pub(crate) fn reset(&self) -> Result<(), Error> {
+        const DOING: &str = "recording commands";
+        if self.shared.is_abandoned() {
+            return Err(Error::DeviceLost { doing: DOING });
+        }
+        // SAFETY: whoever submitted commands of the pool waited for them.
+        unsafe { self.shared.raw.reset_command_pool(self.raw, vk::CommandPoolResetFlags::empty()) }
+            .map_err(Error::vulkan(DOING))
+    }
+}
+
+impl Drop for CommandPool {
     fn drop(&mut self) {
         if !self.shared.is_abandoned() {
             // SAFETY: each submission was waited for.
-            unsafe {
-                self.shared.raw.destroy_fence(self.fence, None);
-                self.shared.raw.destroy_command_pool(self.pool, None);
-            }
+            unsafe { self.shared.raw.destroy_command_pool(self.raw, None) };
         }
     }
 }
 
-impl Shared {
-    /// Records commands, submits them and waits until they are done.
-    pub(crate) fn submit_once(
-        self: &Arc<Shared>,
-        doing: &'static str,
-        work: impl FnOnce(vk::CommandBuffer),
-    ) -> Result<(), Error> {
-        let mut commands = Commands::new(self)?;
-        commands.record(|buffer| {
-            work(buffer);
-            Ok(())
-        })?;
-        commands.submit(doing, TRANSFER_TIMEOUT)
-    }
+/// Records `work` into a command buffer whose pool was reset.
+pub(crate) fn record<T>(
+    shared: &Shared,
+    buffer: vk::CommandBuffer,
+    work: impl FnOnce(vk::CommandBuffer) -> Result<T, Error>,
+) -> Result<T, Error> {
+    const DOING: &str = "recording commands";
+    let begin = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+    // SAFETY: the command buffer is not in use and its pool was reset.
+    unsafe { shared.raw.begin_command_buffer(buffer, &begin) }.map_err(Error::vulkan(DOING))?;
+    let result = work(buffer)?;
+    // SAFETY: the command buffer is being recorded.
+    unsafe { shared.raw.end_command_buffer(buffer) }.map_err(Error::vulkan(DOING))?;
+    Ok(result)
 }

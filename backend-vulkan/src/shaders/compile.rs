@@ -19,11 +19,13 @@ pub(super) enum Stage {
     Vertex,
     /// Fragment shading.
     Fragment,
+    /// Compute shading.
+    Compute,
 }
 
 /// Compiles one stage: GLSL 4.60 to SPIR-V for Vulkan 1.3.
 ///
-/// Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs.
+/// `defined` are macros without value. Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs.
 ///
 /// # Errors
 /// The compiler's messages, each with the file and line that it is about.
@@ -32,6 +34,7 @@ pub(super) fn compile(
     stage: Stage,
     source: &Found,
     files: &ShaderFiles,
+    defined: &[String],
 ) -> Result<Vec<u32>, Vec<String>> {
     let included = Cell::new(0);
     let mut options = CompileOptions::new().map_err(|error| vec![error.to_string()])?;
@@ -41,6 +44,9 @@ pub(super) fn compile(
     options.set_target_spirv(SpirvVersion::V1_6);
     options.set_optimization_level(OptimizationLevel::Zero);
     options.set_suppress_warnings();
+    for name in defined {
+        options.add_macro_definition(name, None);
+    }
     options.set_include_callback(|requested, _, _, depth| {
         included.set(included.get() + 1);
         if depth > MAX_INCLUDE_DEPTH || included.get() > MAX_INCLUDES {
@@ -54,6 +60,7 @@ pub(super) fn compile(
     let kind = match stage {
         Stage::Vertex => ShaderKind::Vertex,
         Stage::Fragment => ShaderKind::Fragment,
+        Stage::Compute => ShaderKind::Compute,
     };
     match compiler.compile_into_spirv(&source.text, kind, &source.shown, "main", Some(&options)) {
         Ok(artifact) => Ok(artifact.as_binary().to_vec()),

@@ -66,8 +66,8 @@ impl ShaderFiles {
         folders.chain((!self.shipped.is_empty()).then(|| "the shipped shaders".to_owned())).collect()
     }
 
-    /// Names of everything that has a fragment shader, sorted.
-    pub(super) fn known_shaders(&self) -> Vec<String> {
+    /// Names of everything that has a file ending in `ending`, sorted.
+    pub(super) fn known_shaders(&self, ending: &str) -> Vec<String> {
         let on_disk = self.folders.iter().filter_map(|folder| {
             let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.clone() };
             fs::read_dir(folder).ok()
@@ -75,7 +75,7 @@ impl ShaderFiles {
         let on_disk = on_disk.flatten().flatten().filter_map(|entry| entry.file_name().into_string().ok());
         let shipped = self.shipped.iter().map(|(name, _)| (*name).to_owned());
         let mut names: Vec<String> =
-            on_disk.chain(shipped).filter_map(|file| file.strip_suffix(".frag").map(str::to_owned)).collect();
+            on_disk.chain(shipped).filter_map(|file| file.strip_suffix(ending).map(str::to_owned)).collect();
         names.sort();
         names.dedup();
         names

@@ -22,20 +22,36 @@ pub struct CompiledShader {
     pub fragment: Spirv,
     /// What both stages use.
     pub interface: ShaderInterface,
+    /// The fragment stage's input attachments by name, with their index among those of the shader.
+    pub input_attachments: Vec<(String, u32)>,
+}
+
+/// A compute shader, ready for a pipeline.
+#[derive(Debug, Clone)]
+pub struct CompiledCompute {
+    /// Its stage.
+    pub compute: Spirv,
+    /// What it uses.
+    pub interface: ShaderInterface,
 }
 
 /// Finds, compiles and reflects shaders.
 ///
 /// The shader `NAME` of a draw is `NAME.frag` with `NAME.vert`, or without one with the vertex shader of its kind of
-/// draw: `objects.vert`, `sky.vert` or `full_screen.vert`. Every file is looked for in the folders in their order, then
-/// among the shipped texts; so is every `#include "x.glsl"`, whose name is never relative to the including file.
-/// What was once compiled is kept for the library's lifetime: changes on disk need a new library.
+/// draw: `objects.vert`, `sky.vert`, `full_screen.vert` (custom draws too) or `vertices.vert` (indirect draws too). The
+/// compute shader `NAME` is `NAME.comp`. Every file is looked for in the folders in their order, then among the shipped
+/// texts; so is every `#include "x.glsl"`, whose name is never relative to the including file. Where a pass reads the
+/// image `NAME` locally, as an input attachment of its own rendering scope, its fragment stage is compiled with the macro
+/// `LOCAL_READ_NAME` and must declare it `subpassInput` then, and `sampler2D` otherwise. What was once compiled is kept for the library's lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
     files: ShaderFiles,
     draws: fn(Draw) -> DrawInterface,
     compiler: Option<Compiler>,
-    stages: HashMap<(String, Stage), StageResult>,
+    stages: HashMap<StageKey, StageResult>,
 }
+
+/// A stage by its file and macros.
+type StageKey = (String, Stage, Vec<String>);
 
 /// A stage, `None` if it has no file.
 type StageResult = Result<Option<Arc<CompiledStage>>, ShaderProblem>;
@@ -58,36 +74,55 @@ impl ShaderLibrary {
         ShaderLibrary { files: ShaderFiles { folders, shipped }, draws, compiler: None, stages: HashMap::new() }
     }
 
-    /// The shader `name` when it draws `draw`.
+    /// The shader `name` when it draws `draw` and reads the images `local` locally.
     ///
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
-    pub fn compiled(&mut self, name: &str, draw: Draw) -> Result<CompiledShader, ShaderProblem> {
-        let Some(fragment) = self.stage(&format!("{name}.frag"), Stage::Fragment)? else {
-            return Err(self.missing());
+    pub fn compiled(&mut self, name: &str, draw: Draw, local: &[&str]) -> Result<CompiledShader, ShaderProblem> {
+        let defined = local.iter().map(|image| format!("LOCAL_READ_{image}")).collect();
+        let Some(fragment) = self.stage(format!("{name}.frag"), Stage::Fragment, defined)? else {
+            return Err(self.missing(".frag"));
         };
-        let vertex = match self.stage(&format!("{name}.vert"), Stage::Vertex)? {
+        let vertex = match self.stage(format!("{name}.vert"), Stage::Vertex, Vec::new())? {
             Some(own) => own,
-            None => self.stage(vertex_shader_of(draw), Stage::Vertex)?.ok_or_else(|| ShaderProblem::Unsupported {
-                what: format!("no vertex shader: neither `{name}.vert` nor `{}` was found", vertex_shader_of(draw)),
+            None => self.stage(vertex_shader_of(draw).to_owned(), Stage::Vertex, Vec::new())?.ok_or_else(|| {
+                ShaderProblem::Unsupported {
+                    what: format!("no vertex shader: neither `{name}.vert` nor `{}` was found", vertex_shader_of(draw)),
+                }
             })?,
         };
         let interface = join(&vertex, &fragment).map_err(|what| ShaderProblem::Unsupported { what })?;
-        Ok(CompiledShader { vertex: vertex.spirv.clone(), fragment: fragment.spirv.clone(), interface })
+        Ok(CompiledShader {
+            vertex: vertex.spirv.clone(),
+            fragment: fragment.spirv.clone(),
+            interface,
+            input_attachments: fragment.reflected.input_attachments.clone(),
+        })
     }
 
-    /// One stage by its file name; `None` if there is no such file.
-    fn stage(&mut self, file: &str, stage: Stage) -> StageResult {
-        let key = (file.to_owned(), stage);
+    /// The compute shader `name`.
+    ///
+    /// # Errors
+    /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
+    pub fn compute(&mut self, name: &str) -> Result<CompiledCompute, ShaderProblem> {
+        let stage = self.stage(format!("{name}.comp"), Stage::Compute, Vec::new())?;
+        let stage = stage.ok_or_else(|| self.missing(".comp"))?;
+        Ok(CompiledCompute { compute: stage.spirv.clone(), interface: stage.reflected.interface.clone() })
+    }
+
+    /// One stage by its file name and macros; `None` if there is no such file.
+    fn stage(&mut self, file: String, stage: Stage, defined: Vec<String>) -> StageResult {
+        let key = (file, stage, defined);
         if let Some(known) = self.stages.get(&key) {
             return known.clone();
         }
-        let result = self.compile_stage(file, stage);
+        let result = self.compile_stage(&key);
         self.stages.insert(key, result.clone());
         result
     }
 
-    fn compile_stage(&mut self, file: &str, stage: Stage) -> StageResult {
+    fn compile_stage(&mut self, (file, stage, defined): &StageKey) -> StageResult {
+        let stage = *stage;
         let found = self.files.find(file).map_err(|what| ShaderProblem::Unsupported { what })?;
         let Some(source) = found else { return Ok(None) };
         let compiler = match &mut self.compiler {
@@ -96,21 +131,25 @@ impl ShaderLibrary {
                 what: format!("the shader compiler doesn't start: {error}"),
             })?),
         };
-        let spirv = compile(compiler, stage, &source, &self.files)
+        let spirv = compile(compiler, stage, &source, &self.files, defined)
             .map_err(|messages| ShaderProblem::DoesNotCompile { messages })?;
         let reflected = reflect(stage, &spirv)
             .map_err(|what| ShaderProblem::Unsupported { what: format!("{}: {what}", source.shown) })?;
         Ok(Some(Arc::new(CompiledStage { file: source.shown, spirv: spirv.into(), reflected })))
     }
 
-    fn missing(&self) -> ShaderProblem {
-        ShaderProblem::Missing { looked_in: self.files.places(), known: self.files.known_shaders() }
+    fn missing(&self, ending: &str) -> ShaderProblem {
+        ShaderProblem::Missing { looked_in: self.files.places(), known: self.files.known_shaders(ending) }
     }
 }
 
 impl ShaderInterfaces for ShaderLibrary {
     fn draw_shader(&mut self, name: &str, draw: Draw) -> Result<ShaderInterface, ShaderProblem> {
-        self.compiled(name, draw).map(|shader| shader.interface)
+        self.compiled(name, draw, &[]).map(|shader| shader.interface)
+    }
+
+    fn compute_shader(&mut self, name: &str) -> Result<ShaderInterface, ShaderProblem> {
+        self.compute(name).map(|shader| shader.interface)
     }
 
     fn brought_along(&self, draw: Draw) -> DrawInterface {
@@ -123,7 +162,8 @@ fn vertex_shader_of(draw: Draw) -> &'static str {
     match draw {
         Draw::Objects(_) => "objects.vert",
         Draw::Sky => "sky.vert",
-        Draw::FullScreen => "full_screen.vert",
+        Draw::FullScreen | Draw::Custom => "full_screen.vert",
+        Draw::Vertices { .. } | Draw::Indirect => "vertices.vert",
     }
 }
 

@@ -6,4 +6,4 @@ mod library;
 mod module;
 mod reflect;
 
-pub use library::{CompiledShader, ShaderLibrary, Spirv};
+pub use library::{CompiledCompute, CompiledShader, ShaderLibrary, Spirv};

@@ -2,13 +2,14 @@
 
 use super::compile::Stage;
 use super::module::{Indexed, id, number};
+use framewright_graph::format::Format;
 use framewright_graph::interface::{
     Binding, BindingKind, Block, Component, Dimension, FragmentOutput, ImageShape, Member, PASS_SET, ShaderInterface,
     VertexInput,
 };
 use framewright_graph::vocabulary::Stages;
 use rspirv::dr::{Instruction, Operand};
-use rspirv::spirv::{BuiltIn, Capability, Decoration, Dim, ExecutionMode, Op, StorageClass};
+use rspirv::spirv::{BuiltIn, Capability, Decoration, Dim, ExecutionMode, ImageFormat, Op, StorageClass};
 use std::collections::HashSet;
 
 /// What a stage uses, and what it takes from or hands to the other stage.
@@ -20,6 +21,8 @@ pub(super) struct StageInterface {
     pub(super) inputs: Vec<Varying>,
     /// Values that go out by location.
     pub(super) outputs: Vec<Varying>,
+    /// Input attachments by name, with their index among those of the shader.
+    pub(super) input_attachments: Vec<(String, u32)>,
 }
 
 /// A value at a location.
@@ -31,7 +34,7 @@ pub(super) struct Varying {
 }
 
 /// What shaders may need of a device: the minimum device has no more.
-const CAPABILITIES: [Capability; 11] = [
+const CAPABILITIES: [Capability; 12] = [
     Capability::Matrix,
     Capability::Shader,
     Capability::Sampled1D,
@@ -43,6 +46,8 @@ const CAPABILITIES: [Capability; 11] = [
     Capability::SampleRateShading,
     Capability::InterpolationFunction,
     Capability::DemoteToHelperInvocation,
+    // Shaders have it only where they are compiled for a local read, which is for devices that have those.
+    Capability::InputAttachment,
 ];
 
 /// Bindings are numbered below this: drivers make tables as long as the largest number.
@@ -56,6 +61,8 @@ const OUTPUTS: u32 = 256;
 /// Bytes of the variables of one invocation (64 KiB): a driver keeps them for every fragment that it works on at a time,
 /// and a software driver has no limit of its own but the machine's memory.
 const OWN_BYTES: u64 = 64 << 10;
+/// Bytes that the invocations of a workgroup share: Vulkan promises no more to all.
+const SHARED_BYTES: u64 = 16 << 10;
 
 /// Reads the interface of `stage` off `spirv`.
 ///
@@ -69,6 +76,7 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
     let fragment = stage == Stage::Fragment;
     check_capabilities(&module)?;
     check_own_memory(&module)?;
+    check_shared_memory(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
     let outputs = varyings(&module, StorageClass::Output, &used);
     let (most_in, most_out) = if fragment { (VARYINGS, u32::MAX) } else { (ATTRIBUTES, VARYINGS) };
@@ -79,7 +87,10 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
     }
     let interface = ShaderInterface {
         bindings: bindings(&module, stage, &used)?,
-        vertex_inputs: if fragment { Vec::new() } else { inputs.iter().cloned().map(vertex_input).collect() },
+        vertex_inputs: match stage {
+            Stage::Vertex => inputs.iter().cloned().map(vertex_input).collect(),
+            Stage::Fragment | Stage::Compute => Vec::new(),
+        },
         outputs: if fragment { fragment_outputs(&module)? } else { Vec::new() },
         discards: module
             .code()
@@ -92,8 +103,42 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
             .execution_modes
             .iter()
             .any(|it| matches!(&it.operands[..], [_, Operand::ExecutionMode(ExecutionMode::DepthReplacing), ..])),
+        workgroup_size: (stage == Stage::Compute).then(|| workgroup_size(&module)),
     };
-    Ok(StageInterface { interface, inputs, outputs })
+    let input_attachments = module
+        .variables()
+        .filter_map(|(id, _)| {
+            let index = module.decoration_number(id, Decoration::InputAttachmentIndex)?;
+            Some((module.name(id).to_owned(), index))
+        })
+        .collect();
+    Ok(StageInterface { interface, inputs, outputs, input_attachments })
+}
+
+/// Invocations of a workgroup, as the entry point says.
+fn workgroup_size(module: &Indexed<'_>) -> [u32; 3] {
+    let size = module.module.execution_modes.iter().find_map(|it| match &it.operands[..] {
+        [_, Operand::ExecutionMode(ExecutionMode::LocalSize), size @ ..] => {
+            Some(size.iter().filter_map(number).collect::<Vec<_>>())
+        }
+        [_, Operand::ExecutionMode(ExecutionMode::LocalSizeId), size @ ..] => {
+            Some(size.iter().filter_map(|it| module.constant(it.id_ref_any()?)).collect())
+        }
+        _ => None,
+    });
+    let size = size.unwrap_or_default();
+    [0, 1, 2].map(|axis| size.get(axis).copied().unwrap_or(1).max(1))
+}
+
+/// No more memory than the invocations of a workgroup may share.
+fn check_shared_memory(module: &Indexed<'_>) -> Result<(), String> {
+    let shared = module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Workgroup));
+    let bytes = shared.filter_map(|(_, it)| module.pointee(it)?.result_id).map(|ty| module.own_bytes(ty));
+    let total = bytes.fold(0, u64::saturating_add);
+    if total > SHARED_BYTES {
+        return Err(format!("its shared variables take {total} bytes: at most {SHARED_BYTES} are allowed"));
+    }
+    Ok(())
 }
 
 /// Nothing that a device of the minimum may lack.
@@ -130,6 +175,7 @@ fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) -> Result<V
     let stages = match stage {
         Stage::Vertex => Stages::VERTEX_SHADER,
         Stage::Fragment => Stages::FRAGMENT_SHADER,
+        Stage::Compute => Stages::COMPUTE_SHADER,
     };
     let mut bindings = Vec::new();
     for (variable, instruction) in module.variables() {
@@ -167,7 +213,7 @@ fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) -> Result<V
 
 /// Whether a shader may write such a resource.
 fn writes(kind: &BindingKind) -> bool {
-    matches!(kind, BindingKind::StorageImage { writable: true, .. } | BindingKind::StorageBlock { writable: true })
+    matches!(kind, BindingKind::StorageImage { writable: true, .. } | BindingKind::StorageBlock { writable: true, .. })
 }
 
 /// Kind and shape of a resource of type `ty`.
@@ -186,22 +232,51 @@ fn kind(module: &Indexed<'_>, variable: u32, instruction: &Instruction, ty: &Ins
             (Some(ImageShape { dimension: Dimension::Buffer, .. }), _) => other("a texel buffer"),
             (Some(shape), Some(2)) => BindingKind::StorageImage {
                 shape,
+                format: ty.operands.get(6).and_then(texel_format),
                 readable: module.decoration(variable, Decoration::NonReadable).is_none(),
                 writable: module.decoration(variable, Decoration::NonWritable).is_none(),
             },
             (Some(_), _) => other("an image without sampler"),
-            (None, _) => other("an input attachment"),
+            (None, _) => BindingKind::InputAttachment {
+                multisampled: ty.operands.get(4).and_then(number) == Some(1),
+                component: id(ty, 0).map_or(Component::Float, |component| component_of(&module.type_name(component))),
+            },
         },
         (Op::TypeSampler, _) => other("a sampler without image"),
         (Op::TypeStruct, Some(StorageClass::Uniform)) => BindingKind::UniformBlock(block(module, ty)),
         (Op::TypeStruct, Some(StorageClass::StorageBuffer)) => {
-            let read_only = |member| module.member_decoration(ty.result_id?, member, Decoration::NonWritable);
             let members = u32::try_from(ty.operands.len()).unwrap_or(0);
-            let writable = module.decoration(variable, Decoration::NonWritable).is_none()
-                && !(0..members).all(|member| read_only(member).is_some());
-            BindingKind::StorageBlock { writable }
+            let lacks = |wanted| {
+                let decorated = |member| module.member_decoration(ty.result_id?, member, wanted);
+                module.decoration(variable, wanted).is_none() && !(0..members).all(|member| decorated(member).is_some())
+            };
+            let (readable, writable) = (lacks(Decoration::NonReadable), lacks(Decoration::NonWritable));
+            BindingKind::StorageBlock { readable, writable }
         }
         (opcode, _) => BindingKind::Other(format!("{opcode:?}")),
+    }
+}
+
+/// The format that a storage image's declaration names, if images of a pipeline can have it.
+fn texel_format(operand: &Operand) -> Option<Format> {
+    let Operand::ImageFormat(format) = operand else { return None };
+    match format {
+        ImageFormat::R8 => Some(Format::R8_UNORM),
+        ImageFormat::R8ui => Some(Format::R8_UINT),
+        ImageFormat::Rg8 => Some(Format::R8G8_UNORM),
+        ImageFormat::Rgba8 => Some(Format::R8G8B8A8_UNORM),
+        ImageFormat::Rgba8ui => Some(Format::R8G8B8A8_UINT),
+        ImageFormat::Rgb10A2 => Some(Format::A2B10G10R10_UNORM_PACK32),
+        ImageFormat::R16f => Some(Format::R16_SFLOAT),
+        ImageFormat::Rg16f => Some(Format::R16G16_SFLOAT),
+        ImageFormat::Rgba16f => Some(Format::R16G16B16A16_SFLOAT),
+        ImageFormat::R32ui => Some(Format::R32_UINT),
+        ImageFormat::R32f => Some(Format::R32_SFLOAT),
+        ImageFormat::Rg32f => Some(Format::R32G32_SFLOAT),
+        ImageFormat::Rgba32ui => Some(Format::R32G32B32A32_UINT),
+        ImageFormat::Rgba32f => Some(Format::R32G32B32A32_SFLOAT),
+        ImageFormat::R11fG11fB10f => Some(Format::B10G11R11_UFLOAT_PACK32),
+        _ => None,
     }
 }
 

@@ -1,0 +1,153 @@
+//! Whether a device can do what a step does.
+
+use crate::check::{bad, is_depth_stencil};
+use crate::convert;
+use crate::device::Shared;
+use crate::error::Error;
+use ash::vk;
+use framewright_graph::frame::{Blend, Shape};
+use framewright_graph::plan::{
+    Attachment, BindingKind, ImageId, Pass, Plan, RenderScope, Resource, Side, Step, Transfer, Work,
+};
+use framewright_graph::vocabulary::{Filter, Layout};
+
+/// Whether the device can execute such a step, on the queue that it names.
+pub(crate) fn executable(shared: &Shared, plan: &Plan, step: &Step) -> Result<(), Error> {
+    use vk::QueueFlags as Does;
+    let needed = match &step.work {
+        Work::Render(_) | Work::Resolve(_) | Work::Blit(_) => Does::GRAPHICS,
+        Work::Dispatch(_) => Does::COMPUTE,
+        Work::Fill(fill) => match fill.target.resource() {
+            Resource::Image(image) if is_depth_stencil(plan.image(image).format.aspects()) => Does::GRAPHICS,
+            Resource::Image(_) => Does::COMPUTE,
+            Resource::Buffer(_) => Does::empty(),
+        },
+        Work::Copy(_) | Work::Custom(_) | Work::Export => Does::empty(),
+    };
+    let family = shared.queues.families.family(step.queue);
+    if !family.flags.contains(needed) {
+        let what =
+            format!("a step needs {needed:?}, and its {:?} queue on {} lacks it", step.queue, shared.summary.name);
+        return bad(what);
+    }
+    match &step.work {
+        Work::Render(scope) => renderable(shared, plan, scope),
+        Work::Dispatch(pass) => filtered(shared, plan, pass),
+        Work::Blit(transfer) => blitted(shared, plan, transfer),
+        Work::Copy(transfer) => sized(plan, &transfer.source, &transfer.target),
+        Work::Custom(_) | Work::Resolve(_) | Work::Fill(_) | Work::Export => Ok(()),
+    }
+}
+
+/// Whether the device can render such a scope, blend and resolve its attachments, and filter what its passes sample.
+fn renderable(shared: &Shared, plan: &Plan, scope: &RenderScope) -> Result<(), Error> {
+    let limits = &shared.limits;
+    let [width, height] = scope.extent;
+    let fits = width <= limits.max_framebuffer_width.min(limits.max_viewport_dimensions[0])
+        && height <= limits.max_framebuffer_height.min(limits.max_viewport_dimensions[1])
+        && scope.layers <= limits.max_framebuffer_layers
+        && scope.color.len() <= limits.max_color_attachments as usize;
+    if !fits {
+        let (count, layers) = (scope.color.len(), scope.layers);
+        return bad(format!("{count} colour attachments of {width}×{height}, {layers} layers: too many or too large"));
+    }
+    for attachment in scope.color.iter().chain(&scope.depth).chain(&scope.stencil) {
+        let image = plan.image(attachment.image);
+        if image.shape == Shape::D3 {
+            return bad(format!("`{}` is three-dimensional and can't be an attachment", image.name));
+        }
+        if attachment.layout == Layout::RenderingLocalReadKhr && shared.local_read.is_none() {
+            return bad(format!("`{}` is read locally, and {} has no local reads", image.name, shared.summary.name));
+        }
+    }
+    for pass in &scope.passes {
+        for (attachment, _) in scope.color.iter().zip(&pass.blend).filter(|(_, blend)| **blend != Blend::Replace) {
+            lacks(shared, plan, attachment.image, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND, "blend into")?;
+        }
+        filtered(shared, plan, pass)?;
+    }
+    resolvable(shared, plan, scope)
+}
+
+/// Whether the device can filter what a pass samples so.
+fn filtered(shared: &Shared, plan: &Plan, pass: &Pass) -> Result<(), Error> {
+    let linear = pass.accesses.iter().filter(|access| {
+        access.binding.as_ref().is_some_and(|binding| binding.kind == BindingKind::Sampled(Filter::Linear))
+    });
+    for access in linear {
+        lacks(shared, plan, access.image, vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR, "filter")?;
+    }
+    Ok(())
+}
+
+/// Refuses a format without a feature.
+fn lacks(
+    shared: &Shared,
+    plan: &Plan,
+    image: ImageId,
+    feature: vk::FormatFeatureFlags,
+    what: &str,
+) -> Result<(), Error> {
+    let image = plan.image(image);
+    if shared.format_features(image.format).contains(feature) {
+        return Ok(());
+    }
+    bad(format!("{} can't {what} `{}` ({})", shared.summary.name, image.name, image.format))
+}
+
+/// Whether the device resolves depth and stencil so.
+fn resolvable(shared: &Shared, plan: &Plan, scope: &RenderScope) -> Result<(), Error> {
+    let modes = shared.depth_stencil_resolve();
+    let planes = [
+        (&scope.depth, modes.supported_depth_resolve_modes, "depth"),
+        (&scope.stencil, modes.supported_stencil_resolve_modes, "stencil"),
+    ];
+    for (attachment, supported, plane) in planes {
+        let Some(resolve) = attachment.as_ref().and_then(|it| it.resolve.as_ref()) else { continue };
+        if !supported.contains(convert::resolve(resolve.mode)) {
+            let target = &plan.image(resolve.image).name;
+            return bad(format!("{} can't resolve {plane} into `{target}` by {:?}", shared.summary.name, resolve.mode));
+        }
+    }
+    let mode =
+        |attachment: &Option<Attachment>| attachment.as_ref().and_then(|it| it.resolve.as_ref()).map(|it| it.mode);
+    let together = scope.depth.is_some() && scope.stencil.is_some();
+    let (depth, stencil) = (mode(&scope.depth), mode(&scope.stencil));
+    let independent =
+        if depth.is_none() || stencil.is_none() { modes.independent_resolve_none } else { modes.independent_resolve };
+    if together && depth != stencil && independent == vk::FALSE {
+        return bad(format!("{} resolves depth and stencil only together", shared.summary.name));
+    }
+    Ok(())
+}
+
+/// Whether the device can scale between the formats.
+fn blitted(shared: &Shared, plan: &Plan, transfer: &Transfer) -> Result<(), Error> {
+    let (Side::Image { image: source, .. }, Side::Image { image: target, .. }) = (&transfer.source, &transfer.target)
+    else {
+        return bad("a blit names a buffer".to_owned());
+    };
+    lacks(shared, plan, *source, vk::FormatFeatureFlags::BLIT_SRC, "blit from")?;
+    lacks(shared, plan, *target, vk::FormatFeatureFlags::BLIT_DST, "blit to")?;
+    if transfer.filter == Some(Filter::Linear) {
+        lacks(shared, plan, *source, vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR, "filter")?;
+    }
+    Ok(())
+}
+
+/// Whether a buffer beside an image holds the texels.
+fn sized(plan: &Plan, source: &Side, target: &Side) -> Result<(), Error> {
+    let (image, range, extent, bytes) = match (source, target) {
+        (Side::Image { image, range, extent, .. }, Side::Buffer { bytes, .. })
+        | (Side::Buffer { bytes, .. }, Side::Image { image, range, extent, .. }) => (image, range, extent, bytes),
+        _ => return Ok(()),
+    };
+    let image = plan.image(*image);
+    let layers = crate::physical::part(image, *range).layers;
+    let texels = extent.iter().fold(u64::from(layers), |all, side| all.saturating_mul(u64::from(*side)));
+    let needed = texels.saturating_mul(crate::readback::plane_bytes(image.format, range.aspects));
+    if needed > *bytes {
+        return bad(format!("the texels of `{}` take {needed} bytes, and {bytes} are copied", image.name));
+    }
+    Ok(())
+}

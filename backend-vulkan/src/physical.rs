@@ -1,0 +1,165 @@
+//! A Plan's images and buffers on a device.
+
+use crate::buffer::RawBuffer;
+use crate::device::Shared;
+use crate::error::Error;
+use crate::image::Image;
+use crate::memory::{Kind, Memory};
+use crate::standing::Standing;
+use ash::vk;
+use framewright_graph::device::{BufferDescriptor, ImageDescriptor};
+use framewright_graph::plan::{self, BufferId, ImageId, Placement, Plan, Resource, Role, Subresources};
+use framewright_graph::vocabulary::{BufferUsage, Usage};
+use std::sync::Arc;
+
+/// The images and buffers that a Plan's images and buffers are.
+pub(crate) struct Physical {
+    images: Vec<Arc<Image>>,
+    buffers: Vec<Arc<RawBuffer>>,
+    standing: Standing,
+}
+
+/// The description of a Plan's image on this device. What outlives the frame can be read back, whatever the Plan says.
+pub(crate) fn descriptor(image: &plan::Image) -> ImageDescriptor {
+    let usage = match image.role {
+        Role::Transient(_) => image.usage,
+        Role::Persistent { .. } => image.usage | Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
+        Role::External { .. } => image.usage | Usage::TRANSFER_SRC,
+    };
+    let plan::Image { format, shape, extent, mips, layers, samples, sharing, .. } = *image;
+    ImageDescriptor { format, shape, extent, mips, layers, samples, usage, sharing }
+}
+
+/// The description of a Plan's buffer on this device. What outlives the frame can be written and read back.
+pub(crate) fn buffer_descriptor(buffer: &plan::Buffer) -> BufferDescriptor {
+    let usage = match buffer.role {
+        Role::Transient(_) => buffer.usage,
+        Role::Persistent { .. } | Role::External { .. } => {
+            buffer.usage | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST
+        }
+    };
+    BufferDescriptor { bytes: buffer.bytes, usage, sharing: buffer.sharing }
+}
+
+/// `range` of `image` with its counts as numbers.
+pub(crate) fn part(image: &plan::Image, range: Subresources) -> Subresources {
+    Subresources {
+        mips: range.mips.min(image.mips.saturating_sub(range.base_mip)),
+        layers: range.layers.min(image.layers.saturating_sub(range.base_layer)),
+        ..range
+    }
+}
+
+/// What the image or buffer `first` becomes, one frame after the other, until it is itself again. What they become must be
+/// a permutation.
+pub(crate) fn cycle<'p>(first: u32, role: impl Fn(u32) -> &'p Role) -> impl Iterator<Item = u32> {
+    let next = move |at: &u32| match role(*at) {
+        Role::Persistent { becomes, .. } => Some(*becomes).filter(|next| *next != first),
+        Role::Transient(_) | Role::External { .. } => None,
+    };
+    std::iter::successors(Some(first), next)
+}
+
+impl Physical {
+    /// Makes the heaps with what is placed in them, and all else with memory of its own.
+    pub(crate) fn new(shared: &Arc<Shared>, plan: &Plan) -> Result<Physical, Error> {
+        let standing = Standing::new(plan)?;
+        let heaps = heaps(shared, plan)?;
+        let heap = |place: &Placement| heaps[place.heap as usize].clone();
+        let images = plan.images.iter().map(|image| {
+            let mut descriptor = descriptor(image);
+            // What changes round is used in every place of its cycle.
+            for id in cycle(image.id.0, |id| &plan.images[id as usize].role) {
+                descriptor.usage |= plan.images[id as usize].usage;
+            }
+            let made = match &image.role {
+                Role::Transient(place) => Image::new(shared, &image.name, &descriptor, heap(place), place.offset),
+                Role::Persistent { .. } | Role::External { .. } => {
+                    let writable = shared.writable(&descriptor);
+                    Image::with_own_memory(shared, &image.name, &writable)
+                }
+            };
+            made.map(Arc::new)
+        });
+        let images = images.collect::<Result<_, _>>()?;
+        let buffers = plan.buffers.iter().map(|buffer| {
+            let mut descriptor = buffer_descriptor(buffer);
+            for id in cycle(buffer.id.0, |id| &plan.buffers[id as usize].role) {
+                descriptor.usage |= plan.buffers[id as usize].usage;
+            }
+            let made = match &buffer.role {
+                Role::Transient(place) => {
+                    RawBuffer::placed(shared, &buffer.name, &descriptor, heap(place), place.offset)
+                }
+                Role::Persistent { .. } | Role::External { .. } => {
+                    RawBuffer::persistent(shared, &buffer.name, &descriptor)
+                }
+            };
+            made.map(Arc::new)
+        });
+        let buffers = buffers.collect::<Result<_, _>>()?;
+        Ok(Physical { images, buffers, standing })
+    }
+
+    /// What stands for an image in frame `frame`.
+    pub(crate) fn image(&self, image: ImageId, frame: u64) -> &Arc<Image> {
+        &self.images[self.standing.image(image.0, frame)]
+    }
+
+    /// What stands for a buffer in frame `frame`.
+    pub(crate) fn buffer(&self, buffer: BufferId, frame: u64) -> &Arc<RawBuffer> {
+        &self.buffers[self.standing.buffer(buffer.0, frame)]
+    }
+
+    /// After how many frames the same stand for all of these again.
+    pub(crate) fn period(&self, resources: impl IntoIterator<Item = Resource>) -> u64 {
+        self.standing.period(resources)
+    }
+
+    /// Takes another image for an external one, which never changes round.
+    pub(crate) fn replace_image(&mut self, image: ImageId, by: Image) {
+        self.images[image.0 as usize] = Arc::new(by);
+    }
+
+    /// Takes another buffer for an external one, which never changes round.
+    pub(crate) fn replace_buffer(&mut self, buffer: BufferId, by: RawBuffer) {
+        self.buffers[buffer.0 as usize] = Arc::new(by);
+    }
+}
+
+impl Shared {
+    /// `descriptor` as something that can be written by transfers too, where the device has such images.
+    fn writable(&self, descriptor: &ImageDescriptor) -> ImageDescriptor {
+        let writable = ImageDescriptor { usage: descriptor.usage | Usage::TRANSFER_DST, ..*descriptor };
+        let transient = descriptor.usage.contains(Usage::TRANSIENT_ATTACHMENT);
+        if !transient && self.can_make(&writable) { writable } else { *descriptor }
+    }
+}
+
+fn heaps(shared: &Arc<Shared>, plan: &Plan) -> Result<Vec<Arc<Memory>>, Error> {
+    let placed = |heap: usize, role: &Role| matches!(role, Role::Transient(place) if place.heap as usize == heap);
+    let mut heaps = Vec::new();
+    for (index, heap) in plan.heaps.iter().enumerate() {
+        let lazy = if heap.lazily_allocated { lazy_types(shared) } else { u32::MAX };
+        let requirements = vk::MemoryRequirements {
+            size: heap.bytes.max(1),
+            alignment: heap.alignment.max(1),
+            memory_type_bits: heap.type_bits & lazy,
+        };
+        let of_buffers = plan.buffers.iter().any(|buffer| placed(index, &buffer.role));
+        if of_buffers && plan.images.iter().any(|image| placed(index, &image.role)) {
+            return Err(Error::BadPlan { what: format!("heap {index} holds images and buffers") });
+        }
+        let kind = if of_buffers { Kind::Buffers } else { Kind::Images };
+        heaps.push(Arc::new(Memory::new(shared, &format!("heap {index}"), requirements, kind)?));
+    }
+    Ok(heaps)
+}
+
+/// The memory types that are allocated lazily, one bit each.
+fn lazy_types(shared: &Shared) -> u32 {
+    // SAFETY: the physical device belongs to the instance.
+    let memory = unsafe { shared.instance.raw.get_physical_device_memory_properties(shared.physical) };
+    let lazy = |ty: &vk::MemoryType| ty.property_flags.contains(vk::MemoryPropertyFlags::LAZILY_ALLOCATED);
+    (0..).zip(memory.memory_types_as_slice()).filter(|(_, ty)| lazy(ty)).fold(0, |bits, (bit, _)| bits | 1 << bit)
+}

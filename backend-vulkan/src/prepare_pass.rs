@@ -1,0 +1,277 @@
+//! A pass's pipeline, and the template of its descriptor set.
+
+use crate::descriptors::supplied_layouts;
+use crate::device::Shared;
+use crate::error::Error;
+use crate::pass_set::{PassSet, SetTemplate};
+use crate::physical::Physical;
+use crate::pipeline::{LocalRead, PipelineDescriptor};
+use crate::recorder::PassState;
+use crate::shader_fit::{
+    brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
+};
+use crate::shaders::{CompiledShader, ShaderLibrary};
+use crate::standing::Turns;
+use ash::vk;
+use framewright_graph::frame::{BufferRole, Draw, Groups};
+use framewright_graph::interface::{DrawInterface, PASS_SET, ShaderInterfaces, ShaderProblem};
+use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
+use framewright_graph::vocabulary::Accesses;
+use std::sync::Arc;
+
+/// The objects of a pass of a rendering scope.
+pub(crate) struct Drawn {
+    pub(crate) draw: Draw,
+    pub(crate) template: SetTemplate,
+    pub(crate) sets: Turns<PassSet>,
+    /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
+    pub(crate) pipeline: Option<vk::Pipeline>,
+    pub(crate) local: Option<LocalRead>,
+    pub(crate) state: PassState,
+    /// The pass's own vertex buffers.
+    pub(crate) vertices: Vec<BufferId>,
+    pub(crate) indices: Option<BufferId>,
+    pub(crate) indirect: Option<BufferId>,
+}
+
+/// A dispatch's objects.
+pub(crate) struct Compute {
+    pub(crate) template: SetTemplate,
+    pub(crate) sets: Turns<PassSet>,
+    pub(crate) pipeline: vk::Pipeline,
+    pub(crate) layout: vk::PipelineLayout,
+    pub(crate) groups: WorkgroupCount,
+}
+
+/// How many workgroups.
+pub(crate) enum WorkgroupCount {
+    /// So many.
+    Direct([u32; 3]),
+    /// As many as stand there.
+    Indirect(BufferId, u64),
+}
+
+/// The buffers of a pass that have this role.
+fn buffers(pass: &plan::Pass, role: BufferRole) -> Vec<BufferId> {
+    pass.buffers.iter().filter(|it| it.role == Some(role)).map(|it| it.buffer).collect()
+}
+
+/// The one buffer that tells counts, which must hold `bytes` bytes from `offset` on.
+fn indirect(plan: &Plan, pass: &plan::Pass, offset: u64, bytes: u64) -> Result<BufferId, String> {
+    let [buffer] = buffers(pass, BufferRole::Indirect)[..] else {
+        return Err("its counts must stand in one buffer".to_owned());
+    };
+    let held = plan.buffers[buffer.0 as usize].bytes;
+    if !offset.is_multiple_of(4) || offset.checked_add(bytes).is_none_or(|end| end > held) {
+        return Err(format!("its counts must stand at a multiple of 4, and {bytes} bytes from {offset} of {held} on"));
+    }
+    Ok(buffer)
+}
+
+/// The objects of a dispatch.
+pub(crate) fn compute(
+    shared: &Arc<Shared>,
+    plan: &Plan,
+    physical: &Physical,
+    pass: &plan::Pass,
+    shaders: &mut ShaderLibrary,
+) -> Result<Compute, Error> {
+    let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
+    let shader =
+        shaders.compute(&pass.shader).map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
+    let nothing = DrawInterface::default();
+    check_limits(shared, &shader.interface, &nothing).map_err(mismatch)?;
+    check_supplied(&shader.interface, &nothing).map_err(mismatch)?;
+    let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
+    check_workgroup(shared, size).map_err(mismatch)?;
+    let groups = match pass.groups {
+        None => return Err(mismatch("a dispatch doesn't say how many workgroups".to_owned())),
+        Some(Groups::Count(count)) => WorkgroupCount::Direct(count),
+        Some(Groups::Invocations(wanted)) => {
+            WorkgroupCount::Direct([0, 1, 2].map(|axis| wanted[axis].div_ceil(size[axis].max(1))))
+        }
+        Some(Groups::Indirect { offset }) => {
+            WorkgroupCount::Indirect(indirect(plan, pass, offset, 12).map_err(mismatch)?, offset)
+        }
+    };
+    if let WorkgroupCount::Direct(count) = groups {
+        let most = shared.limits.max_compute_work_group_count;
+        if count.iter().zip(most).any(|(count, most)| *count > most) {
+            return Err(mismatch(format!("{count:?} workgroups are more than the {most:?} of this device")));
+        }
+    }
+    let template = SetTemplate::new(shared, plan, pass, &shader.interface.bindings)?;
+    let layout = shared.pipeline_layout(vec![template.layout])?;
+    let pipeline = shared.compute_pipeline(&pass.name, shader.compute, layout)?;
+    let sets = Turns::new(physical.period(template.resources()));
+    Ok(Compute { template, sets, pipeline, layout, groups })
+}
+
+/// The objects of a pass of a rendering scope.
+pub(crate) fn drawn(
+    shared: &Arc<Shared>,
+    plan: &Plan,
+    physical: &Physical,
+    scope: &RenderScope,
+    pass: &plan::Pass,
+    shaders: &mut ShaderLibrary,
+) -> Result<Drawn, Error> {
+    let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
+    let draw = pass.draw.ok_or_else(|| mismatch("a rendering scope holds a dispatch".to_owned()))?;
+    let (indices, wanted) = (buffers(pass, BufferRole::Index), buffers(pass, BufferRole::Vertex));
+    let indices = match indices[..] {
+        [] => None,
+        [one] => Some(one),
+        _ => return Err(mismatch("it has several index buffers".to_owned())),
+    };
+    let indirect = match draw {
+        Draw::Indirect => Some(indirect(plan, pass, 0, if indices.is_some() { 20 } else { 16 }).map_err(mismatch)?),
+        _ => None,
+    };
+    let nothing = |template| Drawn {
+        draw,
+        template,
+        sets: Turns::new(1),
+        pipeline: None,
+        local: None,
+        state: PassState::default(),
+        vertices: Vec::new(),
+        indices,
+        indirect,
+    };
+    let local: Vec<&str> = pass
+        .accesses
+        .iter()
+        .filter_map(|it| it.binding.as_ref().filter(|binding| binding.kind == BindingKind::InputAttachment))
+        .map(|binding| &*binding.name)
+        .collect();
+    let shader = match shaders.compiled(&pass.shader, draw, &local) {
+        Err(ShaderProblem::Missing { .. }) if draw == Draw::Custom => {
+            let template = SetTemplate::empty(shared)?;
+            return Ok(nothing(template));
+        }
+        other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
+    };
+    let brought = shaders.brought_along(draw);
+    let targets = targets(plan, scope, pass).map_err(mismatch)?;
+    let written: Vec<_> = targets.iter().map(|target| &scope.color[*target]).collect();
+    check_brought(shared, &brought).map_err(mismatch)?;
+    check_limits(shared, &shader.interface, &brought).map_err(mismatch)?;
+    check_supplied(&shader.interface, &brought).map_err(mismatch)?;
+    check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
+    let own_vertices = matches!(draw, Draw::Vertices { .. } | Draw::Indirect) && !wanted.is_empty();
+    let (attributes, strides) = if own_vertices {
+        own_attributes(&shader.interface, wanted.len()).map_err(mismatch)?
+    } else {
+        let attributes = brought_attributes(&shader.interface, &brought).map_err(mismatch)?;
+        let strides = if attributes.is_empty() { Vec::new() } else { vec![brought.vertex_stride] };
+        (attributes, strides)
+    };
+    let vertices = if own_vertices { wanted } else { Vec::new() };
+    check_reach(plan, draw, &vertices, &strides, indices).map_err(mismatch)?;
+    let template = SetTemplate::new(shared, plan, pass, &shader.interface.bindings)?;
+    let supplied = supplied_layouts(shared, &brought)?;
+    let layout = shared.pipeline_layout([template.layout].into_iter().chain(supplied.iter().copied()).collect())?;
+    let reads = |set| shader.interface.bindings.iter().any(|it| it.set == set);
+    let local = local_read(shared, scope, pass, &shader, &targets).map_err(mismatch)?;
+    let format = |attachment: &plan::Attachment| plan.image(attachment.image).format;
+    let blend = |number: &usize| pass.blend.get(*number).copied().filter(|_| targets.contains(number));
+    let descriptor = PipelineDescriptor {
+        vertex: shader.vertex.clone(),
+        fragment: shader.fragment.clone(),
+        layout,
+        strides: strides.clone(),
+        attributes,
+        color: scope.color.iter().zip(0_usize..).map(|(it, number)| (format(it), blend(&number))).collect(),
+        depth_format: scope.depth.as_ref().map(format),
+        depth: pass.depth,
+        stencil_format: scope.stencil.as_ref().map(format),
+        stencil: pass.stencil,
+        samples: scope.samples,
+        local: local.clone(),
+    };
+    let pipeline = Some(shared.pipeline(&pass.name, descriptor)?);
+    let supplied = (PASS_SET + 1..).zip(supplied).map(|(set, layout)| (layout, reads(set))).collect();
+    let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
+    let state = PassState { layout, supplied, vertex_stride: brought_stride };
+    let sets = Turns::new(physical.period(template.resources()));
+    Ok(Drawn { sets, pipeline, local, state, vertices, ..nothing(template) })
+}
+
+/// The colour attachments of the scope that the pass writes, by the shader's locations.
+fn targets(plan: &Plan, scope: &RenderScope, pass: &plan::Pass) -> Result<Vec<usize>, String> {
+    let writes =
+        |access: &&plan::Access| access.accesses.contains(Accesses::COLOR_ATTACHMENT_WRITE) && access.binding.is_none();
+    let mut targets = Vec::new();
+    for access in pass.accesses.iter().filter(writes) {
+        let same = |it: &&plan::Attachment| {
+            it.image == access.image
+                && it.range.base_mip == access.range.base_mip
+                && it.range.base_layer == access.range.base_layer
+        };
+        let found = scope.color.iter().position(|it| same(&it));
+        let found =
+            found.ok_or_else(|| format!("it writes `{}`, which is no attachment", plan.image(access.image).name));
+        targets.push(found?);
+    }
+    targets.dedup();
+    Ok(targets)
+}
+
+/// How the pass sees the scope's colour attachments; `None` if its shader's locations are theirs, and it reads none.
+fn local_read(
+    shared: &Shared,
+    scope: &RenderScope,
+    pass: &plan::Pass,
+    shader: &CompiledShader,
+    targets: &[usize],
+) -> Result<Option<LocalRead>, String> {
+    let mut inputs = vec![vk::ATTACHMENT_UNUSED; scope.color.len()];
+    for access in &pass.accesses {
+        let Some(binding) = access.binding.as_ref().filter(|it| it.kind == BindingKind::InputAttachment) else {
+            continue;
+        };
+        let index = shader.input_attachments.iter().find(|(name, _)| **name == *binding.name).map(|(_, index)| *index);
+        let attachment = scope.color.iter().position(|it| it.image == access.image);
+        let (Some(index), Some(attachment)) = (index, attachment) else {
+            return Err(format!("`{}` is no input attachment of a colour attachment of its scope", binding.name));
+        };
+        inputs[attachment] = index;
+    }
+    let reads = inputs.iter().any(|index| *index != vk::ATTACHMENT_UNUSED);
+    let straight = targets.iter().enumerate().all(|(location, target)| location == *target);
+    if straight && !reads {
+        return Ok(None);
+    }
+    if shared.local_read.is_none() {
+        return Err("it needs local reads, and this device has none".to_owned());
+    }
+    let mut locations = vec![vk::ATTACHMENT_UNUSED; scope.color.len()];
+    for (location, target) in (0..).zip(targets) {
+        locations[*target] = location;
+    }
+    Ok(Some(LocalRead { locations, inputs }))
+}
+
+/// A draw's vertices and indices must lie within its buffers.
+fn check_reach(
+    plan: &Plan,
+    draw: Draw,
+    vertices: &[BufferId],
+    strides: &[u32],
+    indices: Option<BufferId>,
+) -> Result<(), String> {
+    let Draw::Vertices { count, .. } = draw else { return Ok(()) };
+    let reaches = |buffer: BufferId, each: u32| {
+        let buffer = &plan.buffers[buffer.0 as usize];
+        if u64::from(count) * u64::from(each) <= buffer.bytes {
+            return Ok(());
+        }
+        Err(format!("{count} of {each} bytes each are more than `{}` holds: {} bytes", buffer.name, buffer.bytes))
+    };
+    match indices {
+        // What indices point to is known to the device alone, which keeps within the buffers.
+        Some(indices) => reaches(indices, 4),
+        None => vertices.iter().zip(strides).try_for_each(|(buffer, stride)| reaches(*buffer, *stride)),
+    }
+}

@@ -1,0 +1,83 @@
+//! Barriers, as the Plan writes them and as the executor needs them beside it.
+
+use super::Frame;
+use crate::convert;
+use crate::device::Shared;
+use ash::vk;
+use framewright_graph::plan::{ImageBarrier, MemoryBarrier, Subresources};
+use framewright_graph::vocabulary::State;
+
+impl Frame<'_> {
+    /// A barrier of the Plan.
+    pub(crate) fn image_barrier(&self, barrier: &ImageBarrier) -> vk::ImageMemoryBarrier2<'static> {
+        let recorded = vk::ImageMemoryBarrier2::default()
+            .src_stage_mask(convert::stages(barrier.src_stages))
+            .src_access_mask(convert::accesses(barrier.src_accesses))
+            .dst_stage_mask(convert::stages(barrier.dst_stages))
+            .dst_access_mask(convert::accesses(barrier.dst_accesses))
+            .old_layout(convert::layout(barrier.old_layout))
+            .new_layout(convert::layout(barrier.new_layout))
+            .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .image(self.prepared.physical.image(barrier.image, self.number).raw)
+            .subresource_range(convert::range(barrier.range));
+        match barrier.ownership {
+            None => recorded,
+            Some([from, to]) => {
+                let families = &self.shared.queues.families;
+                recorded
+                    .src_queue_family_index(families.family(from).index)
+                    .dst_queue_family_index(families.family(to).index)
+            }
+        }
+    }
+}
+
+/// The memory barriers of a step.
+pub(crate) fn memory_barriers(barriers: &[MemoryBarrier]) -> Vec<vk::MemoryBarrier2<'static>> {
+    barriers
+        .iter()
+        .map(|it| {
+            vk::MemoryBarrier2::default()
+                .src_stage_mask(convert::stages(it.src_stages))
+                .src_access_mask(convert::accesses(it.src_accesses))
+                .dst_stage_mask(convert::stages(it.dst_stages))
+                .dst_access_mask(convert::accesses(it.dst_accesses))
+        })
+        .collect()
+}
+
+/// Records barriers in one call; none if there are none.
+pub(crate) fn barriers(
+    shared: &Shared,
+    commands: vk::CommandBuffer,
+    memory: &[vk::MemoryBarrier2<'_>],
+    images: &[vk::ImageMemoryBarrier2<'_>],
+) {
+    if memory.is_empty() && images.is_empty() {
+        return;
+    }
+    let info = vk::DependencyInfo::default().memory_barriers(memory).image_memory_barriers(images);
+    // SAFETY: the command buffer is being recorded outside a scope, and the images live.
+    unsafe { shared.raw.cmd_pipeline_barrier2(commands, &info) };
+}
+
+/// A barrier from one state of an image to another; from the layout `UNDEFINED` nothing is kept.
+pub(crate) fn state_change(
+    image: vk::Image,
+    range: Subresources,
+    from: State,
+    to: State,
+) -> vk::ImageMemoryBarrier2<'static> {
+    vk::ImageMemoryBarrier2::default()
+        .src_stage_mask(convert::stages(from.stages))
+        .src_access_mask(convert::accesses(from.accesses))
+        .old_layout(convert::layout(from.layout))
+        .dst_stage_mask(convert::stages(to.stages))
+        .dst_access_mask(convert::accesses(to.accesses))
+        .new_layout(convert::layout(to.layout))
+        .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+        .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+        .image(image)
+        .subresource_range(convert::range(range))
+}

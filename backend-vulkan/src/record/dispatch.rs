@@ -1,0 +1,28 @@
+//! Dispatches.
+
+use super::Frame;
+use crate::error::Error;
+use crate::prepare_pass::{Compute, WorkgroupCount};
+use ash::vk;
+
+impl Frame<'_> {
+    pub(super) fn dispatch(&self, commands: vk::CommandBuffer, pass: &Compute) -> Result<(), Error> {
+        let set = pass.sets.at(self.number).ok_or_else(super::scope::unprepared)?;
+        let device = &self.shared.raw;
+        // SAFETY: the command buffer is being recorded outside a scope, the set has the layout's only set layout, and counts
+        // and the buffer behind them were checked.
+        unsafe {
+            let compute = vk::PipelineBindPoint::COMPUTE;
+            device.cmd_bind_pipeline(commands, compute, pass.pipeline);
+            device.cmd_bind_descriptor_sets(commands, compute, pass.layout, 0, &[set.set.raw], &[]);
+            match pass.groups {
+                WorkgroupCount::Direct([x, y, z]) => device.cmd_dispatch(commands, x, y, z),
+                WorkgroupCount::Indirect(buffer, offset) => {
+                    let buffer = self.prepared.physical.buffer(buffer, self.number);
+                    device.cmd_dispatch_indirect(commands, buffer.raw, offset);
+                }
+            }
+        }
+        Ok(())
+    }
+}
