@@ -20,8 +20,8 @@ pub const BASE_COLOR_TEXTURE_BINDING: u32 = 0;
 /// What whoever draws `draw` with the shipped draw source finds bound. Known without any device, so `check` can hold
 /// shaders against it.
 ///
-/// The sky is given the same frame set as objects, so that one bind group serves both; a full-screen draw is given nothing
-/// but what its pass samples.
+/// The sky is given the same frame set as objects, so that one bind group serves both; all other draws are given nothing
+/// but what is their pass's own.
 #[must_use]
 pub fn interface(draw: Draw) -> DrawInterface {
     let frame = |binding, name, kind| Supplied { set: FRAME_SET, binding, name, kind };
@@ -49,6 +49,6 @@ pub fn interface(draw: Draw) -> DrawInterface {
             }
         }
         Draw::Sky => DrawInterface { supplied, ..DrawInterface::default() },
-        Draw::FullScreen => DrawInterface::default(),
+        Draw::FullScreen | Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => DrawInterface::default(),
     }
 }

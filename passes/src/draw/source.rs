@@ -109,6 +109,11 @@ impl DrawSource for SceneDrawSource {
                 recorder.draw(0..3, 0..1);
                 Ok(1)
             }
+            Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => {
+                let what =
+                    format!("a scene doesn't draw `{}`, which pass `{}` asks for", recorder.shader(), recorder.pass());
+                Err(Error::DrawSource { what })
+            }
         }
     }
 }
