@@ -6,12 +6,12 @@ use crate::features::Features;
 use crate::queues::Families;
 use ash::vk;
 use framewright_graph::device::{
-    BufferDescriptor, FormatSupport, ImageDescriptor, MemoryModel, Profile, Queues,
+    BufferDescriptor, FormatSupport, ImageDescriptor, MemoryModel, MemoryProvider, Profile, Queues,
 };
 use framewright_graph::format::Format;
 use framewright_graph::frame::Shape;
 use framewright_graph::plan::Sharing;
-use framewright_graph::vocabulary::{BufferUsage, Usage};
+use framewright_graph::vocabulary::Usage;
 
 /// The Vulkan version that devices and the loader must have.
 pub const MINIMUM_VERSION: u32 = vk::API_VERSION_1_3;
@@ -52,7 +52,7 @@ pub(crate) fn version(packed: u32) -> String {
 }
 
 /// The capabilities of an open device.
-pub(crate) fn profile(shared: &Shared, source: String) -> Profile {
+pub(crate) fn profile(shared: &Shared, source: String, needs: &mut dyn MemoryProvider) -> Profile {
     let (instance, physical) = (&shared.instance.raw, shared.physical);
     let families = &shared.queues.families;
     // SAFETY: `physical` belongs to `instance`.
@@ -60,6 +60,7 @@ pub(crate) fn profile(shared: &Shared, source: String) -> Profile {
         (instance.get_physical_device_properties(physical), instance.get_physical_device_memory_properties(physical))
     };
     let limits = properties.limits;
+    let formats: Vec<_> = Format::ALL.iter().filter_map(|format| support(instance, physical, *format)).collect();
     Profile {
         name: crate::device::text(properties.device_name_as_c_str()),
         source,
@@ -86,8 +87,8 @@ pub(crate) fn profile(shared: &Shared, source: String) -> Profile {
             sharing: Sharing::Exclusive,
         },
         local_read: shared.local_read.is_some(),
-        formats: Format::ALL.iter().filter_map(|format| support(instance, physical, *format)).collect(),
-        memory: memory_model(shared),
+        memory: MemoryModel::fitted(needs, &formats),
+        formats,
         known_needs: Vec::new(),
         unknown: Vec::new(),
     }
@@ -208,50 +209,4 @@ fn support(instance: &ash::Instance, physical: vk::PhysicalDevice, format: Forma
         blend: features.contains(Feature::COLOR_ATTACHMENT_BLEND),
         samples,
     })
-}
-
-/// Fits the model of [`MemoryModel`] to a device by asking for columns and rows of texels.
-fn memory_model(shared: &Shared) -> MemoryModel {
-    const LONG: u32 = 1024;
-    let of = |format: Format, [width, height]: [u32; 2]| {
-        shared.memory_needs(&ImageDescriptor {
-            format,
-            shape: Shape::D2,
-            extent: [width, height, 1],
-            mips: 1,
-            layers: 1,
-            samples: 1,
-            usage: Usage::SAMPLED | Usage::TRANSFER_DST,
-            sharing: Sharing::Exclusive,
-        })
-    };
-    // How many texels as long as the image stand for its one column or row.
-    let beside = |format: Format, extent: [u32; 2]| {
-        let texels = of(format, extent).bytes / format.texel_bytes() / u64::from(LONG);
-        u32::try_from(texels).unwrap_or(1).max(1).next_power_of_two()
-    };
-    let (narrow, wide) = (Format::R8_UNORM, Format::R8G8B8A8_UNORM);
-    let column = [narrow, wide].map(|format| beside(format, [1, LONG]));
-    // Padding to texels is the same for every format, padding to bytes is not.
-    let (row_texels, row_bytes) = if column[0] == column[1] { (column[0], 1) } else { (1, column[0]) };
-    let stencil = Format::D32_SFLOAT_S8_UINT;
-    let apart = support(&shared.instance.raw, shared.physical, stencil).is_some() && {
-        let square = [LONG, LONG];
-        of(stencil, square).bytes < of(Format::D32_SFLOAT, square).bytes * 2
-    };
-    let buffer = shared.buffer_memory_needs(&BufferDescriptor {
-        bytes: u64::from(LONG),
-        usage: BufferUsage::all(),
-        sharing: Sharing::Exclusive,
-    });
-    let needs = of(wide, [LONG, 1]);
-    MemoryModel {
-        alignment: needs.alignment,
-        row_texels,
-        row_bytes,
-        rows: beside(wide, [LONG, 1]),
-        separate_stencil: apart,
-        buffer_alignment: buffer.alignment,
-        type_bits: needs.type_bits & buffer.type_bits,
-    }
 }

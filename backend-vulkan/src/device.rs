@@ -54,6 +54,10 @@ pub struct DeviceSummary {
     pub kind: &'static str,
     /// Its Vulkan version.
     pub vulkan: String,
+    /// Kinds of queues that it has: `graphics`, and beside it `compute` and `transfer`.
+    pub queues: Vec<&'static str>,
+    /// Whether passes can read what was drawn at their own position without leaving the rendering scope.
+    pub local_read: bool,
     /// What it lacks of the minimum; empty if it can be opened.
     pub missing: Vec<String>,
     driver_id: vk::DriverId,
@@ -158,8 +162,8 @@ impl Device {
     /// What the device can do, as far as Plans depend on it.
     #[must_use]
     pub fn profile(&self) -> Profile {
-        let source = format!("{}, Vulkan {}, live", self.shared.summary.driver, self.shared.summary.vulkan);
-        capabilities::profile(&self.shared, source)
+        let source = format!("read from {}, Vulkan {}", self.shared.summary.driver, self.shared.summary.vulkan);
+        capabilities::profile(&self.shared, source, &mut self.memory())
     }
 
     /// What images and buffers take of this device's memory, for [`framewright_graph::compile`].
@@ -278,6 +282,9 @@ fn summary(instance: &Instance, index: usize, physical: vk::PhysicalDevice) -> D
         // SAFETY: `physical` belongs to the instance, and the chained structure outlives the call.
         unsafe { instance.raw.get_physical_device_properties2(physical, &mut all) };
     }
+    let families = Families::of(&instance.raw, physical);
+    let more = families.as_ref().map(|it| (it.compute.is_some(), it.transfer.is_some())).unwrap_or_default();
+    let queues = [("graphics", families.is_some()), ("compute", more.0), ("transfer", more.1)];
     let (driver_name, driver_info) = (text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));
     DeviceSummary {
         index,
@@ -291,6 +298,9 @@ fn summary(instance: &Instance, index: usize, physical: vk::PhysicalDevice) -> D
             _ => "other",
         },
         vulkan: capabilities::version(properties.api_version),
+        queues: queues.into_iter().filter(|(_, there)| *there).map(|(name, _)| name).collect(),
+        local_read: properties.api_version >= capabilities::MINIMUM_VERSION
+            && capabilities::has_local_read(&instance.raw, physical),
         missing: capabilities::missing(&instance.raw, physical),
         driver_id: driver.driver_id,
     }

@@ -1,15 +1,11 @@
 //! The command line: what can be said, and what each word means.
 
 use crate::text;
+use crate::values::{Assignment, DEFAULT_SIZE, Dump, Size, assignment, dump, order, picture};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use framewright_graph::compile::{Options, Order};
 use std::ffi::OsString;
 use std::path::PathBuf;
-
-/// Width and height of the output where the command line says none, in pixels.
-pub(crate) const DEFAULT_SIZE: Size = Size { width: 1280, height: 720 };
-
-/// Largest width or height that the command line takes, in pixels.
-pub(crate) const MAX_SIZE: u32 = 16384;
 
 /// A pipeline file says what a frame is made of; framewright finds out how, and draws it.
 #[derive(Debug, Parser)]
@@ -38,7 +34,7 @@ pub(crate) enum Command {
     Inspect(Inspect),
     /// Draw a scene through a pipeline.
     Run(Run),
-    /// List the Vulkan devices of this machine.
+    /// List the Vulkan devices of this machine, or save the profile of one.
     Devices(Devices),
 }
 
@@ -48,9 +44,12 @@ pub(crate) struct Check {
     /// Pipeline and settings.
     #[command(flatten)]
     pub(crate) pipeline: Pipeline,
-    /// Device to compile for: the name of a shipped profile, or a profile file.
-    #[arg(long, value_name = "NAME|PROFILE.ron")]
+    /// Device to compile for: the name of a shipped profile, a profile file, or `all` for every shipped one.
+    #[arg(long, value_name = "NAME|PROFILE.ron|all")]
     pub(crate) device: Option<OsString>,
+    /// How the Plan is made.
+    #[command(flatten)]
+    pub(crate) planning: Planning,
     /// Form of the answer.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: CheckFormat,
@@ -71,9 +70,9 @@ pub(crate) struct Inspect {
     /// Device to compile for: the name of a shipped profile, or a profile file.
     #[arg(long, value_name = "NAME|PROFILE.ron")]
     pub(crate) device: Option<OsString>,
-    /// Debug switches.
+    /// How the Plan is made.
     #[command(flatten)]
-    pub(crate) debug: Debug,
+    pub(crate) planning: Planning,
     /// Form of the Plan.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: PlanFormat,
@@ -109,9 +108,9 @@ pub(crate) struct Run {
     /// File for the report: device, memory, barriers, passes and every validation message, as JSON.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
-    /// Debug switches.
+    /// How the Plan is made.
     #[command(flatten)]
-    pub(crate) debug: Debug,
+    pub(crate) planning: Planning,
     /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) device: Option<OsString>,
@@ -120,8 +119,15 @@ pub(crate) struct Run {
 /// `framewright devices`.
 #[derive(Debug, Args)]
 pub(crate) struct Devices {
+    /// File for the profile of a device, with the memory needs of the usual images: `--device` of `check` and `inspect`
+    /// takes it where the device is not.
+    #[arg(long, value_name = "PROFILE.ron")]
+    pub(crate) save: Option<PathBuf>,
+    /// Device whose profile is saved: its number or name in this list, or a part of its name.
+    #[arg(long, value_name = "NAME|INDEX", requires = "save")]
+    pub(crate) device: Option<OsString>,
     /// Form of the list.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, conflicts_with = "save")]
     pub(crate) format: CheckFormat,
 }
 
@@ -136,15 +142,38 @@ pub(crate) struct Pipeline {
     pub(crate) set: Vec<Assignment>,
 }
 
-/// Switches that must not change a picture.
-#[derive(Debug, Args)]
-pub(crate) struct Debug {
+/// How a Plan is made. None of this may change a picture.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct Planning {
+    /// Order of execution: the file's, the one that scores best, one that keeps little memory alive, or any.
+    #[arg(long, value_name = "file|default|low-memory|random:SEED", default_value = "default", value_parser = order)]
+    order: Order,
+    /// Leave full-screen draws in multisampled images, even where several samples gain nothing.
+    #[arg(long)]
+    no_demote: bool,
+    /// Use one queue, even where the device has more.
+    #[arg(long)]
+    one_queue: bool,
     /// Fill memory that changes hands with garbage before each first use.
     #[arg(long)]
     pub(crate) poison: bool,
-    /// Give each image memory of its own.
+    /// Give each image and buffer memory of its own.
     #[arg(long)]
-    pub(crate) no_alias: bool,
+    no_alias: bool,
+}
+
+impl Planning {
+    /// The same for the compiler.
+    #[must_use]
+    pub(crate) fn options(self) -> Options {
+        Options {
+            alias: !self.no_alias,
+            poison: self.poison,
+            order: self.order,
+            demote: !self.no_demote,
+            queues: !self.one_queue,
+        }
+    }
 }
 
 /// Form of an answer.
@@ -165,79 +194,6 @@ pub(crate) enum PlanFormat {
     Tree,
     /// For programs, and for replay.
     Json,
-}
-
-/// Width and height in pixels, each 1…[`MAX_SIZE`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Size {
-    /// Width.
-    pub(crate) width: u32,
-    /// Height.
-    pub(crate) height: u32,
-}
-
-/// `NAME=VALUE`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Assignment {
-    /// The setting.
-    pub(crate) name: String,
-    /// Its value, not yet read.
-    pub(crate) value: String,
-}
-
-/// `IMAGE=FILE.png`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Dump {
-    /// The image's name in the pipeline.
-    pub(crate) image: String,
-    /// The file.
-    pub(crate) file: PathBuf,
-}
-
-impl std::fmt::Display for Size {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}x{}", self.width, self.height)
-    }
-}
-
-impl std::str::FromStr for Size {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Size, String> {
-        let (width, height) = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, such as 1280x720")?;
-        let side = |name: &str, digits: &str| {
-            if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
-                return Err("expected WIDTHxHEIGHT, such as 1280x720".to_owned());
-            }
-            match digits.parse::<u32>() {
-                Ok(pixels @ 1..=MAX_SIZE) => Ok(pixels),
-                _ => Err(format!("the {name} must be 1 to {MAX_SIZE} pixels")),
-            }
-        };
-        Ok(Size { width: side("width", width)?, height: side("height", height)? })
-    }
-}
-
-fn assignment(text: &str) -> Result<Assignment, String> {
-    match text.split_once('=') {
-        Some((name, value)) if !name.is_empty() => Ok(Assignment { name: name.to_owned(), value: value.to_owned() }),
-        _ => Err("expected NAME=VALUE, such as msaa=4".to_owned()),
-    }
-}
-
-fn dump(text: &str) -> Result<Dump, String> {
-    match text.split_once('=') {
-        Some((image, file)) if !image.is_empty() => Ok(Dump { image: image.to_owned(), file: picture(file)? }),
-        _ => Err("expected IMAGE=FILE.png, such as depth=depth.png".to_owned()),
-    }
-}
-
-fn picture(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    match path.extension() {
-        Some(extension) if extension.eq_ignore_ascii_case("png") => Ok(path),
-        _ => Err("pictures are written as PNG: the file's name must end in .png".to_owned()),
-    }
 }
 
 /// Reads the command line.
@@ -291,22 +247,20 @@ mod tests {
     }
 
     #[test]
-    fn a_size_is_two_numbers_within_limits() {
-        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
-        assert_eq!("16384x1".parse(), Ok(Size { width: 16384, height: 1 }));
-        for wrong in ["", "640", "640x", "x480", "-1x480", "+1x480", "6 40x480", "640x480x1"] {
-            assert_eq!(wrong.parse::<Size>(), Err("expected WIDTHxHEIGHT, such as 1280x720".to_owned()), "{wrong}");
-        }
-        assert_eq!("0x480".parse::<Size>(), Err("the width must be 1 to 16384 pixels".to_owned()));
-        assert_eq!("640x16385".parse::<Size>(), Err("the height must be 1 to 16384 pixels".to_owned()));
-        assert_eq!("1x99999999999999999999".parse::<Size>(), Err("the height must be 1 to 16384 pixels".to_owned()));
-    }
-
-    #[test]
-    fn a_value_may_hold_an_equals_sign() {
-        assert_eq!(assignment("name=a=b"), Ok(Assignment { name: "name".to_owned(), value: "a=b".to_owned() }));
-        assert!(assignment("=4").is_err());
-        assert!(assignment("msaa").is_err());
+    fn what_is_said_of_a_plan_reaches_the_compiler() {
+        let options = |words: &[&str]| {
+            let Ok(CommandLine { command: Command::Check(check) }) = read(&[&["check", "a.ron"], words].concat())
+            else {
+                panic!("{words:?} is right");
+            };
+            check.planning.options()
+        };
+        assert_eq!(options(&[]), Options::default());
+        assert_eq!(options(&["--order", "random:3"]), Options { order: Order::Random(3), ..Options::default() });
+        assert_eq!(options(&["--no-demote"]), Options { demote: false, ..Options::default() });
+        assert_eq!(options(&["--one-queue"]), Options { queues: false, ..Options::default() });
+        let both = Options { poison: true, alias: false, ..Options::default() };
+        assert_eq!(options(&["--poison", "--no-alias"]), both);
     }
 
     #[test]

@@ -1,30 +1,44 @@
 //! `framewright check`: whether a pipeline is right, without a GPU.
 
-use crate::args::{Check, CheckFormat, DEFAULT_SIZE};
+use crate::args::{Check, CheckFormat};
 use crate::error::{Error, Exit};
 use crate::planning::{self, View};
-use crate::{profiles, text};
-use framewright_graph::compile::Options;
+use crate::values::DEFAULT_SIZE;
+use crate::{every_device, profiles, text};
 use framewright_graph::describe;
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::plan::{Note, Plan, Stage};
+use framewright_graph::plan::{Note, Plan, Stage, Totals};
 use serde::Serialize;
+use std::ffi::OsStr;
 
 /// The answer for programs.
 #[derive(Debug, Serialize)]
 struct Answer {
     format_version: u32,
     pipeline: String,
-    device: String,
-    /// Whether nothing is wrong.
-    fine: bool,
-    /// What is wrong with the pipeline, its settings or its shaders.
-    diagnostics: serde_json::Value,
-    /// What is wrong with the Plan that was made of it.
-    violations: Vec<String>,
-    /// Decisions that a reader may want to know of.
-    notes: Vec<Note>,
+    #[serde(flatten)]
+    verdict: Verdict,
 }
+
+/// What comes of a pipeline on one device.
+#[derive(Debug, Serialize)]
+pub(crate) struct Verdict {
+    /// The device's own name.
+    pub(crate) device: String,
+    /// Whether nothing is wrong.
+    pub(crate) fine: bool,
+    /// What is wrong with the pipeline, its settings or its shaders, or what the device can't do.
+    pub(crate) diagnostics: serde_json::Value,
+    /// What is wrong with the Plan that was made of it.
+    pub(crate) violations: Vec<String>,
+    /// Decisions that a reader may want to know of.
+    pub(crate) notes: Vec<Note>,
+    /// The Plan's sums; `null` if there is none.
+    pub(crate) totals: Option<Totals>,
+}
+
+/// How a pipeline is looked at: nothing is known of a scene.
+pub(crate) const VIEW: View<'static> = View { facts: None, size: DEFAULT_SIZE, dump: &[] };
 
 /// Checks a pipeline.
 ///
@@ -32,62 +46,85 @@ struct Answer {
 /// In the form for people everything that is wrong is an error; in the form for programs the mistakes of the pipeline are
 /// its answer.
 pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
+    if arguments.device.as_deref() == Some(OsStr::new(profiles::ALL)) {
+        return every_device::check(arguments);
+    }
     let profile = profiles::choose(arguments.device.as_deref())?;
     let result = plan(arguments, &profile);
     match arguments.format {
-        CheckFormat::Human => result.and_then(|plan| human(arguments, &plan)),
+        CheckFormat::Human => {
+            let plan = result?;
+            let fine = fine(arguments, &plan.device.name, &plan.totals);
+            let notes = told(&plan.notes).map(|note| shown(note) + "\n");
+            text::print(&(fine + "\n" + &notes.collect::<String>())).map_err(Error::Print)?;
+            Ok(Exit::Fine)
+        }
         CheckFormat::Json => json(arguments, &profile, result),
     }
 }
 
 fn plan(arguments: &Check, profile: &Profile) -> Result<Plan, Error> {
     let mut pipeline = planning::load(&arguments.pipeline)?;
-    let view = View { facts: None, size: DEFAULT_SIZE, dump: &[] };
-    pipeline.plan(view, profile, &mut Estimated(&profile.memory), &Options::default()).map(|planned| planned.plan)
+    let options = arguments.planning.options();
+    pipeline.plan(VIEW, profile, &mut Estimated(profile), &options).map(|planned| planned.plan)
 }
 
-fn human(arguments: &Check, plan: &Plan) -> Result<Exit, Error> {
-    let totals = &plan.totals;
-    let mut answer = format!(
-        "{}: fine on {}: {} in {}, {}, {}, {} of images in {} (estimated)\n",
+/// That all is well, and how much the frame takes.
+pub(crate) fn fine(arguments: &Check, device: &str, totals: &Totals) -> String {
+    format!(
+        "{}: fine on {}: {} in {}, {}, {}, {} placed in {} (estimated)",
         text::path(&arguments.pipeline.file),
-        text::escape(&plan.device.name),
+        text::escape(device),
         text::count((totals.passes + totals.inserted_passes) as usize, "pass", "passes"),
         text::count(totals.scopes as usize, "rendering scope", "rendering scopes"),
         text::count(totals.resolves as usize, "resolve", "resolves"),
         text::count((totals.image_barriers + totals.memory_barriers) as usize, "barrier", "barriers"),
         text::bytes(totals.transient_bytes),
         text::bytes(totals.placed_bytes),
-    );
-    // Why scopes are separate is for those who look into the Plan.
-    for note in plan.notes.iter().filter(|note| note.stage != Stage::Scope) {
-        let at = note.at.as_ref().map_or_else(String::new, |place| format!(" ({})", text::escape(&place.to_string())));
-        answer += &format!("note: `{}`: {}{at}\n", text::escape(&note.subject), text::escape(&note.text));
-    }
-    text::print(&answer).map_err(Error::Print)?;
-    Ok(Exit::Fine)
+    )
 }
 
-fn json(arguments: &Check, profile: &Profile, result: Result<Plan, Error>) -> Result<Exit, Error> {
-    let mut answer = Answer {
-        format_version: 1,
-        pipeline: arguments.pipeline.file.to_string_lossy().into_owned(),
-        device: profile.name.clone(),
+/// Notes for whoever checks a pipeline; why scopes are separate is for those who look into the Plan.
+pub(crate) fn told(notes: &[Note]) -> impl Iterator<Item = &Note> {
+    notes.iter().filter(|note| note.stage != Stage::Scope)
+}
+
+/// A note in one line.
+pub(crate) fn shown(note: &Note) -> String {
+    let at = note.at.as_ref().map_or_else(String::new, |place| format!(" ({})", text::escape(&place.to_string())));
+    format!("note: `{}`: {}{at}", text::escape(&note.subject), text::escape(&note.text))
+}
+
+/// What comes of a pipeline on `device`.
+///
+/// # Errors
+/// What is no matter of the pipeline: files that can't be read, and the like.
+pub(crate) fn verdict(device: String, result: Result<Plan, Error>) -> Result<Verdict, Error> {
+    let mut verdict = Verdict {
+        device,
         fine: false,
         diagnostics: serde_json::Value::Array(Vec::new()),
         violations: Vec::new(),
         notes: Vec::new(),
+        totals: None,
     };
-    let exit = result.as_ref().map_or_else(Error::exit, |_| Exit::Fine);
     match result {
         Ok(plan) => {
-            answer.fine = true;
-            answer.notes = plan.notes;
+            verdict.fine = true;
+            verdict.notes = plan.notes;
+            verdict.totals = Some(plan.totals);
         }
-        Err(Error::Wrong { wrong }) => answer.diagnostics = describe::to_json(&wrong.sources, &wrong.diagnostics),
-        Err(Error::Violations { violations }) => answer.violations = violations,
+        Err(Error::Wrong { wrong }) => verdict.diagnostics = describe::to_json(&wrong.sources, &wrong.diagnostics),
+        Err(Error::Violations { violations }) => verdict.violations = violations,
         Err(other) => return Err(other),
     }
+    Ok(verdict)
+}
+
+fn json(arguments: &Check, profile: &Profile, result: Result<Plan, Error>) -> Result<Exit, Error> {
+    let exit = result.as_ref().map_or_else(Error::exit, |_| Exit::Fine);
+    let pipeline = arguments.pipeline.file.to_string_lossy().into_owned();
+    let answer = Answer { format_version: 1, pipeline, verdict: verdict(profile.name.clone(), result)? };
     text::print(&text::json(&answer)?).map_err(Error::Print)?;
     Ok(exit)
 }

@@ -83,7 +83,7 @@ pub(crate) enum Error {
     #[error("{0}")]
     Scene(Box<SceneError>),
     /// A device profile is wrong.
-    #[error("{}: {}", text::path(path), text::escape(&problem.to_string()))]
+    #[error("{}:{}", text::path(path), text::escape(&problem.to_string()))]
     Profile {
         /// Its file.
         path: PathBuf,
@@ -98,12 +98,12 @@ pub(crate) enum Error {
         /// Names that are shipped.
         shipped: Vec<&'static str>,
     },
-    /// `run` was given a profile, which can't draw.
+    /// A profile was given where a device is needed.
     #[error(
-        "`{}` is a device profile, and a profile can't draw: name a device (`framewright devices` lists them)",
+        "`{}` is a device profile, and a device is needed here: name one (`framewright devices` lists them)",
         text::escape(name)
     )]
-    ProfileCantDraw {
+    ProfileIsNoDevice {
         /// What was given.
         name: String,
     },
@@ -135,6 +135,18 @@ pub(crate) enum Error {
         /// What `verify` found, escaped.
         violations: Vec<String>,
     },
+    /// A picture was asked for of something that is none.
+    #[error(
+        "`{}` is a buffer, and only images become pictures: leave out `-o`, or dump an image",
+        text::escape(output)
+    )]
+    NoPicture {
+        /// The output.
+        output: String,
+    },
+    /// A profile that has no text form.
+    #[error("the profile has no text form: {}", text::escape(.0))]
+    Unwritable(String),
     /// A result that has no text form.
     #[error("the result has no JSON form: {0}")]
     Json(#[from] serde_json::Error),
@@ -191,6 +203,12 @@ impl Error {
         if headed { self.to_string().trim_end().to_owned() } else { format!("error: {self}") }
     }
 
+    /// Whether it is about the pipeline, or what the command line asks of it.
+    #[must_use]
+    pub(crate) fn is_wrong(&self) -> bool {
+        matches!(self, Error::Wrong { .. })
+    }
+
     /// The exit code of a command that this ended.
     #[must_use]
     pub(crate) fn exit(&self) -> Exit {
@@ -203,6 +221,8 @@ impl Error {
             | Error::Picture { .. }
             | Error::Profile { .. }
             | Error::Violations { .. }
+            | Error::NoPicture { .. }
+            | Error::Unwritable(_)
             | Error::Json(_)
             | Error::Plan(_) => Exit::Found,
             Error::Wrong { wrong } => {
@@ -223,7 +243,7 @@ impl Error {
                 Blame::Files | Blame::Program => Exit::Found,
             },
             Error::UnknownProfile { .. }
-            | Error::ProfileCantDraw { .. }
+            | Error::ProfileIsNoDevice { .. }
             | Error::ReadAndWritten { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
             Error::Interrupted { .. } => Exit::Interrupted,

@@ -4,7 +4,6 @@ use crate::args::{Inspect, PlanFormat};
 use crate::error::{Error, Exit};
 use crate::planning::{self, View};
 use crate::{files, output, profiles, text};
-use framewright_graph::compile::Options;
 use framewright_graph::device::Estimated;
 use std::path::Path;
 
@@ -26,8 +25,7 @@ pub(crate) fn inspect(arguments: &Inspect) -> Result<Exit, Error> {
         None => None,
     };
     let view = View { facts, size: arguments.size, dump: &[] };
-    let options = Options { alias: !arguments.debug.no_alias, poison: arguments.debug.poison };
-    let plan = pipeline.plan(view, &profile, &mut Estimated(&profile.memory), &options)?.plan;
+    let plan = pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan;
     let shown = match arguments.format {
         PlanFormat::Tree => text::escape_lines(&plan.tree()) + "\n",
         PlanFormat::Json => text::json_text(&plan.to_json()?),

@@ -3,6 +3,7 @@
 use crate::args;
 use crate::error::{Error, Wrong};
 use crate::files::{self, PipelineFile};
+use crate::values::Size;
 use framewright_graph::compile::{self, Options};
 use framewright_graph::describe::{self, Diagnostic, Pipeline};
 use framewright_graph::device::{MemoryProvider, Profile};
@@ -40,7 +41,7 @@ pub(crate) struct View<'a> {
     /// Facts of the scene; `None`: it may hold everything.
     pub(crate) facts: Option<Facts>,
     /// Size of the output.
-    pub(crate) size: args::Size,
+    pub(crate) size: Size,
     /// Names of images that are dumped.
     pub(crate) dump: &'a [String],
 }
@@ -75,6 +76,16 @@ impl Loaded {
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Planned, Error> {
+        let frame = self.frame(view)?;
+        let plan = self.compile(&frame, device, memory, options)?;
+        Ok(Planned { frame, plan })
+    }
+
+    /// Puts in settings, facts and sizes.
+    ///
+    /// # Errors
+    /// What is wrong with the command line, the pipeline or its shaders, whatever the device.
+    pub(crate) fn frame(&mut self, view: View<'_>) -> Result<Frame, Error> {
         let inputs = Inputs {
             set: &self.set,
             facts: view.facts.unwrap_or(Facts::UNKNOWN),
@@ -87,13 +98,26 @@ impl Loaded {
             let (sources, diagnostics) = (Sources::clone(&self.sources), mistakes);
             return Err(Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, by_command_line: true }) });
         }
-        let frame = expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.shaders)
-            .map_err(|diagnostics| wrong(&self.sources, diagnostics))?;
-        let plan = compile::compile(&frame, device, memory, options)
+        expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.shaders)
+            .map_err(|diagnostics| wrong(&self.sources, diagnostics))
+    }
+
+    /// Compiles a frame for a device, and has the result verified.
+    ///
+    /// # Errors
+    /// What is wrong with the frame, or what the device can't do; or what `verify` found.
+    pub(crate) fn compile(
+        &self,
+        frame: &Frame,
+        device: &Profile,
+        memory: &mut dyn MemoryProvider,
+        options: &Options,
+    ) -> Result<Plan, Error> {
+        let plan = compile::compile(frame, device, memory, options)
             .map_err(|diagnostics| wrong(&self.sources, diagnostics))?;
         let violations: Vec<_> =
             verify::verify(&plan).iter().map(|one| crate::text::escape(&one.to_string())).collect();
-        if violations.is_empty() { Ok(Planned { frame, plan }) } else { Err(Error::Violations { violations }) }
+        if violations.is_empty() { Ok(plan) } else { Err(Error::Violations { violations }) }
     }
 }
 

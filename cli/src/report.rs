@@ -1,16 +1,17 @@
 //! What a run has to tell: the table for people, the report for programs.
 
+use crate::rows::{Kind, Row};
 use crate::text;
 use comfy_table::presets::ASCII_MARKDOWN;
 use comfy_table::{CellAlignment, Table};
-use framewright_graph::plan::{Note, Plan, Totals, Work};
-use framewright_vulkan::{Canary, DeviceSummary, FrameReport, Message, MessageKind, Severity};
+use framewright_graph::plan::{Note, Totals};
+use framewright_vulkan::{Canary, DeviceSummary, Message, MessageKind, Severity};
 use serde::Serialize;
 
 /// Everything that a run found out. Its JSON form is `--report`'s.
 #[derive(Debug, Serialize)]
 pub(crate) struct Report {
-    /// 1; rises when a field changes its meaning.
+    /// 2; rises when a field changes its meaning.
     pub(crate) format_version: u32,
     /// The pipeline, as it was named.
     pub(crate) pipeline: String,
@@ -24,13 +25,13 @@ pub(crate) struct Report {
     pub(crate) frames: u32,
     /// The device.
     pub(crate) device: DeviceUsed,
-    /// Memory of images.
+    /// Memory of images and buffers.
     pub(crate) memory: Memory,
     /// Barriers.
     pub(crate) barriers: Barriers,
     /// Median of the frame's GPU times over all frames.
     pub(crate) gpu_milliseconds: f64,
-    /// Passes in the order of execution, resolves and copies between them.
+    /// Passes in the order of execution, inserted resolves and copies between them.
     pub(crate) passes: Vec<Row>,
     /// The compiler's remarks.
     pub(crate) notes: Vec<Note>,
@@ -62,20 +63,20 @@ pub(crate) struct DeviceUsed {
     pub(crate) vulkan: String,
 }
 
-/// Bytes of images.
+/// Bytes of images and buffers.
 #[derive(Debug, Serialize)]
 pub(crate) struct Memory {
-    /// Of all transient images, if each had memory of its own.
+    /// Of all transient ones, if each had memory of its own.
     pub(crate) sum_bytes: u64,
     /// Of the heaps that they share.
     pub(crate) placed_bytes: u64,
     /// Alive at the worst moment: no placement can need less.
     pub(crate) live_peak_bytes: u64,
-    /// Of output images.
-    pub(crate) output_bytes: u64,
+    /// Of those that outlive the frame: outputs, what is handed in, what persists.
+    pub(crate) kept_bytes: u64,
 }
 
-/// Barriers of one frame.
+/// Barriers and waits of one frame.
 #[derive(Debug, Serialize)]
 pub(crate) struct Barriers {
     /// Calls of `vkCmdPipelineBarrier2`.
@@ -84,36 +85,8 @@ pub(crate) struct Barriers {
     pub(crate) image: u32,
     /// Memory barriers.
     pub(crate) memory: u32,
-}
-
-/// A pass, resolve or copy.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Row {
-    /// The Plan's step that it belongs to.
-    pub(crate) step: usize,
-    /// What it is.
-    pub(crate) kind: Kind,
-    /// The pass's name; of resolves and copies source and target.
-    pub(crate) name: String,
-    /// Draw calls.
-    pub(crate) draws: u32,
-    /// Median of its GPU times over all frames. A resolve at the end of a rendering scope takes what its passes leave of
-    /// the scope's time, stores included.
-    pub(crate) gpu_milliseconds: f64,
-}
-
-/// What a row is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Kind {
-    /// A pass that draws.
-    Draw,
-    /// A compute pass.
-    Dispatch,
-    /// A resolve, at the end of a rendering scope or by itself.
-    Resolve,
-    /// A copy.
-    Copy,
+    /// Waits of one queue for another.
+    pub(crate) waits: u32,
 }
 
 /// What the validation layer said.
@@ -164,14 +137,19 @@ impl From<&Totals> for Memory {
             sum_bytes: totals.transient_bytes,
             placed_bytes: totals.placed_bytes,
             live_peak_bytes: totals.live_peak_bytes,
-            output_bytes: totals.output_bytes,
+            kept_bytes: totals.kept_bytes,
         }
     }
 }
 
 impl From<&Totals> for Barriers {
     fn from(totals: &Totals) -> Barriers {
-        Barriers { calls: totals.barrier_calls, image: totals.image_barriers, memory: totals.memory_barriers }
+        Barriers {
+            calls: totals.barrier_calls,
+            image: totals.image_barriers,
+            memory: totals.memory_barriers,
+            waits: totals.waits,
+        }
     }
 }
 
@@ -216,12 +194,11 @@ impl Report {
         let mut table = Table::new();
         table.load_preset(ASCII_MARKDOWN).set_header(["step", "pass", "draws", "GPU ms"]);
         for row in &self.passes {
-            let (name, draws) = match row.kind {
-                Kind::Draw => (text::escape(&row.name), row.draws.to_string()),
-                Kind::Dispatch => (text::escape(&row.name), String::new()),
-                Kind::Resolve => (format!("(resolve {})", text::escape(&row.name)), String::new()),
-                Kind::Copy => (format!("(copy {})", text::escape(&row.name)), String::new()),
+            let name = match row.inserted {
+                Some(word) => format!("({word} {})", text::escape(&row.name)),
+                None => text::escape(&row.name),
             };
+            let draws = if row.kind == Kind::Draw { row.draws.to_string() } else { String::new() };
             table.add_row([row.step.to_string(), name, draws, format!("{:.2}", row.gpu_milliseconds)]);
         }
         let draws: u32 = self.passes.iter().map(|row| row.draws).sum();
@@ -235,18 +212,22 @@ impl Report {
         let mut shown = format!(
             "{table}\n\
              device:   {} ({}, Vulkan {})\n\
-             memory:   {} of transient images in {}, {} alive at the worst moment; outputs {}\n\
-             barriers: {} image and {} memory barriers in {}\n",
+             memory:   {} in {}, {} alive at the worst moment; {} outlive the frame\n\
+             barriers: {} image and {} memory barriers in {}{}\n",
             text::escape(&self.device.name),
             text::escape(&self.device.driver),
             text::escape(&self.device.vulkan),
             text::bytes(memory.sum_bytes),
             text::bytes(memory.placed_bytes),
             text::bytes(memory.live_peak_bytes),
-            text::bytes(memory.output_bytes),
+            text::bytes(memory.kept_bytes),
             barriers.image,
             barriers.memory,
             text::count(barriers.calls as usize, "call", "calls"),
+            match barriers.waits {
+                0 => String::new(),
+                waits => format!(", {} for another queue", text::count(waits as usize, "wait", "waits")),
+            },
         );
         if let Some(validation) = &self.validation {
             shown += &validation.shown();
@@ -275,70 +256,5 @@ impl Validation {
                 &format!("{word} ({}): {}: {}\n", message.kind, text::escape(&message.id), text::escape(&message.text));
         }
         shown
-    }
-}
-
-/// Draw counts of the last frame, and medians of the times of all.
-#[must_use]
-pub(crate) fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
-    let Some(last) = frames.last() else { return Vec::new() };
-    let over = |time: &dyn Fn(&FrameReport) -> f64| median(frames.iter().map(time).collect());
-    let mut rows = Vec::new();
-    for (step, planned) in plan.steps.iter().enumerate() {
-        let whole = || over(&|frame| frame.steps[step].milliseconds);
-        let between = |source, target| format!("{} → {}", plan.image(source).name, plan.image(target).name);
-        let mut row =
-            |kind, name, draws, gpu_milliseconds| rows.push(Row { step, kind, name, draws, gpu_milliseconds });
-        match &planned.work {
-            Work::Render(scope) => {
-                for (number, pass) in last.steps[step].passes.iter().enumerate() {
-                    let time = over(&|frame| frame.steps[step].passes[number].milliseconds);
-                    row(Kind::Draw, pass.name.clone(), pass.draws, time);
-                }
-                let resolves: Vec<String> = scope
-                    .color
-                    .iter()
-                    .chain(&scope.depth)
-                    .filter_map(|attachment| Some(between(attachment.image, attachment.resolve.as_ref()?.image)))
-                    .collect();
-                if !resolves.is_empty() {
-                    let rest = over(&|frame| {
-                        let step = &frame.steps[step];
-                        step.milliseconds - step.passes.iter().map(|pass| pass.milliseconds).sum::<f64>()
-                    });
-                    row(Kind::Resolve, resolves.join(", "), 0, rest.max(0.0));
-                }
-            }
-            Work::Dispatch(pass) => row(Kind::Dispatch, pass.name.to_string(), 0, whole()),
-            Work::Resolve(transfer) => row(Kind::Resolve, between(transfer.source, transfer.target), 0, whole()),
-            Work::Copy(transfer) => row(Kind::Copy, between(transfer.source, transfer.target), 0, whole()),
-            Work::Export => {}
-        }
-    }
-    rows
-}
-
-/// The middle of some times, or the mean of the two in the middle; 0 of none.
-#[must_use]
-pub(crate) fn median(mut times: Vec<f64>) -> f64 {
-    times.sort_by(f64::total_cmp);
-    let middle = times.len() / 2;
-    match times.len() {
-        0 => 0.0,
-        even if even % 2 == 0 => (times[middle - 1] + times[middle]) / 2.0,
-        _ => times[middle],
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_median_is_the_middle() {
-        assert_eq!(median(vec![]), 0.0);
-        assert_eq!(median(vec![3.0]), 3.0);
-        assert_eq!(median(vec![3.0, 1.0, 100.0]), 3.0);
-        assert_eq!(median(vec![4.0, 1.0]), 2.5);
     }
 }

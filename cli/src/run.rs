@@ -1,11 +1,11 @@
 //! `framewright run`: draws a scene through a pipeline.
 
-use crate::args::{Dump, Run};
+use crate::args::Run;
 use crate::error::{Error, Exit};
 use crate::planning::{self, Loaded, Planned, View};
-use crate::report::{self, Report, Setting, Validation};
-use crate::{files, interrupt, output, picture, text};
-use framewright_graph::compile::Options;
+use crate::report::{Report, Setting, Validation};
+use crate::{files, interrupt, output, picture, rows, text};
+use framewright_graph::frame::{Frame, Resource};
 use framewright_graph::plan::Totals;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
     let planned = plan(arguments, &mut pipeline, &scene, &device)?;
     let (frames, pictures) = draw(arguments, &planned, &mut pipeline, &scene, &device)?;
     let mut report = Report {
-        format_version: 1,
+        format_version: 2,
         pipeline: shown(&arguments.pipeline.file),
         scene: shown(&arguments.scene),
         settings: planned
@@ -53,8 +53,8 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
         device: device.summary().into(),
         memory: (&planned.plan.totals).into(),
         barriers: (&planned.plan.totals).into(),
-        gpu_milliseconds: report::median(frames.iter().map(|frame| frame.milliseconds).collect()),
-        passes: report::rows(&planned.plan, &frames),
+        gpu_milliseconds: rows::median(frames.iter().map(|frame| frame.milliseconds).collect()),
+        passes: rows::rows(&planned.plan, &frames),
         notes: planned.plan.notes.clone(),
         validation: None,
         files: written().map(|file| shown(file)).collect(),
@@ -75,12 +75,17 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
 }
 
 /// The device that `--device` names.
-fn choice(device: Option<&OsStr>) -> Result<DeviceChoice, Error> {
+///
+/// # Errors
+/// If it is a profile's file.
+pub(crate) fn choice(device: Option<&OsStr>) -> Result<DeviceChoice, Error> {
     let Some(name) = device else { return Ok(DeviceChoice::Default) };
     let name = name.to_string_lossy().into_owned();
     match name.parse() {
         Ok(index) => Ok(DeviceChoice::Index(index)),
-        Err(_) if Path::new(&name).extension().is_some_and(|end| end == "ron") => Err(Error::ProfileCantDraw { name }),
+        Err(_) if Path::new(&name).extension().is_some_and(|end| end == "ron") => {
+            Err(Error::ProfileIsNoDevice { name })
+        }
         Err(_) => Ok(DeviceChoice::Name(name)),
     }
 }
@@ -89,7 +94,7 @@ fn choice(device: Option<&OsStr>) -> Result<DeviceChoice, Error> {
 fn plan(arguments: &Run, pipeline: &mut Loaded, scene: &Scene, device: &Device) -> Result<Planned, Error> {
     let dump: Vec<String> = arguments.dump.iter().map(|dump| dump.image.clone()).collect();
     let view = View { facts: Some(scene.facts()), size: arguments.size, dump: &dump };
-    let options = Options { alias: !arguments.debug.no_alias, poison: arguments.debug.poison };
+    let options = arguments.planning.options();
     let (profile, mut memory) = (device.profile(), device.memory());
     let planned = pipeline.plan(view, &profile, &mut memory, &options)?;
     if !dump.is_empty() {
@@ -112,7 +117,7 @@ fn difference(before: &Totals, after: &Totals) -> String {
         count("copies", before.copies, after.copies),
         count("barriers", before.image_barriers + before.memory_barriers, after.image_barriers + after.memory_barriers),
         bytes("transient memory", before.placed_bytes, after.placed_bytes),
-        bytes("outputs", before.output_bytes, after.output_bytes),
+        bytes("kept memory", before.kept_bytes, after.kept_bytes),
     ]
     .into_iter()
     .flatten()
@@ -132,8 +137,9 @@ fn draw(
     scene: &Scene,
     device: &Device,
 ) -> Result<(Vec<FrameReport>, Vec<Picture>), Error> {
+    let wanted = wanted(arguments, planned)?;
     let mut source = SceneDrawSource::new(device, scene, [arguments.size.width, arguments.size.height])?;
-    let options = ExecutorOptions { poison: arguments.debug.poison, ..ExecutorOptions::default() };
+    let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
     let mut executor = Executor::new(device, &planned.plan, &mut pipeline.shaders, &options)?;
     let progress = progress(arguments.frames);
     let mut frames = Vec::new();
@@ -146,7 +152,7 @@ fn draw(
     }
     progress.finish_and_clear();
     let mut pictures = Vec::new();
-    for (output, name, file) in wanted(arguments, planned) {
+    for (output, name, file) in wanted {
         let texels = executor.read(output)?;
         let [width, height, _] = texels.extent;
         let png = picture::png(texels.format, width, height, &texels.bytes)
@@ -163,14 +169,32 @@ fn draw(
 }
 
 /// Outputs that are written: their numbers, names and files.
-fn wanted<'a>(arguments: &'a Run, planned: &'a Planned) -> impl Iterator<Item = (usize, &'a str, &'a Path)> {
+fn wanted<'a>(arguments: &'a Run, planned: &'a Planned) -> Result<Vec<(usize, &'a str, &'a Path)>, Error> {
     let frame = &planned.frame;
-    let name = |output: usize| &*frame.images[frame.outputs[output].image.0 as usize].name;
-    let dumped = move |dump: &'a Dump| {
-        let output = (0..frame.outputs.len()).find(|output| name(*output) == dump.image)?;
-        Some((output, name(output), &*dump.file))
+    let image = |output: usize| match frame.outputs.get(output)?.resource {
+        Resource::Image(image) => frame.images.get(image.0 as usize).map(|image| &*image.name),
+        Resource::Buffer(_) => None,
     };
-    arguments.output.iter().map(move |file| (0, name(0), &**file)).chain(arguments.dump.iter().filter_map(dumped))
+    let mut wanted = Vec::new();
+    if let Some(file) = &arguments.output {
+        let name = image(0).ok_or_else(|| Error::NoPicture { output: output_name(frame) })?;
+        wanted.push((0, name, &**file));
+    }
+    for dump in &arguments.dump {
+        let output = (0..frame.outputs.len()).find_map(|at| Some((at, image(at).filter(|name| *name == dump.image)?)));
+        wanted.extend(output.map(|(at, name)| (at, name, &*dump.file)));
+    }
+    Ok(wanted)
+}
+
+/// The name of the first output.
+fn output_name(frame: &Frame) -> String {
+    let name = match frame.outputs.first().map(|output| output.resource) {
+        Some(Resource::Image(image)) => frame.images.get(image.0 as usize).map(|image| &image.name),
+        Some(Resource::Buffer(buffer)) => frame.buffers.get(buffer.0 as usize).map(|buffer| &buffer.name),
+        None => None,
+    };
+    name.map_or_else(String::new, ToString::to_string)
 }
 
 /// A bar on a terminal; nothing anywhere else.

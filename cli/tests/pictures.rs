@@ -139,7 +139,7 @@ fn the_report_holds_what_the_table_shows_and_more() {
     let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &["--report", "report.json"]) else { return };
     let outcome = outcome.exits(0);
     let report = json(&place.path("report.json"));
-    assert_eq!(report["format_version"], 1);
+    assert_eq!(report["format_version"], 2);
     assert_eq!(report["size"], serde_json::json!(SIZE));
     assert_eq!(report["validation"], Value::Null);
     assert!(report["device"]["driver"].as_str().is_some_and(|driver| driver.contains("llvmpipe")), "{report:#}");

@@ -3,6 +3,7 @@
 //! - [`raycast`]: a second, slow and simple way to a picture.
 //! - [`render`]: a pipeline file and a scene become pictures.
 //! - [`shapes`]: simple scenes.
+//! - [`shipped`]: the shipped pipelines, as frames.
 //! - [`agreement`]: what the GPU drew, held against it.
 
 pub mod agreement;
@@ -10,3 +11,4 @@ pub mod random_pipelines;
 pub mod raycast;
 pub mod render;
 pub mod shapes;
+pub mod shipped;

@@ -1,17 +1,11 @@
 //! Plans of the shipped pipelines, in every combination of their discrete settings, without any device.
 
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::{self, Pipeline, SettingKind};
+use framewright_graph::describe;
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
-use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::plan::Plan;
-use framewright_graph::source::Sources;
 use framewright_graph::verify::{Violation, verify};
-use framewright_passes::draw::interface;
-use framewright_passes::shipped::SHADERS;
-use framewright_tests::render::in_repository;
-use framewright_vulkan::ShaderLibrary;
-use std::sync::Arc;
+use framewright_tests::shipped::frames;
 
 /// A Plan and how it came about.
 struct Shipped {
@@ -19,49 +13,20 @@ struct Shipped {
     plan: Plan,
 }
 
-/// Every value that a setting of few values may have; the ends of one of many.
-fn values(kind: &SettingKind) -> Vec<String> {
-    match kind {
-        SettingKind::Bool { .. } => vec!["false".to_owned(), "true".to_owned()],
-        SettingKind::OneOf { of, .. } => of.iter().map(ToString::to_string).collect(),
-        SettingKind::Number { min, max, .. } => vec![min.to_string(), max.to_string()],
-        SettingKind::Integer { min, max, .. } => vec![min.to_string(), max.to_string()],
-    }
+/// All Plans for a shipped device.
+fn shipped_for(name: &str, text: &str) -> Vec<Shipped> {
+    let profile = Profile::from_ron(text).expect("shipped profiles are read");
+    let plan = |shipped: framewright_tests::shipped::ShippedFrame| {
+        let plan = compile(&shipped.frame, &profile, &mut Estimated(&profile), &Options::default())
+            .unwrap_or_else(|wrong| panic!("{}", describe::render(&shipped.frame.sources, &wrong)));
+        Shipped { how: format!("{} on {name}", shipped.how), plan }
+    };
+    frames([333, 187]).into_iter().map(plan).collect()
 }
 
-fn combinations(pipeline: &Pipeline) -> Vec<Vec<(String, String)>> {
-    pipeline.settings.iter().fold(vec![Vec::new()], |combinations, setting| {
-        let with = |chosen: &Vec<(String, String)>, value: String| {
-            [&chosen[..], &[(setting.name.text.to_string(), value)]].concat()
-        };
-        let all = combinations.iter();
-        all.flat_map(|chosen| values(&setting.kind).into_iter().map(move |value| with(chosen, value))).collect()
-    })
-}
-
-/// All Plans of all shipped pipelines, with everything in the scene and with nothing but opaque objects.
 fn shipped() -> Vec<Shipped> {
-    let profile = Profile::from_ron(SHIPPED_PROFILES[0].1).expect("shipped profiles are read");
-    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interface);
-    let mut plans = Vec::new();
-    let folder = std::fs::read_dir(in_repository("examples/pipelines")).expect("pipelines are shipped");
-    for file in folder.map(|file| file.expect("the folder can be listed").path()) {
-        let name = file.file_name().expect("a file has a name").to_string_lossy().into_owned();
-        let text = std::fs::read_to_string(&file).expect("a shipped pipeline is text");
-        let mut sources = Sources::default();
-        let pipeline = describe::read(&mut sources, &name, &name, text).expect("a shipped pipeline is right");
-        let sources = Arc::new(sources);
-        let opaque = Facts { has_alpha_clip: false, has_transparent: false, ..Facts::UNKNOWN };
-        for (set, facts) in combinations(&pipeline).iter().flat_map(|set| [(set, Facts::UNKNOWN), (set, opaque)]) {
-            let inputs = Inputs { set, facts, facts_known: true, output_extent: [333, 187], dump: &[] };
-            let frame = expand(&pipeline, sources.clone(), &inputs, &mut shaders)
-                .unwrap_or_else(|wrong| panic!("{}", describe::render(&sources, &wrong)));
-            let plan = compile(&frame, &profile, &mut Estimated(&profile.memory), &Options::default())
-                .unwrap_or_else(|wrong| panic!("{}", describe::render(&sources, &wrong)));
-            plans.push(Shipped { how: format!("{name} {set:?} {facts:?}"), plan });
-        }
-    }
-    plans
+    let (name, text) = SHIPPED_PROFILES[0];
+    shipped_for(name, text)
 }
 
 fn names_both_steps_and_the_subresource(violation: &Violation) -> bool {
@@ -75,11 +40,13 @@ fn names_both_steps_and_the_subresource(violation: &Violation) -> bool {
 }
 
 #[test]
-fn every_shipped_pipeline_compiles_to_a_plan_without_violations() {
-    let plans = shipped();
-    assert!(plans.len() > 40, "{} Plans", plans.len());
-    for Shipped { how, plan } in plans {
-        assert_eq!(verify(&plan), [], "{how}\n{}", plan.tree());
+fn every_shipped_pipeline_compiles_to_a_plan_without_violations_on_every_shipped_device() {
+    for (name, text) in SHIPPED_PROFILES {
+        let plans = shipped_for(name, text);
+        assert!(plans.len() > 40, "{} Plans", plans.len());
+        for Shipped { how, plan } in plans {
+            assert_eq!(verify(&plan), [], "{how}\n{}", plan.tree());
+        }
     }
 }
 
@@ -100,7 +67,7 @@ fn no_barrier_of_a_shipped_pipeline_can_be_left_out_unseen() {
                     transient_bytes: plan.totals.transient_bytes,
                     placed_bytes: plan.totals.placed_bytes,
                     live_peak_bytes: plan.totals.live_peak_bytes,
-                    output_bytes: plan.totals.output_bytes,
+                    kept_bytes: plan.totals.kept_bytes,
                     ..framewright_graph::plan::Totals::count(&without.steps)
                 };
                 let violations = verify(&without);

@@ -134,6 +134,8 @@ impl Vulkan {
     pub(crate) const LAVAPIPE_CURRENT: Vulkan = Vulkan { driver: LAVAPIPE, layer: Some(CURRENT_LAYER) };
     /// Lavapipe under the distribution's layer.
     pub(crate) const LAVAPIPE_OLD: Vulkan = Vulkan { driver: LAVAPIPE, layer: Some(OLD_LAYER) };
+    /// SwiftShader alone.
+    pub(crate) const SWIFTSHADER: Vulkan = Vulkan { driver: SWIFTSHADER, layer: None };
     /// SwiftShader under the current layer.
     pub(crate) const SWIFTSHADER_CURRENT: Vulkan = Vulkan { driver: SWIFTSHADER, layer: Some(CURRENT_LAYER) };
 

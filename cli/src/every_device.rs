@@ -1,0 +1,131 @@
+//! `framewright check --device all`: what becomes of a pipeline on each device that there is a profile of.
+
+use crate::args::{Check, CheckFormat};
+use crate::check::{self, Verdict};
+use crate::error::{Error, Exit};
+use crate::{planning, profiles, text};
+use framewright_graph::describe;
+use framewright_graph::device::Estimated;
+use framewright_graph::plan::{Note, Plan};
+use serde::Serialize;
+
+/// The answer for programs.
+#[derive(Debug, Serialize)]
+struct Answer {
+    format_version: u32,
+    pipeline: String,
+    /// Whether nothing is wrong on any device.
+    fine: bool,
+    /// What is wrong whatever the device.
+    diagnostics: serde_json::Value,
+    /// What comes of it on each device; empty if something is wrong whatever the device.
+    devices: Vec<Entry>,
+}
+
+#[derive(Debug, Serialize)]
+struct Entry {
+    /// The profile's name, which `--device` takes.
+    profile: &'static str,
+    #[serde(flatten)]
+    verdict: Verdict,
+}
+
+/// What comes of the pipeline on one device.
+struct Checked {
+    profile: &'static str,
+    device: String,
+    result: Result<Plan, Error>,
+}
+
+/// Checks a pipeline for every shipped profile.
+///
+/// # Errors
+/// In the form for people what is wrong whatever the device; in the form for programs that is an answer too.
+pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
+    let results = compile(arguments);
+    match arguments.format {
+        CheckFormat::Human => human(arguments, results?),
+        CheckFormat::Json => json(arguments, results),
+    }
+}
+
+/// Compiles for each profile.
+///
+/// # Errors
+/// What is wrong whatever the device.
+fn compile(arguments: &Check) -> Result<Vec<Checked>, Error> {
+    let mut pipeline = planning::load(&arguments.pipeline)?;
+    let frame = pipeline.frame(check::VIEW)?;
+    let options = arguments.planning.options();
+    let mut all = Vec::new();
+    for (name, profile) in profiles::all()? {
+        let result = pipeline.compile(&frame, &profile, &mut Estimated(&profile), &options);
+        all.push(Checked { profile: name, device: profile.name, result });
+    }
+    let mut said = all.iter().map(|it| it.result.as_ref().err().filter(|it| it.is_wrong()).map(Error::shown));
+    let first = said.next().flatten();
+    if first.is_some()
+        && said.all(|other| other == first)
+        && let Some(Checked { result: Err(error), .. }) = all.pop()
+    {
+        return Err(error);
+    }
+    Ok(all)
+}
+
+fn human(arguments: &Check, results: Vec<Checked>) -> Result<Exit, Error> {
+    let all = results.len();
+    let plans: Vec<&Plan> = results.iter().filter_map(|it| it.result.as_ref().ok()).collect();
+    let everywhere = |note: &&Note| plans.len() > 1 && plans.iter().all(|plan| plan.notes.contains(note));
+    let mut answer = String::new();
+    for Checked { profile, result, .. } in &results {
+        match result {
+            Ok(plan) => {
+                answer += &format!("{}\n", check::fine(arguments, profile, &plan.totals));
+                for note in check::told(&plan.notes).filter(|note| !everywhere(note)) {
+                    answer += &format!("  {}\n", check::shown(note));
+                }
+            }
+            Err(error) => {
+                answer += &format!("{}: refused on {profile}\n", text::path(&arguments.pipeline.file));
+                answer += &indented(&error.shown());
+            }
+        }
+    }
+    for note in plans.first().into_iter().flat_map(|plan| check::told(&plan.notes)).filter(everywhere) {
+        answer += &format!("{} (on every device that takes it)\n", check::shown(note));
+    }
+    answer += &format!("{}: fine on {} of {all} devices\n", text::path(&arguments.pipeline.file), plans.len());
+    text::print(&answer).map_err(Error::Print)?;
+    Ok(if plans.len() == all { Exit::Fine } else { Exit::Found })
+}
+
+fn indented(lines: &str) -> String {
+    lines.lines().map(|line| if line.is_empty() { "\n".to_owned() } else { format!("  {line}\n") }).collect()
+}
+
+fn json(arguments: &Check, results: Result<Vec<Checked>, Error>) -> Result<Exit, Error> {
+    let mut answer = Answer {
+        format_version: 1,
+        pipeline: arguments.pipeline.file.to_string_lossy().into_owned(),
+        fine: false,
+        diagnostics: serde_json::Value::Array(Vec::new()),
+        devices: Vec::new(),
+    };
+    let exit = match results {
+        Ok(results) => {
+            for Checked { profile, device, result } in results {
+                answer.devices.push(Entry { profile, verdict: check::verdict(device, result)? });
+            }
+            answer.fine = answer.devices.iter().all(|device| device.verdict.fine);
+            if answer.fine { Exit::Fine } else { Exit::Found }
+        }
+        Err(Error::Wrong { wrong }) => {
+            answer.diagnostics = describe::to_json(&wrong.sources, &wrong.diagnostics);
+            Error::Wrong { wrong }.exit()
+        }
+        Err(other) => return Err(other),
+    };
+    text::print(&text::json(&answer)?).map_err(Error::Print)?;
+    Ok(exit)
+}

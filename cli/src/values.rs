@@ -1,0 +1,154 @@
+//! What single arguments of the command line can say.
+
+use framewright_graph::compile::Order;
+use std::path::PathBuf;
+
+/// Width and height of the output where the command line says none, in pixels.
+pub(crate) const DEFAULT_SIZE: Size = Size { width: 1280, height: 720 };
+
+/// Largest width or height that the command line takes, in pixels.
+pub(crate) const MAX_SIZE: u32 = 16384;
+
+/// Width and height in pixels, each 1…[`MAX_SIZE`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Size {
+    /// Width.
+    pub(crate) width: u32,
+    /// Height.
+    pub(crate) height: u32,
+}
+
+/// `NAME=VALUE`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Assignment {
+    /// The setting.
+    pub(crate) name: String,
+    /// Its value, not yet read.
+    pub(crate) value: String,
+}
+
+/// `IMAGE=FILE.png`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Dump {
+    /// The image's name in the pipeline.
+    pub(crate) image: String,
+    /// The file.
+    pub(crate) file: PathBuf,
+}
+
+impl std::fmt::Display for Size {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}x{}", self.width, self.height)
+    }
+}
+
+impl std::str::FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Size, String> {
+        let (width, height) = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, such as 1280x720")?;
+        let side = |name: &str, digits: &str| {
+            if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
+                return Err("expected WIDTHxHEIGHT, such as 1280x720".to_owned());
+            }
+            match digits.parse::<u32>() {
+                Ok(pixels @ 1..=MAX_SIZE) => Ok(pixels),
+                _ => Err(format!("the {name} must be 1 to {MAX_SIZE} pixels")),
+            }
+        };
+        Ok(Size { width: side("width", width)?, height: side("height", height)? })
+    }
+}
+
+/// Reads `NAME=VALUE`.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn assignment(text: &str) -> Result<Assignment, String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() => Ok(Assignment { name: name.to_owned(), value: value.to_owned() }),
+        _ => Err("expected NAME=VALUE, such as msaa=4".to_owned()),
+    }
+}
+
+/// Reads an order of execution.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn order(text: &str) -> Result<Order, String> {
+    match text.strip_prefix("random:") {
+        Some(seed) if !seed.is_empty() && seed.bytes().all(|byte| byte.is_ascii_digit()) => match seed.parse() {
+            Ok(seed) => Ok(Order::Random(seed)),
+            Err(_) => Err(format!("the seed must be 0 to {}", u64::MAX)),
+        },
+        Some(_) => Err("the seed is a whole number, such as random:7".to_owned()),
+        None => match text {
+            "file" => Ok(Order::File),
+            "default" => Ok(Order::Default),
+            "low-memory" => Ok(Order::LowMemory),
+            _ => Err("expected file, default, low-memory or random:SEED, such as random:7".to_owned()),
+        },
+    }
+}
+
+/// Reads `IMAGE=FILE.png`.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn dump(text: &str) -> Result<Dump, String> {
+    match text.split_once('=') {
+        Some((image, file)) if !image.is_empty() => Ok(Dump { image: image.to_owned(), file: picture(file)? }),
+        _ => Err("expected IMAGE=FILE.png, such as depth=depth.png".to_owned()),
+    }
+}
+
+/// Reads the name of a picture's file.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension() {
+        Some(extension) if extension.eq_ignore_ascii_case("png") => Ok(path),
+        _ => Err("pictures are written as PNG: the file's name must end in .png".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_is_two_numbers_within_limits() {
+        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
+        assert_eq!("16384x1".parse(), Ok(Size { width: 16384, height: 1 }));
+        for wrong in ["", "640", "640x", "x480", "-1x480", "+1x480", "6 40x480", "640x480x1"] {
+            assert_eq!(wrong.parse::<Size>(), Err("expected WIDTHxHEIGHT, such as 1280x720".to_owned()), "{wrong}");
+        }
+        assert_eq!("0x480".parse::<Size>(), Err("the width must be 1 to 16384 pixels".to_owned()));
+        assert_eq!("640x16385".parse::<Size>(), Err("the height must be 1 to 16384 pixels".to_owned()));
+        assert_eq!("1x99999999999999999999".parse::<Size>(), Err("the height must be 1 to 16384 pixels".to_owned()));
+    }
+
+    #[test]
+    fn an_order_is_one_of_four_and_a_seed_a_whole_number() {
+        assert_eq!(order("file"), Ok(Order::File));
+        assert_eq!(order("low-memory"), Ok(Order::LowMemory));
+        assert_eq!(order("random:18446744073709551615"), Ok(Order::Random(u64::MAX)));
+        for wrong in ["", "File", "random", "low", "file "] {
+            let expected = "expected file, default, low-memory or random:SEED, such as random:7";
+            assert_eq!(order(wrong), Err(expected.to_owned()), "{wrong}");
+        }
+        for wrong in ["random:", "random:x", "random:-1", "random:+1", "random:1.5"] {
+            assert_eq!(order(wrong), Err("the seed is a whole number, such as random:7".to_owned()), "{wrong}");
+        }
+        assert_eq!(order("random:18446744073709551616"), Err("the seed must be 0 to 18446744073709551615".to_owned()));
+    }
+
+    #[test]
+    fn a_value_may_hold_an_equals_sign() {
+        assert_eq!(assignment("name=a=b"), Ok(Assignment { name: "name".to_owned(), value: "a=b".to_owned() }));
+        assert!(assignment("=4").is_err());
+        assert!(assignment("msaa").is_err());
+    }
+}

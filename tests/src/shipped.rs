@@ -1,0 +1,67 @@
+//! The shipped pipelines as frames, in every combination of their discrete settings.
+
+use crate::render::in_repository;
+use framewright_graph::describe::{self, Pipeline, SettingKind};
+use framewright_graph::expand::{Facts, Inputs, expand};
+use framewright_graph::frame::Frame;
+use framewright_graph::source::Sources;
+use framewright_passes::draw::interface;
+use framewright_passes::shipped::SHADERS;
+use framewright_vulkan::ShaderLibrary;
+use std::sync::Arc;
+
+/// A frame and how it came about.
+pub struct ShippedFrame {
+    /// Pipeline, settings and facts, in words.
+    pub how: String,
+    /// The frame.
+    pub frame: Frame,
+}
+
+/// Every value that a setting of few values may have; the ends of one of many.
+fn values(kind: &SettingKind) -> Vec<String> {
+    match kind {
+        SettingKind::Bool { .. } => vec!["false".to_owned(), "true".to_owned()],
+        SettingKind::OneOf { of, .. } => of.iter().map(ToString::to_string).collect(),
+        SettingKind::Number { min, max, .. } => vec![min.to_string(), max.to_string()],
+        SettingKind::Integer { min, max, .. } => vec![min.to_string(), max.to_string()],
+    }
+}
+
+fn combinations(pipeline: &Pipeline) -> Vec<Vec<(String, String)>> {
+    pipeline.settings.iter().fold(vec![Vec::new()], |combinations, setting| {
+        let with = |chosen: &Vec<(String, String)>, value: String| {
+            [&chosen[..], &[(setting.name.text.to_string(), value)]].concat()
+        };
+        let all = combinations.iter();
+        all.flat_map(|chosen| values(&setting.kind).into_iter().map(move |value| with(chosen, value))).collect()
+    })
+}
+
+/// All frames of all shipped pipelines, with everything in the scene and with nothing but opaque objects.
+///
+/// # Panics
+/// If a shipped pipeline isn't right.
+#[must_use]
+pub fn frames(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
+    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interface);
+    let mut frames = Vec::new();
+    let folder = std::fs::read_dir(in_repository("examples/pipelines")).expect("pipelines are shipped");
+    let mut files: Vec<_> = folder.map(|file| file.expect("the folder can be listed").path()).collect();
+    files.sort();
+    for file in files.iter().filter(|file| file.extension().is_some_and(|end| end == "ron")) {
+        let name = file.file_name().expect("a file has a name").to_string_lossy().into_owned();
+        let text = std::fs::read_to_string(file).expect("a shipped pipeline is text");
+        let mut sources = Sources::default();
+        let pipeline = describe::read(&mut sources, &name, &name, text).expect("a shipped pipeline is right");
+        let sources = Arc::new(sources);
+        let opaque = Facts { has_alpha_clip: false, has_transparent: false, ..Facts::UNKNOWN };
+        for (set, facts) in combinations(&pipeline).iter().flat_map(|set| [(set, Facts::UNKNOWN), (set, opaque)]) {
+            let inputs = Inputs { set, facts, facts_known: true, output_extent, dump: &[] };
+            let frame = expand(&pipeline, sources.clone(), &inputs, &mut shaders)
+                .unwrap_or_else(|wrong| panic!("{}", describe::render(&sources, &wrong)));
+            frames.push(ShippedFrame { how: format!("{name} {set:?} {facts:?}"), frame });
+        }
+    }
+    frames
+}
