@@ -19,7 +19,7 @@ fn frames() -> [(&'static str, Frame); 5] {
         ("8 samples", forward(8, true, true)),
         ("4 samples without tone mapping", forward(4, true, false)),
         ("1 sample", forward(1, false, true)),
-        ("deferred", graphs::deferred()),
+        ("wide", graphs::wide(30)),
         ("chain", graphs::chain(30)),
     ]
 }
