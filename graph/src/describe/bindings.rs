@@ -104,11 +104,11 @@ pub(super) fn storage<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: 
             None => Some(None),
         };
         let (part, access) = (part?, access?);
-        if let Some(previous) = part.previous()
-            && access.is_none_or(|access| access.value != StorageAccess::Read)
+        if let (Some(previous), Some(access)) = (part.previous(), access)
+            && access.value != StorageAccess::Read
         {
-            let written = Diagnostic::new(previous.span, "what an earlier frame left can only be read");
-            reader.report(written.help("add `access: Read`"));
+            let written = Diagnostic::new(access.span, "what an earlier frame left can only be read");
+            reader.report(written.label(previous.span, "an earlier frame"));
             return None;
         }
         if let (Part::Image(image), Some(previous)) = (part, part.previous()) {

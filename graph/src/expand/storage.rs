@@ -33,8 +33,11 @@ fn allowed(kind: &BindingKind) -> Option<(bool, bool)> {
 }
 
 /// What is done with a storage image or buffer: what the file says, else what the shader's declaration allows. Without
-/// either, it is written.
+/// either, it is written. What an earlier frame left is only read.
 fn access(storage: &describe::Storage, interface: Option<&ShaderInterface>) -> (bool, bool) {
+    if storage.part.previous().is_some() {
+        return (true, false);
+    }
     match storage.access.map(|access| access.value) {
         Some(StorageAccess::Read) => (true, false),
         Some(StorageAccess::Write) => (false, true),

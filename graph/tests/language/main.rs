@@ -5,7 +5,9 @@
 
 mod bad;
 mod random;
+mod resources;
 mod shipped;
 mod table;
 mod whole;
 mod words;
+mod works;

@@ -2,6 +2,7 @@
 
 use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::expand::{Facts, Inputs, expand};
+use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, DrawList, Frame};
 use framewright_graph::interface::{
     Attribute, Binding, BindingKind, Block, Component, Dimension, DrawInterface, FragmentOutput, ImageShape, Member,
@@ -63,6 +64,65 @@ fn lit(discards: bool) -> ShaderInterface {
     }
 }
 
+fn block(name: &str, binding: u32, readable: bool, writable: bool, stages: Stages) -> Binding {
+    let kind = BindingKind::StorageBlock { readable, writable };
+    Binding { set: 0, binding, name: name.to_owned(), kind, stages }
+}
+
+fn storage_image(name: &str, dimension: Dimension, format: Option<Format>, readable: bool) -> Binding {
+    let component = format.map_or(Component::Float, Component::of);
+    let shape = ImageShape { dimension, arrayed: false, multisampled: false, component };
+    let kind = BindingKind::StorageImage { shape, format, readable, writable: true };
+    Binding { set: 0, binding: 5, name: name.to_owned(), kind, stages: Stages::COMPUTE_SHADER }
+}
+
+/// The binding as another stage sees it.
+fn of_stage(binding: Binding, stages: Stages) -> Binding {
+    Binding { stages, ..binding }
+}
+
+fn shaped(name: &str, dimension: Dimension, arrayed: bool) -> Binding {
+    let shape = ImageShape { dimension, arrayed, multisampled: false, component: Component::Float };
+    Binding { kind: BindingKind::SampledImage(shape), ..texture(name, 0, false, Component::Float) }
+}
+
+/// A compute shader with workgroups of this size.
+fn compute(size: [u32; 3], bindings: Vec<Binding>) -> ShaderInterface {
+    let bindings = bindings.into_iter().map(|binding| of_stage(binding, Stages::COMPUTE_SHADER)).collect();
+    ShaderInterface { bindings, workgroup_size: Some(size), ..ShaderInterface::default() }
+}
+
+fn uniform_block(name: &str, bytes: u32) -> Binding {
+    let kind = BindingKind::UniformBlock(Block { bytes, members: Vec::new() });
+    Binding { set: 0, binding: 7, name: name.to_owned(), kind, stages: Stages::COMPUTE_SHADER }
+}
+
+/// Compute shaders out of the table.
+fn compute_shader(name: &str) -> Option<ShaderInterface> {
+    let source = || texture("source", 0, false, Component::Float);
+    let here = Stages::COMPUTE_SHADER;
+    Some(match name {
+        "simulate" => compute(
+            [64, 1, 1],
+            vec![
+                block("particles", 0, true, true, here),
+                block("before", 1, true, false, here),
+                uniform_block("forces", 64),
+                params(&[("seconds", "float")]),
+            ],
+        ),
+        "histogram" => compute([16, 16, 1], vec![source(), block("bins", 1, true, true, here)]),
+        "count_up" => compute([64, 1, 1], vec![block("counts", 0, false, true, here)]),
+        "halve" => compute(
+            [8, 8, 1],
+            vec![source(), storage_image("target", Dimension::D2, Some(Format::R16G16B16A16_SFLOAT), false)],
+        ),
+        "paint" => compute([8, 8, 1], vec![storage_image("target", Dimension::D2, None, true)]),
+        "fog" => compute([4, 4, 4], vec![storage_image("target", Dimension::D3, None, false)]),
+        _ => return None,
+    })
+}
+
 const NAMES: &[&str] = &["blur", "downsample", "lit", "lit_masked", "reinhard", "sky", "soft_focus", "tone_map"];
 
 impl ShaderInterfaces for Table {
@@ -94,6 +154,18 @@ impl ShaderInterfaces for Table {
                 interface
             }
             "holes" => ShaderInterface { discards: true, ..full_screen(vec![]) },
+            "around" => full_screen(vec![shaped("source", Dimension::Cube, false)]),
+            "layered" => full_screen(vec![shaped("source", Dimension::D2, true)]),
+            "deep" => full_screen(vec![shaped("source", Dimension::D3, false)]),
+            "own" => {
+                let kind = BindingKind::InputAttachment { multisampled: false, component: float };
+                full_screen(vec![Binding { kind, ..source() }])
+            }
+            "particles" => ShaderInterface {
+                vertex_inputs: vec![VertexInput { location: 0, name: "position".to_owned(), ty: "vec4".to_owned() }],
+                ..full_screen(vec![])
+            },
+            "pulled" => full_screen(vec![block("particles", 0, true, false, Stages::VERTEX_SHADER)]),
             "no_color" => ShaderInterface::default(),
             "vec3" => ShaderInterface { outputs: outputs(1, float, 3), ..ShaderInterface::default() },
             "odd_set" => full_screen(vec![Binding {
@@ -127,7 +199,10 @@ impl ShaderInterfaces for Table {
     }
 
     fn compute_shader(&mut self, name: &str) -> Result<ShaderInterface, ShaderProblem> {
-        self.draw_shader(name, Draw::FullScreen)
+        compute_shader(name).ok_or_else(|| ShaderProblem::Missing {
+            looked_in: vec!["shaders".to_owned()],
+            known: ["histogram", "simulate"].map(str::to_owned).to_vec(),
+        })
     }
 
     fn brought_along(&self, draw: Draw) -> DrawInterface {
