@@ -75,6 +75,11 @@ pub(super) fn lower<'src>(
         return None;
     }
     fits(reader, fields, what, word);
+    if matches!(word, "copy" | "blit" | "fill") && !matches!(leaf.shape(), Shape::Parentheses) {
+        let form = if word == "fill" { "`(to: …, value: …)`" } else { "`(from: …, to: …)`" };
+        reader.expected(leaf, form);
+        return None;
+    }
     match word {
         "draw" => draw_work(reader, scope, fields, leaf, what),
         "dispatch" => dispatch_work(reader, scope, fields, leaf, what),

@@ -219,7 +219,7 @@ impl Check<'_> {
         let of = read.resource;
         let wrong = Diagnostic::new(read.span, format!("{what} is read before it is written")).remark("read here");
         if writer.position == position {
-            let help = "a pass reads what stood in an image before the pass";
+            let help = "a pass reads what stood there before the pass";
             return wrong.label(writer.span, "first written here, by the same pass").help(help);
         }
         let first = Need { pass: position, resource: of, span: read.span, writer: writer.position };
@@ -246,6 +246,14 @@ impl Check<'_> {
         let name = &self.chosen.name(write.resource).text;
         let message = format!("pass `{}` is the first to draw into {what} and may leave texels untouched", pass.name);
         let clear = clear.replace('…', name);
+        let clear = match touches::whole(self.things, write.resource) {
+            Some(whole) => {
+                let mip = if whole.mips.len() > 1 { format!(", mip: {}", cell.mip) } else { String::new() };
+                let layer = if whole.layers.len() > 1 { format!(", layer: {}", cell.layer) } else { String::new() };
+                clear.replacen("\",", &format!("\"{mip}{layer},"), 1)
+            }
+            None => clear,
+        };
         let mut diagnostic = Diagnostic::new(write.span, message).help(format!("clear it: `{clear}`"));
         if let Some((writer, because)) = self.off_before(write.resource, position) {
             let off = &self.chosen.pipeline.passes[writer.position].name.text;

@@ -100,6 +100,12 @@ pub(super) fn check<'i>(
         };
         let Some(image) = things.image(sample.part.image.index) else { continue };
         let Some(sampled) = lowered.sampled.iter().find(|sampled| sampled.binding == *name) else { continue };
+        let mut out_of_range = Vec::new();
+        parts::range(chosen, things, &sample.part, &mut out_of_range);
+        if !out_of_range.is_empty() {
+            // It is reported with the pass.
+            continue;
+        }
         let cells = parts::cells(&image.image, &sampled.range);
         let check = Check { chosen, pass, sample, shader, image, cells, shape: declared.shape };
         let before = errors.len();

@@ -94,8 +94,13 @@ pub(super) fn check<'i>(
     let shader = pass.shader().map_or("", |shader| &*shader.text);
     let mut misspelt = Vec::new();
     let mut unknown = |name: &describe::Name, what: &str, errors: &mut Vec<Diagnostic>| {
-        misspelt.extend(nearest(&name.text, names(interface)));
         let message = format!("shader `{shader}` has {what} named `{}`", name.text);
+        if names(interface).any(|known| *known == *name.text) {
+            misspelt.extend(names(interface).find(|known| **known == *name.text));
+            errors.push(Diagnostic::new(name.span, message).help("the shader declares something else by this name"));
+            return;
+        }
+        misspelt.extend(nearest(&name.text, names(interface)));
         let help = suggestion(&name.text, names(interface))
             .or_else(|| Some(format!("shader `{shader}` has none at all in set {PASS_SET}")));
         errors.push(Diagnostic { help, ..Diagnostic::new(name.span, message) });

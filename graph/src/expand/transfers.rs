@@ -153,8 +153,8 @@ fn same_texels(chosen: &Chosen<'_>, from: &Side<'_>, to: &Side<'_>, errors: &mut
         let declared = chosen.image(from.part.image.index).samples.span;
         errors.push(
             Diagnostic::new(to.part.image.span, message)
-                .remark(format!("{} samples a texel", other.samples))
-                .label(declared, format!("{} samples a texel", one.samples)),
+                .remark(format!("{}× a texel", other.samples))
+                .label(declared, format!("{}× a texel", one.samples)),
         );
     }
     if from.size() != to.size() {

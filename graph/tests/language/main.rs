@@ -4,6 +4,7 @@
 //! new ones, and the difference in git shows them.
 
 mod bad;
+mod docs;
 mod random;
 mod resources;
 mod shipped;
