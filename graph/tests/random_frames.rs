@@ -11,7 +11,7 @@ use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image, ImageIndex, Output, Pass, Resource, Sampled,
     Storage, Work,
 };
-use framewright_graph::plan::Plan;
+use framewright_graph::plan::{self, Plan};
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{CompareOp, Filter, Stages, Subresources};
@@ -262,7 +262,7 @@ fn no_barrier_can_be_left_out() {
         let mut due = false;
         for step in &mut shared.steps {
             for [_, to] in step.memory_barriers.drain(..).flat_map(|barrier| barrier.hand_overs) {
-                let of_it = step.image_barriers.iter().find(|barrier| barrier.image == to);
+                let of_it = step.image_barriers.iter().find(|barrier| plan::Resource::Image(barrier.image) == to);
                 due |= of_it.is_some_and(|barrier| barrier.src_accesses.is_empty());
             }
         }
