@@ -22,7 +22,7 @@ fn deferred_is_placed_near_its_live_peak_and_has_the_fewest_image_barriers() {
     assert_eq!(totals.passes, 25);
     assert!(totals.placed_bytes as f64 <= 1.02 * totals.live_peak_bytes as f64, "{totals:?}");
     assert!(totals.placed_bytes <= 1318 * (1 << 20) / 10, "{totals:?}");
-    assert_eq!(totals.image_barriers, 54 + 1, "one more leaves the output in its promised state: {totals:?}");
+    assert_eq!((totals.image_barriers, totals.barrier_calls), (54, 21), "{totals:?}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ mod raster;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
-use framewright_graph::frame::{Blend, Frame, Groups, Image, ImageIndex, Pass, Resource, Storage, Work};
+use framewright_graph::frame::{Blend, Frame, Groups, Image, ImageIndex, Pass, Resource, Shape, Storage, Work};
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Stages, Subresources};
@@ -61,7 +61,7 @@ fn what_cannot_be_is_refused_in_words() {
         ("is 4294967295×64", |frame| noise(frame).extent[0] = u32::MAX),
         ("more memory than can be addressed", |frame| {
             noise(frame).layers = u32::MAX;
-            noise(frame).extent = [16384, 16384, 4096];
+            noise(frame).extent = [16384, 16384, 1];
             frame.images[0].layers = u32::MAX;
             frame.images[0].extent = [16384, 16384, 1];
         }),
@@ -73,7 +73,10 @@ fn what_cannot_be_is_refused_in_words() {
         ("has 3 samples", |frame| noise(frame).samples = 3),
         ("multisampled and has mip levels", |frame| frame.images[0].mips = 2),
         ("`blend` draws into `screen`, which has mip levels", |frame| frame.images[2].mips = 2),
-        ("`blend` draws into `screen`, which has mip levels or depth", |frame| frame.images[2].extent[2] = 2),
+        ("`blend` draws into `screen`, which has mip levels or depth", |frame| {
+            frame.images[2].extent[2] = 2;
+            frame.images[2].shape = Shape::D3;
+        }),
         ("an output does not exist", |frame| frame.outputs[0].resource = Resource::Image(ImageIndex(9))),
         ("names image number 9, which does not exist", |frame| frame.passes[0].storage[0].image = ImageIndex(9)),
         ("`screen` is an output twice", |frame| frame.outputs.push(frame.outputs[0].clone())),

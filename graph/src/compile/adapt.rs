@@ -76,6 +76,7 @@ pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
     if adapter.renamed {
         stores::distinct_names(frame, &mut adapter.adapted.stores);
     }
+    access::settle_depth(&mut adapter.adapted);
     if adapter.errors.is_empty() { Ok(adapter.adapted) } else { Err(adapter.errors) }
 }
 
@@ -122,9 +123,8 @@ impl Adapter<'_> {
         uses.clear();
         for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
             if let Some(store) = self.sampled(number, pass, sampled) {
-                let depth = self.input.negotiated.is_depth_attachment(sampled.image);
                 let range = self.range(sampled.image, sampled.range);
-                uses.push(access::sampled(sampled, entry, store, range, depth, frame));
+                uses.push(access::sampled(sampled, entry, store, range));
             }
         }
         for (entry, storage) in (0_u32..).zip(&pass.storage) {
@@ -263,8 +263,19 @@ impl Adapter<'_> {
         let why = self.reason(because, sampled.span);
         let samples = self.current_samples(image);
         let copy = self.second(image, "copy", why.clone(), samples);
-        let range = self.range(image, sampled.range);
-        self.push_transfer(OpKind::Copy(why), before, copy, range);
+        // Whatever the pass samples of the image it then finds in the copy.
+        let also = pass.sampled.iter().filter(|other| other.image == image && other.frames_ago == 0);
+        let mut copied: Vec<Subresources> = Vec::new();
+        for range in also.map(|other| parts::resolve(declared, other.range)) {
+            for mip in range.base_mip..range.base_mip + range.mips {
+                let level = Subresources { base_mip: mip, mips: 1, ..range };
+                if !copied.contains(&level) {
+                    copied.push(level);
+                    let level = self.range(image, level);
+                    self.push_transfer(OpKind::Copy(why.clone()), before, copy, level);
+                }
+            }
+        }
         self.copies.push((before, copy));
         Some(copy)
     }
@@ -311,17 +322,12 @@ impl Adapter<'_> {
             return self.demoted(pass, image, span);
         }
         let wanted = self.input.negotiated.samples(image);
-        if !keeps && self.store_of[image.0 as usize].is_some() && self.current_samples(image) != wanted {
-            let name = &frame.images[image.0 as usize].name;
-            let because = format!("`{}` draws `{name}` anew, with {wanted} samples", pass.name);
-            let why = self.reason(because, span);
-            return self.replace(image, "again", why, wanted);
-        }
         let samples_it = pass.sampled.iter().any(|sampled| {
             let same = sampled.image == image && sampled.frames_ago == 0 && self.overlap(image, sampled.range, range);
             same && (sampled.per_sample || wanted == 1)
         });
-        if samples_it && self.store_of[image.0 as usize].is_some() && self.moves_on(number, image, range, keeps) {
+        let there = self.store_of[image.0 as usize].is_some() && self.current_samples(image) == wanted;
+        if samples_it && there && self.moves_on(number, image, range, keeps) {
             let because =
                 format!("`{}` samples `{}` while it replaces it", pass.name, frame.images[image.0 as usize].name);
             let why = self.reason(because, span);
@@ -334,7 +340,7 @@ impl Adapter<'_> {
     fn demoted(&mut self, pass: &Pass, image: ImageIndex, span: Span) -> StoreIndex {
         let samples_it = pass.sampled.iter().any(|sampled| sampled.image == image && sampled.frames_ago == 0);
         if self.store_of[image.0 as usize].is_some() && self.current_samples(image) == 1 && !samples_it {
-            return self.written(image, false);
+            return self.continued(image);
         }
         let name = &self.input.frame.images[image.0 as usize].name;
         let why = self.reason(format!("`{}` covers `{name}` and gains nothing from several samples", pass.name), span);
@@ -392,6 +398,13 @@ impl Adapter<'_> {
 
 /// Layouts in which transfers find their images.
 const TRANSFER: [Layout; 2] = [Layout::TransferSrcOptimal, Layout::TransferDstOptimal];
+
+/// Whether a pass copies between images sample by sample.
+fn copies_samples(frame: &Frame, pass: &Pass) -> bool {
+    let target = pass.transfers.iter().find(|used| used.write).map(|used| used.resource);
+    let Some(Resource::Image(target)) = target.filter(|_| matches!(pass.work, Work::Copy)) else { return false };
+    frame.images[target.0 as usize].samples > 1
+}
 
 /// Whether a draw is made of objects or other geometry that has edges inside the image.
 fn has_edges(pass: &Pass) -> bool {

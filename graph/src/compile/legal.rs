@@ -307,9 +307,10 @@ impl Check<'_> {
         let problem = match (from, to) {
             (None, None) if buffers[0] > buffers[1] => Some("copies into a buffer that is too small"),
             (None, None) => None,
-            (Some((from, size, format, _)), Some((to, other, target_format, samples))) => {
+            (Some((from, size, format, count)), Some((to, other, target_format, samples))) => {
                 let same = format == target_format && size == other && from.layers == to.layers;
-                let one = from.mips == 1 && to.mips == 1 && from.aspects == to.aspects && samples == 1;
+                let counts = samples == 1 || samples == count;
+                let one = from.mips == 1 && to.mips == 1 && from.aspects == to.aspects && counts;
                 (!same || !one).then_some("copies between images that differ in format, size, layers or samples")
             }
             (Some((part, extent, format, samples)), None) | (None, Some((part, extent, format, samples))) => {

@@ -95,7 +95,7 @@ pub fn compile(
     let placed = place::place(&adapted, &walked.lifetimes, device, memory, options)?;
     let hand_overs = take_over::take_over(&grids, &adapted, &states, &placed, &mut walked);
     let batched = batch::batch(&walked.barriers);
-    if batched.last().is_some_and(|last| last.at == export) {
+    if batched.last().is_some_and(|last| last.at == export) || export == 0 {
         scoped.steps.push(scope::Step::Export);
     }
     let memory_barriers = hand_over::memory_barriers(&hand_overs, &walked.barriers, &batched, scoped.steps.len());

@@ -210,8 +210,6 @@ impl Use {
 pub(super) enum Role {
     /// Sampled by shaders.
     Sampled,
-    /// Read by fragment shaders at their own position.
-    Input,
     /// Accessed by shaders without sampling.
     Storage,
     /// Colour attachment.
@@ -238,7 +236,6 @@ impl Role {
     pub(super) fn usage(self) -> Usage {
         match self {
             Role::Sampled => Usage::SAMPLED,
-            Role::Input => Usage::INPUT_ATTACHMENT,
             Role::Storage => Usage::STORAGE,
             Role::Color => Usage::COLOR_ATTACHMENT,
             Role::Depth | Role::Stencil => Usage::DEPTH_STENCIL_ATTACHMENT,
@@ -265,8 +262,6 @@ pub(super) enum Start {
 pub(super) struct Negotiated {
     /// Samples in force.
     pub(super) samples: Vec<u32>,
-    /// Uses by the passes that stay.
-    pub(super) usage: Vec<Usage>,
     pub(super) notes: Vec<Note>,
 }
 
@@ -274,10 +269,5 @@ impl Negotiated {
     /// The sample count of one image.
     pub(super) fn samples(&self, image: ImageIndex) -> u32 {
         self.samples[image.0 as usize]
-    }
-
-    /// Whether an image is a depth or stencil attachment somewhere.
-    pub(super) fn is_depth_attachment(&self, image: ImageIndex) -> bool {
-        self.usage[image.0 as usize].contains(Usage::DEPTH_STENCIL_ATTACHMENT)
     }
 }

@@ -67,17 +67,25 @@ fn persist(
     for store in cycle.clone() {
         read_on(grids, adapted, walked, previous(&cycle, store), store);
     }
-    // The walk around begins where something is touched, so that the state before it is not asked for its layout.
-    let touched = |store: &StoreIndex| !untouched(adapted, walked, *store, grids);
-    let start = cycle.clone().find(touched).unwrap_or(cycle.start);
-    let mut known = picked(grids, adapted, walked, previous(&cycle, start));
-    for store in (start..cycle.end).chain(cycle.start..start) {
-        let before = known.unwrap_or(NOWHERE);
+    // Going around twice, whoever is touched by nothing learns what the touched one before it is left in.
+    let mut picks = vec![None; cycle.len()];
+    let mut known = None;
+    let mut all = State { layout: Layout::Undefined, ..NOWHERE };
+    for at in (0..cycle.len()).chain(0..cycle.len()) {
+        let own = picked(grids, adapted, walked, cycle.start + at as u32);
+        if let Some(own) = own {
+            (all.stages, all.accesses) = (all.stages | own.stages, all.accesses | own.accesses);
+        }
+        known = own.or(known);
+        picks[at] = known;
+    }
+    for (store, at) in cycle.clone().zip(0..) {
+        let before = picks[(at + cycle.len() - 1) % cycle.len()].unwrap_or(NOWHERE);
+        // Parts that nothing touches were used by earlier frames, as any of the others.
+        let before = State { layout: before.layout, ..all };
         let after = leave(grids, adapted, walked, store, Some(before), export);
         states[store as usize] = Some(States { before, after });
-        known = Some(after);
     }
-    // Only now is it known how the last one is left.
     for store in cycle.clone() {
         let before = states[previous(&cycle, store) as usize].map_or(NOWHERE, |states| states.after);
         if let Some(states) = &mut states[store as usize] {
@@ -96,10 +104,6 @@ fn previous(cycle: &Range<StoreIndex>, store: StoreIndex) -> StoreIndex {
 /// The cells of a store.
 pub(super) fn cells(grids: &Grids, store: &Store) -> Range<u32> {
     store.first_cell..store.first_cell + store.grid(grids).map_or(1, |grid| grid.len())
-}
-
-fn untouched(adapted: &Adapted, walked: &Walked, store: StoreIndex, grids: &Grids) -> bool {
-    cells(grids, &adapted.stores[store as usize]).all(|cell| !walked.cells[cell as usize].is_touched())
 }
 
 /// The state in which the steps leave a store, by its last use.
@@ -143,6 +147,10 @@ fn leave(
             walked.promise(store, cell, export, after);
         }
         return after;
+    }
+    let mut last = last;
+    if let Some(before) = before.filter(|_| parts.clone().any(|cell| !walked.cells[cell as usize].is_touched())) {
+        last = State { stages: last.stages | before.stages, accesses: last.accesses | before.accesses, ..last };
     }
     let read = State { accesses: last.accesses.difference(Accesses::WRITES), ..last };
     for cell in parts {

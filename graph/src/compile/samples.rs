@@ -52,6 +52,13 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
             let message = format!("`{}` draws into {targets} colour images; `{}` has {most}", pass.name, device.name);
             errors.push(Diagnostic::new(pass.span, message).help("split the pass"));
         }
+        if let (Work::Copy, [from, to]) = (&pass.work, &pass.transfers[..])
+            && let (Resource::Image(from), Resource::Image(to)) = (from.resource, to.resource)
+            && multisampled
+            && frame.images[to.0 as usize].samples > 1
+        {
+            together.union(from.0, to.0);
+        }
         if let Work::Forward { from, to, .. } = pass.work {
             forwarded.push(to);
             if multisampled && frame.images[from.0 as usize].samples == frame.images[to.0 as usize].samples {
@@ -69,7 +76,7 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
         }
     }
     let samples = frame.images.iter().map(|image| image.samples).collect();
-    let mut negotiated = Negotiated { samples, usage, notes: Vec::new() };
+    let mut negotiated = Negotiated { samples, notes: Vec::new() };
     for group in groups.values() {
         lower(frame, group, &supports, &mut negotiated);
     }

@@ -20,8 +20,9 @@ pub(super) struct Cell {
     pub(super) accesses: Accesses,
     /// Usage bits of all steps, of an image or a buffer.
     usage: u32,
-    /// The barrier before the first use, and the one before the last.
+    /// The barriers before the first use, after the uses that that one serves, and before the last use.
     pub(super) first_barrier: u32,
+    pub(super) second_barrier: u32,
     barrier: u32,
     /// The last step that uses it.
     pub(super) last: u32,
@@ -36,6 +37,7 @@ impl Cell {
         accesses: Accesses::empty(),
         usage: 0,
         first_barrier: NEVER,
+        second_barrier: NEVER,
         barrier: NEVER,
         last: NEVER,
         need: NEVER,
@@ -301,6 +303,9 @@ fn apply(walked: &mut Walked, need: &Need, step: u32, lasts: bool) {
         before.dst_accesses |= need.accesses;
         return;
     } else {
+        if cell.barrier == cell.first_barrier {
+            cell.second_barrier = barrier;
+        }
         pending.hazard = match (cell.writes(), writes) {
             (true, false) => Hazard::ReadAfterWrite,
             (true, true) => Hazard::WriteAfterWrite,

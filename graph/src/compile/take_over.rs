@@ -22,9 +22,13 @@ pub(super) fn take_over(
     for (store, states) in adapted.stores.iter().zip(states) {
         let Some(states) = states else { continue };
         for cell in cells(grids, store) {
-            let first = walked.cells[cell as usize].first_barrier;
-            if let Some(barrier) = walked.barriers.get_mut(first as usize) {
-                find(barrier, states);
+            let known = walked.cells[cell as usize];
+            let Some(barrier) = walked.barriers.get_mut(known.first_barrier as usize) else { continue };
+            find(barrier, states);
+            let is_needed = barrier.step != NEVER;
+            // Without it, nothing else waits for those who read the same before.
+            if let Some(next) = walked.barriers.get_mut(known.second_barrier as usize).filter(|_| !is_needed) {
+                next.src_stages |= states.before.stages;
             }
         }
     }

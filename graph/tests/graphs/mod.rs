@@ -25,7 +25,7 @@ pub(crate) fn device() -> Profile {
         lazily_allocated_memory: false,
         formats: Format::ALL.iter().map(support).collect(),
         max_extent_3d: 2048,
-        max_layers: 2048,
+        max_layers: u32::MAX,
         queues: Queues::default(),
         local_read: false,
         memory: MemoryModel {

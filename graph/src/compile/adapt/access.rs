@@ -2,9 +2,9 @@
 
 use super::TRANSFER;
 use crate::compile::link::buffer_access;
-use crate::compile::model::{OpKind, Role, Start, StoreIndex, Use};
+use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
 use crate::format::Format;
-use crate::frame::{Blend, BufferRole, BufferUse, ColorTarget, Frame, Sampled, Storage, TransferUse, Work};
+use crate::frame::{Blend, BufferRole, BufferUse, ColorTarget, Sampled, Storage, TransferUse, Work};
 use crate::vocabulary::{Accesses, Aspects, Layout, Stages};
 
 const DEPTH_TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
@@ -25,19 +25,32 @@ fn used(store: StoreIndex, range: u32, role: Role) -> Use {
     }
 }
 
-pub(super) fn sampled(
-    sampled: &Sampled,
-    entry: u32,
-    store: StoreIndex,
-    range: u32,
-    depth_attachment: bool,
-    frame: &Frame,
-) -> Use {
-    let format = frame.images[sampled.image.0 as usize].format;
-    let planes = if sampled.range.aspects.is_empty() { format.aspects() } else { sampled.range.aspects };
-    let layout = if depth_attachment { read_only(format, planes) } else { Layout::ShaderReadOnlyOptimal };
-    let accesses = Accesses::SHADER_SAMPLED_READ;
+pub(super) fn sampled(sampled: &Sampled, entry: u32, store: StoreIndex, range: u32) -> Use {
+    let (layout, accesses) = (Layout::ShaderReadOnlyOptimal, Accesses::SHADER_SAMPLED_READ);
     Use { entry, layout, stages: sampled.stages, accesses, ..used(store, range, Role::Sampled) }
+}
+
+/// Gives depth that is an attachment somewhere the layouts in which it can be sampled and tested at once.
+pub(super) fn settle_depth(adapted: &mut Adapted) {
+    let attaches = |used: &Use| matches!(used.role, Role::Depth | Role::Stencil);
+    if !adapted.uses.iter().any(attaches) {
+        return;
+    }
+    let mut attached = vec![false; adapted.stores.len()];
+    adapted.uses.iter().filter(|used| attaches(used)).for_each(|used| attached[used.store as usize] = true);
+    for op in adapted.ops.iter().filter(|op| matches!(op.kind, OpKind::Resolve { .. })) {
+        // Depth is resolved where it is drawn, into an attachment.
+        let uses = &adapted.uses[op.uses.start as usize..op.uses.end as usize];
+        uses.iter().for_each(|used| attached[used.store as usize] = true);
+    }
+    for at in 0..adapted.uses.len() {
+        let used = &adapted.uses[at];
+        let Some(image) = adapted.stores[used.store as usize].image() else { continue };
+        if used.role == Role::Sampled && attached[used.store as usize] && image.format.is_depth() {
+            let layout = read_only(image.format, adapted.range(used).aspects);
+            adapted.uses[at].layout = layout;
+        }
+    }
 }
 
 /// The layout of planes that are attachments somewhere, where they are only read.

@@ -1,10 +1,10 @@
 //! Demotion: a full-screen draw that covers every pixel of a multisampled image gains nothing from the samples. Unless
 //! geometry is drawn on top of what it draws, or single samples of it are read, it moves to a single-sampled image.
 
-use super::{Input, has_edges};
+use super::{Input, copies_samples, has_edges};
 use crate::compile::link::covers;
 use crate::compile::parts::outlives;
-use crate::frame::{Draw, ImageIndex, Pass, Work};
+use crate::frame::{Draw, ImageIndex, Pass, Resource, Work};
 use crate::plan::{Note, Stage};
 use std::collections::BTreeSet;
 
@@ -83,6 +83,13 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
             let later = std::mem::take(&mut needs[to.0 as usize]);
             if later != Needs::Nothing {
                 needs[from.0 as usize] = later;
+            }
+        }
+        if copies_samples(frame, pass) {
+            for used in &pass.transfers {
+                if let Resource::Image(image) = used.resource {
+                    needs[image.0 as usize] = if used.write { Needs::Nothing } else { Needs::Samples(number) };
+                }
             }
         }
         for sampled in pass.sampled.iter().filter(|sampled| sampled.per_sample) {

@@ -1,8 +1,7 @@
 //! Physical images and buffers: made when first touched, replaced when a version can't stay where it is.
 
-use super::Adapter;
+use super::{Adapter, copies_samples};
 use crate::compile::model::{Home, Kind, Reason, Store, StoreIndex, Use};
-use crate::compile::parts;
 use crate::describe::Diagnostic;
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
@@ -46,14 +45,21 @@ impl Adapter<'_> {
         self.adapted.stores[store as usize].image().map_or(1, |descriptor| descriptor.samples)
     }
 
-    /// The physical image that takes the next version.
+    /// The physical image that takes the next version: another one if nothing is kept and the last draws moved to fewer
+    /// samples.
     pub(super) fn written(&mut self, image: ImageIndex, keeps: bool) -> StoreIndex {
-        debug_assert!(
-            !keeps
-                || self.store_of[image.0 as usize].is_some()
-                || parts::outlives(&self.input.frame.images[image.0 as usize].lifetime),
-            "link saw a version to keep"
-        );
+        let wanted = self.input.negotiated.samples(image);
+        if !keeps && self.store_of[image.0 as usize].is_some() && self.current_samples(image) != wanted {
+            let declared = &self.input.frame.images[image.0 as usize];
+            let because = format!("`{}` is written anew, with {wanted} samples", declared.name);
+            let why = self.reason(because, declared.span);
+            return self.replace(image, "again", why, wanted);
+        }
+        self.continued(image)
+    }
+
+    /// The physical image with the current version, which is about to change.
+    pub(super) fn continued(&mut self, image: ImageIndex) -> StoreIndex {
         self.resolved_of[image.0 as usize] = None;
         self.current(image)
     }
@@ -190,7 +196,7 @@ impl Adapter<'_> {
             return Some((self.written(image, range != Use::ALL), range));
         }
         let count = self.current_samples(image);
-        if count == 1 {
+        if count == 1 || copies_samples(self.input.frame, pass) {
             return Some((self.current(image), range));
         }
         let because = format!("`{}` transfers from `{}` and it has {count} samples", pass.name, declared.name);
