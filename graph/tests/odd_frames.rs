@@ -41,7 +41,7 @@ fn dispatch(name: &str, image: ImageIndex) -> Pass {
 }
 
 fn refusals(frame: &Frame, device: &Profile) -> Vec<String> {
-    match compile(frame, device, &mut Estimated(&device), &Options::default()) {
+    match compile(frame, device, &mut Estimated(device), &Options::default()) {
         Ok(plan) => panic!("it was compiled:\n{}", plan.tree()),
         Err(errors) => errors.into_iter().map(|error| error.message).collect(),
     }

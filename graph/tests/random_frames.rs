@@ -201,7 +201,7 @@ fn frame(passes: &[Vec<u8>], about: [bool; IMAGES.len()], outputs: &[u8]) -> Fra
 }
 
 fn compiled(frame: &Frame, device: &Profile, options: &Options) -> Plan {
-    compile(frame, device, &mut Estimated(&device), options)
+    compile(frame, device, &mut Estimated(device), options)
         .unwrap_or_else(|errors| panic!("the frame is legal: {errors:?}"))
 }
 

@@ -81,7 +81,7 @@ fn image_problem(image: &Image) -> Option<String> {
         Some("has depth and is not three-dimensional".to_owned())
     } else if image.shape == Shape::D3 && image.layers > 1 {
         Some("is three-dimensional and has layers".to_owned())
-    } else if image.shape == Shape::Cube && (width != height || image.layers % 6 != 0) {
+    } else if image.shape == Shape::Cube && (width != height || !image.layers.is_multiple_of(6)) {
         Some(format!("is a cube of {width}×{height} with {} layers; cubes are square and have 6", image.layers))
     } else {
         lifetime_problem(&image.lifetime, Some(image.format))
@@ -239,14 +239,15 @@ impl Check<'_> {
             return self.wrong(pass.span, "has attachments and doesn't draw");
         }
         let fits = |stages: Stages| !stages.is_empty() && shaded.contains(stages);
-        let sampled = pass.sampled.iter().all(|sampled| fits(sampled.stages));
-        let storage = pass.storage.iter().all(|storage| fits(storage.stages));
-        let buffers = pass.buffers.iter().all(|used| match used.role {
-            BufferRole::Uniform | BufferRole::Storage { .. } => fits(used.stages),
-            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => used.stages.is_empty(),
+        let sampled = pass.sampled.iter().filter(|sampled| !fits(sampled.stages)).map(|sampled| &sampled.binding);
+        let storage = pass.storage.iter().filter(|storage| !fits(storage.stages)).map(|storage| &storage.binding);
+        let buffers = pass.buffers.iter().filter(|used| match used.role {
+            BufferRole::Uniform | BufferRole::Storage { .. } => !fits(used.stages),
+            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => !used.stages.is_empty(),
         });
-        if !sampled || !storage || !buffers {
-            return self.wrong(pass.span, "accesses an image or buffer in stages that it doesn't have");
+        let buffers = buffers.map(|used| &self.frame.buffers[used.buffer.0 as usize].name);
+        if let Some(name) = sampled.chain(storage).chain(buffers).next() {
+            return self.wrong(pass.span, &format!("accesses `{name}` in stages that it doesn't have"));
         }
         let clears = pass.color.iter().filter_map(|target| target.clear).flatten();
         let mut clears = clears.chain(pass.depth.as_ref().and_then(|depth| depth.clear));

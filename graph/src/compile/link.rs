@@ -19,7 +19,7 @@ impl PartUse {
     const WRITES: u32 = 2;
 
     fn new(part: u32, reads: bool, writes: bool) -> PartUse {
-        PartUse(part << 2 | u32::from(reads) * PartUse::READS | u32::from(writes) * PartUse::WRITES)
+        PartUse((part << 2) | (u32::from(reads) * PartUse::READS) | (u32::from(writes) * PartUse::WRITES))
     }
 
     /// Number of the part among all parts of the frame.
