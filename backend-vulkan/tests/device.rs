@@ -4,7 +4,9 @@ mod common;
 
 use framewright_graph::device::{ImageDescriptor, MemoryProvider};
 use framewright_graph::format::Format;
+use framewright_graph::frame::Shape;
 use framewright_graph::interface::{DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::plan::Sharing;
 use framewright_graph::vocabulary::Usage;
 use framewright_vulkan::{
     BufferUsage, Device, DeviceChoice, DeviceOptions, Error, Resource, SamplerDescriptor, minimum_features,
@@ -119,11 +121,13 @@ fn live_memory_needs_are_exact_and_grow_with_samples() {
     assert!(memory.exact());
     let mut descriptor = ImageDescriptor {
         format: Format::R16G16B16A16_SFLOAT,
+        shape: Shape::D2,
         extent: [64, 64, 1],
         mips: 1,
         layers: 1,
         samples: 1,
         usage: Usage::COLOR_ATTACHMENT,
+        sharing: Sharing::Exclusive,
     };
     let single = memory.image(&descriptor);
     descriptor.samples = 4;

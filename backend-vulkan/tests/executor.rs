@@ -223,8 +223,8 @@ fn a_plan_for_other_memory_needs_is_refused() {
     add_up(&mut plan);
     let refused = Executor::new(device, &plan, &mut library(), &ExecutorOptions::default()).err();
     match refused {
-        Some(Error::OtherMemoryNeeds { image, actual, planned, .. }) => {
-            assert_eq!((image.as_str(), actual.bytes), ("color resolved", planned.bytes + 4));
+        Some(Error::OtherMemoryNeeds { resource, actual, planned, .. }) => {
+            assert_eq!((resource.as_str(), actual.bytes), ("color resolved", planned.bytes + 4));
         }
         other => panic!("{other:?}"),
     }

@@ -39,7 +39,7 @@ fn picture(device: &Device, scene: &Scene, plan: &Plan, poison: bool) -> Vec<u8>
 fn transients(plan: &Plan) -> impl Iterator<Item = (&Image, &Placement)> {
     plan.images.iter().filter_map(|image| match &image.role {
         Role::Transient(placement) => Some((image, placement)),
-        Role::Output { .. } => None,
+        Role::External { .. } | Role::Persistent { .. } => None,
     })
 }
 

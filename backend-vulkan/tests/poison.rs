@@ -8,7 +8,7 @@ use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Frame, ImageIndex
 use framewright_graph::interface::DrawInterface;
 use framewright_graph::plan::{Plan, Role};
 use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{Filter, Stages};
+use framewright_graph::vocabulary::{Filter, Stages, Subresources};
 use framewright_vulkan::{Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, ShaderLibrary};
 
 /// Each image holds the one before, and a little more; `sum` adds two.
@@ -47,40 +47,32 @@ const SHADERS: &[(&str, &str)] = &[
     ),
 ];
 
-const EXTENT: [u32; 3] = [8, 8, 1];
+const EXTENT: [u32; 2] = [8, 8];
 
 fn pass(name: &str, shader: &str, sampled: &[(&str, u32)], target: u32) -> Pass {
     let sampled = sampled.iter().map(|(binding, image)| Sampled {
         binding: (*binding).into(),
         image: ImageIndex(*image),
+        range: Subresources::WHOLE,
+        frames_ago: 0,
         span: Span::NONE,
         per_sample: false,
+        own_pixel: false,
         filter: Filter::Nearest,
         stages: Stages::FRAGMENT_SHADER,
     });
+    let work = Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: false };
+    let (image, range) = (ImageIndex(target), Subresources::WHOLE);
     Pass {
-        name: name.into(),
-        span: Span::NONE,
-        work: Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false },
         sampled: sampled.collect(),
-        storage: Vec::new(),
-        color: vec![ColorTarget { image: ImageIndex(target), span: Span::NONE, clear: None, blend: Blend::Replace }],
-        depth: None,
-        params: Vec::new(),
+        color: vec![ColorTarget { image, range, span: Span::NONE, clear: None, blend: Blend::Replace }],
+        ..Pass::new(name, work)
     }
 }
 
 /// Images `a`, `b`, `c` and the output, drawn one after the other; with `long`, the pass that draws `c` reads `a` too.
 fn chain(long: bool) -> Frame {
-    let image = |name: &str| frame::Image {
-        name: name.into(),
-        span: Span::NONE,
-        format: Format::R8G8B8A8_UNORM,
-        extent: EXTENT,
-        mips: 1,
-        layers: 1,
-        samples: 1,
-    };
+    let image = |name: &str| frame::Image::new(name, Format::R8G8B8A8_UNORM, EXTENT[0], EXTENT[1]);
     let third = if long {
         pass("third", "sum", &[("source", 1), ("older", 0)], 2)
     } else {
@@ -94,13 +86,13 @@ fn chain(long: bool) -> Frame {
             third,
             pass("last", "next", &[("source", 2)], 3),
         ],
-        outputs: vec![Output { image: ImageIndex(3), span: Span::NONE }],
+        outputs: vec![Output { resource: frame::Resource::Image(ImageIndex(3)), span: Span::NONE, after: None }],
         ..Frame::default()
     }
 }
 
 fn planned(device: &Device, frame: &Frame, alias: bool, poison: bool) -> Plan {
-    let options = Options { alias, poison };
+    let options = Options { alias, poison, ..Options::default() };
     compile(frame, &device.profile(), &mut device.memory(), &options).expect("the frame compiles")
 }
 
@@ -154,7 +146,7 @@ fn a_lifetime_that_is_a_step_too_short_shows_under_poison() {
     // The third step reads `a` and draws `c`: had `a` ended a step earlier, `c` would lie where `a` is.
     let place_of = |plan: &Plan, image: usize| match &plan.images[image].role {
         Role::Transient(place) => place.clone(),
-        Role::Output { .. } => panic!("image {image} is transient"),
+        Role::External { .. } | Role::Persistent { .. } => panic!("image {image} is transient"),
     };
     let [a, c] = ["a", "c"].map(|name| plan.images.iter().position(|image| *image.name == *name).expect("it is there"));
     assert_eq!(place_of(&plan, a).lifetime[1], place_of(&plan, c).lifetime[0], "they meet in one step");

@@ -5,11 +5,11 @@ mod common;
 use common::plans::{EXTENT, FORMAT, add_up, resolve_then_sample};
 use framewright_graph::device::{FormatSupport, ImageDescriptor, MemoryNeeds, MemoryProvider};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Draw, DrawList};
+use framewright_graph::frame::{Draw, DrawList, Shape};
 use framewright_graph::interface::{Attribute, DrawInterface, Supplied, SuppliedKind};
 use framewright_graph::plan::{
-    Access, Attachment, AttachmentResolve, Binding, Cause, Heap, Image, ImageId, Placement, Plan, Role, StepId,
-    Subresources, Work,
+    Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, Heap, Image, ImageId, Placement, Plan, Role,
+    Sharing, StepId, Subresources, Work,
 };
 use framewright_graph::vocabulary::{Filter, Layout, ResolveMode, Usage};
 use framewright_vulkan::{BufferUsage, Device, Executor, ExecutorOptions, Resource, ShaderLibrary};
@@ -127,8 +127,8 @@ fn a_filter_that_a_format_does_not_have_is_refused() {
         if let Work::Render(scope) = &mut plan.steps[1].work {
             let pass = &mut scope.passes[0];
             let range = Subresources::all(format, 1, 1);
-            pass.bindings[0] = Binding { image: depth, range, filter: Some(filter), ..pass.bindings[0].clone() };
-            pass.accesses[1] = Access { image: depth, range, ..pass.accesses[1] };
+            let binding = Some(Binding { name: "source".into(), kind: BindingKind::Sampled(filter) });
+            pass.accesses[1] = Access { image: depth, range, binding, ..pass.accesses[1].clone() };
         }
         add_up(&mut plan);
         hazardous(device, &plan)
@@ -169,7 +169,16 @@ fn a_depth_resolve_that_a_device_does_not_have_is_refused() {
 fn depth_image(plan: &mut Plan, device: &Device, format: Format, samples: u32) -> ImageId {
     let usage = Usage::DEPTH_STENCIL_ATTACHMENT | Usage::SAMPLED;
     let extent = [EXTENT[0], EXTENT[1], 1];
-    let needs = device.memory().image(&ImageDescriptor { format, extent, mips: 1, layers: 1, samples, usage });
+    let needs = device.memory().image(&ImageDescriptor {
+        format,
+        shape: Shape::D2,
+        extent,
+        mips: 1,
+        layers: 1,
+        samples,
+        usage,
+        sharing: Sharing::Exclusive,
+    });
     let MemoryNeeds { bytes, alignment, type_bits } = needs;
     let heap = u32::try_from(plan.heaps.len()).expect("few heaps");
     plan.heaps.push(Heap { bytes, alignment, type_bits, lazily_allocated: false });
@@ -207,11 +216,13 @@ fn an_image_that_can_not_be_takes_more_memory_than_there_is() {
     let [width, height] = EXTENT;
     let possible = ImageDescriptor {
         format: FORMAT,
+        shape: Shape::D2,
         extent: [width, height, 1],
         mips: 1,
         layers: 1,
         samples: 1,
         usage: Usage::COLOR_ATTACHMENT,
+        sharing: Sharing::Exclusive,
     };
     let mut memory = device.memory();
     assert!(memory.image(&possible).bytes < 1 << 20);

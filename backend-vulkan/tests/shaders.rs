@@ -1,5 +1,6 @@
 //! Shaders found, compiled and reflected. No device is needed.
 
+use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::interface::{
     BindingKind, Component, Dimension, DrawInterface, ImageShape, ShaderInterface, ShaderInterfaces, ShaderProblem,
@@ -109,6 +110,7 @@ fn images_have_their_dimension_samples_and_component() {
         BindingKind::SampledImage(shape(Dimension::Cube, false, false, Component::Int)),
         BindingKind::StorageImage {
             shape: shape(Dimension::D2, false, false, Component::Float),
+            format: Some(Format::R32_SFLOAT),
             readable: false,
             writable: true,
         },
@@ -130,9 +132,9 @@ fn in_sets_from_one_on_only_what_is_used_counts() {
         bindings.into_iter().map(|it| (it.name, it.kind)).collect::<Vec<_>>()
     };
     assert_eq!(names("color = vec4(1.0);"), []);
-    let read_only = BindingKind::StorageBlock { writable: false };
+    let read_only = BindingKind::StorageBlock { readable: true, writable: false };
     assert_eq!(names("color = light[0];"), [("Lights".to_owned(), read_only)]);
-    let writable = BindingKind::StorageBlock { writable: true };
+    let writable = BindingKind::StorageBlock { readable: true, writable: true };
     assert_eq!(names("color = vec4(float(counter.count));"), [("counter".to_owned(), writable)]);
 }
 

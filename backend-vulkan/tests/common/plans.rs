@@ -2,13 +2,13 @@
 
 use framewright_graph::device::{ImageDescriptor, MemoryProvider};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Draw, ParamValue};
+use framewright_graph::frame::{Blend, Draw, ParamValue, Shape};
 use framewright_graph::plan::{
-    Access, Attachment, AttachmentResolve, Binding, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap, Image,
-    ImageBarrier, ImageId, ImageState, Param, Pass, Placement, Plan, Queue, RenderScope, Role, Step, StepId,
-    Subresources, Totals, Work,
+    Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap,
+    Image, ImageBarrier, ImageId, Param, Pass, Placement, Plan, Queue, RenderScope, Resource, Role, Sharing, Step,
+    StepId, Subresources, Totals, Work,
 };
-use framewright_graph::vocabulary::{Accesses, Filter, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage};
+use framewright_graph::vocabulary::{Accesses, Filter, Layout, LoadOp, ResolveMode, Stages, State, StoreOp, Usage};
 use framewright_vulkan::Device;
 
 pub(crate) const FORMAT: Format = Format::R8G8B8A8_UNORM;
@@ -17,19 +17,19 @@ pub(crate) const MULTISAMPLED: ImageId = ImageId(0);
 pub(crate) const RESOLVED: ImageId = ImageId(1);
 pub(crate) const SCREEN: ImageId = ImageId(2);
 
-const NONE: ImageState = ImageState { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
-const DRAWN: ImageState = ImageState {
+const NONE: State = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
+const DRAWN: State = State {
     stages: Stages::COLOR_ATTACHMENT_OUTPUT,
     accesses: Accesses::COLOR_ATTACHMENT_READ.union(Accesses::COLOR_ATTACHMENT_WRITE),
     layout: Layout::ColorAttachmentOptimal,
 };
-const SAMPLED: ImageState = ImageState {
+const SAMPLED: State = State {
     stages: Stages::FRAGMENT_SHADER,
     accesses: Accesses::SHADER_SAMPLED_READ,
     layout: Layout::ShaderReadOnlyOptimal,
 };
-const COPIED: ImageState =
-    ImageState { stages: Stages::COPY, accesses: Accesses::TRANSFER_READ, layout: Layout::TransferSrcOptimal };
+const COPIED: State =
+    State { stages: Stages::COPY, accesses: Accesses::TRANSFER_READ, layout: Layout::TransferSrcOptimal };
 
 /// A scope clears a 4× image, draws `first` into it and resolves it; a second scope draws `second`, which samples the
 /// result as `source` and takes the parameter `invert`, to the output.
@@ -39,9 +39,10 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
         device: DeviceUsed { name: device.profile().name, exact_memory: true },
         settings: Vec::new(),
         images: Vec::new(),
+        buffers: Vec::new(),
         heaps: vec![Heap { bytes: 0, alignment: 1, type_bits: u32::MAX, lazily_allocated: false }],
         steps: Vec::new(),
-        outputs: vec![SCREEN],
+        outputs: vec![Resource::Image(SCREEN)],
         notes: Vec::new(),
         totals: Totals::default(),
     };
@@ -49,7 +50,7 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
     let usage = Usage::COLOR_ATTACHMENT | Usage::TRANSFER_DST;
     transient(&mut plan, device, "color", 4, usage, [StepId(0), StepId(0)]);
     transient(&mut plan, device, "color resolved", 1, usage | Usage::SAMPLED, [StepId(0), StepId(1)]);
-    let role = Role::Output { before: NONE, after: COPIED };
+    let role = Role::External { before: NONE, after: COPIED };
     plan.images.push(image(SCREEN, "screen", 1, Usage::COLOR_ATTACHMENT | Usage::TRANSFER_SRC, role));
 
     let resolve = AttachmentResolve {
@@ -63,35 +64,24 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
     color.clear = Some([0.0, 0.0, 1.0, 1.0]);
     color.resolve = Some(resolve);
     let barriers = vec![
-        barrier(MULTISAMPLED, ImageState { layout: Layout::Undefined, ..DRAWN }, DRAWN, Hazard::FirstUse),
-        barrier(RESOLVED, ImageState { layout: Layout::Undefined, ..SAMPLED }, DRAWN, Hazard::FirstUse),
+        barrier(MULTISAMPLED, State { layout: Layout::Undefined, ..DRAWN }, DRAWN, Hazard::FirstUse),
+        barrier(RESOLVED, State { layout: Layout::Undefined, ..SAMPLED }, DRAWN, Hazard::FirstUse),
     ];
     let drawn = pass("draw", first.0, first.1, MULTISAMPLED);
     plan.steps.push(render(barriers, 4, color, vec![drawn]));
 
     let mut shown = pass("show", second, Draw::FullScreen, SCREEN);
-    shown.bindings.push(Binding {
-        name: "source".into(),
-        image: RESOLVED,
-        range: range(),
-        layout: Layout::ShaderReadOnlyOptimal,
-        filter: Some(Filter::Nearest),
-    });
-    shown.accesses.push(access(RESOLVED, SAMPLED));
+    let binding = Some(Binding { name: "source".into(), kind: BindingKind::Sampled(Filter::Nearest) });
+    shown.accesses.push(Access { binding, ..access(RESOLVED, SAMPLED) });
     shown.params.push(Param { name: "invert".into(), value: ParamValue::Bool(true) });
     let barriers = vec![
         barrier(RESOLVED, DRAWN, SAMPLED, Hazard::ReadAfterWrite),
-        barrier(SCREEN, ImageState { layout: Layout::Undefined, ..COPIED }, DRAWN, Hazard::FirstUse),
+        barrier(SCREEN, State { layout: Layout::Undefined, ..COPIED }, DRAWN, Hazard::FirstUse),
     ];
     plan.steps.push(render(barriers, 1, attachment(SCREEN, LoadOp::DontCare, StoreOp::Store), vec![shown]));
 
     let barriers = vec![barrier(SCREEN, DRAWN, COPIED, Hazard::Export)];
-    plan.steps.push(Step {
-        queue: Queue::Graphics,
-        memory_barriers: Vec::new(),
-        image_barriers: barriers,
-        work: Work::Export,
-    });
+    plan.steps.push(step(barriers, Work::Export));
     add_up(&mut plan);
     plan
 }
@@ -100,7 +90,7 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
 pub(crate) fn add_up(plan: &mut Plan) {
     let transient_bytes = plan.images.iter().map(|image| match &image.role {
         Role::Transient(place) => place.bytes,
-        Role::Output { .. } => 0,
+        Role::External { .. } | Role::Persistent { .. } => 0,
     });
     let transient_bytes = transient_bytes.sum();
     let placed_bytes = plan.heaps.iter().map(|heap| heap.bytes).sum();
@@ -116,12 +106,34 @@ pub(crate) fn range() -> Subresources {
 fn image(id: ImageId, name: &str, samples: u32, usage: Usage, role: Role) -> Image {
     let extent = [EXTENT[0], EXTENT[1], 1];
     let cause = Cause::Written(None);
-    Image { id, name: name.into(), cause, format: FORMAT, extent, mips: 1, layers: 1, samples, usage, role }
+    Image {
+        id,
+        name: name.into(),
+        cause,
+        format: FORMAT,
+        shape: Shape::D2,
+        extent,
+        mips: 1,
+        layers: 1,
+        samples,
+        usage,
+        sharing: Sharing::Exclusive,
+        role,
+    }
 }
 
 fn transient(plan: &mut Plan, device: &Device, name: &str, samples: u32, usage: Usage, lifetime: [StepId; 2]) {
     let extent = [EXTENT[0], EXTENT[1], 1];
-    let descriptor = ImageDescriptor { format: FORMAT, extent, mips: 1, layers: 1, samples, usage };
+    let descriptor = ImageDescriptor {
+        format: FORMAT,
+        shape: Shape::D2,
+        extent,
+        mips: 1,
+        layers: 1,
+        samples,
+        usage,
+        sharing: Sharing::Exclusive,
+    };
     let needs = device.memory().image(&descriptor);
     let heap = &mut plan.heaps[0];
     let offset = heap.bytes.next_multiple_of(needs.alignment);
@@ -140,7 +152,7 @@ fn transient(plan: &mut Plan, device: &Device, name: &str, samples: u32, usage: 
     plan.images.push(image(id, name, samples, usage, Role::Transient(place)));
 }
 
-fn barrier(image: ImageId, from: ImageState, to: ImageState, hazard: Hazard) -> ImageBarrier {
+fn barrier(image: ImageId, from: State, to: State, hazard: Hazard) -> ImageBarrier {
     ImageBarrier {
         image,
         range: range(),
@@ -150,6 +162,7 @@ fn barrier(image: ImageId, from: ImageState, to: ImageState, hazard: Hazard) -> 
         dst_accesses: to.accesses,
         old_layout: from.layout,
         new_layout: to.layout,
+        ownership: None,
         hazard,
         after: None,
     }
@@ -161,8 +174,15 @@ fn attachment(image: ImageId, load: LoadOp, store: StoreOp) -> Attachment {
     Attachment { image, range: range(), layout, load, store, clear: None, resolve: None, because }
 }
 
-fn access(image: ImageId, state: ImageState) -> Access {
-    Access { image, range: range(), stages: state.stages, accesses: state.accesses, layout: state.layout }
+fn access(image: ImageId, state: State) -> Access {
+    Access {
+        image,
+        range: range(),
+        stages: state.stages,
+        accesses: state.accesses,
+        layout: state.layout,
+        binding: None,
+    }
 }
 
 fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
@@ -170,17 +190,32 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
         name: name.into(),
         cause: Cause::Written(None),
         draw: Some(draw),
+        groups: None,
         shader: shader.into(),
         blend: vec![Blend::Replace],
         depth: None,
-        bindings: Vec::new(),
+        stencil: None,
         params: Vec::new(),
-        accesses: vec![access(target, ImageState { accesses: Accesses::COLOR_ATTACHMENT_WRITE, ..DRAWN })],
+        accesses: vec![access(target, State { accesses: Accesses::COLOR_ATTACHMENT_WRITE, ..DRAWN })],
+        buffers: Vec::new(),
+        local_barrier: false,
         merged: None,
     }
 }
 
 fn render(image_barriers: Vec<ImageBarrier>, samples: u32, color: Attachment, passes: Vec<Pass>) -> Step {
-    let scope = RenderScope { extent: EXTENT, layers: 1, samples, color: vec![color], depth: None, passes };
-    Step { queue: Queue::Graphics, memory_barriers: Vec::new(), image_barriers, work: Work::Render(scope) }
+    let scope =
+        RenderScope { extent: EXTENT, layers: 1, samples, color: vec![color], depth: None, stencil: None, passes };
+    step(image_barriers, Work::Render(scope))
+}
+
+fn step(image_barriers: Vec<ImageBarrier>, work: Work) -> Step {
+    Step {
+        queue: Queue::Graphics,
+        waits: Vec::new(),
+        memory_barriers: Vec::new(),
+        image_barriers,
+        work,
+        releases: Vec::new(),
+    }
 }
