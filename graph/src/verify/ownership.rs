@@ -5,7 +5,7 @@
 //! a step on the first queue, one among the barriers of a step on the second; in between nobody may use it. In the first
 //! frame something persistent belongs to nobody yet, and can be acquired without a release. Buffers are never handed over.
 
-use super::cells::Owner;
+use super::cells::{Cell, Owner};
 use super::program::Barrier;
 use super::violation::{OwnershipFault, Rule};
 use super::walk::Walk;
@@ -57,7 +57,10 @@ impl<const Q: usize> Walk<'_, '_, Q> {
                 return true;
             }
             (Some(_), Owner::Anyone) if self.frame == 0 => {
-                self.cells[index].owner = Owner::Queue(queue);
+                // Whoever made it has released it, in the layout in which the frame finds it.
+                let cell = &mut self.cells[index];
+                *cell =
+                    Cell { owner: Owner::Queue(queue), layout: cell.layout, contents: cell.contents, ..Cell::FRESH };
                 return false;
             }
             (Some(_), Owner::Released(release)) => {

@@ -11,7 +11,7 @@ use super::scopes::{PairSet, StageSet};
 use super::touches::Kind;
 use super::violation::{Rule, StepName};
 use super::{Finding, Findings};
-use crate::plan::{Plan, StepId, Subresources};
+use crate::plan::{Plan, Role, StepId, Subresources};
 use crate::vocabulary::Layout;
 
 /// All that is known between two steps.
@@ -170,6 +170,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         }
         let occupation = self.memory.occupation(barrier.image);
         let frame_start = self.frame_start();
+        let outlives = !matches!(super::role(self.plan, barrier.image), Role::Transient(_));
         let mut part = self.parts.of(barrier.image, barrier.range);
         while let Some(index) = self.parts.next(&mut part) {
             let acquired = Q > 1 && self.own_by_barrier(id, queue, barrier, number, index);
@@ -201,7 +202,9 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             cell.excused = false;
             if forgets {
                 cell.contents = match cell.contents {
-                    Contents::Defined if cell.filled > frame_start => Contents::Lost(Lost::Forgotten, available.time),
+                    Contents::Defined if outlives || cell.filled > frame_start => {
+                        Contents::Lost(Lost::Forgotten, available.time)
+                    }
                     Contents::Lost(_, time) if time > frame_start => cell.contents,
                     _ => Contents::Unwritten,
                 };

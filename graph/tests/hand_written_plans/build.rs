@@ -2,10 +2,10 @@
 
 use super::lifetime;
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Draw, Groups, Shape};
+use framewright_graph::frame::{Blend, BufferRole, Draw, Groups, Shape};
 use framewright_graph::plan::*;
 use framewright_graph::source::Place;
-use framewright_graph::vocabulary::{self, Accesses, Filter, Layout, LoadOp, Stages, StoreOp, Usage};
+use framewright_graph::vocabulary::{self, Accesses, BufferUsage, Filter, Layout, LoadOp, Stages, StoreOp, Usage};
 
 /// A stage, an access and a layout.
 pub(crate) type State = (Stages, Accesses, Layout);
@@ -163,6 +163,65 @@ pub(crate) fn step(image_barriers: Vec<ImageBarrier>, work: Work) -> Step {
         work,
         releases: Vec::new(),
     }
+}
+
+/// A release or an acquiring barrier.
+pub(crate) fn hand_over(queues: [Queue; 2], barrier: ImageBarrier) -> ImageBarrier {
+    ImageBarrier { ownership: Some(queues), hazard: Hazard::Ownership, ..barrier }
+}
+
+pub(crate) fn wait(step: u32, frames_ago: u32, stages: Stages) -> Wait {
+    Wait { step: StepId(step), frames_ago, stages }
+}
+
+/// A memory barrier for buffers.
+pub(crate) fn memory(src: (Stages, Accesses), dst: (Stages, Accesses)) -> MemoryBarrier {
+    let [(src_stages, src_accesses), (dst_stages, dst_accesses)] = [src, dst];
+    MemoryBarrier { src_stages, src_accesses, dst_stages, dst_accesses, hand_overs: Vec::new(), buffers: Vec::new() }
+}
+
+pub(crate) fn buffer(id: u32, name: &str, bytes: u64, usage: BufferUsage, role: Role) -> Buffer {
+    let sharing = Sharing::Exclusive;
+    Buffer { id: BufferId(id), name: name.into(), cause: at(60 + id), bytes, usage, sharing, role }
+}
+
+/// A place in the second heap, that of buffers.
+pub(crate) fn place([offset, bytes]: [u64; 2], [first, last]: [u32; 2]) -> Role {
+    Role::Transient(Placement {
+        heap: 1,
+        offset,
+        bytes,
+        alignment: 256,
+        type_bits: 0b11,
+        lifetime: lifetime(first, last),
+    })
+}
+
+/// A use of a buffer that no shader names.
+pub(crate) fn fetch(buffer: &Buffer, role: BufferRole, stages: Stages, accesses: Accesses) -> BufferAccess {
+    BufferAccess { buffer: buffer.id, role: Some(role), stages, accesses, binding: None }
+}
+
+/// A storage buffer by its own name.
+pub(crate) fn block(buffer: &Buffer, stages: Stages, read: bool, write: bool) -> BufferAccess {
+    let of = |on: bool, access: Accesses| if on { access } else { Accesses::empty() };
+    BufferAccess {
+        buffer: buffer.id,
+        role: Some(BufferRole::Storage { read, write }),
+        stages,
+        accesses: of(read, Accesses::SHADER_STORAGE_READ) | of(write, Accesses::SHADER_STORAGE_WRITE),
+        binding: Some(buffer.name.clone()),
+    }
+}
+
+/// Adds buffers to a Plan: those that are external leave the frame; transient ones lie in a heap of their own.
+pub(crate) fn with_buffers(mut plan: Plan, buffers: Vec<Buffer>, heap_bytes: u64) -> Plan {
+    let external = buffers.iter().filter(|buffer| matches!(buffer.role, Role::External { .. }));
+    plan.outputs.extend(external.map(|buffer| Resource::Buffer(buffer.id)));
+    plan.buffers = buffers;
+    plan.heaps.push(Heap { bytes: heap_bytes, ..plan.heaps[0].clone() });
+    super::recount(&mut plan);
+    plan
 }
 
 /// Samples `source` and covers the output, which the next step, the last, leaves to be read back.

@@ -1,18 +1,32 @@
-//! Three correct Plans, written by hand: every mask holds exactly what is needed, so that every bit can be missed.
+//! Correct Plans, written by hand: every mask holds exactly what is needed, so that every bit can be missed.
 
+mod across_frames;
+mod buffers;
 pub(crate) mod build;
 mod compute_chain;
+mod history;
+mod local_read;
+mod mip_chain;
 mod multisampled;
 mod read_only_depth;
+mod stencil;
+mod two_queues;
 
 use framewright_graph::plan::{Buffer, Image, Placement, Plan, Role, StepId, Totals};
 
 /// All of them.
-pub(crate) fn all() -> [(&'static str, Plan); 3] {
+pub(crate) fn all() -> [(&'static str, Plan); 10] {
     [
         ("multisampled", multisampled::plan()),
         ("compute chain", compute_chain::plan()),
         ("read-only depth", read_only_depth::plan()),
+        ("buffers", buffers::plan()),
+        ("history", history::plan()),
+        ("stencil", stencil::plan()),
+        ("mip chain", mip_chain::plan()),
+        ("local read", local_read::plan()),
+        ("two queues", two_queues::plan()),
+        ("across frames", across_frames::plan()),
     ]
 }
 
