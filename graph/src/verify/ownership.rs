@@ -38,12 +38,13 @@ impl<const Q: usize> Walk<'_, '_, Q> {
     ) -> bool {
         let image = barrier.image;
         let owner = self.cells[index].owner;
+        let owned = Owner::Queue(barrier.ownership.map_or(queue, |[_, to]| to));
         let fault = match (barrier.ownership, owner) {
             (None, Owner::Released(release)) if barrier.old == Layout::Undefined => {
                 OwnershipFault::NeverAcquired { released: self.queues(release) }
             }
             (None, _) if barrier.old == Layout::Undefined => {
-                self.cells[index].owner = Owner::Queue(queue);
+                self.cells[index].owner = owned;
                 return false;
             }
             (None, _) => {
@@ -53,14 +54,13 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             (Some(_), Owner::Released(release))
                 if self.is_other_half(&self.program.barriers[release as usize], barrier) =>
             {
-                self.cells[index].owner = Owner::Queue(queue);
+                self.cells[index].owner = owned;
                 return true;
             }
             (Some(_), Owner::Anyone) if self.frame == 0 => {
                 // Whoever made it has released it, in the layout in which the frame finds it.
                 let cell = &mut self.cells[index];
-                *cell =
-                    Cell { owner: Owner::Queue(queue), layout: cell.layout, contents: cell.contents, ..Cell::FRESH };
+                *cell = Cell { owner: owned, layout: cell.layout, contents: cell.contents, ..Cell::FRESH };
                 return false;
             }
             (Some(_), Owner::Released(release)) => {
@@ -68,7 +68,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             }
             (Some(_), _) => OwnershipFault::NotReleased { acquired: self.queues(number) },
         };
-        self.cells[index].owner = Owner::Queue(queue);
+        self.cells[index].owner = owned;
         self.report_owner(step, image, index, fault);
         // Its layouts are those of the other half, or wrong for the reason that was just given.
         barrier.ownership.is_some()

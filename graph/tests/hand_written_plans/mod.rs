@@ -12,7 +12,7 @@ mod read_only_depth;
 mod stencil;
 mod two_queues;
 
-use framewright_graph::plan::{Buffer, Image, Placement, Plan, Role, StepId, Totals};
+use framewright_graph::plan::{Placement, Plan, Role, StepId, Totals};
 
 /// All of them.
 pub(crate) fn all() -> [(&'static str, Plan); 10] {
@@ -32,8 +32,8 @@ pub(crate) fn all() -> [(&'static str, Plan); 10] {
 
 /// Makes the totals right again after a change, so that they don't give it away.
 pub(crate) fn recount(plan: &mut Plan) {
-    let placements: Vec<&Placement> =
-        plan.images.iter().filter_map(placement).chain(plan.buffers.iter().filter_map(buffer_placement)).collect();
+    let roles = plan.images.iter().map(|image| &image.role).chain(plan.buffers.iter().map(|buffer| &buffer.role));
+    let placements: Vec<&Placement> = roles.filter_map(placed).collect();
     let live = |step: u32| {
         let alive = |placement: &&&Placement| (placement.lifetime[0].0..=placement.lifetime[1].0).contains(&step);
         placements.iter().filter(alive).map(|placement| placement.bytes).sum::<u64>()
@@ -47,15 +47,8 @@ pub(crate) fn recount(plan: &mut Plan) {
     };
 }
 
-pub(crate) fn placement(image: &Image) -> Option<&Placement> {
-    placed(&image.role)
-}
-
-fn buffer_placement(buffer: &Buffer) -> Option<&Placement> {
-    placed(&buffer.role)
-}
-
-fn placed(role: &Role) -> Option<&Placement> {
+/// Its place in a heap, if it has one.
+pub(crate) fn placed(role: &Role) -> Option<&Placement> {
     match role {
         Role::Transient(placement) => Some(placement),
         Role::External { .. } | Role::Persistent { .. } => None,
