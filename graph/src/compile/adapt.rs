@@ -180,7 +180,8 @@ impl Adapter<'_> {
     fn push(&mut self, kind: OpKind, uses: &[Use]) {
         let start = self.adapted.uses.len() as u32;
         self.adapted.uses.extend_from_slice(uses);
-        self.adapted.ops.push(Op { kind, uses: start..start + uses.len() as u32 });
+        let side_effect = kind.pass().is_some_and(|pass| self.input.frame.passes[pass as usize].side_effect);
+        self.adapted.ops.push(Op { kind, uses: start..start + uses.len() as u32, side_effect });
     }
 
     /// Adds an operation from one image to another, whole, which have the same parts.

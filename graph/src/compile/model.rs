@@ -136,6 +136,8 @@ pub(super) struct Op {
     pub(super) kind: OpKind,
     /// Into [`Adapted::uses`].
     pub(super) uses: Range<u32>,
+    /// Whether it has an effect that no image or buffer shows.
+    pub(super) side_effect: bool,
 }
 
 /// What an operation is.

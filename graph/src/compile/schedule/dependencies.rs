@@ -1,0 +1,105 @@
+//! Which runs depend on which, as lists.
+
+use super::runs::{Runs, for_each_cell};
+use crate::compile::model::Adapted;
+use crate::compile::parts::Grids;
+
+/// No entry.
+const NONE: u32 = u32::MAX;
+
+/// For each run those that depend on it at once. Some may be named twice.
+#[derive(Debug)]
+pub(super) struct Dependencies {
+    /// Pairs of a run and one that depends on it.
+    pairs: Vec<(u32, u32)>,
+    starts: Vec<u32>,
+    followers: Vec<u32>,
+}
+
+/// What was done to a cell: the last write, and a list of the reads since.
+#[derive(Debug, Clone, Copy)]
+struct Cell {
+    writer: u32,
+    /// Into a list of readers, each with the next one's place.
+    readers: u32,
+}
+
+impl Dependencies {
+    /// What depends on what among `runs`.
+    pub(super) fn between(grids: &Grids, adapted: &Adapted, runs: &Runs) -> Dependencies {
+        let mut cells = vec![Cell { writer: NONE, readers: NONE }; adapted.cells as usize + 1];
+        let mut readers: Vec<(u32, u32)> = Vec::with_capacity(adapted.uses.len());
+        let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(adapted.uses.len());
+        for run in 0..runs.len() {
+            for op in runs.run(run) {
+                for_each_cell(grids, adapted, *op, |cell, writes, _| {
+                    let cell = &mut cells[cell as usize];
+                    if cell.writer != NONE {
+                        pairs.push((cell.writer, run));
+                    }
+                    if !writes {
+                        readers.push((run, cell.readers));
+                        cell.readers = readers.len() as u32 - 1;
+                        return;
+                    }
+                    while let Some((reader, next)) = readers.get(cell.readers as usize) {
+                        pairs.push((*reader, run));
+                        cell.readers = *next;
+                    }
+                    cell.writer = run;
+                });
+            }
+        }
+        pairs.retain(|(before, after)| before != after);
+        Dependencies::list(pairs, runs.len())
+    }
+
+    fn list(pairs: Vec<(u32, u32)>, runs: u32) -> Dependencies {
+        let (starts, followers) = super::memory::lists(&pairs, runs);
+        Dependencies { pairs, starts, followers }
+    }
+
+    /// The same from the last to the first.
+    pub(super) fn reversed(&self) -> Dependencies {
+        Dependencies::list(self.pairs.iter().map(|(before, after)| (*after, *before)).collect(), self.len())
+    }
+
+    pub(super) fn len(&self) -> u32 {
+        self.starts.len() as u32 - 1
+    }
+
+    /// The runs that depend on a run.
+    pub(super) fn followers(&self, run: u32) -> &[u32] {
+        &self.followers[self.starts[run as usize] as usize..self.starts[run as usize + 1] as usize]
+    }
+
+    /// For each run how often it is a follower.
+    pub(super) fn counts(&self) -> Vec<u32> {
+        let mut counts = vec![0; self.len() as usize];
+        self.followers.iter().for_each(|run| counts[*run as usize] += 1);
+        counts
+    }
+
+    /// Any legal order, the same for the same seed.
+    pub(super) fn random_order(&self, seed: u64) -> Vec<u32> {
+        let mut waits_for = self.counts();
+        let mut ready: Vec<u32> = (0..self.len()).filter(|run| waits_for[*run as usize] == 0).collect();
+        let mut order = Vec::with_capacity(waits_for.len());
+        let mut state = seed;
+        while !ready.is_empty() {
+            // SplitMix64.
+            state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+            let mixed = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            let run = ready.swap_remove(((mixed ^ (mixed >> 31)) % ready.len() as u64) as usize);
+            order.push(run);
+            for follower in self.followers(run) {
+                waits_for[*follower as usize] -= 1;
+                if waits_for[*follower as usize] == 0 {
+                    ready.push(*follower);
+                }
+            }
+        }
+        order
+    }
+}

@@ -1,0 +1,126 @@
+//! Levels: a run is one level above the highest that it depends on, or further up where that saves memory.
+
+use super::memory::Memory;
+use super::runs::{Runs, for_each_cell};
+use crate::compile::model::Adapted;
+use crate::compile::parts::Grids;
+use crate::vocabulary::Layout;
+
+/// The runs level by level; `None` if there is no level with more than one.
+pub(super) fn by_level(grids: &Grids, adapted: &Adapted, runs: &Runs, memory: &Memory) -> Option<Vec<u32>> {
+    let mut upwards = Walk::new(grids, adapted, runs);
+    let mut levels: Vec<u32> = Vec::with_capacity(runs.len() as usize);
+    // For each store the first run that uses it.
+    let mut begins = vec![u32::MAX; adapted.stores.len()];
+    for run in 0..runs.len() {
+        let level = upwards.least(run);
+        upwards.put(runs.run(run).iter(), level);
+        levels.push(level);
+        for used in runs.run(run).iter().flat_map(|op| adapted.uses(*op)) {
+            let first = &mut begins[used.store as usize];
+            *first = run.min(*first);
+        }
+    }
+    let top = levels.iter().copied().max()?;
+    if top + 1 == runs.len() {
+        return None;
+    }
+    let mut downwards = Walk::new(grids, adapted, runs);
+    // For each store one more than the level of its last use, as far as that is known.
+    let mut ends = vec![0_u32; adapted.stores.len()];
+    let mut keys = levels;
+    for run in (0..runs.len()).rev() {
+        let (lowest, highest) = (keys[run as usize], top - downwards.least(run));
+        let uses = || runs.run(run).iter().flat_map(|op| adapted.uses(*op));
+        let (mut begun, mut ended, mut held) = (0_u64, 0_u64, 0_u64);
+        for used in uses() {
+            let (store, bytes) = (used.store as usize, memory.bytes(used.store));
+            if begins[store] == run {
+                begun = begun.saturating_add(bytes);
+            }
+            if ends[store] <= lowest + 1 {
+                ended = ended.saturating_add(bytes);
+            }
+            if ends[store] <= highest && begins[store] != run {
+                held = held.saturating_add(bytes);
+            }
+        }
+        let rises = highest > lowest && begun > held;
+        let (level, ended) = if rises { (highest, held) } else { (lowest, ended) };
+        downwards.put(runs.run(run).iter().rev(), top - level);
+        uses().for_each(|used| ends[used.store as usize] = ends[used.store as usize].max(level + 1));
+        // In a level first what ends more than it begins: what comes next then finds its memory free.
+        keys[run as usize] = 3 * level + (begun.cmp(&ended) as i8 + 1) as u32;
+    }
+    Some(counting_sort(&keys, 3 * top + 3))
+}
+
+/// The numbers of `keys`, all below `bound`, in the order of the keys; equal ones as they are.
+fn counting_sort(keys: &[u32], bound: u32) -> Vec<u32> {
+    let mut places = vec![0_u32; bound as usize];
+    keys.iter().for_each(|key| places[*key as usize] += 1);
+    let mut next = 0;
+    for place in &mut places {
+        next += std::mem::replace(place, next);
+    }
+    let mut order = vec![0; keys.len()];
+    for (key, number) in keys.iter().zip(0_u32..) {
+        order[places[*key as usize] as usize] = number;
+        places[*key as usize] += 1;
+    }
+    order
+}
+
+/// A walk through all runs, from the first to the last or from the last to the first: what is behind is counted in levels.
+struct Walk<'a> {
+    grids: &'a Grids,
+    adapted: &'a Adapted,
+    runs: &'a Runs,
+    cells: Vec<Cell>,
+}
+
+/// One more than the highest level of what was done to a cell, 0 if nothing was: as in `runs`, reads in one layout don't
+/// depend on each other.
+#[derive(Debug, Clone, Copy)]
+struct Cell {
+    before: u32,
+    readers: u32,
+    layout: Layout,
+}
+
+impl<'a> Walk<'a> {
+    fn new(grids: &'a Grids, adapted: &'a Adapted, runs: &'a Runs) -> Walk<'a> {
+        let cell = Cell { before: 0, readers: 0, layout: Layout::Undefined };
+        Walk { grids, adapted, runs, cells: vec![cell; adapted.cells as usize + 1] }
+    }
+
+    /// The least level of a run behind all that it depends on.
+    fn least(&self, run: u32) -> u32 {
+        let mut least = 0;
+        for op in self.runs.run(run) {
+            for_each_cell(self.grids, self.adapted, *op, |cell, writes, layout| {
+                let cell = &self.cells[cell as usize];
+                let joins = !writes && cell.layout == layout;
+                least = least.max(if joins { cell.before } else { cell.before.max(cell.readers) });
+            });
+        }
+        least
+    }
+
+    /// Notes the level of the operations of a run.
+    fn put<'o>(&mut self, ops: impl Iterator<Item = &'o u32>, level: u32) {
+        let behind = level + 1;
+        for op in ops {
+            for_each_cell(self.grids, self.adapted, *op, |cell, writes, layout| {
+                let cell = &mut self.cells[cell as usize];
+                if writes {
+                    *cell = Cell { before: behind, readers: 0, layout };
+                } else if cell.readers != 0 && cell.layout == layout {
+                    cell.readers = cell.readers.max(behind);
+                } else {
+                    *cell = Cell { before: cell.before.max(cell.readers), readers: behind, layout };
+                }
+            });
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! `schedule`: the order in which operations run.
+//!
+//! An operation depends on an earlier one if both use a cell and at least one of them writes it, or if both have effects
+//! that nothing shows. Each order that keeps every operation behind those that it depends on is legal, and gives the same
+//! picture. The default order is scored by, from what counts most:
+//!
+//! 1. *Merging* (`runs`): draws into the same attachments stand next to each other wherever that is legal. Sharing a
+//!    rendering scope saves a store and a load of each attachment, which is more than any barrier costs.
+//! 2. *Batching and overlap* (`levels`): an operation is one level above the highest that it depends on, and levels follow
+//!    each other. All barriers between two levels fit into one call, no legal order has fewer such calls, and what follows
+//!    a barrier depends on nothing in its own level, so the device overlaps it.
+//! 3. *Memory*: what begins more bytes than it ends moves up to the last level that leaves the number of levels as it is,
+//!    and stands in its level behind what ends bytes. If the most that is alive at one time is still more than a fiftieth
+//!    above that of the file's order, the file's order stays.
+//!
+//! What ties keeps the file's order.
+
+mod dependencies;
+mod levels;
+mod memory;
+mod runs;
+
+use super::Order;
+use super::model::Adapted;
+use super::parts::Grids;
+use dependencies::Dependencies;
+use memory::Memory;
+use runs::Runs;
+
+/// Indices into [`Adapted::ops`], in execution order.
+pub(super) fn schedule(grids: &Grids, adapted: &Adapted, order: Order) -> Vec<u32> {
+    match order {
+        Order::File => (0..adapted.ops.len() as u32).collect(),
+        Order::Default => {
+            let runs = Runs::gather(grids, adapted);
+            runs.operations(&scored(grids, adapted, &runs, &mut Memory::of(adapted)))
+        }
+        Order::LowMemory => {
+            let runs = Runs::gather(grids, adapted);
+            runs.operations(&small(grids, adapted, &runs))
+        }
+        Order::Random(seed) => Dependencies::between(grids, adapted, &Runs::of_one(adapted)).random_order(seed),
+    }
+}
+
+/// The runs in the order that scores best.
+fn scored(grids: &Grids, adapted: &Adapted, runs: &Runs, memory: &mut Memory) -> Vec<u32> {
+    let file: Vec<u32> = (0..runs.len()).collect();
+    let Some(order) = levels::by_level(grids, adapted, runs, memory) else { return file };
+    let peak = memory.peak(adapted, runs, &file);
+    if memory.peak(adapted, runs, &order) <= peak.saturating_add(peak / 50) { order } else { file }
+}
+
+/// The runs in that of several orders in which the least memory is alive at one time.
+fn small(grids: &Grids, adapted: &Adapted, runs: &Runs) -> Vec<u32> {
+    let mut memory = Memory::of(adapted);
+    let dependencies = Dependencies::between(grids, adapted, runs);
+    let mut orders = vec![
+        (0..runs.len()).collect(),
+        scored(grids, adapted, runs, &mut memory),
+        memory.greedy(adapted, runs, &dependencies),
+    ];
+    let mut backwards = memory.greedy(adapted, runs, &dependencies.reversed());
+    backwards.reverse();
+    orders.push(backwards);
+    let least = orders.into_iter().min_by_key(|order: &Vec<u32>| memory.peak(adapted, runs, order));
+    least.unwrap_or_default()
+}

@@ -1,0 +1,204 @@
+//! Draws that may share a rendering scope are brought together, and from then on stay together.
+
+use crate::compile::model::{Adapted, CellIndex, Role, Start, Use};
+use crate::compile::parts::Grids;
+use crate::vocabulary::Layout;
+
+/// No run.
+const NONE: u32 = u32::MAX;
+
+/// Operations in an order that is legal, in runs: draws into the same attachments, or one operation.
+#[derive(Debug)]
+pub(super) struct Runs {
+    ops: Vec<u32>,
+    /// For each run its first place in `ops`, and where the last one ends.
+    starts: Vec<u32>,
+}
+
+impl Runs {
+    /// Each operation by itself, in the order of the frame.
+    pub(super) fn of_one(adapted: &Adapted) -> Runs {
+        let count = adapted.ops.len() as u32;
+        Runs { ops: (0..count).collect(), starts: (0..=count).collect() }
+    }
+
+    /// Draws that may share a scope in one run.
+    pub(super) fn gather(grids: &Grids, adapted: &Adapted) -> Runs {
+        if !adapted.ops.iter().any(|op| op.kind.draws()) {
+            return Runs::of_one(adapted);
+        }
+        let mut gatherer = Gatherer {
+            grids,
+            adapted,
+            runs: Vec::new(),
+            run_of: Vec::with_capacity(adapted.ops.len()),
+            cells: vec![Cell { before: NONE, readers: NONE, layout: Layout::Undefined }; adapted.cells as usize + 1],
+            places: 0,
+        };
+        for op in 0..adapted.ops.len() as u32 {
+            gatherer.op(op);
+        }
+        let Gatherer { runs, run_of, .. } = gatherer;
+        let place = |op: &u32| runs[run_of[*op as usize] as usize].place;
+        let mut ops: Vec<u32> = (0..adapted.ops.len() as u32).collect();
+        ops.sort_by_key(place);
+        let mut starts: Vec<u32> = vec![0];
+        starts.extend((1..ops.len()).filter(|at| place(&ops[at - 1]) != place(&ops[*at])).map(|at| at as u32));
+        starts.push(ops.len() as u32);
+        Runs { ops, starts }
+    }
+
+    pub(super) fn len(&self) -> u32 {
+        self.starts.len() as u32 - 1
+    }
+
+    /// The operations of one run.
+    pub(super) fn run(&self, run: u32) -> &[u32] {
+        &self.ops[self.starts[run as usize] as usize..self.starts[run as usize + 1] as usize]
+    }
+
+    /// The operations of all runs, in the given order of runs.
+    pub(super) fn operations(&self, order: &[u32]) -> Vec<u32> {
+        let mut ops = Vec::with_capacity(self.ops.len());
+        order.iter().for_each(|run| ops.extend_from_slice(self.run(*run)));
+        ops
+    }
+}
+
+/// Calls `visit` with each cell that an operation uses, whether it writes it, and in which layout. Effects that nothing shows
+/// are writes of a cell behind all others.
+pub(super) fn for_each_cell(
+    grids: &Grids,
+    adapted: &Adapted,
+    op: u32,
+    mut visit: impl FnMut(CellIndex, bool, Layout),
+) {
+    for used in adapted.uses(op) {
+        adapted.for_each_cell(grids, used, |cell| visit(cell, used.writes, used.layout));
+    }
+    if adapted.ops[op as usize].side_effect {
+        visit(adapted.cells, true, Layout::Undefined);
+    }
+}
+
+/// What was done to a cell so far: a write, then reads in one layout. A read in another layout than the one before it comes
+/// behind it, as a write would: changing the order of layouts could only add barriers.
+#[derive(Debug, Clone, Copy)]
+struct Cell {
+    /// The run that wrote it, or read it in an earlier layout.
+    before: u32,
+    /// The rearmost of the runs that read it since.
+    readers: u32,
+    layout: Layout,
+}
+
+/// A run so far.
+#[derive(Debug)]
+struct Run {
+    /// Runs are put in the order of their places.
+    place: u32,
+    /// Whether another run has to come behind it, or might.
+    fixed: bool,
+    last: u32,
+}
+
+struct Gatherer<'a> {
+    grids: &'a Grids,
+    adapted: &'a Adapted,
+    runs: Vec<Run>,
+    run_of: Vec<u32>,
+    cells: Vec<Cell>,
+    places: u32,
+}
+
+impl Gatherer<'_> {
+    fn op(&mut self, op: u32) {
+        let Gatherer { grids, adapted, runs, cells, .. } = self;
+        let candidate = candidate(grids, adapted, cells, op).filter(|run| meet(adapted, runs[*run as usize].last, op));
+        // The place of the rearmost run that it depends on besides the candidate.
+        let mut behind = None;
+        for_each_cell(grids, adapted, op, |cell, writes, layout| {
+            let Cell { before, readers, layout: current } = cells[cell as usize];
+            let readers = if writes || current != layout { readers } else { NONE };
+            for run in [before, readers] {
+                if run != NONE && Some(run) != candidate {
+                    runs[run as usize].fixed = true;
+                    behind = behind.max(Some(runs[run as usize].place));
+                }
+            }
+        });
+        let joined = candidate.filter(|candidate| {
+            let run = &mut runs[*candidate as usize];
+            if behind > Some(run.place) && !run.fixed {
+                // Nothing depends on it yet: all of it moves behind what this operation waits for.
+                run.place = self.places;
+                self.places += 1;
+            }
+            behind < Some(run.place)
+        });
+        let run = joined.unwrap_or_else(|| {
+            if let Some(candidate) = candidate {
+                runs[candidate as usize].fixed = true;
+            }
+            runs.push(Run { place: self.places, fixed: false, last: op });
+            self.places += 1;
+            runs.len() as u32 - 1
+        });
+        runs[run as usize].last = op;
+        self.run_of.push(run);
+        for_each_cell(grids, adapted, op, |cell, writes, layout| note(runs, &mut cells[cell as usize], run, writes, layout));
+    }
+}
+
+/// Notes what a run does to a cell.
+fn note(runs: &mut [Run], cell: &mut Cell, run: u32, writes: bool, layout: Layout) {
+    if writes {
+        *cell = Cell { before: run, readers: NONE, layout };
+    } else if cell.readers == NONE || cell.layout != layout {
+        let before = if cell.readers == NONE { cell.before } else { cell.readers };
+        *cell = Cell { before, readers: run, layout };
+    } else if cell.readers != run {
+        // Only the rearmost reader is known from here on, so none of them may move any more.
+        runs[cell.readers as usize].fixed = true;
+        runs[run as usize].fixed = true;
+        if runs[run as usize].place > runs[cell.readers as usize].place {
+            cell.readers = run;
+        }
+    }
+}
+
+/// The run whose last write an operation draws on top of.
+fn candidate(grids: &Grids, adapted: &Adapted, cells: &[Cell], op: u32) -> Option<u32> {
+    if !adapted.ops[op as usize].kind.draws() {
+        return None;
+    }
+    let uses = adapted.uses(op);
+    let attached = |used: &&Use| used.role.is_attachment();
+    let run_before = |used: &Use| {
+        let mut run = NONE;
+        adapted.for_each_cell(grids, used, |cell| run = cells[cell as usize].before);
+        run
+    };
+    let run = run_before(uses.iter().find(attached)?);
+    // What the run leaves must be kept, and not be read in any way that a scope forbids.
+    let forbids = |used: &Use| match used.role.is_attachment() {
+        true => used.start != Start::Keep,
+        false => used.role != Role::Input,
+    };
+    let apart = uses.iter().any(|used| forbids(used) && run_before(used) == run);
+    (run != NONE && !apart).then_some(run)
+}
+
+/// Whether two draws have the same colour attachments, and depth and stencil attachments where both have them.
+fn meet(adapted: &Adapted, one: u32, other: u32) -> bool {
+    let all = |op, role| {
+        let uses = adapted.uses(op).iter().filter(move |used| used.role == role);
+        uses.map(|used| (used.store, adapted.range(used)))
+    };
+    let same = |role| match (all(one, role).next(), all(other, role).next()) {
+        (Some(one), Some(other)) => one == other,
+        _ => true,
+    };
+    let draws = adapted.ops[one as usize].kind.draws();
+    draws && all(one, Role::Color).eq(all(other, Role::Color)) && same(Role::Depth) && same(Role::Stencil)
+}
