@@ -1,6 +1,7 @@
 //! Every order is legal and the same each time; the default one merges, batches and saves memory; the low-memory one saves
 //! more.
 
+#[allow(dead_code, reason = "other tests use more of it")]
 mod raster;
 
 use framewright_graph::compile::{Options, Order, compile};
@@ -100,8 +101,11 @@ fn passes_that_do_not_depend_on_each_other_share_a_barrier_call() {
     builder.pass("last", &ends, &[(last, false)]);
     let mut frame = builder.output(last);
     // Images of their own memory: no call serves a hand-over.
-    let outputs = (0..frame.images.len() as u32 - 1)
-        .map(|image| Output { resource: Resource::Image(ImageIndex(image)), span: Span::NONE, after: None });
+    let outputs = (0..frame.images.len() as u32 - 1).map(|image| Output {
+        resource: Resource::Image(ImageIndex(image)),
+        span: Span::NONE,
+        after: None,
+    });
     frame.outputs.extend(outputs);
     assert_eq!(compiled(&frame, Order::Default).totals.barrier_calls, 5);
     assert!(compiled(&frame, Order::File).totals.barrier_calls > 5);
@@ -118,7 +122,7 @@ fn draws_into_the_same_image_are_brought_together() {
     raster.objects("opaque").clear(color);
     raster.full_screen("aside").color(other, Blend::Replace);
     raster.full_screen("haze").color(color, Blend::Alpha);
-    raster.full_screen("both").sample("a", color).sample("b", other).color(last, Blend::Replace);
+    raster.full_screen("both").sample(color).sample(other).color(last, Blend::Replace);
     let frame = raster.output(last);
     assert_eq!(compiled(&frame, Order::File).totals.scopes, 4);
     for order in [Order::Default, Order::LowMemory] {
@@ -133,7 +137,7 @@ fn what_a_later_draw_waits_for_comes_before_the_draws_that_it_joins() {
     let (color, other) = (raster.image("color", R8G8B8A8_UNORM, 1), raster.image("other", R16G16B16A16_SFLOAT, 1));
     raster.objects("opaque").clear(color);
     raster.full_screen("aside").color(other, Blend::Replace);
-    raster.full_screen("haze").sample("a", other).color(color, Blend::Alpha);
+    raster.full_screen("haze").sample(other).color(color, Blend::Alpha);
     let frame = raster.output(color);
     assert_eq!(steps(&compiled(&frame, Order::Default)), [vec!["aside"], vec!["opaque", "haze"]]);
 }

@@ -67,12 +67,7 @@ impl Runs {
 
 /// Calls `visit` with each cell that an operation uses, whether it writes it, and in which layout. Effects that nothing shows
 /// are writes of a cell behind all others.
-pub(super) fn for_each_cell(
-    grids: &Grids,
-    adapted: &Adapted,
-    op: u32,
-    mut visit: impl FnMut(CellIndex, bool, Layout),
-) {
+pub(super) fn for_each_cell(grids: &Grids, adapted: &Adapted, op: u32, mut visit: impl FnMut(CellIndex, bool, Layout)) {
     for used in adapted.uses(op) {
         adapted.for_each_cell(grids, used, |cell| visit(cell, used.writes, used.layout));
     }
@@ -146,7 +141,9 @@ impl Gatherer<'_> {
         });
         runs[run as usize].last = op;
         self.run_of.push(run);
-        for_each_cell(grids, adapted, op, |cell, writes, layout| note(runs, &mut cells[cell as usize], run, writes, layout));
+        for_each_cell(grids, adapted, op, |cell, writes, layout| {
+            note(runs, &mut cells[cell as usize], run, writes, layout)
+        });
     }
 }
 
@@ -180,11 +177,8 @@ fn candidate(grids: &Grids, adapted: &Adapted, cells: &[Cell], op: u32) -> Optio
         run
     };
     let run = run_before(uses.iter().find(attached)?);
-    // What the run leaves must be kept, and not be read in any way that a scope forbids.
-    let forbids = |used: &Use| match used.role.is_attachment() {
-        true => used.start != Start::Keep,
-        false => used.role != Role::Input,
-    };
+    // A scope neither clears what it drew nor samples it.
+    let forbids = |used: &Use| !used.role.is_attachment() || used.start != Start::Keep;
     let apart = uses.iter().any(|used| forbids(used) && run_before(used) == run);
     (run != NONE && !apart).then_some(run)
 }
