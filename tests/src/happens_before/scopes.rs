@@ -1,0 +1,78 @@
+//! What masks of stages and accesses take in.
+
+use framewright_graph::vocabulary::{Accesses, Stages};
+
+/// Stages of graphics work, each logically earlier than the next.
+const GRAPHICS: [Stages; 7] = [
+    Stages::DRAW_INDIRECT,
+    Stages::VERTEX_INPUT,
+    Stages::VERTEX_SHADER,
+    Stages::EARLY_FRAGMENT_TESTS,
+    Stages::FRAGMENT_SHADER,
+    Stages::LATE_FRAGMENT_TESTS,
+    Stages::COLOR_ATTACHMENT_OUTPUT,
+];
+
+/// Stages of compute work, each logically earlier than the next.
+const COMPUTE: [Stages; 2] = [Stages::DRAW_INDIRECT, Stages::COMPUTE_SHADER];
+
+/// A mask without its collective bit.
+pub(super) fn spelled_out(stages: Stages) -> Stages {
+    if stages.contains(Stages::ALL_COMMANDS) { Stages::all() - Stages::ALL_COMMANDS - Stages::HOST } else { stages }
+}
+
+/// A first synchronisation scope takes in logically earlier stages.
+pub(super) fn and_earlier(stages: Stages) -> Stages {
+    let stages = spelled_out(stages);
+    [&GRAPHICS[..], &COMPUTE].into_iter().fold(stages, |all, order| {
+        let end = order.iter().rposition(|stage| stages.contains(*stage)).map_or(0, |last| last + 1);
+        order[..end].iter().fold(all, |all, stage| all | *stage)
+    })
+}
+
+/// A second synchronisation scope takes in logically later stages.
+pub(super) fn and_later(stages: Stages) -> Stages {
+    let stages = spelled_out(stages);
+    [&GRAPHICS[..], &COMPUTE].into_iter().fold(stages, |all, order| {
+        let start = order.iter().position(|stage| stages.contains(*stage)).unwrap_or(order.len());
+        order[start..].iter().fold(all, |all, stage| all | *stage)
+    })
+}
+
+/// Whether an access scope of these masks takes in one access in one stage: logically earlier and later stages don't count.
+pub(super) fn take_in(stages: Stages, accesses: Accesses, stage: Stages, access: Accesses) -> bool {
+    let any = if Accesses::WRITES.contains(access) { Accesses::MEMORY_WRITE } else { Accesses::MEMORY_READ };
+    spelled_out(stages).contains(stage) && (accesses.contains(access) || accesses.contains(any))
+}
+
+/// Whether a stage makes accesses of this kind at all (the table of supported access types).
+pub(super) fn possible(stage: Stages, access: Accesses) -> bool {
+    const SHADERS: Stages =
+        Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER).union(Stages::COMPUTE_SHADER);
+    const TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
+    const TRANSFERS: Stages = Stages::COPY.union(Stages::BLIT).union(Stages::RESOLVE);
+    let stages = match access {
+        Accesses::INDIRECT_COMMAND_READ => Stages::DRAW_INDIRECT,
+        Accesses::INDEX_READ | Accesses::VERTEX_ATTRIBUTE_READ => Stages::VERTEX_INPUT,
+        Accesses::INPUT_ATTACHMENT_READ => Stages::FRAGMENT_SHADER,
+        Accesses::COLOR_ATTACHMENT_READ | Accesses::COLOR_ATTACHMENT_WRITE => Stages::COLOR_ATTACHMENT_OUTPUT,
+        Accesses::DEPTH_STENCIL_ATTACHMENT_READ | Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE => TESTS,
+        Accesses::TRANSFER_READ => TRANSFERS,
+        Accesses::TRANSFER_WRITE => TRANSFERS.union(Stages::CLEAR),
+        Accesses::HOST_READ | Accesses::HOST_WRITE => Stages::HOST,
+        Accesses::UNIFORM_READ
+        | Accesses::SHADER_SAMPLED_READ
+        | Accesses::SHADER_STORAGE_READ
+        | Accesses::SHADER_STORAGE_WRITE => SHADERS,
+        _ => Stages::all(),
+    };
+    stages.contains(stage)
+}
+
+/// Every access in every stage that the masks take in, one at a time.
+pub(super) fn each(stages: Stages, accesses: Accesses) -> impl Iterator<Item = (Stages, Accesses)> {
+    spelled_out(stages)
+        .iter()
+        .flat_map(move |stage| accesses.iter().map(move |access| (stage, access)))
+        .filter(|(stage, access)| possible(*stage, *access))
+}
