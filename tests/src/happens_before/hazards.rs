@@ -5,7 +5,7 @@
 
 use super::scopes::take_in;
 use super::timeline::{MemoryOperation, Timeline, Touch, What};
-use super::uses::ordered_within_a_step;
+use super::uses::{Kind, ordered_within_a_step};
 use super::world::World;
 use super::{Harm, Missing};
 
@@ -60,6 +60,10 @@ fn missing(timeline: &Timeline, earlier: &Touch, later: &Touch) -> Option<Missin
         let apart = earlier.physical != later.physical || (number != other_number && !ordered_within_a_step(&one, &other));
         return (number <= other_number && apart).then_some(Missing::Order);
     }
+    // What somebody did before the frame comes after the contents that it left, whatever it was.
+    if earlier.what == What::Initial && later.of.is_none() && matches!(later.what, What::Access(..)) {
+        return None;
+    }
     let submitted = match (earlier.what, later.what) {
         (_, What::After) => earlier.time < later.time,
         _ => earlier.node < later.node,
@@ -87,7 +91,7 @@ fn lost_between(timeline: &Timeline, (earlier, later): (&Touch, &Touch), cell: u
     }
     // What another image left in the bytes is nobody's to see: `contents` tells whether it is read.
     let What::Access(stage, access) = later.what else { return None };
-    let reads = !later.what.writes() && earlier.physical == later.physical;
+    let reads = !later.what.writes() && earlier.physical == later.physical && !replaced(timeline, later, cell);
     let visible = || {
         timeline.operations.iter().filter(|operation| covers(operation, later, cell)).any(|operation| {
             let Some((stages, accesses, node)) = operation.to else { return false };
@@ -98,6 +102,19 @@ fn lost_between(timeline: &Timeline, (earlier, later): (&Touch, &Touch), cell: u
         })
     };
     (reads && !visible()).then_some(Missing::Visibility)
+}
+
+/// Whether a load operation that clears or forgets stands between a read within a scope and whatever was before the scope:
+/// then the read sees only what the scope itself wrote.
+fn replaced(timeline: &Timeline, read: &Touch, cell: usize) -> bool {
+    let within = read.of.is_some_and(|(_, one)| matches!(one.kind, Kind::Attachment | Kind::Store));
+    within
+        && timeline.touches.iter().any(|touch| {
+            (touch.time, touch.physical) == (read.time, read.physical)
+                && touch.of.is_some_and(|(_, one)| one.kind == Kind::Load)
+                && touch.what.writes()
+                && touch.cells.contains(&cell)
+        })
 }
 
 /// Whether a part of the image or buffer of a touch is an operation's matter.

@@ -6,9 +6,7 @@ use framewright_graph::vocabulary::{Aspects, State, Subresources};
 /// An image or buffer with memory.
 #[derive(Debug)]
 pub(super) struct Physical {
-    /// The Plan's entry for it (with history: the one in the first frame).
-    pub(super) resource: Resource,
-    /// Name of that entry.
+    /// Name of the Plan's entry for it (with history: the one in the first frame).
     pub(super) name: String,
     /// Heap, first byte and one past the last; `None`: memory of its own.
     pub(super) bytes: Option<(u32, u64, u64)>,
@@ -82,7 +80,7 @@ impl<'p> World<'p> {
             }
             _ => None,
         };
-        self.physical.push(Physical { resource, name, bytes, planes, mips, layers });
+        self.physical.push(Physical { name, bytes, planes, mips, layers });
         self.physical.len() - 1
     }
 

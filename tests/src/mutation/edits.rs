@@ -2,10 +2,10 @@
 
 use super::Kind;
 use framewright_graph::plan::{
-    Attachment, Cause, ImageBarrier, Placement, Plan, Queue, Resource, Role, Side, Step, StepId, Subresources, Transfer,
+    Attachment, Cause, ImageBarrier, Placement, Plan, Queue, Resource, Role, Side, Step, StepId, Transfer,
     Work,
 };
-use framewright_graph::vocabulary::{Accesses, Aspects, Layout, LoadOp, Stages, StoreOp};
+use framewright_graph::vocabulary::{Aspects, Layout, LoadOp, StoreOp};
 
 /// One mistake.
 pub(super) struct Edit {

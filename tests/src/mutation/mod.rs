@@ -66,7 +66,7 @@ pub fn mutants(plan: &Plan) -> impl Iterator<Item = Mutant> + '_ {
             transient_bytes: bytes.transient_bytes,
             placed_bytes: mutant.heaps.iter().map(|heap| heap.bytes).sum(),
             live_peak_bytes: bytes.live_peak_bytes,
-            output_bytes: bytes.output_bytes,
+            kept_bytes: bytes.kept_bytes,
             ..Totals::count(&mutant.steps)
         };
         Mutant { kind: edit.kind, change: edit.change, plan: mutant }

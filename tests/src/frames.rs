@@ -1,0 +1,150 @@
+//! Small frames built in memory, and a device for them.
+
+use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
+use framewright_graph::format::Format;
+use framewright_graph::frame::{
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image, ImageIndex, Output, Pass, Resource, Sampled,
+    Storage, Work,
+};
+use framewright_graph::source::Span;
+use framewright_graph::vocabulary::{CompareOp, Filter, Stages, Subresources, Usage};
+
+/// A device that has every format at 1, 2, 4 and 8 samples, adds nothing to an image's bytes, and has one queue.
+#[must_use]
+pub fn device() -> Profile {
+    let support = |format: &Format| FormatSupport {
+        format: *format,
+        usage: Usage::all().difference(Usage::TRANSIENT_ATTACHMENT),
+        linear_filter: true,
+        blend: true,
+        samples: vec![1, 2, 4, 8],
+    };
+    Profile {
+        name: "a device for tests".to_owned(),
+        source: "built in memory".to_owned(),
+        max_attachment_extent: 16384,
+        max_extent_3d: 2048,
+        max_layers: 2048,
+        max_color_attachments: 8,
+        lazily_allocated_memory: false,
+        queues: Queues::default(),
+        local_read: false,
+        formats: Format::ALL.iter().map(support).collect(),
+        memory: MemoryModel { alignment: 256, row_texels: 1, rows: 1 },
+        known_needs: Vec::new(),
+        unknown: Vec::new(),
+    }
+}
+
+/// Builds a frame pass by pass.
+#[derive(Debug, Default)]
+pub struct Builder(pub Frame);
+
+impl Builder {
+    /// Declares a transient image.
+    pub fn image(&mut self, name: &str, format: Format, side: u32, samples: u32) -> ImageIndex {
+        self.0.images.push(Image { samples, ..Image::new(name, format, side, side) });
+        ImageIndex(self.0.images.len() as u32 - 1)
+    }
+
+    /// Adds a pass; what it touches follows.
+    pub fn pass(&mut self, name: &str, work: Work) -> Added<'_> {
+        self.0.passes.push(Pass::new(name, work));
+        let last = self.0.passes.len() - 1;
+        Added(&mut self.0.passes[last])
+    }
+
+    /// Adds a compute pass.
+    pub fn dispatch(&mut self, name: &str) -> Added<'_> {
+        self.pass(name, Work::Dispatch { shader: name.into(), groups: Groups::Count([1; 3]) })
+    }
+
+    /// Adds a pass that draws the scene's opaque objects.
+    pub fn objects(&mut self, name: &str) -> Added<'_> {
+        self.draw(name, Draw::Objects(DrawList::Opaque))
+    }
+
+    /// Adds a pass that draws a full-screen triangle.
+    pub fn full_screen(&mut self, name: &str) -> Added<'_> {
+        self.draw(name, Draw::FullScreen)
+    }
+
+    /// Adds a raster pass.
+    pub fn draw(&mut self, name: &str, draw: Draw) -> Added<'_> {
+        self.pass(name, Work::Draw { draw, shader: name.into(), discards: false, per_sample: false })
+    }
+
+    /// The frame, made for these images.
+    #[must_use]
+    pub fn outputs(mut self, images: &[ImageIndex]) -> Frame {
+        let output = |image: &ImageIndex| Output { resource: Resource::Image(*image), span: Span::NONE, after: None };
+        self.0.outputs = images.iter().map(output).collect();
+        self.0
+    }
+}
+
+/// A pass that was just added.
+#[derive(Debug)]
+pub struct Added<'f>(pub &'f mut Pass);
+
+impl Added<'_> {
+    /// It draws on a cleared image.
+    pub fn clear(self, image: ImageIndex) -> Self {
+        self.target(image, Some([0.0; 4]), Blend::Replace)
+    }
+
+    /// It draws into an image.
+    pub fn color(self, image: ImageIndex, blend: Blend) -> Self {
+        self.target(image, None, blend)
+    }
+
+    fn target(self, image: ImageIndex, clear: Option<[f32; 4]>, blend: Blend) -> Self {
+        self.0.color.push(ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, blend });
+        self
+    }
+
+    /// It tests depth and writes it, from a clear value if there is one.
+    pub fn depth(self, image: ImageIndex, clear: Option<f32>, write: bool) -> Self {
+        self.0.depth = Some(DepthTarget {
+            image,
+            range: Subresources::WHOLE,
+            span: Span::NONE,
+            clear,
+            test: CompareOp::GreaterOrEqual,
+            write,
+            stencil: None,
+        });
+        self
+    }
+
+    /// It samples an image, one value a texel.
+    pub fn sample(self, image: ImageIndex) -> Self {
+        let compute = matches!(self.0.work, Work::Dispatch { .. });
+        self.0.sampled.push(Sampled {
+            binding: format!("source{}", self.0.sampled.len()).into(),
+            image,
+            range: Subresources::WHOLE,
+            frames_ago: 0,
+            span: Span::NONE,
+            per_sample: false,
+            own_pixel: false,
+            filter: Filter::Nearest,
+            stages: if compute { Stages::COMPUTE_SHADER } else { Stages::FRAGMENT_SHADER },
+        });
+        self
+    }
+
+    /// It writes an image as storage: whole, or on top of what it reads.
+    pub fn store(self, image: ImageIndex, read: bool) -> Self {
+        self.0.storage.push(Storage {
+            binding: format!("target{}", self.0.storage.len()).into(),
+            image,
+            range: Subresources::WHOLE,
+            span: Span::NONE,
+            read,
+            write: true,
+            stages: Stages::COMPUTE_SHADER,
+        });
+        self
+    }
+}
