@@ -30,7 +30,15 @@ pub fn device() -> Profile {
         queues: Queues::default(),
         local_read: false,
         formats: Format::ALL.iter().map(support).collect(),
-        memory: MemoryModel { alignment: 256, row_texels: 1, rows: 1 },
+        memory: MemoryModel {
+            alignment: 256,
+            row_texels: 1,
+            row_bytes: 1,
+            rows: 1,
+            separate_stencil: false,
+            buffer_alignment: 256,
+            type_bits: 1,
+        },
         known_needs: Vec::new(),
         unknown: Vec::new(),
     }

@@ -1,6 +1,9 @@
 //! What the tests of the whole share. The tests themselves are in `tests/tests`.
 //!
+//! - [`frames`]: small frames built in memory.
 //! - [`happens_before`]: a brute-force judge of Plans.
+//! - [`mutation`]: Plans with one mistake each, and who notices.
+//! - [`random_pipelines`]: pipelines from a seed, and what they mean.
 //! - [`raycast`]: a second, slow and simple way to a picture.
 //! - [`render`]: a pipeline file and a scene become pictures.
 //! - [`shapes`]: simple scenes.
@@ -8,7 +11,9 @@
 //! - [`agreement`]: what the GPU drew, held against it.
 
 pub mod agreement;
+pub mod frames;
 pub mod happens_before;
+pub mod mutation;
 pub mod random_pipelines;
 pub mod raycast;
 pub mod render;

@@ -1,0 +1,147 @@
+//! Plans built by hand, step by step.
+
+use framewright_graph::format::Format;
+use framewright_graph::frame::{Groups, Shape};
+use framewright_graph::plan::{
+    Access, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap, Image, ImageBarrier, ImageId,
+    MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Sharing, Step, StepId, Subresources, Totals, Wait, Work,
+};
+use framewright_graph::vocabulary::{Accesses, Filter, FillValue, Layout, Stages, State, Usage};
+
+pub(crate) const R: Accesses = Accesses::SHADER_SAMPLED_READ;
+pub(crate) const W: Accesses = Accesses::SHADER_STORAGE_WRITE;
+pub(crate) const CS: Stages = Stages::COMPUTE_SHADER;
+pub(crate) const NONE: (Stages, Accesses) = (Stages::empty(), Accesses::empty());
+const FORMAT: Format = Format::R8G8B8A8_UNORM;
+const BYTES: u64 = 16 * 16 * 4;
+
+/// A Plan without images and steps.
+pub(crate) fn empty() -> Plan {
+    Plan {
+        format_version: FORMAT_VERSION,
+        device: DeviceUsed { name: "built by hand".to_owned(), exact_memory: true },
+        settings: Vec::new(),
+        images: Vec::new(),
+        buffers: Vec::new(),
+        heaps: vec![Heap { bytes: 8 * BYTES, alignment: 256, type_bits: 1, lazily_allocated: false }],
+        steps: Vec::new(),
+        outputs: Vec::new(),
+        notes: Vec::new(),
+        totals: Totals::default(),
+    }
+}
+
+fn image(plan: &mut Plan, name: &str, role: Role) -> ImageId {
+    let id = ImageId(plan.images.len() as u32);
+    plan.images.push(Image {
+        id,
+        name: name.into(),
+        cause: Cause::Written(None),
+        format: FORMAT,
+        shape: Shape::D2,
+        extent: [16, 16, 1],
+        mips: 1,
+        layers: 1,
+        samples: 1,
+        usage: Usage::STORAGE | Usage::SAMPLED,
+        sharing: Sharing::Exclusive,
+        role,
+    });
+    id
+}
+
+/// A transient image in a place of its heap.
+pub(crate) fn transient(plan: &mut Plan, name: &str, place: u64) -> ImageId {
+    let lifetime = [StepId(0), StepId(0)];
+    let placement = Placement { heap: 0, offset: place * BYTES, bytes: BYTES, alignment: 256, type_bits: 1, lifetime };
+    image(plan, name, Role::Transient(placement))
+}
+
+/// An output that is left in `GENERAL`, last written by compute shaders.
+pub(crate) fn output(plan: &mut Plan, name: &str) -> ImageId {
+    let before = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
+    let after = State { stages: CS, accesses: W, layout: Layout::General };
+    let id = image(plan, name, Role::External { before, after });
+    plan.outputs.push(Resource::Image(id));
+    id
+}
+
+/// An image that frames hand on in `GENERAL`; the next frame knows it as the image number `becomes`.
+pub(crate) fn persistent(plan: &mut Plan, name: &str, becomes: u32) -> ImageId {
+    let state = State { stages: CS, accesses: W, layout: Layout::General };
+    image(plan, name, Role::Persistent { becomes, initial: FillValue::Color([0.0; 4]), before: state, after: state })
+}
+
+/// An access of a compute pass: sampled in `SHADER_READ_ONLY_OPTIMAL`, or written in `GENERAL`.
+pub(crate) fn access(image: ImageId, accesses: Accesses) -> Access {
+    let (layout, kind) = match accesses {
+        R => (Layout::ShaderReadOnlyOptimal, BindingKind::Sampled(Filter::Nearest)),
+        _ => (Layout::General, BindingKind::Storage),
+    };
+    let range = Subresources::all(FORMAT, 1, 1);
+    let binding = Some(Binding { name: format!("i{}", image.0).into(), kind });
+    Access { image, range, stages: CS, accesses, layout, binding }
+}
+
+/// A dispatch with these accesses.
+pub(crate) fn dispatch(name: &str, accesses: Vec<Access>) -> Step {
+    let pass = Pass {
+        name: name.into(),
+        cause: Cause::Written(None),
+        draw: None,
+        groups: Some(Groups::Count([1; 3])),
+        shader: name.into(),
+        blend: Vec::new(),
+        depth: None,
+        stencil: None,
+        params: Vec::new(),
+        accesses,
+        buffers: Vec::new(),
+        local_barrier: false,
+        merged: None,
+    };
+    Step {
+        queue: Queue::Graphics,
+        waits: Vec::new(),
+        memory_barriers: Vec::new(),
+        image_barriers: Vec::new(),
+        work: Work::Dispatch(pass),
+        releases: Vec::new(),
+    }
+}
+
+/// A barrier that brings an image from one layout to another.
+pub(crate) fn barrier(
+    image: ImageId,
+    layouts: [Layout; 2],
+    (src_stages, src_accesses): (Stages, Accesses),
+    (dst_stages, dst_accesses): (Stages, Accesses),
+) -> ImageBarrier {
+    let [old_layout, new_layout] = layouts;
+    ImageBarrier {
+        image,
+        range: Subresources::all(FORMAT, 1, 1),
+        src_stages,
+        src_accesses,
+        dst_stages,
+        dst_accesses,
+        old_layout,
+        new_layout,
+        ownership: None,
+        hazard: Hazard::FirstUse,
+        after: None,
+    }
+}
+
+/// A memory barrier.
+pub(crate) fn memory(
+    (src_stages, src_accesses): (Stages, Accesses),
+    (dst_stages, dst_accesses): (Stages, Accesses),
+) -> MemoryBarrier {
+    MemoryBarrier { src_stages, src_accesses, dst_stages, dst_accesses, hand_overs: Vec::new(), buffers: Vec::new() }
+}
+
+/// A wait for a step of this frame, or of one before.
+pub(crate) fn wait(step: u32, frames_ago: u32, stages: Stages) -> Wait {
+    Wait { step: StepId(step), frames_ago, stages }
+}
