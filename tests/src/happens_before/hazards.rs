@@ -61,7 +61,8 @@ fn missing(timeline: &Timeline, earlier: &Touch, later: &Touch) -> Option<Missin
         return (number <= other_number && apart).then_some(Missing::Order);
     }
     // What somebody did before the frame comes after the contents that it left, whatever it was.
-    if earlier.what == What::Initial && later.of.is_none() && matches!(later.what, What::Access(..)) {
+    let arrival = |touch: &Touch| touch.of.is_none() && matches!(touch.what, What::Access(..));
+    if arrival(later) && (earlier.what == What::Initial || arrival(earlier)) {
         return None;
     }
     let submitted = match (earlier.what, later.what) {
