@@ -48,10 +48,8 @@ fn alternatives(kind: &SettingKind) -> Vec<String> {
 fn variants(file: &str, pipeline: &Pipeline) -> Vec<Variant> {
     let name = file.trim_end_matches(".ron");
     let opaque = Facts { has_alpha_clip: false, has_transparent: false, ..Facts::UNKNOWN };
-    let mut variants = vec![
-        (name.to_owned(), Vec::new(), Facts::UNKNOWN),
-        (format!("{name}@opaque_scene"), Vec::new(), opaque),
-    ];
+    let mut variants =
+        vec![(name.to_owned(), Vec::new(), Facts::UNKNOWN), (format!("{name}@opaque_scene"), Vec::new(), opaque)];
     for setting in &pipeline.settings {
         variants.extend(alternatives(&setting.kind).into_iter().map(|value| {
             let set = vec![(setting.name.text.to_string(), value.clone())];

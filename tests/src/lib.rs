@@ -7,6 +7,7 @@
 //! - [`raycast`]: a second, slow and simple way to a picture.
 //! - [`render`]: a pipeline file and a scene become pictures.
 //! - [`shapes`]: simple scenes.
+//! - [`optima`]: what small frames cost at least.
 //! - [`shipped`]: the shipped pipelines, as frames.
 //! - [`agreement`]: what the GPU drew, held against it.
 
@@ -14,6 +15,7 @@ pub mod agreement;
 pub mod frames;
 pub mod happens_before;
 pub mod mutation;
+pub mod optima;
 pub mod random_pipelines;
 pub mod raycast;
 pub mod render;

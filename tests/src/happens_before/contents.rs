@@ -3,7 +3,9 @@
 use super::uses::{self, Kind, Use};
 use super::world::{World, role};
 use framewright_graph::frame::{Blend, Draw};
-use framewright_graph::plan::{Attachment, ImageBarrier, Pass, Queue, RenderScope, Resource, Role, Sharing, Side, Work};
+use framewright_graph::plan::{
+    Attachment, ImageBarrier, Pass, Queue, RenderScope, Resource, Role, Sharing, Side, Work,
+};
 use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, LoadOp, Stages, StoreOp};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
@@ -314,9 +316,7 @@ impl Follower<'_> {
                 let values = self.values(&one);
                 let target = Use { resource: Resource::Image(resolve.image), range: resolve.range, ..one };
                 let how = format!("resolved {:?}", resolve.mode);
-                self.write(&target, |place, _| {
-                    values.get(place).copied().flatten().map(|value| number((&how, value)))
-                });
+                self.write(&target, |place, _| values.get(place).copied().flatten().map(|value| number((&how, value))));
             }
             if attachment.store == StoreOp::DontCare {
                 self.write(&one, |_, _| None);
@@ -334,7 +334,8 @@ impl Follower<'_> {
         let depth = pass.depth.zip(scope.depth.as_ref());
         let stencil = pass.stencil.zip(scope.stencil.as_ref());
         let tested = depth.filter(|(state, _)| state.test != CompareOp::Always).map(|(_, attachment)| attachment);
-        let stencil_tested = stencil.filter(|(state, _)| state.test != CompareOp::Always).map(|(_, attachment)| attachment);
+        let stencil_tested =
+            stencil.filter(|(state, _)| state.test != CompareOp::Always).map(|(_, attachment)| attachment);
         for attachment in tested.into_iter().chain(stencil_tested) {
             let value = self.read(step, &of_attachment(attachment));
             read = read.zip(value).map(number);
@@ -367,9 +368,9 @@ impl Follower<'_> {
 
 /// Whether a pass draws into an attachment of its scope.
 fn writes(pass: &Pass, attachment: &Attachment) -> bool {
-    pass.accesses.iter().any(|access| {
-        access.image == attachment.image && access.accesses.intersects(Accesses::COLOR_ATTACHMENT_WRITE)
-    })
+    pass.accesses
+        .iter()
+        .any(|access| access.image == attachment.image && access.accesses.intersects(Accesses::COLOR_ATTACHMENT_WRITE))
 }
 
 fn of_attachment(attachment: &Attachment) -> Use {

@@ -19,11 +19,7 @@ pub(super) fn find(world: &World, timeline: &Timeline) -> Vec<Harm> {
         let others = (0..world.physical.len()).filter(|other| world.share_bytes(*other, later.physical));
         for earlier in same.chain(others.flat_map(per_image)) {
             if let Some(missing) = missing(timeline, earlier, later) {
-                let harm = Harm::Hazard {
-                    missing,
-                    earlier: shown(world, earlier),
-                    later: shown(world, later),
-                };
+                let harm = Harm::Hazard { missing, earlier: shown(world, earlier), later: shown(world, later) };
                 if !harms.contains(&harm) {
                     harms.push(harm);
                 }
@@ -53,11 +49,11 @@ fn missing(timeline: &Timeline, earlier: &Touch, later: &Touch) -> Option<Missin
     if !conflict {
         return None;
     }
-    if let (Some((number, one)), Some((other_number, other)), true) =
-        (earlier.of, later.of, earlier.time == later.time)
+    if let (Some((number, one)), Some((other_number, other)), true) = (earlier.of, later.of, earlier.time == later.time)
     {
         // Each pair of a step once; parts of one use belong together.
-        let apart = earlier.physical != later.physical || (number != other_number && !ordered_within_a_step(&one, &other));
+        let apart =
+            earlier.physical != later.physical || (number != other_number && !ordered_within_a_step(&one, &other));
         return (number <= other_number && apart).then_some(Missing::Order);
     }
     // What somebody did before the frame comes after the contents that it left, whatever it was.
@@ -132,7 +128,8 @@ fn available_at<'t>(timeline: &'t Timeline, write: &'t Touch, cell: usize) -> Bo
     let operations = timeline.operations.iter().filter(move |operation| covers(operation, write, cell));
     Box::new(operations.filter_map(move |operation| {
         let (stages, accesses, node) = operation.from?;
-        (operation.queue == write.queue && write.node < node && take_in(stages, accesses, stage, access)).then_some(node)
+        (operation.queue == write.queue && write.node < node && take_in(stages, accesses, stage, access))
+            .then_some(node)
     }))
 }
 

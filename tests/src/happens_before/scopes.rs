@@ -47,8 +47,7 @@ pub(super) fn take_in(stages: Stages, accesses: Accesses, stage: Stages, access:
 
 /// Whether a stage makes accesses of this kind at all (the table of supported access types).
 pub(super) fn possible(stage: Stages, access: Accesses) -> bool {
-    const SHADERS: Stages =
-        Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER).union(Stages::COMPUTE_SHADER);
+    const SHADERS: Stages = Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER).union(Stages::COMPUTE_SHADER);
     const TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
     const TRANSFERS: Stages = Stages::COPY.union(Stages::BLIT).union(Stages::RESOLVE);
     let stages = match access {

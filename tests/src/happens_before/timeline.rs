@@ -269,7 +269,8 @@ impl Timeline {
                 first.push(release);
             } else {
                 let name = &world.physical[physical].name;
-                self.unordered_acquisitions.push(format!("`{name}` is acquired before its release is known to be done"));
+                self.unordered_acquisitions
+                    .push(format!("`{name}` is acquired before its release is known to be done"));
             }
         }
         let changes = barrier.old_layout != barrier.new_layout || barrier.old_layout == Layout::Undefined;
@@ -395,4 +396,3 @@ impl Timeline {
         self.touch(Touch { node, queue, time, physical, cells, what: What::After, of: None });
     }
 }
-

@@ -123,9 +123,7 @@ impl<'p> World<'p> {
             for mip in 0..*mips {
                 for layer in 0..*layers {
                     let inside = range.aspects.is_empty() || range.aspects.contains(*plane);
-                    if inside
-                        && among(range.base_mip, range.mips, mip)
-                        && among(range.base_layer, range.layers, layer)
+                    if inside && among(range.base_mip, range.mips, mip) && among(range.base_layer, range.layers, layer)
                     {
                         cells.push(cell);
                     }

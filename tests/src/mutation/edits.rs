@@ -2,8 +2,7 @@
 
 use super::Kind;
 use framewright_graph::plan::{
-    Attachment, Cause, ImageBarrier, Placement, Plan, Queue, Resource, Role, Side, Step, StepId, Transfer,
-    Work,
+    Attachment, Cause, ImageBarrier, Placement, Plan, Queue, Resource, Role, Side, Step, StepId, Transfer, Work,
 };
 use framewright_graph::vocabulary::{Aspects, Layout, LoadOp, StoreOp};
 
@@ -110,7 +109,8 @@ fn image_barriers(plan: &Plan, number: usize, step: &Step, edits: &mut Vec<Edit>
             }));
         }
         for (side, layout) in [barrier.old_layout, barrier.new_layout].into_iter().enumerate() {
-            let others = others(plan.image(barrier.image).format.aspects()).into_iter().filter(|other| *other != layout);
+            let others =
+                others(plan.image(barrier.image).format.aspects()).into_iter().filter(|other| *other != layout);
             // Nothing may become UNDEFINED.
             let others = others.filter(|other| side == 0 || *other != Layout::Undefined);
             edits.extend(others.map(|other| {
@@ -257,9 +257,7 @@ fn standalone_resolve(plan: &Plan, number: usize, edits: &mut Vec<Edit>) {
         return;
     };
     let draws = |step: &Step| match &step.work {
-        Work::Render(scope) => {
-            scope.color.iter().chain(&scope.depth).any(|attachment| attachment.image == image)
-        }
+        Work::Render(scope) => scope.color.iter().chain(&scope.depth).any(|attachment| attachment.image == image),
         _ => false,
     };
     if let Some(step) = plan.steps[..number].iter().rposition(draws) {

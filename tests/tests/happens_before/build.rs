@@ -4,9 +4,10 @@ use framewright_graph::format::Format;
 use framewright_graph::frame::{Groups, Shape};
 use framewright_graph::plan::{
     Access, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap, Image, ImageBarrier, ImageId,
-    MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Sharing, Step, StepId, Subresources, Totals, Wait, Work,
+    MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Sharing, Step, StepId, Subresources, Totals, Wait,
+    Work,
 };
-use framewright_graph::vocabulary::{Accesses, Filter, FillValue, Layout, Stages, State, Usage};
+use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Stages, State, Usage};
 
 pub(crate) const R: Accesses = Accesses::SHADER_SAMPLED_READ;
 pub(crate) const W: Accesses = Accesses::SHADER_STORAGE_WRITE;

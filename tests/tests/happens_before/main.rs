@@ -3,11 +3,11 @@
 
 mod build;
 
+use Layout::{General, ShaderReadOnlyOptimal, TransferDstOptimal, Undefined};
 use build::{CS, NONE, R, W, access, barrier, dispatch, empty, memory, output, persistent, transient, wait};
 use framewright_graph::plan::{Plan, Queue, Step};
 use framewright_graph::vocabulary::{Accesses, Layout, Stages};
 use framewright_tests::happens_before::{Harm, Missing, judge};
-use Layout::{General, ShaderReadOnlyOptimal, TransferDstOptimal, Undefined};
 
 fn harms(plan: &Plan) -> Vec<Harm> {
     judge(plan, &|_| false).harms
