@@ -1,0 +1,109 @@
+//! Orders that nobody looked at, graphs that were none, errors without a place, scenes too large.
+
+use super::right;
+use framewright_graph::compile::{Options, Order, compile};
+use framewright_graph::describe;
+use framewright_graph::device::Estimated;
+use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_UNORM};
+use framewright_graph::frame::{Blend, Frame, ImageIndex};
+use framewright_graph::plan::{Plan, Work};
+use framewright_graph::source::Sources;
+use framewright_tests::frames::{Builder, device};
+use framewright_tests::happens_before::judge;
+
+/// The passes of a Plan in the order in which they run.
+fn order(plan: &Plan) -> Vec<String> {
+    let passes = plan.steps.iter().flat_map(|step| match &step.work {
+        Work::Render(scope) => scope.passes.iter().map(|pass| pass.name.to_string()).collect(),
+        Work::Dispatch(pass) => vec![pass.name.to_string()],
+        _ => Vec::new(),
+    });
+    passes.collect()
+}
+
+/// Two shadow maps, a scene that reads both, and a chain beside them.
+fn diamond() -> Frame {
+    let mut builder = Builder::default();
+    let [left, right] = ["left", "right"].map(|name| builder.image(name, D32_SFLOAT, 32, 1));
+    let [scene, noise, screen] = ["scene", "noise", "screen"].map(|name| builder.image(name, R8G8B8A8_UNORM, 32, 1));
+    builder.objects("shadow_left").depth(left, Some(0.0), true);
+    builder.dispatch("noise").store(noise, false);
+    builder.objects("shadow_right").depth(right, Some(0.0), true);
+    builder.objects("scene").sample(left).sample(right).clear(scene);
+    builder.full_screen("show").sample(scene).sample(noise).color(screen, Blend::Replace);
+    builder.outputs(&[screen])
+}
+
+/// A table of priorities was wrong for a long time, unseen. Golden Plans show the order of every shipped pipeline; this
+/// shows that each order is legal and the same every time.
+#[test]
+fn godot_119204_orders_are_the_same_every_time() {
+    for order_of in [Order::File, Order::Default, Order::LowMemory, Order::Random(7)] {
+        let options = Options { order: order_of, ..Options::default() };
+        let first = order(&right(&diamond(), &options));
+        assert_eq!(first, order(&right(&diamond(), &options)), "{order_of:?}");
+        assert_eq!(first.len(), 5, "{first:?}");
+    }
+}
+
+/// "Not a real dependency graph": passes ran as they were added. Here what depends on nothing may run anywhere, what depends
+/// on something runs after it, and every such order gives the same picture.
+#[test]
+fn vk_graph_94_dependencies_alone_decide_the_order() {
+    let outcome = |order: Order| {
+        let plan = right(&diamond(), &Options { order, ..Options::default() });
+        (self::order(&plan), judge(&plan, &|_| false).outcome)
+    };
+    let (file, picture) = outcome(Order::File);
+    let mut others = 0;
+    for seed in 0..20 {
+        let (random, same) = outcome(Order::Random(seed));
+        assert_eq!(picture, same, "{random:?}");
+        others += usize::from(random != file);
+        let at = |name: &str| random.iter().position(|pass| pass == name);
+        assert!(at("shadow_left") < at("scene") && at("shadow_right") < at("scene") && at("scene") < at("show"));
+        assert!(at("noise") < at("show"));
+    }
+    assert!(others > 0, "no random order differs from that of the file");
+}
+
+/// Errors came again and again, without a place.
+#[test]
+fn o3de_10413_each_mistake_is_said_once_and_with_its_place() {
+    let text = "Pipeline(version: 1, settings: [], images: [\n    (name: \"screen\", format: Output, size: Output),\n], \
+                passes: [\n    (name: \"a\", draw: FullScreen(\"copy\"), sample: {\"source\": \"colour\"}, color: [\"screen\"]),\n\
+                    (name: \"b\", draw: FullScreen(\"copy\"), sample: {\"source\": \"colour\"}, color: [\"screen\"]),\n], \
+                outputs: [\"screen\"])";
+    let mut sources = Sources::default();
+    let mistakes = describe::read(&mut sources, "bad.ron", "bad.ron", text.to_owned()).expect_err("`colour` is no image");
+    let shown = describe::render(&sources, &mistakes);
+    assert_eq!(mistakes.len(), 2, "{shown}");
+    assert!(shown.contains("bad.ron:4:") && shown.contains("bad.ron:5:"), "{shown}");
+}
+
+/// One bad file closed the editor.
+#[test]
+fn o3de_16359_a_bad_file_is_an_error_and_no_crash() {
+    for text in ["", "Pipeline(", "Pipeline(version: 9)", "\u{0}", "Pipeline(version: 1, images: 7)"] {
+        let mut sources = Sources::default();
+        assert!(describe::read(&mut sources, "bad.ron", "bad.ron", text.to_owned()).is_err(), "{text:?}");
+    }
+}
+
+/// The graph's memory ran out on large scenes.
+#[test]
+fn filament_10320_a_graph_of_ten_thousand_passes_compiles() {
+    let mut builder = Builder::default();
+    let images: Vec<ImageIndex> =
+        (0..10_000).map(|at| builder.image(&format!("i{at}"), R8G8B8A8_UNORM, 16, 1)).collect();
+    builder.dispatch("p0").store(images[0], false);
+    for at in 1..images.len() {
+        builder.dispatch(&format!("p{at}")).sample(images[at - 1]).store(images[at], false);
+    }
+    let device = device();
+    let frame = builder.outputs(&[images[images.len() - 1]]);
+    let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is legal");
+    assert_eq!(plan.totals.passes, 10_000);
+    // Two images are alive at a time.
+    assert_eq!(plan.totals.placed_bytes, plan.totals.live_peak_bytes);
+}
