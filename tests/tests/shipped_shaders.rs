@@ -66,7 +66,7 @@ fn every_shipped_shader_compiles_and_finds_what_its_draw_brings_along() -> Resul
         for binding in shader.bindings.iter().filter(|binding| binding.set != PASS_SET) {
             let kind = match &binding.kind {
                 BindingKind::UniformBlock(_) => SuppliedKind::UniformBlock,
-                BindingKind::StorageBlock { writable: false } => SuppliedKind::StorageBlock,
+                BindingKind::StorageBlock { writable: false, .. } => SuppliedKind::StorageBlock,
                 BindingKind::SampledImage(shape) if shape.dimension == Dimension::D2 => SuppliedKind::SampledImage,
                 other => return Err(format!("{name}: {} is a {other:?}", binding.name).into()),
             };

@@ -2,7 +2,7 @@
 //! whether the Plan does harm.
 //!
 //! It shares no code with the compiler or with `verify`, and none of their short cuts: operations are unrolled over
-//! several frames ([`timeline`]), every pair of them on common bytes is looked at (`hazards`), and what each part of each
+//! several frames (`timeline`), every pair of them on common bytes is looked at (`hazards`), and what each part of each
 //! image holds is followed as a number that stands for how it was made (`contents`). The cost grows with the square of a
 //! Plan's operations. It is written from the specification's chapter on synchronisation and its memory model:
 //!
@@ -65,7 +65,7 @@ pub struct Verdict {
 /// Judges a Plan by itself. `discards` says of a full-screen pass whether its shader discards fragments, so that it doesn't
 /// cover its targets; a Plan doesn't tell.
 ///
-/// The Plan's references must be right ([`Plan::check_references`]).
+/// The Plan's references must be right ([`Plan::from_json`]).
 #[must_use]
 pub fn judge(plan: &Plan, discards: &dyn Fn(&str) -> bool) -> Verdict {
     let world = world::World::new(plan, frames(plan));

@@ -9,7 +9,6 @@ use framewright_graph::frame::{Blend, Frame, ImageIndex};
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::source::Sources;
 use framewright_tests::frames::{Builder, device};
-use framewright_tests::happens_before::judge;
 
 /// The passes of a Plan in the order in which they run.
 fn order(plan: &Plan) -> Vec<String> {
@@ -44,27 +43,6 @@ fn godot_119204_orders_are_the_same_every_time() {
         assert_eq!(first, order(&right(&diamond(), &options)), "{order_of:?}");
         assert_eq!(first.len(), 5, "{first:?}");
     }
-}
-
-/// "Not a real dependency graph": passes ran as they were added. Here what depends on nothing may run anywhere, what depends
-/// on something runs after it, and every such order gives the same picture.
-#[test]
-fn vk_graph_94_dependencies_alone_decide_the_order() {
-    let outcome = |order: Order| {
-        let plan = right(&diamond(), &Options { order, ..Options::default() });
-        (self::order(&plan), judge(&plan, &|_| false).outcome)
-    };
-    let (file, picture) = outcome(Order::File);
-    let mut others = 0;
-    for seed in 0..20 {
-        let (random, same) = outcome(Order::Random(seed));
-        assert_eq!(picture, same, "{random:?}");
-        others += usize::from(random != file);
-        let at = |name: &str| random.iter().position(|pass| pass == name);
-        assert!(at("shadow_left") < at("scene") && at("shadow_right") < at("scene") && at("scene") < at("show"));
-        assert!(at("noise") < at("show"));
-    }
-    assert!(others > 0, "no random order differs from that of the file");
 }
 
 /// Errors came again and again, without a place.

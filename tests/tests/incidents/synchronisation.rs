@@ -3,10 +3,10 @@
 use super::right;
 use framewright_graph::compile::Options;
 use framewright_graph::format::Format::R8G8B8A8_UNORM;
-use framewright_graph::frame::{Blend, Frame, ImageIndex, Lifetime};
-use framewright_graph::plan::{Hazard, Plan, Role};
+use framewright_graph::frame::{Blend, Frame, ImageIndex};
+use framewright_graph::plan::{Hazard, Plan};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{FillValue, Subresources};
+use framewright_graph::vocabulary::Subresources;
 use framewright_tests::frames::{Added, Builder};
 use framewright_tests::happens_before::judge;
 
@@ -74,21 +74,4 @@ fn o3de_20073_memory_is_handed_over_before_it_is_taken() {
         assert_ne!(judge(&less, &|_| false).harms, [], "{}", less.tree());
         assert_ne!(verify(&less), [], "{}", less.tree());
     }
-}
-
-/// The key of a pool left out a field, so that a frame's work was written over what the next one needed.
-#[test]
-fn unity_2141_history_shares_memory_with_nothing() {
-    let mut builder = Builder::default();
-    let [seen, blended, screen] = ["seen", "blended", "screen"].map(|name| builder.image(name, R8G8B8A8_UNORM, 64, 1));
-    builder.0.images[blended.0 as usize].lifetime =
-        Lifetime::History { frames: 1, initial: FillValue::Color([0.0; 4]) };
-    builder.full_screen("see").color(seen, Blend::Replace);
-    let pass = builder.full_screen("blend").sample(seen).sample(blended).color(blended, Blend::Replace);
-    pass.0.sampled[1].frames_ago = 1;
-    builder.full_screen("show").sample(blended).color(screen, Blend::Replace);
-    let plan = right(&builder.outputs(&[screen]), &Options::default());
-    let history: Vec<_> = plan.images.iter().filter(|image| image.name.starts_with("blended")).collect();
-    assert_eq!(history.len(), 2, "{}", plan.tree());
-    assert!(history.iter().all(|image| matches!(image.role, Role::Persistent { .. })), "{}", plan.tree());
 }
