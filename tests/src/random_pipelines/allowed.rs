@@ -47,6 +47,8 @@ pub enum Kind {
     IndirectDispatch,
     /// Reads of storage images.
     StorageRead,
+    /// Reads of the fragment's own pixel.
+    OwnPixel,
     /// Reading and writing the same texels.
     Modify,
     /// Atomics.
@@ -80,5 +82,16 @@ impl Allowed {
     #[must_use]
     pub fn has(&self, kind: Kind) -> bool {
         !self.without.contains(&kind)
+    }
+}
+
+/// What the library can't do yet. It shrinks to nothing as features land.
+pub const NOT_YET: &[Kind] = &[];
+
+impl Allowed {
+    /// Everything that the library can do today.
+    #[must_use]
+    pub fn today() -> Allowed {
+        Allowed::without(NOT_YET)
     }
 }

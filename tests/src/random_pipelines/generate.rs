@@ -281,6 +281,10 @@ impl Maker<'_> {
             draw.stores.extend(self.store(true));
         }
         draw.reads = self.reads();
+        if self.allowed.has(Kind::OwnPixel) && self.rng.one_in(4) {
+            let image = self.image();
+            draw.reads.push(Read::Own(self.part(image, 1, 1)));
+        }
         Some(Work::Draw(draw))
     }
 

@@ -49,7 +49,7 @@ fn accesses(pass: &Pass) -> Vec<Access> {
     let (reads, stores) = shader(pass);
     for read in reads {
         match *read {
-            Read::Sampled { part, frames_ago: 0, .. } => add(part, How::Sampled, true, false),
+            Read::Sampled { part, frames_ago: 0, .. } | Read::Own(part) => add(part, How::Sampled, true, false),
             Read::Storage(part) => add(part, How::Storage, true, false),
             _ => {}
         }
@@ -127,6 +127,36 @@ fn buffers(pass: &Pass) -> Vec<(usize, bool, bool)> {
         _ => {}
     }
     all
+}
+
+/// Every image and buffer that a pass names, of this frame or of earlier ones.
+pub(super) fn things(pass: &Pass) -> Vec<Thing> {
+    let mut all: Vec<Thing> = accesses(pass).into_iter().map(|access| Thing::Image(access.part.image)).collect();
+    all.extend(buffers(pass).into_iter().map(|(buffer, ..)| Thing::Buffer(buffer)));
+    for read in shader(pass).0 {
+        all.push(match *read {
+            Read::Sampled { part, .. } | Read::Own(part) | Read::Storage(part) => Thing::Image(part.image),
+            Read::Uniform(buffer, _) | Read::Block(buffer, _) => Thing::Buffer(buffer),
+        });
+    }
+    if let Work::Forward { from, to } = pass.work {
+        all.extend([Thing::Image(from), Thing::Image(to)]);
+    }
+    all
+}
+
+/// Whether a pipeline may be so: every pass may stand where it stands, and what leaves the frame has contents.
+#[must_use]
+pub fn is_legal(pipeline: &Pipeline) -> bool {
+    let mut written = Written::new(pipeline);
+    let sound = |image: &Image| {
+        let levels = image.extent.iter().max().map_or(0, |side| u32::BITS - side.leading_zeros());
+        image.mips <= levels
+    };
+    pipeline.images.iter().all(sound)
+        && !pipeline.outputs.is_empty()
+        && pipeline.passes.iter().all(|pass| written.take(pipeline, pass))
+        && pipeline.outputs.iter().all(|output| written.all(*output))
 }
 
 impl Written {
@@ -215,10 +245,12 @@ impl Written {
             && match &pass.work {
                 Work::Draw(draw) => draw_fits(pipeline, draw),
                 Work::Compute(compute) => {
+                    let own = reads.iter().any(|read| matches!(read, Read::Own(_)));
                     let grid = whole_grid(compute);
                     stores.iter().all(|store| store_fits(pipeline, *store, compute.grid, grid))
                         && structure_fits(pipeline, compute)
                         && !stores.is_empty()
+                        && !own
                 }
                 Work::Copy { from, to } => copy_fits(pipeline, *from, *to),
                 Work::Blit { from, to } => blit_fits(pipeline, *from, *to),
@@ -294,6 +326,7 @@ fn read_fits(pipeline: &Pipeline, read: Read) -> bool {
                 && !(several && image.format.is_depth() && !per_sample)
                 && !(per_sample && part.layers > 1)
         }
+        Read::Own(part) => (part.mips, part.layers) == (1, 1) && pipeline.images[part.image].shape != Shape::D3,
         Read::Storage(part) => storage_fits(pipeline, part),
         Read::Uniform(buffer, frames_ago) | Read::Block(buffer, frames_ago) => {
             ago(pipeline.buffers[buffer].life, frames_ago)
@@ -346,7 +379,15 @@ fn draw_fits(pipeline: &Pipeline, draw: &Draw) -> bool {
             counts && of(vertices, Contents::Vertices) && of(indices, Contents::Indices)
         }
     };
+    let own = draw.reads.iter().all(|read| match read {
+        Read::Own(part) => {
+            let image = &pipeline.images[part.image];
+            extent(part) == extent(first) && !(image.samples > 1 && image.format.is_depth())
+        }
+        _ => true,
+    });
     parts.iter().all(attachable)
+        && own
         && color
         && depth
         && plain

@@ -325,6 +325,8 @@ pub enum Read {
         /// Whether it reads every sample, or one value a texel.
         per_sample: bool,
     },
+    /// Samples one mip level and layer, as large as the target, at the fragment's own position.
+    Own(Part),
     /// Reads one mip level of an image as storage.
     Storage(Part),
     /// Reads the first 16 words of a buffer as a uniform block.

@@ -102,6 +102,7 @@ impl Text {
                 let image = &pipeline.images[part.image];
                 (image, dimension(image, part.layers))
             }
+            Read::Own(part) => (&pipeline.images[part.image], "2D"),
             Read::Sampled { part, per_sample: true, .. } => (&pipeline.images[part.image], "2DMS"),
             Read::Sampled { part, .. } => {
                 let image = &pipeline.images[part.image];
@@ -114,6 +115,11 @@ impl Text {
         if !uint {
             self.number(&format!("{name}_scale"), texels::scale(image.format));
         }
+        let whole = |texel: &str| if uint { texel.to_owned() } else { format!("uvec4({texel} * {name}_scale + 0.5)") };
+        if matches!(read, Read::Own(_)) {
+            self.key += if uint { "_uown" } else { "_fown" };
+            return self.own(&name, binding, prefix, whole);
+        }
         if matches!(read, Read::Storage(_)) {
             let layout = qualifier(image.format);
             self.key += &format!("_l{layout}{dimension}");
@@ -123,11 +129,10 @@ impl Text {
             self.key += &format!("_{}{dimension}", if uint { "u" } else { "f" });
             self.declare(&format!("layout(set = 0, binding = {binding}) uniform {prefix}sampler{dimension} {name};"));
         }
-        let whole = |texel: String| if uint { texel } else { format!("uvec4({texel} * {name}_scale + 0.5)") };
         if dimension == "2DMS" {
             self.say(&format!("for (int at_sample = 0; at_sample < {SAMPLES}; ++at_sample)"));
             let at = format!("ivec2(near(uvec3(textureSize({name}), 1u), state, at).xy)");
-            let texel = whole(format!("texelFetch({name}, {at}, at_sample)"));
+            let texel = whole(&format!("texelFetch({name}, {at}, at_sample)"));
             return self.say(&format!("    state = hash4(state, {texel}, {name}_parts);"));
         }
         let (texel, level) = if matches!(read, Read::Storage(_)) {
@@ -146,8 +151,25 @@ impl Text {
                 (format!("texelFetch({name}, {place}"), ", level)")
             }
         };
-        let texel = whole(format!("{texel}{level}"));
+        let texel = whole(&format!("{texel}{level}"));
         self.say(&format!("state = hash4(state, {texel}, {name}_parts);"));
+    }
+
+    /// A texel at the fragment's own position, from memory or from what the rendering scope has there.
+    fn own(&mut self, name: &str, binding: u32, prefix: &str, whole: impl Fn(&str) -> String) {
+        let local = format!("LOCAL_READ_{name}");
+        let place = format!("set = 0, binding = {binding}");
+        self.declare(&format!("#ifdef {local}"));
+        self.declare(&format!(
+            "layout({place}, input_attachment_index = {binding}) uniform {prefix}subpassInput {name};"
+        ));
+        self.declare(&format!("#else\nlayout({place}) uniform {prefix}sampler2D {name};\n#endif"));
+        self.say(&format!("#ifdef {local}"));
+        self.say(&format!("state = hash4(state, {}, {name}_parts);", whole(&format!("subpassLoad({name})"))));
+        self.say("#else");
+        let texel = whole(&format!("texelFetch({name}, ivec2(at.xy), 0)"));
+        self.say(&format!("state = hash4(state, {texel}, {name}_parts);"));
+        self.say("#endif");
     }
 
     fn draw(&mut self, pipeline: &Pipeline, draw: &Draw) {

@@ -150,17 +150,27 @@ fn add_read(pipeline: &Pipeline, made: &mut frame::Pass, binding: &str, read: Re
             buffer(number, frames_ago, BufferRole::Storage { read: true, write: false });
         }
         Read::Storage(part) => add_store(pipeline, made, binding, Region::Image(part), (true, false), stages),
-        Read::Sampled { part, frames_ago, per_sample } => made.sampled.push(frame::Sampled {
-            binding: binding.into(),
-            image: ImageIndex(part.image as u32),
-            range: range(pipeline.images[part.image].format, part),
-            frames_ago,
-            span: Span::NONE,
-            per_sample,
-            own_pixel: false,
-            filter: Filter::Nearest,
-            stages,
-        }),
+        Read::Sampled { part, frames_ago, per_sample } => {
+            let sampled = sampled(pipeline, binding, part, stages);
+            made.sampled.push(frame::Sampled { frames_ago, per_sample, ..sampled });
+        }
+        Read::Own(part) => {
+            made.sampled.push(frame::Sampled { own_pixel: true, ..sampled(pipeline, binding, part, stages) });
+        }
+    }
+}
+
+fn sampled(pipeline: &Pipeline, binding: &str, part: Part, stages: Stages) -> frame::Sampled {
+    frame::Sampled {
+        binding: binding.into(),
+        image: ImageIndex(part.image as u32),
+        range: range(pipeline.images[part.image].format, part),
+        frames_ago: 0,
+        span: Span::NONE,
+        per_sample: false,
+        own_pixel: false,
+        filter: Filter::Nearest,
+        stages,
     }
 }
 

@@ -45,6 +45,12 @@ impl Evaluator<'_> {
                 let words = &self.before.buffers[buffer][frames_ago as usize];
                 hash(state, words[(state % words.len() as u32) as usize].bits)
             }
+            Read::Own(part) => {
+                let image = &self.pipeline.images[part.image];
+                let place = [at[0], at[1], part.layer];
+                let samples = self.before.images[part.image][0].all_samples(part.mip, place);
+                absorb(state, image.format, texels::resolved(image.format, &samples))
+            }
             Read::Storage(part) => self.texel_near(part, 0, false, state, at),
             Read::Sampled { part, frames_ago, per_sample } => {
                 let mip = part.mip + (state >> 16) % part.mips;

@@ -1,0 +1,249 @@
+//! Holds what a driver makes of a pipeline against what the pipeline means.
+
+use super::meaning::{self, State};
+use super::pipeline::{Pipeline, Thing};
+use super::{shader, texels, to_frame};
+use framewright_graph::compile::{Options, Order, compile};
+use framewright_graph::device::Profile;
+use framewright_graph::frame;
+use framewright_graph::plan::Plan;
+use framewright_graph::verify::verify;
+use framewright_passes::draw::interface;
+use framewright_passes::shipped::SHADERS;
+use framewright_vulkan::{
+    Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary,
+};
+use std::collections::HashSet;
+use std::fmt;
+use tempfile::TempDir;
+
+/// A device with the validation layer awake, and the shaders that it has met.
+pub struct Judge {
+    device: Device,
+    profile: Profile,
+    folder: TempDir,
+    shaders: ShaderLibrary,
+    known: HashSet<String>,
+    findings: usize,
+}
+
+/// What is wrong with the way from a pipeline to its outputs.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Fault {
+    /// It is legal, and was refused.
+    Refused(Vec<String>),
+    /// The checker finds fault with its Plan.
+    Violations(Vec<String>),
+    /// A pass with side effects isn't in its Plan.
+    Culled(u32),
+    /// It couldn't be executed.
+    NotExecuted(String),
+    /// The validation layer has something to say.
+    Findings(Vec<String>),
+    /// An output holds something else.
+    Difference(Difference),
+}
+
+/// The first place at which an output holds something else.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// Which frame, from 0.
+    pub frame: u32,
+    /// Which output.
+    pub thing: Thing,
+    /// Where in it.
+    pub place: String,
+    /// The bytes that it should hold.
+    pub expected: Vec<u8>,
+    /// Those that it holds.
+    pub found: Vec<u8>,
+    /// The number of the pass that should have written them; `None`: they were there before any.
+    pub writer: Option<u32>,
+}
+
+impl Fault {
+    /// Whether two faults are of one kind.
+    #[must_use]
+    pub fn is_like(&self, other: &Fault) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Fault::Refused(messages) => write!(f, "it is refused: {}", messages.join("\n")),
+            Fault::Violations(violations) => write!(f, "the checker finds: {}", violations.join("\n")),
+            Fault::Culled(pass) => write!(f, "p{pass} has side effects and was culled"),
+            Fault::NotExecuted(error) => write!(f, "it can't be executed: {error}"),
+            Fault::Findings(findings) => write!(f, "the validation layer says: {}", findings.join("\n")),
+            Fault::Difference(Difference { frame, thing, place, expected, found, writer }) => {
+                write!(f, "frame {frame}: {thing} {place} should be {expected:02x?}, ")?;
+                match writer {
+                    Some(writer) => write!(f, "from p{writer}")?,
+                    None => write!(f, "from before the first pass")?,
+                }
+                write!(f, ", and is {found:02x?}")
+            }
+        }
+    }
+}
+
+/// A pipeline's outputs as the CPU has them, frame by frame.
+#[must_use]
+pub fn expected(pipeline: &Pipeline, frames: u32) -> Vec<State> {
+    let mut state = State::new(pipeline);
+    (0..frames)
+        .map(|frame| {
+            state = meaning::frame(pipeline, &state, frame);
+            state.clone()
+        })
+        .collect()
+}
+
+/// How a pipeline is compiled: with poison, so that whoever reads what is not its own shows it.
+#[must_use]
+pub fn options(order: Order, seed: u64) -> Options {
+    Options { alias: true, poison: true, order, demote: seed & 1 == 0, queues: true }
+}
+
+impl Judge {
+    /// Opens the device that the environment offers.
+    ///
+    /// # Errors
+    /// If there is none, or no validation layer that is awake, or no place for shaders.
+    pub fn new() -> Result<Judge, Box<dyn std::error::Error>> {
+        let device = Device::open(&DeviceOptions { choice: DeviceChoice::Default, validation: true })?;
+        device.canary()?;
+        let folder = tempfile::tempdir()?;
+        let shaders = ShaderLibrary::new(vec![folder.path().to_owned()], SHADERS, interface);
+        Ok(Judge { profile: device.profile(), device, folder, shaders, known: HashSet::new(), findings: 0 })
+    }
+
+    /// The device's name.
+    #[must_use]
+    pub fn device(&self) -> &str {
+        &self.device.summary().name
+    }
+
+    /// Compiles, checks and executes a pipeline, frame after frame, and compares each output with `expected`.
+    ///
+    /// # Errors
+    /// The first [`Fault`].
+    pub fn judge(&mut self, pipeline: &Pipeline, expected: &[State], options: &Options) -> Result<(), Fault> {
+        let plan = self.plan(pipeline, options)?;
+        self.write_shaders(pipeline).map_err(|error| Fault::NotExecuted(error.to_string()))?;
+        let outcome = self.execute(pipeline, &plan, expected);
+        // What the layer says explains more than what follows from it.
+        let all = self.device.messages().list();
+        let findings: Vec<String> =
+            all.iter().filter(|message| message.is_finding()).skip(self.findings).map(shown).collect();
+        self.findings += findings.len();
+        if findings.is_empty() { outcome } else { Err(Fault::Findings(findings)) }
+    }
+
+    /// The Plan of a pipeline, with which the checker is content.
+    ///
+    /// # Errors
+    /// [`Fault::Refused`], [`Fault::Violations`] or [`Fault::Culled`].
+    pub fn plan(&self, pipeline: &Pipeline, options: &Options) -> Result<Plan, Fault> {
+        let frame = to_frame::to_frame(pipeline);
+        let plan = compile(&frame, &self.profile, &mut self.device.memory(), options)
+            .map_err(|errors| Fault::Refused(errors.into_iter().map(|error| error.message).collect()))?;
+        let violations: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
+        if !violations.is_empty() {
+            return Err(Fault::Violations(violations));
+        }
+        let tree = plan.tree();
+        let missing = |name: &str| !tree.split(|at: char| !at.is_alphanumeric()).any(|word| word == name);
+        let culled = pipeline.passes.iter().find(|pass| pass.side_effect && missing(&format!("p{}", pass.number)));
+        culled.map_or(Ok(plan), |pass| Err(Fault::Culled(pass.number)))
+    }
+
+    fn write_shaders(&mut self, pipeline: &Pipeline) -> std::io::Result<()> {
+        for shader in pipeline.passes.iter().filter_map(|pass| shader::shader(pipeline, pass)) {
+            if self.known.insert(shader.name) {
+                for (name, text) in shader.files {
+                    std::fs::write(self.folder.path().join(name), text)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn execute(&mut self, pipeline: &Pipeline, plan: &Plan, expected: &[State]) -> Result<(), Fault> {
+        let broken = |error: Error| Fault::NotExecuted(error.to_string());
+        let options = ExecutorOptions { poison: true, ..ExecutorOptions::default() };
+        let mut executor = Executor::new(&self.device, plan, &mut self.shaders, &options).map_err(broken)?;
+        for (number, state) in (0..).zip(expected) {
+            executor.frame(&mut Nothing).map_err(broken)?;
+            for (output, thing) in pipeline.outputs.iter().enumerate() {
+                let found = executor.read(output).map_err(broken)?.bytes;
+                if let Some(difference) = compare(pipeline, state, *thing, number, &found) {
+                    return Err(Fault::Difference(difference));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn shown(message: &Message) -> String {
+    format!("{message:?}")
+}
+
+/// Random pipelines have no objects.
+struct Nothing;
+
+impl DrawSource for Nothing {
+    fn record(&mut self, draw: frame::Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {
+        Err(Error::DrawSource { what: format!("a random pipeline draws {draw:?}") })
+    }
+}
+
+/// The first place at which `found` isn't what `state` says.
+fn compare(pipeline: &Pipeline, state: &State, thing: Thing, frame: u32, found: &[u8]) -> Option<Difference> {
+    let mut at = 0;
+    for (place, expected, writer) in places(pipeline, state, thing) {
+        let end = at + expected.len();
+        let here = found.get(at..end.min(found.len())).unwrap_or(&[]);
+        if here != expected {
+            return Some(Difference { frame, thing, place: place(), expected, found: here.to_vec(), writer });
+        }
+        at = end;
+    }
+    (at != found.len()).then(|| Difference {
+        frame,
+        thing,
+        place: "beyond its end".to_owned(),
+        expected: Vec::new(),
+        found: found[at..].to_vec(),
+        writer: None,
+    })
+}
+
+/// A place in words, the bytes there, and who wrote them.
+type Place<'p> = (Box<dyn Fn() -> String + 'p>, Vec<u8>, Option<u32>);
+
+/// Everything that an output holds, in the order in which it is read.
+fn places<'p>(pipeline: &'p Pipeline, state: &'p State, thing: Thing) -> Box<dyn Iterator<Item = Place<'p>> + 'p> {
+    match thing {
+        Thing::Buffer(buffer) => Box::new(state.buffers[buffer][0].iter().enumerate().map(|(at, word)| {
+            let place: Box<dyn Fn() -> String> = Box::new(move || format!("word {at}"));
+            (place, word.bits.to_le_bytes().to_vec(), word.writer)
+        })),
+        Thing::Image(number) => {
+            let image = &pipeline.images[number];
+            let contents = &state.images[number][0];
+            Box::new((0..image.mips).flat_map(move |mip| {
+                let [width, height, depth] = contents.extent(mip);
+                (0..width * height * depth).map(move |line| {
+                    let at = [line % width, line / width % height, line / width / height];
+                    let words = texels::resolved(image.format, &contents.all_samples(mip, at));
+                    let place: Box<dyn Fn() -> String> = Box::new(move || format!("mip {mip}, texel {at:?}"));
+                    (place, texels::bytes(image.format, words), contents.texel(mip, at, 0).writer)
+                })
+            }))
+        }
+    }
+}
