@@ -218,9 +218,12 @@ impl Written {
         });
         let apart = accesses.iter().enumerate().all(|(at, one)| {
             accesses[..at].iter().all(|other| {
+                // A pass may sample what it draws into, but for depth that it changes.
+                let depth = |access: &Access| pipeline.images[access.part.image].format.is_depth() && access.writes;
                 let shares = match (one.how, other.how) {
                     (How::Sampled, How::Sampled) => true,
-                    (How::Sampled, How::Attachment) | (How::Attachment, How::Sampled) => true,
+                    (How::Sampled, How::Attachment) => !depth(other),
+                    (How::Attachment, How::Sampled) => !depth(one),
                     _ => false,
                 };
                 shares || !one.part.overlaps(other.part)
