@@ -2,11 +2,14 @@
 
 use super::meaning::{self, State};
 use super::pipeline::{Pipeline, Thing};
-use super::{shader, texels, to_frame};
+use super::{shader, texels, to_ron};
 use framewright_graph::compile::{Options, Order, compile};
+use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::device::Profile;
-use framewright_graph::frame;
+use framewright_graph::expand::{self, Facts, Inputs};
+use framewright_graph::frame::{self, Frame};
 use framewright_graph::plan::Plan;
+use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
@@ -15,6 +18,7 @@ use framewright_vulkan::{
 };
 use std::collections::HashSet;
 use std::fmt;
+use std::sync::Arc;
 use tempfile::TempDir;
 
 /// A device with the validation layer awake, and the shaders that it has met.
@@ -131,8 +135,8 @@ impl Judge {
     /// # Errors
     /// The first [`Fault`].
     pub fn judge(&mut self, pipeline: &Pipeline, expected: &[State], options: &Options) -> Result<(), Fault> {
-        let plan = self.plan(pipeline, options)?;
-        self.write_shaders(pipeline).map_err(|error| Fault::NotExecuted(error.to_string()))?;
+        let frame = self.frame(pipeline)?;
+        let plan = self.plan(pipeline, &frame, options)?;
         let outcome = self.execute(pipeline, &plan, expected);
         // What the layer says explains more than what follows from it.
         let all = self.device.messages().list();
@@ -142,13 +146,27 @@ impl Judge {
         if findings.is_empty() { outcome } else { Err(Fault::Findings(findings)) }
     }
 
-    /// The Plan of a pipeline, with which the checker is content.
+    /// The frame of a pipeline, out of a pipeline file and its shaders.
+    ///
+    /// # Errors
+    /// [`Fault::Refused`], or [`Fault::NotExecuted`] if its shaders can't be written.
+    pub fn frame(&mut self, pipeline: &Pipeline) -> Result<Frame, Fault> {
+        self.write_shaders(pipeline).map_err(|error| Fault::NotExecuted(error.to_string()))?;
+        let mut sources = Sources::default();
+        let read = describe::read(&mut sources, "random.ron", "random.ron", to_ron::to_ron(pipeline));
+        let sources = Arc::new(sources);
+        let refused = |mistakes: Vec<Diagnostic>| Fault::Refused(vec![describe::render(&sources, &mistakes)]);
+        let described = read.map_err(refused)?;
+        let inputs = Inputs { set: &[], facts: Facts::UNKNOWN, facts_known: false, output_extent: [1, 1], dump: &[] };
+        expand::expand(&described, sources.clone(), &inputs, &mut self.shaders).map_err(refused)
+    }
+
+    /// The Plan of a pipeline's frame, with which the checker is content.
     ///
     /// # Errors
     /// [`Fault::Refused`], [`Fault::Violations`] or [`Fault::Culled`].
-    pub fn plan(&self, pipeline: &Pipeline, options: &Options) -> Result<Plan, Fault> {
-        let frame = to_frame::to_frame(pipeline);
-        let plan = compile(&frame, &self.profile, &mut self.device.memory(), options)
+    pub fn plan(&self, pipeline: &Pipeline, frame: &Frame, options: &Options) -> Result<Plan, Fault> {
+        let plan = compile(frame, &self.profile, &mut self.device.memory(), options)
             .map_err(|errors| Fault::Refused(errors.into_iter().map(|error| error.message).collect()))?;
         let violations: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
         if !violations.is_empty() {

@@ -18,6 +18,7 @@ pub mod shrink;
 pub mod texels;
 pub mod text;
 pub mod to_frame;
+pub mod to_ron;
 
 use allowed::Allowed;
 use framewright_graph::frame::Frame;

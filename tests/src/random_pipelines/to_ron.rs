@@ -1,0 +1,212 @@
+//! A random pipeline as the text of a pipeline file.
+
+use super::legal;
+use super::pipeline::{
+    Compute, Count, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Read, Region, Store, StoreAccess, Work,
+};
+use super::{shader, texels};
+use framewright_graph::frame::{ParamValue, Shape};
+use framewright_graph::vocabulary::FillValue;
+
+/// The pipeline file that says what `pipeline` says. Its shaders are those of [`shader::shader`].
+#[must_use]
+pub fn to_ron(pipeline: &Pipeline) -> String {
+    let images = pipeline.images.iter().enumerate().map(|(number, image)| image_text(number, image));
+    let buffers = pipeline.buffers.iter().enumerate().map(|(number, buffer)| {
+        let lifetime = life(buffer.life, "Storage", |value| value.to_string());
+        format!("(name: \"b{number}\", bytes: {}{lifetime})", 4 * buffer.words)
+    });
+    let passes = pipeline.passes.iter().map(|pass| pass_text(pipeline, pass));
+    let outputs = pipeline.outputs.iter().map(|output| format!("\"{output}\""));
+    let list = |name: &str, entries: Vec<String>| {
+        let lines: String = entries.into_iter().map(|entry| format!("        {entry},\n")).collect();
+        if lines.is_empty() { String::new() } else { format!("    {name}: [\n{lines}    ],\n") }
+    };
+    format!(
+        "Pipeline(\n    version: 1,\n    settings: [(name: \"switch\", value: Bool(default: false))],\n{}{}    passes: [\n{}    ],\n    outputs: [{}],\n)\n",
+        list("images", images.collect()),
+        list("buffers", buffers.collect()),
+        passes.map(|pass| format!("        {pass},\n")).collect::<String>(),
+        outputs.collect::<Vec<_>>().join(", "),
+    )
+}
+
+fn image_text(number: usize, image: &Image) -> String {
+    let [width, height, depth] = image.extent;
+    let mut text = format!("(name: \"i{number}\", format: {}, size: Fixed({width}, {height})", image.format);
+    match image.shape {
+        Shape::D2 => {}
+        Shape::D3 => text += &format!(", shape: D3({depth})"),
+        Shape::Cube => text += ", shape: Cube",
+    }
+    let layers = if image.shape == Shape::Cube { 1 } else { image.layers };
+    for (field, count) in [("mips", image.mips), ("layers", layers), ("samples", image.samples)] {
+        if count > 1 {
+            text += &format!(", {field}: {count}");
+        }
+    }
+    text + &life(image.life, "Sampled", |value| fill(texels::fill(image.format, value))) + ")"
+}
+
+fn life(life: Life, imported: &str, initial: impl Fn(u8) -> String) -> String {
+    match life {
+        Life::Transient => String::new(),
+        Life::Persistent(value) => format!(", lifetime: Persistent(initial: {})", initial(value)),
+        Life::History(frames, value) => {
+            format!(", lifetime: History(frames: {frames}, initial: {})", initial(value))
+        }
+        Life::Imported => format!(", lifetime: Imported(before: {imported})"),
+    }
+}
+
+/// A value for all texels.
+fn fill(value: FillValue) -> String {
+    match value {
+        FillValue::Color([r, g, b, a]) => format!("({r:?}, {g:?}, {b:?}, {a:?})"),
+        FillValue::Bits([word, ..]) => word.to_string(),
+        FillValue::Depth(depth, _) => format!("{depth:?}"),
+    }
+}
+
+/// The fields that name a part of an image.
+fn part(part: Part, wrapped: Option<&str>) -> String {
+    let name = format!("\"i{}\"", part.image);
+    let name = wrapped.map_or(name.clone(), |face| format!("{face}({name})"));
+    let mut text = format!("image: {name}, mip: {}", part.mip);
+    for (field, value, plain) in [("mips", part.mips, 1), ("layer", part.layer, u32::MAX), ("layers", part.layers, 1)] {
+        if value != plain {
+            text += &format!(", {field}: {value}");
+        }
+    }
+    text
+}
+
+fn region(of: Region) -> String {
+    match of {
+        Region::Image(image) => format!("({})", part(image, None)),
+        Region::Buffer(buffer) => format!("\"b{buffer}\""),
+    }
+}
+
+fn pass_text(pipeline: &Pipeline, pass: &Pass) -> String {
+    let mut fields = vec![format!("name: \"p{}\"", pass.number)];
+    let shader = shader::shader(pipeline, pass);
+    let name = shader.as_ref().map_or("", |shader| &shader.name);
+    match &pass.work {
+        Work::Draw(draw) => draw_fields(pipeline, draw, name, &mut fields),
+        Work::Compute(compute) => {
+            fields.push(format!("dispatch: \"{name}\""));
+            fields.push(format!("groups: {}", groups(compute)));
+        }
+        Work::Copy { from, to } => fields.push(format!("copy: (from: {}, to: {})", region(*from), region(*to))),
+        Work::Blit { from, to } => {
+            let [from, to] = [from, to].map(|image| region(Region::Image(*image)));
+            fields.push(format!("blit: (from: {from}, to: {to}, filter: Nearest)"));
+        }
+        Work::Fill { to, value } => {
+            let value = match to {
+                Region::Image(part) => fill(texels::fill(pipeline.images[part.image].format, *value)),
+                Region::Buffer(_) => value.to_string(),
+            };
+            fields.push(format!("fill: (to: {}, value: {value})", region(*to)));
+        }
+        Work::Forward { from, to } => {
+            // Nobody looks for the shader of a pass that is off.
+            fields.push("when: \"switch\", draw: FullScreen(\"none\")".to_owned());
+            fields.push(format!("color: [\"i{to}\"], otherwise: Forward(from: \"i{from}\", to: \"i{to}\")"));
+        }
+    }
+    bindings(pass, &mut fields);
+    if pass.side_effect {
+        fields.push("side_effect: true".to_owned());
+    }
+    if let Some(shader) = shader {
+        let param = |(name, value): &(String, ParamValue)| match value {
+            ParamValue::Number(number) => format!("\"{name}\": {number:?}"),
+            ParamValue::Integer(number) => format!("\"{name}\": {number}"),
+            ParamValue::Bool(truth) => format!("\"{name}\": {truth}"),
+        };
+        let params: Vec<String> = shader.params.iter().map(param).collect();
+        fields.push(format!("params: {{{}}}", params.join(", ")));
+    }
+    format!("({})", fields.join(", "))
+}
+
+fn draw_fields(pipeline: &Pipeline, draw: &Draw, shader: &str, fields: &mut Vec<String>) {
+    match draw.geometry {
+        Geometry::FullScreen => fields.push(format!("draw: FullScreen(\"{shader}\")")),
+        Geometry::Triangles { count, vertices, indices } => {
+            fields.push(match count {
+                Count::Direct(triangles, instances) => format!("draw: Vertices({}, {instances})", 3 * triangles),
+                Count::Indirect(buffer) => format!("draw: Indirect(\"b{buffer}\")"),
+            });
+            fields.push(format!("shader: \"{shader}\""));
+            fields.extend(vertices.map(|buffer| format!("vertex: \"b{buffer}\"")));
+            fields.extend(indices.map(|buffer| format!("index: \"b{buffer}\"")));
+        }
+    }
+    let value = |image: usize, value: u8| {
+        let format = pipeline.images[image].format;
+        texels::float(format, texels::plain(format, value))
+    };
+    let color = draw.color.iter().map(|target| {
+        let clear = target.clear.map(|clear| value(target.part.image, clear));
+        let clear = clear.map_or(String::new(), |v| format!(", clear: ({v:?}, {v:?}, {v:?}, {v:?})"));
+        format!("({}{clear}, blend: {:?})", part(target.part, None), target.blend)
+    });
+    let color: Vec<String> = color.collect();
+    if !color.is_empty() {
+        fields.push(format!("color: [{}]", color.join(", ")));
+    }
+    fields.extend(draw.depth.map(|depth| {
+        let clear = depth.clear.map(|clear| value(depth.part.image, clear));
+        let clear = clear.map_or(String::new(), |value| format!(", clear: {value:?}"));
+        format!("depth: ({}{clear}, test: {:?}, write: {})", part(depth.part, None), depth.test, depth.write)
+    }));
+}
+
+fn groups(compute: &Compute) -> String {
+    let [x, y, z] = compute.grid;
+    match compute.groups {
+        Groups::Cover => format!("Invocations({x}, {y}, {z})"),
+        Groups::Count([x, y, z]) => format!("Count({x}, {y}, {z})"),
+        Groups::Indirect(buffer, word) => format!("Indirect(\"b{buffer}\", {})", 4 * word),
+    }
+}
+
+/// What is given to the shader by its names.
+fn bindings(pass: &Pass, fields: &mut Vec<String>) {
+    let (reads, stores) = legal::shader(pass);
+    let (mut sample, mut storage, mut uniform) = (Vec::new(), Vec::new(), Vec::new());
+    let ago = |frames: u32| if frames == 0 { String::new() } else { format!(", previous: {frames}") };
+    for (number, read) in reads.iter().enumerate() {
+        let name = format!("\"read{number}\"");
+        match *read {
+            Read::Sampled { part: of, frames_ago, per_sample } => {
+                let face = per_sample.then_some("Samples");
+                sample.push(format!("{name}: ({}{}, filter: Nearest)", part(of, face), ago(frames_ago)));
+            }
+            Read::Own(of) => sample.push(format!("{name}: ({}, filter: Nearest, own_pixel: true)", part(of, None))),
+            Read::Storage(of) => storage.push(format!("{name}: ({}, access: Read)", part(of, None))),
+            Read::Uniform(buffer, frames_ago) => {
+                uniform.push(format!("{name}: (buffer: \"b{buffer}\"{})", ago(frames_ago)));
+            }
+            Read::Block(buffer, frames_ago) => {
+                storage.push(format!("{name}: (buffer: \"b{buffer}\"{}, access: Read)", ago(frames_ago)));
+            }
+        }
+    }
+    for (number, Store { region, access }) in stores.iter().enumerate() {
+        let access = if *access == StoreAccess::Write { "Write" } else { "ReadWrite" };
+        let of = match region {
+            Region::Image(of) => part(*of, None),
+            Region::Buffer(buffer) => format!("buffer: \"b{buffer}\""),
+        };
+        storage.push(format!("\"store{number}\": ({of}, access: {access})"));
+    }
+    for (field, entries) in [("sample", sample), ("storage", storage), ("uniform", uniform)] {
+        if !entries.is_empty() {
+            fields.push(format!("{field}: {{{}}}", entries.join(", ")));
+        }
+    }
+}
