@@ -115,6 +115,7 @@ const FAILED: u8 = 1;
 const USAGE: u8 = 2;
 const ENVIRONMENT: u8 = 3;
 const INTERRUPTED: u8 = 130;
+const CODES: [u8; 5] = [FINE, FAILED, USAGE, ENVIRONMENT, INTERRUPTED];
 
 fn main() -> ExitCode {
     let line = match Line::try_parse() {
@@ -167,7 +168,7 @@ fn on_drivers(line: &Line) -> Result<u8, Box<dyn Error>> {
         }
         let status = command.status()?;
         let code = status.code().and_then(|code| u8::try_from(code).ok());
-        worst = worst.max(code.unwrap_or_else(|| {
+        worst = worst.max(code.filter(|code| CODES.contains(code)).unwrap_or_else(|| {
             let last = std::fs::read_to_string(notes.path()).unwrap_or_default();
             println!("{} crashed ({status}) with {last}", driver.name());
             FAILED
@@ -183,6 +184,8 @@ static ASKED_TO_STOP: AtomicBool = AtomicBool::new(false);
 
 /// Runs all pipelines on the driver that the environment offers.
 fn here(line: &Line, notes: &Path) -> Result<u8, Box<dyn Error>> {
+    // A panic of the compiler is reported as a fault, and may come a hundred times while it is shrunk.
+    std::panic::set_hook(Box::new(|_| ()));
     ctrlc::set_handler(|| ASKED_TO_STOP.store(true, Ordering::Relaxed))?;
     let mut judge = Judge::new()?;
     let driver = line.driver.map_or("?", Driver::name);

@@ -15,6 +15,8 @@ pub enum Kind {
     Blit,
     /// Fills.
     Fill,
+    /// Passes that the embedding program records.
+    Custom,
     /// Passes that are off.
     Forward,
     /// Multisampled images.
@@ -86,7 +88,7 @@ impl Allowed {
 }
 
 /// What the library can't do yet. It shrinks to nothing as features land.
-pub const NOT_YET: &[Kind] = &[];
+pub const NOT_YET: &[Kind] = &[Kind::BufferOutput, Kind::History, Kind::Imported];
 
 impl Allowed {
     /// Everything that the library can do today.

@@ -1,7 +1,7 @@
 //! From a seed to a pipeline: passes are proposed at random, and kept if they may stand where they would.
 
 use super::allowed::{Allowed, Kind};
-use super::legal::{Written, size};
+use super::legal::{self, Written, size};
 use super::pipeline::{
     Buffer, Compute, Contents, Count, DepthTarget, Draw, Extent, Geometry, Groups, Image, Life, Part, Pass, Pipeline,
     Read, Region, SAMPLES, Store, StoreAccess, TRIANGLES, Target, Thing, WORKGROUP, Work,
@@ -43,6 +43,7 @@ fn attempt(mut rng: Rng, passes: u32, allowed: &Allowed) -> Pipeline {
         let kind = maker.kind();
         (0..PROPOSALS).any(|_| maker.try_pass(kind));
     }
+    maker.write_history();
     maker.outputs();
     maker.pipeline
 }
@@ -196,6 +197,7 @@ impl Maker<'_> {
             Kind::Blit,
             Kind::Fill,
             Kind::Forward,
+            Kind::Custom,
         ])
     }
 
@@ -210,6 +212,10 @@ impl Maker<'_> {
                 self.draw(geometry)
             }
             Kind::Compute => self.compute(),
+            Kind::Custom => {
+                let from = if self.rng.one_in(2) { Some(self.region()) } else { None };
+                Some(Work::Custom { from, to: self.region(), value: self.rng.below(61) as u8 })
+            }
             Kind::Copy => {
                 let from = self.region();
                 let to = self.region();
@@ -393,12 +399,35 @@ impl Maker<'_> {
         Some(Work::Compute(Compute { grid, groups, reads: self.reads(), stores }))
     }
 
+    /// Fills what is read of earlier frames and nothing has written yet.
+    fn write_history(&mut self) {
+        for thing in legal::unwritten_history(&self.pipeline, &self.written) {
+            let to = match thing {
+                Thing::Image(image) => {
+                    let Image { mips, layers, .. } = self.pipeline.images[image];
+                    Region::Image(Part { image, mip: 0, mips, layer: 0, layers })
+                }
+                Thing::Buffer(buffer) => Region::Buffer(buffer),
+            };
+            let value = self.rng.below(61) as u8;
+            let number = self.pipeline.passes.len() as u32;
+            let pass = Pass { number, work: Work::Fill { to, value }, side_effect: false };
+            if self.written.take(&self.pipeline, &pass) {
+                self.pipeline.passes.push(pass);
+            }
+        }
+    }
+
     /// Chooses what leaves the frame among what has contents.
     fn outputs(&mut self) {
         let images = (0..self.pipeline.images.len()).map(Thing::Image);
         let buffers = (0..self.pipeline.buffers.len()).map(Thing::Buffer);
-        let possible: Vec<Thing> =
-            images.chain(buffers).filter(|thing| self.written.all(*thing) && self.leaves(*thing)).collect();
+        let possible: Vec<Thing> = images
+            .chain(buffers)
+            .filter(|thing| {
+                self.written.all(*thing) && legal::is_touched(&self.pipeline, *thing) && self.leaves(*thing)
+            })
+            .collect();
         for _ in 0..2 + self.rng.below(4) {
             let Some(thing) = self.rng.pick(&possible).copied() else { return };
             if !self.pipeline.outputs.contains(&thing) {

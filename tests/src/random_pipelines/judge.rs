@@ -1,23 +1,26 @@
 //! Holds what a driver makes of a pipeline against what the pipeline means.
 
-use super::meaning::{self, State};
-use super::pipeline::{Pipeline, Thing};
-use super::{shader, texels, to_ron};
+use super::meaning::{self, Filled, State, imported_buffer, imported_image};
+use super::pipeline::{Extent, Life, Pass, Pipeline, Thing, Work};
+use super::{shader, texels, to_frame, to_ron};
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::device::Profile;
 use framewright_graph::expand::{self, Facts, Inputs};
 use framewright_graph::frame::{self, Frame};
-use framewright_graph::plan::Plan;
+use framewright_graph::plan::{Plan, Resource};
 use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::{
-    Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary,
+    CustomRecorder, Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message,
+    Recorder, ShaderLibrary,
 };
+use std::any::Any;
 use std::collections::HashSet;
 use std::fmt;
+use std::panic::AssertUnwindSafe;
 use std::sync::Arc;
 use tempfile::TempDir;
 
@@ -36,6 +39,8 @@ pub struct Judge {
 pub enum Fault {
     /// It is legal, and was refused.
     Refused(Vec<String>),
+    /// The compiler or the checker panicked.
+    Panicked(String),
     /// The checker finds fault with its Plan.
     Violations(Vec<String>),
     /// A pass with side effects isn't in its Plan.
@@ -77,6 +82,7 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Fault::Refused(messages) => write!(f, "it is refused: {}", messages.join("\n")),
+            Fault::Panicked(words) => write!(f, "the compiler or the checker panics: {words}"),
             Fault::Violations(violations) => write!(f, "the checker finds: {}", violations.join("\n")),
             Fault::Culled(pass) => write!(f, "p{pass} has side effects and was culled"),
             Fault::NotExecuted(error) => write!(f, "it can't be executed: {error}"),
@@ -140,9 +146,9 @@ impl Judge {
         let outcome = self.execute(pipeline, &plan, expected);
         // What the layer says explains more than what follows from it.
         let all = self.device.messages().list();
-        let findings: Vec<String> =
-            all.iter().filter(|message| message.is_finding()).skip(self.findings).map(shown).collect();
-        self.findings += findings.len();
+        let new: Vec<&Message> = all.iter().filter(|message| message.is_finding()).skip(self.findings).collect();
+        self.findings += new.len();
+        let findings: Vec<String> = new.into_iter().take(2).map(shown).collect();
         if findings.is_empty() { outcome } else { Err(Fault::Findings(findings)) }
     }
 
@@ -166,9 +172,14 @@ impl Judge {
     /// # Errors
     /// [`Fault::Refused`], [`Fault::Violations`] or [`Fault::Culled`].
     pub fn plan(&self, pipeline: &Pipeline, frame: &Frame, options: &Options) -> Result<Plan, Fault> {
-        let plan = compile(frame, &self.profile, &mut self.device.memory(), options)
+        // A panic is a fault like any other, that can be shrunk.
+        let compiled = AssertUnwindSafe(|| compile(frame, &self.profile, &mut self.device.memory(), options));
+        let plan = std::panic::catch_unwind(compiled)
+            .map_err(|payload| Fault::Panicked(words(&*payload)))?
             .map_err(|errors| Fault::Refused(errors.into_iter().map(|error| error.message).collect()))?;
-        let violations: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
+        let violations =
+            std::panic::catch_unwind(|| verify(&plan)).map_err(|payload| Fault::Panicked(words(&*payload)))?;
+        let violations: Vec<String> = violations.iter().map(ToString::to_string).collect();
         if !violations.is_empty() {
             return Err(Fault::Violations(violations));
         }
@@ -194,9 +205,10 @@ impl Judge {
         let options = ExecutorOptions { poison: true, ..ExecutorOptions::default() };
         let mut executor = Executor::new(&self.device, plan, &mut self.shaders, &options).map_err(broken)?;
         for (number, state) in (0..).zip(expected) {
-            executor.frame(&mut Nothing).map_err(broken)?;
+            hand_in(pipeline, plan, &mut executor, number).map_err(broken)?;
+            executor.frame(&mut Program(pipeline)).map_err(broken)?;
             for (output, thing) in pipeline.outputs.iter().enumerate() {
-                let found = executor.read(output).map_err(broken)?.bytes;
+                let found = read(plan, &mut executor, output).map_err(broken)?;
                 if let Some(difference) = compare(pipeline, state, *thing, number, &found) {
                     return Err(Fault::Difference(difference));
                 }
@@ -206,16 +218,80 @@ impl Judge {
     }
 }
 
-fn shown(message: &Message) -> String {
-    format!("{message:?}")
+/// Gives a frame what is imported.
+fn hand_in(pipeline: &Pipeline, plan: &Plan, executor: &mut Executor, frame: u32) -> Result<(), Error> {
+    for (number, image) in pipeline.images.iter().enumerate().filter(|(_, image)| image.life == Life::Imported) {
+        let name = format!("i{number}");
+        // What nobody needs isn't in the Plan.
+        if plan.images.iter().any(|planned| *planned.name == *name) {
+            let contents = imported_image(image, number, frame);
+            for mip in 0..image.mips {
+                let bytes: Vec<u8> = texels_of(&contents, mip)
+                    .flat_map(|at| texels::bytes(image.format, contents.texel(mip, at, 0).words))
+                    .collect();
+                executor.write_image(&name, image.format.aspects(), mip, &bytes)?;
+            }
+        }
+    }
+    for (number, buffer) in pipeline.buffers.iter().enumerate().filter(|(_, buffer)| buffer.life == Life::Imported) {
+        let name = format!("b{number}");
+        if plan.buffers.iter().any(|planned| *planned.name == *name) {
+            let words = imported_buffer(buffer, number, frame);
+            let bytes: Vec<u8> = words.into_iter().flat_map(u32::to_le_bytes).collect();
+            executor.write_buffer(&name, &bytes)?;
+        }
+    }
+    Ok(())
 }
 
-/// Random pipelines have no objects.
-struct Nothing;
+/// All bytes of an output.
+fn read(plan: &Plan, executor: &mut Executor, output: usize) -> Result<Vec<u8>, Error> {
+    match plan.outputs[output] {
+        Resource::Image(id) => {
+            let image = plan.image(id);
+            let mut all = Vec::new();
+            for mip in 0..image.mips {
+                all.extend(executor.read_image(&image.name, image.format.aspects(), mip)?.bytes);
+            }
+            Ok(all)
+        }
+        Resource::Buffer(id) => executor.read_buffer(&plan.buffers[id.0 as usize].name),
+    }
+}
 
-impl DrawSource for Nothing {
+/// What a panic said.
+fn words(payload: &(dyn Any + Send)) -> String {
+    let text = payload.downcast_ref::<String>().map(String::as_str).or(payload.downcast_ref::<&str>().copied());
+    text.unwrap_or("without words").to_owned()
+}
+
+fn shown(message: &Message) -> String {
+    let text: String = message.text.chars().take(400).collect();
+    format!("{}: {text}", message.id)
+}
+
+/// The program around a random pipeline: it has no objects, and records custom passes.
+struct Program<'p>(&'p Pipeline);
+
+impl DrawSource for Program<'_> {
     fn record(&mut self, draw: frame::Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {
         Err(Error::DrawSource { what: format!("a random pipeline draws {draw:?}") })
+    }
+
+    fn custom(&mut self, _: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
+        let named = |pass: &&Pass| format!("p{}", pass.number) == recorder.pass();
+        let Some(Pass { work: Work::Custom { to, value, .. }, .. }) = self.0.passes.iter().find(named) else {
+            return Err(Error::DrawSource { what: format!("`{}` is no custom pass", recorder.pass()) });
+        };
+        let source = recorder.sources().next().map(str::to_owned);
+        let Some(target) = recorder.targets().next().map(str::to_owned) else {
+            return Err(Error::DrawSource { what: format!("`{}` writes nothing", recorder.pass()) });
+        };
+        match source {
+            Some(source) => recorder.copy(&source, &target),
+            None => recorder.fill(&target, to_frame::fill(self.0, *to, *value)),
+        }
+        Ok(())
     }
 }
 
@@ -254,9 +330,7 @@ fn places<'p>(pipeline: &'p Pipeline, state: &'p State, thing: Thing) -> Box<dyn
             let image = &pipeline.images[number];
             let contents = &state.images[number][0];
             Box::new((0..image.mips).flat_map(move |mip| {
-                let [width, height, depth] = contents.extent(mip);
-                (0..width * height * depth).map(move |line| {
-                    let at = [line % width, line / width % height, line / width / height];
+                texels_of(contents, mip).map(move |at| {
                     let words = texels::resolved(image.format, &contents.all_samples(mip, at));
                     let place: Box<dyn Fn() -> String> = Box::new(move || format!("mip {mip}, texel {at:?}"));
                     (place, texels::bytes(image.format, words), contents.texel(mip, at, 0).writer)
@@ -264,4 +338,10 @@ fn places<'p>(pipeline: &'p Pipeline, state: &'p State, thing: Thing) -> Box<dyn
             }))
         }
     }
+}
+
+/// The positions of a mip level's texels, in the order in which they are read.
+fn texels_of(contents: &Filled, mip: u32) -> impl Iterator<Item = Extent> + use<> {
+    let [width, height, depth] = contents.extent(mip);
+    (0..width * height * depth).map(move |line| [line % width, line / width % height, line / width / height])
 }

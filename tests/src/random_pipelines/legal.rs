@@ -69,11 +69,12 @@ fn accesses(pass: &Pass) -> Vec<Access> {
                 add(part, How::Attachment, clear.is_none(), write || clear.is_some());
             }
         }
-        Work::Copy { from, to } => {
-            if let Region::Image(part) = *from {
+        Work::Copy { .. } | Work::Custom { .. } => {
+            let (from, to) = copied(pass);
+            if let Some(Region::Image(part)) = from {
                 add(part, How::Transfer, true, false);
             }
-            if let Region::Image(part) = *to {
+            if let Some(Region::Image(part)) = to {
                 add(part, How::Transfer, false, true);
             }
         }
@@ -85,6 +86,15 @@ fn accesses(pass: &Pass) -> Vec<Access> {
         Work::Fill { .. } | Work::Forward { .. } | Work::Compute(_) => {}
     }
     all
+}
+
+/// What a copy or a custom pass reads and writes.
+fn copied(pass: &Pass) -> (Option<Region>, Option<Region>) {
+    match pass.work {
+        Work::Copy { from, to } => (Some(from), Some(to)),
+        Work::Custom { from, to, .. } => (from, Some(to)),
+        _ => (None, None),
+    }
 }
 
 /// What a pass's shaders read and write beside attachments.
@@ -115,11 +125,12 @@ fn buffers(pass: &Pass) -> Vec<(usize, bool, bool)> {
             all.extend([*vertices, *indices, counts].into_iter().flatten().map(|buffer| (buffer, true, false)));
         }
         Work::Compute(Compute { groups: Groups::Indirect(buffer, _), .. }) => all.push((*buffer, true, false)),
-        Work::Copy { from, to } => {
-            if let Region::Buffer(buffer) = *from {
+        Work::Copy { .. } | Work::Custom { .. } => {
+            let (from, to) = copied(pass);
+            if let Some(Region::Buffer(buffer)) = from {
                 all.push((buffer, true, false));
             }
-            if let Region::Buffer(buffer) = *to {
+            if let Some(Region::Buffer(buffer)) = to {
                 all.push((buffer, false, true));
             }
         }
@@ -156,7 +167,33 @@ pub fn is_legal(pipeline: &Pipeline) -> bool {
     pipeline.images.iter().all(sound)
         && !pipeline.outputs.is_empty()
         && pipeline.passes.iter().all(|pass| written.take(pipeline, pass))
-        && pipeline.outputs.iter().all(|output| written.all(*output))
+        && pipeline.outputs.iter().all(|output| written.all(*output) && is_touched(pipeline, *output))
+        && unwritten_history(pipeline, &written).is_empty()
+}
+
+/// Whether a pass writes a thing, or part of it.
+pub(super) fn is_touched(pipeline: &Pipeline, thing: Thing) -> bool {
+    pipeline.passes.iter().any(|pass| match thing {
+        Thing::Image(image) => {
+            accesses(pass).iter().any(|access| access.writes && access.part.image == image)
+                || matches!(pass.work, Work::Forward { to, .. } if to == image)
+        }
+        Thing::Buffer(buffer) => buffers(pass).iter().any(|(of, _, writes)| *of == buffer && *writes),
+    })
+}
+
+/// What is read of earlier frames, and not written whole in each.
+pub(super) fn unwritten_history(pipeline: &Pipeline, written: &Written) -> Vec<Thing> {
+    let earlier = |read: &Read| match *read {
+        Read::Sampled { part, frames_ago: 1.., .. } => Some(Thing::Image(part.image)),
+        Read::Uniform(buffer, 1..) | Read::Block(buffer, 1..) => Some(Thing::Buffer(buffer)),
+        _ => None,
+    };
+    let read = pipeline.passes.iter().flat_map(|pass| shader(pass).0).filter_map(earlier);
+    let mut unwritten: Vec<Thing> = read.filter(|thing| !written.all(*thing)).collect();
+    unwritten.sort_unstable();
+    unwritten.dedup();
+    unwritten
 }
 
 impl Written {
@@ -257,16 +294,8 @@ impl Written {
                 }
                 Work::Copy { from, to } => copy_fits(pipeline, *from, *to),
                 Work::Blit { from, to } => blit_fits(pipeline, *from, *to),
-                Work::Fill { to: Region::Image(part), .. } => {
-                    let image = &pipeline.images[part.image];
-                    image.samples == 1
-                }
-                Work::Fill { to: Region::Buffer(buffer), value } => match pipeline.buffers[*buffer].contents {
-                    Contents::Words | Contents::Vertices => true,
-                    Contents::Dispatch => (1..=3).contains(value),
-                    Contents::Draw | Contents::IndexedDraw => *value == 0,
-                    Contents::Indices => false,
-                },
+                Work::Custom { from: Some(from), to, .. } => copy_fits(pipeline, *from, *to),
+                Work::Fill { to, value } | Work::Custom { from: None, to, value } => fill_fits(pipeline, *to, *value),
                 Work::Forward { from, to } => self.all(Thing::Image(*from)) && forward_fits(pipeline, *from, *to),
             }
     }
@@ -291,7 +320,9 @@ impl Written {
                     };
                 }
             }
-            Work::Copy { from: Region::Image(from), to: Region::Image(to) } | Work::Blit { from, to } => {
+            Work::Copy { from: Region::Image(from), to: Region::Image(to) }
+            | Work::Custom { from: Some(Region::Image(from)), to: Region::Image(to), .. }
+            | Work::Blit { from, to } => {
                 greatest[to.image] = greatest[to.image].max(greatest[from.image]);
             }
             Work::Forward { from, to } => greatest[*to] = greatest[*to].max(greatest[*from]),
@@ -455,6 +486,18 @@ fn structure_fits(pipeline: &Pipeline, compute: &Compute) -> bool {
         _ => true,
     };
     counted && (!structured || (compute.stores.len() == 1 && compute.grid[1..] == [1, 1]))
+}
+
+fn fill_fits(pipeline: &Pipeline, to: Region, value: u8) -> bool {
+    match to {
+        Region::Image(part) => pipeline.images[part.image].samples == 1,
+        Region::Buffer(buffer) => match pipeline.buffers[buffer].contents {
+            Contents::Words | Contents::Vertices => true,
+            Contents::Dispatch => (1..=3).contains(&value),
+            Contents::Draw | Contents::IndexedDraw => value == 0,
+            Contents::Indices => false,
+        },
+    }
 }
 
 fn copy_fits(pipeline: &Pipeline, from: Region, to: Region) -> bool {

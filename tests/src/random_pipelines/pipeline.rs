@@ -203,6 +203,15 @@ pub enum Work {
         /// The value.
         value: u8,
     },
+    /// Recorded by the embedding program: a copy, or a fill where nothing is read.
+    Custom {
+        /// From here.
+        from: Option<Region>,
+        /// To there.
+        to: Region,
+        /// The value of a fill.
+        value: u8,
+    },
     /// A pass that is off: `to` becomes what `from` is.
     Forward {
         /// From here.

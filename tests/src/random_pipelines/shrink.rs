@@ -114,7 +114,7 @@ fn simpler(pass: &Pass) -> Vec<Pass> {
             compute.groups = Groups::Cover;
             all.push(Pass { work: Work::Compute(compute), ..pass.clone() });
         }
-        Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Forward { .. } => {}
+        Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } | Work::Forward { .. } => {}
     }
     all.retain(|simpler| simpler != pass);
     all

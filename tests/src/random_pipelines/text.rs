@@ -161,6 +161,8 @@ impl fmt::Display for Pass {
             Work::Copy { from, to } => write!(f, "copy {from} to {to}")?,
             Work::Blit { from, to } => write!(f, "blit {from} to {to}")?,
             Work::Fill { to, value } => write!(f, "fill {to} with {value}")?,
+            Work::Custom { from: Some(from), to, .. } => write!(f, "custom copy {from} to {to}")?,
+            Work::Custom { from: None, to, value } => write!(f, "custom fill {to} with {value}")?,
             Work::Forward { from, to } => write!(f, "forward i{from} to i{to}")?,
         }
         let (reads, stores) = legal::shader(self);

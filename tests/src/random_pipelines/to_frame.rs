@@ -22,7 +22,7 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
             mips: image.mips,
             layers: image.layers,
             samples: image.samples,
-            lifetime: lifetime(image.life, Layout::ShaderReadOnlyOptimal, |value| texels::fill(image.format, value)),
+            lifetime: lifetime(image.life, handed_in(number), |value| texels::fill(image.format, value)),
             ..frame::Image::new(&format!("i{number}"), image.format, width, height)
         });
     }
@@ -39,6 +39,11 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
         frame.outputs.push(frame::Output { resource: resource(*output), span: Span::NONE, after: None });
     }
     frame
+}
+
+/// The layout in which an imported image is handed in.
+pub(super) const fn handed_in(image: usize) -> Layout {
+    if image.is_multiple_of(2) { Layout::TransferDstOptimal } else { Layout::General }
 }
 
 fn resource(thing: Thing) -> Resource {
@@ -96,6 +101,10 @@ fn to_pass(pipeline: &Pipeline, pass: &Pass) -> frame::Pass {
             made.transfers = vec![transfer(*from, false), transfer(*to, true)];
         }
         Work::Fill { to, .. } => made.transfers = vec![transfer(pipeline, *to, true)],
+        Work::Custom { from, to, .. } => {
+            made.transfers = from.iter().map(|from| transfer(pipeline, *from, false)).collect();
+            made.transfers.push(transfer(pipeline, *to, true));
+        }
         Work::Compute(_) | Work::Forward { .. } => {}
     }
     made
@@ -125,17 +134,22 @@ fn work(pipeline: &Pipeline, pass: &Pass, shader: &str) -> frame::Work {
         },
         Work::Copy { .. } => frame::Work::Copy,
         Work::Blit { .. } => frame::Work::Blit { filter: Filter::Nearest },
-        Work::Fill { to, value } => frame::Work::Fill {
-            value: match to {
-                Region::Image(part) => texels::fill(pipeline.images[part.image].format, *value),
-                Region::Buffer(_) => FillValue::Bits([(*value).into(), 0, 0, 0]),
-            },
-        },
+        Work::Fill { to, value } => frame::Work::Fill { value: fill(pipeline, *to, *value) },
+        Work::Custom { .. } => frame::Work::Custom { callback: "custom".into() },
         Work::Forward { from, to } => frame::Work::Forward {
             from: ImageIndex(*from as u32),
             to: ImageIndex(*to as u32),
             because: "a switch = false".to_owned(),
         },
+    }
+}
+
+/// What a fill sets its target to.
+#[must_use]
+pub fn fill(pipeline: &Pipeline, to: Region, value: u8) -> FillValue {
+    match to {
+        Region::Image(part) => texels::fill(pipeline.images[part.image].format, value),
+        Region::Buffer(_) => FillValue::Bits([value.into(), 0, 0, 0]),
     }
 }
 

@@ -4,16 +4,16 @@ use super::legal;
 use super::pipeline::{
     Compute, Count, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Read, Region, Store, StoreAccess, Work,
 };
-use super::{shader, texels};
+use super::{shader, texels, to_frame};
 use framewright_graph::frame::{ParamValue, Shape};
-use framewright_graph::vocabulary::FillValue;
+use framewright_graph::vocabulary::{FillValue, Layout};
 
 /// The pipeline file that says what `pipeline` says. Its shaders are those of [`shader::shader`].
 #[must_use]
 pub fn to_ron(pipeline: &Pipeline) -> String {
     let images = pipeline.images.iter().enumerate().map(|(number, image)| image_text(number, image));
     let buffers = pipeline.buffers.iter().enumerate().map(|(number, buffer)| {
-        let lifetime = life(buffer.life, "Storage", |value| value.to_string());
+        let lifetime = life(buffer.life, "", |value| value.to_string());
         format!("(name: \"b{number}\", bytes: {}{lifetime})", 4 * buffer.words)
     });
     let passes = pipeline.passes.iter().map(|pass| pass_text(pipeline, pass));
@@ -45,17 +45,23 @@ fn image_text(number: usize, image: &Image) -> String {
             text += &format!(", {field}: {count}");
         }
     }
-    text + &life(image.life, "Sampled", |value| fill(texels::fill(image.format, value))) + ")"
+    let layout = match to_frame::handed_in(number) {
+        Layout::General => ", layout: GENERAL",
+        _ => ", layout: TRANSFER_DST_OPTIMAL",
+    };
+    text + &life(image.life, layout, |value| fill(texels::fill(image.format, value))) + ")"
 }
 
-fn life(life: Life, imported: &str, initial: impl Fn(u8) -> String) -> String {
+fn life(life: Life, layout: &str, initial: impl Fn(u8) -> String) -> String {
     match life {
         Life::Transient => String::new(),
         Life::Persistent(value) => format!(", lifetime: Persistent(initial: {})", initial(value)),
         Life::History(frames, value) => {
             format!(", lifetime: History(frames: {frames}, initial: {})", initial(value))
         }
-        Life::Imported => format!(", lifetime: Imported(before: {imported})"),
+        Life::Imported => {
+            format!(", lifetime: Imported(before: (stages: [COPY], accesses: [TRANSFER_WRITE]{layout}))")
+        }
     }
 }
 
@@ -104,11 +110,12 @@ fn pass_text(pipeline: &Pipeline, pass: &Pass) -> String {
             fields.push(format!("blit: (from: {from}, to: {to}, filter: Nearest)"));
         }
         Work::Fill { to, value } => {
-            let value = match to {
-                Region::Image(part) => fill(texels::fill(pipeline.images[part.image].format, *value)),
-                Region::Buffer(_) => value.to_string(),
-            };
+            let value = fill(to_frame::fill(pipeline, *to, *value));
             fields.push(format!("fill: (to: {}, value: {value})", region(*to)));
+        }
+        Work::Custom { from, to, .. } => {
+            fields.push(format!("custom: \"custom\", writes: [{}]", region(*to)));
+            fields.extend(from.map(|from| format!("reads: [{}]", region(from))));
         }
         Work::Forward { from, to } => {
             // Nobody looks for the shader of a pass that is off.

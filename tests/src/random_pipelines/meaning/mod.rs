@@ -7,7 +7,7 @@ mod draw;
 mod shade;
 mod state;
 
-pub use state::{Filled, State, Texel, Word};
+pub use state::{Filled, State, Texel, Word, imported_buffer, imported_image};
 
 use super::hash::hash;
 use super::legal::size;
@@ -41,7 +41,8 @@ impl Evaluator<'_> {
             Work::Compute(compute) => self.compute(compute),
             Work::Copy { from, to } => self.copy(*from, *to),
             Work::Blit { from, to } => self.blit(*from, *to),
-            Work::Fill { to, value } => self.fill(*to, *value),
+            Work::Fill { to, value } | Work::Custom { from: None, to, value } => self.fill(*to, *value),
+            Work::Custom { from: Some(from), to, .. } => self.copy(*from, *to),
             Work::Forward { from, to } => self.forward(*from, *to),
         }
     }
