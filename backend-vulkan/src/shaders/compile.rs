@@ -41,7 +41,8 @@ pub(super) fn compile(
     options.set_source_language(SourceLanguage::GLSL);
     options.set_forced_version_profile(460, GlslProfile::Core);
     options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_3 as u32);
-    options.set_target_spirv(SpirvVersion::V1_6);
+    // From 1.6 on a workgroup's size is an `OpExecutionModeId`, which the reader of SPIR-V takes for a mistake.
+    options.set_target_spirv(if stage == Stage::Compute { SpirvVersion::V1_5 } else { SpirvVersion::V1_6 });
     options.set_optimization_level(OptimizationLevel::Zero);
     options.set_suppress_warnings();
     for name in defined {
