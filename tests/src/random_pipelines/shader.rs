@@ -131,19 +131,19 @@ impl Text {
         }
         if dimension == "2DMS" {
             self.say(&format!("for (int at_sample = 0; at_sample < {SAMPLES}; ++at_sample)"));
-            let at = format!("ivec2(near(uvec3(textureSize({name}), 1u), state, at).xy)");
+            let at = format!("ivec2(near(uvec3(textureSize({name}), 1u), state, here).xy)");
             let texel = whole(&format!("texelFetch({name}, {at}, at_sample)"));
             return self.say(&format!("    state = hash4(state, {texel}, {name}_parts);"));
         }
         let (texel, level) = if matches!(read, Read::Storage(_)) {
             let (size, place) = places(dimension, &format!("imageSize({name})"));
-            self.say(&format!("place = near({size}, state, at);"));
+            self.say(&format!("place = near({size}, state, here);"));
             (format!("imageLoad({name}, {place})"), "")
         } else {
-            let level = "int(state >> 16) % textureQueryLevels(";
-            self.say(&format!("level = {level}{name});"));
+            // Of one quad all fragments take the same level: lavapipe knows no others.
+            self.say(&format!("level = int((here.x / 2u + here.y / 2u + here.z) % uint(textureQueryLevels({name})));"));
             let (size, place) = places(dimension, &format!("textureSize({name}, level)"));
-            self.say(&format!("place = near({size}, state, at);"));
+            self.say(&format!("place = near({size}, state, here);"));
             if dimension == "Cube" {
                 let size = format!("textureSize({name}, level).x");
                 (format!("textureLod({name}, towards(place, {size}), float(level))"), "")
@@ -167,7 +167,7 @@ impl Text {
         self.say(&format!("#ifdef {local}"));
         self.say(&format!("state = hash4(state, {}, {name}_parts);", whole(&format!("subpassLoad({name})"))));
         self.say("#else");
-        let texel = whole(&format!("texelFetch({name}, ivec2(at.xy), 0)"));
+        let texel = whole(&format!("texelFetch({name}, ivec2(here.xy), 0)"));
         self.say(&format!("state = hash4(state, {texel}, {name}_parts);"));
         self.say("#endif");
     }
@@ -317,7 +317,7 @@ impl Text {
         } else {
             ("", "")
         };
-        let start = "const uvec3 at = uvec3(gl_FragCoord.xy, 0.0);\n    uvec3 place;\n    int level;\n    ";
+        let start = "const uvec3 at = uvec3(gl_FragCoord.xy, 0.0), here = at;\n    uvec3 place;\n    int level;\n    ";
         let state = "uint state = hash(hash(hash(number, at.x), at.y), at.z);\n    ";
         let fragment = format!(
             "{head}{NEAR}{}{input}void main() {{\n    {start}{state}{triangle}{sample}\n{}}}\n",
@@ -342,15 +342,13 @@ impl Text {
         let start = "const uvec3 at = gl_GlobalInvocationID, grid = uvec3(grid_x, grid_y, grid_z);\n    \
             if (any(greaterThanEqual(at, grid))) return;\n    uvec3 place;\n    int level;\n    \
             const uint line = (at.z * grid.y + at.y) * grid.x + at.x;\n    ";
-        let group = if self.structured { "at.x - at.x % together" } else { "at.x" };
-        let state = format!("uint state = hash(hash(hash(number, {group}), at.y), at.z);\n");
         // What is made together reads at one position.
+        let group = if self.structured { "at.x - at.x % together" } else { "at.x" };
+        let state = format!(
+            "const uvec3 here = uvec3({group}, at.yz);\n    \
+             uint state = hash(hash(hash(number, here.x), here.y), here.z);\n"
+        );
         let body = format!("void main() {{\n    {start}{state}{}}}\n", self.body);
-        let body = if self.structured {
-            body.replace(", state, at)", ", state, uvec3(at.x - at.x % together, at.yz))")
-        } else {
-            body
-        };
         let text = format!("{head}{GLSL}{content}{NEAR}{}{body}", self.declarations);
         Shader { files: vec![(format!("{name}.comp"), text)], name, params: self.params }
     }

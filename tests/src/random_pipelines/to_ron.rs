@@ -120,7 +120,9 @@ fn pass_text(pipeline: &Pipeline, pass: &Pass) -> String {
         Work::Forward { from, to } => {
             // Nobody looks for the shader of a pass that is off.
             fields.push("when: \"switch\", draw: FullScreen(\"none\")".to_owned());
-            fields.push(format!("color: [\"i{to}\"], otherwise: Forward(from: \"i{from}\", to: \"i{to}\")"));
+            let depth = pipeline.images[*to].format.is_depth();
+            fields.push(if depth { format!("depth: \"i{to}\"") } else { format!("color: [\"i{to}\"]") });
+            fields.push(format!("otherwise: Forward(from: \"i{from}\", to: \"i{to}\")"));
         }
     }
     bindings(pass, &mut fields);

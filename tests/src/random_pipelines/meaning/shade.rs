@@ -53,7 +53,7 @@ impl Evaluator<'_> {
             }
             Read::Storage(part) => self.texel_near(part, 0, false, state, at),
             Read::Sampled { part, frames_ago, per_sample } => {
-                let mip = part.mip + (state >> 16) % part.mips;
+                let mip = part.mip + (at[0] / 2 + at[1] / 2 + at[2]) % part.mips;
                 self.texel_near(Part { mip, mips: 1, ..part }, frames_ago, per_sample, state, at)
             }
         }
