@@ -1,5 +1,6 @@
 //! Frames on every shipped device, and on devices whose figures are at the ends of what is possible, or beyond.
 
+#[allow(dead_code, unused_imports, reason = "other tests use the rest")]
 mod raster;
 
 use framewright_graph::compile::{Options, Order, compile};

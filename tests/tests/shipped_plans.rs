@@ -30,7 +30,7 @@ fn shipped() -> Vec<Shipped> {
 }
 
 fn names_both_steps_and_the_subresource(violation: &Violation) -> bool {
-    let Violation { step: Some(step), other: Some(other), image: Some(image), range: Some(range), .. } = violation
+    let Violation { step: Some(step), other: Some(other), resource: Some(image), range: Some(range), .. } = violation
     else {
         return false;
     };

@@ -105,8 +105,6 @@ fn corner(extent: vk::Extent3D) -> vk::Offset3D {
 /// Copies one place to another: texel for texel, byte for byte, or texels without gaps to or from a buffer.
 pub(crate) fn copy_between(shared: &Shared, commands: vk::CommandBuffer, source: Place, target: Place) {
     let device = &shared.raw;
-    // SAFETY: the command buffer is being recorded outside a scope; the parts exist and are in these layouts, and buffers
-    // hold as many bytes as the texels beside them take.
     match (source, target) {
         (
             Place::Image { image, range, extent, layout },
@@ -122,6 +120,7 @@ pub(crate) fn copy_between(shared: &Shared, commands: vk::CommandBuffer, source:
                 .dst_image(to)
                 .dst_image_layout(to_layout)
                 .regions(&regions);
+            // SAFETY: recording outside a scope; both parts exist and are in these layouts.
             unsafe { device.cmd_copy_image2(commands, &info) };
         }
         (Place::Image { image, range, extent, layout }, Place::Buffer { buffer, .. }) => {
@@ -131,6 +130,7 @@ pub(crate) fn copy_between(shared: &Shared, commands: vk::CommandBuffer, source:
                 .src_image_layout(layout)
                 .dst_buffer(buffer)
                 .regions(&regions);
+            // SAFETY: recording outside a scope; the part is in this layout, and the buffer holds its texels.
             unsafe { device.cmd_copy_image_to_buffer2(commands, &info) };
         }
         (Place::Buffer { buffer, .. }, Place::Image { image, range, extent, layout }) => {
@@ -140,11 +140,13 @@ pub(crate) fn copy_between(shared: &Shared, commands: vk::CommandBuffer, source:
                 .dst_image(image)
                 .dst_image_layout(layout)
                 .regions(&regions);
+            // SAFETY: recording outside a scope; the part is in this layout, and the buffer holds its texels.
             unsafe { device.cmd_copy_buffer_to_image2(commands, &info) };
         }
         (Place::Buffer { buffer, bytes }, Place::Buffer { buffer: to, bytes: to_bytes }) => {
             let regions = [vk::BufferCopy2::default().size(bytes.min(to_bytes))];
             let info = vk::CopyBufferInfo2::default().src_buffer(buffer).dst_buffer(to).regions(&regions);
+            // SAFETY: recording outside a scope; both buffers hold as many bytes.
             unsafe { device.cmd_copy_buffer2(commands, &info) };
         }
     }
@@ -160,19 +162,20 @@ fn rows(range: Subresources, extent: vk::Extent3D) -> vk::BufferImageCopy2<'stat
 /// Sets all of a place to a value.
 pub(crate) fn fill(shared: &Shared, commands: vk::CommandBuffer, target: Place, value: Clear) {
     let device = &shared.raw;
-    // SAFETY: the command buffer is being recorded outside a scope; the part exists and is in this layout; buffers hold
-    // whole words.
     match (target, value) {
         (Place::Image { image, range, layout, .. }, Clear::Color(color)) => {
             let ranges = [convert::range(range)];
+            // SAFETY: recording outside a scope; the part of this colour image exists and is in this layout.
             unsafe { device.cmd_clear_color_image(commands, image, layout, &color, &ranges) };
         }
         (Place::Image { image, range, layout, .. }, Clear::DepthStencil(value)) => {
             let ranges = [convert::range(range)];
+            // SAFETY: recording outside a scope; the part of this depth image exists and is in this layout.
             unsafe { device.cmd_clear_depth_stencil_image(commands, image, layout, &value, &ranges) };
         }
         (Place::Buffer { buffer, bytes }, Clear::Word(word)) => {
             let bytes = bytes.next_multiple_of(4);
+            // SAFETY: recording outside a scope; buffers are made of whole words.
             unsafe { device.cmd_fill_buffer(commands, buffer, 0, bytes, word) };
         }
         // A format's clear is of its own kind.

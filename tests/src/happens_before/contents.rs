@@ -162,7 +162,7 @@ impl Follower<'_> {
             self.cells[physical][at] = cell;
         }
         let transition = old != new || old == Layout::Undefined;
-        if transition && !transfer.is_some_and(|[from, _]| from == queue) {
+        if transition && transfer.is_none_or(|[from, _]| from != queue) {
             self.taken(physical);
         }
     }

@@ -43,9 +43,8 @@ fn attachments(plan: &Plan) -> impl Iterator<Item = &Attachment> {
 
 /// What an image is resolved to and by which scope or step: pairs of images.
 fn resolves(plan: &Plan) -> Vec<(ImageId, ImageId)> {
-    let folded = attachments(plan).filter_map(|attachment| {
-        attachment.resolve.as_ref().map(|resolve| (attachment.image, resolve.image))
-    });
+    let folded = attachments(plan)
+        .filter_map(|attachment| attachment.resolve.as_ref().map(|resolve| (attachment.image, resolve.image)));
     let standalone = plan.steps.iter().filter_map(|step| match &step.work {
         Work::Resolve(transfer) => match (transfer.source.resource(), transfer.target.resource()) {
             (framewright_graph::plan::Resource::Image(from), framewright_graph::plan::Resource::Image(to)) => {
@@ -61,7 +60,8 @@ fn resolves(plan: &Plan) -> Vec<(ImageId, ImageId)> {
 /// The image that a pass binds under a name.
 fn bound<'p>(plan: &'p Plan, pass: &str, name: &str) -> &'p Image {
     let scoped = scopes(plan).flat_map(|scope| &scope.passes);
-    let dispatched = plan.steps.iter().filter_map(|step| if let Work::Dispatch(pass) = &step.work { Some(pass) } else { None });
+    let dispatched =
+        plan.steps.iter().filter_map(|step| if let Work::Dispatch(pass) = &step.work { Some(pass) } else { None });
     let found = scoped.chain(dispatched).find(|one| &*one.name == pass).and_then(|pass| {
         pass.accesses.iter().find(|access| access.binding.as_ref().is_some_and(|binding| &*binding.name == name))
     });

@@ -53,7 +53,8 @@ fn o3de_10413_each_mistake_is_said_once_and_with_its_place() {
                     (name: \"b\", draw: FullScreen(\"copy\"), sample: {\"source\": \"colour\"}, color: [\"screen\"]),\n], \
                 outputs: [\"screen\"])";
     let mut sources = Sources::default();
-    let mistakes = describe::read(&mut sources, "bad.ron", "bad.ron", text.to_owned()).expect_err("`colour` is no image");
+    let mistakes =
+        describe::read(&mut sources, "bad.ron", "bad.ron", text.to_owned()).expect_err("`colour` is no image");
     let shown = describe::render(&sources, &mistakes);
     assert_eq!(mistakes.len(), 2, "{shown}");
     assert!(shown.contains("bad.ron:4:") && shown.contains("bad.ron:5:"), "{shown}");

@@ -62,8 +62,7 @@ fn godot_99073_and_114092_writes_that_overlap_in_part_follow_each_other() {
 #[test]
 fn o3de_20073_memory_is_handed_over_before_it_is_taken() {
     let mut builder = Builder::default();
-    let images: Vec<ImageIndex> =
-        (0..6).map(|at| builder.image(&format!("i{at}"), R8G8B8A8_UNORM, 64, 1)).collect();
+    let images: Vec<ImageIndex> = (0..6).map(|at| builder.image(&format!("i{at}"), R8G8B8A8_UNORM, 64, 1)).collect();
     builder.full_screen("p0").color(images[0], Blend::Replace);
     for at in 1..6 {
         builder.full_screen(&format!("p{at}")).sample(images[at - 1]).color(images[at], Blend::Replace);

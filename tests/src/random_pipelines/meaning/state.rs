@@ -96,14 +96,16 @@ impl State {
                 Life::Persistent(value) | Life::History(_, value) => [texels::plain(image.format, value); 4],
                 Life::Transient | Life::Imported => [JUNK; 4],
             };
-            vec![Arc::new(Filled::new(image, |_| words)); kept(image.life)]
+            let filled = Arc::new(Filled::new(image, |_| words));
+            vec![filled; kept(image.life)]
         };
         let buffer = |buffer: &Buffer| {
             let bits = match buffer.life {
                 Life::Persistent(value) | Life::History(_, value) => value.into(),
                 Life::Transient | Life::Imported => JUNK,
             };
-            vec![Arc::new(vec![Word { bits, writer: None }; buffer.words as usize]); kept(buffer.life)]
+            let words = Arc::new(vec![Word { bits, writer: None }; buffer.words as usize]);
+            vec![words; kept(buffer.life)]
         };
         State {
             images: pipeline.images.iter().map(image).collect(),
