@@ -198,6 +198,8 @@ pub(super) enum Contents {
     Defined,
     /// Nothing in this frame has written it.
     Unwritten,
+    /// Then the frame has written it, but nothing that is sure to have written all of it.
+    InPart(Time),
     /// It was written, then lost.
     Lost(Lost, Time),
 }

@@ -18,10 +18,15 @@ impl<const Q: usize> Walk<'_, '_, Q> {
                 self.read(step, touch.resource, index);
             }
             let cell = &mut self.cells[index];
-            let added = touch.contents & does::ADD != 0 && !matches!(cell.contents, Contents::Lost(..));
-            if touch.contents & does::FILL != 0 || added {
+            if touch.contents & does::FILL != 0 {
                 cell.contents = Contents::Defined;
                 cell.filled = now;
+            } else if touch.contents & does::ADD != 0 {
+                match cell.contents {
+                    Contents::Defined => cell.filled = now,
+                    Contents::Unwritten => cell.contents = Contents::InPart(now),
+                    Contents::InPart(_) | Contents::Lost(..) => {}
+                }
             }
             let lost = match cell.contents {
                 Contents::Defined if touch.contents & does::NOT_LOAD != 0 => Lost::NotLoaded,
@@ -41,9 +46,9 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             Contents::Defined => return,
             Contents::Unwritten => {
                 let first = self.program.used[resource as usize].steps().map(|[first, _]| first);
-                let other = first.filter(|first| *first != step);
-                (Rule::Uninitialised, other.map(|first| StepName::new(self.plan, first, 0)))
+                (Rule::Uninitialised { in_part: false }, first.map(|first| StepName::new(self.plan, first, 0)))
             }
+            Contents::InPart(time) => (Rule::Uninitialised { in_part: true }, self.name_at(time, resource)),
             Contents::Lost(lost, time) => (Rule::LostWrite { loss: self.loss(lost) }, self.name_at(time, resource)),
         };
         self.cells[index].contents = Contents::Defined;

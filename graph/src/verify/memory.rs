@@ -7,9 +7,9 @@
 //! 2. the first barrier on each part of an image B must be execution-ordered after every last access of A; so must every
 //!    access of the first step that uses a buffer B;
 //! 3. A's last write must be available by then: by an image barrier on A, by a memory barrier in the batch of B's
-//!    barrier or earlier, by a semaphore, or because B's barrier names that write's stage and access in its own source
-//!    scopes. (An image barrier's memory scope is its own image; sharing the bytes, B is taken to speak for A.) To the
-//!    first accesses of a buffer B, which no barrier of its own protects, it must be visible as well.
+//!    barrier or earlier, or by a semaphore. B's own barrier doesn't speak for A, whatever its source scope names: an
+//!    image barrier's memory scope is its own image. To the first accesses of a buffer B, which no barrier of its own
+//!    protects, it must be visible as well.
 
 use super::Finding;
 use super::cells::{Cell, Contents, Lost};
@@ -49,7 +49,7 @@ struct Holder {
 /// What takes memory.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Taking<'t, const Q: usize> {
-    /// An image barrier: what comes before it, and the writes that it and the memory barriers beside it make available.
+    /// An image barrier: what comes before it, and the writes that the memory barriers beside it make available.
     Barrier(&'t Clock<Q>, PairSet),
     /// An access to a buffer, on that queue.
     Access(u8, &'t Touch),

@@ -4,10 +4,9 @@
 //! resolve, of depth too, in `COLOR_ATTACHMENT_OUTPUT`; depth loads in `EARLY_FRAGMENT_TESTS`, depth stores in
 //! `LATE_FRAGMENT_TESTS`. A `DONT_CARE` load or store is a write; a `NONE` store is nothing.
 //!
-//! Beside each access stands what it does to contents. Whether a draw covers its attachment isn't judged, with one
-//! exception: where *contents that the frame had written* were lost, be it to a `DONT_CARE` load, a barrier from
-//! `UNDEFINED` or another image, only a full-screen draw without blending, depth or stencil test makes the image whole
-//! again, or what writes without attachments.
+//! Beside each access stands what it does to contents. Only some accesses are sure to set all of what they name: a `CLEAR`
+//! load, a full-screen draw without blending, depth or stencil test to one layer, a resolve, a whole copy, and whatever
+//! writes without attachments. What was undefined stays so, in part, after any other.
 
 use super::parts::overlap;
 use super::program::Builder;
@@ -110,7 +109,7 @@ fn written(target: &Side, stages: Stages, to: &mut Builder) {
         }
         Side::Buffer { buffer, bytes } => bytes == to.plan.buffers[buffer.0 as usize].bytes,
     };
-    let contents = if whole { does::FILL } else { 0 };
+    let contents = if whole { does::FILL } else { does::ADD };
     let usage = [Usage::TRANSFER_DST.bits(), BufferUsage::TRANSFER_DST.bits()];
     side(target, stages, Accesses::TRANSFER_WRITE, usage, contents, to);
 }
@@ -242,12 +241,15 @@ fn replaces(scope: &RenderScope, pass: &Pass, access: &Access) -> bool {
     let untested = pass.depth.is_none_or(|depth| depth.test == CompareOp::Always);
     let unmasked = pass.stencil.is_none_or(|stencil| stencil.test == CompareOp::Always);
     let same = |attachment: &Attachment| attachment.image == access.image && attachment.range == access.range;
+    let deep = pass.depth.is_some_and(|depth| depth.write);
     let set = pass.stencil.is_some_and(|stencil| matches!(stencil.pass, StencilOp::Zero | StencilOp::Replace));
     let mut targets = scope.color.iter().zip(&pass.blend);
     pass.draw == Some(Draw::FullScreen)
+        && scope.layers == 1
         && untested
         && unmasked
         && (targets.any(|(target, blend)| same(target) && *blend == Blend::Replace)
+            || deep && scope.depth.as_ref().is_some_and(same)
             || set && scope.stencil.as_ref().is_some_and(same))
 }
 

@@ -71,7 +71,10 @@ pub enum Rule {
         later: Touched,
     },
     /// A read of contents that no step of the frame wrote.
-    Uninitialised,
+    Uninitialised {
+        /// Some step wrote them, but none that is sure to have written all of them.
+        in_part: bool,
+    },
     /// A read of contents that were written, but lost since.
     LostWrite {
         /// How.
@@ -243,9 +246,10 @@ impl Display for Violation {
             Rule::Visibility { earlier, later } => {
                 write!(f, "{later} comes after {earlier} by {other}, but no barrier makes that write visible to it")
             }
-            Rule::Uninitialised => match &self.other {
-                Some(other) => write!(f, "read, but nothing in the frame has written it ({other} only prepares it)"),
-                None => f.write_str("read, but nothing in the frame has written it"),
+            Rule::Uninitialised { in_part: true } => write!(f, "read, but {other} may leave some of it unwritten"),
+            Rule::Uninitialised { in_part: false } => match &self.other {
+                other if *other == self.step => f.write_str("read, but nothing in the frame has written it"),
+                _ => write!(f, "read, but nothing in the frame has written it ({other} only prepares it)"),
             },
             Rule::LostWrite { loss } => match loss {
                 Loss::Forgotten => write!(f, "read, but a barrier from UNDEFINED before {other} lost its contents"),

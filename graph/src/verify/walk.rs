@@ -187,8 +187,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             let cell = &self.cells[index];
             if cell.occupation != occupation {
                 // What it did before it lost its bytes is what the image that took them had to wait for.
-                let source = scopes.source.union(beside);
-                self.check_hand_over(id, barrier.image, Some(index), Taking::Barrier(before, source));
+                self.check_hand_over(id, barrier.image, Some(index), Taking::Barrier(before, beside));
             } else if !cell.excused
                 && let Some(gap) = before_layout_change(cell, before, scopes.source)
             {

@@ -2,6 +2,7 @@
 
 mod accepts;
 mod compiled;
+mod contents;
 mod form;
 #[path = "../hand_written_plans/mod.rs"]
 mod hand_written_plans;

@@ -179,31 +179,56 @@ fn each_mip_level_is_followed_on_its_own() {
     assert_eq!(violation.range, Some(level(1)), "{violation}");
 }
 
-/// `b` takes the memory of `a`, whose last access is a write, with these barriers.
-fn handed_over(memory_barriers: Vec<MemoryBarrier>, source: (Stages, Accesses)) -> Vec<Violation> {
+/// `b` takes the memory of `a`, whose last access is a write, with these barriers before it.
+fn handed_over(
+    memory_barriers: Vec<MemoryBarrier>,
+    on_a: Option<ImageBarrier>,
+    source: (Stages, Accesses),
+) -> Vec<Violation> {
     let images = [[0, 0], [1, 1]].into_iter().zip(0..).map(|(lifetime, id)| {
         let name = ["a", "b"][id as usize];
         transient(id, name, Format::R16G16B16A16_SFLOAT, 1, Usage::STORAGE, [0, 16384], lifetime)
     });
-    let images: Vec<Image> = images.collect();
-    let [a, b] = [&images[0], &images[1]];
-    let taking = barrier(b, source, UNDEFINED, WRITES, Hazard::FirstUse, Some(0));
-    let steps = vec![
-        step(vec![first(a, WRITES)], uses("write", 1, &[(a, WRITES)])),
-        Step { memory_barriers, ..step(vec![taking], uses("overwrite", 2, &[(b, WRITES)])) },
-    ];
+    let mut images: Vec<Image> = images.collect();
+    let mut steps = Vec::new();
+    let taking = barrier(&images[1], source, UNDEFINED, WRITES, Hazard::FirstUse, Some(0));
+    let back = vec![memory((CS, WRITE), (CS, NONE))];
+    steps.push(Step {
+        memory_barriers: back,
+        ..step(vec![first(&images[0], WRITES)], uses("write", 1, &[(&images[0], WRITES)]))
+    });
+    if on_a.is_some() {
+        let lifetimes = [crate::hand_written_plans::lifetime(0, 1), crate::hand_written_plans::lifetime(2, 2)];
+        for (image, lifetime) in images.iter_mut().zip(lifetimes) {
+            if let Role::Transient(placement) = &mut image.role {
+                placement.lifetime = lifetime;
+            }
+        }
+        steps.push(step(on_a.into_iter().collect(), Work::Export));
+    }
+    steps.push(Step { memory_barriers, ..step(vec![taking], uses("overwrite", 2, &[(&images[1], WRITES)])) });
     verify(&plan_of(&images, steps))
 }
 
 #[test]
-fn memory_changes_hands_by_source_scopes_or_by_a_memory_barrier() {
-    assert_eq!(handed_over(vec![], (CS, WRITE)), []);
-    assert_eq!(handed_over(vec![memory((CS, WRITE), (CS, WRITE))], (CS, NONE)), []);
-    let violation = only(handed_over(vec![], (CS, NONE)));
-    assert!(matches!(violation.rule, Rule::HandOver { waited: true, .. }), "{violation}");
-    assert_eq!(violation.bytes, Some([0, 16384]));
+fn memory_changes_hands_by_a_memory_barrier_or_by_one_on_the_last_occupant() {
+    assert_eq!(handed_over(vec![memory((CS, WRITE), (CS, WRITE))], None, (CS, NONE)), []);
+    let [a, _] = images(1);
+    let on_a = barrier(&a, (CS, WRITE), WRITES.2, (CS, NONE, WRITES.2), Hazard::WriteAfterWrite, Some(0));
+    assert_eq!(handed_over(vec![], Some(on_a), (CS, NONE)), []);
+    // What the barrier on `b` names itself makes nothing available that went through `a`.
+    for source in [(CS, NONE), (CS, WRITE), (Stages::ALL_COMMANDS, Accesses::MEMORY_WRITE)] {
+        let violation = only(handed_over(vec![], None, source));
+        assert!(matches!(violation.rule, Rule::HandOver { waited: true, .. }), "{violation}");
+        assert_eq!(violation.bytes, Some([0, 16384]));
+        assert_eq!(
+            violation.to_string(),
+            "step 1 `overwrite`: `b` (COLOR, mip 0, layer 0; bytes 0–16384): takes the memory of `a`, but \
+             SHADER_STORAGE_WRITE in COMPUTE_SHADER by step 0 `write` isn't made available first"
+        );
+    }
     // The memory barrier of the same call doesn't make the image barrier wait.
-    let violation = only(handed_over(vec![memory((CS, WRITE), (CS, WRITE))], (Stages::COPY, NONE)));
+    let violation = only(handed_over(vec![memory((CS, WRITE), (CS, WRITE))], None, (Stages::COPY, NONE)));
     assert!(matches!(violation.rule, Rule::HandOver { waited: false, .. }), "{violation}");
 }
 

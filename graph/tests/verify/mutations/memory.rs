@@ -72,9 +72,10 @@ fn attachments(plan: &mut Plan) -> impl Iterator<Item = (usize, &mut Attachment)
 fn with_lost_contents(plan: &Plan) -> Vec<Mutant> {
     let mut all = mutants(plan, |plan, place| {
         let (step, attachment) = attachments(plan).nth(place)?;
-        let loads = attachment.load == LoadOp::Load;
-        attachment.load = if loads { LoadOp::DontCare } else { attachment.load };
-        Some(format!("LOAD of step {step} → DONT_CARE{}", if loads { "" } else { UNCHANGED }))
+        let begins = attachment.load != LoadOp::DontCare;
+        let change = format!("{:?} of step {step} → DONT_CARE{}", attachment.load, if begins { "" } else { UNCHANGED });
+        (attachment.load, attachment.clear) = (LoadOp::DontCare, None);
+        Some(change)
     });
     all.extend(mutants(plan, |plan, place| {
         let (step, attachment) = attachments(plan).nth(place)?;
