@@ -192,6 +192,7 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
         draw: Some(draw),
         groups: None,
         shader: shader.into(),
+        discards: false,
         blend: vec![Blend::Replace],
         depth: None,
         stencil: None,

@@ -101,6 +101,8 @@ pub struct Pass {
     pub groups: Option<Groups>,
     /// The shader's name.
     pub shader: Arc<str>,
+    /// Whether its fragment shader discards fragments: then a full-screen draw doesn't cover.
+    pub discards: bool,
     /// How new colour meets old, for each colour attachment of the scope.
     pub blend: Vec<Blend>,
     /// Depth comparison and whether passing fragments write depth; `None`: no test, no write.

@@ -245,6 +245,7 @@ fn replaces(scope: &RenderScope, pass: &Pass, access: &Access) -> bool {
     let set = pass.stencil.is_some_and(|stencil| matches!(stencil.pass, StencilOp::Zero | StencilOp::Replace));
     let mut targets = scope.color.iter().zip(&pass.blend);
     pass.draw == Some(Draw::FullScreen)
+        && !pass.discards
         && scope.layers == 1
         && untested
         && unmasked

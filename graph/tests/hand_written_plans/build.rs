@@ -135,6 +135,7 @@ pub(crate) fn draw(
         draw: Some(draw),
         groups: None,
         shader: name.into(),
+        discards: false,
         blend: blend.to_vec(),
         depth,
         stencil: None,

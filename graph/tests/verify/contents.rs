@@ -37,6 +37,14 @@ fn painted(what: Draw, blend: Blend, depth: Option<DepthState>) -> Plan {
     plan(vec![color, depth_image, screen], 65536, steps)
 }
 
+/// The same with a shader that discards fragments.
+fn discarding(mut plan: Plan) -> Plan {
+    if let Work::Render(scope) = &mut plan.steps[0].work {
+        scope.passes[0].discards = true;
+    }
+    plan
+}
+
 /// The same with two layers of `color`.
 fn with_two_layers(mut plan: Plan) -> Plan {
     plan.images[0].layers = 2;
@@ -73,6 +81,7 @@ fn what_was_undefined_stays_so_under_a_draw_that_is_not_sure_to_cover() {
         painted(Draw::Sky, Blend::Replace, None),
         painted(Draw::Custom, Blend::Replace, None),
         painted(Draw::FullScreen, Blend::Replace, Some(NEARER)),
+        discarding(painted(Draw::FullScreen, Blend::Replace, None)),
         with_two_layers(painted(Draw::FullScreen, Blend::Replace, None)),
     ];
     for plan in plans {

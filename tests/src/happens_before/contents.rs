@@ -36,7 +36,6 @@ const FRESH: Cell = Cell { value: None, layout: Layout::Undefined, owner: Owner:
 
 struct Follower<'w> {
     world: &'w World<'w>,
-    discards: &'w dyn Fn(&str) -> bool,
     frame: usize,
     cells: Vec<Vec<Cell>>,
     wrong: Vec<String>,
@@ -44,9 +43,9 @@ struct Follower<'w> {
 }
 
 /// Follows all frames: what is wrong, and what outputs hold.
-pub(super) fn follow(world: &World, discards: &dyn Fn(&str) -> bool) -> (Vec<String>, Vec<Value>) {
+pub(super) fn follow(world: &World) -> (Vec<String>, Vec<Value>) {
     let cells = (0..world.physical.len()).map(|physical| vec![FRESH; world.all_cells(physical).len()]).collect();
-    let mut follower = Follower { world, discards, frame: 0, cells, wrong: Vec::new(), outcome: Vec::new() };
+    let mut follower = Follower { world, frame: 0, cells, wrong: Vec::new(), outcome: Vec::new() };
     for frame in 0..world.frames {
         follower.frame = frame;
         world.entries().for_each(|resource| follower.arrive(resource));
@@ -343,7 +342,8 @@ impl Follower<'_> {
         let sure = pass.draw == Some(Draw::FullScreen)
             && tested.is_none()
             && stencil_tested.is_none()
-            && !(self.discards)(&pass.name);
+            && !pass.discards
+            && scope.layers == 1;
         for (location, attachment) in scope.color.iter().enumerate() {
             if !writes(pass, attachment) {
                 continue;

@@ -62,17 +62,16 @@ pub struct Verdict {
     pub outcome: Vec<Option<u64>>,
 }
 
-/// Judges a Plan by itself. `discards` says of a full-screen pass whether its shader discards fragments, so that it doesn't
-/// cover its targets; a Plan doesn't tell.
+/// Judges a Plan by itself.
 ///
 /// The Plan's references must be right ([`Plan::from_json`]).
 #[must_use]
-pub fn judge(plan: &Plan, discards: &dyn Fn(&str) -> bool) -> Verdict {
+pub fn judge(plan: &Plan) -> Verdict {
     let world = world::World::new(plan, frames(plan));
     let timeline = timeline::unroll(&world);
     let mut harms = hazards::find(&world, &timeline);
     harms.extend(timeline.unordered_acquisitions.into_iter().map(Harm::Wrong));
-    let (wrong, outcome) = contents::follow(&world, discards);
+    let (wrong, outcome) = contents::follow(&world);
     harms.extend(wrong.into_iter().map(Harm::Wrong));
     Verdict { harms, outcome }
 }

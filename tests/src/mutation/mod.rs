@@ -87,11 +87,11 @@ pub enum Noticed {
 /// Shows a mutant to `verify`, and if that has nothing to say, to the judge. `original` is the verdict on the Plan without
 /// the mistake.
 #[must_use]
-pub fn shown(mutant: &Plan, original: &Verdict, discards: &dyn Fn(&str) -> bool) -> Noticed {
+pub fn shown(mutant: &Plan, original: &Verdict) -> Noticed {
     if !verify(mutant).is_empty() {
         return Noticed::Caught;
     }
-    let mut verdict = judge(mutant, discards);
+    let mut verdict = judge(mutant);
     if verdict.harms.is_empty() && verdict.outcome != original.outcome {
         verdict.harms.push(Harm::Wrong("what leaves the frame is not what it was".to_owned()));
     }
@@ -113,13 +113,13 @@ impl Tally {
     ///
     /// # Panics
     /// If the Plan itself harms or is reported.
-    pub fn add(&mut self, name: &str, plan: &Plan, discards: &dyn Fn(&str) -> bool) {
+    pub fn add(&mut self, name: &str, plan: &Plan) {
         assert_eq!(verify(plan), [], "{name}\n{}", plan.tree());
-        let original = judge(plan, discards);
+        let original = judge(plan);
         assert_eq!(original.harms, [], "{name}\n{}", plan.tree());
         for mutant in mutants(plan) {
             let counts = self.counts.entry(mutant.kind).or_default();
-            match shown(&mutant.plan, &original, discards) {
+            match shown(&mutant.plan, &original) {
                 Noticed::Caught => counts[0] += 1,
                 Noticed::Harmless => {
                     counts[1] += 1;

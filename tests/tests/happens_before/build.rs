@@ -92,6 +92,7 @@ pub(crate) fn dispatch(name: &str, accesses: Vec<Access>) -> Step {
         draw: None,
         groups: Some(Groups::Count([1; 3])),
         shader: name.into(),
+        discards: false,
         blend: Vec::new(),
         depth: None,
         stencil: None,

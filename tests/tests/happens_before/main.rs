@@ -10,7 +10,7 @@ use framewright_graph::vocabulary::{Accesses, Layout, Stages};
 use framewright_tests::happens_before::{Harm, Missing, judge};
 
 fn harms(plan: &Plan) -> Vec<Harm> {
-    judge(plan, &|_| false).harms
+    judge(plan).harms
 }
 
 #[track_caller]
@@ -253,7 +253,7 @@ fn a_hand_over_without_its_other_half_is_found() {
 
 #[test]
 fn outcomes_tell_what_was_made_of_what() {
-    let outcome = |plan: &Plan| judge(plan, &|_| false).outcome;
+    let outcome = |plan: &Plan| judge(plan).outcome;
     assert_eq!(outcome(&written_then_sampled()), outcome(&written_then_sampled()));
     assert_ne!(outcome(&written_then_sampled()), outcome(&handed_over()));
 }

@@ -27,7 +27,7 @@ fn right(frame: &Frame, options: &Options) -> Plan {
     let plan = compile(frame, &device, &mut Estimated(&device), options)
         .unwrap_or_else(|wrong| panic!("the frame is legal: {wrong:?}"));
     assert_eq!(verify(&plan), [], "{}", plan.tree());
-    assert_eq!(judge(&plan, &|_| false).harms, [], "{}", plan.tree());
+    assert_eq!(judge(&plan).harms, [], "{}", plan.tree());
     plan
 }
 

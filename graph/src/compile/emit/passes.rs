@@ -101,6 +101,7 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
             (Some(Draw::FullScreen), COPY_SHADER.into(), vec![Blend::Replace]);
         return planned;
     }
+    planned.discards = matches!(declared.work, FrameWork::Draw { discards: true, .. });
     (planned.draw, planned.groups, planned.shader) = match &declared.work {
         FrameWork::Draw { draw, shader, .. } => (Some(*draw), None, shader.clone()),
         FrameWork::Dispatch { shader, groups } => (None, Some(*groups), shader.clone()),
@@ -128,6 +129,7 @@ fn empty(parts: &Parts<'_>, op: &Op) -> Pass {
         draw: None,
         groups: None,
         shader: Arc::default(),
+        discards: false,
         blend: Vec::new(),
         depth: None,
         stencil: None,
