@@ -206,7 +206,8 @@ pub enum Role {
     External {
         /// State that the frame may rely on when it begins. Layout `UNDEFINED`: contents are not relied on.
         before: State,
-        /// State that the frame leaves it in.
+        /// State that the frame leaves it in: whoever uses it next waits for these stages and accesses, with a barrier of
+        /// its own, or by a semaphore if there are none.
         after: State,
     },
 }

@@ -2,13 +2,14 @@
 //!
 //! Something external is found in its stated state each time, whatever the frame before left. Something persistent is
 //! found in its stated state by the first frame; by later ones in that in which the frame before really left it, which
-//! must be the one that is stated too. After the last step of a frame whoever relies on the stated state may read at once
-//! if it states reads, or put a barrier behind it that names it as its source.
+//! must be the one that is stated too. After the last step of a frame whoever relies on the stated state puts a barrier
+//! behind it that names it as its source; where it names no stages, a semaphore, which waits for everything. Of the reads
+//! that it names, at least one can be made at once.
 
 use super::Findings;
 use super::cells::{Cell, Contents, Owner, Write};
 use super::dependencies::{before_access, before_layout_change};
-use super::scopes::{PairSet, StageSet};
+use super::scopes::{PairSet, StageSet, stage_of};
 use super::violation::Touched;
 use super::walk::Walk;
 use crate::plan::{Buffer, Image, Plan, Resource, Role, StepId};
@@ -164,20 +165,23 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         }
     }
 
+    /// Whether a barrier that names the stated state as its source waits for everything, and makes it available.
     fn check_state(&mut self, last: StepId, resource: u32, index: usize, after: &State) {
         let cell = &self.cells[index];
-        if cell.excused || matches!(cell.owner, Owner::Released(_)) {
+        if cell.excused || matches!(cell.owner, Owner::Released(_)) || after.stages.is_empty() {
             return;
         }
         let (stages, pairs) = scopes(after);
         let before = self.clocks.after_all_queues(stages.and_earlier(), self.now(last) + 1);
-        let follows = before_layout_change(cell, &before, pairs);
-        let reads = || {
-            let queue = self.program.used[resource as usize].last_queue;
-            before_access(cell, &self.clocks, queue, stages, pairs)
+        // Parts may have been read last in different stages, of which the state lists all.
+        let mut reads = if pairs.writes().is_empty() { pairs } else { PairSet::default() }.iter();
+        let queue = self.program.used[resource as usize].last_queue;
+        let read = |pair| before_access(cell, &self.clocks, queue, StageSet(1 << stage_of(pair)), PairSet::only(pair));
+        let unread = || {
+            let first = read(reads.next()?)?;
+            reads.all(|pair| read(pair).is_some()).then_some(first)
         };
-        let gap = follows.or_else(|| if pairs.writes().is_empty() { reads() } else { None });
-        if let Some(mut gap) = gap {
+        if let Some(mut gap) = before_layout_change(cell, &before, pairs).or_else(unread) {
             gap.later = Touched::AfterFrame;
             self.cells[index].excused = true;
             self.report(last, resource, index, gap.rule(), gap.time);

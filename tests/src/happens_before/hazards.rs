@@ -82,7 +82,14 @@ fn missing(timeline: &Timeline, earlier: &Touch, later: &Touch) -> Option<Missin
 /// What is missing between a write of one part and a later touch of it that it happens before.
 fn lost_between(timeline: &Timeline, (earlier, later): (&Touch, &Touch), cell: usize) -> Option<Missing> {
     let available: Vec<usize> = available_at(timeline, earlier, cell).collect();
-    let in_time = |point: &usize| timeline.before[later.node].contains(*point) || same_call(timeline, *point, later);
+    let before = &timeline.before[later.node];
+    let transitions = || {
+        let earlier = timeline.touches.iter().filter(|touch| before.contains(touch.node));
+        earlier.chain([later]).filter(|touch| touch.what == What::Transition)
+    };
+    let in_time = |point: &usize| {
+        before.contains(*point) || transitions().any(|transition| same_call(timeline, *point, transition))
+    };
     if !available.iter().any(in_time) {
         return Some(Missing::Availability);
     }
@@ -134,16 +141,13 @@ fn available_at<'t>(timeline: &'t Timeline, write: &'t Touch, cell: usize) -> Bo
 }
 
 /// Whether a transition finds what another barrier of its own call makes available: all of a call's availability
-/// operations come before its transitions.
-fn same_call(timeline: &Timeline, point: usize, later: &Touch) -> bool {
-    if later.what != What::Transition {
-        return false;
-    }
+/// operations come before its transitions, and so before whatever comes after one of those.
+fn same_call(timeline: &Timeline, point: usize, transition: &Touch) -> bool {
     let call = |node: usize, by: fn(&MemoryOperation) -> Option<usize>| {
         timeline.operations.iter().find(|operation| by(operation) == Some(node)).map(|operation| operation.call)
     };
     let of_point = call(point, |operation| operation.from.map(|(.., node)| node));
     // The second half of a barrier is made right after its transition.
-    let of_later = call(later.node + 1, |operation| operation.to.map(|(.., node)| node));
+    let of_later = call(transition.node + 1, |operation| operation.to.map(|(.., node)| node));
     of_point.is_some() && of_point == of_later
 }

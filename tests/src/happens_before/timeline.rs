@@ -386,7 +386,8 @@ impl Timeline {
         let work = track.work.iter().filter(|(_, stage)| scope.contains(*stage)).map(|(node, _)| *node);
         let open = track.open.iter().filter(|open| scope.intersects(open.stages)).map(|open| open.node);
         let nodes: Vec<usize> = work.chain(open).collect();
-        let before = self.after(&nodes);
+        let all = track.all.clone();
+        let before = if after.stages.is_empty() { self.closed(all) } else { self.after(&nodes) };
         let from = self.node(before);
         let before = self.after(&[from]);
         let node = self.node(before);

@@ -4,7 +4,7 @@ use super::{Mutant, UNCHANGED, catch_all, mutants, nth};
 use crate::hand_written_plans::{self, recount};
 use framewright_graph::plan::{Plan, Queue, Role, StepId, Subresources};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Layout, Stages};
+use framewright_graph::vocabulary::{Accesses, Layout, Stages, State};
 
 fn without_a_wait(plan: &Plan) -> Vec<Mutant> {
     mutants(plan, |plan, place| {
@@ -158,11 +158,24 @@ fn a_state_that_is_promised_and_not_kept_is_caught() {
     let mut plan = plan("history");
     if let Role::External { after, .. } = &mut plan.images[3].role {
         after.stages = Stages::FRAGMENT_SHADER;
-        after.accesses = framewright_graph::vocabulary::Accesses::SHADER_SAMPLED_READ;
+        after.accesses = Accesses::SHADER_SAMPLED_READ;
     }
     let said = said(&mut plan);
     let expected = "step 2 export: `screen` (COLOR, mip 0, layer 0): what relies on the state after the frame";
     assert!(said[0].starts_with(expected), "{said:#?}");
+}
+
+/// What is presented waits for the frame by a semaphore: no barrier need lead on to it.
+#[test]
+fn a_state_without_stages_follows_everything() {
+    let mut plan = plan("history");
+    let (none, nothing) = (Stages::empty(), Accesses::empty());
+    if let Role::External { after, .. } = &mut plan.images[3].role {
+        *after = State { stages: none, accesses: nothing, layout: Layout::PresentSrcKhr };
+    }
+    let export = &mut plan.steps[2].image_barriers[0];
+    (export.dst_stages, export.dst_accesses, export.new_layout) = (none, nothing, Layout::PresentSrcKhr);
+    assert_eq!(said(&mut plan), [""; 0]);
 }
 
 #[test]
