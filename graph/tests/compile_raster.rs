@@ -19,7 +19,10 @@ fn compiled(frame: &Frame) -> Plan {
 }
 
 fn scopes(plan: &Plan) -> Vec<&RenderScope> {
-    plan.steps.iter().filter_map(|step| if let Work::Render(scope) = &step.work { Some(scope) } else { None }).collect()
+    plan.steps
+        .iter()
+        .filter_map(|step| if let Work::Render(scope) = &step.work { Some(&**scope) } else { None })
+        .collect()
 }
 
 fn pass_names(plan: &Plan) -> Vec<Vec<String>> {

@@ -207,7 +207,7 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
 fn render(image_barriers: Vec<ImageBarrier>, samples: u32, color: Attachment, passes: Vec<Pass>) -> Step {
     let scope =
         RenderScope { extent: EXTENT, layers: 1, samples, color: vec![color], depth: None, stencil: None, passes };
-    step(image_barriers, Work::Render(scope))
+    step(image_barriers, Work::Render(Box::new(scope)))
 }
 
 fn step(image_barriers: Vec<ImageBarrier>, work: Work) -> Step {

@@ -179,7 +179,11 @@ impl Adapter<'_> {
 
     fn push(&mut self, kind: OpKind, uses: &[Use]) {
         let start = self.adapted.uses.len() as u32;
-        self.adapted.uses.extend_from_slice(uses);
+        for used in uses {
+            let store = &self.adapted.stores[used.store as usize];
+            let cell = if store.grid(self.input.grids).is_none() { store.first_cell } else { Use::CELLS };
+            self.adapted.uses.push(Use { cell, ..*used });
+        }
         let side_effect = kind.pass().is_some_and(|pass| self.input.frame.passes[pass as usize].side_effect);
         self.adapted.ops.push(Op { kind, uses: start..start + uses.len() as u32, side_effect });
     }

@@ -18,10 +18,11 @@ use crate::device::Profile;
 use crate::frame::{Frame, Resource as Declared, Work as FrameWork};
 use crate::plan::{
     Buffer, BufferId, Cause, DeviceUsed, FORMAT_VERSION, Image, ImageId, Note, Placement, Plan, Queue, Resource, Role,
-    SettingUsed, Stage, Step, Totals, Work,
+    SettingUsed, Stage, Step, Subresources, Totals, Work,
 };
 use crate::source::Place;
 use crate::vocabulary::State;
+use std::sync::Arc;
 
 /// What the stages decided.
 pub(super) struct Parts<'a> {
@@ -40,6 +41,32 @@ pub(super) struct Parts<'a> {
     pub(super) batched: Vec<Batched>,
     pub(super) memory: Vec<(u32, MemoryScopes)>,
     pub(super) exact_memory: bool,
+    /// What steps say of each store.
+    pub(super) subjects: Vec<Subject>,
+    /// The name of what has none.
+    pub(super) nothing: Arc<str>,
+}
+
+/// What steps say of a store: in one place, since they say it often.
+pub(super) struct Subject {
+    id: u32,
+    is_image: bool,
+    /// Whether parts of it are tracked by themselves.
+    is_cut: bool,
+    all: Subresources,
+}
+
+impl Subject {
+    /// One for each store.
+    pub(super) fn of(adapted: &Adapted, grids: &Grids) -> Vec<Subject> {
+        let subject = |store: &Store| Subject {
+            id: store.id,
+            is_image: store.image().is_some(),
+            is_cut: store.grid(grids).is_some(),
+            all: store.all(),
+        };
+        adapted.stores.iter().map(subject).collect()
+    }
 }
 
 pub(super) fn emit(mut parts: Parts<'_>) -> Plan {
@@ -83,7 +110,7 @@ fn steps(parts: &Parts<'_>) -> Vec<Step> {
     for (step, number) in parts.scoped.steps.iter().zip(0_u32..) {
         let (memory_barriers, image_barriers) = barriers.of(number);
         let work = match step {
-            Grouped::Scope(scope) => Work::Render(attachments::scope(parts, scope, number)),
+            Grouped::Scope(scope) => Work::Render(Box::new(attachments::scope(parts, scope, number))),
             Grouped::Single(op) => passes::single(parts, *op),
             Grouped::Export => Work::Export,
         };

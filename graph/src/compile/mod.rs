@@ -105,6 +105,7 @@ pub fn compile(
         grids: &grids,
         live,
         notes,
+        subjects: emit::Subject::of(&adapted, &grids),
         adapted,
         scoped,
         retained,
@@ -114,5 +115,6 @@ pub fn compile(
         batched,
         memory: memory_barriers,
         exact_memory: memory.exact(),
+        nothing: std::sync::Arc::default(),
     }))
 }

@@ -121,7 +121,11 @@ impl Adapted {
     }
 
     /// The cells that a use is about.
+    #[inline]
     pub(super) fn for_each_cell(&self, grids: &Grids, used: &Use, mut visit: impl FnMut(CellIndex)) {
+        if used.cell != Use::CELLS {
+            return visit(used.cell);
+        }
         let store = &self.stores[used.store as usize];
         match store.grid(grids) {
             None => visit(store.first_cell),
@@ -188,6 +192,8 @@ pub(super) struct Use {
     pub(super) store: StoreIndex,
     /// Into [`Adapted::ranges`]; [`Use::ALL`]: all of it.
     pub(super) range: u32,
+    /// The one cell that it is about; [`Use::CELLS`] if there may be several.
+    pub(super) cell: CellIndex,
     /// Which entry of the pass's list of such uses it is.
     pub(super) entry: u32,
     pub(super) role: Role,
@@ -205,6 +211,8 @@ pub(super) struct Use {
 impl Use {
     /// All of a store.
     pub(super) const ALL: u32 = u32::MAX;
+    /// Several cells.
+    pub(super) const CELLS: CellIndex = u32::MAX;
 }
 
 /// The role in which an operation uses an image or buffer.

@@ -11,7 +11,7 @@ use std::sync::Arc;
 #[serde(rename_all = "snake_case")]
 pub enum Work {
     /// A rendering scope (`vkCmdBeginRendering` … `vkCmdEndRendering`).
-    Render(RenderScope),
+    Render(Box<RenderScope>),
     /// A compute pass.
     Dispatch(Pass),
     /// A pass that the embedding program records; `shader` is the name by which it knows it.

@@ -152,7 +152,8 @@ pub(crate) fn dispatch(name: &str, line: u32, accesses: Vec<Access>) -> Pass {
 }
 
 pub(crate) fn scope(samples: u32, color: Vec<Attachment>, depth: Option<Attachment>, passes: Vec<Pass>) -> Work {
-    Work::Render(RenderScope { extent: [SIZE[0], SIZE[1]], layers: 1, samples, color, depth, stencil: None, passes })
+    let scope = RenderScope { extent: [SIZE[0], SIZE[1]], layers: 1, samples, color, depth, stencil: None, passes };
+    Work::Render(Box::new(scope))
 }
 
 pub(crate) fn step(image_barriers: Vec<ImageBarrier>, work: Work) -> Step {

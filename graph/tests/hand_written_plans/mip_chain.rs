@@ -27,7 +27,7 @@ pub(crate) fn plan() -> Plan {
     let accesses = vec![on(0, sampled("source", &bloom, SAMPLED)), on(1, access(&bloom, COLOR))];
     let down = draw("down", 20, Draw::FullScreen, &[Blend::Replace], None, accesses);
     let below = match scope(1, vec![attach(1, LoadOp::DontCare)], None, vec![down]) {
-        Work::Render(scope) => Work::Render(RenderScope { extent: [SIZE[0] / 2, SIZE[1] / 2], ..scope }),
+        Work::Render(scope) => Work::Render(Box::new(RenderScope { extent: [SIZE[0] / 2, SIZE[1] / 2], ..*scope })),
         other => other,
     };
     let side = |mip: u32, layout: Layout| Side::Image {

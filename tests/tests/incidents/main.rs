@@ -33,7 +33,7 @@ fn right(frame: &Frame, options: &Options) -> Plan {
 
 /// The rendering scopes of a Plan.
 fn scopes(plan: &Plan) -> impl Iterator<Item = &RenderScope> {
-    plan.steps.iter().filter_map(|step| if let Work::Render(scope) = &step.work { Some(scope) } else { None })
+    plan.steps.iter().filter_map(|step| if let Work::Render(scope) = &step.work { Some(&**scope) } else { None })
 }
 
 /// All attachments of a Plan.

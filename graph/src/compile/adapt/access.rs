@@ -14,6 +14,7 @@ fn used(store: StoreIndex, range: u32, role: Role) -> Use {
     Use {
         store,
         range,
+        cell: Use::CELLS,
         entry: 0,
         role,
         start: Start::Keep,

@@ -2,7 +2,6 @@
 
 use super::{Parts, resource};
 use crate::compile::batch::Batched;
-use crate::compile::model::Kind;
 use crate::compile::parts::join;
 use crate::compile::synchronise::{NEVER, Pending};
 use crate::plan::{BufferHazard, BufferId, ImageBarrier, ImageId, MemoryBarrier, StepId, Subresources};
@@ -44,20 +43,23 @@ impl<'p, 'a> Barriers<'p, 'a> {
         let mut buffers: Option<MemoryBarrier> = None;
         for it in here {
             let pending = &self.parts.pending[it.barrier as usize];
-            let store = &self.parts.adapted.stores[pending.store as usize];
-            match store.kind {
-                Kind::Image(_) => {
-                    let range = match store.grid(self.parts.grids) {
-                        None => store.all(),
-                        Some(grid) => grid.range(pending.cell - store.first_cell),
-                    };
-                    add(&mut images, image_barrier(pending, store.id, range));
-                }
-                Kind::Buffer(_) => add_buffer(&mut buffers, pending, store.id),
+            let subject = &self.parts.subjects[pending.store as usize];
+            if !subject.is_image {
+                add_buffer(&mut buffers, pending, subject.id);
+                continue;
             }
+            let range = if subject.is_cut { self.part(pending) } else { subject.all };
+            add(&mut images, image_barrier(pending, subject.id, range));
         }
         memory.extend(buffers);
         (memory, images)
+    }
+
+    /// The part of its image that a barrier is about.
+    fn part(&self, pending: &Pending) -> Subresources {
+        let store = &self.parts.adapted.stores[pending.store as usize];
+        let grid = store.grid(self.parts.grids);
+        grid.map_or(store.all(), |grid| grid.range(pending.cell - store.first_cell))
     }
 }
 
@@ -84,6 +86,7 @@ fn image_barrier(pending: &Pending, image: u32, range: Subresources) -> ImageBar
 /// Adds a barrier, joined with those before it that differ from it only in their part of the image.
 fn add(barriers: &mut Vec<ImageBarrier>, mut new: ImageBarrier) {
     while let Some(last) = barriers.last()
+        && last.image == new.image
         && (ImageBarrier { range: new.range, after: new.after, hazard: new.hazard, ..last.clone() }) == new
         && let Some(range) = join(last.range, new.range)
     {

@@ -2,9 +2,10 @@
 
 use super::{Parts, cause, frame_work};
 use crate::compile::model::{Kind, Op, OpKind, Role, Use};
-use crate::frame::{Blend, DepthTarget, Draw, Pass as FramePass, Work as FrameWork};
+use crate::frame::{Blend, DepthTarget, Draw, Groups, Pass as FramePass, Work as FrameWork};
 use crate::plan::{
-    Access, Binding, BindingKind, BufferAccess, BufferId, DepthState, Fill, ImageId, Param, Pass, Side, Transfer, Work,
+    Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
+    Transfer, Work,
 };
 use crate::vocabulary::{Aspects, Filter};
 use std::sync::Arc;
@@ -81,54 +82,68 @@ fn side(parts: &Parts<'_>, used: &Use) -> Side {
 pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     let op = &parts.adapted.ops[number as usize];
     let uses = parts.adapted.uses(number);
+    let nothing = || Arc::clone(&parts.nothing);
     let Some(declared) = op.kind.pass().map(|pass| &parts.frame.passes[pass as usize]) else {
-        return empty(parts, op);
+        return bare(nothing(), cause(parts, op), None, None, nothing());
     };
-    let buffers = uses.iter().filter(|used| matches!(parts.adapted.stores[used.store as usize].kind, Kind::Buffer(_)));
-    let mut planned = Pass {
-        name: declared.name.clone(),
-        accesses: Vec::with_capacity(uses.len()),
-        buffers: buffers.map(|used| buffer_access(parts, used, declared)).collect(),
-        merged: parts.scoped.merged(number).cloned(),
-        ..empty(parts, op)
-    };
+    let (name, cause) = (declared.name.clone(), cause(parts, op));
     if let OpKind::ForwardDraw { filter, .. } = op.kind {
         let binding = || Some(Binding { name: COPY_SOURCE.into(), kind: BindingKind::Sampled(filter) });
         let accesses =
             uses.iter().map(|used| access(parts, used, (used.role == Role::Sampled).then(binding).flatten()));
-        planned.accesses = accesses.collect();
-        (planned.draw, planned.shader, planned.blend) =
-            (Some(Draw::FullScreen), COPY_SHADER.into(), vec![Blend::Replace]);
-        return planned;
+        return Pass {
+            blend: vec![Blend::Replace],
+            accesses: accesses.collect(),
+            merged: parts.scoped.merged(number).cloned(),
+            ..bare(name, cause, Some(Draw::FullScreen), None, COPY_SHADER.into())
+        };
     }
-    planned.discards = matches!(declared.work, FrameWork::Draw { discards: true, .. });
-    (planned.draw, planned.groups, planned.shader) = match &declared.work {
+    let (draw, groups, shader) = match &declared.work {
         FrameWork::Draw { draw, shader, .. } => (Some(*draw), None, shader.clone()),
         FrameWork::Dispatch { shader, groups } => (None, Some(*groups), shader.clone()),
         FrameWork::Custom { callback } => (None, None, callback.clone()),
         FrameWork::Copy | FrameWork::Blit { .. } | FrameWork::Fill { .. } | FrameWork::Forward { .. } => {
-            (None, None, planned.shader)
+            (None, None, nothing())
         }
     };
+    let mut planned = bare(name, cause, draw, groups, shader);
+    planned.accesses.reserve_exact(uses.len());
+    for used in uses {
+        if parts.subjects[used.store as usize].is_image {
+            planned.accesses.push(access(parts, used, binding(used, declared)));
+        } else {
+            planned.buffers.push(buffer_access(parts, used, declared));
+        }
+    }
+    if matches!(declared.work, FrameWork::Draw { .. }) {
+        drawn(&mut planned, declared, uses);
+        planned.merged = parts.scoped.merged(number).cloned();
+    }
+    if !declared.params.is_empty() {
+        let params = declared.params.iter();
+        planned.params = params.map(|(name, value)| Param { name: name.clone(), value: *value }).collect();
+    }
+    planned
+}
+
+/// What only draws have.
+fn drawn(planned: &mut Pass, declared: &FramePass, uses: &[Use]) {
+    planned.discards = matches!(declared.work, FrameWork::Draw { discards: true, .. });
     planned.blend = declared.color.iter().map(|target| target.blend).collect();
     let depth = declared.depth.as_ref();
     planned.depth = depth.map(|DepthTarget { test, write, .. }| DepthState { test: *test, write: *write });
     let has_stencil = uses.iter().any(|used| used.role == Role::Stencil);
     planned.stencil = depth.and_then(|depth| depth.stencil).filter(|_| has_stencil);
-    for used in uses.iter().filter(|used| parts.adapted.stores[used.store as usize].image().is_some()) {
-        planned.accesses.push(access(parts, used, binding(used, declared)));
-    }
-    planned.params = declared.params.iter().map(|(name, value)| Param { name: name.clone(), value: *value }).collect();
-    planned
 }
 
-fn empty(parts: &Parts<'_>, op: &Op) -> Pass {
+/// A pass without accesses.
+fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>, shader: Arc<str>) -> Pass {
     Pass {
-        name: Arc::default(),
-        cause: cause(parts, op),
-        draw: None,
-        groups: None,
-        shader: Arc::default(),
+        name,
+        cause,
+        draw,
+        groups,
+        shader,
         discards: false,
         blend: Vec::new(),
         depth: None,
@@ -155,12 +170,13 @@ fn binding(used: &Use, declared: &FramePass) -> Option<Binding> {
 
 /// One access of a pass; load, store and resolve operations are the scope's.
 fn access(parts: &Parts<'_>, used: &Use, binding: Option<Binding>) -> Access {
-    let mut range = parts.adapted.range(used);
+    let subject = &parts.subjects[used.store as usize];
+    let mut range = parts.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all);
     // Shaders see one plane; of depth with stencil, plain sampling means depth.
     if binding.is_some() && range.aspects == Aspects::DEPTH | Aspects::STENCIL {
         range.aspects = Aspects::DEPTH;
     }
-    let image = ImageId(parts.adapted.stores[used.store as usize].id);
+    let image = ImageId(subject.id);
     Access { image, range, stages: used.stages, accesses: used.accesses, layout: used.layout, binding }
 }
 
