@@ -56,11 +56,11 @@ impl MemoryModel {
         MemoryNeeds { bytes, alignment: power_of_two(self.alignment), type_bits: self.type_bits }
     }
 
-    /// What a buffer takes.
+    /// What a buffer takes. Buffers are made of whole words, since fills write words.
     #[must_use]
     pub fn buffer(&self, buffer: &BufferDescriptor) -> MemoryNeeds {
         let alignment = power_of_two(self.buffer_alignment);
-        MemoryNeeds { bytes: buffer.bytes, alignment, type_bits: self.type_bits }
+        MemoryNeeds { bytes: padded(buffer.bytes, 4), alignment, type_bits: self.type_bits }
     }
 
     /// What one sample of one layer of one plane takes.
