@@ -8,18 +8,23 @@ macro_rules! shaders {
 
 /// Name, as a pipeline file or an `#include` says it, and GLSL text of each shipped shader.
 pub const SHADERS: &[(&str, &str)] = shaders![
+    "adapt_exposure.comp",
     "blur.frag",
     "copy.frag",
     "downsample.frag",
+    "expose.frag",
     "full_screen.vert",
     "include/lighting.glsl",
+    "include/luminance.glsl",
     "include/material.glsl",
     "include/radiance.glsl",
+    "include/scan.glsl",
     "include/scene.glsl",
     "include/surface.glsl",
     "include/tone_mapping.glsl",
     "lit.frag",
     "lit_masked.frag",
+    "luminance_histogram.comp",
     "objects.vert",
     "reinhard.frag",
     "sky.frag",

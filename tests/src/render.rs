@@ -84,17 +84,44 @@ pub fn plan(
     if violations.is_empty() { Ok(plan) } else { Err(violations.join("\n").into()) }
 }
 
-/// The outputs of one frame, in the file's order.
+/// Draws frames by the Plan of `options`, and leaves them to be read back.
 ///
 /// # Errors
-/// Whatever keeps the frame from being drawn, or the validation layer's findings.
-pub fn render(device: &Device, setup: &Setup<'_>) -> Result<Vec<Texels>, Box<dyn Error>> {
+/// Whatever keeps a frame from being drawn, or the validation layer's findings.
+pub fn draw(
+    device: &Device,
+    setup: &Setup<'_>,
+    options: &Options,
+    frames: u32,
+) -> Result<(Plan, Executor), Box<dyn Error>> {
     let mut shaders = ShaderLibrary::new(vec![in_repository("tests/shaders")], SHADERS, interface);
-    let plan = plan(device, setup, &mut shaders, &Options::default())?;
+    let plan = plan(device, setup, &mut shaders, options)?;
     let mut draws = SceneDrawSource::new(device, setup.scene, setup.extent)?;
-    let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
-    executor.frame(&mut draws)?;
-    let outputs = (0..plan.outputs.len()).map(|output| executor.read(output)).collect::<Result<_, _>>()?;
+    let how = ExecutorOptions { poison: options.poison, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(device, &plan, &mut shaders, &how)?;
+    for _ in 0..frames {
+        executor.frame(&mut draws)?;
+    }
+    silent(device)?;
+    Ok((plan, executor))
+}
+
+/// That the validation layer found nothing.
+///
+/// # Errors
+/// What it found.
+pub fn silent(device: &Device) -> Result<(), Box<dyn Error>> {
     let findings: Vec<_> = device.messages().list().into_iter().filter(Message::is_finding).collect();
-    if findings.is_empty() { Ok(outputs) } else { Err(format!("{findings:#?}").into()) }
+    if findings.is_empty() { Ok(()) } else { Err(format!("{findings:#?}").into()) }
+}
+
+/// The outputs of one frame, images all of them, in the file's order.
+///
+/// # Errors
+/// Those of [`draw`].
+pub fn render(device: &Device, setup: &Setup<'_>) -> Result<Vec<Texels>, Box<dyn Error>> {
+    let (plan, mut executor) = draw(device, setup, &Options::default(), 1)?;
+    let outputs = (0..plan.outputs.len()).map(|output| executor.read(output)).collect::<Result<_, _>>()?;
+    silent(device)?;
+    Ok(outputs)
 }

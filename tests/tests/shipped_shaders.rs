@@ -16,6 +16,7 @@ const DRAWN: &[(&str, Draw)] = &[
     ("blur", Draw::FullScreen),
     ("copy", Draw::FullScreen),
     ("downsample", Draw::FullScreen),
+    ("expose", Draw::FullScreen),
     ("lit", OPAQUE),
     ("lit", TRANSPARENT),
     ("lit_masked", MASKED),
@@ -24,6 +25,9 @@ const DRAWN: &[(&str, Draw)] = &[
     ("soft_focus", Draw::FullScreen),
     ("tone_map", Draw::FullScreen),
 ];
+
+/// Every shipped compute shader with the size of its workgroups.
+const DISPATCHED: &[(&str, [u32; 3])] = &[("adapt_exposure", [256, 1, 1]), ("luminance_histogram", [16, 16, 1])];
 
 fn library() -> ShaderLibrary {
     ShaderLibrary::new(Vec::new(), SHADERS, interface)
@@ -38,21 +42,24 @@ fn wanted(name: &str, draw: Draw) -> Result<(Vec<String>, Vec<String>), Box<dyn 
     let (mut images, mut params) = (Vec::new(), Vec::new());
     for binding in reflected(name, draw)?.bindings.into_iter().filter(|binding| binding.set == PASS_SET) {
         match binding.kind {
-            BindingKind::UniformBlock(block) => {
-                assert_eq!(binding.name, "params");
+            BindingKind::UniformBlock(block) if binding.name == "params" => {
                 params.extend(block.members.into_iter().map(|member| member.name));
             }
-            _ => images.push(binding.name),
+            BindingKind::SampledImage(_) => images.push(binding.name),
+            _ => {}
         }
     }
     Ok((images, params))
 }
 
 #[test]
-fn the_table_here_names_every_shipped_fragment_shader() {
+fn the_tables_here_name_every_shipped_fragment_and_compute_shader() {
     for (file, _) in SHADERS {
         if let Some(name) = file.strip_suffix(".frag") {
             assert!(DRAWN.iter().any(|(drawn, _)| *drawn == name), "{name}");
+        }
+        if let Some(name) = file.strip_suffix(".comp") {
+            assert!(DISPATCHED.iter().any(|(dispatched, _)| *dispatched == name), "{name}");
         }
     }
 }
@@ -86,6 +93,17 @@ fn every_shipped_shader_compiles_and_finds_what_its_draw_brings_along() -> Resul
 }
 
 #[test]
+fn every_shipped_compute_shader_compiles_and_takes_nothing_but_what_is_its_passs_own() -> Result<(), Box<dyn Error>> {
+    let mut library = library();
+    for &(name, size) in DISPATCHED {
+        let shader = library.compute_shader(name).map_err(|problem| format!("{name}: {problem:?}"))?;
+        assert_eq!(shader.workgroup_size, Some(size), "{name}");
+        assert!(shader.bindings.iter().all(|binding| binding.set == PASS_SET), "{name}");
+    }
+    Ok(())
+}
+
+#[test]
 fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
     for &(name, draw) in DRAWN {
         assert_eq!(reflected(name, draw)?.discards, draw == MASKED, "{name}");
@@ -95,10 +113,11 @@ fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Result<(), Box<dyn Error>> {
-    let cases: [(&str, &[&str], &[&str]); 6] = [
+    let cases: [(&str, &[&str], &[&str]); 7] = [
         ("blur", &["source"], &["direction_x", "direction_y"]),
         ("copy", &["source"], &[]),
         ("downsample", &["source"], &[]),
+        ("expose", &["source"], &["white_point"]),
         ("reinhard", &["source"], &[]),
         ("soft_focus", &["sharp", "soft"], &["strength"]),
         ("tone_map", &["source"], &["white_point"]),

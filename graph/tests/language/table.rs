@@ -112,6 +112,31 @@ fn compute_shader(name: &str) -> Option<ShaderInterface> {
             ],
         ),
         "histogram" => compute([16, 16, 1], vec![source(), block("bins", 1, true, true, here)]),
+        "luminance_histogram" => compute([16, 16, 1], vec![source(), block("bins", 1, true, true, here)]),
+        "adapt_exposure" => compute(
+            [256, 1, 1],
+            vec![
+                block("bins", 0, true, false, here),
+                block("exposure", 1, true, true, here),
+                params(&["key", "darkest", "brightest", "seconds", "adaptation"].map(|name| (name, "float"))),
+            ],
+        ),
+        "snow_fall" => compute(
+            [64, 1, 1],
+            vec![
+                block("before", 0, true, false, here),
+                block("flakes", 1, false, true, here),
+                params(&[("seconds", "float"), ("wind", "float")]),
+            ],
+        ),
+        "snow_gather" => compute(
+            [256, 1, 1],
+            vec![
+                block("flakes", 0, true, false, here),
+                block("seen", 1, false, true, here),
+                block("counts", 2, false, true, here),
+            ],
+        ),
         "count_up" => compute([64, 1, 1], vec![block("counts", 0, false, true, here)]),
         "halve" => compute(
             [8, 8, 1],
@@ -135,6 +160,21 @@ impl ShaderInterfaces for Table {
             "sky" | "plain" => full_screen(vec![]),
             "whole" => ShaderInterface { outputs: outputs(1, Component::Uint, 1), ..ShaderInterface::default() },
             "tone_map" => full_screen(vec![source(), params(&[("white_point", "float")])]),
+            "expose" => full_screen(vec![
+                source(),
+                of_stage(uniform_block("exposure", 4), Stages::FRAGMENT_SHADER),
+                params(&[("white_point", "float")]),
+            ]),
+            "accumulate" => full_screen(vec![
+                texture("now", 0, false, float),
+                texture("before", 1, false, float),
+                params(&[("share", "float")]),
+            ]),
+            "snow" => full_screen(vec![
+                block("flakes", 0, true, false, Stages::VERTEX_SHADER),
+                block("seen", 1, true, false, Stages::VERTEX_SHADER),
+                params(&[("brightness", "float")]),
+            ]),
             "downsample" | "reinhard" => full_screen(vec![source()]),
             "blur" => full_screen(vec![source(), params(&[("direction_x", "float"), ("direction_y", "float")])]),
             "soft_focus" => full_screen(vec![

@@ -1,5 +1,6 @@
 //! CPU twins of the shaders' closed formulas, in 64-bit floating point: what the GPU is held against.
 
+pub mod exposure;
 pub mod filters;
 pub mod lighting;
 pub mod radiance;
