@@ -48,7 +48,14 @@ impl Message {
     /// Whether it says that something is wrong, rather than slow or none of this program's business.
     #[must_use]
     pub fn is_finding(&self) -> bool {
-        self.kind == MessageKind::Validation
+        self.kind == MessageKind::Validation && !self.takes_a_fill_for_a_copy()
+    }
+
+    /// `vkCmdFillBuffer` runs in the stage CLEAR, and barriers name it so; older layers (1.3.239 is one) believe in COPY and
+    /// report what waits for CLEAR as a hazard. Newer ones say `SYNC_CLEAR_TRANSFER_WRITE`.
+    fn takes_a_fill_for_a_copy(&self) -> bool {
+        let says = |part| self.text.contains(part);
+        self.id.starts_with("SYNC-HAZARD-") && says("usage: SYNC_COPY_TRANSFER_WRITE") && says("vkCmdFillBuffer")
     }
 }
 
@@ -200,4 +207,28 @@ pub(crate) fn settings() -> [vk::LayerSettingEXT<'static>; 5] {
         p_values: std::ptr::from_ref(value).cast(),
         ..Default::default()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As the layers word what follows a fill.
+    fn after_a_fill(stage: &str) -> Message {
+        let text = format!(
+            "vkCmdDispatch: Hazard READ_AFTER_WRITE for VkBuffer 0x28[bins], binding #1 index 0. Access info (usage: \
+             SYNC_COMPUTE_SHADER_SHADER_STORAGE_READ, prior_usage: {stage}, write_barriers: 0, command: vkCmdFillBuffer)."
+        );
+        let id = "SYNC-HAZARD-READ-AFTER-WRITE".to_owned();
+        Message { severity: Severity::Error, kind: MessageKind::Validation, id, text }
+    }
+
+    #[test]
+    fn a_fill_that_an_old_layer_takes_for_a_copy_is_no_finding() {
+        assert!(!after_a_fill("SYNC_COPY_TRANSFER_WRITE").is_finding());
+        assert!(after_a_fill("SYNC_CLEAR_TRANSFER_WRITE").is_finding());
+        let copied = after_a_fill("SYNC_COPY_TRANSFER_WRITE");
+        let copied = Message { text: copied.text.replace("vkCmdFillBuffer", "vkCmdCopyBuffer2"), ..copied };
+        assert!(copied.is_finding());
+    }
 }
