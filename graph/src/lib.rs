@@ -13,5 +13,6 @@ pub mod frame;
 pub mod interface;
 pub mod plan;
 pub mod source;
+mod states;
 pub mod verify;
 pub mod vocabulary;

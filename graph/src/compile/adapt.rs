@@ -404,10 +404,12 @@ impl Adapter<'_> {
 /// Layouts in which transfers find their images.
 const TRANSFER: [Layout; 2] = [Layout::TransferSrcOptimal, Layout::TransferDstOptimal];
 
-/// Whether a pass copies between images sample by sample.
+/// Whether a pass copies into images sample by sample: then it reads single samples, too.
 fn copies_samples(frame: &Frame, pass: &Pass) -> bool {
     let target = pass.transfers.iter().find(|used| used.write).map(|used| used.resource);
-    let Some(Resource::Image(target)) = target.filter(|_| matches!(pass.work, Work::Copy)) else { return false };
+    let Some(Resource::Image(target)) = target.filter(|_| matches!(pass.work, Work::Copy | Work::Custom { .. })) else {
+        return false;
+    };
     frame.images[target.0 as usize].samples > 1
 }
 

@@ -1,5 +1,7 @@
 //! Before `link`: a frame that was built in memory may hold what no pipeline file can say.
 
+mod lifetimes;
+
 use super::parts;
 use crate::describe::Diagnostic;
 use crate::format::Format;
@@ -7,12 +9,12 @@ use crate::frame::{
     Buffer, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Shape, TransferUse, Work,
 };
 use crate::source::Span;
-use crate::vocabulary::{Aspects, FillValue, Layout, Stages, Subresources};
+use crate::states::{Subject, When};
+use crate::vocabulary::{Aspects, Stages, Subresources};
+use lifetimes::value_problem;
 
 /// Most images, buffers and passes of a frame: their numbers have room to spare in 32 bits.
 const MOST: usize = 1 << 24;
-/// Most frames that history goes back.
-const MOST_HISTORY: u32 = 64;
 
 /// Reports what no device could do, and what does not fit together.
 pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
@@ -22,11 +24,13 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         return Err(vec![Diagnostic::new(Span::NONE, message)]);
     }
     for image in &frame.images {
-        errors.extend(image_problem(image).map(|what| Diagnostic::new(image.span, format!("`{}` {what}", image.name))));
+        let problem = image_problem(image).map(|what| Diagnostic::new(image.span, format!("`{}` {what}", image.name)));
+        errors.extend(problem.or_else(|| lifetimes::check(&image.lifetime, image.span, of_image(image))));
     }
     for buffer in &frame.buffers {
-        let problem = buffer_problem(buffer);
-        errors.extend(problem.map(|what| Diagnostic::new(buffer.span, format!("`{}` {what}", buffer.name))));
+        let empty =
+            (buffer.bytes == 0).then(|| Diagnostic::new(buffer.span, format!("`{}` has no bytes", buffer.name)));
+        errors.extend(empty.or_else(|| lifetimes::check(&buffer.lifetime, buffer.span, of_buffer(buffer))));
     }
     if !errors.is_empty() {
         return Err(errors);
@@ -38,29 +42,40 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
             check.storage();
         }
     }
+    outputs(frame, &mut errors);
+    if errors.is_empty() { Ok(()) } else { Err(errors) }
+}
+
+fn of_image(image: &Image) -> Subject<'_> {
+    Subject { name: &image.name, format: Some(image.format), samples: image.samples }
+}
+
+fn of_buffer(buffer: &Buffer) -> Subject<'_> {
+    Subject { name: &buffer.name, format: None, samples: 1 }
+}
+
+/// Each output exists, once, and can be left in its state.
+fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
     let mut listed = vec![false; frame.images.len() + frame.buffers.len()];
     for output in &frame.outputs {
-        let (number, most, name) = match output.resource {
-            Resource::Image(image) => {
-                let at = image.0 as usize;
-                (at, frame.images.len(), frame.images.get(at).map(|image| &image.name))
-            }
+        let (number, subject) = match output.resource {
+            Resource::Image(image) => (image.0 as usize, frame.images.get(image.0 as usize).map(of_image)),
             Resource::Buffer(buffer) => {
                 let at = buffer.0 as usize;
-                let name = frame.buffers.get(at).map(|buffer| &buffer.name);
-                (frame.images.len() + at, frame.images.len() + frame.buffers.len(), name)
+                (frame.images.len() + at, frame.buffers.get(at).map(of_buffer))
             }
         };
-        match name {
-            Some(name) if number < most => {
-                if std::mem::replace(&mut listed[number], true) {
-                    errors.push(Diagnostic::new(output.span, format!("`{name}` is an output twice")));
-                }
-            }
-            _ => errors.push(Diagnostic::new(output.span, "an output does not exist".to_owned())),
+        let Some(subject) = subject else {
+            errors.push(Diagnostic::new(output.span, "an output does not exist".to_owned()));
+            continue;
+        };
+        if std::mem::replace(&mut listed[number], true) {
+            errors.push(Diagnostic::new(output.span, format!("`{}` is an output twice", subject.name)));
         }
+        // Samples are resolved on the way out.
+        let subject = Subject { samples: 1, ..subject };
+        errors.extend(output.after.and_then(|after| lifetimes::check_state(&after, output.span, subject, When::After)));
     }
-    if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
 fn image_problem(image: &Image) -> Option<String> {
@@ -84,50 +99,7 @@ fn image_problem(image: &Image) -> Option<String> {
     } else if image.shape == Shape::Cube && (width != height || !image.layers.is_multiple_of(6)) {
         Some(format!("is a cube of {width}×{height} with {} layers; cubes are square and have 6", image.layers))
     } else {
-        lifetime_problem(&image.lifetime, Some(image.format))
-    }
-}
-
-fn buffer_problem(buffer: &Buffer) -> Option<String> {
-    if buffer.bytes == 0 {
-        return Some("has no bytes".to_owned());
-    }
-    lifetime_problem(&buffer.lifetime, None)
-}
-
-/// What is wrong with a lifetime, of an image with that format or of a buffer.
-fn lifetime_problem(lifetime: &Lifetime, format: Option<Format>) -> Option<String> {
-    match lifetime {
-        Lifetime::Transient => None,
-        Lifetime::History { frames, .. } if *frames == 0 || *frames > MOST_HISTORY => {
-            Some(format!("keeps {frames} frames; 1 to {MOST_HISTORY} are possible"))
-        }
-        Lifetime::Persistent { initial } | Lifetime::History { initial, .. } => {
-            value_problem(initial, format).map(|what| format!("starts as {what}"))
-        }
-        Lifetime::Imported { before, after } => {
-            let known = |layout: Layout| match format {
-                Some(_) => layout != Layout::Undefined,
-                None => layout == Layout::Undefined,
-            };
-            let layouts = after.is_none_or(|after| known(after.layout)) && (format.is_some() || known(before.layout));
-            (!layouts).then(|| "is handed on in a layout that it can't have".to_owned())
-        }
-    }
-}
-
-/// Whether a value can't fill an image with that format, or a buffer.
-fn value_problem(value: &FillValue, format: Option<Format>) -> Option<&'static str> {
-    match (value, format) {
-        (FillValue::Color(color), _) if color.iter().any(|value| !value.is_finite()) => {
-            Some("what is not a finite number")
-        }
-        (FillValue::Depth(depth, _), _) if !(0.0..=1.0).contains(depth) => Some("a depth outside of 0 to 1"),
-        (FillValue::Bits(_), None) => None,
-        (FillValue::Color(_), Some(format)) if !format.is_integer() && !format.is_depth() => None,
-        (FillValue::Bits(_), Some(format)) if format.is_integer() => None,
-        (FillValue::Depth(..), Some(format)) if format.is_depth() => None,
-        _ => Some("a value of another kind"),
+        None
     }
 }
 

@@ -91,7 +91,7 @@ pub fn compile(
     let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained);
     let export = scoped.steps.len() as u32;
     let states = outlive::promise(&grids, &adapted, &mut walked, export);
-    purpose::note(&grids, &mut adapted, &walked, &retained, &scoped, options);
+    purpose::note(&grids, &mut adapted, &walked, &states, &retained, &scoped, options);
     let placed = place::place(&adapted, &walked.lifetimes, device, memory, options)?;
     let hand_overs = take_over::take_over(&grids, &adapted, &states, &placed, &mut walked);
     let batched = batch::batch(&walked.barriers);

@@ -3,7 +3,7 @@
 //! An image that is only ever used whole is one part. Else its planes, mip levels and layers are cut where an access begins
 //! or ends, and each piece of that grid is a part.
 
-use crate::frame::{Frame, Image, ImageIndex, Lifetime, Resource};
+use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, Resource};
 use crate::vocabulary::{Aspects, Subresources};
 
 /// How one image is cut. Parts are numbered plane by plane, in each mip level by mip level, in each layer by layer.
@@ -50,6 +50,7 @@ impl Grids {
                     grids.cut(frame, image, range);
                 }
             }
+            grids.cut_copies(frame, pass);
         }
         grids
     }
@@ -81,6 +82,21 @@ impl Grids {
             for at in at {
                 if let Err(place) = cuts.binary_search(&at) {
                     cuts.insert(place, at);
+                }
+            }
+        }
+    }
+
+    /// What a pass samples while it writes it is copied, mip level by mip level.
+    fn cut_copies(&mut self, frame: &Frame, pass: &Pass) {
+        for sampled in &pass.sampled {
+            let written = pass.color.iter().any(|target| target.image == sampled.image)
+                || pass.storage.iter().any(|storage| storage.image == sampled.image);
+            let mips = frame.images[sampled.image.0 as usize].mips;
+            if written && mips > 1 {
+                for base_mip in 0..mips {
+                    let level = Subresources { base_mip, mips: 1, ..Subresources::WHOLE };
+                    self.cut(frame, sampled.image, level);
                 }
             }
         }

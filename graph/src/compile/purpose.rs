@@ -1,13 +1,14 @@
 //! What each image and buffer is made for: exactly the uses that the steps make of it, and what follows from its part in the
-//! frame.
+//! frame and from the states in which it is found and left.
 
 use super::Options;
 use super::model::{Adapted, Home, Kind};
-use super::outlive::cells;
+use super::outlive::{States, cells, last_of_cycle};
 use super::parts::Grids;
 use super::retain::Retained;
 use super::scope::{Scoped, Step};
 use super::synchronise::Walked;
+use crate::states::usage_for;
 use crate::vocabulary::{BufferUsage, LoadOp, StoreOp, Usage};
 
 /// Notes usages: what outlives the frame can be copied from, what has initial contents can be copied to; images that never
@@ -16,6 +17,7 @@ pub(super) fn note(
     grids: &Grids,
     adapted: &mut Adapted,
     walked: &Walked,
+    states: &[Option<States>],
     retained: &Retained,
     scoped: &Scoped,
     options: &Options,
@@ -37,6 +39,9 @@ pub(super) fn note(
         match &mut store.kind {
             Kind::Image(image) => {
                 image.usage = Usage::from_bits_truncate(bits);
+                for state in states[at].iter().flat_map(|states| [states.before, states.after]) {
+                    image.usage |= usage_for(state.layout);
+                }
                 match home {
                     Home::Transient if options.poison => image.usage |= Usage::TRANSFER_DST,
                     Home::Transient if stays && attachments_only.contains(image.usage) => {
@@ -60,5 +65,31 @@ pub(super) fn note(
                 }
             }
         }
+    }
+    share_purpose(adapted);
+}
+
+/// What becomes each other from frame to frame is the same images in other roles, made for all of these.
+fn share_purpose(adapted: &mut Adapted) {
+    let mut first = 0;
+    while let Some(store) = adapted.stores.get(first as usize) {
+        let last = if let Home::Persistent { .. } = store.home { last_of_cycle(adapted, first) } else { first };
+        if last > first {
+            let cycle = &mut adapted.stores[first as usize..=last as usize];
+            let (mut images, mut buffers) = (Usage::empty(), BufferUsage::empty());
+            for store in &*cycle {
+                match &store.kind {
+                    Kind::Image(image) => images |= image.usage,
+                    Kind::Buffer(buffer) => buffers |= buffer.usage,
+                }
+            }
+            for store in cycle {
+                match &mut store.kind {
+                    Kind::Image(image) => image.usage = images,
+                    Kind::Buffer(buffer) => buffer.usage = buffers,
+                }
+            }
+        }
+        first = last + 1;
     }
 }

@@ -5,10 +5,11 @@ use super::parts;
 use crate::describe::Diagnostic;
 use crate::device::{FormatSupport, Profile};
 use crate::format::Format;
-use crate::frame::{Blend, Frame, Image, ImageIndex, Pass, Resource, Shape, Work};
+use crate::frame::{Blend, Frame, Image, ImageIndex, Lifetime, Pass, Resource, Shape, Work};
 use crate::plan::{Note, Stage};
 use crate::source::Span;
-use crate::vocabulary::{Filter, Subresources, Usage};
+use crate::states::usage_for;
+use crate::vocabulary::{Filter, State, Subresources, Usage};
 use petgraph::unionfind::UnionFind;
 use std::collections::BTreeMap;
 
@@ -52,12 +53,8 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
             let message = format!("`{}` draws into {targets} colour images; `{}` has {most}", pass.name, device.name);
             errors.push(Diagnostic::new(pass.span, message).help("split the pass"));
         }
-        if let (Work::Copy, [from, to]) = (&pass.work, &pass.transfers[..])
-            && let (Resource::Image(from), Resource::Image(to)) = (from.resource, to.resource)
-            && multisampled
-            && frame.images[to.0 as usize].samples > 1
-        {
-            together.union(from.0, to.0);
+        if multisampled && matches!(pass.work, Work::Copy | Work::Custom { .. }) {
+            copied_together(frame, pass, &mut together);
         }
         if let Work::Forward { from, to, .. } = pass.work {
             forwarded.push(to);
@@ -66,6 +63,7 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
             }
         }
     }
+    note_states(frame, &mut usage);
     for (image, used) in usage.iter().enumerate().filter(|(_, used)| !used.is_empty()) {
         check_support(&frame.images[image], *used, &supports, &mut errors);
     }
@@ -81,6 +79,19 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
         lower(frame, group, &supports, &mut negotiated);
     }
     if errors.is_empty() { Ok(negotiated) } else { Err(errors) }
+}
+
+/// What is copied sample by sample has as many on both sides.
+fn copied_together(frame: &Frame, pass: &Pass, together: &mut UnionFind<u32>) {
+    let images = pass.transfers.iter().filter_map(|used| match used.resource {
+        Resource::Image(image) if frame.images[image.0 as usize].samples > 1 => Some((image, used.write)),
+        _ => None,
+    });
+    if let Some((to, _)) = images.clone().find(|(_, written)| *written) {
+        for (from, _) in images {
+            together.union(from.0, to.0);
+        }
+    }
 }
 
 /// The images that a pass draws into, and which parts of them.
@@ -109,6 +120,26 @@ fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
     {
         add(from, Usage::SAMPLED);
         add(to, Usage::COLOR_ATTACHMENT);
+    }
+}
+
+/// Adds what the images in use need for the states in which they come and go.
+fn note_states(frame: &Frame, usage: &mut [Usage]) {
+    let mut add = |image: usize, state: &State| {
+        if !usage[image].is_empty() {
+            usage[image] |= usage_for(state.layout);
+        }
+    };
+    for (number, image) in frame.images.iter().enumerate() {
+        if let Lifetime::Imported { before, after } = &image.lifetime {
+            add(number, before);
+            after.iter().for_each(|after| add(number, after));
+        }
+    }
+    for output in &frame.outputs {
+        if let (Resource::Image(image), Some(after)) = (output.resource, &output.after) {
+            add(image.0 as usize, after);
+        }
     }
 }
 

@@ -115,7 +115,7 @@ impl Walked {
         }
     }
 
-    /// A read of a cell in `layout` after the last step: what is promised to whoever comes after the frame.
+    /// What is promised to whoever comes after the frame, and waits for the stages of `state` alone.
     pub(super) fn promise(&mut self, store: StoreIndex, cell: CellIndex, step: u32, state: State) {
         let need = Need {
             cell,
@@ -267,7 +267,8 @@ impl Walk<'_> {
     }
 }
 
-/// Puts a barrier before a need, or lets the one before earlier reads serve it too.
+/// Puts a barrier before a need, or lets the one before earlier reads serve it too. What comes after the frame (not
+/// `lasts`) waits for nobody but whom it names.
 fn apply(walked: &mut Walked, need: &Need, step: u32, lasts: bool) {
     let Walked { cells, barriers, lifetimes } = walked;
     let cell = &mut cells[need.cell as usize];
@@ -294,7 +295,7 @@ fn apply(walked: &mut Walked, need: &Need, step: u32, lasts: bool) {
     };
     if !cell.is_touched() {
         cell.first_barrier = barrier;
-    } else if !writes && !cell.writes() && cell.layout == need.layout {
+    } else if !writes && !cell.writes() && cell.layout == need.layout && (lasts || need.stages.contains(cell.stages)) {
         cell.stages |= need.stages;
         cell.accesses |= need.accesses;
         cell.last = step;

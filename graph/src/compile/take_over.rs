@@ -24,7 +24,7 @@ pub(super) fn take_over(
         for cell in cells(grids, store) {
             let known = walked.cells[cell as usize];
             let Some(barrier) = walked.barriers.get_mut(known.first_barrier as usize) else { continue };
-            find(barrier, states);
+            find(barrier, states, known.second_barrier == NEVER);
             let is_needed = barrier.step != NEVER;
             // Without it, nothing else waits for those who read the same before.
             if let Some(next) = walked.barriers.get_mut(known.second_barrier as usize).filter(|_| !is_needed) {
@@ -39,8 +39,8 @@ pub(super) fn take_over(
     taking.hand_overs
 }
 
-/// The barrier before the first use of what outlives frames.
-fn find(barrier: &mut Pending, States { before, .. }: &States) {
+/// The barrier before the first use of what outlives frames, which may be the only one.
+fn find(barrier: &mut Pending, States { before, after }: &States, is_last: bool) {
     let covers = before.layout == barrier.new_layout
         && before.stages.contains(barrier.dst_stages)
         && before.accesses.contains(barrier.dst_accesses);
@@ -49,7 +49,9 @@ fn find(barrier: &mut Pending, States { before, .. }: &States) {
     barrier.src_accesses = before.accesses.writes();
     if barrier.keeps {
         barrier.old_layout = before.layout;
-        if covers && reads {
+        // Whoever comes after the frame must wait for earlier readers too, if nothing in it does.
+        let waits_later = !is_last || after.stages.contains(before.stages);
+        if covers && reads && waits_later {
             barrier.step = NEVER;
         }
     }

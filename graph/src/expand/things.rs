@@ -1,11 +1,12 @@
 //! Images and buffers of the frame, each from what the file says and what it follows.
 
 use super::fills;
-use super::states::{self, Subject, When};
+use super::states;
 use super::{Chosen, images};
 use crate::describe::{self, Bytes, Diagnostic, LARGEST_BUFFER, Lifetime as Described, Name, Spanned};
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
 use crate::source::Span;
+use crate::states::{Subject, When};
 use crate::vocabulary::State;
 
 /// Everything that passes name; `None` where a mistake was reported.

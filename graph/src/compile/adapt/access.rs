@@ -4,7 +4,7 @@ use super::TRANSFER;
 use crate::compile::link::buffer_access;
 use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
 use crate::format::Format;
-use crate::frame::{Blend, BufferRole, BufferUse, ColorTarget, Sampled, Storage, TransferUse, Work};
+use crate::frame::{Blend, BufferRole, BufferUse, ColorTarget, Resource, Sampled, Storage, TransferUse, Work};
 use crate::vocabulary::{Accesses, Aspects, Layout, Stages};
 
 const DEPTH_TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
@@ -123,7 +123,8 @@ pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, store: S
         _ => Stages::COPY | Stages::BLIT | Stages::CLEAR,
     };
     let made = if transfer.write { target(store, range, stages) } else { source(store, range, stages) };
-    Use { entry, ..made }
+    let layout = if let Resource::Buffer(_) = transfer.resource { Layout::Undefined } else { made.layout };
+    Use { entry, layout, ..made }
 }
 
 pub(super) fn source(store: StoreIndex, range: u32, stages: Stages) -> Use {

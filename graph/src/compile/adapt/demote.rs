@@ -81,8 +81,12 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
         }
         if let Work::Forward { from, to, .. } = pass.work {
             let later = std::mem::take(&mut needs[to.0 as usize]);
-            if later != Needs::Nothing {
-                needs[from.0 as usize] = later;
+            // What outlives the frame has all its samples.
+            let fixed = outlives(&frame.images[to.0 as usize].lifetime) && multisampled(to);
+            match later {
+                Needs::Nothing if fixed => needs[from.0 as usize] = Needs::Samples(number),
+                Needs::Nothing => {}
+                later => needs[from.0 as usize] = later,
             }
         }
         if copies_samples(frame, pass) {

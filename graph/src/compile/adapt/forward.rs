@@ -58,7 +58,12 @@ impl Adapter<'_> {
         }
         let (source_image, target_image) = (&frame.images[from.0 as usize], &frame.images[to.0 as usize]);
         let count = self.current_samples(from);
-        let wanted = self.input.negotiated.samples(to);
+        let mut wanted = self.input.negotiated.samples(to);
+        // Where draws moved to a single sample, nobody needs more of what takes their place either.
+        let moved = count < wanted && self.input.negotiated.samples(from) == wanted;
+        if moved && !outlives(&target_image.lifetime) {
+            wanted = count;
+        }
         let alike =
             (source_image.format, source_image.extent) == (target_image.format, target_image.extent) && count == wanted;
         let resolves = count > 1 && !alike;
@@ -95,8 +100,12 @@ impl Adapter<'_> {
             return self.note(&name, format!("{why}: {what}"), pass.span);
         }
         if same {
-            let target = self.written(to, false);
             let why = self.reason(format!("{why}; one of them is used again later"), pass.span);
+            let target = if wanted == self.input.negotiated.samples(to) {
+                self.written(to, false)
+            } else {
+                self.replace(to, "1 sample", why.clone(), wanted)
+            };
             return self.push_transfer(OpKind::Copy(why), source, target, Use::ALL);
         }
         self.forward_by_draw(number, pass, source, to, why);

@@ -6,6 +6,7 @@ use crate::describe::Diagnostic;
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
 use crate::plan::Sharing;
+use crate::source::Span;
 use crate::vocabulary::{Aspects, BufferUsage, FillValue, Usage};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -200,7 +201,10 @@ impl Adapter<'_> {
             return Some((self.current(image), range));
         }
         let because = format!("`{}` transfers from `{}` and it has {count} samples", pass.name, declared.name);
-        Some((self.resolved(image, because, used.span)?, range))
+        if declared.format.is_depth() && !self.depth_can_be_resolved(image, &because, used.span) {
+            return None;
+        }
+        Some((self.single_sample(image, because, used.span), range))
     }
 
     /// Whether a draw wrote an image's current version: then its rendering scope can carry a resolve.
@@ -209,6 +213,21 @@ impl Adapter<'_> {
         let writes = |op: &u32| self.adapted.uses(*op).iter().any(|used| used.store == store && used.writes);
         let last = (0..self.adapted.ops.len() as u32).rev().find(writes);
         last.is_some_and(|op| self.adapted.ops[op as usize].kind.draws())
+    }
+
+    /// Whether the samples of depth can become one, for what `because` says; reports why not.
+    fn depth_can_be_resolved(&mut self, image: ImageIndex, because: &str, span: Span) -> bool {
+        let declared = &self.input.frame.images[image.0 as usize];
+        let (what, help) = if declared.format.aspects().contains(Aspects::STENCIL) {
+            ("stencil can't be resolved", "choose a depth format without stencil")
+        } else if !self.drawn_last(image) {
+            ("they were not drawn into it", "depth is resolved where it is drawn: draw into it")
+        } else {
+            return true;
+        };
+        let help = format!("{help}, or give `{}` 1 sample", declared.name);
+        self.errors.push(Diagnostic::new(span, format!("{because}; {what}")).help(help));
+        false
     }
 
     pub(super) fn output(&mut self, output: &Output) {
@@ -221,24 +240,11 @@ impl Adapter<'_> {
         };
         let declared = &self.input.frame.images[image.0 as usize];
         let count = self.current_samples(image);
-        if count > 1 && declared.format.aspects().contains(Aspects::STENCIL) {
-            let message =
-                format!("`{}` is an output with {count} samples, and stencil can't be resolved", declared.name);
-            let help = format!("choose a depth format without stencil, or give `{}` 1 sample", declared.name);
-            return self.errors.push(Diagnostic::new(output.span, message).help(help));
+        let because = format!("`{}` is an output and has {count} samples", declared.name);
+        if count > 1 && declared.format.is_depth() && !self.depth_can_be_resolved(image, &because, output.span) {
+            return;
         }
-        if count > 1 && declared.format.is_depth() && !self.drawn_last(image) {
-            let message = format!("`{}` is an output with {count} samples that were not drawn into it", declared.name);
-            let help =
-                format!("depth is resolved where it is drawn: draw into `{}`, or give it 1 sample", declared.name);
-            return self.errors.push(Diagnostic::new(output.span, message).help(help));
-        }
-        let store = if count > 1 {
-            let because = format!("`{}` is an output and has {count} samples", declared.name);
-            self.single_sample(image, because, output.span)
-        } else {
-            self.current(image)
-        };
+        let store = if count > 1 { self.single_sample(image, because, output.span) } else { self.current(image) };
         self.leaves(store, output);
     }
 

@@ -1,0 +1,53 @@
+//! How long contents live: from which values they start, how far back they are kept, in which states they come and go.
+
+use crate::describe::Diagnostic;
+use crate::format::Format;
+use crate::frame::Lifetime;
+use crate::source::Span;
+use crate::states::{Subject, When, contradiction};
+use crate::vocabulary::{FillValue, Layout, State};
+
+/// Most frames that history goes back: what a checker of the Plan can follow around.
+const MOST_HISTORY: u32 = 32;
+
+/// What is wrong with a lifetime.
+pub(super) fn check(lifetime: &Lifetime, span: Span, of: Subject<'_>) -> Option<Diagnostic> {
+    let wrong = |what: String| Diagnostic::new(span, format!("`{}` {what}", of.name));
+    match lifetime {
+        Lifetime::Transient => None,
+        Lifetime::History { frames, .. } if *frames == 0 || *frames > MOST_HISTORY => {
+            Some(wrong(format!("keeps {frames} frames; 1 to {MOST_HISTORY} are possible")))
+        }
+        Lifetime::Persistent { initial } | Lifetime::History { initial, .. } => {
+            value_problem(initial, of.format).map(|what| wrong(format!("starts as {what}")))
+        }
+        Lifetime::Imported { before, after } => {
+            let after = after.and_then(|after| check_state(&after, span, of, When::After));
+            check_state(before, span, of, When::Before).or(after)
+        }
+    }
+}
+
+/// What is wrong with a state in which something comes or goes.
+pub(super) fn check_state(state: &State, span: Span, of: Subject<'_>, when: When) -> Option<Diagnostic> {
+    if let Some((message, help)) = contradiction(state, of, when) {
+        return Some(Diagnostic::new(span, message).help(help));
+    }
+    let odd = of.format.is_none() && state.layout != Layout::Undefined;
+    odd.then(|| Diagnostic::new(span, format!("`{}` is a buffer and has a layout", of.name)).help("write UNDEFINED"))
+}
+
+/// Whether a value can't fill an image with that format, or a buffer.
+pub(super) fn value_problem(value: &FillValue, format: Option<Format>) -> Option<&'static str> {
+    match (value, format) {
+        (FillValue::Color(color), _) if color.iter().any(|value| !value.is_finite()) => {
+            Some("what is not a finite number")
+        }
+        (FillValue::Depth(depth, _), _) if !(0.0..=1.0).contains(depth) => Some("a depth outside of 0 to 1"),
+        (FillValue::Bits(_), None) => None,
+        (FillValue::Color(_), Some(format)) if !format.is_integer() && !format.is_depth() => None,
+        (FillValue::Bits(_), Some(format)) if format.is_integer() => None,
+        (FillValue::Depth(..), Some(format)) if format.is_depth() => None,
+        _ => Some("a value of another kind"),
+    }
+}
