@@ -40,11 +40,7 @@ fn fault(frame: &Frame, options: &Options) -> Option<String> {
     if let Some(violation) = verify(&plan).first() {
         return Some(format!("the checker finds: {violation}"));
     }
-    let discards = |name: &str| {
-        let pass = frame.passes.iter().find(|pass| *pass.name == *name);
-        pass.is_some_and(|pass| matches!(pass.work, Work::Draw { discards: true, .. }))
-    };
-    judge(&plan, &discards).harms.first().map(|harm| format!("the judge finds: {harm:?}"))
+    judge(&plan).harms.first().map(|harm| format!("the judge finds: {harm:?}"))
 }
 
 /// States in which images come and go.
