@@ -1,10 +1,12 @@
 //! Filling images and buffers with values that nobody may see.
 //!
-//! Where the frame takes an image into use (a barrier from `UNDEFINED`), the image is cleared to a pattern first; a buffer
-//! is filled before the first step of its lifetime. The clear stands between the two scopes of the Plan's own barrier and
-//! has no other: what waits for the barrier waits for the clear, and what the barrier waits for is done before it. So a
-//! poisoned frame shows the same picture exactly if nobody reads what was not written, and if the Plan's barriers order
-//! memory that changes hands.
+//! Where the frame takes an image into use (a barrier from `UNDEFINED`), the image is cleared to a pattern first. The clear
+//! stands between the two scopes of the Plan's own barrier and has no other: what waits for the barrier waits for the clear,
+//! and what the barrier waits for is done before it. Buffers have no such barrier, and what hands their memory over may stand
+//! before an earlier step: a buffer is filled right before the first step of its lifetime, after whatever the Plan lets come
+//! before that step, and made visible to it. Neither makes any write available that the Plan doesn't. So a poisoned frame
+//! shows the same picture exactly if nobody reads what was not written, and if the Plan's barriers order memory that changes
+//! hands.
 
 use crate::convert::{self, Clear};
 use crate::record::{Frame, Place, barriers, fill, memory_barriers};
@@ -24,15 +26,11 @@ const WORD: u32 = 0xDEAD_BEEF;
 pub(crate) fn record(frame: &Frame<'_>, commands: vk::CommandBuffer, index: usize, step: &Step) {
     let images: Vec<_> = step.image_barriers.iter().filter(|barrier| takes_into_use(frame, barrier)).collect();
     let buffers: Vec<_> = frame.plan.buffers.iter().filter(|buffer| begins(buffer, index)).collect();
-    let poisoned = |resource: &Resource| match resource {
-        Resource::Image(image) => images.iter().any(|it| it.image == *image),
-        Resource::Buffer(buffer) => buffers.iter().any(|it| it.id == *buffer),
-    };
     let mut memory = memory_barriers(&step.memory_barriers);
     for (recorded, barrier) in memory.iter_mut().zip(&step.memory_barriers) {
         // Memory that changes hands is poisoned right after.
-        let named = barrier.buffers.iter().any(|it| poisoned(&Resource::Buffer(it.buffer)));
-        if named || barrier.hand_overs.iter().any(|[_, next]| poisoned(next)) {
+        let is_poisoned = |next: &Resource| images.iter().any(|it| Resource::Image(it.image) == *next);
+        if barrier.hand_overs.iter().any(|[_, next]| is_poisoned(next)) {
             recorded.dst_stage_mask |= CLEAR_STAGE;
             recorded.dst_access_mask |= CLEAR_ACCESS;
         }
@@ -60,12 +58,16 @@ pub(crate) fn record(frame: &Frame<'_>, commands: vk::CommandBuffer, index: usiz
         };
         fill(frame.shared, commands, place, pattern(image.format));
     }
+    let first_uses: Vec<_> = buffers.iter().map(|buffer| first_use(step, buffer)).collect();
+    // A barrier of its own call, so that it goes on from where the Plan's barriers lead.
+    let from: Vec<_> = first_uses.iter().map(until_filled).collect();
+    barriers(frame.shared, commands, &from, &[]);
     for buffer in &buffers {
         let raw = frame.prepared.physical.buffer(buffer.id, frame.number).raw;
         fill(frame.shared, commands, Place::Buffer { buffer: raw, bytes: buffer.bytes }, Clear::Word(WORD));
     }
-    let filled: Vec<_> = buffers.iter().map(|buffer| until_used(step, buffer)).collect();
-    barriers(frame.shared, commands, &filled, &after.collect::<Vec<_>>());
+    let until: Vec<_> = first_uses.iter().map(until_used).collect();
+    barriers(frame.shared, commands, &until, &after.collect::<Vec<_>>());
 }
 
 /// Whether the barrier begins an image's life in the frame.
@@ -79,24 +81,41 @@ fn begins(buffer: &Buffer, step: usize) -> bool {
     matches!(&buffer.role, Role::Transient(place) if place.lifetime[0].0 as usize == step)
 }
 
-/// From a buffer's poison to what its first step does with it.
-fn until_used(step: &Step, buffer: &Buffer) -> vk::MemoryBarrier2<'static> {
-    let recorded = vk::MemoryBarrier2::default().src_stage_mask(CLEAR_STAGE).src_access_mask(CLEAR_ACCESS);
+/// Stages and accesses.
+type Scope = (vk::PipelineStageFlags2, vk::AccessFlags2);
+
+/// What the first step of a buffer's lifetime does with it.
+fn first_use(step: &Step, buffer: &Buffer) -> Scope {
     let passes = match &step.work {
         Work::Render(scope) => &scope.passes[..],
         Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
-        _ => &[],
+        Work::Fill(_) => return (CLEAR_STAGE, CLEAR_ACCESS),
+        // Nothing but copies names buffers.
+        Work::Copy(_) | Work::Blit(_) | Work::Resolve(_) | Work::Export => {
+            return (vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ | vk::AccessFlags2::TRANSFER_WRITE);
+        }
     };
     let uses = passes.iter().flat_map(|pass| &pass.buffers).filter(|access| access.buffer == buffer.id);
-    let (stages, accesses) = uses.fold((vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE), |(stages, all), it| {
-        (stages | convert::stages(it.stages), all | convert::accesses(it.accesses))
-    });
-    if stages.is_empty() {
-        // A transfer.
-        let transfer = vk::AccessFlags2::TRANSFER_READ | vk::AccessFlags2::TRANSFER_WRITE;
-        return recorded.dst_stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER).dst_access_mask(transfer);
-    }
-    recorded.dst_stage_mask(stages).dst_access_mask(accesses)
+    uses.fold((vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE), |(stages, accesses), it| {
+        (stages | convert::stages(it.stages), accesses | convert::accesses(it.accesses))
+    })
+}
+
+/// The Plan's barriers lead to a buffer's first use: from there on to its poison.
+fn until_filled((stages, _): &Scope) -> vk::MemoryBarrier2<'static> {
+    vk::MemoryBarrier2::default()
+        .src_stage_mask(*stages)
+        .dst_stage_mask(CLEAR_STAGE)
+        .dst_access_mask(CLEAR_ACCESS)
+}
+
+/// From a buffer's poison to its first use.
+fn until_used((stages, accesses): &Scope) -> vk::MemoryBarrier2<'static> {
+    vk::MemoryBarrier2::default()
+        .src_stage_mask(CLEAR_STAGE)
+        .src_access_mask(CLEAR_ACCESS)
+        .dst_stage_mask(*stages)
+        .dst_access_mask(*accesses)
 }
 
 /// A colour that is conspicuous, and spreads where the format allows.
