@@ -77,6 +77,8 @@ pub(crate) struct Shared {
     pub(crate) labels: Option<ext::debug_utils::Device>,
     /// The commands of `VK_KHR_dynamic_rendering_local_read`, where the device has it.
     pub(crate) local_read: Option<khr::dynamic_rendering_local_read::Device>,
+    /// Whether shaders can see several cubes at once.
+    pub(crate) cube_arrays: bool,
     pub(crate) queues: Queues,
     pub(crate) summary: DeviceSummary,
     pub(crate) caches: crate::caches::Caches,
@@ -114,7 +116,8 @@ impl Device {
         }
         let families = Families::of(&instance.raw, physical).ok_or(Error::NoDevice)?;
         let has_local_read = capabilities::has_local_read(&instance.raw, physical);
-        let mut features = Features::minimum(has_local_read);
+        let mut features = Features::used(&Features::of(&instance.raw, physical, false), has_local_read);
+        let cube_arrays = features.cube_arrays();
         let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
         let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();
         let extensions = if has_local_read { &[khr::dynamic_rendering_local_read::NAME.as_ptr()][..] } else { &[] };
@@ -148,6 +151,7 @@ impl Device {
             limits: properties.limits,
             labels,
             local_read,
+            cube_arrays,
             queues: Queues::new(&raw, families),
             summary,
             caches: crate::caches::Caches::default(),

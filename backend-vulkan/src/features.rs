@@ -65,13 +65,14 @@ impl Features {
         Features { core, v1_2, v1_3, local_read: local }
     }
 
-    /// The features of the minimum, with local reads if the device has them.
-    pub(crate) fn minimum(local_read: bool) -> Features {
+    /// The features that are switched on: the minimum, and beyond it cube arrays and local reads where the device has them.
+    pub(crate) fn used(has: &Features, local_read: bool) -> Features {
         let mut features = Features::default();
         for (_, flag) in MINIMUM_FEATURES {
             *flag(&mut features) = vk::TRUE;
         }
         features.local_read.dynamic_rendering_local_read = local_read.into();
+        features.core.image_cube_array = has.core.image_cube_array;
         features
     }
 
@@ -83,6 +84,11 @@ impl Features {
     /// Whether fragment shaders can read what their rendering scope drew.
     pub(crate) fn local_read(&self) -> bool {
         self.local_read.dynamic_rendering_local_read == vk::TRUE
+    }
+
+    /// Whether shaders can see several cubes at once.
+    pub(crate) fn cube_arrays(&self) -> bool {
+        self.core.image_cube_array == vk::TRUE
     }
 
     /// Switches these features on in a device's creation.

@@ -111,6 +111,8 @@ pub(crate) enum ViewShape {
     Volume,
     /// Six faces.
     Cube,
+    /// Several times six faces.
+    Cubes,
 }
 
 /// A view of an image, which lives at least as long.
@@ -129,6 +131,7 @@ impl View {
                 ViewShape::Layers => vk::ImageViewType::TYPE_2D_ARRAY,
                 ViewShape::Volume => vk::ImageViewType::TYPE_3D,
                 ViewShape::Cube => vk::ImageViewType::CUBE,
+                ViewShape::Cubes => vk::ImageViewType::CUBE_ARRAY,
             })
             .format(convert::format(image.descriptor.format))
             .subresource_range(convert::range(range));

@@ -72,7 +72,7 @@ impl SetTemplate {
                     block(plan, pass, wanted).map_err(mismatch)?
                 }
                 _ => {
-                    let (ty, image) = image(plan, pass, wanted).map_err(mismatch)?;
+                    let (ty, image) = image(shared, plan, pass, wanted).map_err(mismatch)?;
                     let sampler = image.filter.map(|filter| shared.sampler(sampler(filter))).transpose()?;
                     let BoundImage { image, range, shape, layout, .. } = image;
                     (ty, Bound::Image { image, range, shape, layout, sampler: sampler.unwrap_or_default() })
@@ -176,6 +176,7 @@ struct BoundImage {
 
 /// The part of an image that is bound, in the shape that the shader declares.
 fn image(
+    shared: &Shared,
     plan: &Plan,
     pass: &plan::Pass,
     wanted: &interface::Binding,
@@ -211,7 +212,7 @@ fn image(
         (interface::BindingKind::SampledImage(shape), BindingKind::Sampled(filter)) => {
             samples(shape.multisampled)?;
             read(shape.component)?;
-            let shape = view_shape(name, *shape, image, range)?;
+            let shape = view_shape(shared, name, *shape, image, range)?;
             Ok((vk::DescriptorType::COMBINED_IMAGE_SAMPLER, whole(shape, Some(filter))))
         }
         (interface::BindingKind::StorageImage { shape, format, writable, .. }, BindingKind::Storage) => {
@@ -221,7 +222,7 @@ fn image(
                 let declared = format.map_or("no format".to_owned(), |format| format.to_string());
                 return Err(format!("the shader declares `{name}` with {declared}, and it is {}", image.format));
             }
-            let shape = view_shape(name, *shape, image, range)?;
+            let shape = view_shape(shared, name, *shape, image, range)?;
             Ok((vk::DescriptorType::STORAGE_IMAGE, whole(shape, None)))
         }
         (interface::BindingKind::InputAttachment { multisampled, component }, BindingKind::InputAttachment) => {
@@ -236,7 +237,13 @@ fn image(
 }
 
 /// The view that a shader's declaration needs.
-fn view_shape(name: &str, shape: ImageShape, image: &plan::Image, range: Subresources) -> Result<ViewShape, String> {
+fn view_shape(
+    shared: &Shared,
+    name: &str,
+    shape: ImageShape,
+    image: &plan::Image,
+    range: Subresources,
+) -> Result<ViewShape, String> {
     let deep = image.shape == framewright_graph::frame::Shape::D3;
     let cubic = image.shape == framewright_graph::frame::Shape::Cube;
     match (shape.dimension, shape.arrayed) {
@@ -244,6 +251,8 @@ fn view_shape(name: &str, shape: ImageShape, image: &plan::Image, range: Subreso
         (Dimension::D2, true) if !deep => Ok(ViewShape::Layers),
         (Dimension::D3, false) if deep => Ok(ViewShape::Volume),
         (Dimension::Cube, false) if cubic && range.layers == 6 => Ok(ViewShape::Cube),
+        (Dimension::Cube, true) if !shared.cube_arrays => Err(format!("`{name}`: this device has no arrays of cubes")),
+        (Dimension::Cube, true) if cubic && range.layers.is_multiple_of(6) => Ok(ViewShape::Cubes),
         _ => Err(format!("`{name}` has another dimension than its image")),
     }
 }

@@ -33,8 +33,8 @@ pub(super) struct Varying {
     pub(super) ty: String,
 }
 
-/// What shaders may need of a device: the minimum device has no more.
-const CAPABILITIES: [Capability; 12] = [
+/// What shaders may need of a device: the minimum device has no more, but for what is said here.
+const CAPABILITIES: [Capability; 14] = [
     Capability::Matrix,
     Capability::Shader,
     Capability::Sampled1D,
@@ -48,6 +48,9 @@ const CAPABILITIES: [Capability; 12] = [
     Capability::DemoteToHelperInvocation,
     // Shaders have it only where they are compiled for a local read, which is for devices that have those.
     Capability::InputAttachment,
+    // A device that can't see several cubes at once refuses the pass.
+    Capability::SampledCubeArray,
+    Capability::ImageCubeArray,
 ];
 
 /// Bindings are numbered below this: drivers make tables as long as the largest number.
@@ -141,7 +144,7 @@ fn check_shared_memory(module: &Indexed<'_>) -> Result<(), String> {
     Ok(())
 }
 
-/// Nothing that a device of the minimum may lack.
+/// Nothing that a device of the minimum may lack, unless it is refused elsewhere.
 fn check_capabilities(module: &Indexed<'_>) -> Result<(), String> {
     let needed = module.module.capabilities.iter().filter_map(|it| match it.operands.first() {
         Some(Operand::Capability(capability)) => Some(*capability),
