@@ -4,13 +4,16 @@ use crate::buffer::RawBuffer;
 use crate::convert;
 use crate::device::Shared;
 use crate::error::Error;
+use crate::first_owner::{FirstOwner, before_first_frame, first_owners};
 use crate::image::Image;
 use crate::memory::Kind;
 use crate::physical::Physical;
+use crate::queues::Family;
 use crate::readback::{memory_change, mip_extent};
 use crate::record::{Place, barriers, copy_between, fill, state_change};
+use crate::uses::Uses;
 use ash::vk;
-use framewright_graph::plan::{Plan, Queue, Role, Subresources};
+use framewright_graph::plan::{self, BufferId, ImageId, Plan, Queue, Resource, Role, Subresources};
 use framewright_graph::vocabulary::{Accesses, Aspects, FillValue, Layout, Stages, State, Usage};
 use std::sync::Arc;
 
@@ -25,41 +28,115 @@ const WRITTEN: State = State {
     layout: Layout::TransferDstOptimal,
 };
 
-/// Sets everything that outlives the frame and was not handed in to what the first frame finds: persistent things to their
-/// initial value, others to zero, and each to the state that the Plan relies on.
-pub(crate) fn initialise(shared: &Arc<Shared>, plan: &Plan, physical: &Physical) -> Result<(), Error> {
-    shared.submit_once("preparing the first frame", Queue::Graphics, |commands| {
-        for image in &plan.images {
-            let made = physical.image(image.id, 0);
-            let (before, initial) = match &image.role {
-                Role::Persistent { before, initial, .. } => (*before, *initial),
-                Role::External { before, .. } if before.layout != Layout::Undefined && !made.is_foreign() => {
-                    (*before, FillValue::Bits([0; 4]))
-                }
-                Role::Transient(_) | Role::External { .. } => continue,
-            };
-            let whole = Subresources::all(image.format, image.mips, image.layers);
-            let mut state = UNUSED;
-            if made.descriptor.usage.contains(Usage::TRANSFER_DST) {
-                barriers(shared, commands, &[], &[state_change(made.raw, whole, UNUSED, WRITTEN)]);
-                let target = image_place(made, whole, 0);
-                fill(shared, commands, target, convert::clear(Some(image.format), initial));
-                state = WRITTEN;
+/// Sets everything that outlives the frame and has no contents yet to what the first frame finds: persistent things to their
+/// initial value, others that were not handed in to zero, each in the state that the Plan relies on and with the queue that
+/// uses it first.
+pub(crate) fn initialise(shared: &Arc<Shared>, plan: &Plan, uses: &Uses, physical: &Physical) -> Result<(), Error> {
+    let initial = |role: &Role, is_foreign: bool| match role {
+        Role::Persistent { before, initial, .. } => Some((*before, *initial)),
+        Role::External { before, .. } if !is_foreign => Some((*before, FillValue::Bits([0; 4]))),
+        Role::Transient(_) | Role::External { .. } => None,
+    };
+    let of_image = |id: ImageId| {
+        let found = initial(&plan.image(id).role, physical.image(id, 0).is_foreign());
+        found.filter(|(before, _)| before.layout != Layout::Undefined && !physical.is_carried(Resource::Image(id)))
+    };
+    let of_buffer = |id: BufferId| {
+        let found = initial(&plan.buffers[id.0 as usize].role, physical.buffer(id, 0).is_foreign());
+        found.filter(|_| !physical.is_carried(Resource::Buffer(id)))
+    };
+    let owners = first_owners(plan, |id| of_image(id).is_some());
+    let handing = Handing { shared, physical, owners: &owners };
+    for queue in [Queue::Graphics, Queue::Compute, Queue::Transfer] {
+        let family = shared.queues.families.family(queue);
+        if queue != Queue::Graphics && family == shared.queues.families.graphics {
+            continue;
+        }
+        shared.submit_once("preparing the first frame", queue, |commands| {
+            let images = plan.images.iter().filter(|_| queue == Queue::Graphics);
+            for (image, (before, initial)) in images.filter_map(|it| Some((it, of_image(it.id)?))) {
+                set_image(shared, commands, image, physical.image(image.id, 0), before, initial);
             }
-            barriers(shared, commands, &[], &[state_change(made.raw, whole, state, before)]);
+            for (buffer, (before, initial)) in plan.buffers.iter().filter_map(|it| Some((it, of_buffer(it.id)?))) {
+                let first = before_first_frame(plan, uses, Resource::Buffer(buffer.id)).unwrap_or(Queue::Graphics);
+                if shared.queues.families.family(first) == family {
+                    let made = physical.buffer(buffer.id, 0);
+                    let target = Place::Buffer { buffer: made.raw, bytes: made.bytes };
+                    fill(shared, commands, target, convert::clear(None, initial));
+                    barriers(shared, commands, &[memory_change(WRITTEN, before)], &[]);
+                }
+            }
+            handing.record(commands, family);
+        })?;
+    }
+    Ok(())
+}
+
+/// Fills an image and brings it into the state `before`.
+fn set_image(
+    shared: &Shared,
+    commands: vk::CommandBuffer,
+    image: &plan::Image,
+    made: &Image,
+    before: State,
+    initial: FillValue,
+) {
+    let whole = Subresources::all(image.format, image.mips, image.layers);
+    let mut state = UNUSED;
+    if made.descriptor.usage.contains(Usage::TRANSFER_DST) {
+        barriers(shared, commands, &[], &[state_change(made.raw, whole, UNUSED, WRITTEN)]);
+        fill(shared, commands, image_place(made, whole, 0), convert::clear(Some(image.format), initial));
+        state = WRITTEN;
+    }
+    barriers(shared, commands, &[], &[state_change(made.raw, whole, state, before)]);
+}
+
+/// The handing over of images from the graphics queue, which set them, to those that use them first.
+struct Handing<'h> {
+    shared: &'h Shared,
+    physical: &'h Physical,
+    owners: &'h [FirstOwner<'h>],
+}
+
+impl Handing<'_> {
+    /// Records what one family has to do, of which the graphics family comes first.
+    fn record(&self, commands: vk::CommandBuffer, here: Family) {
+        let families = &self.shared.queues.families;
+        let graphics = families.graphics;
+        let mut recorded = Vec::new();
+        for it in self.owners {
+            let owner = families.family(it.owner);
+            if owner != graphics && (here == graphics || here == owner) {
+                // Released by the one, acquired by the other.
+                recorded.push(self.transfer(it, [graphics, owner], [None; 2]));
+            }
         }
-        for buffer in &plan.buffers {
-            let made = physical.buffer(buffer.id, 0);
-            let (before, initial) = match &buffer.role {
-                Role::Persistent { before, initial, .. } => (*before, *initial),
-                Role::External { before, .. } if !made.is_foreign() => (*before, FillValue::Bits([0; 4])),
-                Role::Transient(_) | Role::External { .. } => continue,
-            };
-            let target = Place::Buffer { buffer: made.raw, bytes: made.bytes };
-            fill(shared, commands, target, convert::clear(None, initial));
-            barriers(shared, commands, &[memory_change(WRITTEN, before)], &[]);
+        barriers(self.shared, commands, &[], &recorded);
+        recorded.clear();
+        for it in self.owners.iter().filter(|it| families.family(it.owner) == here) {
+            let Some((barrier, [from, to])) = it.acquired.and_then(|it| Some((it, it.ownership?))) else { continue };
+            let pair = [families.family(from), families.family(to)];
+            if pair[0] != pair[1] {
+                recorded.push(self.transfer(it, pair, [Some(barrier.old_layout), Some(barrier.new_layout)]));
+            }
         }
-    })
+        barriers(self.shared, commands, &[], &recorded);
+    }
+
+    /// One half of an ownership transfer; without layouts the image stays in its own.
+    fn transfer(
+        &self,
+        part: &FirstOwner<'_>,
+        [from, to]: [Family; 2],
+        layouts: [Option<Layout>; 2],
+    ) -> vk::ImageMemoryBarrier2<'static> {
+        let all = State { stages: Stages::ALL_COMMANDS, accesses: Accesses::empty(), layout: part.layout };
+        let [old, new] = layouts.map(|layout| State { layout: layout.unwrap_or(all.layout), ..all });
+        let accesses = Accesses::MEMORY_READ | Accesses::MEMORY_WRITE;
+        let (old, new) = (State { accesses, ..old }, State { accesses, ..new });
+        let image = self.physical.image(part.image, 0).raw;
+        state_change(image, part.range, old, new).src_queue_family_index(from.index).dst_queue_family_index(to.index)
+    }
 }
 
 fn image_place(image: &Image, range: Subresources, mip: u32) -> Place {

@@ -4,6 +4,7 @@ use crate::buffer::RawBuffer;
 use crate::contents::{write_buffer, write_image};
 use crate::error::Error;
 use crate::executor::Executor;
+use crate::first_owner::before_first_frame;
 use crate::image::Image;
 use crate::physical::{buffer_descriptor, descriptor};
 use crate::readback::{Readback, Texels, first_plane, mip_extent, plane_bytes};
@@ -240,12 +241,12 @@ impl Executor {
             Role::External { after, .. } => *after,
         };
         let first = self.frames.next() == 0;
-        let queue = if first { Some(Queue::Graphics) } else { self.owner(resource) };
+        let queue = if first { before_first_frame(&self.plan, &self.uses, resource) } else { self.owner(resource) };
         Ok((state, queue.ok_or_else(|| bad("another queue takes it over"))?))
     }
 
     /// The queue that has it between frames; `None` while it is handed over, and if no step touches it the first.
-    fn owner(&self, resource: Resource) -> Option<Queue> {
+    pub(crate) fn owner(&self, resource: Resource) -> Option<Queue> {
         let Some(span) = self.uses.of(resource) else { return Some(Queue::Graphics) };
         let step = &self.plan.steps[span.last];
         let released = step.releases.iter().any(|barrier| Resource::Image(barrier.image) == resource);

@@ -53,7 +53,7 @@ pub struct Executor {
     /// Before what it uses: dropping it waits for every frame.
     pub(crate) frames: Frames,
     pub(crate) prepared: Prepared,
-    initialised: bool,
+    pub(crate) initialised: bool,
 }
 
 impl Executor {
@@ -158,7 +158,7 @@ impl Executor {
     /// Gives what outlives the frame its first contents, unless that is done.
     pub(crate) fn ready(&mut self) -> Result<(), Error> {
         if !self.initialised {
-            initialise(&self.shared, &self.plan, &self.prepared.physical)?;
+            initialise(&self.shared, &self.plan, &self.uses, &self.prepared.physical)?;
             self.initialised = true;
         }
         Ok(())

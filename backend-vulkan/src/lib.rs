@@ -19,7 +19,7 @@
 //! `synchronization2`, `maintenance4`, `shaderDemoteToHelperInvocation`, `shaderTerminateInvocation`, `timelineSemaphore`,
 //! `hostQueryReset`, `separateDepthStencilLayouts`, `robustBufferAccess`,
 //! `independentBlend`, `fragmentStoresAndAtomics`, `sampleRateShading`. [`DeviceSummary::missing`] lists all that a device
-//! lacks of them. Shaders may need nothing beyond.
+//! lacks of them. Shaders may need nothing beyond, but for `imageCubeArray` and local reads where the device has them.
 //!
 //! # Validation
 //!
@@ -34,6 +34,7 @@ mod buffer;
 mod caches;
 mod canary;
 mod capabilities;
+mod carry;
 mod check;
 mod check_work;
 mod contents;
@@ -45,6 +46,7 @@ mod error;
 mod exchange;
 mod executor;
 mod features;
+mod first_owner;
 mod frames;
 mod hand_in;
 mod image;
@@ -84,7 +86,7 @@ pub use device::{Device, DeviceChoice, DeviceOptions, DeviceSummary};
 pub use error::{Blame, Error, INSTALL};
 pub use executor::{Executor, ExecutorOptions};
 pub use features::minimum_features;
-pub use memory::LiveMemory;
+pub use memory::{LiveMemory, MemoryInUse};
 pub use readback::Texels;
 pub use recorder::{CullMode, DrawSource, FrontFace, IndexType, Recorder};
 pub use resources::{Buffer, BufferUsage, Texture};

@@ -33,6 +33,30 @@ impl MemoryProvider for LiveMemory {
     }
 }
 
+/// Device memory that is in use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MemoryInUse {
+    /// Heaps, images and buffers in it.
+    pub allocations: usize,
+    /// Bytes that they take.
+    pub bytes: u64,
+    /// Bytes that were got from the device; what is free of them serves what comes next.
+    pub reserved_bytes: u64,
+}
+
+impl Device {
+    /// What is made from this device takes of its memory: executors, buffers, textures.
+    #[must_use]
+    pub fn memory_in_use(&self) -> MemoryInUse {
+        let report = self.shared.allocator().generate_report();
+        MemoryInUse {
+            allocations: report.allocations.len(),
+            bytes: report.total_allocated_bytes,
+            reserved_bytes: report.total_capacity_bytes,
+        }
+    }
+}
+
 /// The needs of what the driver may not even be asked about: no memory is enough.
 const IMPOSSIBLE: MemoryNeeds = MemoryNeeds { bytes: u64::MAX, alignment: 1, type_bits: u32::MAX };
 

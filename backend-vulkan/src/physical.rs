@@ -10,6 +10,7 @@ use ash::vk;
 use framewright_graph::device::{BufferDescriptor, ImageDescriptor};
 use framewright_graph::plan::{self, BufferId, ImageId, Placement, Plan, Resource, Role, Subresources};
 use framewright_graph::vocabulary::{BufferUsage, Usage};
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// The images and buffers that a Plan's images and buffers are.
@@ -17,6 +18,8 @@ pub(crate) struct Physical {
     images: Vec<Arc<Image>>,
     buffers: Vec<Arc<RawBuffer>>,
     standing: Standing,
+    /// What has its contents before the first frame already.
+    carried: HashSet<Resource>,
 }
 
 /// The description of a Plan's image on this device. What outlives the frame can be read back, whatever the Plan says.
@@ -98,7 +101,7 @@ impl Physical {
             made.map(Arc::new)
         });
         let buffers = buffers.collect::<Result<_, _>>()?;
-        Ok(Physical { images, buffers, standing })
+        Ok(Physical { images, buffers, standing, carried: HashSet::new() })
     }
 
     /// What stands for an image in frame `frame`.
@@ -114,6 +117,23 @@ impl Physical {
     /// After how many frames the same stand for all of these again.
     pub(crate) fn period(&self, resources: impl IntoIterator<Item = Resource>) -> u64 {
         self.standing.period(resources)
+    }
+
+    /// Takes the contents of another Plan's image for the first frame.
+    pub(crate) fn carry_image(&mut self, image: ImageId, from: Arc<Image>) {
+        self.images[image.0 as usize] = from;
+        self.carried.insert(Resource::Image(image));
+    }
+
+    /// Takes the contents of another Plan's buffer for the first frame.
+    pub(crate) fn carry_buffer(&mut self, buffer: BufferId, from: Arc<RawBuffer>) {
+        self.buffers[buffer.0 as usize] = from;
+        self.carried.insert(Resource::Buffer(buffer));
+    }
+
+    /// Whether it has its contents before the first frame already.
+    pub(crate) fn is_carried(&self, resource: Resource) -> bool {
+        self.carried.contains(&resource)
     }
 
     /// Takes another image for an external one, which never changes round.

@@ -103,10 +103,7 @@ fn first_use(step: &Step, buffer: &Buffer) -> Scope {
 
 /// The Plan's barriers lead to a buffer's first use: from there on to its poison.
 fn until_filled((stages, _): &Scope) -> vk::MemoryBarrier2<'static> {
-    vk::MemoryBarrier2::default()
-        .src_stage_mask(*stages)
-        .dst_stage_mask(CLEAR_STAGE)
-        .dst_access_mask(CLEAR_ACCESS)
+    vk::MemoryBarrier2::default().src_stage_mask(*stages).dst_stage_mask(CLEAR_STAGE).dst_access_mask(CLEAR_ACCESS)
 }
 
 /// From a buffer's poison to its first use.
