@@ -416,3 +416,43 @@ fn a_vertex_shader_that_writes_an_image_is_refused() {
     assert!(said.contains("`picture` is written by a vertex shader"), "{said}");
     assert!(drawn(Draw::FullScreen, &[plain, ("test.vert", &read)]).is_ok());
 }
+
+/// The interface of a compute shader with this text (a version line comes first).
+fn computed(text: &str) -> Result<ShaderInterface, ShaderProblem> {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("test.comp"), format!("#version 460\n{text}")).expect("a file");
+    library(folder.path()).compute_shader("test")
+}
+
+#[test]
+fn a_compute_shader_has_a_workgroup_size_its_resources_and_nothing_of_a_draw() {
+    let interface = computed(
+        "layout(local_size_x = 8, local_size_y = 4) in;
+        layout(set = 0, binding = 0) uniform Params { uint factor; } params;
+        layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D target;
+        layout(set = 0, binding = 2) readonly buffer Words { uint word[]; };
+        shared uint sums[32];
+        void main() {
+            sums[gl_LocalInvocationIndex] = word[gl_LocalInvocationIndex] * params.factor;
+            barrier();
+            imageStore(target, ivec2(gl_GlobalInvocationID.xy), uvec4(sums[31 - gl_LocalInvocationIndex]));
+        }",
+    )
+    .expect("it compiles");
+    assert_eq!(interface.workgroup_size, Some([8, 4, 1]));
+    let bound: Vec<_> = interface.bindings.iter().map(|it| (it.binding, it.name.as_str(), it.stages)).collect();
+    let stage = Stages::COMPUTE_SHADER;
+    assert_eq!(bound, [(0, "params", stage), (1, "target", stage), (2, "Words", stage)]);
+    let BindingKind::StorageImage { format, readable, writable, .. } = &interface.bindings[1].kind else {
+        panic!("{interface:?}")
+    };
+    assert_eq!((*format, *readable, *writable), (Some(Format::R32_UINT), false, true));
+    assert_eq!(interface.bindings[2].kind, BindingKind::StorageBlock { readable: true, writable: false });
+    assert_eq!((interface.outputs.len(), interface.vertex_inputs.len(), interface.discards), (0, 0, false));
+}
+
+#[test]
+fn a_compute_shader_without_a_size_has_workgroups_of_one() {
+    let interface = computed("void main() {}").expect("it compiles");
+    assert_eq!(interface.workgroup_size, Some([1; 3]));
+}

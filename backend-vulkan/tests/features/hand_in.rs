@@ -1,0 +1,241 @@
+//! What belongs to the embedding program: handed in before the frame, found after it, in the states that the frame says.
+
+use crate::frames::{
+    Small, Uses, dispatch, draw, everywhere, frame, library, on_each_driver, planned, texels, to_bytes, words,
+};
+use framewright_graph::compile::Options;
+use framewright_graph::format::Format;
+use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime, Output, Resource};
+use framewright_graph::source::Span;
+use framewright_graph::vocabulary::{Accesses, Aspects, Layout, Stages, State, Subresources};
+use framewright_vulkan::ash::vk;
+use framewright_vulkan::{Device, Executor, ExecutorOptions};
+
+const WHOLE: Subresources = Subresources::WHOLE;
+const ONE: Groups = Groups::Count([1, 1, 1]);
+
+const SHADERS: &[(&str, &str)] = &[
+    (
+        "full_screen.vert",
+        "#version 460
+        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
+    ),
+    (
+        "number.frag",
+        "#version 460
+        layout(location = 0) out uint color;
+        void main() { color = uint(gl_FragCoord.x) + 10 * uint(gl_FragCoord.y); }",
+    ),
+    (
+        "double.frag",
+        "#version 460
+        layout(set = 0, binding = 0) uniform usampler2D source;
+        layout(location = 0) out uint color;
+        void main() { color = 2 * texelFetch(source, ivec2(gl_FragCoord.xy), 0).r; }",
+    ),
+    (
+        "double.comp",
+        "#version 460
+        layout(set = 0, binding = 0) readonly buffer From { uint from[]; };
+        layout(set = 0, binding = 1) writeonly buffer To { uint to[]; };
+        void main() { for (int i = 0; i < 3; ++i) to[i] = 2 * from[i]; }",
+    ),
+    (
+        "increase.comp",
+        "#version 460
+        layout(set = 0, binding = 0) buffer Words { uint word[]; };
+        void main() { for (int i = 0; i < 3; ++i) word[i] += 1; }",
+    ),
+];
+
+const UNKNOWN: State = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
+const COPIED_TO: State =
+    State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout: Layout::TransferDstOptimal };
+const SAMPLED: State = State {
+    stages: Stages::FRAGMENT_SHADER,
+    accesses: Accesses::SHADER_SAMPLED_READ,
+    layout: Layout::ShaderReadOnlyOptimal,
+};
+const WRITTEN: State = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout: Layout::Undefined };
+const READ: State =
+    State { stages: Stages::COMPUTE_SHADER, accesses: Accesses::SHADER_STORAGE_READ, layout: Layout::Undefined };
+
+fn imported(name: &str, before: State, after: Option<State>) -> Image {
+    Image { lifetime: Lifetime::Imported { before, after }, ..Image::new(name, Format::R32_UINT, 2, 2) }
+}
+
+/// Draws numbers into the imported image `shared`, and leaves it to be sampled.
+fn drawn_into() -> Frame {
+    let mut small = Small::default();
+    let shared = small.image_like(imported("shared", UNKNOWN, Some(SAMPLED)));
+    small.pass(draw("number", Draw::FullScreen).draws(shared, WHOLE, None));
+    small.image_output(shared);
+    small.frame
+}
+
+/// Samples the imported image `shared`, which is ready for that, and leaves it so.
+fn sampled_from() -> Frame {
+    let mut small = Small::default();
+    let shared = small.image_like(imported("shared", SAMPLED, Some(SAMPLED)));
+    let doubled = small.image("doubled", Format::R32_UINT, [2, 2]);
+    small.pass(draw("double", Draw::FullScreen).samples("source", shared, WHOLE).draws(doubled, WHOLE, None));
+    small.image_output(doubled);
+    small.frame
+}
+
+#[test]
+fn each_frame_samples_what_the_program_handed_in_for_it() {
+    let mut small = Small::default();
+    let source = small.image_like(imported("source", COPIED_TO, None));
+    let doubled = small.image("doubled", Format::R32_UINT, [2, 2]);
+    small.pass(draw("double", Draw::FullScreen).samples("source", source, WHOLE).draws(doubled, WHOLE, None));
+    small.image_output(doubled);
+    everywhere(&small.frame, SHADERS, |executor| {
+        for first in [0, 50, 90] {
+            let given = [first, first + 1, first + 2, first + 3];
+            executor.write_image("source", Aspects::COLOR, 0, &to_bytes(&given)).expect("it relies on its contents");
+            frame(executor);
+            assert_eq!(texels(executor, "doubled", 0), given.map(|value| 2 * value));
+            assert_eq!(texels(executor, "source", 0), given, "it is left as it was");
+        }
+    });
+}
+
+#[test]
+fn each_frame_reads_the_buffer_that_the_program_wrote_for_it() {
+    let mut small = Small::default();
+    let given = small.buffer_with("given", 3, Lifetime::Imported { before: WRITTEN, after: Some(READ) });
+    let doubled = small.buffer("doubled", 3);
+    small.pass(dispatch("double", ONE).block("From", given, (true, false)).block("To", doubled, (false, true)));
+    small.buffer_output(doubled);
+    everywhere(&small.frame, SHADERS, |executor| {
+        for first in [1, 100, 1000] {
+            executor.write_buffer("given", &to_bytes(&[first, 2 * first, 3 * first])).expect("it fits");
+            frame(executor);
+            assert_eq!(words(executor, "doubled"), [2 * first, 4 * first, 6 * first]);
+        }
+    });
+}
+
+#[test]
+fn an_output_is_left_in_the_state_that_was_asked_for() {
+    let mut small = Small::default();
+    let shown = small.image("shown", Format::R32_UINT, [2, 2]);
+    small.pass(draw("number", Draw::FullScreen).draws(shown, WHOLE, None));
+    small.frame.outputs.push(Output { resource: Resource::Image(shown), span: Span::NONE, after: Some(SAMPLED) });
+    everywhere(&small.frame, SHADERS, |executor| {
+        for _ in 0..2 {
+            frame(executor);
+            // Read from that state, and brought back into it: the layer would say if the image were in another.
+            assert_eq!(texels(executor, "shown", 0), [0, 1, 10, 11]);
+        }
+    });
+}
+
+fn executor(device: &Device, frame: &Frame) -> Executor {
+    let plan = planned(device, frame, &Options::default());
+    Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default()).expect("an executor")
+}
+
+/// Memory of the first type that will do, for an image or buffer that needs it.
+fn memory(device: &Device, needs: vk::MemoryRequirements) -> vk::DeviceMemory {
+    let info = vk::MemoryAllocateInfo::default()
+        .allocation_size(needs.size)
+        .memory_type_index(needs.memory_type_bits.trailing_zeros());
+    // SAFETY: the device lives and has such a type; the test frees the memory after what is bound to it.
+    unsafe { device.raw().allocate_memory(&info, None) }.expect("memory")
+}
+
+#[test]
+fn the_program_s_own_image_goes_from_one_plan_to_another() {
+    on_each_driver(|device| {
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(vk::Format::R32_UINT)
+            .extent(vk::Extent3D { width: 2, height: 2, depth: 1 })
+            .mip_levels(1)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .usage(
+                vk::ImageUsageFlags::COLOR_ATTACHMENT
+                    | vk::ImageUsageFlags::SAMPLED
+                    | vk::ImageUsageFlags::TRANSFER_SRC,
+            );
+        let raw = device.raw();
+        // SAFETY: the device lives, and the image is new.
+        let (image, memory) = unsafe {
+            let image = raw.create_image(&info, None).expect("an image");
+            let memory = memory(device, raw.get_image_memory_requirements(image));
+            raw.bind_image_memory(image, memory, 0).expect("it fits");
+            (image, memory)
+        };
+        let [mut first, mut second] = [drawn_into(), sampled_from()].map(|frame| executor(device, &frame));
+        // SAFETY: it is made as the Plans say, outlives the executors, and the first leaves it as the second finds it.
+        unsafe {
+            first.hand_in_image("shared", image).expect("it is external");
+            second.hand_in_image("shared", image).expect("it is external");
+        }
+        for _ in 0..2 {
+            frame(&mut first);
+            assert_eq!(first.raw_image("shared"), Some(image));
+            frame(&mut second);
+            assert_eq!(texels(&mut second, "doubled", 0), [0, 2, 20, 22]);
+        }
+        drop((first, second));
+        // SAFETY: nothing uses them any more.
+        unsafe {
+            raw.destroy_image(image, None);
+            raw.free_memory(memory, None);
+        }
+    });
+}
+
+#[test]
+fn the_program_s_own_buffer_is_changed_in_place() {
+    let mut small = Small::default();
+    let changed = State {
+        stages: Stages::COMPUTE_SHADER,
+        accesses: Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE,
+        layout: Layout::Undefined,
+    };
+    let own = small.buffer_with("own", 3, Lifetime::Imported { before: changed, after: Some(changed) });
+    small.pass(dispatch("increase", ONE).block("Words", own, (true, true)));
+    on_each_driver(|device| {
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER
+            | vk::BufferUsageFlags::TRANSFER_SRC
+            | vk::BufferUsageFlags::TRANSFER_DST;
+        let info = vk::BufferCreateInfo::default().size(12).usage(usage);
+        let raw = device.raw();
+        // SAFETY: the device lives, and the buffer is new.
+        let (buffer, memory) = unsafe {
+            let buffer = raw.create_buffer(&info, None).expect("a buffer");
+            let memory = memory(device, raw.get_buffer_memory_requirements(buffer));
+            raw.bind_buffer_memory(buffer, memory, 0).expect("it fits");
+            (buffer, memory)
+        };
+        let mut executor = executor(device, &small.frame);
+        // SAFETY: it is made as the Plan says and outlives the executor; nothing else touches it.
+        unsafe { executor.hand_in_buffer("own", buffer) }.expect("it is external");
+        executor.write_buffer("own", &to_bytes(&[1, 10, 100])).expect("it fits");
+        for frames in 1..4 {
+            frame(&mut executor);
+            assert_eq!(words(&mut executor, "own"), [1 + frames, 10 + frames, 100 + frames]);
+        }
+        drop(executor);
+        // SAFETY: nothing uses them any more.
+        unsafe {
+            raw.destroy_buffer(buffer, None);
+            raw.free_memory(memory, None);
+        }
+    });
+}
+
+#[test]
+fn what_is_not_the_program_s_own_can_not_be_handed_in() {
+    on_each_driver(|device| {
+        let mut executor = executor(device, &sampled_from());
+        // SAFETY: it is refused before the image is looked at.
+        let refused = unsafe { executor.hand_in_image("shade", vk::Image::null()) }.expect_err("no such image");
+        assert_eq!(refused.to_string(), "the Plan has no image `shade`");
+    });
+}

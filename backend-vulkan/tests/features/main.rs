@@ -1,0 +1,17 @@
+//! What a frame can hold, feature by feature: small frames compiled and executed on each software driver under the
+//! validation layer, and exactly what they leave.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod frames;
+
+mod compute;
+mod depth;
+mod geometry;
+mod growth;
+mod hand_in;
+mod hand_over;
+mod outlasting;
+mod queues;
+mod subresources;
+mod transfers;

@@ -1,0 +1,118 @@
+//! Plans for several queues on devices that have one.
+
+use crate::frames::{Small, Uses, dispatch, frame, library, on_each_driver, planned, words};
+use framewright_graph::compile::Options;
+use framewright_graph::format::Format;
+use framewright_graph::frame::Groups;
+use framewright_graph::plan::{Hazard, Plan, Queue, Resource, Sharing, StepId, Totals, Wait};
+use framewright_graph::verify::verify;
+use framewright_graph::vocabulary::{Stages, Subresources};
+use framewright_vulkan::{Device, Error, Executor, ExecutorOptions};
+
+const ONE: Groups = Groups::Count([1, 1, 1]);
+
+const SHADERS: &[(&str, &str)] = &[
+    (
+        "number.comp",
+        "#version 460
+        layout(set = 0, binding = 0, r32ui) uniform writeonly uimage2D image;
+        layout(set = 0, binding = 1) writeonly buffer Words { uint word[]; };
+        void main() {
+            imageStore(image, ivec2(0), uvec4(20));
+            for (int i = 0; i < 3; ++i) word[i] = i + 1;
+        }",
+    ),
+    (
+        "multiply.comp",
+        "#version 460
+        layout(set = 0, binding = 0, r32ui) uniform readonly uimage2D image;
+        layout(set = 0, binding = 1) readonly buffer From { uint from[]; };
+        layout(set = 0, binding = 2) writeonly buffer To { uint to[]; };
+        void main() { for (int i = 0; i < 3; ++i) to[i] = from[i] * imageLoad(image, ivec2(0)).r; }",
+    ),
+];
+
+/// A dispatch on the graphics queue writes an image and a buffer, from which one on the compute queue makes another
+/// buffer; everything is shared. The next frame's first dispatch waits for the second.
+fn on_two_queues(device: &Device) -> Plan {
+    let mut small = Small::default();
+    let image = small.image("i", Format::R32_UINT, [1, 1]);
+    let [from, to] = [small.buffer("from", 3), small.buffer("to", 3)];
+    let pass = dispatch("number", ONE).stores("image", image, Subresources::WHOLE);
+    small.pass(pass.block("Words", from, (false, true)));
+    let pass = dispatch("multiply", ONE).loads("image", image, Subresources::WHOLE);
+    small.pass(pass.block("From", from, (true, false)).block("To", to, (false, true)));
+    small.buffer_output(to);
+    let mut plan = planned(device, &small.frame, &Options::default());
+    let [first, second] =
+        [0, 1].map(|step| Wait { step: StepId(step), frames_ago: 1 - step, stages: Stages::COMPUTE_SHADER });
+    plan.steps[0].waits = vec![Wait { frames_ago: 1, ..second }];
+    plan.steps[1].waits = vec![Wait { frames_ago: 0, ..first }];
+    plan.steps[1].queue = Queue::Compute;
+    plan.steps[1].image_barriers.clear();
+    plan.images.iter_mut().for_each(|image| image.sharing = Sharing::Concurrent);
+    plan.buffers.iter_mut().for_each(|buffer| buffer.sharing = Sharing::Concurrent);
+    plan.totals = Totals { ..counted(&plan) };
+    plan
+}
+
+fn counted(plan: &Plan) -> Totals {
+    let Totals { transient_bytes, placed_bytes, live_peak_bytes, .. } = plan.totals;
+    Totals { transient_bytes, placed_bytes, live_peak_bytes, ..Totals::count(&plan.steps) }
+}
+
+#[test]
+fn a_device_with_one_queue_runs_a_plan_for_two() {
+    on_each_driver(|device| {
+        let plan = on_two_queues(device);
+        let violations = verify(&plan);
+        assert!(violations.is_empty(), "{violations:?}\n{}", plan.tree());
+        for frames_in_flight in [1, 3] {
+            let options = ExecutorOptions { frames_in_flight, ..ExecutorOptions::default() };
+            let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
+            for _ in 0..5 {
+                frame(&mut executor);
+            }
+            assert_eq!(words(&mut executor, "to"), [20, 40, 60]);
+        }
+    });
+}
+
+#[test]
+fn a_plan_that_hands_images_to_a_queue_that_is_not_there_is_refused_by_name() {
+    on_each_driver(|device| {
+        if device.summary().queues.contains(&"compute") {
+            return;
+        }
+        let mut plan = on_two_queues(device);
+        let image = planned_barrier(&plan);
+        plan.images[0].sharing = Sharing::Exclusive;
+        let half = framewright_graph::plan::ImageBarrier {
+            ownership: Some([Queue::Graphics, Queue::Compute]),
+            hazard: Hazard::Ownership,
+            old_layout: image.new_layout,
+            ..image
+        };
+        plan.steps[0].releases = vec![half.clone()];
+        plan.steps[1].image_barriers = vec![half];
+        plan.totals = counted(&plan);
+        // SAFETY: no frame is drawn.
+        let refused =
+            unsafe { Executor::with_hazards(device, &plan, &mut library(SHADERS), &ExecutorOptions::default()) };
+        let expected = format!(
+            "it hands `i` over to another queue, and {} has no Compute queue beside the first",
+            device.summary().name
+        );
+        match refused.err() {
+            Some(Error::BadPlan { what }) => assert_eq!(what, expected),
+            other => panic!("{other:?}"),
+        }
+    });
+}
+
+/// The barrier that takes the Plan's one image into use.
+fn planned_barrier(plan: &Plan) -> framewright_graph::plan::ImageBarrier {
+    let barrier =
+        plan.steps[0].image_barriers.iter().find(|it| Resource::Image(it.image) == Resource::Image(plan.images[0].id));
+    barrier.expect("it is taken into use").clone()
+}
