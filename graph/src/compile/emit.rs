@@ -11,6 +11,7 @@ use super::model::{Adapted, Home, Kind, Op, OpKind, Store};
 use super::outlive::States;
 use super::parts::Grids;
 use super::place::Placed;
+use super::queues::{self, Queues, Release};
 use super::retain::Retained;
 use super::scope::{Scoped, Step as Grouped, store_name};
 use super::synchronise::Pending;
@@ -38,6 +39,8 @@ pub(super) struct Parts<'a> {
     pub(super) states: Vec<Option<States>>,
     pub(super) placed: Placed,
     pub(super) pending: Vec<Pending>,
+    /// The queues, if there are several.
+    pub(super) queues: Option<Box<Queues>>,
     pub(super) batched: Vec<Batched>,
     pub(super) memory: Vec<(u32, MemoryScopes)>,
     pub(super) exact_memory: bool,
@@ -117,7 +120,22 @@ fn steps(parts: &Parts<'_>) -> Vec<Step> {
         let (waits, releases) = (Vec::new(), Vec::new());
         steps.push(Step { queue: Queue::Graphics, waits, memory_barriers, image_barriers, work, releases });
     }
+    if let Some(queues) = &parts.queues {
+        spread(parts, queues, &mut steps);
+    }
     steps
+}
+
+/// Gives each step its queue, its waits, and the halves of the transfers that it takes part in.
+fn spread(parts: &Parts<'_>, queues: &Queues, steps: &mut [Step]) {
+    for (step, number) in steps.iter_mut().zip(0..) {
+        (step.queue, step.waits) = (queues.of(number), queues.waits(number));
+    }
+    for Release { from, release, to, acquire } in queues::releases(parts.grids, &parts.adapted, queues, &parts.pending)
+    {
+        steps[from as usize].releases.push(release);
+        steps[to as usize].image_barriers.push(acquire);
+    }
 }
 
 fn resources(parts: &Parts<'_>, placements: Vec<Option<Placement>>) -> (Vec<Image>, Vec<Buffer>) {

@@ -6,6 +6,7 @@
 
 use super::batch::Batched;
 use super::model::StoreIndex;
+use super::queues::{QUEUES, Queues};
 use super::synchronise::Pending;
 use crate::vocabulary::{Accesses, Stages};
 
@@ -96,6 +97,25 @@ pub(super) fn memory_barriers(
         pass(&mut passed, time, barriers[step].as_ref(), images);
     }
     (0..).zip(barriers).filter_map(|(step, barrier)| Some((step, barrier?))).collect()
+}
+
+/// The same on several queues: each has barriers of its own.
+pub(super) fn memory_barriers_on(
+    queues: &Queues,
+    hand_overs: &[HandOver],
+    pending: &[Pending],
+    batched: &[Batched],
+    steps: usize,
+) -> Vec<(u32, MemoryScopes)> {
+    let on = |queue: usize| {
+        let due = hand_overs.iter().filter(|it| queues.at(pending[it.barrier as usize].step) == queue);
+        let due: Vec<HandOver> = due.copied().collect();
+        let batched: Vec<Batched> = batched.iter().filter(|it| queues.at(it.at) == queue).copied().collect();
+        memory_barriers(&due, pending, &batched, steps)
+    };
+    let mut all: Vec<(u32, MemoryScopes)> = (0..QUEUES).flat_map(on).collect();
+    all.sort_by_key(|(step, _)| *step);
+    all
 }
 
 /// The entries of one step of a list in the order of steps.

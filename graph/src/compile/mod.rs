@@ -22,6 +22,7 @@ mod pack;
 mod parts;
 mod place;
 mod purpose;
+mod queues;
 mod retain;
 mod samples;
 mod schedule;
@@ -88,17 +89,28 @@ pub fn compile(
     let order = schedule::schedule(&grids, &adapted, options.order);
     let mut scoped = scope::scope(frame, &grids, &mut adapted, &order);
     let retained = retain::retain(frame, &grids, &adapted, &scoped);
-    let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained);
+    let queues = queues::assign(frame, &grids, &mut adapted, &scoped, device, options);
+    let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained, queues);
     let export = scoped.steps.len() as u32;
     let states = outlive::promise(&grids, &adapted, &mut walked, export);
     purpose::note(&grids, &mut adapted, &walked, &states, &retained, &scoped, options);
-    let placed = place::place(&adapted, &walked.lifetimes, device, memory, options)?;
+    let spans = walked.queues.as_ref().map(|queues| queues.spans(&adapted, &scoped, &walked.lifetimes));
+    let placed = place::place(&adapted, &walked.lifetimes, spans.as_deref(), device, memory, options)?;
     let hand_overs = take_over::take_over(&grids, &adapted, &states, &placed, &mut walked);
-    let batched = batch::batch(&walked.barriers);
-    if batched.last().is_some_and(|last| last.at == export) || export == 0 {
+    let (pending, queues) = (walked.barriers, walked.queues);
+    let batched = match &queues {
+        None => batch::batch(&pending),
+        Some(queues) => batch::batch_on(queues, &pending),
+    };
+    let waits = queues.as_ref().is_some_and(|queues| !queues.waits(export).is_empty());
+    if batched.last().is_some_and(|last| last.at == export) || export == 0 || waits {
         scoped.steps.push(scope::Step::Export);
     }
-    let memory_barriers = hand_over::memory_barriers(&hand_overs, &walked.barriers, &batched, scoped.steps.len());
+    let steps = scoped.steps.len();
+    let memory_barriers = match &queues {
+        None => hand_over::memory_barriers(&hand_overs, &pending, &batched, steps),
+        Some(queues) => hand_over::memory_barriers_on(queues, &hand_overs, &pending, &batched, steps),
+    };
     Ok(emit::emit(emit::Parts {
         frame,
         device,
@@ -111,7 +123,8 @@ pub fn compile(
         retained,
         states,
         placed,
-        pending: walked.barriers,
+        pending,
+        queues,
         batched,
         memory: memory_barriers,
         exact_memory: memory.exact(),

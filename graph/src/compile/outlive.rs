@@ -6,6 +6,7 @@
 
 use super::model::{Adapted, Home, Store, StoreIndex};
 use super::parts::Grids;
+use super::queues;
 use super::synchronise::{Cell, NEVER, Walked};
 use crate::vocabulary::{Accesses, Aspects, Layout, Stages, State};
 use std::ops::Range;
@@ -26,6 +27,10 @@ pub(super) fn promise(grids: &Grids, adapted: &Adapted, walked: &mut Walked, exp
     }
     let mut at = 0;
     while let Some(store) = adapted.stores.get(at as usize) {
+        if !store.is_transient() && walked.queues.as_ref().is_some_and(|queues| queues.is_crossed(at)) {
+            at = queues::promise(grids, adapted, walked, at, export, &mut states) + 1;
+            continue;
+        }
         let last = if let Home::Persistent { .. } = store.home { last_of_cycle(adapted, at) } else { at };
         if !store.is_transient() {
             let handed_in = if let Home::Imported { before } = store.home { Some(before) } else { None };

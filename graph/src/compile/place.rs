@@ -31,9 +31,11 @@ struct Members {
     list: Vec<(StoreIndex, Block)>,
 }
 
+/// `spans` are longer than lifetimes where steps of several queues run side by side.
 pub(super) fn place(
     adapted: &Adapted,
     lifetimes: &[[u32; 2]],
+    spans: Option<&[[u32; 2]]>,
     device: &Profile,
     memory: &mut dyn MemoryProvider,
     options: &Options,
@@ -46,7 +48,8 @@ pub(super) fn place(
         kept_bytes: 0,
     };
     let mut members: Vec<Members> = Vec::new();
-    for ((store, [first, last]), at) in adapted.stores.iter().zip(lifetimes).zip(0_u32..) {
+    let (overlaps, spans) = (spans.is_some(), spans.unwrap_or(lifetimes));
+    for (((store, [first, last]), span), at) in adapted.stores.iter().zip(lifetimes).zip(spans).zip(0_u32..) {
         if *first == NEVER && store.is_transient() {
             placed.placements.push(None);
             continue;
@@ -64,7 +67,7 @@ pub(super) fn place(
             continue;
         }
         let heap = choose_heap(&mut placed.heaps, &mut members, &needs, lazily, store.image().is_some());
-        let block = Block { first: *first, last: *last, bytes: needs.bytes, alignment: needs.alignment };
+        let block = Block { first: span[0], last: span[1], bytes: needs.bytes, alignment: needs.alignment };
         members[heap].list.push((at, block));
         placed.transient_bytes = placed.transient_bytes.saturating_add(needs.bytes);
         placed.placements.push(Some(Placement {
@@ -100,8 +103,12 @@ pub(super) fn place(
         }
         placed.live_peak_bytes = live_peak;
     }
-    if members.len() > 1 {
-        let all: Vec<Block> = members.iter().flat_map(|members| &members.list).map(|(_, block)| *block).collect();
+    if members.len() > 1 || overlaps {
+        let alive = |(store, block): &(StoreIndex, Block)| {
+            let [first, last] = lifetimes[*store as usize];
+            Block { first, last, ..*block }
+        };
+        let all: Vec<Block> = members.iter().flat_map(|members| &members.list).map(alive).collect();
         placed.live_peak_bytes = pack::live_peak(&all);
     }
     Ok(placed)

@@ -5,10 +5,13 @@
 
 use super::model::{Adapted, CellIndex, Role, StoreIndex, Use};
 use super::parts::Grids;
+use super::queues::Queues;
 use super::retain::Retained;
 use super::scope::{Scoped, Step, Target};
 use crate::plan::Hazard;
 use crate::vocabulary::{Accesses, BufferUsage, Layout, Stages, State};
+
+mod cross;
 
 /// No step, no barrier.
 pub(super) const NEVER: u32 = u32::MAX;
@@ -81,6 +84,8 @@ pub(super) struct Walked {
     pub(super) barriers: Vec<Pending>,
     /// For each store the first and the last step that use it.
     pub(super) lifetimes: Vec<[u32; 2]>,
+    /// The queues, if there are several.
+    pub(super) queues: Option<Box<Queues>>,
 }
 
 impl Walked {
@@ -127,18 +132,28 @@ impl Walked {
             usage: 0,
         };
         let first = self.barriers.len();
-        apply(self, &need, step, false);
+        match self.queues {
+            None => apply(self, &need, step, false),
+            Some(_) => cross::step(self, &[need], step, false),
+        }
         self.barriers[first..].iter_mut().for_each(|barrier| barrier.hazard = Hazard::Export);
     }
 }
 
-pub(super) fn walk(grids: &Grids, adapted: &mut Adapted, scoped: &Scoped, retained: &Retained) -> Walked {
+pub(super) fn walk(
+    grids: &Grids,
+    adapted: &mut Adapted,
+    scoped: &Scoped,
+    retained: &Retained,
+    queues: Option<Box<Queues>>,
+) -> Walked {
     let mut walk = Walk {
         grids,
         walked: Walked {
             cells: vec![Cell::UNTOUCHED; adapted.cells as usize],
             barriers: Vec::with_capacity(adapted.uses.len() + adapted.uses.len() / 4),
             lifetimes: vec![[NEVER, 0]; adapted.stores.len()],
+            queues,
         },
         needs: Vec::new(),
         mixed: false,
@@ -184,9 +199,12 @@ impl Walk<'_> {
                 }
             }
         }
-        for at in 0..self.needs.len() {
-            let need = self.needs[at];
-            apply(&mut self.walked, &need, number, true);
+        if self.walked.queues.is_some() {
+            cross::step(&mut self.walked, &self.needs, number, true);
+        } else {
+            for need in &self.needs {
+                apply(&mut self.walked, need, number, true);
+            }
         }
         if self.mixed {
             self.settle_layouts(adapted, step);
@@ -270,7 +288,7 @@ impl Walk<'_> {
 /// Puts a barrier before a need, or lets the one before earlier reads serve it too. What comes after the frame (not
 /// `lasts`) waits for nobody but whom it names.
 fn apply(walked: &mut Walked, need: &Need, step: u32, lasts: bool) {
-    let Walked { cells, barriers, lifetimes } = walked;
+    let Walked { cells, barriers, lifetimes, .. } = walked;
     let cell = &mut cells[need.cell as usize];
     let writes = !need.accesses.writes().is_empty();
     cell.usage |= need.usage;

@@ -9,6 +9,7 @@ use super::model::{Adapted, StoreIndex};
 use super::outlive::{States, cells};
 use super::parts::Grids;
 use super::place::Placed;
+use super::queues;
 use super::synchronise::{NEVER, Pending, Walked};
 
 /// Fills in the barriers before first uses; returns the writes that memory barriers have to name.
@@ -19,8 +20,12 @@ pub(super) fn take_over(
     placed: &Placed,
     walked: &mut Walked,
 ) -> Vec<HandOver> {
-    for (store, states) in adapted.stores.iter().zip(states) {
+    for ((store, at), states) in adapted.stores.iter().zip(0..).zip(states) {
         let Some(states) = states else { continue };
+        if walked.queues.as_ref().is_some_and(|queues| queues.is_crossed(at)) {
+            queues::find(grids, adapted, walked, at, states);
+            continue;
+        }
         for cell in cells(grids, store) {
             let known = walked.cells[cell as usize];
             let Some(barrier) = walked.barriers.get_mut(known.first_barrier as usize) else { continue };
@@ -36,7 +41,11 @@ pub(super) fn take_over(
     for heap in 0..placed.heaps.len() as u32 {
         taking.heap(placed, heap);
     }
-    taking.hand_overs
+    let hand_overs = taking.hand_overs;
+    if walked.queues.is_some() {
+        queues::finish(adapted, walked);
+    }
+    hand_overs
 }
 
 /// The barrier before the first use of what outlives frames, which may be the only one.
@@ -117,6 +126,16 @@ impl Taking<'_> {
 
     /// `store` takes bytes of `from`.
     fn take(&mut self, store: StoreIndex, from: StoreIndex, this_frame: bool) {
+        if self.walked.queues.is_some() {
+            return queues::take(
+                self.grids,
+                self.adapted,
+                self.walked,
+                [from, store],
+                this_frame,
+                &mut self.hand_overs,
+            );
+        }
         let described = |store: StoreIndex| &self.adapted.stores[store as usize];
         let (taker, holder) = (described(store), described(from));
         let is_image = taker.image().is_some();

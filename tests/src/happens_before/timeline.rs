@@ -350,10 +350,26 @@ impl Timeline {
         self.touch(Touch { node, queue, time, physical, cells: cells.clone(), what: What::Initial, of: None });
         let to = self.node(Nodes::default());
         self.initial.insert(to);
-        let part = Some((physical, cells.clone()));
-        let (to, from) = (Some((stages, accesses, to)), None);
-        self.operations.push(MemoryOperation { queue, call: 0, from, to, part });
         let external = matches!(role(world.plan, resource), Role::External { .. });
+        let mut show = |queue, stages, accesses| {
+            let part = Some((physical, cells.clone()));
+            self.operations.push(MemoryOperation {
+                queue,
+                call: 0,
+                from: None,
+                to: Some((stages, accesses, to)),
+                part,
+            });
+        };
+        if stages.is_empty() && !external {
+            // Whoever prepared it waited until that was done, and whichever queue comes first may use it.
+            let all = Accesses::MEMORY_READ | Accesses::MEMORY_WRITE;
+            for queue in [Queue::Graphics, Queue::Compute, Queue::Transfer] {
+                show(queue, Stages::ALL_COMMANDS, all);
+            }
+        } else {
+            show(queue, stages, accesses);
+        }
         if external && !stages.is_empty() {
             // A wait alone says stages without accesses: whoever changes the image must wait for them.
             let accesses = if accesses.is_empty() { Accesses::MEMORY_READ } else { accesses };

@@ -4,7 +4,7 @@ use super::{Parts, resource};
 use crate::compile::batch::Batched;
 use crate::compile::parts::join;
 use crate::compile::synchronise::{NEVER, Pending};
-use crate::plan::{BufferHazard, BufferId, ImageBarrier, ImageId, MemoryBarrier, StepId, Subresources};
+use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId, Subresources};
 
 /// Hands out the barriers step by step.
 pub(super) struct Barriers<'p, 'a> {
@@ -46,6 +46,10 @@ impl<'p, 'a> Barriers<'p, 'a> {
             let subject = &self.parts.subjects[pending.store as usize];
             if !subject.is_image {
                 add_buffer(&mut buffers, pending, subject.id);
+                continue;
+            }
+            if pending.hazard == Hazard::Ownership {
+                // Its other half has to be the same: see `queues`.
                 continue;
             }
             let range = if subject.is_cut { self.part(pending) } else { subject.all };

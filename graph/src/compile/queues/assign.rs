@@ -1,0 +1,237 @@
+//! Which queue each step runs on.
+//!
+//! A dispatch, copy or fill leaves the graphics queue if work stays there that can run beside it: graphics steps between the
+//! last one that it comes behind and the first one that comes behind it. In a chain between two draws that nothing stands
+//! beside, each link would wait for the other queue step by step; it stays. A frame doesn't say how long its passes take,
+//! so nothing more is weighed. What stays makes windows smaller, so they are looked at until nothing changes.
+
+use super::able::{Able, Bound};
+use super::reach::Steps;
+use super::{QUEUES, Queues, Shared, number};
+use crate::compile::Options;
+use crate::compile::model::{Adapted, Home, Kind, OpKind, StoreIndex};
+use crate::compile::parts::Grids;
+use crate::compile::scope::{Scoped, Step, op_name, store_name};
+use crate::device::Profile;
+use crate::frame::{Frame, Work};
+use crate::plan::{Note, Queue, Sharing, Stage};
+use crate::vocabulary::Layout;
+
+/// How often all windows are looked at: no frame that passes are written for takes more than a few rounds.
+const MOST_ROUNDS: u32 = 32;
+
+/// Gives each step its queue, and each image and buffer its sharing; `None` if all steps run on graphics.
+pub(in crate::compile) fn assign(
+    frame: &Frame,
+    grids: &Grids,
+    adapted: &mut Adapted,
+    scoped: &Scoped,
+    device: &Profile,
+    options: &Options,
+) -> Option<Box<Queues>> {
+    if !options.queues || !(device.queues.compute || device.queues.transfer) {
+        return None;
+    }
+    let able = Able { frame, adapted, device, options };
+    let bound: Vec<Result<[bool; QUEUES], Bound>> = scoped.steps.iter().map(|step| able.of(step)).collect();
+    let mut queues = wanted(frame, adapted, scoped, &bound);
+    let mut windows = Vec::new();
+    for round in 0.. {
+        if queues.iter().all(|queue| *queue == Queue::Graphics) {
+            break;
+        }
+        if round == MOST_ROUNDS {
+            queues.fill(Queue::Graphics);
+            break;
+        }
+        let steps = Steps { grids, adapted, steps: &scoped.steps, queues: &queues, sharing: device.queues.sharing };
+        windows = steps.beside();
+        let mut stays: Vec<bool> = (windows.iter().zip(&queues))
+            .map(|(window, queue)| *queue != Queue::Graphics && beside(&bound, *window).next().is_none())
+            .collect();
+        split_users(adapted, scoped, &queues, &mut stays);
+        if !stays.contains(&true) {
+            break;
+        }
+        for (queue, _) in queues.iter_mut().zip(&stays).filter(|(_, stays)| **stays) {
+            *queue = Queue::Graphics;
+        }
+    }
+    let notes = notes(frame, adapted, scoped, &bound, &queues, &windows);
+    adapted.notes.extend(notes);
+    if queues.iter().all(|queue| *queue == Queue::Graphics) {
+        return None;
+    }
+    Some(Box::new(share(adapted, scoped, device, queues)))
+}
+
+/// The queue that each step would leave graphics for. A transfer beside dispatches goes where they go: that saves waits.
+fn wanted(frame: &Frame, adapted: &Adapted, scoped: &Scoped, bound: &[Result<[bool; QUEUES], Bound>]) -> Vec<Queue> {
+    let [_, compute, transfer] = [0, 1, 2];
+    let mut dispatched = vec![false; adapted.stores.len()];
+    for (step, able) in scoped.steps.iter().zip(bound) {
+        if able.is_ok_and(|able| able[compute]) && is_dispatch(frame, adapted, step) {
+            uses(adapted, step).for_each(|(store, ..)| dispatched[store as usize] = true);
+        }
+    }
+    let choose = |(step, able): (&Step, &Result<[bool; QUEUES], Bound>)| match able {
+        Err(_) => Queue::Graphics,
+        Ok(able) if able[transfer] => {
+            let beside = able[compute] && uses(adapted, step).any(|(store, ..)| dispatched[store as usize]);
+            if beside { Queue::Compute } else { Queue::Transfer }
+        }
+        Ok(_) => Queue::Compute,
+    };
+    scoped.steps.iter().zip(bound).map(choose).collect()
+}
+
+fn is_dispatch(frame: &Frame, adapted: &Adapted, step: &Step) -> bool {
+    let pass = step.ops().first().and_then(|op| adapted.ops[*op as usize].kind.pass());
+    pass.is_some_and(|pass| matches!(frame.passes[pass as usize].work, Work::Dispatch { .. }))
+}
+
+/// Every image and buffer that a step uses, whether it writes it, and in which layout.
+fn uses<'a>(adapted: &'a Adapted, step: &'a Step) -> impl Iterator<Item = (StoreIndex, bool, Layout)> + 'a {
+    let carried = if let Step::Scope(scope) = step { Some(scope.carries()) } else { None };
+    let ops = step.ops().iter().copied().chain(carried.into_iter().flatten());
+    ops.flat_map(|op| adapted.uses(op)).map(|used| (used.store, used.writes, used.layout))
+}
+
+/// The graphics steps of a window, without those that could leave and stay after all.
+fn beside(bound: &[Result<[bool; QUEUES], Bound>], [from, to]: [u32; 2]) -> impl Iterator<Item = u32> {
+    (from..to.max(from)).filter(|step| bound[*step as usize].is_err())
+}
+
+/// What is handed in is used on one queue, or on graphics: its state before the frame names the stages of one.
+fn split_users(adapted: &Adapted, scoped: &Scoped, queues: &[Queue], stays: &mut [bool]) {
+    let is_imported = |store: StoreIndex| matches!(adapted.stores[store as usize].home, Home::Imported { .. });
+    let mut user: Vec<Option<Queue>> = vec![None; adapted.stores.len()];
+    let mut split = vec![false; adapted.stores.len()];
+    for (step, at) in scoped.steps.iter().zip(0..) {
+        let queue = if stays[at] { Queue::Graphics } else { queues[at] };
+        for (store, ..) in uses(adapted, step).filter(|(store, ..)| is_imported(*store)) {
+            split[store as usize] |= user[store as usize].replace(queue).is_some_and(|other| other != queue);
+        }
+    }
+    for (step, at) in scoped.steps.iter().zip(0..) {
+        let moves = queues[at] != Queue::Graphics;
+        stays[at] |= moves && uses(adapted, step).any(|(store, ..)| split[store as usize]);
+    }
+}
+
+/// Why each pass that isn't drawn runs where it does.
+fn notes(
+    frame: &Frame,
+    adapted: &Adapted,
+    scoped: &Scoped,
+    bound: &[Result<[bool; QUEUES], Bound>],
+    queues: &[Queue],
+    windows: &[[u32; 2]],
+) -> Vec<Note> {
+    let mut notes = Vec::new();
+    for (step, at) in scoped.steps.iter().zip(0..) {
+        let Step::Single(op) = step else { continue };
+        let OpKind::Pass(pass) = adapted.ops[*op as usize].kind else { continue };
+        let declared = &frame.passes[pass as usize];
+        let text = match (queues[at], bound[at]) {
+            (Queue::Graphics, Err(why)) => match why.why() {
+                Some(why) => format!("stays on the graphics queue: {why}"),
+                None => continue,
+            },
+            (Queue::Graphics, Ok(_)) => {
+                "stays on the graphics queue: nothing that neither waits for it nor is waited for runs beside it"
+                    .to_owned()
+            }
+            (queue, _) => {
+                let mut others = beside(bound, windows[at]);
+                let name = others.next().and_then(|step| first_name(frame, adapted, &scoped.steps[step as usize]));
+                let name = name.map_or_else(String::new, |name| format!("`{name}`"));
+                let more = match others.count() {
+                    0 => String::new(),
+                    count => format!(" and {count} more"),
+                };
+                let queue = if queue == Queue::Compute { "compute" } else { "transfer" };
+                format!("runs on the {queue} queue, beside {name}{more}")
+            }
+        };
+        let (subject, at) = (declared.name.clone(), frame.sources.place(declared.span));
+        notes.push(Note { stage: Stage::Schedule, subject, text, at });
+    }
+    notes
+}
+
+/// What a step is known as.
+fn first_name<'f>(frame: &'f Frame, adapted: &'f Adapted, step: &Step) -> Option<&'f str> {
+    let named = step.ops().iter().find_map(|op| op_name(frame, adapted, *op));
+    let transferred = || {
+        let used = adapted.uses(*step.ops().first()?).first()?;
+        Some(store_name(frame, adapted, used.store))
+    };
+    named.or_else(transferred).map(|name| &**name)
+}
+
+/// Finds out what several queues use, and how they share it.
+fn share(adapted: &mut Adapted, scoped: &Scoped, device: &Profile, of: Vec<Queue>) -> Queues {
+    let count = adapted.stores.len();
+    let mut users = vec![[false; QUEUES]; count];
+    let mut layouts: Vec<Option<Layout>> = vec![None; count];
+    let mut constant = vec![true; count];
+    for (step, queue) in scoped.steps.iter().zip(&of) {
+        for (store, writes, layout) in uses(adapted, step) {
+            let store = store as usize;
+            users[store][number(*queue)] = true;
+            constant[store] &= !writes && layouts[store].replace(layout).is_none_or(|other| other == layout);
+        }
+    }
+    // Stores that become each other stand side by side, and are used by each other's queues in turns.
+    let mut first = 0;
+    while first < count {
+        let last = circle(adapted, first);
+        if last > first {
+            let all = users[first..=last].iter().fold([false; QUEUES], |all, users| {
+                let mut all = all;
+                all.iter_mut().zip(users).for_each(|(all, uses)| *all |= uses);
+                all
+            });
+            users[first..=last].fill(all);
+            constant[first..=last].fill(false);
+        }
+        first = last + 1;
+    }
+    let mut shared = vec![None; count];
+    for (store, at) in adapted.stores.iter_mut().zip(0..) {
+        let beside = users[at][1..].contains(&true);
+        let several = users[at].iter().filter(|uses| **uses).count() > 1;
+        let transient = store.is_transient();
+        let persistent = matches!(store.home, Home::Persistent { .. });
+        // Whoever prepares or reads what outlives the frame does so on graphics.
+        let sharing = match (transient, &store.kind) {
+            (true, Kind::Image(_)) if several => device.queues.sharing,
+            (true, Kind::Buffer(_)) if several => Sharing::Concurrent,
+            (false, _) if beside => Sharing::Concurrent,
+            _ => continue,
+        };
+        let crossed = match (&mut store.kind, sharing) {
+            (Kind::Buffer(buffer), _) => {
+                buffer.sharing = sharing;
+                Shared::Buffer
+            }
+            (Kind::Image(image), Sharing::Concurrent) => {
+                image.sharing = sharing;
+                Shared::Image
+            }
+            (Kind::Image(_), Sharing::Exclusive) => Shared::InTurns,
+        };
+        let crossed = if persistent && constant[at] { Shared::Constant } else { crossed };
+        shared[at] = Some(crossed).filter(|_| several || persistent);
+    }
+    Queues::new(of, shared, adapted.cells)
+}
+
+/// The last of the stores that become each other, from the first one on.
+fn circle(adapted: &Adapted, first: usize) -> usize {
+    if !matches!(adapted.stores[first].home, Home::Persistent { .. }) {
+        return first;
+    }
+    crate::compile::outlive::last_of_cycle(adapted, first as StoreIndex) as usize
+}

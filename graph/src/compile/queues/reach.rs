@@ -1,0 +1,109 @@
+//! How much graphics work can run beside each step that may leave the graphics queue.
+
+use crate::compile::model::{Adapted, Use};
+use crate::compile::parts::Grids;
+use crate::compile::scope::Step;
+use crate::plan::{Queue, Sharing};
+use crate::vocabulary::Layout;
+
+/// What a walk in one direction knows of a cell: one more than the rank of the graphics step furthest along that what was
+/// done to it comes behind.
+#[derive(Debug, Clone, Copy)]
+struct Cell {
+    /// Of the last write, or of reads in an earlier layout.
+    before: u32,
+    /// Of the reads since.
+    readers: u32,
+    /// Of every use on graphics.
+    graphics: u32,
+    layout: Layout,
+}
+
+/// Steps in the order of submission with the queue that each is to run on.
+#[derive(Clone, Copy)]
+pub(super) struct Steps<'a> {
+    pub(super) grids: &'a Grids,
+    pub(super) adapted: &'a Adapted,
+    pub(super) steps: &'a [Step],
+    pub(super) queues: &'a [Queue],
+    /// How transient images are shared.
+    pub(super) sharing: Sharing,
+}
+
+impl Steps<'_> {
+    /// For each step the graphics steps between the last one that it comes behind and the first one that comes behind it:
+    /// `[from, to)`, in between there are none that it depends on or that depend on it.
+    pub(super) fn beside(&self) -> Vec<[u32; 2]> {
+        let count = self.steps.len() as u32;
+        let before = self.walk(0..count, |step| step + 1);
+        let behind = self.walk((0..count).rev(), |step| count - step);
+        let mut windows: Vec<[u32; 2]> =
+            before.into_iter().zip(behind).map(|(before, behind)| [before, count - behind]).collect();
+        // Steps of one queue follow each other.
+        let mut latest = [0; super::QUEUES];
+        for (window, queue) in windows.iter_mut().zip(self.queues) {
+            let latest = &mut latest[super::number(*queue)];
+            *latest = window[0].max(*latest);
+            window[0] = *latest;
+        }
+        windows
+    }
+
+    /// For each step the rank of the graphics step furthest along that it comes behind, in one direction.
+    fn walk(&self, order: impl Iterator<Item = u32>, rank: impl Fn(u32) -> u32) -> Vec<u32> {
+        let none = Cell { before: 0, readers: 0, graphics: 0, layout: Layout::Undefined };
+        let mut cells = vec![none; self.adapted.cells as usize];
+        let mut behind = vec![0; self.steps.len()];
+        for step in order {
+            let on_graphics = self.queues[step as usize] == Queue::Graphics;
+            let mut most = 0;
+            if !on_graphics {
+                self.for_each_use(step, |used| {
+                    let in_turns = self.sharing == Sharing::Exclusive && self.is_shared_in_turns(used);
+                    self.adapted.for_each_cell(self.grids, used, |cell| {
+                        let cell = &cells[cell as usize];
+                        let joins = !used.writes && cell.layout == used.layout;
+                        most = most.max(if joins { cell.before } else { cell.before.max(cell.readers) });
+                        most = if in_turns { most.max(cell.graphics) } else { most };
+                    });
+                });
+            }
+            behind[step as usize] = most;
+            let reach = if on_graphics { rank(step) } else { most };
+            self.for_each_use(step, |used| {
+                self.adapted.for_each_cell(self.grids, used, |cell| {
+                    let cell = &mut cells[cell as usize];
+                    if used.writes {
+                        (cell.before, cell.readers) = (cell.before.max(reach), 0);
+                    } else if cell.layout == used.layout {
+                        cell.readers = cell.readers.max(reach);
+                    } else {
+                        (cell.before, cell.readers) = (cell.before.max(cell.readers), reach);
+                    }
+                    cell.layout = used.layout;
+                    if on_graphics {
+                        cell.graphics = cell.graphics.max(reach);
+                    }
+                });
+            });
+        }
+        behind
+    }
+
+    fn is_shared_in_turns(&self, used: &Use) -> bool {
+        let store = &self.adapted.stores[used.store as usize];
+        store.is_transient() && store.image().is_some()
+    }
+
+    fn for_each_use(&self, step: u32, mut visit: impl FnMut(&Use)) {
+        let step = &self.steps[step as usize];
+        for op in step.ops() {
+            self.adapted.uses(*op).iter().for_each(&mut visit);
+        }
+        if let Step::Scope(scope) = step {
+            for op in scope.carries() {
+                self.adapted.uses(op).iter().for_each(&mut visit);
+            }
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Random frames on devices with queues for compute and transfer: `verify` and the brute-force judge find nothing in their
+//! Plans, and what leaves them is made as on one queue.
+
+use framewright_graph::compile::{Options, Order, compile};
+use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
+use framewright_graph::frame::{Frame, Work};
+use framewright_graph::plan::{Plan, Queue, Sharing};
+use framewright_graph::verify::verify;
+use framewright_tests::happens_before::judge;
+use framewright_tests::random_pipelines;
+
+/// A desktop GPU with these queues.
+fn device(compute: bool, transfer: bool, sharing: Sharing) -> Profile {
+    let (_, text) = SHIPPED_PROFILES.into_iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
+    Profile { queues: Queues { compute, transfer, sharing }, ..Profile::from_ron(text).expect("it is sound") }
+}
+
+fn plan(frame: &Frame, device: &Profile, options: &Options) -> Option<Plan> {
+    compile(frame, device, &mut Estimated(device), options).ok()
+}
+
+fn discards(frame: &Frame) -> impl Fn(&str) -> bool {
+    move |name| {
+        let pass = frame.passes.iter().find(|pass| *pass.name == *name);
+        pass.is_some_and(|pass| matches!(pass.work, Work::Draw { discards: true, .. }))
+    }
+}
+
+/// Steps beside graphics, waits, images that change hands.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+struct Seen {
+    compute: usize,
+    transfer: usize,
+    waits: usize,
+    waits_for_earlier_frames: usize,
+    releases: usize,
+    concurrent: usize,
+}
+
+impl Seen {
+    fn add(&mut self, plan: &Plan) {
+        let on = |queue| plan.steps.iter().filter(|step| step.queue == queue).count();
+        let waits = || plan.steps.iter().flat_map(|step| &step.waits);
+        self.compute += on(Queue::Compute);
+        self.transfer += on(Queue::Transfer);
+        self.waits += waits().count();
+        self.waits_for_earlier_frames += waits().filter(|wait| wait.frames_ago > 0).count();
+        self.releases += plan.steps.iter().map(|step| step.releases.len()).sum::<usize>();
+        self.concurrent += plan.images.iter().filter(|image| image.sharing == Sharing::Concurrent).count();
+    }
+}
+
+fn check(seeds: std::ops::Range<u64>, most: u32, judged: bool) -> Seen {
+    let mut seen = Seen::default();
+    let devices = [
+        device(true, true, Sharing::Exclusive),
+        device(true, true, Sharing::Concurrent),
+        device(true, false, Sharing::Exclusive),
+        device(false, true, Sharing::Concurrent),
+    ];
+    for seed in seeds {
+        let frame = random_pipelines::frame(seed, random_pipelines::passes(seed, most));
+        for (number, device) in devices.iter().enumerate() {
+            for order in [Order::File, Order::Default, Order::LowMemory, Order::Random(seed)] {
+                let alias = seed % 4 != u64::from(number as u32);
+                let options = Options { alias, order, ..Options::default() };
+                let Some(one) = plan(&frame, device, &Options { queues: false, ..options }) else { continue };
+                let Some(several) = plan(&frame, device, &options) else { panic!("seed {seed}: no Plan") };
+                seen.add(&several);
+                let what = format!("seed {seed}, device {number}, {options:?}");
+                if several == one || !verify(&one).is_empty() {
+                    continue;
+                }
+                assert_eq!(verify(&several), [], "{what}\n{}", several.tree());
+                if !judged {
+                    continue;
+                }
+                let before = judge(&one, &discards(&frame));
+                if before.harms.is_empty() {
+                    let after = judge(&several, &discards(&frame));
+                    assert_eq!(after.harms, [], "{what}\n{}", several.tree());
+                }
+            }
+        }
+    }
+    seen
+}
+
+#[test]
+fn plans_for_several_queues_are_right() {
+    let seen = check(0..1000, 40, false);
+    println!("{seen:?}");
+    let Seen { compute, transfer, waits, waits_for_earlier_frames, releases, concurrent } = seen;
+    let rare = [compute, transfer, waits, waits_for_earlier_frames, releases, concurrent].into_iter().min();
+    assert!(rare > Some(500), "hardly ever: {seen:?}");
+}
+
+#[test]
+fn the_brute_force_judge_finds_nothing_in_plans_for_several_queues() {
+    let seen = check(5000..5400, 14, true);
+    println!("{seen:?}");
+    assert!(seen.waits > 300 && seen.releases > 50 && seen.concurrent > 50, "hardly ever: {seen:?}");
+}
