@@ -3,7 +3,7 @@
 
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
-use framewright_graph::frame::{Frame, Work};
+use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Plan, Queue, Sharing};
 use framewright_graph::verify::verify;
 use framewright_tests::happens_before::judge;
@@ -17,13 +17,6 @@ fn device(compute: bool, transfer: bool, sharing: Sharing) -> Profile {
 
 fn plan(frame: &Frame, device: &Profile, options: &Options) -> Option<Plan> {
     compile(frame, device, &mut Estimated(device), options).ok()
-}
-
-fn discards(frame: &Frame) -> impl Fn(&str) -> bool {
-    move |name| {
-        let pass = frame.passes.iter().find(|pass| *pass.name == *name);
-        pass.is_some_and(|pass| matches!(pass.work, Work::Draw { discards: true, .. }))
-    }
 }
 
 /// Steps beside graphics, waits, images that change hands.
@@ -75,9 +68,9 @@ fn check(seeds: std::ops::Range<u64>, most: u32, judged: bool) -> Seen {
                 if !judged {
                     continue;
                 }
-                let before = judge(&one, &discards(&frame));
+                let before = judge(&one);
                 if before.harms.is_empty() {
-                    let after = judge(&several, &discards(&frame));
+                    let after = judge(&several);
                     assert_eq!(after.harms, [], "{what}\n{}", several.tree());
                 }
             }
