@@ -140,13 +140,14 @@ impl Text {
             self.say(&format!("place = near({size}, state, here);"));
             (format!("imageLoad({name}, {place})"), "")
         } else {
-            // Of one quad all fragments take the same level: lavapipe knows no others.
+            // Of one quad all fragments take the same level: lavapipe knows no others. Of several quads it asks for the
+            // size of one's level, so the size follows from that of the first level.
             self.say(&format!("level = int((here.x / 2u + here.y / 2u + here.z) % uint(textureQueryLevels({name})));"));
-            let (size, place) = places(dimension, &format!("textureSize({name}, level)"));
-            self.say(&format!("place = near({size}, state, here);"));
+            let (size, place) = places(dimension, &format!("textureSize({name}, 0)"));
+            self.say(&format!("size = level_of({size}, level, {});", dimension == "3D"));
+            self.say("place = near(size, state, here);");
             if dimension == "Cube" {
-                let size = format!("textureSize({name}, level).x");
-                (format!("textureLod({name}, towards(place, {size}), float(level))"), "")
+                (format!("textureLod({name}, towards(place, int(size.x)), float(level))"), "")
             } else {
                 (format!("texelFetch({name}, {place}"), ", level)")
             }
@@ -317,7 +318,8 @@ impl Text {
         } else {
             ("", "")
         };
-        let start = "const uvec3 at = uvec3(gl_FragCoord.xy, 0.0), here = at;\n    uvec3 place;\n    int level;\n    ";
+        let start =
+            "const uvec3 at = uvec3(gl_FragCoord.xy, 0.0), here = at;\n    uvec3 place, size;\n    int level;\n    ";
         let state = "uint state = hash(hash(hash(number, at.x), at.y), at.z);\n    ";
         let fragment = format!(
             "{head}{NEAR}{}{input}void main() {{\n    {start}{state}{triangle}{sample}\n{}}}\n",
@@ -340,7 +342,7 @@ impl Text {
         let head = format!("#version 460\nlayout(local_size_x = {WORKGROUP}, local_size_y = {WORKGROUP}) in;\n{block}");
         let content = if self.structured { CONTENT_GLSL } else { "" };
         let start = "const uvec3 at = gl_GlobalInvocationID, grid = uvec3(grid_x, grid_y, grid_z);\n    \
-            if (any(greaterThanEqual(at, grid))) return;\n    uvec3 place;\n    int level;\n    \
+            if (any(greaterThanEqual(at, grid))) return;\n    uvec3 place, size;\n    int level;\n    \
             const uint line = (at.z * grid.y + at.y) * grid.x + at.x;\n    ";
         // What is made together reads at one position.
         let group = if self.structured { "at.x - at.x % together" } else { "at.x" };
@@ -358,6 +360,10 @@ impl Text {
 const NEAR: &str = "\
 uvec3 near(uvec3 size, uint state, uvec3 at) {
     return (at + uvec3(state & 3u, (state >> 2) & 3u, (state >> 4) & 3u)) % size;
+}
+
+uvec3 level_of(uvec3 size, int level, bool deep) {
+    return uvec3(max(size.xy >> level, uvec2(1u)), deep ? max(size.z >> level, 1u) : size.z);
 }
 
 vec3 towards(uvec3 place, int size) {
