@@ -120,6 +120,9 @@ impl Text {
             self.key += if uint { "_uown" } else { "_fown" };
             return self.own(&name, binding, prefix, whole);
         }
+        if matches!(read, Read::Sampled { part, .. } if part.mip > 0 && part.mips > 1) {
+            self.key += "_o";
+        }
         if matches!(read, Read::Storage(_)) {
             let layout = qualifier(image.format);
             self.key += &format!("_l{layout}{dimension}");
@@ -146,10 +149,14 @@ impl Text {
             let (size, place) = places(dimension, &format!("textureSize({name}, 0)"));
             self.say(&format!("size = level_of({size}, level, {});", dimension == "3D"));
             self.say("place = near(size, state, here);");
-            if dimension == "Cube" {
-                (format!("textureLod({name}, towards(place, int(size.x)), float(level))"), "")
-            } else {
-                (format!("texelFetch({name}, {place}"), ", level)")
+            let sampled = |at: &str| (format!("textureLod({name}, {at}, float(level))"), "");
+            // SwiftShader fetches nothing from levels of a view of several that begins beyond the image's first.
+            let later = matches!(read, Read::Sampled { part, .. } if part.mip > 0 && part.mips > 1);
+            match dimension {
+                "Cube" => sampled("towards(place, int(size.x))"),
+                "2D" if later => sampled("(vec2(place.xy) + 0.5) / vec2(size.xy)"),
+                "2DArray" if later => sampled("vec3((vec2(place.xy) + 0.5) / vec2(size.xy), place.z)"),
+                _ => (format!("texelFetch({name}, {place}"), ", level)"),
             }
         };
         let texel = whole(&format!("{texel}{level}"));
