@@ -37,6 +37,9 @@ struct Line {
     /// Stop after so many failures.
     #[arg(long, default_value_t = 3)]
     failures: u64,
+    /// Write what fails here, shrunk: the pipeline file, its shaders, and its Plan as text.
+    #[arg(long, default_value = "target/random_pipelines", value_name = "FOLDER")]
+    write: PathBuf,
     /// Print each pipeline.
     #[arg(long)]
     show: bool,
@@ -211,7 +214,12 @@ fn here(line: &Line, notes: &Path) -> Result<u8, Box<dyn Error>> {
                 failures += 1;
                 bar.suspend(|| println!("seed {seed} on {}, {} order: {fault}", judge.device(), order.name()));
                 let (smallest, fault) = smaller(line, &mut judge, seed, *order, &pipeline, fault);
-                bar.suspend(|| println!("shrunk to:\n{smallest}of which {fault}\nreplay it with: {replay}\n"));
+                let folder = line.write.join(format!("{seed}-{driver}-{}", order.name()));
+                judge.write(&smallest, &options(order.order(seed), seed), &folder)?;
+                bar.suspend(|| {
+                    println!("shrunk to:\n{smallest}of which {fault}\nwritten to {}", folder.display());
+                    println!("replay it with: {replay}\n");
+                });
                 break;
             }
             executed += 1;

@@ -27,6 +27,8 @@ pub enum Kind {
     Blend,
     /// Mip levels.
     Mips,
+    /// Stencil.
+    Stencil,
     /// Array layers.
     Layers,
     /// Deep images.

@@ -3,17 +3,17 @@
 use super::allowed::{Allowed, Kind};
 use super::legal::{self, Written, size};
 use super::pipeline::{
-    Buffer, Compute, Contents, Count, DepthTarget, Draw, Extent, Geometry, Groups, Image, Life, Part, Pass, Pipeline,
+    Buffer, Compute, Contents, Count, DepthTarget, Draw, Extent, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane,
     Read, Region, SAMPLES, Store, StoreAccess, TRIANGLES, Target, Thing, WORKGROUP, Work,
 };
 use super::rng::Rng;
 use super::texels;
 use framewright_graph::format::Format::{
-    self, D32_SFLOAT, R8_UINT, R8G8B8A8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, R32_UINT,
+    self, D32_SFLOAT, D32_SFLOAT_S8_UINT, R8_UINT, R8G8B8A8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, R32_UINT,
     R32G32B32A32_UINT,
 };
-use framewright_graph::frame::{Blend, Shape};
-use framewright_graph::vocabulary::CompareOp;
+use framewright_graph::frame::{Blend, Shape, StencilState};
+use framewright_graph::vocabulary::{Aspects, CompareOp, StencilOp};
 
 /// How often a pass of one kind is proposed before another kind has its turn.
 const PROPOSALS: u32 = 60;
@@ -55,8 +55,8 @@ fn images(rng: &mut Rng, passes: u32, allowed: &Allowed) -> Vec<Image> {
 }
 
 fn image(rng: &mut Rng, [width, height]: [u32; 2], allowed: &Allowed) -> Image {
-    let format = if rng.one_in(6) {
-        D32_SFLOAT
+    let format = if rng.one_in(5) {
+        if allowed.has(Kind::Stencil) { rng.of([D32_SFLOAT, D32_SFLOAT_S8_UINT]) } else { D32_SFLOAT }
     } else {
         rng.of([
             R32_UINT,
@@ -160,15 +160,17 @@ impl Maker<'_> {
 
     /// Some part of an image, of at most so many mip levels and layers.
     fn part(&mut self, image: usize, most_mips: u32, most_layers: u32) -> Part {
-        let Image { mips, layers, shape, .. } = self.pipeline.images[image];
+        let Image { mips, layers, shape, format, .. } = self.pipeline.images[image];
+        let planes = [Plane::All, Plane::Depth, Plane::Depth, Plane::Stencil];
+        let plane = if texels::planes(format).len() > 1 { self.rng.of(planes) } else { Plane::All };
         let mip = self.rng.below(mips);
         let mips = 1 + self.rng.below((mips - mip).min(most_mips));
         if shape == Shape::Cube && most_layers > 1 {
-            return Part { image, mip, mips, layer: 0, layers };
+            return Part { image, mip, mips, layer: 0, layers, plane };
         }
         let layer = self.rng.below(layers);
         let layers = 1 + self.rng.below((layers - layer).min(most_layers));
-        Part { image, mip, mips, layer, layers }
+        Part { image, mip, mips, layer, layers, plane }
     }
 
     /// Proposes a pass, and whether it may stand there.
@@ -218,8 +220,12 @@ impl Maker<'_> {
             }
             Kind::Copy => {
                 let from = self.region();
+                let frames_ago = self.frames_ago(match from {
+                    Region::Image(part) => self.pipeline.images[part.image].life,
+                    Region::Buffer(buffer) => self.pipeline.buffers[buffer].life,
+                });
                 let to = self.region();
-                Some(Work::Copy { from, to })
+                Some(Work::Copy { from, frames_ago, to })
             }
             Kind::Blit => {
                 let (from, to) = (self.image(), self.image());
@@ -264,8 +270,10 @@ impl Maker<'_> {
         let first = self.image();
         let samples = self.pipeline.images[first].samples;
         let discards = self.rng.one_in(6);
+        let direct = matches!(geometry, Geometry::Triangles { count: Count::Direct(..), vertices: None, indices: None });
         let mut draw = Draw {
             geometry,
+            custom: direct && self.allowed.has(Kind::Custom) && self.rng.one_in(4),
             discards,
             per_sample: samples > 1 && self.allowed.has(Kind::PerSample) && self.rng.one_in(3),
             reads: Vec::new(),
@@ -310,7 +318,11 @@ impl Maker<'_> {
                 CompareOp::Always,
                 CompareOp::NotEqual,
             ]);
-            draw.depth.get_or_insert(DepthTarget { part, clear, test, write: self.rng.one_in(2) });
+            let write = self.rng.one_in(2);
+            let has_stencil = format.aspects().contains(Aspects::STENCIL);
+            let part = Part { plane: if has_stencil { Plane::Depth } else { Plane::All }, ..part };
+            let stencil = (has_stencil && self.rng.one_in(2)).then(|| self.stencil(part));
+            draw.depth.get_or_insert(DepthTarget { part, clear, test, write, stencil });
         } else if draw.color.len() < 3 {
             let blends = self.allowed.has(Kind::Blend) && !texels::is_uint(format) && self.rng.one_in(2);
             let blend = if blends {
@@ -320,6 +332,27 @@ impl Maker<'_> {
             };
             draw.color.push(Target { part, clear, blend });
         }
+    }
+
+    fn stencil(&mut self, part: Part) -> StencilState {
+        let there = self.written.part(&self.pipeline, Part { plane: Plane::Stencil, ..part });
+        let clear = (!there || self.rng.one_in(4)).then(|| self.rng.below(61) as u8);
+        let test = self.rng.of([
+            CompareOp::Always,
+            CompareOp::Equal,
+            CompareOp::NotEqual,
+            CompareOp::Less,
+            CompareOp::GreaterOrEqual,
+        ]);
+        let pass = self.rng.of([
+            StencilOp::Keep,
+            StencilOp::Zero,
+            StencilOp::Replace,
+            StencilOp::IncrementAndClamp,
+            StencilOp::DecrementAndClamp,
+            StencilOp::Invert,
+        ]);
+        StencilState { clear, test, reference: self.rng.below(61) as u8, pass }
     }
 
     fn reads(&mut self) -> Vec<Read> {
@@ -405,7 +438,7 @@ impl Maker<'_> {
             let to = match thing {
                 Thing::Image(image) => {
                     let Image { mips, layers, .. } = self.pipeline.images[image];
-                    Region::Image(Part { image, mip: 0, mips, layer: 0, layers })
+                    Region::Image(Part { image, mip: 0, mips, layer: 0, layers, plane: Plane::All })
                 }
                 Thing::Buffer(buffer) => Region::Buffer(buffer),
             };
@@ -449,5 +482,5 @@ impl Maker<'_> {
 }
 
 /// Formats that images of random pipelines have.
-pub const FORMATS: [Format; 8] =
-    [R32_UINT, R8G8B8A8_UINT, R32G32B32A32_UINT, R8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, D32_SFLOAT];
+pub const FORMATS: [Format; 9] =
+    [R32_UINT, R8G8B8A8_UINT, R32G32B32A32_UINT, R8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, D32_SFLOAT, D32_SFLOAT_S8_UINT];

@@ -1,12 +1,13 @@
 //! Holds what a driver makes of a pipeline against what the pipeline means.
 
 use super::meaning::{self, Filled, State, imported_buffer, imported_image};
-use super::pipeline::{Extent, Life, Pass, Pipeline, Thing, Work};
+use super::pipeline::{Draw, Extent, Life, Count, Geometry, Pass, Pipeline, Plane, Thing, Work};
 use super::{shader, texels, to_frame, to_ron};
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::device::Profile;
 use framewright_graph::expand::{self, Facts, Inputs};
+use framewright_graph::format::Format;
 use framewright_graph::frame::{self, Frame};
 use framewright_graph::plan::{Plan, Resource};
 use framewright_graph::source::Sources;
@@ -21,6 +22,7 @@ use std::any::Any;
 use std::collections::HashSet;
 use std::fmt;
 use std::panic::AssertUnwindSafe;
+use std::path::Path;
 use std::sync::Arc;
 use tempfile::TempDir;
 
@@ -189,6 +191,26 @@ impl Judge {
         culled.map_or(Ok(plan), |pass| Err(Fault::Culled(pass.number)))
     }
 
+    /// Writes a pipeline file, its shaders and, as text, its Plan into a folder.
+    ///
+    /// # Errors
+    /// If the folder or a file can't be written.
+    pub fn write(&mut self, pipeline: &Pipeline, options: &Options, folder: &Path) -> std::io::Result<()> {
+        std::fs::create_dir_all(folder)?;
+        std::fs::write(folder.join("random.ron"), to_ron::to_ron(pipeline))?;
+        for shader in pipeline.passes.iter().filter_map(|pass| shader::shader(pipeline, pass)) {
+            for (name, text) in shader.files {
+                std::fs::write(folder.join(name), text)?;
+            }
+        }
+        let Ok(frame) = self.frame(pipeline) else { return Ok(()) };
+        let compiled = AssertUnwindSafe(|| compile(&frame, &self.profile, &mut self.device.memory(), options));
+        match std::panic::catch_unwind(compiled) {
+            Ok(Ok(plan)) => std::fs::write(folder.join("plan.txt"), plan.tree()),
+            _ => Ok(()),
+        }
+    }
+
     fn write_shaders(&mut self, pipeline: &Pipeline) -> std::io::Result<()> {
         for shader in pipeline.passes.iter().filter_map(|pass| shader::shader(pipeline, pass)) {
             if self.known.insert(shader.name) {
@@ -225,11 +247,13 @@ fn hand_in(pipeline: &Pipeline, plan: &Plan, executor: &mut Executor, frame: u32
         // What nobody needs isn't in the Plan.
         if plan.images.iter().any(|planned| *planned.name == *name) {
             let contents = imported_image(image, number, frame);
-            for mip in 0..image.mips {
+            for (mip, plane) in levels(image.mips, image.format) {
+                let texel = |at| texels::seen(image.format, plane, contents.texel(mip, at, 0).words);
                 let bytes: Vec<u8> = texels_of(&contents, mip)
-                    .flat_map(|at| texels::bytes(image.format, contents.texel(mip, at, 0).words))
+                    .map(texel)
+                    .flat_map(|(format, words)| texels::bytes(format, words))
                     .collect();
-                executor.write_image(&name, image.format.aspects(), mip, &bytes)?;
+                executor.write_image(&name, plane.aspects(image.format), mip, &bytes)?;
             }
         }
     }
@@ -244,14 +268,19 @@ fn hand_in(pipeline: &Pipeline, plan: &Plan, executor: &mut Executor, frame: u32
     Ok(())
 }
 
+/// What is read and written at once: the mip levels and planes of an image.
+fn levels(mips: u32, format: Format) -> impl Iterator<Item = (u32, Plane)> {
+    (0..mips).flat_map(move |mip| texels::planes(format).iter().map(move |plane| (mip, *plane)))
+}
+
 /// All bytes of an output.
 fn read(plan: &Plan, executor: &mut Executor, output: usize) -> Result<Vec<u8>, Error> {
     match plan.outputs[output] {
         Resource::Image(id) => {
             let image = plan.image(id);
             let mut all = Vec::new();
-            for mip in 0..image.mips {
-                all.extend(executor.read_image(&image.name, image.format.aspects(), mip)?.bytes);
+            for (mip, plane) in levels(image.mips, image.format) {
+                all.extend(executor.read_image(&image.name, plane.aspects(image.format), mip)?.bytes);
             }
             Ok(all)
         }
@@ -274,8 +303,16 @@ fn shown(message: &Message) -> String {
 struct Program<'p>(&'p Pipeline);
 
 impl DrawSource for Program<'_> {
-    fn record(&mut self, draw: frame::Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {
-        Err(Error::DrawSource { what: format!("a random pipeline draws {draw:?}") })
+    fn record(&mut self, draw: frame::Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
+        let named = |pass: &&Pass| format!("p{}", pass.number) == recorder.pass();
+        let work = self.0.passes.iter().find(named).map(|pass| &pass.work);
+        let Some(Work::Draw(Draw { geometry: Geometry::Triangles { count, .. }, custom: true, .. })) = work else {
+            return Err(Error::DrawSource { what: format!("`{}` draws {draw:?}", recorder.pass()) });
+        };
+        if let Count::Direct(triangles, instances) = *count {
+            recorder.draw(0..3 * triangles, 0..instances);
+        }
+        Ok(1)
     }
 
     fn custom(&mut self, _: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
@@ -329,11 +366,13 @@ fn places<'p>(pipeline: &'p Pipeline, state: &'p State, thing: Thing) -> Box<dyn
         Thing::Image(number) => {
             let image = &pipeline.images[number];
             let contents = &state.images[number][0];
-            Box::new((0..image.mips).flat_map(move |mip| {
+            Box::new(levels(image.mips, image.format).flat_map(move |(mip, plane)| {
                 texels_of(contents, mip).map(move |at| {
                     let words = texels::resolved(image.format, &contents.all_samples(mip, at));
-                    let place: Box<dyn Fn() -> String> = Box::new(move || format!("mip {mip}, texel {at:?}"));
-                    (place, texels::bytes(image.format, words), contents.texel(mip, at, 0).writer)
+                    let (format, words) = texels::seen(image.format, plane, words);
+                    let stencil = if plane == Plane::Stencil { "stencil of " } else { "" };
+                    let place: Box<dyn Fn() -> String> = Box::new(move || format!("{stencil}mip {mip}, texel {at:?}"));
+                    (place, texels::bytes(format, words), contents.texel(mip, at, 0).writer)
                 })
             }))
         }

@@ -1,17 +1,17 @@
 //! What a pass may do, given what passes before it wrote: the rules of pipeline files, part by part.
 
 use super::pipeline::{
-    Compute, Contents, Count, DepthTarget, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Read, Region,
+    Compute, Contents, Count, DepthTarget, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region,
     Store, StoreAccess, TRIANGLES, Thing, WORKGROUP, Work,
 };
 use super::texels;
 use framewright_graph::frame::{Blend, Shape};
-use framewright_graph::vocabulary::CompareOp;
+use framewright_graph::vocabulary::{Aspects, CompareOp, StencilOp};
 
 /// What earlier passes of the frame wrote.
 #[derive(Debug, Clone)]
 pub struct Written {
-    /// By image, mip level and layer.
+    /// By image, mip level, layer and plane: stencil is the second.
     images: Vec<Vec<bool>>,
     buffers: Vec<bool>,
     /// By image: an upper bound of its values, for sums.
@@ -39,7 +39,7 @@ struct Access {
 fn covers(draw: &Draw) -> bool {
     draw.geometry == Geometry::FullScreen
         && !draw.discards
-        && draw.depth.is_none_or(|depth| depth.test == CompareOp::Always)
+        && draw.depth.is_none_or(|depth| depth.test == CompareOp::Always && depth.stencil.is_none())
 }
 
 /// Every access to images of this frame.
@@ -65,8 +65,13 @@ fn accesses(pass: &Pass) -> Vec<Access> {
                 let keeps = target.clear.is_none() && !(covers(draw) && target.blend == Blend::Replace);
                 add(target.part, How::Attachment, keeps, true);
             }
-            if let Some(DepthTarget { part, clear, write, .. }) = draw.depth {
+            if let Some(DepthTarget { part, clear, write, stencil, .. }) = draw.depth {
                 add(part, How::Attachment, clear.is_none(), write || clear.is_some());
+                if let Some(stencil) = stencil {
+                    let writes = stencil.clear.is_some() || stencil.pass != StencilOp::Keep;
+                    let part = Part { plane: Plane::Stencil, ..part };
+                    add(part, How::Attachment, stencil.clear.is_none(), writes);
+                }
             }
         }
         Work::Copy { .. } | Work::Custom { .. } => {
@@ -91,7 +96,7 @@ fn accesses(pass: &Pass) -> Vec<Access> {
 /// What a copy or a custom pass reads and writes.
 fn copied(pass: &Pass) -> (Option<Region>, Option<Region>) {
     match pass.work {
-        Work::Copy { from, to } => (Some(from), Some(to)),
+        Work::Copy { from, frames_ago, to } => ((frames_ago == 0).then_some(from), Some(to)),
         Work::Custom { from, to, .. } => (from, Some(to)),
         _ => (None, None),
     }
@@ -150,8 +155,11 @@ pub(super) fn things(pass: &Pass) -> Vec<Thing> {
             Read::Uniform(buffer, _) | Read::Block(buffer, _) => Thing::Buffer(buffer),
         });
     }
-    if let Work::Forward { from, to } = pass.work {
-        all.extend([Thing::Image(from), Thing::Image(to)]);
+    match pass.work {
+        Work::Forward { from, to } => all.extend([Thing::Image(from), Thing::Image(to)]),
+        Work::Copy { from: Region::Image(part), .. } => all.push(Thing::Image(part.image)),
+        Work::Copy { from: Region::Buffer(buffer), .. } => all.push(Thing::Buffer(buffer)),
+        _ => {}
     }
     all
 }
@@ -189,11 +197,27 @@ pub(super) fn unwritten_history(pipeline: &Pipeline, written: &Written) -> Vec<T
         Read::Uniform(buffer, 1..) | Read::Block(buffer, 1..) => Some(Thing::Buffer(buffer)),
         _ => None,
     };
-    let read = pipeline.passes.iter().flat_map(|pass| shader(pass).0).filter_map(earlier);
+    let copied = pipeline.passes.iter().filter_map(|pass| match pass.work {
+        Work::Copy { from: Region::Image(part), frames_ago: 1.., .. } => Some(Thing::Image(part.image)),
+        Work::Copy { from: Region::Buffer(buffer), frames_ago: 1.., .. } => Some(Thing::Buffer(buffer)),
+        _ => None,
+    });
+    let read = pipeline.passes.iter().flat_map(|pass| shader(pass).0).filter_map(earlier).chain(copied);
     let mut unwritten: Vec<Thing> = read.filter(|thing| !written.all(*thing)).collect();
     unwritten.sort_unstable();
     unwritten.dedup();
     unwritten
+}
+
+/// Where the subresources of a part are noted.
+fn slots(image: &Image, part: Part) -> Vec<usize> {
+    let planes: &[u32] = match part.plane {
+        Plane::All => &[0, 1],
+        Plane::Depth => &[0],
+        Plane::Stencil => &[1],
+    };
+    let slot = |[mip, layer]: [u32; 2]| planes.iter().map(move |plane| ((mip * image.layers + layer) * 2 + plane) as usize);
+    part.subresources().flat_map(slot).collect()
 }
 
 impl Written {
@@ -201,7 +225,7 @@ impl Written {
     #[must_use]
     pub fn new(pipeline: &Pipeline) -> Written {
         let there = |life| matches!(life, Life::Persistent(_) | Life::Imported);
-        let slots = |image: &Image| vec![there(image.life); (image.mips * image.layers) as usize];
+        let slots = |image: &Image| vec![there(image.life); (2 * image.mips * image.layers) as usize];
         let plain = |image: &Image| u64::from(texels::mask(image.format, Blend::Replace));
         Written {
             images: pipeline.images.iter().map(slots).collect(),
@@ -222,8 +246,7 @@ impl Written {
     /// Whether all of a part has contents.
     #[must_use]
     pub fn part(&self, pipeline: &Pipeline, part: Part) -> bool {
-        let layers = pipeline.images[part.image].layers;
-        part.subresources().all(|[mip, layer]| self.images[part.image][(mip * layers + layer) as usize])
+        slots(&pipeline.images[part.image], part).into_iter().all(|slot| self.images[part.image][slot])
     }
 
     /// Takes note of a pass, if it may stand here; else returns false and notes nothing.
@@ -233,10 +256,8 @@ impl Written {
         let Some(greatest) = greatest else { return false };
         self.greatest = greatest;
         for access in accesses(pass).iter().filter(|access| access.writes) {
-            let layers = pipeline.images[access.part.image].layers;
-            for [mip, layer] in access.part.subresources() {
-                self.images[access.part.image][(mip * layers + layer) as usize] = true;
-            }
+            let image = access.part.image;
+            slots(&pipeline.images[image], access.part).into_iter().for_each(|slot| self.images[image][slot] = true);
         }
         for (buffer, _, writes) in buffers(pass) {
             self.buffers[buffer] |= writes;
@@ -249,10 +270,7 @@ impl Written {
 
     fn is_legal(&self, pipeline: &Pipeline, pass: &Pass) -> bool {
         let accesses = accesses(pass);
-        let exists = accesses.iter().all(|access| {
-            let image = &pipeline.images[access.part.image];
-            access.part.mip + access.part.mips <= image.mips && access.part.layer + access.part.layers <= image.layers
-        });
+        let exists = accesses.iter().all(|access| part_fits(pipeline, access.part));
         let apart = accesses.iter().enumerate().all(|(at, one)| {
             accesses[..at].iter().all(|other| {
                 // A pass may sample what it draws into, but for depth that it changes.
@@ -292,9 +310,9 @@ impl Written {
                         && !stores.is_empty()
                         && !own
                 }
-                Work::Copy { from, to } => copy_fits(pipeline, *from, *to),
+                Work::Copy { from, frames_ago, to } => copy_fits(pipeline, *from, *frames_ago, *to),
                 Work::Blit { from, to } => blit_fits(pipeline, *from, *to),
-                Work::Custom { from: Some(from), to, .. } => copy_fits(pipeline, *from, *to),
+                Work::Custom { from: Some(from), to, .. } => copy_fits(pipeline, *from, 0, *to),
                 Work::Fill { to, value } | Work::Custom { from: None, to, value } => fill_fits(pipeline, *to, *value),
                 Work::Forward { from, to } => self.all(Thing::Image(*from)) && forward_fits(pipeline, *from, *to),
             }
@@ -320,7 +338,7 @@ impl Written {
                     };
                 }
             }
-            Work::Copy { from: Region::Image(from), to: Region::Image(to) }
+            Work::Copy { from: Region::Image(from), to: Region::Image(to), .. }
             | Work::Custom { from: Some(Region::Image(from)), to: Region::Image(to), .. }
             | Work::Blit { from, to } => {
                 greatest[to.image] = greatest[to.image].max(greatest[from.image]);
@@ -347,23 +365,44 @@ fn most_layers(draw: &Draw) -> u64 {
     }
 }
 
+/// Whether an image has such a part.
+fn part_fits(pipeline: &Pipeline, part: Part) -> bool {
+    let image = &pipeline.images[part.image];
+    let plane = part.plane == Plane::All || image.format.aspects().contains(Aspects::STENCIL);
+    plane && part.mip + part.mips <= image.mips && part.layer + part.layers <= image.layers
+}
+
+/// Whether a part has one plane: shaders and attachments know no more.
+fn one_plane(pipeline: &Pipeline, part: Part) -> bool {
+    (part.plane == Plane::All) != pipeline.images[part.image].format.aspects().contains(Aspects::STENCIL)
+}
+
+/// Whether what lives so can be read so many frames later.
+fn lasts(life: Life, frames_ago: u32) -> bool {
+    frames_ago == 0 || matches!(life, Life::History(frames, _) if frames_ago <= frames)
+}
+
 fn read_fits(pipeline: &Pipeline, read: Read) -> bool {
-    let ago = |life, frames_ago| frames_ago == 0 || matches!(life, Life::History(frames, _) if frames_ago <= frames);
     match read {
         Read::Sampled { part, frames_ago, per_sample } => {
             let image = &pipeline.images[part.image];
             let whole_cube = image.shape != Shape::Cube || part.layers == 6 || part.layers == 1;
             let several = image.samples > 1;
-            ago(image.life, frames_ago)
+            lasts(image.life, frames_ago)
+                && part_fits(pipeline, part)
+                && one_plane(pipeline, part)
                 && whole_cube
                 && (several || !per_sample)
                 && !(several && image.format.is_depth() && !per_sample)
                 && !(per_sample && part.layers > 1)
         }
-        Read::Own(part) => (part.mips, part.layers) == (1, 1) && pipeline.images[part.image].shape != Shape::D3,
+        Read::Own(part) => {
+            let flat = pipeline.images[part.image].shape != Shape::D3;
+            (part.mips, part.layers) == (1, 1) && flat && one_plane(pipeline, part)
+        }
         Read::Storage(part) => storage_fits(pipeline, part),
         Read::Uniform(buffer, frames_ago) | Read::Block(buffer, frames_ago) => {
-            ago(pipeline.buffers[buffer].life, frames_ago)
+            lasts(pipeline.buffers[buffer].life, frames_ago)
         }
     }
 }
@@ -397,7 +436,12 @@ fn draw_fits(pipeline: &Pipeline, draw: &Draw) -> bool {
         let mean = mixes && samples(first) > 1 && format.numeric() == framewright_graph::format::Numeric::Unorm;
         !format.is_depth() && (target.blend == Blend::Replace || !texels::is_uint(format)) && !mean
     });
-    let depth = draw.depth.is_none_or(|depth| pipeline.images[depth.part.image].format.is_depth());
+    let depth = draw.depth.is_none_or(|depth| {
+        let format = pipeline.images[depth.part.image].format;
+        let stencil = format.aspects().contains(Aspects::STENCIL);
+        let plane = if stencil { Plane::Depth } else { Plane::All };
+        format.is_depth() && depth.part.plane == plane && (stencil || depth.stencil.is_none())
+    });
     let plain = draw.stores.is_empty()
         || (draw.geometry == Geometry::FullScreen && !draw.discards && !draw.per_sample && draw.depth.is_none());
     let of =
@@ -426,6 +470,7 @@ fn draw_fits(pipeline: &Pipeline, draw: &Draw) -> bool {
         && depth
         && plain
         && geometry
+        && (!draw.custom || matches!(draw.geometry, Geometry::Triangles { count: Count::Direct(..), vertices: None, indices: None }))
         && (!draw.per_sample || samples(first) > 1)
         && draw.stores.iter().all(|store| store_fits(pipeline, *store, extent(first), true))
 }
@@ -500,7 +545,15 @@ fn fill_fits(pipeline: &Pipeline, to: Region, value: u8) -> bool {
     }
 }
 
-fn copy_fits(pipeline: &Pipeline, from: Region, to: Region) -> bool {
+fn copy_fits(pipeline: &Pipeline, from: Region, frames_ago: u32, to: Region) -> bool {
+    let life = match from {
+        Region::Image(part) if !part_fits(pipeline, part) => return false,
+        Region::Image(part) => pipeline.images[part.image].life,
+        Region::Buffer(buffer) => pipeline.buffers[buffer].life,
+    };
+    if !lasts(life, frames_ago) {
+        return false;
+    }
     let beside = |part: Part, buffer: usize| {
         let image = &pipeline.images[part.image];
         let bytes = size(image, part).iter().product::<u32>() * image.format.texel_bytes() as u32;
@@ -513,15 +566,18 @@ fn copy_fits(pipeline: &Pipeline, from: Region, to: Region) -> bool {
     match (from, to) {
         (Region::Image(from), Region::Image(to)) => {
             let (source, target) = (&pipeline.images[from.image], &pipeline.images[to.image]);
+            // Lavapipe copies depth and stencil when asked for one of them.
+            let planes = from.plane == Plane::All && to.plane == Plane::All;
             from.mips == 1
                 && to.mips == 1
+                && planes
                 && (source.format, source.samples) == (target.format, target.samples)
                 && (source.shape == Shape::D3) == (target.shape == Shape::D3)
                 && size(source, from) == size(target, to)
         }
         (Region::Buffer(from), Region::Buffer(to)) => {
             let (source, target) = (&pipeline.buffers[from], &pipeline.buffers[to]);
-            from != to && (source.words, source.contents) == (target.words, target.contents)
+            (from != to || frames_ago > 0) && (source.words, source.contents) == (target.words, target.contents)
         }
         (Region::Image(part), Region::Buffer(buffer)) | (Region::Buffer(buffer), Region::Image(part)) => {
             beside(part, buffer)

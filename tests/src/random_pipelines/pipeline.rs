@@ -1,8 +1,8 @@
 //! What a random pipeline says: less than a pipeline file can, in a form that is easy to make, to evaluate and to shrink.
 
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Shape};
-use framewright_graph::vocabulary::CompareOp;
+use framewright_graph::frame::{Blend, Shape, StencilState};
+use framewright_graph::vocabulary::{Aspects, CompareOp};
 
 /// Texels in x, y and z.
 pub type Extent = [u32; 3];
@@ -132,6 +132,36 @@ impl Contents {
     }
 }
 
+/// Planes of an image of depth and stencil.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Plane {
+    /// All that the image has.
+    #[default]
+    All,
+    /// Depth alone, of an image that has stencil too.
+    Depth,
+    /// Stencil alone.
+    Stencil,
+}
+
+impl Plane {
+    /// The planes of an image of this format that are meant.
+    #[must_use]
+    pub const fn aspects(self, format: Format) -> Aspects {
+        match self {
+            Plane::All => format.aspects(),
+            Plane::Depth => Aspects::DEPTH,
+            Plane::Stencil => Aspects::STENCIL,
+        }
+    }
+
+    /// Whether they share a plane.
+    #[must_use]
+    pub fn overlaps(self, other: Plane) -> bool {
+        self == Plane::All || other == Plane::All || self == other
+    }
+}
+
 /// A part of an image: whole mip levels and layers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
@@ -145,6 +175,8 @@ pub struct Part {
     pub layer: u32,
     /// Number of layers.
     pub layers: u32,
+    /// Which planes.
+    pub plane: Plane,
 }
 
 impl Part {
@@ -159,6 +191,7 @@ impl Part {
     pub fn overlaps(self, other: Part) -> bool {
         let apart = |at: u32, count: u32, from: u32, others: u32| at + count <= from || from + others <= at;
         self.image == other.image
+            && self.plane.overlaps(other.plane)
             && !apart(self.mip, self.mips, other.mip, other.mips)
             && !apart(self.layer, self.layers, other.layer, other.layers)
     }
@@ -186,6 +219,8 @@ pub enum Work {
     Copy {
         /// From here.
         from: Region,
+        /// Of so many frames before.
+        frames_ago: u32,
         /// To there.
         to: Region,
     },
@@ -235,6 +270,8 @@ pub enum Region {
 pub struct Draw {
     /// What is drawn.
     pub geometry: Geometry,
+    /// Whether the embedding program records it.
+    pub custom: bool,
     /// Whether its fragment shader discards fragments.
     pub discards: bool,
     /// Whether its fragment shader runs once a sample.
@@ -296,6 +333,8 @@ pub struct DepthTarget {
     pub test: CompareOp,
     /// Whether passing fragments write depth.
     pub write: bool,
+    /// What happens to the stencil plane; `None`: it isn't there, or not used.
+    pub stencil: Option<StencilState>,
 }
 
 /// A dispatch. Each invocation stands at a position of a grid.

@@ -2,7 +2,7 @@
 
 use super::hash::{CONTENT_GLSL, GLSL, QUARTER_GLSL};
 use super::pipeline::{
-    Compute, Draw, Geometry, Image, Pass, Pipeline, Read, Region, SAMPLES, Store, StoreAccess, WORKGROUP, Work,
+    Compute, Draw, Geometry, Image, Pass, Pipeline, Plane, Read, Region, SAMPLES, Store, StoreAccess, WORKGROUP, Work,
 };
 use super::{legal, texels};
 use framewright_graph::format::{Format, Numeric};
@@ -109,11 +109,16 @@ impl Text {
                 (image, dimension(image, part.layers))
             }
         };
-        let uint = texels::is_uint(image.format);
+        let plane = match read {
+            Read::Sampled { part, .. } | Read::Own(part) => part.plane,
+            _ => Plane::All,
+        };
+        let (format, _) = texels::seen(image.format, plane, [0; 4]);
+        let uint = texels::is_uint(format);
         let prefix = if uint { "u" } else { "" };
-        self.whole(&format!("{name}_parts"), texels::parts(image.format));
+        self.whole(&format!("{name}_parts"), texels::parts(format));
         if !uint {
-            self.number(&format!("{name}_scale"), texels::scale(image.format));
+            self.number(&format!("{name}_scale"), texels::scale(format));
         }
         let whole = |texel: &str| if uint { texel.to_owned() } else { format!("uvec4({texel} * {name}_scale + 0.5)") };
         if matches!(read, Read::Own(_)) {

@@ -90,6 +90,12 @@ fn simpler(pass: &Pass) -> Vec<Pass> {
             });
             (0..draw.color.len()).for_each(|at| add(&|draw| draw.color[at].blend = Blend::Replace));
             add(&|draw| draw.depth = None);
+            add(&|draw| {
+                if let Some(depth) = &mut draw.depth {
+                    depth.stencil = None;
+                }
+            });
+            add(&|draw| draw.custom = false);
             add(&|draw| draw.discards = false);
             add(&|draw| draw.per_sample = false);
             add(&|draw| {

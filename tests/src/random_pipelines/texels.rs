@@ -5,7 +5,8 @@
 
 use framewright_graph::format::{Format, Numeric};
 use framewright_graph::frame::Blend;
-use framewright_graph::vocabulary::FillValue;
+use super::pipeline::Plane;
+use framewright_graph::vocabulary::{Aspects, FillValue};
 
 /// A texel's components.
 pub type Words = [u32; 4];
@@ -81,6 +82,32 @@ pub fn scale(format: Format) -> f32 {
     }
 }
 
+/// A format and a texel of it, as one who reads some planes of another sees them.
+#[must_use]
+pub fn seen(format: Format, plane: Plane, words: Words) -> (Format, Words) {
+    match plane {
+        Plane::All => (format, words),
+        Plane::Depth => (Format::D32_SFLOAT, words),
+        Plane::Stencil => (Format::R8_UINT, [words[1], 0, 0, 0]),
+    }
+}
+
+/// A texel of which some planes are replaced.
+#[must_use]
+pub fn merged(plane: Plane, old: Words, new: Words) -> Words {
+    match plane {
+        Plane::All => new,
+        Plane::Depth => [new[0], old[1], old[2], old[3]],
+        Plane::Stencil => [old[0], new[1], old[2], old[3]],
+    }
+}
+
+/// The planes of a format, one by one, as outputs are read.
+#[must_use]
+pub fn planes(format: Format) -> &'static [Plane] {
+    if format.aspects().contains(Aspects::STENCIL) { &[Plane::Depth, Plane::Stencil] } else { &[Plane::All] }
+}
+
 /// Components that shaders hash.
 #[must_use]
 pub fn parts(format: Format) -> u32 {
@@ -97,6 +124,19 @@ pub fn word(format: Format, number: u32) -> u32 {
     } else {
         (number as f32).to_bits()
     }
+}
+
+/// The words of whole numbers: of depth with stencil, the second is the stencil.
+#[must_use]
+pub fn words(format: Format, numbers: Words) -> Words {
+    let all = numbers.map(|number| word(format, number));
+    if format.aspects().contains(Aspects::STENCIL) { [all[0], numbers[1], 0, 0] } else { all }
+}
+
+/// [`plain`] in every component.
+#[must_use]
+pub fn plain_texel(format: Format, value: u8) -> Words {
+    words(format, [u32::from(value) & mask(format, Blend::Replace); 4])
 }
 
 /// A small value for clears, fills and first contents: one that the format's shaders may write too.
@@ -134,7 +174,8 @@ pub fn float(format: Format, word: u32) -> f32 {
 pub fn fill(format: Format, value: u8) -> FillValue {
     let word = plain(format, value);
     if format.is_depth() {
-        FillValue::Depth(f32::from_bits(word), 0)
+        let stencil = if format.aspects().contains(Aspects::STENCIL) { value } else { 0 };
+        FillValue::Depth(f32::from_bits(word), stencil)
     } else if is_uint(format) {
         FillValue::Bits([word; 4])
     } else {
@@ -151,7 +192,7 @@ pub fn sum(format: Format, left: u32, right: u32) -> u32 {
 /// What one value for all samples is: the mean, or of integers the first.
 #[must_use]
 pub fn resolved(format: Format, samples: &[Words]) -> Words {
-    if is_uint(format) {
+    if is_uint(format) || samples.len() == 1 {
         return samples[0];
     }
     std::array::from_fn(|component| {

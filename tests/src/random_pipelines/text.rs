@@ -2,9 +2,9 @@
 
 use super::legal;
 use super::pipeline::{
-    Count, DepthTarget, Geometry, Groups, Life, Part, Pass, Pipeline, Read, Region, StoreAccess, Thing, Work,
+    Count, DepthTarget, Geometry, Groups, Life, Part, Pass, Pipeline, Plane, Read, Region, StoreAccess, Thing, Work,
 };
-use framewright_graph::frame::{Blend, Shape};
+use framewright_graph::frame::{Blend, Shape, StencilState};
 use std::fmt;
 
 impl fmt::Display for Pipeline {
@@ -74,7 +74,12 @@ impl fmt::Display for Part {
         let span = |first: u32, count: u32| {
             if count == 1 { first.to_string() } else { format!("{first}–{}", first + count - 1) }
         };
-        write!(f, "i{}[mip {}, layer {}]", self.image, span(self.mip, self.mips), span(self.layer, self.layers))
+        write!(f, "i{}[mip {}, layer {}", self.image, span(self.mip, self.mips), span(self.layer, self.layers))?;
+        match self.plane {
+            Plane::All => write!(f, "]"),
+            Plane::Depth => write!(f, ", depth]"),
+            Plane::Stencil => write!(f, ", stencil]"),
+        }
     }
 }
 
@@ -130,6 +135,9 @@ impl fmt::Display for Pass {
                         indices.map_or(Ok(()), |buffer| write!(f, ", indices b{buffer}"))?;
                     }
                 }
+                if draw.custom {
+                    write!(f, ", recorded by the program")?;
+                }
                 if draw.discards {
                     write!(f, ", discards")?;
                 }
@@ -143,10 +151,15 @@ impl fmt::Display for Pass {
                         write!(f, " blend {:?}", target.blend)?;
                     }
                 }
-                if let Some(DepthTarget { part, clear, test, write }) = &draw.depth {
+                if let Some(DepthTarget { part, clear, test, write, stencil }) = &draw.depth {
                     write!(f, ", depth {part}")?;
                     clear.map_or(Ok(()), |clear| write!(f, " cleared to {clear}"))?;
                     write!(f, " {test:?}{}", if *write { ", written" } else { "" })?;
+                    if let Some(StencilState { clear, test, reference, pass }) = stencil {
+                        write!(f, ", stencil")?;
+                        clear.map_or(Ok(()), |clear| write!(f, " cleared to {clear}"))?;
+                        write!(f, " {test:?} {reference} {pass:?}")?;
+                    }
                 }
             }
             Work::Compute(compute) => {
@@ -158,7 +171,8 @@ impl fmt::Display for Pass {
                     Groups::Indirect(buffer, word) => write!(f, " in groups from b{buffer}, word {word}")?,
                 }
             }
-            Work::Copy { from, to } => write!(f, "copy {from} to {to}")?,
+            Work::Copy { from, frames_ago: 0, to } => write!(f, "copy {from} to {to}")?,
+            Work::Copy { from, frames_ago, to } => write!(f, "copy {from} of {frames_ago} frames ago to {to}")?,
             Work::Blit { from, to } => write!(f, "blit {from} to {to}")?,
             Work::Fill { to, value } => write!(f, "fill {to} with {value}")?,
             Work::Custom { from: Some(from), to, .. } => write!(f, "custom copy {from} to {to}")?,

@@ -2,7 +2,7 @@
 
 use super::legal;
 use super::pipeline::{
-    self, Compute, Count, Draw, Geometry, Groups, Life, Part, Pass, Pipeline, Read, Region, StoreAccess, Thing, Work,
+    self, Compute, Count, Draw, Geometry, Groups, Life, Part, Pass, Pipeline, Plane, Read, Region, StoreAccess, Thing, Work,
 };
 use super::{shader, texels};
 use framewright_graph::format::Format;
@@ -67,8 +67,8 @@ fn lifetime(life: Life, layout: Layout, initial: impl Fn(u8) -> FillValue) -> Li
 }
 
 fn range(format: Format, part: Part) -> Subresources {
-    let Part { mip, mips, layer, layers, .. } = part;
-    Subresources { aspects: format.aspects(), base_mip: mip, mips, base_layer: layer, layers }
+    let Part { mip, mips, layer, layers, plane, .. } = part;
+    Subresources { aspects: plane.aspects(format), base_mip: mip, mips, base_layer: layer, layers }
 }
 
 fn to_pass(pipeline: &Pipeline, pass: &Pass) -> frame::Pass {
@@ -93,8 +93,9 @@ fn to_pass(pipeline: &Pipeline, pass: &Pass) -> frame::Pass {
         Work::Compute(Compute { groups: Groups::Indirect(buffer, _), .. }) => {
             made.buffers.push(fixed(*buffer, BufferRole::Indirect));
         }
-        Work::Copy { from, to } => {
-            made.transfers = vec![transfer(pipeline, *from, false), transfer(pipeline, *to, true)]
+        Work::Copy { from, frames_ago, to } => {
+            let from = frame::TransferUse { frames_ago: *frames_ago, ..transfer(pipeline, *from, false) };
+            made.transfers = vec![from, transfer(pipeline, *to, true)];
         }
         Work::Blit { from, to } => {
             let transfer = |part, write| transfer(pipeline, Region::Image(part), write);
@@ -115,6 +116,7 @@ fn work(pipeline: &Pipeline, pass: &Pass, shader: &str) -> frame::Work {
         Work::Draw(draw) => frame::Work::Draw {
             draw: match draw.geometry {
                 Geometry::FullScreen => frame::Draw::FullScreen,
+                Geometry::Triangles { .. } if draw.custom => frame::Draw::Custom,
                 Geometry::Triangles { count: Count::Direct(triangles, instances), .. } => {
                     frame::Draw::Vertices { count: 3 * triangles, instances }
                 }
@@ -237,16 +239,16 @@ fn add_attachments(pipeline: &Pipeline, made: &mut frame::Pass, draw: &Draw) {
             blend: *blend,
         });
     }
-    made.depth = draw.depth.map(|pipeline::DepthTarget { part, clear, test, write }| {
+    made.depth = draw.depth.map(|pipeline::DepthTarget { part, clear, test, write, stencil }| {
         let format = pipeline.images[part.image].format;
         frame::DepthTarget {
             image: ImageIndex(part.image as u32),
-            range: range(format, part),
+            range: range(format, Part { plane: Plane::All, ..part }),
             span: Span::NONE,
             clear: clear.map(|value| texels::float(format, texels::plain(format, value))),
             test,
             write,
-            stencil: None,
+            stencil,
         }
     });
 }

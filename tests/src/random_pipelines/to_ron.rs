@@ -2,11 +2,12 @@
 
 use super::legal;
 use super::pipeline::{
-    Compute, Count, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Read, Region, Store, StoreAccess, Work,
+    Compute, Count, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region, Store, StoreAccess, Work,
 };
 use super::{shader, texels, to_frame};
-use framewright_graph::frame::{ParamValue, Shape};
-use framewright_graph::vocabulary::{FillValue, Layout};
+use framewright_graph::format::Format;
+use framewright_graph::frame::{ParamValue, Shape, StencilState};
+use framewright_graph::vocabulary::{Aspects, FillValue, Layout};
 
 /// The pipeline file that says what `pipeline` says. Its shaders are those of [`shader::shader`].
 #[must_use]
@@ -49,7 +50,7 @@ fn image_text(number: usize, image: &Image) -> String {
         Layout::General => ", layout: GENERAL",
         _ => ", layout: TRANSFER_DST_OPTIMAL",
     };
-    text + &life(image.life, layout, |value| fill(texels::fill(image.format, value))) + ")"
+    text + &life(image.life, layout, |value| fill(texels::fill(image.format, value), image.format)) + ")"
 }
 
 fn life(life: Life, layout: &str, initial: impl Fn(u8) -> String) -> String {
@@ -66,11 +67,12 @@ fn life(life: Life, layout: &str, initial: impl Fn(u8) -> String) -> String {
 }
 
 /// A value for all texels.
-fn fill(value: FillValue) -> String {
+fn fill(value: FillValue, format: Format) -> String {
     match value {
         FillValue::Color([r, g, b, a]) => format!("({r:?}, {g:?}, {b:?}, {a:?})"),
         FillValue::Bits([word, ..]) => word.to_string(),
-        FillValue::Depth(depth, _) => format!("{depth:?}"),
+        FillValue::Depth(depth, _) if !format.aspects().contains(Aspects::STENCIL) => format!("{depth:?}"),
+        FillValue::Depth(depth, stencil) => format!("({depth:?}, {stencil})"),
     }
 }
 
@@ -84,6 +86,9 @@ fn part(part: Part, wrapped: Option<&str>) -> String {
             text += &format!(", {field}: {value}");
         }
     }
+    if part.plane != Plane::All {
+        text += &format!(", plane: {:?}", part.plane);
+    }
     text
 }
 
@@ -91,6 +96,15 @@ fn region(of: Region) -> String {
     match of {
         Region::Image(image) => format!("({})", part(image, None)),
         Region::Buffer(buffer) => format!("\"b{buffer}\""),
+    }
+}
+
+/// A region of an earlier frame.
+fn region_of(of: Region, frames_ago: u32) -> String {
+    match of {
+        _ if frames_ago == 0 => region(of),
+        Region::Image(image) => format!("({}, previous: {frames_ago})", part(image, None)),
+        Region::Buffer(buffer) => format!("(buffer: \"b{buffer}\", previous: {frames_ago})"),
     }
 }
 
@@ -104,13 +118,19 @@ fn pass_text(pipeline: &Pipeline, pass: &Pass) -> String {
             fields.push(format!("dispatch: \"{name}\""));
             fields.push(format!("groups: {}", groups(compute)));
         }
-        Work::Copy { from, to } => fields.push(format!("copy: (from: {}, to: {})", region(*from), region(*to))),
+        Work::Copy { from, frames_ago, to } => {
+            fields.push(format!("copy: (from: {}, to: {})", region_of(*from, *frames_ago), region(*to)));
+        }
         Work::Blit { from, to } => {
             let [from, to] = [from, to].map(|image| region(Region::Image(*image)));
             fields.push(format!("blit: (from: {from}, to: {to}, filter: Nearest)"));
         }
         Work::Fill { to, value } => {
-            let value = fill(to_frame::fill(pipeline, *to, *value));
+            let format = match to {
+                Region::Image(part) => pipeline.images[part.image].format,
+                Region::Buffer(_) => Format::R32_UINT,
+            };
+            let value = fill(to_frame::fill(pipeline, *to, *value), format);
             fields.push(format!("fill: (to: {}, value: {value})", region(*to)));
         }
         Work::Custom { from, to, .. } => {
@@ -144,6 +164,7 @@ fn pass_text(pipeline: &Pipeline, pass: &Pass) -> String {
 fn draw_fields(pipeline: &Pipeline, draw: &Draw, shader: &str, fields: &mut Vec<String>) {
     match draw.geometry {
         Geometry::FullScreen => fields.push(format!("draw: FullScreen(\"{shader}\")")),
+        Geometry::Triangles { .. } if draw.custom => fields.push(format!("custom: \"{shader}\"")),
         Geometry::Triangles { count, vertices, indices } => {
             fields.push(match count {
                 Count::Direct(triangles, instances) => format!("draw: Vertices({}, {instances})", 3 * triangles),
@@ -170,7 +191,13 @@ fn draw_fields(pipeline: &Pipeline, draw: &Draw, shader: &str, fields: &mut Vec<
     fields.extend(draw.depth.map(|depth| {
         let clear = depth.clear.map(|clear| value(depth.part.image, clear));
         let clear = clear.map_or(String::new(), |value| format!(", clear: {value:?}"));
-        format!("depth: ({}{clear}, test: {:?}, write: {})", part(depth.part, None), depth.test, depth.write)
+        let stencil = depth.stencil.map_or(String::new(), |stencil| {
+            let StencilState { clear, test, reference, pass } = stencil;
+            let clear = clear.map_or(String::new(), |value| format!("clear: {value}, "));
+            format!(", stencil: ({clear}test: {test:?}, reference: {reference}, pass: {pass:?})")
+        });
+        let of = part(Part { plane: Plane::All, ..depth.part }, None);
+        format!("depth: ({of}{clear}, test: {:?}, write: {}{stencil})", depth.test, depth.write)
     }));
 }
 

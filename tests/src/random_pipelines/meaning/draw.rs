@@ -2,11 +2,11 @@
 
 use super::{Evaluator, shade};
 use crate::random_pipelines::hash::{Quarter, hash};
-use crate::random_pipelines::pipeline::{Count, DepthTarget, Draw, Geometry, Part, Target};
+use crate::random_pipelines::pipeline::{Count, DepthTarget, Draw, Geometry, Part, Plane, Target};
 use crate::random_pipelines::texels::{self, Words};
 use framewright_graph::format::Format;
 use framewright_graph::frame::Blend;
-use framewright_graph::vocabulary::CompareOp;
+use framewright_graph::vocabulary::{CompareOp, StencilOp};
 
 /// One triangle: `None` covers all at depth 0.
 type Triangle = Option<(Quarter, u32)>;
@@ -18,8 +18,13 @@ impl Evaluator<'_> {
                 self.clear(target.part, clear);
             }
         }
-        if let Some(DepthTarget { part, clear: Some(clear), .. }) = draw.depth {
-            self.clear(part, clear);
+        if let Some(DepthTarget { part, clear, stencil, .. }) = draw.depth {
+            if let Some(clear) = clear {
+                self.clear(part, clear);
+            }
+            if let Some(clear) = stencil.and_then(|stencil| stencil.clear) {
+                self.clear(Part { plane: Plane::Stencil, ..part }, clear);
+            }
         }
         let part = draw.color.first().map(|target| target.part).or(draw.depth.map(|depth| depth.part));
         let Some(part) = part else { return };
@@ -84,11 +89,8 @@ impl Evaluator<'_> {
                     self.blend(target, new, at, *sample);
                 }
             }
-            if let Some(DepthTarget { part, write: true, .. }) = draw.depth {
-                let texel = self.texel([texels::word(self.pipeline.images[part.image].format, depth), 0, 0, 0]);
-                for sample in &samples {
-                    *self.image(part.image).texel_mut(part.mip, [at[0], at[1], part.layer], *sample) = texel;
-                }
+            if let Some(target) = draw.depth {
+                samples.iter().for_each(|sample| self.update(&target, depth, at, *sample));
             }
             self.stores(&draw.stores, state, at, 0);
         }
@@ -98,17 +100,32 @@ impl Evaluator<'_> {
         let Some(target) = draw.depth else { return true };
         let there =
             self.after.images[target.part.image][0].texel(target.part.mip, [at[0], at[1], target.part.layer], sample);
-        let (new, old) = (depth as f32 / 256.0, f32::from_bits(there.words[0]));
-        match target.test {
-            CompareOp::Never => false,
-            CompareOp::Less => new < old,
-            CompareOp::Equal => new == old,
-            CompareOp::LessOrEqual => new <= old,
-            CompareOp::Greater => new > old,
-            CompareOp::NotEqual => new != old,
-            CompareOp::GreaterOrEqual => new >= old,
-            CompareOp::Always => true,
+        let nearer = compares(target.test, depth as f32 / 256.0, f32::from_bits(there.words[0]));
+        let stencil = target.stencil.is_none_or(|stencil| {
+            compares(stencil.test, f32::from(stencil.reference), there.words[1] as f32)
+        });
+        nearer && stencil
+    }
+
+    /// What a sample that passed all tests leaves in depth and stencil.
+    fn update(&mut self, target: &DepthTarget, depth: u32, at: [u32; 3], sample: u32) {
+        let part = target.part;
+        let place = [at[0], at[1], part.layer];
+        if target.write {
+            let words = texels::words(self.pipeline.images[part.image].format, [depth, 0, 0, 0]);
+            self.put(part, part.mip, place, sample, words);
         }
+        let Some(stencil) = target.stencil.filter(|stencil| stencil.pass != StencilOp::Keep) else { return };
+        let old = self.after.images[part.image][0].texel(part.mip, place, sample).words[1] as u8;
+        let new = match stencil.pass {
+            StencilOp::Keep => old,
+            StencilOp::Zero => 0,
+            StencilOp::Replace => stencil.reference,
+            StencilOp::IncrementAndClamp => old.saturating_add(1),
+            StencilOp::DecrementAndClamp => old.saturating_sub(1),
+            StencilOp::Invert => !old,
+        };
+        self.put(Part { plane: Plane::Stencil, ..part }, part.mip, place, sample, [0, new.into(), 0, 0]);
     }
 
     fn blend(&mut self, target: &Target, new: Words, at: [u32; 3], sample: u32) {
@@ -128,6 +145,19 @@ impl Evaluator<'_> {
         };
         let texel = self.texel(words);
         *self.image(part.image).texel_mut(part.mip, place, sample) = texel;
+    }
+}
+
+fn compares(test: CompareOp, new: f32, old: f32) -> bool {
+    match test {
+        CompareOp::Never => false,
+        CompareOp::Less => new < old,
+        CompareOp::Equal => new == old,
+        CompareOp::LessOrEqual => new <= old,
+        CompareOp::Greater => new > old,
+        CompareOp::NotEqual => new != old,
+        CompareOp::GreaterOrEqual => new >= old,
+        CompareOp::Always => true,
     }
 }
 

@@ -39,10 +39,10 @@ impl Evaluator<'_> {
         match &self.pass.work {
             Work::Draw(draw) => self.draw(draw),
             Work::Compute(compute) => self.compute(compute),
-            Work::Copy { from, to } => self.copy(*from, *to),
+            Work::Copy { from, frames_ago, to } => self.copy(*from, *frames_ago as usize, *to),
             Work::Blit { from, to } => self.blit(*from, *to),
             Work::Fill { to, value } | Work::Custom { from: None, to, value } => self.fill(*to, *value),
-            Work::Custom { from: Some(from), to, .. } => self.copy(*from, *to),
+            Work::Custom { from: Some(from), to, .. } => self.copy(*from, 0, *to),
             Work::Forward { from, to } => self.forward(*from, *to),
         }
     }
@@ -59,11 +59,18 @@ impl Evaluator<'_> {
         Arc::make_mut(&mut self.after.images[image][0])
     }
 
+    /// Replaces the planes of a texel that a part has.
+    fn put(&mut self, part: Part, mip: u32, at: [u32; 3], sample: u32, words: texels::Words) {
+        let writer = Some(self.pass.number);
+        let texel = self.image(part.image).texel_mut(mip, at, sample);
+        *texel = Texel { words: texels::merged(part.plane, texel.words, words), writer };
+    }
+
     fn buffer(&mut self, buffer: usize) -> &mut Vec<Word> {
         Arc::make_mut(&mut self.after.buffers[buffer][0])
     }
 
-    fn copy(&mut self, from: Region, to: Region) {
+    fn copy(&mut self, from: Region, frames_ago: usize, to: Region) {
         let linear = |evaluator: &Self, part: Part| {
             let [width, height, depth] = size(&evaluator.pipeline.images[part.image], part);
             let at = move |line: u32| [line % width, line / width % height, line / width / height + part.layer];
@@ -71,22 +78,21 @@ impl Evaluator<'_> {
         };
         match (from, to) {
             (Region::Image(from), Region::Image(to)) => {
-                let source = self.before.images[from.image][0].clone();
+                let source = self.before.images[from.image][frames_ago].clone();
                 for (read, written) in linear(self, from).zip(linear(self, to)) {
                     for sample in 0..self.pipeline.images[to.image].samples {
                         let words = source.texel(from.mip, read, sample).words;
-                        let texel = self.texel(words);
-                        *self.image(to.image).texel_mut(to.mip, written, sample) = texel;
+                        self.put(to, to.mip, written, sample, words);
                     }
                 }
             }
             (Region::Buffer(from), Region::Buffer(to)) => {
-                let words = self.before.buffers[from][0].iter().map(|word| self.word(word.bits)).collect();
+                let words = self.before.buffers[from][frames_ago].iter().map(|word| self.word(word.bits)).collect();
                 *self.buffer(to) = words;
             }
             (Region::Image(from), Region::Buffer(to)) => {
                 let format = self.pipeline.images[from.image].format;
-                let source = &self.before.images[from.image][0];
+                let source = &self.before.images[from.image][frames_ago];
                 let texel = |at| texels::bytes(format, source.texel(from.mip, at, 0).words);
                 let bytes: Vec<u8> = linear(self, from).flat_map(texel).collect();
                 let word =
@@ -96,7 +102,7 @@ impl Evaluator<'_> {
             (Region::Buffer(from), Region::Image(to)) => {
                 let format = self.pipeline.images[to.image].format;
                 let bytes: Vec<u8> =
-                    self.before.buffers[from][0].iter().flat_map(|word| word.bits.to_le_bytes()).collect();
+                    self.before.buffers[from][frames_ago].iter().flat_map(|word| word.bits.to_le_bytes()).collect();
                 let texels = bytes.chunks(format.texel_bytes() as usize);
                 for (at, bytes) in linear(self, to).zip(texels) {
                     let texel = self.texel(integers(bytes, bytes.len() / format.components() as usize));
@@ -125,7 +131,7 @@ impl Evaluator<'_> {
     fn fill(&mut self, to: Region, value: u8) {
         match to {
             Region::Image(part) => {
-                let texel = self.texel([texels::plain(self.pipeline.images[part.image].format, value); 4]);
+                let words = texels::plain_texel(self.pipeline.images[part.image].format, value);
                 let image = &self.pipeline.images[part.image];
                 let samples = image.samples;
                 for mip in part.mip..part.mip + part.mips {
@@ -133,7 +139,7 @@ impl Evaluator<'_> {
                     for at in 0..width * height * depth {
                         let place = [at % width, at / width % height, at / width / height + part.layer];
                         for sample in 0..samples {
-                            *self.image(part.image).texel_mut(mip, place, sample) = texel;
+                            self.put(part, mip, place, sample, words);
                         }
                     }
                 }

@@ -49,7 +49,8 @@ impl Evaluator<'_> {
                 let image = &self.pipeline.images[part.image];
                 let place = [at[0], at[1], part.layer];
                 let samples = self.before.images[part.image][0].all_samples(part.mip, place);
-                absorb(state, image.format, texels::resolved(image.format, &samples))
+                let (format, words) = texels::seen(image.format, part.plane, texels::resolved(image.format, &samples));
+                absorb(state, format, words)
             }
             Read::Storage(part) => self.texel_near(part, 0, false, state, at),
             Read::Sampled { part, frames_ago, per_sample } => {
@@ -69,10 +70,13 @@ impl Evaluator<'_> {
         };
         if per_sample {
             return (0..SAMPLES).fold(state, |state, sample| {
-                absorb(state, image.format, contents.texel(part.mip, place(state), sample).words)
+                let words = contents.texel(part.mip, place(state), sample).words;
+                let (format, words) = texels::seen(image.format, part.plane, words);
+                absorb(state, format, words)
             });
         }
         let words = texels::resolved(image.format, &contents.all_samples(part.mip, place(state)));
-        absorb(state, image.format, words)
+        let (format, words) = texels::seen(image.format, part.plane, words);
+        absorb(state, format, words)
     }
 }

@@ -93,7 +93,7 @@ impl State {
         let kept = |life| if let Life::History(frames, _) = life { frames as usize + 1 } else { 1 };
         let image = |image: &Image| {
             let words = match image.life {
-                Life::Persistent(value) | Life::History(_, value) => [texels::plain(image.format, value); 4],
+                Life::Persistent(value) | Life::History(_, value) => texels::plain_texel(image.format, value),
                 Life::Transient | Life::Imported => [JUNK; 4],
             };
             let filled = Arc::new(Filled::new(image, |_| words));
@@ -145,10 +145,8 @@ impl State {
 pub fn imported_image(image: &Image, number: usize, frame: u32) -> Filled {
     let mask = texels::mask(image.format, Blend::Replace);
     Filled::new(image, |at| {
-        std::array::from_fn(|component| {
-            let bits = hash_all(0x1111, [number as u32, frame, at, component as u32]);
-            texels::word(image.format, bits & mask)
-        })
+        let bits = |component| hash_all(0x1111, [number as u32, frame, at, component]);
+        texels::words(image.format, [0, 1, 2, 3].map(|component| bits(component) & mask))
     })
 }
 
