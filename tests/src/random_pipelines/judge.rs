@@ -224,11 +224,16 @@ impl Judge {
 
     fn execute(&mut self, pipeline: &Pipeline, plan: &Plan, expected: &[State]) -> Result<(), Fault> {
         let broken = |error: Error| Fault::NotExecuted(error.to_string());
-        let options = ExecutorOptions { poison: true, ..ExecutorOptions::default() };
+        // What many frames leave shows in the last; some are looked at one by one.
+        let flight = 1 + (pipeline.passes.len() % 3) as u32;
+        let options = ExecutorOptions { poison: true, frames_in_flight: flight, ..ExecutorOptions::default() };
         let mut executor = Executor::new(&self.device, plan, &mut self.shaders, &options).map_err(broken)?;
         for (number, state) in (0..).zip(expected) {
             hand_in(pipeline, plan, &mut executor, number).map_err(broken)?;
-            executor.frame(&mut Program(pipeline)).map_err(broken)?;
+            executor.submit(&mut Program(pipeline)).map_err(broken)?;
+            if flight > 1 && number + 1 < expected.len() as u32 {
+                continue;
+            }
             for (output, thing) in pipeline.outputs.iter().enumerate() {
                 let found = read(plan, &mut executor, output).map_err(broken)?;
                 if let Some(difference) = compare(pipeline, state, *thing, number, &found) {

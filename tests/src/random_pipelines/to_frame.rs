@@ -36,7 +36,8 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
     }
     frame.passes = pipeline.passes.iter().map(|pass| to_pass(pipeline, pass)).collect();
     for output in &pipeline.outputs {
-        frame.outputs.push(frame::Output { resource: resource(*output), span: Span::NONE, after: None });
+        let after = asked_for(pipeline, *output);
+        frame.outputs.push(frame::Output { resource: resource(*output), span: Span::NONE, after });
     }
     frame
 }
@@ -44,6 +45,27 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
 /// The layout in which an imported image is handed in.
 pub(super) const fn handed_in(image: usize) -> Layout {
     if image.is_multiple_of(2) { Layout::TransferDstOptimal } else { Layout::General }
+}
+
+/// The state in which an output is asked for, if the pipeline says so: of every other one that lives no longer than it.
+pub(super) fn asked_for(pipeline: &Pipeline, output: Thing) -> Option<State> {
+    let copied = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_READ, layout: Layout::TransferSrcOptimal };
+    let sampled = State {
+        stages: Stages::FRAGMENT_SHADER,
+        accesses: Accesses::SHADER_SAMPLED_READ,
+        layout: Layout::ShaderReadOnlyOptimal,
+    };
+    match output {
+        Thing::Image(number) => {
+            let pipeline::Image { format, life, .. } = pipeline.images[number];
+            let state = if number.is_multiple_of(4) && !format.is_depth() { sampled } else { copied };
+            (number.is_multiple_of(2) && life == Life::Transient).then_some(state)
+        }
+        Thing::Buffer(number) => {
+            let asks = number.is_multiple_of(2) && pipeline.buffers[number].life == Life::Transient;
+            asks.then_some(State { layout: Layout::Undefined, ..copied })
+        }
+    }
 }
 
 fn resource(thing: Thing) -> Resource {

@@ -2,12 +2,12 @@
 
 use super::legal;
 use super::pipeline::{
-    Compute, Count, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region, Store, StoreAccess, Work,
+    Compute, Count, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region, Store, StoreAccess, Thing, Work,
 };
 use super::{shader, texels, to_frame};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{ParamValue, Shape, StencilState};
-use framewright_graph::vocabulary::{Aspects, FillValue, Layout};
+use framewright_graph::vocabulary::{Aspects, FillValue, Layout, Stages};
 
 /// The pipeline file that says what `pipeline` says. Its shaders are those of [`shader::shader`].
 #[must_use]
@@ -18,7 +18,7 @@ pub fn to_ron(pipeline: &Pipeline) -> String {
         format!("(name: \"b{number}\", bytes: {}{lifetime})", 4 * buffer.words)
     });
     let passes = pipeline.passes.iter().map(|pass| pass_text(pipeline, pass));
-    let outputs = pipeline.outputs.iter().map(|output| format!("\"{output}\""));
+    let outputs = pipeline.outputs.iter().map(|output| output_text(pipeline, *output));
     let list = |name: &str, entries: Vec<String>| {
         let lines: String = entries.into_iter().map(|entry| format!("        {entry},\n")).collect();
         if lines.is_empty() { String::new() } else { format!("    {name}: [\n{lines}    ],\n") }
@@ -30,6 +30,13 @@ pub fn to_ron(pipeline: &Pipeline) -> String {
         passes.map(|pass| format!("        {pass},\n")).collect::<String>(),
         outputs.collect::<Vec<_>>().join(", "),
     )
+}
+
+fn output_text(pipeline: &Pipeline, output: Thing) -> String {
+    let Some(after) = to_frame::asked_for(pipeline, output) else { return format!("\"{output}\"") };
+    let field = if let Thing::Image(_) = output { "image" } else { "buffer" };
+    let after = if after.stages == Stages::COPY { "TransferSource" } else { "Sampled" };
+    format!("({field}: \"{output}\", after: {after})")
 }
 
 fn image_text(number: usize, image: &Image) -> String {
