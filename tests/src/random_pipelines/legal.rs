@@ -209,6 +209,11 @@ pub(super) fn unwritten_history(pipeline: &Pipeline, written: &Written) -> Vec<T
     unwritten
 }
 
+/// The greatest value that is written to an image without blending.
+fn plain(image: &Image) -> u64 {
+    texels::mask(image.format, Blend::Replace).into()
+}
+
 /// Where the subresources of a part are noted.
 fn slots(image: &Image, part: Part) -> Vec<usize> {
     let planes: &[u32] = match part.plane {
@@ -226,7 +231,6 @@ impl Written {
     pub fn new(pipeline: &Pipeline) -> Written {
         let there = |life| matches!(life, Life::Persistent(_) | Life::Imported);
         let slots = |image: &Image| vec![there(image.life); (2 * image.mips * image.layers) as usize];
-        let plain = |image: &Image| u64::from(texels::mask(image.format, Blend::Replace));
         Written {
             images: pipeline.images.iter().map(slots).collect(),
             buffers: pipeline.buffers.iter().map(|buffer| there(buffer.life)).collect(),
@@ -321,6 +325,11 @@ impl Written {
     /// The bounds of values after a pass; `None` if a sum might not be exact.
     fn greatest_after(&self, pipeline: &Pipeline, pass: &Pass) -> Option<Vec<u64>> {
         let mut greatest = self.greatest.clone();
+        for store in shader(pass).1 {
+            if let Region::Image(part) = store.region {
+                greatest[part.image] = greatest[part.image].max(plain(&pipeline.images[part.image]));
+            }
+        }
         match &pass.work {
             Work::Draw(draw) => {
                 for target in &draw.color {
@@ -344,13 +353,15 @@ impl Written {
                 greatest[to.image] = greatest[to.image].max(greatest[from.image]);
             }
             Work::Forward { from, to } => greatest[*to] = greatest[*to].max(greatest[*from]),
+            Work::Fill { to: Region::Image(part), .. } | Work::Custom { to: Region::Image(part), .. } => {
+                greatest[part.image] = greatest[part.image].max(plain(&pipeline.images[part.image]));
+            }
             _ => {}
         }
         let exact = pipeline.images.iter().zip(&greatest).all(|(image, greatest)| {
             // What is kept from frame to frame would grow for ever.
             let kept = image.life != Life::Transient;
-            let plain = u64::from(texels::mask(image.format, Blend::Replace));
-            *greatest <= if kept { plain } else { texels::limit(image.format).max(plain) }
+            *greatest <= if kept { plain(image) } else { texels::limit(image.format).max(plain(image)) }
         });
         exact.then_some(greatest)
     }
