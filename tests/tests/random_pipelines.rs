@@ -155,6 +155,7 @@ fn a_pass_that_samples_its_own_target_reads_what_stood_there_before_it() {
         discards: false,
         per_sample: false,
         reads,
+        vertex_reads: 0,
         color: vec![target(image)],
         depth: None,
         stores: Vec::new(),

@@ -43,6 +43,8 @@ pub enum Kind {
     Uniform,
     /// Vertex buffers.
     VertexBuffer,
+    /// Vertex shaders that read.
+    VertexRead,
     /// Index buffers.
     IndexBuffer,
     /// Draws whose counts stand in a buffer.
@@ -90,7 +92,7 @@ impl Allowed {
 }
 
 /// What the library can't do yet. It shrinks to nothing as features land.
-pub const NOT_YET: &[Kind] = &[Kind::BufferOutput, Kind::History, Kind::Imported];
+pub const NOT_YET: &[Kind] = &[];
 
 impl Allowed {
     /// Everything that the library can do today.

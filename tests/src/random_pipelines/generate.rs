@@ -95,10 +95,11 @@ fn image(rng: &mut Rng, [width, height]: [u32; 2], allowed: &Allowed) -> Image {
 
 fn life(rng: &mut Rng, allowed: &Allowed) -> Life {
     let value = (1 + rng.below(60)) as u8;
-    match rng.below(12) {
+    match rng.below(13) {
         0 if allowed.has(Kind::Persistent) => Life::Persistent(value),
         1 if allowed.has(Kind::History) => Life::History(1 + rng.below(3), value),
         2 if allowed.has(Kind::Imported) => Life::Imported,
+        3 if allowed.has(Kind::Imported) => Life::Target,
         _ => Life::Transient,
     }
 }
@@ -120,7 +121,10 @@ impl Maker<'_> {
         }
         let mut buffers = Vec::new();
         for _ in 0..2 + self.rng.below(3 + passes.min(60) / 6) {
-            let life = life(&mut self.rng, self.allowed);
+            let life = match life(&mut self.rng, self.allowed) {
+                Life::Target => Life::Imported,
+                life => life,
+            };
             let words = self.rng.of([16, 64, 192]);
             buffers.push(Buffer { words, contents: Contents::Words, life });
         }
@@ -277,6 +281,7 @@ impl Maker<'_> {
             discards,
             per_sample: samples > 1 && self.allowed.has(Kind::PerSample) && self.rng.one_in(3),
             reads: Vec::new(),
+            vertex_reads: 0,
             color: Vec::new(),
             depth: None,
             stores: Vec::new(),
@@ -295,6 +300,9 @@ impl Maker<'_> {
             draw.stores.extend(self.store(true));
         }
         draw.reads = self.reads();
+        if draw.geometry != Geometry::FullScreen && self.allowed.has(Kind::VertexRead) && self.rng.one_in(2) {
+            draw.vertex_reads = self.rng.below(draw.reads.len() as u32 + 1) as usize;
+        }
         if self.allowed.has(Kind::OwnPixel) && self.rng.one_in(4) {
             let image = self.image();
             draw.reads.push(Read::Own(self.part(image, 1, 1)));

@@ -114,13 +114,14 @@ impl Quarter {
 /// [`Quarter`] in GLSL, as a vertex shader's `main`. The long side lies outside of the target.
 pub const QUARTER_GLSL: &str = "\
 void main() {
-    const uint state = hash(hash(hash(0x5BD1E995u, number), uint(gl_VertexIndex) / 3u), uint(gl_InstanceIndex));
+    const uint quarter = hash(hash(hash(0x5BD1E995u, number), uint(gl_VertexIndex) / 3u), uint(gl_InstanceIndex));
     const vec2 extent = vec2(width, height);
-    const vec2 corner = vec2(state % (width + 1u), (state >> 8) % (height + 1u));
-    const vec2 onwards = vec2((state & 0x10000u) != 0u ? 1.0 : -1.0, (state & 0x20000u) != 0u ? 1.0 : -1.0);
+    const vec2 corner = vec2(quarter % (width + 1u), (quarter >> 8) % (height + 1u));
+    const vec2 onwards = vec2((quarter & 0x10000u) != 0u ? 1.0 : -1.0, (quarter & 0x20000u) != 0u ? 1.0 : -1.0);
     const uint at = uint(gl_VertexIndex) % 3u;
     const vec2 along = onwards * vec2(at == 1u ? 1.0 : 0.0, at == 2u ? 1.0 : 0.0) * 4.0 * max(extent.x, extent.y);
-    gl_Position = vec4((corner + along) / extent * 2.0 - 1.0, float((state >> 18) & 255u) / 256.0, 1.0);
-    triangle = hash(state, VERTEX);
+    gl_Position = vec4((corner + along) / extent * 2.0 - 1.0, float((quarter >> 18) & 255u) / 256.0, 1.0);
+    uint state = hash(quarter, VERTEX);
+READS    triangle = state;
 }
 ";

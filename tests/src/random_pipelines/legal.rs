@@ -481,6 +481,9 @@ fn draw_fits(pipeline: &Pipeline, draw: &Draw) -> bool {
         && depth
         && plain
         && geometry
+        && draw.vertex_reads <= draw.reads.len()
+        && (draw.vertex_reads == 0 || draw.geometry != Geometry::FullScreen)
+        && !draw.reads[..draw.vertex_reads].iter().any(|read| matches!(read, Read::Own(_)))
         && (!draw.custom || matches!(draw.geometry, Geometry::Triangles { count: Count::Direct(..), vertices: None, indices: None }))
         && (!draw.per_sample || samples(first) > 1)
         && draw.stores.iter().all(|store| store_fits(pipeline, *store, extent(first), true))

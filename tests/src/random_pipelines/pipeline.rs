@@ -74,6 +74,8 @@ pub enum Life {
     Persistent(u8),
     /// Written anew each frame, and read for so many frames more; before the first they hold this value.
     History(u32, u8),
+    /// An image that the embedding program hands in without contents.
+    Target,
     /// Handed in by the embedding program with contents that differ from frame to frame.
     Imported,
 }
@@ -278,6 +280,8 @@ pub struct Draw {
     pub per_sample: bool,
     /// What it reads.
     pub reads: Vec<Read>,
+    /// How many of these its vertex shader reads, the first ones.
+    pub vertex_reads: usize,
     /// Colour attachments.
     pub color: Vec<Target>,
     /// Depth attachment.

@@ -26,8 +26,13 @@ pub fn shader(pipeline: &Pipeline, pass: &Pass) -> Option<Shader> {
     let mut text = Text::default();
     text.param("number", ParamValue::Integer(pass.number.into()));
     let (reads, stores) = legal::shader(pass);
+    let vertex_reads = if let Work::Draw(draw) = &pass.work { draw.vertex_reads } else { 0 };
     for (number, read) in reads.iter().enumerate() {
         text.read(pipeline, number, *read);
+        if number + 1 == vertex_reads {
+            text.vertex = Some((std::mem::take(&mut text.declarations), std::mem::take(&mut text.body)));
+            text.key += "_v";
+        }
     }
     match &pass.work {
         Work::Draw(draw) => {
@@ -55,6 +60,8 @@ struct Text {
     params: Vec<(String, ParamValue)>,
     bindings: u32,
     structured: bool,
+    /// Declarations and body of what the vertex shader reads.
+    vertex: Option<(String, String)>,
 }
 
 impl Text {
@@ -343,7 +350,15 @@ impl Text {
             let attribute = if seeded { "layout(location = 0) in float seed;\n" } else { "" };
             let main = QUARTER_GLSL.replace("VERTEX", if seeded { "floatBitsToUint(seed)" } else { "0u" });
             let output = "layout(location = 0) flat out uint triangle;\n";
-            files.push((format!("{name}.vert"), format!("{head}{attribute}{output}{main}")));
+            let (declarations, reads) = match self.vertex {
+                Some((declarations, body)) => {
+                    let here = "    const uvec3 here = uvec3(0u);\n    uvec3 place, size;\n    int level;\n";
+                    (format!("{NEAR}{declarations}"), format!("{here}{body}"))
+                }
+                None => (String::new(), String::new()),
+            };
+            let main = main.replace("READS", &reads);
+            files.push((format!("{name}.vert"), format!("{head}{attribute}{output}{declarations}{main}")));
         }
         Shader { name, files, params: self.params }
     }

@@ -76,6 +76,7 @@ fn simpler(pass: &Pass) -> Vec<Pass> {
             (0..draw.reads.len()).for_each(|at| {
                 add(&|draw| {
                     draw.reads.remove(at);
+                    draw.vertex_reads -= usize::from(at < draw.vertex_reads);
                 });
             });
             (0..draw.stores.len()).for_each(|at| {
@@ -96,6 +97,7 @@ fn simpler(pass: &Pass) -> Vec<Pass> {
                 }
             });
             add(&|draw| draw.custom = false);
+            add(&|draw| draw.vertex_reads = 0);
             add(&|draw| draw.discards = false);
             add(&|draw| draw.per_sample = false);
             add(&|draw| {
@@ -103,7 +105,7 @@ fn simpler(pass: &Pass) -> Vec<Pass> {
                     (*count, *vertices, *indices) = (Count::Direct(1, 1), None, None);
                 }
             });
-            add(&|draw| draw.geometry = Geometry::FullScreen);
+            add(&|draw| (draw.geometry, draw.vertex_reads, draw.custom) = (Geometry::FullScreen, 0, false));
         }
         Work::Compute(compute) => {
             for at in 0..compute.reads.len() {

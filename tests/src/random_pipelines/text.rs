@@ -55,6 +55,7 @@ impl fmt::Display for Life {
             Life::Transient => Ok(()),
             Life::Persistent(value) => write!(f, ", persistent, first {value}"),
             Life::History(frames, value) => write!(f, ", history of {frames}, first {value}"),
+            Life::Target => write!(f, ", imported without contents"),
             Life::Imported => write!(f, ", imported"),
         }
     }
@@ -180,8 +181,9 @@ impl fmt::Display for Pass {
             Work::Forward { from, to } => write!(f, "forward i{from} to i{to}")?,
         }
         let (reads, stores) = legal::shader(self);
-        for read in reads {
-            write!(f, ", {read}")?;
+        let vertex_reads = if let Work::Draw(draw) = &self.work { draw.vertex_reads } else { 0 };
+        for (number, read) in reads.iter().enumerate() {
+            write!(f, ", {}{read}", if number < vertex_reads { "its vertex shader " } else { "" })?;
         }
         for store in stores {
             let how = match store.access {

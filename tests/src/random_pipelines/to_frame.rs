@@ -85,6 +85,11 @@ fn lifetime(life: Life, layout: Layout, initial: impl Fn(u8) -> FillValue) -> Li
             let before = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout };
             Lifetime::Imported { before, after: None }
         }
+        Life::Target => {
+            let before =
+                State { stages: Stages::COPY, accesses: Accesses::empty(), layout: Layout::Undefined };
+            Lifetime::Imported { before, after: None }
+        }
     }
 }
 
@@ -103,7 +108,9 @@ fn to_pass(pipeline: &Pipeline, pass: &Pass) -> frame::Pass {
     }
     let stages = if matches!(pass.work, Work::Draw(_)) { Stages::FRAGMENT_SHADER } else { Stages::COMPUTE_SHADER };
     let (reads, stores) = legal::shader(pass);
+    let vertex_reads = if let Work::Draw(draw) = &pass.work { draw.vertex_reads } else { 0 };
     for (number, read) in reads.iter().enumerate() {
+        let stages = if number < vertex_reads { Stages::VERTEX_SHADER } else { stages };
         add_read(pipeline, &mut made, &format!("read{number}"), *read, stages);
     }
     for (number, store) in stores.iter().enumerate() {

@@ -67,6 +67,7 @@ fn life(life: Life, layout: &str, initial: impl Fn(u8) -> String) -> String {
         Life::History(frames, value) => {
             format!(", lifetime: History(frames: {frames}, initial: {})", initial(value))
         }
+        Life::Target => ", lifetime: Imported(before: Undefined)".to_owned(),
         Life::Imported => {
             format!(", lifetime: Imported(before: (stages: [COPY], accesses: [TRANSFER_WRITE]{layout}))")
         }

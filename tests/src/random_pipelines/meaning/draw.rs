@@ -58,7 +58,8 @@ impl Evaluator<'_> {
                 let vertex = indices.map_or(number, |buffer| self.before.buffers[buffer][0][number as usize].bits);
                 let quarter = Quarter::new(self.pass.number, vertex / 3, instance, extent);
                 let seed = vertices.map_or(0, |buffer| self.before.buffers[buffer][0][vertex as usize].bits);
-                all.push(Some((quarter, hash(quarter.state, seed))));
+                let reads = &draw.reads[..draw.vertex_reads];
+                all.push(Some((quarter, self.reads(reads, hash(quarter.state, seed), [0; 3]))));
             }
         }
         all
@@ -79,7 +80,7 @@ impl Evaluator<'_> {
             vec![(state, passing)]
         };
         for (state, samples) in invocations {
-            let state = self.reads(&draw.reads, state, at);
+            let state = self.reads(&draw.reads[draw.vertex_reads..], state, at);
             if draw.discards && state & 7 == 0 {
                 continue;
             }

@@ -94,7 +94,7 @@ impl State {
         let image = |image: &Image| {
             let words = match image.life {
                 Life::Persistent(value) | Life::History(_, value) => texels::plain_texel(image.format, value),
-                Life::Transient | Life::Imported => [JUNK; 4],
+                Life::Transient | Life::Target | Life::Imported => [JUNK; 4],
             };
             let filled = Arc::new(Filled::new(image, |_| words));
             vec![filled; kept(image.life)]
@@ -102,7 +102,7 @@ impl State {
         let buffer = |buffer: &Buffer| {
             let bits = match buffer.life {
                 Life::Persistent(value) | Life::History(_, value) => value.into(),
-                Life::Transient | Life::Imported => JUNK,
+                Life::Transient | Life::Target | Life::Imported => JUNK,
             };
             let words = Arc::new(vec![Word { bits, writer: None }; buffer.words as usize]);
             vec![words; kept(buffer.life)]
@@ -122,7 +122,7 @@ impl State {
                 Life::Imported => next.images[number] = vec![Arc::new(imported_image(image, number, frame))],
                 // The oldest is written anew.
                 Life::History(..) => next.images[number].rotate_right(1),
-                Life::Transient | Life::Persistent(_) => {}
+                Life::Transient | Life::Target | Life::Persistent(_) => {}
             }
         }
         for (number, buffer) in pipeline.buffers.iter().enumerate() {
@@ -133,7 +133,7 @@ impl State {
                     next.buffers[number] = vec![Arc::new(words)];
                 }
                 Life::History(..) => next.buffers[number].rotate_right(1),
-                Life::Transient | Life::Persistent(_) => {}
+                Life::Transient | Life::Target | Life::Persistent(_) => {}
             }
         }
         next
