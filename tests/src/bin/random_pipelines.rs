@@ -3,7 +3,7 @@
 use clap::{Parser, ValueEnum};
 use framewright_graph::compile::Order;
 use framewright_tests::random_pipelines::allowed::Allowed;
-use framewright_tests::random_pipelines::judge::{Fault, Judge, expected, options};
+use framewright_tests::random_pipelines::judge::{Fault, Judge, expected, frames, options};
 use framewright_tests::random_pipelines::pipeline::Pipeline;
 use framewright_tests::random_pipelines::{generate, passes, shrink};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -31,9 +31,9 @@ struct Line {
     /// Most passes of a pipeline.
     #[arg(long, default_value_t = 24, value_name = "MAX", value_parser = clap::value_parser!(u32).range(1..=200))]
     passes: u32,
-    /// Frames that each is executed for.
-    #[arg(long, default_value_t = 3)]
-    frames: u32,
+    /// Frames that each is executed for; without it as many as show all that it keeps from frame to frame.
+    #[arg(long)]
+    frames: Option<u32>,
     /// Stop after so many failures.
     #[arg(long, default_value_t = 3)]
     failures: u64,
@@ -206,7 +206,7 @@ fn here(line: &Line, notes: &Path) -> Result<u8, Box<dyn Error>> {
         if line.show {
             bar.suspend(|| println!("seed {seed}:\n{pipeline}"));
         }
-        let expected = expected(&pipeline, line.frames);
+        let expected = expected(&pipeline, line.frames.unwrap_or_else(|| frames(&pipeline)));
         for order in &orders {
             let replay = replay(line, seed, driver, *order);
             std::fs::write(notes, &replay)?;
@@ -228,10 +228,7 @@ fn here(line: &Line, notes: &Path) -> Result<u8, Box<dyn Error>> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    println!(
-        "{driver}: {done} pipelines, {executed} Plans executed for {} frames each, {failures} failures",
-        line.frames
-    );
+    println!("{driver}: {done} pipelines, {executed} Plans executed, {failures} failures");
     Ok(if failures > 0 {
         FAILED
     } else if ASKED_TO_STOP.load(Ordering::Relaxed) {
@@ -255,7 +252,7 @@ fn smaller(
         if ASKED_TO_STOP.load(Ordering::Relaxed) {
             return false;
         }
-        let judged = judge.judge(smaller, &expected(smaller, line.frames), &options(order.order(seed), seed));
+        let judged = judge.judge(smaller, &expected(smaller, line.frames.unwrap_or_else(|| frames(smaller))), &options(order.order(seed), seed));
         let Some(same) = judged.err().filter(|other| other.is_like(&fault)) else { return false };
         last = same;
         true
@@ -265,11 +262,11 @@ fn smaller(
 
 /// The command that does one pipeline again.
 fn replay(line: &Line, seed: u64, driver: &str, order: ChosenOrder) -> String {
+    let frames = line.frames.map_or(String::new(), |frames| format!(" --frames {frames}"));
     format!(
-        "cargo run -p framewright-tests --bin random_pipelines -- --seed {seed} --count 1 --passes {} --frames {} \
+        "cargo run -p framewright-tests --bin random_pipelines -- --seed {seed} --count 1 --passes {}{frames} \
          --driver {driver} --order {}",
         line.passes,
-        line.frames,
         order.name()
     )
 }

@@ -113,6 +113,19 @@ pub fn expected(pipeline: &Pipeline, frames: u32) -> Vec<State> {
         .collect()
 }
 
+/// How many frames show what a pipeline does across frames: its longest history, and around.
+#[must_use]
+pub fn frames(pipeline: &Pipeline) -> u32 {
+    let images = pipeline.images.iter().map(|image| image.life);
+    let lives = images.chain(pipeline.buffers.iter().map(|buffer| buffer.life));
+    let each = lives.map(|life| match life {
+        Life::Transient | Life::Target | Life::Imported => 2,
+        Life::Persistent(_) => 3,
+        Life::History(frames, _) => frames + 2,
+    });
+    each.max().unwrap_or(2)
+}
+
 /// How a pipeline is compiled: with poison, so that whoever reads what is not its own shows it.
 #[must_use]
 pub fn options(order: Order, seed: u64) -> Options {
