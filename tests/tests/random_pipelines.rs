@@ -7,7 +7,8 @@ use framewright_tests::random_pipelines::generate;
 use framewright_tests::random_pipelines::judge::expected;
 use framewright_tests::random_pipelines::legal::is_legal;
 use framewright_tests::random_pipelines::pipeline::{
-    Compute, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region, Store, StoreAccess, Thing, Work,
+    Compute, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region, Store, StoreAccess, Thing,
+    Work,
 };
 use framewright_tests::random_pipelines::{passes, shader, shrink};
 use std::collections::HashMap;
@@ -125,8 +126,9 @@ fn held(pipeline: &Pipeline, image: usize, frames: u32) -> Vec<[u32; 2]> {
 
 #[test]
 fn history_is_what_frames_before_wrote_and_its_first_value_before_them() {
-    let copy =
-        |number, from, to| pass(number, Work::Copy { from: Region::Image(whole(from)), frames_ago: 0, to: Region::Image(whole(to)) });
+    let copy = |number, from, to| {
+        pass(number, Work::Copy { from: Region::Image(whole(from)), frames_ago: 0, to: Region::Image(whole(to)) })
+    };
     let read = Read::Sampled { part: whole(0), frames_ago: 2, per_sample: false };
     let store = Store { region: Region::Image(whole(1)), access: StoreAccess::Write };
     let compute = Compute { grid: [2, 1, 1], groups: Groups::Cover, reads: vec![read], stores: vec![store] };

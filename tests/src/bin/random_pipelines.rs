@@ -252,7 +252,11 @@ fn smaller(
         if ASKED_TO_STOP.load(Ordering::Relaxed) {
             return false;
         }
-        let judged = judge.judge(smaller, &expected(smaller, line.frames.unwrap_or_else(|| frames(smaller))), &options(order.order(seed), seed));
+        let judged = judge.judge(
+            smaller,
+            &expected(smaller, line.frames.unwrap_or_else(|| frames(smaller))),
+            &options(order.order(seed), seed),
+        );
         let Some(same) = judged.err().filter(|other| other.is_like(&fault)) else { return false };
         last = same;
         true

@@ -1,17 +1,15 @@
 //! From a seed to a pipeline: passes are proposed at random, and kept if they may stand where they would.
 
+mod resources;
+
 use super::allowed::{Allowed, Kind};
 use super::legal::{self, Written, size};
 use super::pipeline::{
-    Buffer, Compute, Contents, Count, DepthTarget, Draw, Extent, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane,
-    Read, Region, SAMPLES, Store, StoreAccess, TRIANGLES, Target, Thing, WORKGROUP, Work,
+    Compute, Contents, Count, DepthTarget, Draw, Extent, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane,
+    Read, Region, Store, StoreAccess, TRIANGLES, Target, Thing, WORKGROUP, Work,
 };
 use super::rng::Rng;
 use super::texels;
-use framewright_graph::format::Format::{
-    self, D32_SFLOAT, D32_SFLOAT_S8_UINT, R8_UINT, R8G8B8A8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, R32_UINT,
-    R32G32B32A32_UINT,
-};
 use framewright_graph::frame::{Blend, Shape, StencilState};
 use framewright_graph::vocabulary::{Aspects, CompareOp, StencilOp};
 
@@ -32,7 +30,7 @@ pub fn pipeline(seed: u64, passes: u32, allowed: &Allowed) -> Pipeline {
 }
 
 fn attempt(mut rng: Rng, passes: u32, allowed: &Allowed) -> Pipeline {
-    let pipeline = Pipeline { images: images(&mut rng, passes, allowed), ..Pipeline::default() };
+    let pipeline = Pipeline { images: resources::images(&mut rng, passes, allowed), ..Pipeline::default() };
     let mut maker = Maker { written: Written::new(&pipeline), pipeline, rng, allowed, extent: [0; 3] };
     maker.pipeline.buffers = maker.buffers(passes);
     maker.written = Written::new(&maker.pipeline);
@@ -48,62 +46,6 @@ fn attempt(mut rng: Rng, passes: u32, allowed: &Allowed) -> Pipeline {
     maker.pipeline
 }
 
-fn images(rng: &mut Rng, passes: u32, allowed: &Allowed) -> Vec<Image> {
-    let [width, height] = rng.of([[8, 8], [16, 8], [12, 20], [24, 16], [40, 24]]);
-    let count = 3 + rng.below(3 + passes.min(80) / 4);
-    (0..count).map(|_| image(rng, [width, height], allowed)).collect()
-}
-
-fn image(rng: &mut Rng, [width, height]: [u32; 2], allowed: &Allowed) -> Image {
-    let format = if rng.one_in(5) {
-        if allowed.has(Kind::Stencil) { rng.of([D32_SFLOAT, D32_SFLOAT_S8_UINT]) } else { D32_SFLOAT }
-    } else {
-        rng.of([
-            R32_UINT,
-            R32_UINT,
-            R8G8B8A8_UINT,
-            R32G32B32A32_UINT,
-            R8_UINT,
-            R8G8B8A8_UNORM,
-            R16G16B16A16_SFLOAT,
-            R32_SFLOAT,
-        ])
-    };
-    let factor = if rng.one_in(4) { rng.of([2, 3]) } else { 1 };
-    let flat = Image {
-        format,
-        shape: Shape::D2,
-        extent: [width * factor, height * factor, 1],
-        mips: 1,
-        layers: 1,
-        samples: 1,
-        life: life(rng, allowed),
-    };
-    let color = !format.is_depth();
-    match rng.below(10) {
-        0 | 1 if allowed.has(Kind::Multisampled) => Image { samples: SAMPLES, life: Life::Transient, ..flat },
-        2 if allowed.has(Kind::Mips) => Image { mips: 2 + rng.below(2), ..flat },
-        3 if allowed.has(Kind::Layers) => Image { layers: 2 + rng.below(2), ..flat },
-        4 if allowed.has(Kind::Mips) && allowed.has(Kind::Layers) => Image { mips: 2, layers: 2, ..flat },
-        5 if color && allowed.has(Kind::Deep) => Image { shape: Shape::D3, extent: [8, 8, 4], ..flat },
-        6 if color && allowed.has(Kind::Cube) => {
-            Image { shape: Shape::Cube, extent: [8, 8, 1], layers: 6, mips: 1 + rng.below(2), ..flat }
-        }
-        _ => flat,
-    }
-}
-
-fn life(rng: &mut Rng, allowed: &Allowed) -> Life {
-    let value = (1 + rng.below(60)) as u8;
-    match rng.below(13) {
-        0 if allowed.has(Kind::Persistent) => Life::Persistent(value),
-        1 if allowed.has(Kind::History) => Life::History(1 + rng.below(3), value),
-        2 if allowed.has(Kind::Imported) => Life::Imported,
-        3 if allowed.has(Kind::Imported) => Life::Target,
-        _ => Life::Transient,
-    }
-}
-
 /// A pipeline that grows.
 struct Maker<'a> {
     pipeline: Pipeline,
@@ -115,42 +57,6 @@ struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    fn buffers(&mut self, passes: u32) -> Vec<Buffer> {
-        if !self.allowed.has(Kind::Buffers) {
-            return Vec::new();
-        }
-        let mut buffers = Vec::new();
-        for _ in 0..2 + self.rng.below(3 + passes.min(60) / 6) {
-            let life = match life(&mut self.rng, self.allowed) {
-                Life::Target => Life::Imported,
-                life => life,
-            };
-            let words = self.rng.of([16, 64, 192]);
-            buffers.push(Buffer { words, contents: Contents::Words, life });
-        }
-        // As large as some mip level, to be copied.
-        let image = self.rng.below(self.pipeline.images.len() as u32) as usize;
-        let part = self.part(image, 1, u32::MAX);
-        let size = size(&self.pipeline.images[image], part).iter().product::<u32>();
-        let words = size * self.pipeline.images[image].format.texel_bytes() as u32 / 4;
-        if words >= 16 {
-            buffers.push(Buffer { words, contents: Contents::Words, life: Life::Transient });
-        }
-        let structured = [
-            (Kind::VertexBuffer, Contents::Vertices),
-            (Kind::IndexBuffer, Contents::Indices),
-            (Kind::IndirectDraw, Contents::Draw),
-            (Kind::IndirectDraw, Contents::IndexedDraw),
-            (Kind::IndirectDispatch, Contents::Dispatch),
-        ];
-        for (kind, contents) in structured {
-            if self.allowed.has(kind) && self.rng.one_in(2) {
-                buffers.push(Buffer { words: 16, contents, life: Life::Transient });
-            }
-        }
-        buffers
-    }
-
     fn image(&mut self) -> usize {
         self.rng.below(self.pipeline.images.len() as u32) as usize
     }
@@ -274,7 +180,8 @@ impl Maker<'_> {
         let first = self.image();
         let samples = self.pipeline.images[first].samples;
         let discards = self.rng.one_in(6);
-        let direct = matches!(geometry, Geometry::Triangles { count: Count::Direct(..), vertices: None, indices: None });
+        let direct =
+            matches!(geometry, Geometry::Triangles { count: Count::Direct(..), vertices: None, indices: None });
         let mut draw = Draw {
             geometry,
             custom: direct && self.allowed.has(Kind::Custom) && self.rng.one_in(4),
@@ -488,7 +395,3 @@ impl Maker<'_> {
         }
     }
 }
-
-/// Formats that images of random pipelines have.
-pub const FORMATS: [Format; 9] =
-    [R32_UINT, R8G8B8A8_UINT, R32G32B32A32_UINT, R8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, D32_SFLOAT, D32_SFLOAT_S8_UINT];

@@ -1,7 +1,7 @@
 //! Holds what a driver makes of a pipeline against what the pipeline means.
 
 use super::meaning::{self, Filled, State, imported_buffer, imported_image};
-use super::pipeline::{Draw, Extent, Life, Count, Geometry, Pass, Pipeline, Plane, Thing, Work};
+use super::pipeline::{Count, Draw, Extent, Geometry, Life, Pass, Pipeline, Plane, Thing, Work};
 use super::{shader, texels, to_frame, to_ron};
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::describe::{self, Diagnostic};

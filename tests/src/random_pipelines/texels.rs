@@ -3,9 +3,9 @@
 //! A component is a word: of integer formats its value, of UNORM formats its value in 255ths, of others the bits of a
 //! 32-bit float. All that is ever written can be represented exactly, averages of four samples included.
 
+use super::pipeline::Plane;
 use framewright_graph::format::{Format, Numeric};
 use framewright_graph::frame::Blend;
-use super::pipeline::Plane;
 use framewright_graph::vocabulary::{Aspects, FillValue};
 
 /// A texel's components.

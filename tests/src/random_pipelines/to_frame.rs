@@ -2,7 +2,8 @@
 
 use super::legal;
 use super::pipeline::{
-    self, Compute, Count, Draw, Geometry, Groups, Life, Part, Pass, Pipeline, Plane, Read, Region, StoreAccess, Thing, Work,
+    self, Compute, Count, Draw, Geometry, Groups, Life, Part, Pass, Pipeline, Plane, Read, Region, StoreAccess, Thing,
+    Work,
 };
 use super::{shader, texels};
 use framewright_graph::format::Format;
@@ -86,8 +87,7 @@ fn lifetime(life: Life, layout: Layout, initial: impl Fn(u8) -> FillValue) -> Li
             Lifetime::Imported { before, after: None }
         }
         Life::Target => {
-            let before =
-                State { stages: Stages::COPY, accesses: Accesses::empty(), layout: Layout::Undefined };
+            let before = State { stages: Stages::COPY, accesses: Accesses::empty(), layout: Layout::Undefined };
             Lifetime::Imported { before, after: None }
         }
     }

@@ -2,7 +2,8 @@
 
 use super::legal;
 use super::pipeline::{
-    Compute, Count, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region, Store, StoreAccess, Thing, Work,
+    Compute, Count, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region, Store, StoreAccess,
+    Thing, Work,
 };
 use super::{shader, texels, to_frame};
 use framewright_graph::format::Format;

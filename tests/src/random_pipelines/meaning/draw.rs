@@ -102,9 +102,9 @@ impl Evaluator<'_> {
         let there =
             self.after.images[target.part.image][0].texel(target.part.mip, [at[0], at[1], target.part.layer], sample);
         let nearer = compares(target.test, depth as f32 / 256.0, f32::from_bits(there.words[0]));
-        let stencil = target.stencil.is_none_or(|stencil| {
-            compares(stencil.test, f32::from(stencil.reference), there.words[1] as f32)
-        });
+        let stencil = target
+            .stencil
+            .is_none_or(|stencil| compares(stencil.test, f32::from(stencil.reference), there.words[1] as f32));
         nearer && stencil
     }
 
