@@ -187,10 +187,10 @@ fn shrinking_leaves_what_makes_it_fail() {
 }
 
 /// Runs the command, and fails with its words unless it is content; says so where there is no such driver.
-fn agree(driver: &str, first: &str) {
+fn agree(driver: &str, [first, count, passes]: [&str; 3]) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_random_pipelines"));
-    let output = command.args(["--driver", driver, "--seed", first, "--count", "150", "--passes", "16"]).output();
-    let output = output.expect("the command starts");
+    command.args(["--driver", driver, "--seed", first, "--count", count, "--passes", passes]);
+    let output = command.args(["--write", env!("CARGO_TARGET_TMPDIR")]).output().expect("the command starts");
     let words = [output.stdout, output.stderr].map(|words| String::from_utf8_lossy(&words).into_owned()).concat();
     let absent = output.status.code() == Some(3) && std::env::var_os("CI").is_none();
     if absent {
@@ -202,12 +202,18 @@ fn agree(driver: &str, first: &str) {
 
 #[test]
 fn lavapipe_draws_bit_for_bit_what_random_pipelines_mean() {
-    agree("lavapipe", "1");
+    agree("lavapipe", ["1", "250", "24"]);
 }
 
 #[test]
 fn swiftshader_draws_bit_for_bit_what_random_pipelines_mean() {
-    agree("swiftshader", "1001");
+    agree("swiftshader", ["1001", "250", "24"]);
+}
+
+#[test]
+fn drivers_draw_long_random_pipelines_too() {
+    agree("lavapipe", ["2001", "8", "200"]);
+    agree("swiftshader", ["2101", "8", "200"]);
 }
 
 #[test]
