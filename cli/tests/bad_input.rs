@@ -23,7 +23,7 @@ fn check(contents: impl AsRef<[u8]>) -> support::Outcome {
 #[test]
 fn a_missing_pipeline_is_said_with_the_names_of_shipped_ones() {
     Place::new().run(&["check", "nowhere.ron"]).exits(1).says(
-        "error: there is no pipeline `nowhere.ron`, and none of that name is shipped (shipped: auto_exposure, forward, \
+        "error: there is no pipeline `nowhere.ron`, and none of that name is shipped (shipped: auto_exposure, forward, snow, \
          soft_focus)",
     );
     // A shipped name in a folder is a path, and nothing else.

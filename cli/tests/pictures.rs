@@ -10,7 +10,7 @@ use support::{Outcome, Place, Vulkan};
 const SIZE: [u32; 2] = [160, 90];
 
 /// All shipped pipelines. Each has a setting `msaa`.
-const PIPELINES: [&str; 3] = ["auto_exposure", "forward", "soft_focus"];
+const PIPELINES: [&str; 4] = ["auto_exposure", "forward", "snow", "soft_focus"];
 
 /// Draws the shipped scene through a shipped pipeline; `None` where the driver or layer is missing.
 fn draw(place: &Place, vulkan: Vulkan, pipeline: &str, more: &[&str]) -> Option<Outcome> {

@@ -8,6 +8,7 @@ macro_rules! shaders {
 
 /// Name, as a pipeline file or an `#include` says it, and GLSL text of each shipped shader.
 pub const SHADERS: &[(&str, &str)] = shaders![
+    "accumulate.frag",
     "adapt_exposure.comp",
     "blur.frag",
     "copy.frag",
@@ -18,8 +19,10 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "include/luminance.glsl",
     "include/material.glsl",
     "include/radiance.glsl",
+    "include/random.glsl",
     "include/scan.glsl",
     "include/scene.glsl",
+    "include/snow.glsl",
     "include/surface.glsl",
     "include/tone_mapping.glsl",
     "lit.frag",
@@ -29,6 +32,10 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "reinhard.frag",
     "sky.frag",
     "sky.vert",
+    "snow.frag",
+    "snow.vert",
+    "snow_fall.comp",
+    "snow_gather.comp",
     "soft_focus.frag",
     "tone_map.frag",
 ];

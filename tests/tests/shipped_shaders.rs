@@ -13,6 +13,7 @@ const TRANSPARENT: Draw = Draw::Objects(DrawList::Transparent);
 
 /// Every shipped fragment shader with a draw that it is made for.
 const DRAWN: &[(&str, Draw)] = &[
+    ("accumulate", Draw::FullScreen),
     ("blur", Draw::FullScreen),
     ("copy", Draw::FullScreen),
     ("downsample", Draw::FullScreen),
@@ -22,12 +23,18 @@ const DRAWN: &[(&str, Draw)] = &[
     ("lit_masked", MASKED),
     ("reinhard", Draw::FullScreen),
     ("sky", Draw::Sky),
+    ("snow", Draw::Indirect),
     ("soft_focus", Draw::FullScreen),
     ("tone_map", Draw::FullScreen),
 ];
 
 /// Every shipped compute shader with the size of its workgroups.
-const DISPATCHED: &[(&str, [u32; 3])] = &[("adapt_exposure", [256, 1, 1]), ("luminance_histogram", [16, 16, 1])];
+const DISPATCHED: &[(&str, [u32; 3])] = &[
+    ("adapt_exposure", [256, 1, 1]),
+    ("luminance_histogram", [16, 16, 1]),
+    ("snow_fall", [64, 1, 1]),
+    ("snow_gather", [256, 1, 1]),
+];
 
 fn library() -> ShaderLibrary {
     ShaderLibrary::new(Vec::new(), SHADERS, interface)
@@ -113,7 +120,8 @@ fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Result<(), Box<dyn Error>> {
-    let cases: [(&str, &[&str], &[&str]); 7] = [
+    let cases: [(&str, &[&str], &[&str]); 8] = [
+        ("accumulate", &["now", "before"], &["share"]),
         ("blur", &["source"], &["direction_x", "direction_y"]),
         ("copy", &["source"], &[]),
         ("downsample", &["source"], &[]),

@@ -4,4 +4,5 @@ pub mod exposure;
 pub mod filters;
 pub mod lighting;
 pub mod radiance;
+pub mod snow;
 pub mod tone_mapping;
