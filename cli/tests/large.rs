@@ -17,7 +17,7 @@ fn back_and_forth(passes: usize) -> String {
         let draw = format!("draw: FullScreen(\"downsample\"), sample: {{\"source\": \"{from}\"}}, color: [\"{to}\"]");
         writeln!(text, "(name: \"p{pass}\", {draw}),").expect("memory");
     }
-    let last = if passes % 2 == 0 { "a" } else { "b" };
+    let last = if passes.is_multiple_of(2) { "a" } else { "b" };
     let draw = format!("draw: FullScreen(\"reinhard\"), sample: {{\"source\": \"{last}\"}}, color: [\"screen\"]");
     text + &format!("(name: \"last\", {draw})], outputs: [\"screen\"])")
 }
