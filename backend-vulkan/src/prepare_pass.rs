@@ -250,7 +250,19 @@ fn local_read(
     for (location, target) in (0..).zip(targets) {
         locations[*target] = location;
     }
+    fill_gaps(&mut locations);
+    fill_gaps(&mut inputs);
     Ok(Some(LocalRead { locations, inputs }))
+}
+
+/// Gives numbers that are left over to attachments that the pass doesn't use: SwiftShader takes `VK_ATTACHMENT_UNUSED` for an
+/// index and crashes.
+fn fill_gaps(numbers: &mut [u32]) {
+    let taken = numbers.to_vec();
+    let mut free = (0..).filter(|number| !taken.contains(number));
+    for number in numbers.iter_mut().filter(|number| **number == vk::ATTACHMENT_UNUSED) {
+        *number = free.next().unwrap_or(vk::ATTACHMENT_UNUSED);
+    }
 }
 
 /// A draw's vertices and indices must lie within its buffers.

@@ -11,6 +11,7 @@ mod geometry;
 mod growth;
 mod hand_in;
 mod hand_over;
+mod local_reads;
 mod outlasting;
 mod queues;
 mod subresources;

@@ -1,0 +1,151 @@
+//! Reading what the rendering scope drew at the same position, on devices that can; the others say that they can't.
+
+use crate::frames::{Small, Uses, draw, frame, library, on_each_driver, planned, texels};
+use framewright_graph::compile::Options;
+use framewright_graph::device::{ImageDescriptor, MemoryNeeds, MemoryProvider};
+use framewright_graph::format::Format;
+use framewright_graph::frame::{Blend, Draw};
+use framewright_graph::plan::{BindingKind, Image, ImageId, Plan, RenderScope, Role, StepId, Totals, Work};
+use framewright_graph::verify::verify;
+use framewright_graph::vocabulary::{Accesses, Layout, Stages, StoreOp, Subresources, Usage};
+use framewright_vulkan::{Device, Error, Executor, ExecutorOptions};
+
+const WHOLE: Subresources = Subresources::WHOLE;
+const LOCAL: Layout = Layout::RenderingLocalReadKhr;
+
+const SHADERS: &[(&str, &str)] = &[
+    (
+        "full_screen.vert",
+        "#version 460
+        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
+    ),
+    (
+        "number.frag",
+        "#version 460
+        layout(location = 0) out uint color;
+        void main() { color = uint(gl_FragCoord.x) + 10 * uint(gl_FragCoord.y); }",
+    ),
+    (
+        "increase.frag",
+        "#version 460
+        #ifdef LOCAL_READ_source
+        layout(input_attachment_index = 0, set = 0, binding = 0) uniform usubpassInput source;
+        #define HERE subpassLoad(source)
+        #else
+        layout(set = 0, binding = 0) uniform usampler2D source;
+        #define HERE texelFetch(source, ivec2(gl_FragCoord.xy), 0)
+        #endif
+        layout(location = 0) out uint color;
+        void main() { color = HERE.r + 500; }",
+    ),
+];
+
+/// `number` draws into `a`, and `increase` draws what it reads there at its own position into the output `b`.
+fn in_two_scopes(device: &Device) -> Plan {
+    let mut small = Small::default();
+    let [a, b] = ["a", "b"].map(|name| small.image(name, Format::R32_UINT, [3, 2]));
+    small.pass(draw("number", Draw::FullScreen).draws(a, WHOLE, None));
+    let mut pass = draw("increase", Draw::FullScreen).samples("source", a, WHOLE).draws(b, WHOLE, None);
+    pass.sampled[0].own_pixel = true;
+    small.pass(pass);
+    small.image_output(b);
+    planned(device, &small.frame, &Options::default())
+}
+
+/// The same in one scope.
+fn in_one_scope(device: &Device) -> Plan {
+    let mut plan = in_two_scopes(device);
+    let scopes = plan.steps.iter().filter(|step| matches!(step.work, Work::Render(_))).count();
+    if scopes == 1 {
+        return plan;
+    }
+    let a = plan.images.iter().find(|image| *image.name == *"a").expect("it is there").id;
+    let second = plan.steps.remove(1);
+    let Work::Render(second_scope) = second.work else { panic!("it draws") };
+    let first = &mut plan.steps[0];
+    first.image_barriers.extend(second.image_barriers.into_iter().filter(|barrier| barrier.image != a));
+    for barrier in first.image_barriers.iter_mut().filter(|barrier| barrier.image == a) {
+        // The frame before leaves it where the scope ends.
+        barrier.src_stages |= Stages::COLOR_ATTACHMENT_OUTPUT;
+        barrier.src_accesses |= Accesses::COLOR_ATTACHMENT_WRITE;
+        barrier.new_layout = LOCAL;
+    }
+    let Work::Render(scope) = &mut first.work else { panic!("it draws") };
+    merge(scope, *second_scope, a);
+    let image = &mut plan.images[a.0 as usize];
+    image.usage = Usage::COLOR_ATTACHMENT | Usage::INPUT_ATTACHMENT;
+    let needs = needs(device, image);
+    if let Role::Transient(place) = &mut image.role {
+        (place.bytes, place.alignment, place.type_bits) = (needs.bytes, needs.alignment, needs.type_bits);
+        place.lifetime = [StepId(0); 2];
+    }
+    plan.heaps[0].bytes = needs.bytes;
+    plan.totals = Totals {
+        transient_bytes: needs.bytes,
+        placed_bytes: needs.bytes,
+        live_peak_bytes: needs.bytes,
+        ..Totals::count(&plan.steps)
+    };
+    plan
+}
+
+/// Adds the one pass of `second`, which reads what the one of `scope` draws into `a`.
+fn merge(scope: &mut RenderScope, mut second: RenderScope, a: ImageId) {
+    scope.color[0].layout = LOCAL;
+    scope.color[0].store = StoreOp::DontCare;
+    scope.color.append(&mut second.color);
+    let mut reader = second.passes.remove(0);
+    for access in reader.accesses.iter_mut().filter(|access| access.image == a) {
+        (access.accesses, access.layout) = (Accesses::INPUT_ATTACHMENT_READ, LOCAL);
+        if let Some(binding) = &mut access.binding {
+            binding.kind = BindingKind::InputAttachment;
+        }
+    }
+    scope.passes[0].accesses[0].layout = LOCAL;
+    reader.local_barrier = true;
+    reader.merged = Some("it reads its own position".to_owned());
+    scope.passes.push(reader);
+    for pass in &mut scope.passes {
+        pass.blend = vec![Blend::Replace; 2];
+    }
+}
+
+fn needs(device: &Device, image: &Image) -> MemoryNeeds {
+    let Image { format, shape, extent, mips, layers, samples, usage, sharing, .. } = *image;
+    device.memory().image(&ImageDescriptor { format, shape, extent, mips, layers, samples, usage, sharing })
+}
+
+#[test]
+fn a_pass_reads_what_its_scope_drew_at_its_own_position() {
+    on_each_driver(|device| {
+        let plan = in_one_scope(device);
+        let violations = verify(&plan);
+        assert!(violations.is_empty(), "{violations:?}\n{}", plan.tree());
+        let executor = Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default());
+        if !device.summary().local_read {
+            match executor.err() {
+                Some(Error::BadPlan { what }) => {
+                    assert_eq!(what, format!("`a` is read locally, and {} has no local reads", device.summary().name));
+                }
+                other => panic!("{other:?}"),
+            }
+            return eprintln!("SKIPPED: {} has no local reads", device.summary().name);
+        }
+        let mut executor = executor.expect("an executor");
+        for _ in 0..2 {
+            frame(&mut executor);
+            assert_eq!(texels(&mut executor, "b", 0), [500, 501, 502, 510, 511, 512]);
+        }
+    });
+}
+
+#[test]
+fn a_device_without_local_reads_samples_instead() {
+    on_each_driver(|device| {
+        let plan = in_two_scopes(device);
+        let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default());
+        let executor = executor.as_mut().expect("an executor");
+        frame(executor);
+        assert_eq!(texels(executor, "b", 0), [500, 501, 502, 510, 511, 512]);
+    });
+}
