@@ -5,7 +5,7 @@ mod raster;
 
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::format::Format::{R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{Blend, Frame, Groups, Image, ImageIndex, Pass, Resource, Shape, Storage, Work};
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
@@ -55,7 +55,7 @@ fn what_cannot_be_is_refused_in_words() {
     fn noise(frame: &mut Frame) -> &mut Image {
         &mut frame.images[NOISE]
     }
-    let changes: [(&str, Change); 23] = [
+    let changes: [(&str, Change); 25] = [
         ("is 0×64×1", |frame| noise(frame).extent[0] = 0),
         ("is 64×64×0", |frame| noise(frame).extent[2] = 0),
         ("is 4294967295×64", |frame| noise(frame).extent[0] = u32::MAX),
@@ -73,9 +73,14 @@ fn what_cannot_be_is_refused_in_words() {
         ("has 3 samples", |frame| noise(frame).samples = 3),
         ("multisampled and has mip levels", |frame| frame.images[0].mips = 2),
         ("`blend` draws into `screen`, which has mip levels", |frame| frame.images[2].mips = 2),
-        ("`blend` draws into `screen`, which has mip levels or depth", |frame| {
+        ("`blend` draws into `screen`, which is three-dimensional", |frame| {
             frame.images[2].extent[2] = 2;
             frame.images[2].shape = Shape::D3;
+        }),
+        ("`blend` draws into `screen`, which is three-dimensional", |frame| frame.images[2].shape = Shape::D3),
+        ("is three-dimensional and can't hold depth", |frame| {
+            noise(frame).format = D32_SFLOAT;
+            noise(frame).shape = Shape::D3;
         }),
         ("an output does not exist", |frame| frame.outputs[0].resource = Resource::Image(ImageIndex(9))),
         ("names image number 9, which does not exist", |frame| frame.passes[0].storage[0].image = ImageIndex(9)),

@@ -96,6 +96,8 @@ fn image_problem(image: &Image) -> Option<String> {
         Some("has depth and is not three-dimensional".to_owned())
     } else if image.shape == Shape::D3 && image.layers > 1 {
         Some("is three-dimensional and has layers".to_owned())
+    } else if image.shape == Shape::D3 && image.format.is_depth() {
+        Some("is three-dimensional and can't hold depth".to_owned())
     } else if image.shape == Shape::Cube && (width != height || !image.layers.is_multiple_of(6)) {
         Some(format!("is a cube of {width}×{height} with {} layers; cubes are square and have 6", image.layers))
     } else {
@@ -192,9 +194,10 @@ impl Check<'_> {
     /// What is drawn into or forwarded is one mip level of a flat image.
     fn one_mip(&mut self, index: ImageIndex, range: Subresources, span: Span) {
         let Some(image) = self.frame.images.get(index.0 as usize) else { return };
-        if parts::resolve(image, range).mips > 1 || image.extent[2] > 1 {
-            let what = format!("draws into `{}`, which has mip levels or depth", image.name);
-            self.wrong(span, &what);
+        if image.shape == Shape::D3 {
+            self.wrong(span, &format!("draws into `{}`, which is three-dimensional", image.name));
+        } else if parts::resolve(image, range).mips > 1 {
+            self.wrong(span, &format!("draws into `{}`, which has mip levels: it can be only one of them", image.name));
         }
     }
 
