@@ -3,9 +3,11 @@
 mod common;
 
 use common::plans::resolve_then_sample;
+use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::interface::DrawInterface;
-use framewright_vulkan::{DrawSource, Error, Executor, ExecutorOptions, Recorder, ShaderLibrary};
+use framewright_graph::vocabulary::Aspects;
+use framewright_vulkan::{DrawSource, Error, Executor, ExecutorOptions, Recorder, SamplerDescriptor, ShaderLibrary};
 use std::time::Duration;
 
 const SHADERS: &[(&str, &str)] = &[
@@ -59,7 +61,18 @@ fn a_frame_that_takes_too_long_is_an_error_and_the_device_is_given_up() {
     let options = ExecutorOptions { timeout: Duration::from_millis(1), ..ExecutorOptions::default() };
     let mut executor = Executor::new(&device, &plan, &mut shaders, &options).expect("an executor");
     assert!(matches!(executor.frame(&mut Busy), Err(Error::Timeout { .. })));
+    // From then on nothing waits, hangs or crashes.
     assert!(matches!(executor.frame(&mut Busy), Err(Error::DeviceLost { .. })));
+    assert!(matches!(executor.submit(&mut Busy), Err(Error::DeviceLost { .. })));
+    assert!(executor.wait(0).is_err());
+    let lost = |result: Result<(), Error>| matches!(result, Err(Error::DeviceLost { .. } | Error::BadResource { .. }));
+    assert!(lost(executor.read(0).map(drop)));
+    assert!(lost(executor.read_image("screen", Aspects::COLOR, 0).map(drop)));
+    assert!(lost(
+        device.texture(1, 1, Format::R8G8B8A8_UNORM, &[0; 4], &SamplerDescriptor::default(), false).map(drop)
+    ));
+    let mut another = Executor::new(&device, &plan, &mut shaders, &options).expect("only drawing needs the device");
+    assert!(matches!(another.frame(&mut Busy), Err(Error::DeviceLost { .. })));
     // Nothing is freed, since the device may still be using it.
-    drop((executor, device));
+    drop((executor, another, device));
 }
