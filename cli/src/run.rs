@@ -5,8 +5,9 @@ use crate::error::{Error, Exit};
 use crate::planning::{self, Loaded, Planned, View};
 use crate::report::{Report, Setting, Validation};
 use crate::{files, interrupt, output, picture, rows, text};
-use framewright_graph::frame::{Frame, Resource};
+use framewright_graph::frame::{Frame, Image, Lifetime, Resource};
 use framewright_graph::plan::Totals;
+use framewright_graph::vocabulary::Layout;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, DeviceChoice, DeviceOptions, Executor, ExecutorOptions, FrameReport};
@@ -37,6 +38,9 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
     let device = Device::open(&DeviceOptions { choice, validation: arguments.validate })?;
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
     let planned = plan(arguments, &mut pipeline, &scene, &device)?;
+    for name in not_handed_in(&planned.frame) {
+        text::say(&format!("note: nobody hands in `{}` here: all of it is 0", text::escape(name)));
+    }
     let (frames, pictures) = draw(arguments, &planned, &mut pipeline, &scene, &device)?;
     let mut report = Report {
         format_version: 2,
@@ -102,6 +106,18 @@ fn plan(arguments: &Run, pipeline: &mut Loaded, scene: &Scene, device: &Device) 
         text::say(&format!("note: dumping {}", difference(&without.plan.totals, &planned.plan.totals)));
     }
     Ok(planned)
+}
+
+/// Names of what the frame expects to be handed in with contents.
+fn not_handed_in(frame: &Frame) -> impl Iterator<Item = &str> {
+    let imported = |lifetime: &Lifetime| match lifetime {
+        Lifetime::Imported { before, .. } => Some(*before),
+        Lifetime::Transient | Lifetime::Persistent { .. } | Lifetime::History { .. } => None,
+    };
+    let has_contents = move |image: &&Image| imported(&image.lifetime).is_some_and(|it| it.layout != Layout::Undefined);
+    let images = frame.images.iter().filter(has_contents).map(|image| &*image.name);
+    let buffers = frame.buffers.iter().filter(move |buffer| imported(&buffer.lifetime).is_some());
+    images.chain(buffers.map(|buffer| &*buffer.name))
 }
 
 /// What a Plan has that another hasn't, in words.
