@@ -11,7 +11,7 @@ use framewright_tests::random_pipelines;
 
 /// A desktop GPU with these queues.
 fn device(compute: bool, transfer: bool, sharing: Sharing) -> Profile {
-    let (_, text) = SHIPPED_PROFILES.into_iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
+    let (_, text) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
     Profile { queues: Queues { compute, transfer, sharing }, ..Profile::from_ron(text).expect("it is sound") }
 }
 
