@@ -2,7 +2,7 @@
 //! to the brute-force judge, which shares no code with either.
 
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Frame, ImageIndex, Lifetime, Output, Pass, Resource, StencilState, Work};
 use framewright_graph::verify::verify;
@@ -29,8 +29,8 @@ fn options(seed: u64) -> Options {
 }
 
 /// What is wrong with the Plan of a frame.
-fn fault(frame: &Frame, options: &Options) -> Option<String> {
-    let device = device();
+fn fault(frame: &Frame, options: &Options, local_read: bool) -> Option<String> {
+    let device = Profile { local_read, ..device() };
     let compiled = catch_unwind(AssertUnwindSafe(|| compile(frame, &device, &mut Estimated(&device), options)));
     let plan = match compiled {
         Err(_) => return Some("panics".to_owned()),
@@ -114,7 +114,7 @@ fn check(seeds: Range<u64>, most: u32) {
         let mut frame = to_frame::to_frame(&generate::pipeline(seed, passes, &Allowed::default()));
         vary(&mut frame, seed);
         let options = options(seed);
-        if let Some(fault) = fault(&frame, &options) {
+        if let Some(fault) = fault(&frame, &options, seed % 2 == 0) {
             faults.push(format!("seed {seed}, {passes} passes, {options:?}: {fault}"));
         }
     }

@@ -87,7 +87,7 @@ pub fn compile(
     let input = adapt::Input { frame, grids: &grids, live: &live, negotiated: &negotiated, device, options };
     let mut adapted = adapt::adapt(input)?;
     let order = schedule::schedule(&grids, &adapted, options.order);
-    let mut scoped = scope::scope(frame, &grids, &mut adapted, &order);
+    let mut scoped = scope::scope(frame, &grids, &mut adapted, &order, device);
     let retained = retain::retain(frame, &grids, &adapted, &scoped);
     let queues = queues::assign(frame, &grids, &mut adapted, &scoped, device, options);
     let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained, queues);

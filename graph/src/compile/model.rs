@@ -220,6 +220,8 @@ impl Use {
 pub(super) enum Role {
     /// Sampled by shaders.
     Sampled,
+    /// Attachment of the same scope, read by fragment shaders at their own position.
+    Input,
     /// Accessed by shaders without sampling.
     Storage,
     /// Colour attachment.
@@ -246,6 +248,7 @@ impl Role {
     pub(super) fn usage(self) -> Usage {
         match self {
             Role::Sampled => Usage::SAMPLED,
+            Role::Input => Usage::INPUT_ATTACHMENT,
             Role::Storage => Usage::STORAGE,
             Role::Color => Usage::COLOR_ATTACHMENT,
             Role::Depth | Role::Stencil => Usage::DEPTH_STENCIL_ATTACHMENT,

@@ -22,7 +22,7 @@ pub(super) fn note(
     scoped: &Scoped,
     options: &Options,
 ) {
-    let attachments_only = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT;
+    let attachments_only = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT | Usage::INPUT_ATTACHMENT;
     for at in 0..adapted.stores.len() {
         let store = &adapted.stores[at];
         let bits = walked.usage(cells(grids, store));

@@ -132,7 +132,8 @@ impl Walk<'_> {
             }
         }
         for op in &scope.ops {
-            for used in self.adapted.uses(*op).iter().filter(|used| !used.role.is_attachment()) {
+            let from_memory = |used: &&Use| !used.role.is_attachment() && used.role != Role::Input;
+            for used in self.adapted.uses(*op).iter().filter(from_memory) {
                 self.touch(*op, used);
             }
         }

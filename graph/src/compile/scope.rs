@@ -1,10 +1,15 @@
 //! `scope`: neighbouring raster passes become one rendering scope where nothing forbids it and something gains; resolves
 //! fold into the scope that wrote last.
 
-use super::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
+mod local;
+mod meeting;
+
+use super::model::{Adapted, OpKind, Role, StoreIndex, Use};
 use super::parts::Grids;
+use crate::device::Profile;
 use crate::frame::Frame;
 use crate::plan::{Note, Stage, Subresources};
+use meeting::{Meeting, Refusal};
 use std::sync::Arc;
 
 /// Steps in execution order.
@@ -41,7 +46,7 @@ pub(super) struct Target {
 }
 
 impl Target {
-    fn of(adapted: &Adapted, used: &Use) -> Target {
+    pub(super) fn of(adapted: &Adapted, used: &Use) -> Target {
         Target { store: used.store, range: adapted.range(used) }
     }
 }
@@ -59,6 +64,8 @@ pub(super) struct Scope {
     pub(super) resolves: Vec<Option<u32>>,
     /// The resolve operation that the depth attachment carries.
     pub(super) depth_resolve: Option<u32>,
+    /// Whether passes read at their own position what others drew: then each draws into some of the colour attachments.
+    pub(super) local: bool,
 }
 
 /// The name of an operation's pass.
@@ -66,7 +73,7 @@ pub(super) fn op_name<'f>(frame: &'f Frame, adapted: &Adapted, op: u32) -> Optio
     adapted.ops[op as usize].kind.pass().map(|pass| &frame.passes[pass as usize].name)
 }
 
-pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &mut Adapted, order: &[u32]) -> Scoped {
+pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &mut Adapted, order: &[u32], device: &Profile) -> Scoped {
     if !adapted.ops.iter().any(|op| op.kind.draws()) {
         let mut steps = Vec::with_capacity(order.len() + 1);
         steps.extend(order.iter().map(|op| Step::Single(*op)));
@@ -75,29 +82,35 @@ pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &mut Adapted, order: 
     let mut builder = Builder {
         frame,
         grids,
+        device,
         adapted,
         steps: Vec::with_capacity(order.len() + 1),
         merged: vec![None; adapted.ops.len()],
         traces: vec![Trace::default(); adapted.cells as usize],
         notes: Vec::new(),
+        local: Vec::new(),
     };
     for op in order {
         builder.op(*op);
     }
-    let Builder { steps, merged, notes, .. } = builder;
+    let Builder { steps, merged, notes, local, .. } = builder;
     adapted.notes.extend(notes);
+    local::read_locally(adapted, &local);
     Scoped { steps, merged }
 }
 
 struct Builder<'a> {
     frame: &'a Frame,
     grids: &'a Grids,
+    device: &'a Profile,
     adapted: &'a Adapted,
     steps: Vec<Step>,
     merged: Vec<Option<String>>,
     /// For each cell what is known of it.
     traces: Vec<Trace>,
     notes: Vec<Note>,
+    /// Uses that read at their own position what their scope drew.
+    local: Vec<u32>,
 }
 
 /// What steps did to a cell so far; steps are indices into [`Builder::steps`].
@@ -166,8 +179,13 @@ impl Builder<'_> {
 
     /// Notes what step number `at` does by this operation.
     fn trace(&mut self, op: u32, at: usize) {
-        let Builder { adapted, grids, traces, .. } = self;
-        for used in adapted.uses(op) {
+        let Builder { adapted, grids, traces, local, .. } = self;
+        let first = adapted.ops[op as usize].uses.start;
+        for (used, number) in adapted.uses(op).iter().zip(first..) {
+            // In a scope, whoever draws where another has read its own pixel comes after it.
+            if local.last().is_some_and(|last| *last >= first) && local.contains(&number) {
+                continue;
+            }
             adapted.for_each_cell(grids, used, |cell| {
                 let trace = &mut traces[cell as usize];
                 if trace.used != Some(at) {
@@ -186,33 +204,68 @@ impl Builder<'_> {
     fn draw(&mut self, op: u32) {
         let adapted = self.adapted;
         let uses = adapted.uses(op);
+        let wishes = local::wishes(self.frame, adapted, op);
+        let reads_locally = |scope: &Scope, used: &Use| {
+            wishes && self.device.local_read && local::possible(self.frame, adapted, op, used, &scope.color)
+        };
         let neighbour = match self.steps.last() {
-            Some(Step::Scope(scope)) => Some(scope.compare(adapted, uses, |used| {
-                let mut clashes = false;
-                adapted.for_each_cell(self.grids, used, |cell| {
-                    let trace = &self.traces[cell as usize];
-                    clashes |= trace.used == Some(self.steps.len() - 1) && trace.ways.clash(used);
-                });
-                clashes
-            })),
+            Some(Step::Scope(scope)) => {
+                let most = self.device.max_color_attachments as usize;
+                let clashes = |used: &Use| {
+                    let mut clashes = false;
+                    adapted.for_each_cell(self.grids, used, |cell| {
+                        let trace = &self.traces[cell as usize];
+                        clashes |= trace.used == Some(self.steps.len() - 1) && trace.ways.clash(used);
+                    });
+                    clashes
+                };
+                Some(scope.compare(adapted, uses, most, |used| reads_locally(scope, used), clashes))
+            }
             _ => None,
         };
         match neighbour {
             Some(Meeting::Merge) => {
-                let text = self.gain(uses);
+                let mut text = self.gain(uses);
+                let first = adapted.ops[op as usize].uses.start;
+                let Some(Step::Scope(scope)) = self.steps.last() else { return };
+                let local: Vec<(u32, &Use)> =
+                    (first..).zip(uses).filter(|(_, used)| reads_locally(scope, used)).collect();
+                if let Some((_, used)) = local.first() {
+                    text = self.local_gain(used);
+                }
+                let reads_any = !local.is_empty();
+                self.local.extend(local.into_iter().map(|(number, _)| number));
                 let Some(Step::Scope(scope)) = self.steps.last_mut() else { return };
+                scope.local |= reads_any;
+                for color in colors_of(adapted, uses) {
+                    if !scope.color.contains(&color) {
+                        scope.color.push(color);
+                        scope.resolves.push(None);
+                    }
+                }
                 scope.depth = scope.depth.or_else(|| plane_of(adapted, uses, Role::Depth));
                 scope.stencil = scope.stencil.or_else(|| plane_of(adapted, uses, Role::Stencil));
                 scope.ops.push(op);
                 self.merged[op as usize] = Some(text);
+                if wishes && !reads_any {
+                    self.explain(op);
+                }
             }
             Some(Meeting::Apart(why)) => {
                 if let Some(why) = why {
                     self.refuse(op, why);
                 }
+                if wishes {
+                    self.explain(op);
+                }
                 self.open(op);
             }
-            None => self.open(op),
+            None => {
+                if wishes {
+                    self.explain(op);
+                }
+                self.open(op);
+            }
         }
         self.trace(op, self.steps.len() - 1);
     }
@@ -228,6 +281,7 @@ impl Builder<'_> {
             ops: vec![op],
             resolves,
             depth_resolve: None,
+            local: false,
         }));
     }
 
@@ -313,117 +367,6 @@ impl Step {
             Step::Single(op) => std::slice::from_ref(op),
             Step::Export => &[],
         }
-    }
-}
-
-/// What comes of a scope and the pass after it.
-enum Meeting {
-    Merge,
-    Apart(Option<Refusal>),
-}
-
-/// Why they stay apart.
-enum Refusal {
-    OtherAttachments,
-    Clears(StoreIndex),
-    Uses(StoreIndex),
-    Writes(StoreIndex),
-    Resolved(StoreIndex),
-}
-
-impl Scope {
-    fn compare(&self, adapted: &Adapted, uses: &[Use], clashes: impl Fn(&Use) -> bool) -> Meeting {
-        let attached = |used: &Use| self.attaches(adapted, used);
-        let shares = uses.iter().any(|used| used.role.is_attachment() && attached(used));
-        let refuse = |why| Meeting::Apart(Some(why));
-        if let Some(used) = uses.iter().find(|used| !used.role.is_attachment() && self.overlaps(adapted, used)) {
-            return refuse(Refusal::Uses(used.store));
-        }
-        if let Some(store) = self.carried(adapted).find(|store| uses.iter().any(|used| used.store == *store)) {
-            return refuse(Refusal::Uses(store));
-        }
-        if !shares {
-            return Meeting::Apart(None);
-        }
-        let same = |ours: Option<Target>, role| match (ours, plane_of(adapted, uses, role)) {
-            (Some(a), Some(b)) => a == b,
-            _ => true,
-        };
-        let one_image = |role, other: Option<Target>| match (plane_of(adapted, uses, role), other) {
-            (Some(a), Some(b)) => a.store == b.store,
-            _ => true,
-        };
-        let planes = same(self.depth, Role::Depth) && same(self.stencil, Role::Stencil);
-        let planes = planes && one_image(Role::Depth, self.stencil) && one_image(Role::Stencil, self.depth);
-        if colors_of(adapted, uses) != self.color || !planes || !self.same_area(adapted, uses) {
-            return refuse(Refusal::OtherAttachments);
-        }
-        for used in uses {
-            if used.role.is_attachment() && used.start != Start::Keep && attached(used) {
-                return refuse(Refusal::Clears(used.store));
-            }
-            if clashes(used) {
-                return refuse(if used.writes { Refusal::Writes(used.store) } else { Refusal::Uses(used.store) });
-            }
-        }
-        match self.carries().next() {
-            Some(op) => refuse(Refusal::Resolved(adapted.uses(op)[0].store)),
-            None => Meeting::Merge,
-        }
-    }
-
-    /// The resolve operations that it carries.
-    pub(super) fn carries(&self) -> impl Iterator<Item = u32> + '_ {
-        self.resolves.iter().chain([&self.depth_resolve]).flatten().copied()
-    }
-
-    /// Where the resolve of an attachment is noted.
-    fn resolve_of(&mut self, attachment: StoreIndex) -> Option<&mut Option<u32>> {
-        match self.color.iter().position(|color| color.store == attachment) {
-            Some(location) => self.resolves.get_mut(location),
-            None => Some(&mut self.depth_resolve).filter(|_| self.depth.is_some_and(|depth| depth.store == attachment)),
-        }
-    }
-
-    /// Targets of the resolves that it carries.
-    fn carried<'a>(&'a self, adapted: &'a Adapted) -> impl Iterator<Item = StoreIndex> + 'a {
-        self.carries().filter_map(|op| adapted.uses(op).get(1)).map(|target| target.store)
-    }
-
-    /// All attachments.
-    pub(super) fn targets(&self) -> impl Iterator<Item = Target> + '_ {
-        self.color.iter().copied().chain(self.depth).chain(self.stencil)
-    }
-
-    /// Whether a use is about exactly one of the attachments.
-    fn attaches(&self, adapted: &Adapted, used: &Use) -> bool {
-        let target = Target::of(adapted, used);
-        self.targets().any(|ours| ours == target)
-    }
-
-    /// Whether a use is about some of what is attached.
-    fn overlaps(&self, adapted: &Adapted, used: &Use) -> bool {
-        let range = adapted.range(used);
-        let meet = |a: u32, some: u32, b: u32, others: u32| a < b + others && b < a + some;
-        self.targets().any(|ours| {
-            ours.store == used.store
-                && ours.range.aspects.intersects(range.aspects)
-                && meet(ours.range.base_mip, ours.range.mips, range.base_mip, range.mips)
-                && meet(ours.range.base_layer, ours.range.layers, range.base_layer, range.layers)
-        })
-    }
-
-    fn same_area(&self, adapted: &Adapted, uses: &[Use]) -> bool {
-        let shape = |target: Target| {
-            let image = adapted.stores[target.store as usize].image();
-            let mip = target.range.base_mip.min(31);
-            image.map(|image| (image.extent.map(|side| (side >> mip).max(1)), target.range.layers, image.samples))
-        };
-        let first = self.targets().next();
-        first.is_none_or(|first| {
-            let attached = uses.iter().filter(|used| used.role.is_attachment());
-            attached.map(|used| Target::of(adapted, used)).all(|target| shape(target) == shape(first))
-        })
     }
 }
 

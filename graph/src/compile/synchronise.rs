@@ -6,10 +6,10 @@
 use super::model::{Adapted, CellIndex, Role, StoreIndex, Use};
 use super::parts::Grids;
 use super::queues::Queues;
-use super::retain::Retained;
+use super::retain::{AttachmentOps, Retained};
 use super::scope::{Scoped, Step, Target};
 use crate::plan::Hazard;
-use crate::vocabulary::{Accesses, BufferUsage, Layout, Stages, State};
+use crate::vocabulary::{Accesses, BufferUsage, Layout, LoadOp, Stages, State};
 
 mod cross;
 
@@ -179,7 +179,10 @@ impl Walk<'_> {
         self.mixed = false;
         for op in step.ops() {
             for used in adapted.uses(*op) {
-                self.used(adapted, used);
+                match used.role {
+                    Role::Input => self.read_locally(adapted, used, retained.of(number)),
+                    _ => self.used(adapted, used),
+                }
             }
         }
         if let Step::Scope(scope) = step {
@@ -224,6 +227,14 @@ impl Walk<'_> {
         };
         let grids = self.grids;
         adapted.for_each_cell(grids, used, |cell| self.need(need(cell)));
+    }
+
+    /// A local read waits only for what its scope loads: the rest its scope draws, and shows it to the read itself.
+    fn read_locally(&mut self, adapted: &Adapted, used: &Use, attachments: &[AttachmentOps]) {
+        let target = Target::of(adapted, used);
+        let loads = attachments.iter().any(|ops| ops.target == target && ops.load == LoadOp::Load);
+        let (stages, accesses) = if loads { (used.stages, used.accesses) } else { Default::default() };
+        self.used(adapted, &Use { stages, accesses, ..*used });
     }
 
     /// A resolve that a scope carries, source or target.
@@ -345,6 +356,9 @@ fn join_layouts(a: Layout, b: Layout) -> Layout {
         (Layout::DepthReadOnlyOptimal, Layout::DepthAttachmentOptimal),
         (Layout::StencilReadOnlyOptimal, Layout::StencilAttachmentOptimal),
     ];
+    if attached(Layout::RenderingLocalReadKhr, Layout::ColorAttachmentOptimal) {
+        return Layout::RenderingLocalReadKhr;
+    }
     planes.into_iter().find(|(read, write)| attached(*read, *write)).map_or(Layout::General, |(_, write)| write)
 }
 

@@ -111,7 +111,8 @@ fn lost_between(timeline: &Timeline, (earlier, later): (&Touch, &Touch), cell: u
 /// Whether a load operation that clears or forgets stands between a read within a scope and whatever was before the scope:
 /// then the read sees only what the scope itself wrote.
 fn replaced(timeline: &Timeline, read: &Touch, cell: usize) -> bool {
-    let within = read.of.is_some_and(|(_, one)| matches!(one.kind, Kind::Attachment | Kind::Store));
+    let within =
+        read.of.is_some_and(|(_, one)| matches!(one.kind, Kind::Attachment | Kind::Store | Kind::Input { .. }));
     within
         && timeline.touches.iter().any(|touch| {
             (touch.time, touch.physical) == (read.time, read.physical)

@@ -11,7 +11,7 @@
 //! - the first half of an ownership transfer → its second half, when a semaphore orders them.
 
 use super::scopes::{and_earlier, and_later, each};
-use super::uses::{self, Use};
+use super::uses::{self, Kind, Use};
 use super::world::{World, role};
 use framewright_graph::plan::{ImageBarrier, Queue, Resource, Role, Step};
 use framewright_graph::vocabulary::{Accesses, Layout, Stages, State};
@@ -303,20 +303,24 @@ impl Timeline {
     fn work(&mut self, world: &World, (frame, time): (usize, usize), step: &Step, held_up: &[usize]) {
         let queue = step.queue;
         let uses = uses::of(&step.work);
-        let mut nodes: BTreeMap<Stages, usize> = BTreeMap::new();
+        // What reads behind a local barrier comes after all that colour output waits for, too.
+        let mut nodes: BTreeMap<(Stages, Option<usize>), usize> = BTreeMap::new();
         for (number, one) in uses.into_iter().enumerate() {
             let physical = world.physical(frame, one.resource);
             let cells = world.cells(physical, one.range);
+            let local = matches!(one.kind, Kind::Input { local_barrier: true }).then_some(one.pass);
             for (stage, access) in each(one.stages, one.accesses) {
-                let node = match nodes.get(&stage) {
+                let node = match nodes.get(&(stage, local)) {
                     Some(node) => *node,
                     None => {
                         let track = self.tracks.entry(queue).or_default();
-                        let open = track.open.iter().filter(|open| open.stages.contains(stage)).map(|open| open.node);
+                        let chained = if local.is_some() { Stages::COLOR_ATTACHMENT_OUTPUT } else { Stages::empty() };
+                        let open = track.open.iter().filter(|open| open.stages.intersects(stage | chained));
+                        let open = open.map(|open| open.node);
                         let after: Vec<usize> = held_up.iter().copied().chain(open).collect();
                         let after = self.after(&after);
                         let node = self.made(queue, after);
-                        nodes.insert(stage, node);
+                        nodes.insert((stage, local), node);
                         node
                     }
                 };
@@ -325,7 +329,7 @@ impl Timeline {
                 self.touch(Touch { node, queue, time, physical, cells: cells.clone(), what, of });
             }
         }
-        self.tracks.entry(queue).or_default().work.extend(nodes.into_iter().map(|(stage, node)| (node, stage)));
+        self.tracks.entry(queue).or_default().work.extend(nodes.into_iter().map(|((stage, _), node)| (node, stage)));
     }
 
     /// The queue of the first (or last) step that uses it.

@@ -3,8 +3,8 @@
 use super::{Parts, cause, passes};
 use crate::compile::model::{OpKind, Role};
 use crate::compile::retain::{AttachmentOps, Next};
-use crate::compile::scope::{Scope, op_name};
-use crate::plan::{Attachment, AttachmentResolve, ImageId, RenderScope};
+use crate::compile::scope::{Scope, Target, op_name};
+use crate::plan::{Attachment, AttachmentResolve, ImageId, Pass, RenderScope};
 use crate::vocabulary::{Layout, LoadOp, StoreOp};
 
 pub(super) fn scope(parts: &Parts<'_>, scope: &Scope, step: u32) -> RenderScope {
@@ -25,13 +25,40 @@ pub(super) fn scope(parts: &Parts<'_>, scope: &Scope, step: u32) -> RenderScope 
         color: color.map(|(ops, resolve)| attachment(parts, scope, ops, *resolve)).collect(),
         depth: plane(Role::Depth).map(|ops| attachment(parts, scope, ops, scope.depth_resolve)),
         stencil: plane(Role::Stencil).map(|ops| attachment(parts, scope, ops, None)),
-        passes: scope.ops.iter().map(|op| passes::pass(parts, *op)).collect(),
+        passes: if scope.local {
+            local_passes(parts, scope, attachments)
+        } else {
+            scope.ops.iter().map(|op| passes::pass(parts, *op)).collect()
+        },
     }
+}
+
+/// The passes of a scope with local reads. What is drawn or cleared is shown to them once, before the first that reads it.
+fn local_passes(parts: &Parts<'_>, scope: &Scope, attachments: &[AttachmentOps]) -> Vec<Pass> {
+    let begun = attachments.iter().filter(|ops| ops.role == Role::Color && ops.load != LoadOp::Load);
+    let mut fresh: Vec<Target> = begun.map(|ops| ops.target).collect();
+    let mut passes = Vec::with_capacity(scope.ops.len());
+    for op in &scope.ops {
+        let mut pass = passes::pass(parts, *op);
+        let uses = parts.adapted.uses(*op);
+        let of =
+            |role: Role| uses.iter().filter(move |used| used.role == role).map(|used| Target::of(&parts.adapted, used));
+        pass.local_barrier = of(Role::Input).any(|target| fresh.contains(&target));
+        if pass.local_barrier {
+            fresh.clear();
+        }
+        let own = std::mem::take(&mut pass.blend);
+        let blend = |target: &Target| of(Role::Color).position(|drawn| drawn == *target).and_then(|at| own.get(at));
+        pass.blend = scope.color.iter().map(|target| blend(target).copied().unwrap_or_default()).collect();
+        fresh.extend(of(Role::Color));
+        passes.push(pass);
+    }
+    passes
 }
 
 fn attachment(parts: &Parts<'_>, scope: &Scope, ops: &AttachmentOps, resolve: Option<u32>) -> Attachment {
     let mut uses = scope.ops.iter().flat_map(|op| parts.adapted.uses(*op));
-    let used = uses.find(|used| used.role == ops.role && used.store == ops.target.store);
+    let used = uses.find(|used| used.role == ops.role && Target::of(&parts.adapted, used) == ops.target);
     Attachment {
         image: ImageId(parts.adapted.stores[ops.target.store as usize].id),
         range: ops.target.range,

@@ -163,6 +163,10 @@ fn binding(used: &Use, declared: &FramePass) -> Option<Binding> {
             let sampled = &declared.sampled[entry];
             Some(Binding { name: sampled.binding.clone(), kind: BindingKind::Sampled(sampled.filter) })
         }
+        Role::Input => {
+            let name = declared.sampled[entry].binding.clone();
+            Some(Binding { name, kind: BindingKind::InputAttachment })
+        }
         Role::Storage => Some(Binding { name: declared.storage[entry].binding.clone(), kind: BindingKind::Storage }),
         Role::Color | Role::Depth | Role::Stencil | Role::Buffer | Role::Source | Role::Target => None,
     }

@@ -1,0 +1,103 @@
+//! Local reads: a pass that reads only the texel at its own position joins the rendering scope that drew it.
+//!
+//! Colour attachments with one sample can be read so. The passes of such a scope draw into different ones of its attachments.
+
+use super::{Builder, Scope, Target, op_name};
+use crate::compile::model::{Adapted, OpKind, Role, Use};
+use crate::frame::{Frame, Sampled};
+use crate::plan::{Note, Stage};
+use crate::vocabulary::{Accesses, Layout, Stages};
+
+/// What a use of a draw samples at each fragment's own position alone.
+fn own_pixel<'f>(frame: &'f Frame, adapted: &Adapted, op: u32, used: &Use) -> Option<&'f Sampled> {
+    let OpKind::Draw(pass) = adapted.ops[op as usize].kind else { return None };
+    if used.role != Role::Sampled {
+        return None;
+    }
+    frame.passes[pass as usize].sampled.get(used.entry as usize).filter(|sampled| sampled.own_pixel)
+}
+
+/// Whether an operation reads anything at its own position alone.
+pub(super) fn wishes(frame: &Frame, adapted: &Adapted, op: u32) -> bool {
+    let OpKind::Draw(pass) = adapted.ops[op as usize].kind else { return false };
+    frame.passes[pass as usize].sampled.iter().any(|sampled| sampled.own_pixel)
+}
+
+/// Whether a use can be a local read in a scope with these colour attachments.
+pub(super) fn possible(frame: &Frame, adapted: &Adapted, op: u32, used: &Use, attached: &[Target]) -> bool {
+    let target = Target::of(adapted, used);
+    let once = || {
+        let same = |other: &&Use| other.role == Role::Sampled && Target::of(adapted, other) == target;
+        adapted.uses(op).iter().filter(same).count() == 1
+    };
+    let obstacle = own_pixel(frame, adapted, op, used).map(|sampled| obstacle(adapted, sampled, used));
+    obstacle == Some(None) && attached.contains(&target) && once()
+}
+
+/// What of a use makes a local read impossible on any device.
+fn obstacle(adapted: &Adapted, sampled: &Sampled, used: &Use) -> Option<&'static str> {
+    let image = adapted.stores[used.store as usize].image()?;
+    if image.format.is_depth() {
+        Some("only colour is read from its scope")
+    } else if image.samples > 1 {
+        Some("it has several samples")
+    } else if sampled.stages != Stages::FRAGMENT_SHADER {
+        Some("not only the fragment shader reads it")
+    } else {
+        None
+    }
+}
+
+/// Turns uses, by number, into local reads.
+pub(super) fn read_locally(adapted: &mut Adapted, uses: &[u32]) {
+    for number in uses {
+        let used = &mut adapted.uses[*number as usize];
+        used.role = Role::Input;
+        used.layout = Layout::RenderingLocalReadKhr;
+        used.accesses = Accesses::INPUT_ATTACHMENT_READ;
+    }
+}
+
+impl Builder<'_> {
+    /// Why a local read pays.
+    pub(super) fn local_gain(&self, used: &Use) -> String {
+        let mebibytes = self.bytes(used) as f64 / f64::from(1 << 20);
+        let name = self.name(used.store);
+        format!("reads `{name}` at its own position: {mebibytes:.1} MiB need not be read from memory")
+    }
+
+    /// Says why what a pass reads at its own position is read from memory.
+    pub(super) fn explain(&mut self, op: u32) {
+        let adapted = self.adapted;
+        let uses = adapted.uses(op).iter();
+        let mut own = uses.filter_map(|used| Some((used, own_pixel(self.frame, adapted, op, used)?)));
+        let (Some((used, sampled)), Some(subject)) = (own.next(), op_name(self.frame, adapted, op)) else { return };
+        let why = if let Some(why) = obstacle(adapted, sampled, used) {
+            why.to_owned()
+        } else if !self.device.local_read {
+            format!("`{}` has no local reads", self.device.name)
+        } else {
+            "it doesn't share the scope that draws it".to_owned()
+        };
+        let text = format!("reads `{}` at its own position from memory: {why}", self.name(used.store));
+        let at = self.frame.sources.place(sampled.span);
+        self.notes.push(Note { stage: Stage::Scope, subject: subject.clone(), text, at });
+    }
+}
+
+impl Scope {
+    /// Whether the colour attachments of a pass can stand beside those of the scope.
+    pub(super) fn joins(&self, adapted: &Adapted, uses: &[Use], most: usize) -> bool {
+        let colors = uses.iter().filter(|used| used.role == Role::Color);
+        let mut new = 0;
+        for used in colors {
+            if !self.color.contains(&Target::of(adapted, used)) {
+                new += 1;
+                if self.overlaps(adapted, used) {
+                    return false;
+                }
+            }
+        }
+        self.color.len() + new <= most
+    }
+}

@@ -1,0 +1,126 @@
+//! A scope meets the pass after it: whether they can be one.
+
+use super::{Scope, Target, colors_of, plane_of};
+use crate::compile::model::{Adapted, Role, Start, StoreIndex, Use};
+
+/// What comes of a scope and the pass after it.
+pub(super) enum Meeting {
+    Merge,
+    Apart(Option<Refusal>),
+}
+
+/// Why they stay apart.
+pub(super) enum Refusal {
+    OtherAttachments,
+    Clears(StoreIndex),
+    Uses(StoreIndex),
+    Writes(StoreIndex),
+    Resolved(StoreIndex),
+}
+
+impl Scope {
+    pub(super) fn compare(
+        &self,
+        adapted: &Adapted,
+        uses: &[Use],
+        most_colors: usize,
+        local: impl Fn(&Use) -> bool,
+        clashes: impl Fn(&Use) -> bool,
+    ) -> Meeting {
+        let attached = |used: &Use| self.attaches(adapted, used);
+        let reads_locally = uses.iter().any(&local);
+        let shares = reads_locally || uses.iter().any(|used| used.role.is_attachment() && attached(used));
+        let refuse = |why| Meeting::Apart(Some(why));
+        let from_memory = |used: &&Use| !used.role.is_attachment() && !local(used);
+        if let Some(used) = uses.iter().filter(from_memory).find(|used| self.overlaps(adapted, used)) {
+            return refuse(Refusal::Uses(used.store));
+        }
+        if let Some(store) = self.carried(adapted).find(|store| uses.iter().any(|used| used.store == *store)) {
+            return refuse(Refusal::Uses(store));
+        }
+        if !shares {
+            return Meeting::Apart(None);
+        }
+        let same = |ours: Option<Target>, role| match (ours, plane_of(adapted, uses, role)) {
+            (Some(a), Some(b)) => a == b,
+            _ => true,
+        };
+        let one_image = |role, other: Option<Target>| match (plane_of(adapted, uses, role), other) {
+            (Some(a), Some(b)) => a.store == b.store,
+            _ => true,
+        };
+        let planes = same(self.depth, Role::Depth) && same(self.stencil, Role::Stencil);
+        let planes = planes && one_image(Role::Depth, self.stencil) && one_image(Role::Stencil, self.depth);
+        let colors = colors_of(adapted, uses);
+        let colors = colors == self.color || ((reads_locally || self.local) && self.joins(adapted, uses, most_colors));
+        if !colors || !planes || !self.same_area(adapted, uses) {
+            return refuse(Refusal::OtherAttachments);
+        }
+        for used in uses.iter().filter(|used| !local(used)) {
+            if used.role.is_attachment() && used.start != Start::Keep && attached(used) {
+                return refuse(Refusal::Clears(used.store));
+            }
+            if clashes(used) {
+                return refuse(if used.writes { Refusal::Writes(used.store) } else { Refusal::Uses(used.store) });
+            }
+        }
+        match self.carries().next() {
+            Some(op) => refuse(Refusal::Resolved(adapted.uses(op)[0].store)),
+            None => Meeting::Merge,
+        }
+    }
+
+    /// The resolve operations that it carries.
+    pub(in crate::compile) fn carries(&self) -> impl Iterator<Item = u32> + '_ {
+        self.resolves.iter().chain([&self.depth_resolve]).flatten().copied()
+    }
+
+    /// Where the resolve of an attachment is noted.
+    pub(super) fn resolve_of(&mut self, attachment: StoreIndex) -> Option<&mut Option<u32>> {
+        match self.color.iter().position(|color| color.store == attachment) {
+            Some(location) => self.resolves.get_mut(location),
+            None => Some(&mut self.depth_resolve).filter(|_| self.depth.is_some_and(|depth| depth.store == attachment)),
+        }
+    }
+
+    /// Targets of the resolves that it carries.
+    pub(super) fn carried<'a>(&'a self, adapted: &'a Adapted) -> impl Iterator<Item = StoreIndex> + 'a {
+        self.carries().filter_map(|op| adapted.uses(op).get(1)).map(|target| target.store)
+    }
+
+    /// All attachments.
+    pub(in crate::compile) fn targets(&self) -> impl Iterator<Item = Target> + '_ {
+        self.color.iter().copied().chain(self.depth).chain(self.stencil)
+    }
+
+    /// Whether a use is about exactly one of the attachments.
+    pub(super) fn attaches(&self, adapted: &Adapted, used: &Use) -> bool {
+        let target = Target::of(adapted, used);
+        self.targets().any(|ours| ours == target)
+    }
+
+    /// Whether a use is about some of what is attached.
+    pub(super) fn overlaps(&self, adapted: &Adapted, used: &Use) -> bool {
+        let range = adapted.range(used);
+        let meet = |a: u32, some: u32, b: u32, others: u32| a < b + others && b < a + some;
+        self.targets().any(|ours| {
+            ours.store == used.store
+                && ours.range.aspects.intersects(range.aspects)
+                && meet(ours.range.base_mip, ours.range.mips, range.base_mip, range.mips)
+                && meet(ours.range.base_layer, ours.range.layers, range.base_layer, range.layers)
+        })
+    }
+
+    fn same_area(&self, adapted: &Adapted, uses: &[Use]) -> bool {
+        let shape = |target: Target| {
+            let image = adapted.stores[target.store as usize].image();
+            let mip = target.range.base_mip.min(31);
+            image.map(|image| (image.extent.map(|side| (side >> mip).max(1)), target.range.layers, image.samples))
+        };
+        let first = self.targets().next();
+        first.is_none_or(|first| {
+            let attached = uses.iter().filter(|used| used.role.is_attachment());
+            attached.map(|used| Target::of(adapted, used)).all(|target| shape(target) == shape(first))
+        })
+    }
+}

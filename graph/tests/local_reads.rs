@@ -1,0 +1,131 @@
+//! Local reads: a pass that reads only its own pixel joins the rendering scope that draws it, where the device can, and says why
+//! where it doesn't.
+
+#[allow(dead_code, reason = "most of what the builder can do isn't needed here")]
+mod raster;
+
+use framewright_graph::compile::{Options, compile};
+use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::format::Format::{R8G8B8A8_SRGB, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
+use framewright_graph::frame::{Blend, Frame};
+use framewright_graph::plan::{BindingKind, Plan, RenderScope, Stage, Work};
+use framewright_graph::verify::verify;
+use framewright_graph::vocabulary::{Accesses, Layout, Stages, StoreOp, Usage};
+use raster::Raster;
+
+/// Geometry draws into `albedo` and `normal`, `light` reads both at its own pixel into `lit`, `tonemap` samples that.
+fn deferred(samples: u32) -> Frame {
+    let mut raster = Raster::default();
+    let albedo = raster.image("albedo", R8G8B8A8_UNORM, samples);
+    let normal = raster.image("normal", R8G8B8A8_UNORM, samples);
+    let lit = raster.image("lit", R16G16B16A16_SFLOAT, samples);
+    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+    raster.objects("geometry").clear(albedo).clear(normal);
+    raster.full_screen("light").sample(albedo).sample(normal).color(lit, Blend::Replace);
+    raster.full_screen("tonemap").sample(lit).color(screen, Blend::Replace);
+    let mut frame = raster.output(screen);
+    frame.passes[1].sampled.iter_mut().for_each(|sampled| sampled.own_pixel = true);
+    frame
+}
+
+fn device(local_read: bool) -> Profile {
+    Profile { local_read, ..raster::device() }
+}
+
+fn compiled(frame: &Frame, device: &Profile) -> Plan {
+    let plan = compile(frame, device, &mut Estimated(device), &Options { demote: false, ..Options::default() });
+    let plan = plan.expect("the frame is legal");
+    assert_eq!(verify(&plan), [], "{}", plan.tree());
+    plan
+}
+
+fn scopes(plan: &Plan) -> Vec<&RenderScope> {
+    plan.steps
+        .iter()
+        .filter_map(|step| if let Work::Render(scope) = &step.work { Some(&**scope) } else { None })
+        .collect()
+}
+
+fn note(plan: &Plan, subject: &str) -> String {
+    let notes = plan.notes.iter().filter(|note| note.stage == Stage::Scope && *note.subject == *subject);
+    notes.map(|note| note.text.clone()).collect::<Vec<_>>().join("; ")
+}
+
+#[test]
+fn lighting_joins_the_scope_of_the_geometry_that_it_reads_at_its_own_pixel() {
+    let plan = compiled(&deferred(1), &device(true));
+    let [first, _] = scopes(&plan)[..] else { panic!("{}", plan.tree()) };
+    let [geometry, light] = &first.passes[..] else { panic!("{}", plan.tree()) };
+    let layouts: Vec<Layout> = first.color.iter().map(|attachment| attachment.layout).collect();
+    let local = Layout::RenderingLocalReadKhr;
+    assert_eq!(layouts, [local, local, Layout::ColorAttachmentOptimal]);
+    assert!(!geometry.local_barrier && light.local_barrier);
+    assert_eq!(
+        light.merged.as_deref(),
+        Some("reads `albedo` at its own position: 0.0 MiB need not be read from memory")
+    );
+    let bound =
+        light.accesses.iter().filter_map(|access| access.binding.as_ref().map(|binding| (access, binding.kind)));
+    for (access, kind) in bound {
+        assert_eq!(
+            (kind, access.layout, access.stages),
+            (BindingKind::InputAttachment, local, Stages::FRAGMENT_SHADER)
+        );
+        assert_eq!(access.accesses, Accesses::INPUT_ATTACHMENT_READ);
+    }
+    // One blend mode for each attachment of the scope.
+    assert!([geometry, light].iter().all(|pass| pass.blend.len() == 3));
+}
+
+#[test]
+fn what_is_read_only_locally_never_leaves_its_scope() {
+    let plan = compiled(&deferred(1), &device(true));
+    for name in ["albedo", "normal"] {
+        let image = plan.images.iter().find(|image| *image.name == *name).expect("it is in the Plan");
+        assert_eq!(image.usage, Usage::COLOR_ATTACHMENT | Usage::INPUT_ATTACHMENT | Usage::TRANSIENT_ATTACHMENT);
+    }
+    let stores: Vec<StoreOp> = scopes(&plan)[0].color.iter().map(|attachment| attachment.store).collect();
+    assert_eq!(stores, [StoreOp::DontCare, StoreOp::DontCare, StoreOp::Store]);
+}
+
+#[test]
+fn without_local_reads_it_is_sampled_and_said() {
+    let plan = compiled(&deferred(1), &device(false));
+    assert_eq!(scopes(&plan).len(), 3);
+    let said = note(&plan, "light");
+    assert!(
+        said.contains("reads `albedo` at its own position from memory: `a device for tests` has no local reads"),
+        "{said}"
+    );
+    assert!(plan.images.iter().all(|image| !image.usage.contains(Usage::INPUT_ATTACHMENT)));
+}
+
+#[test]
+fn what_cannot_be_read_locally_is_sampled_and_said() {
+    // Several samples are resolved into another image.
+    let plan = compiled(&deferred(4), &device(true));
+    assert_eq!(scopes(&plan).len(), 3);
+    assert!(note(&plan, "light").contains("it doesn't share the scope that draws it"), "{}", note(&plan, "light"));
+    // Neighbours are read too.
+    let mut frame = deferred(1);
+    frame.passes[1].sampled[1].own_pixel = false;
+    let plan = compiled(&frame, &device(true));
+    assert_eq!(scopes(&plan).len(), 3);
+    assert!(note(&plan, "light").contains("it uses `normal`, which the scope before it writes"));
+    // The scope would have too many attachments.
+    let plan = compiled(&deferred(1), &Profile { max_color_attachments: 2, ..device(true) });
+    assert_eq!(scopes(&plan).len(), 3);
+    assert!(note(&plan, "light").contains("its attachments are not the same"));
+}
+
+#[test]
+fn a_light_that_is_added_later_reads_without_a_second_barrier() {
+    let mut frame = deferred(1);
+    let mut more = frame.passes[1].clone();
+    more.name = "more light".into();
+    more.color[0].blend = Blend::Additive;
+    frame.passes.insert(2, more);
+    let plan = compiled(&frame, &device(true));
+    let barriers: Vec<bool> = scopes(&plan)[0].passes.iter().map(|pass| pass.local_barrier).collect();
+    assert_eq!(barriers, [false, true, false]);
+}
