@@ -52,6 +52,16 @@ fn drivers() -> Vec<String> {
 /// Runs `test` on a validated device of each driver that is here, and fails on everything that the layer finds until the
 /// device is closed.
 pub(crate) fn on_each_driver(test: impl Fn(&Device)) {
+    on_each_driver_with(|device| {
+        let (name, messages) = (device.summary().name.clone(), device.messages());
+        test(&device);
+        drop(device);
+        assert_eq!(findings(&messages), [], "{name}");
+    });
+}
+
+/// The same for tests that look at the layer's findings themselves.
+pub(crate) fn on_each_driver_with(test: impl Fn(Device)) {
     find_drivers();
     for name in drivers() {
         let device = match Device::open(&DeviceOptions { choice: DeviceChoice::Name(name), validation: true }) {
@@ -63,10 +73,7 @@ pub(crate) fn on_each_driver(test: impl Fn(&Device)) {
             Err(error) => panic!("{error}"),
         };
         device.canary().expect("the layer is awake");
-        let (name, messages) = (device.summary().name.clone(), device.messages());
-        test(&device);
-        drop(device);
-        assert_eq!(findings(&messages), [], "{name}");
+        test(device);
     }
 }
 

@@ -1,9 +1,10 @@
 //! Plans for several queues on devices that have one.
 
-use crate::frames::{Small, Uses, dispatch, frame, library, on_each_driver, planned, words};
-use framewright_graph::compile::Options;
+use crate::frames::{Nothing, Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels, words};
+use framewright_graph::compile::{Options, compile};
+use framewright_graph::device::{Profile, Queues};
 use framewright_graph::format::Format;
-use framewright_graph::frame::Groups;
+use framewright_graph::frame::{Draw, Frame, Groups};
 use framewright_graph::plan::{Hazard, Plan, Queue, Resource, Sharing, StepId, Totals, Wait};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Stages, Subresources};
@@ -21,6 +22,32 @@ const SHADERS: &[(&str, &str)] = &[
             imageStore(image, ivec2(0), uvec4(20));
             for (int i = 0; i < 3; ++i) word[i] = i + 1;
         }",
+    ),
+    (
+        "full_screen.vert",
+        "#version 460
+        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
+    ),
+    (
+        "place.frag",
+        "#version 460
+        layout(location = 0) out uint color;
+        void main() { color = uint(gl_FragCoord.x) + 100 * uint(gl_FragCoord.y); }",
+    ),
+    (
+        "next.frag",
+        "#version 460
+        layout(set = 0, binding = 0) uniform usampler2D source;
+        layout(location = 0) out uint color;
+        void main() { color = texelFetch(source, ivec2(gl_FragCoord.xy), 0).r + 1; }",
+    ),
+    (
+        "both.frag",
+        "#version 460
+        layout(set = 0, binding = 0) uniform usampler2D source;
+        layout(set = 0, binding = 1) readonly buffer Words { uint word[]; };
+        layout(location = 0) out uint color;
+        void main() { color = texelFetch(source, ivec2(gl_FragCoord.xy), 0).r + word[2]; }",
     ),
     (
         "multiply.comp",
@@ -75,6 +102,44 @@ fn a_device_with_one_queue_runs_a_plan_for_two() {
             }
             assert_eq!(words(&mut executor, "to"), [20, 40, 60]);
         }
+    });
+}
+
+/// A chain of dispatches runs beside draws that are many texels large; at the end a pass reads what both made.
+fn beside() -> Frame {
+    let mut small = Small::default();
+    let image = small.image("i", Format::R32_UINT, [1, 1]);
+    let [from, to] = [small.buffer("from", 3), small.buffer("to", 3)];
+    let [large, larger, shown] = [("large", 64), ("larger", 64), ("shown", 4)]
+        .map(|(name, side)| small.image(name, Format::R32_UINT, [side, side]));
+    let pass = dispatch("number", ONE).stores("image", image, Subresources::WHOLE);
+    small.pass(pass.block("Words", from, (false, true)));
+    small.pass(draw("place", Draw::FullScreen).draws(large, Subresources::WHOLE, None));
+    let pass = draw("next", Draw::FullScreen).samples("source", large, Subresources::WHOLE);
+    small.pass(pass.draws(larger, Subresources::WHOLE, None));
+    let pass = dispatch("multiply", ONE).loads("image", image, Subresources::WHOLE);
+    small.pass(pass.block("From", from, (true, false)).block("To", to, (false, true)));
+    let pass = draw("both", Draw::FullScreen).samples("source", larger, Subresources::WHOLE);
+    small.pass(pass.block("Words", to, (true, false)).draws(shown, Subresources::WHOLE, None));
+    small.image_output(shown);
+    small.frame
+}
+
+#[test]
+fn a_device_with_one_queue_runs_what_was_compiled_for_one_that_shares_between_three() {
+    on_each_driver(|device| {
+        let queues = Queues { compute: true, transfer: true, sharing: Sharing::Concurrent };
+        let profile = Profile { queues, ..device.profile() };
+        let plan = compile(&beside(), &profile, &mut device.memory(), &Options::default());
+        let plan = plan.unwrap_or_else(|errors| panic!("{errors:?}"));
+        assert!(plan.steps.iter().any(|step| step.queue == Queue::Compute), "{}", plan.tree());
+        let options = ExecutorOptions { frames_in_flight: 2, ..ExecutorOptions::default() };
+        let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
+        for _ in 0..4 {
+            executor.submit(&mut Nothing).expect("a frame");
+        }
+        let expected: Vec<u32> = (0..16).map(|at| at % 4 + 100 * (at / 4) + 1 + 60).collect();
+        assert_eq!(texels(&mut executor, "shown", 0), expected);
     });
 }
 
