@@ -32,7 +32,7 @@ impl Span {
 }
 
 /// One source text.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SourceFile {
     /// As the user named it: shown in diagnostics.
     pub shown: String,
@@ -44,7 +44,7 @@ pub struct SourceFile {
 }
 
 /// Every text that was read, by number.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Sources {
     files: Vec<SourceFile>,
 }

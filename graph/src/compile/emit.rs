@@ -3,6 +3,9 @@
 mod attachments;
 mod barriers;
 mod passes;
+mod revise;
+
+pub(super) use revise::{sizes, values};
 
 use super::batch::Batched;
 use super::cull::Live;
@@ -14,6 +17,7 @@ use super::place::Placed;
 use super::queues::{self, Queues, Release};
 use super::retain::Retained;
 use super::scope::{Scoped, Step as Grouped, store_name};
+use super::structure::{Settled, Structure};
 use super::synchronise::Pending;
 use crate::device::Profile;
 use crate::frame::{Frame, Resource as Declared, Work as FrameWork};
@@ -27,31 +31,61 @@ use std::sync::Arc;
 
 /// What the stages decided.
 pub(super) struct Parts<'a> {
-    pub(super) frame: &'a Frame,
-    pub(super) device: &'a Profile,
-    pub(super) grids: &'a Grids,
-    pub(super) live: Live,
+    frame: &'a Frame,
+    device: &'a Profile,
+    grids: &'a Grids,
+    live: &'a Live,
     /// Notes of the stages before `adapt`.
-    pub(super) notes: Vec<Note>,
-    pub(super) adapted: Adapted,
-    pub(super) scoped: Scoped,
-    pub(super) retained: Retained,
-    pub(super) states: Vec<Option<States>>,
-    pub(super) placed: Placed,
-    pub(super) pending: Vec<Pending>,
+    notes: &'a [Note],
+    adapted: &'a Adapted,
+    scoped: &'a Scoped,
+    retained: &'a Retained,
+    states: &'a [Option<States>],
+    placed: &'a Placed,
+    pending: &'a [Pending],
     /// The queues, if there are several.
-    pub(super) queues: Option<Box<Queues>>,
-    pub(super) batched: Vec<Batched>,
-    pub(super) memory: Vec<(u32, MemoryScopes)>,
-    pub(super) exact_memory: bool,
+    queues: Option<&'a Queues>,
+    batched: &'a [Batched],
+    memory: &'a [(u32, MemoryScopes)],
+    exact_memory: bool,
     /// What steps say of each store.
-    pub(super) subjects: Vec<Subject>,
+    subjects: Vec<Subject>,
     /// The name of what has none.
-    pub(super) nothing: Arc<str>,
+    nothing: Arc<str>,
+}
+
+impl<'a> Parts<'a> {
+    pub(super) fn new(
+        frame: &'a Frame,
+        device: &'a Profile,
+        structure: &'a Structure,
+        settled: &'a Settled,
+    ) -> Parts<'a> {
+        let Structure { grids, live, notes, adapted, scoped, retained, walked, states, .. } = structure;
+        Parts {
+            frame,
+            device,
+            grids,
+            live,
+            notes,
+            adapted,
+            scoped,
+            retained,
+            states,
+            placed: &settled.placed,
+            pending: &walked.barriers,
+            queues: walked.queues.as_deref(),
+            batched: &settled.batched,
+            memory: &settled.memory,
+            exact_memory: settled.exact_memory,
+            subjects: Subject::of(adapted, grids),
+            nothing: Arc::default(),
+        }
+    }
 }
 
 /// What steps say of a store: in one place, since they say it often.
-pub(super) struct Subject {
+struct Subject {
     id: u32,
     is_image: bool,
     /// Whether parts of it are tracked by themselves.
@@ -61,7 +95,7 @@ pub(super) struct Subject {
 
 impl Subject {
     /// One for each store.
-    pub(super) fn of(adapted: &Adapted, grids: &Grids) -> Vec<Subject> {
+    fn of(adapted: &Adapted, grids: &Grids) -> Vec<Subject> {
         let subject = |store: &Store| Subject {
             id: store.id,
             is_image: store.image().is_some(),
@@ -72,30 +106,35 @@ impl Subject {
     }
 }
 
-pub(super) fn emit(mut parts: Parts<'_>) -> Plan {
-    let placements = std::mem::take(&mut parts.placed.placements);
-    let notes = notes(&mut parts);
-    let steps = steps(&parts);
-    let (images, buffers) = resources(&parts, placements);
+pub(super) fn emit(parts: &Parts<'_>) -> Plan {
+    let steps = steps(parts);
+    let (images, buffers) = resources(parts);
+    Plan {
+        format_version: FORMAT_VERSION,
+        device: DeviceUsed { name: parts.device.name.clone(), exact_memory: parts.exact_memory },
+        settings: settings(parts),
+        images,
+        buffers,
+        outputs: parts.adapted.outputs.iter().map(|store| resource(&parts.adapted.stores[*store as usize])).collect(),
+        heaps: parts.placed.heaps.clone(),
+        totals: totals(parts, &steps),
+        steps,
+        notes: notes(parts),
+    }
+}
+
+fn settings(parts: &Parts<'_>) -> Vec<SettingUsed> {
     let settings = parts.frame.settings.iter();
-    let totals = Totals {
+    settings.map(|(name, value)| SettingUsed { name: name.clone(), value: value.clone() }).collect()
+}
+
+fn totals(parts: &Parts<'_>, steps: &[Step]) -> Totals {
+    Totals {
         transient_bytes: parts.placed.transient_bytes,
         placed_bytes: parts.placed.heaps.iter().map(|heap| heap.bytes).sum(),
         live_peak_bytes: parts.placed.live_peak_bytes,
         kept_bytes: parts.placed.kept_bytes,
-        ..Totals::count(&steps)
-    };
-    Plan {
-        format_version: FORMAT_VERSION,
-        device: DeviceUsed { name: parts.device.name.clone(), exact_memory: parts.exact_memory },
-        settings: settings.map(|(name, value)| SettingUsed { name: name.clone(), value: value.clone() }).collect(),
-        images,
-        buffers,
-        outputs: parts.adapted.outputs.iter().map(|store| resource(&parts.adapted.stores[*store as usize])).collect(),
-        heaps: parts.placed.heaps,
-        steps,
-        notes,
-        totals,
+        ..Totals::count(steps)
     }
 }
 
@@ -120,7 +159,7 @@ fn steps(parts: &Parts<'_>) -> Vec<Step> {
         let (waits, releases) = (Vec::new(), Vec::new());
         steps.push(Step { queue: Queue::Graphics, waits, memory_barriers, image_barriers, work, releases });
     }
-    if let Some(queues) = &parts.queues {
+    if let Some(queues) = parts.queues {
         spread(parts, queues, &mut steps);
     }
     steps
@@ -131,19 +170,19 @@ fn spread(parts: &Parts<'_>, queues: &Queues, steps: &mut [Step]) {
     for (step, number) in steps.iter_mut().zip(0..) {
         (step.queue, step.waits) = (queues.of(number), queues.waits(number));
     }
-    for Release { from, release, to, acquire } in queues::releases(parts.grids, &parts.adapted, queues, &parts.pending)
+    for Release { from, release, to, acquire } in queues::releases(parts.grids, parts.adapted, queues, parts.pending)
     {
         steps[from as usize].releases.push(release);
         steps[to as usize].image_barriers.push(acquire);
     }
 }
 
-fn resources(parts: &Parts<'_>, placements: Vec<Option<Placement>>) -> (Vec<Image>, Vec<Buffer>) {
+fn resources(parts: &Parts<'_>) -> (Vec<Image>, Vec<Buffer>) {
     let frame = parts.frame;
     let (mut images, mut buffers) = (Vec::with_capacity(parts.adapted.stores.len()), Vec::new());
-    let stores = parts.adapted.stores.iter().zip(0_u32..).zip(&parts.states).zip(placements);
+    let stores = parts.adapted.stores.iter().zip(0_u32..).zip(parts.states).zip(&parts.placed.placements);
     for (((store, at), states), placement) in stores {
-        let name = store_name(frame, &parts.adapted, at).clone();
+        let name = store_name(frame, parts.adapted, at).clone();
         let span = match store.of {
             Declared::Image(image) => frame.images[image.0 as usize].span,
             Declared::Buffer(buffer) => frame.buffers[buffer.0 as usize].span,
@@ -152,7 +191,7 @@ fn resources(parts: &Parts<'_>, placements: Vec<Option<Placement>>) -> (Vec<Imag
             Some(why) => Cause::Inserted { because: why.because.clone(), at: why.at.clone() },
             None => Cause::Written(frame.sources.place(span)),
         };
-        let role = role(&parts.adapted, store, *states, placement);
+        let role = role(parts.adapted, store, *states, placement.as_ref());
         match &store.kind {
             Kind::Image(image) => images.push(Image {
                 id: ImageId(store.id),
@@ -182,7 +221,7 @@ fn resources(parts: &Parts<'_>, placements: Vec<Option<Placement>>) -> (Vec<Imag
     (images, buffers)
 }
 
-fn role(adapted: &Adapted, store: &Store, states: Option<States>, placement: Option<Placement>) -> Role {
+fn role(adapted: &Adapted, store: &Store, states: Option<States>, placement: Option<&Placement>) -> Role {
     let nothing = State {
         stages: crate::vocabulary::Stages::empty(),
         accesses: crate::vocabulary::Accesses::empty(),
@@ -193,13 +232,13 @@ fn role(adapted: &Adapted, store: &Store, states: Option<States>, placement: Opt
         (Home::Persistent { becomes, initial }, _) => {
             Role::Persistent { becomes: adapted.stores[becomes as usize].id, initial, before, after }
         }
-        (Home::Transient, Some(placement)) => Role::Transient(placement),
+        (Home::Transient, Some(placement)) => Role::Transient(placement.clone()),
         (Home::Transient | Home::Output | Home::Imported { .. }, _) => Role::External { before, after },
     }
 }
 
 /// Notes by stage.
-fn notes(parts: &mut Parts<'_>) -> Vec<Note> {
+fn notes(parts: &Parts<'_>) -> Vec<Note> {
     let frame = parts.frame;
     let off = frame.switched_off.iter().map(|off| Note {
         stage: Stage::Expand,
@@ -213,7 +252,7 @@ fn notes(parts: &mut Parts<'_>) -> Vec<Note> {
         text: "does not run: no output needs what it writes".to_owned(),
         at: frame.sources.place(pass.span),
     });
-    off.chain(culled).chain(std::mem::take(&mut parts.notes)).chain(std::mem::take(&mut parts.adapted.notes)).collect()
+    off.chain(culled).chain(parts.notes.iter().cloned()).chain(parts.adapted.notes.iter().cloned()).collect()
 }
 
 /// Why an operation is there.

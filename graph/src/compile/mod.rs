@@ -8,9 +8,12 @@ use crate::describe::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Plan;
+use emit::Parts;
+use structure::Structure;
 
 mod adapt;
 mod batch;
+mod compiler;
 mod cull;
 mod emit;
 mod hand_over;
@@ -27,8 +30,11 @@ mod retain;
 mod samples;
 mod schedule;
 mod scope;
+mod structure;
 mod synchronise;
 mod take_over;
+
+pub use compiler::{Compiler, Reuse};
 
 /// Switches of the compiler that never change what a frame means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,56 +84,7 @@ pub fn compile(
     memory: &mut dyn MemoryProvider,
     options: &Options,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    legal::check(frame)?;
-    let grids = parts::Grids::new(frame);
-    let linked = link::link(frame, &grids)?;
-    let live = cull::cull(frame, &linked);
-    let mut negotiated = samples::negotiate(frame, &live.passes, device)?;
-    let notes = std::mem::take(&mut negotiated.notes);
-    let input = adapt::Input { frame, grids: &grids, live: &live, negotiated: &negotiated, device, options };
-    let mut adapted = adapt::adapt(input)?;
-    let order = schedule::schedule(&grids, &adapted, options.order);
-    let mut scoped = scope::scope(frame, &grids, &mut adapted, &order, device);
-    let retained = retain::retain(frame, &grids, &adapted, &scoped);
-    let queues = queues::assign(frame, &grids, &mut adapted, &scoped, device, options);
-    let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained, queues);
-    let export = scoped.steps.len() as u32;
-    let states = outlive::promise(&grids, &adapted, &mut walked, export);
-    purpose::note(&grids, &mut adapted, &walked, &states, &retained, &scoped, options);
-    let spans = walked.queues.as_ref().map(|queues| queues.spans(&adapted, &scoped, &walked.lifetimes));
-    let placed = place::place(&adapted, &walked.lifetimes, spans.as_deref(), device, memory, options)?;
-    let hand_overs = take_over::take_over(&grids, &adapted, &states, &placed, &mut walked);
-    let (pending, queues) = (walked.barriers, walked.queues);
-    let batched = match &queues {
-        None => batch::batch(&pending),
-        Some(queues) => batch::batch_on(queues, &pending),
-    };
-    let waits = queues.as_ref().is_some_and(|queues| !queues.waits(export).is_empty());
-    if batched.last().is_some_and(|last| last.at == export) || export == 0 || waits {
-        scoped.steps.push(scope::Step::Export);
-    }
-    let steps = scoped.steps.len();
-    let memory_barriers = match &queues {
-        None => hand_over::memory_barriers(&hand_overs, &pending, &batched, steps),
-        Some(queues) => hand_over::memory_barriers_on(queues, &hand_overs, &pending, &batched, steps),
-    };
-    Ok(emit::emit(emit::Parts {
-        frame,
-        device,
-        grids: &grids,
-        live,
-        notes,
-        subjects: emit::Subject::of(&adapted, &grids),
-        adapted,
-        scoped,
-        retained,
-        states,
-        placed,
-        pending,
-        queues,
-        batched,
-        memory: memory_barriers,
-        exact_memory: memory.exact(),
-        nothing: std::sync::Arc::default(),
-    }))
+    let mut structure = Structure::find(frame, device, options, false)?;
+    let settled = structure.settle(device, memory, options)?;
+    Ok(emit::emit(&Parts::new(frame, device, &structure, &settled)))
 }

@@ -2,7 +2,7 @@
 
 use super::parts::{Grid, Grids};
 use crate::device::{BufferDescriptor, ImageDescriptor};
-use crate::frame::{ImageIndex, Resource};
+use crate::frame::{Frame, ImageIndex, Resource};
 use crate::plan::{Note, Subresources};
 use crate::source::Place;
 use crate::vocabulary::{Accesses, FillValue, Filter, Layout, ResolveMode, Stages, State, Usage};
@@ -77,6 +77,15 @@ impl Store {
         match &self.kind {
             Kind::Image(image) => Subresources::all(image.format, image.mips, image.layers),
             Kind::Buffer(_) => Subresources::WHOLE,
+        }
+    }
+
+    /// Takes the size that the frame says now.
+    pub(super) fn resize(&mut self, frame: &Frame) {
+        match (&mut self.kind, self.of) {
+            (Kind::Image(image), Resource::Image(of)) => image.extent = frame.images[of.0 as usize].extent,
+            (Kind::Buffer(buffer), Resource::Buffer(of)) => buffer.bytes = frame.buffers[of.0 as usize].bytes,
+            _ => {}
         }
     }
 

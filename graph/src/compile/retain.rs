@@ -232,6 +232,18 @@ impl Walk<'_> {
     }
 }
 
+/// Takes over the clear values that the frame says now.
+pub(super) fn renew_clear_values(frame: &Frame, adapted: &Adapted, retained: &mut Retained) {
+    for attachment in retained.ops.iter_mut().filter(|attachment| attachment.load == LoadOp::Clear) {
+        let AttachmentOps { target, role, first, .. } = *attachment;
+        let is_it =
+            |used: &&Use| used.role == role && used.store == target.store && adapted.range(used) == target.range;
+        if let Some(used) = adapted.uses(first).iter().find(is_it) {
+            attachment.clear = clear_value(frame, &adapted.ops[first as usize].kind, used);
+        }
+    }
+}
+
 /// The clear value that a pass of the frame gives.
 fn clear_value(frame: &Frame, kind: &OpKind, used: &Use) -> Option<[f32; 4]> {
     let pass = &frame.passes[kind.pass()? as usize];

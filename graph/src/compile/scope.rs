@@ -28,7 +28,7 @@ impl Scoped {
 }
 
 /// One step.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub(super) enum Step {
     /// A rendering scope.
     Scope(Scope),
@@ -52,7 +52,7 @@ impl Target {
 }
 
 /// A rendering scope.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, PartialEq)]
 pub(super) struct Scope {
     /// Colour attachments by location.
     pub(super) color: Vec<Target>,

@@ -8,13 +8,7 @@ use crate::plan::{Attachment, AttachmentResolve, ImageId, Pass, RenderScope};
 use crate::vocabulary::{Layout, LoadOp, StoreOp};
 
 pub(super) fn scope(parts: &Parts<'_>, scope: &Scope, step: u32) -> RenderScope {
-    let stores = &parts.adapted.stores;
-    let first = scope.targets().next();
-    let shape = first.and_then(|target| Some((stores[target.store as usize].image()?, target.range)));
-    let (extent, layers, samples) = shape.map_or(([1, 1], 1, 1), |(image, range)| {
-        let side = |at: usize| (image.extent[at] >> range.base_mip.min(31)).max(1);
-        ([side(0), side(1)], range.layers, image.samples)
-    });
+    let (extent, layers, samples) = shape(parts, scope);
     let attachments = parts.retained.of(step);
     let color = attachments.iter().filter(|ops| ops.role == Role::Color).zip(&scope.resolves);
     let plane = |role: Role| attachments.iter().find(|ops| ops.role == role);
@@ -42,7 +36,7 @@ fn local_passes(parts: &Parts<'_>, scope: &Scope, attachments: &[AttachmentOps])
         let mut pass = passes::pass(parts, *op);
         let uses = parts.adapted.uses(*op);
         let of =
-            |role: Role| uses.iter().filter(move |used| used.role == role).map(|used| Target::of(&parts.adapted, used));
+            |role: Role| uses.iter().filter(move |used| used.role == role).map(|used| Target::of(parts.adapted, used));
         pass.local_barrier = of(Role::Input).any(|target| fresh.contains(&target));
         if pass.local_barrier {
             fresh.clear();
@@ -56,9 +50,20 @@ fn local_passes(parts: &Parts<'_>, scope: &Scope, attachments: &[AttachmentOps])
     passes
 }
 
+/// Width and height, layers and samples of a scope's attachments.
+pub(super) fn shape(parts: &Parts<'_>, scope: &Scope) -> ([u32; 2], u32, u32) {
+    let stores = &parts.adapted.stores;
+    let first = scope.targets().next();
+    let shape = first.and_then(|target| Some((stores[target.store as usize].image()?, target.range)));
+    shape.map_or(([1, 1], 1, 1), |(image, range)| {
+        let side = |at: usize| (image.extent[at] >> range.base_mip.min(31)).max(1);
+        ([side(0), side(1)], range.layers, image.samples)
+    })
+}
+
 fn attachment(parts: &Parts<'_>, scope: &Scope, ops: &AttachmentOps, resolve: Option<u32>) -> Attachment {
     let mut uses = scope.ops.iter().flat_map(|op| parts.adapted.uses(*op));
-    let used = uses.find(|used| used.role == ops.role && Target::of(&parts.adapted, used) == ops.target);
+    let used = uses.find(|used| used.role == ops.role && Target::of(parts.adapted, used) == ops.target);
     Attachment {
         image: ImageId(parts.adapted.stores[ops.target.store as usize].id),
         range: ops.target.range,
@@ -84,7 +89,7 @@ fn attachment_resolve(parts: &Parts<'_>, number: u32) -> Option<AttachmentResolv
 }
 
 fn name<'n>(parts: &'n Parts<'_>, op: u32) -> &'n str {
-    op_name(parts.frame, &parts.adapted, op).map_or("", |name| name)
+    op_name(parts.frame, parts.adapted, op).map_or("", |name| name)
 }
 
 fn load_reason(parts: &Parts<'_>, ops: &AttachmentOps) -> String {
@@ -98,7 +103,7 @@ fn load_reason(parts: &Parts<'_>, ops: &AttachmentOps) -> String {
 
 fn store_reason(parts: &Parts<'_>, ops: &AttachmentOps) -> String {
     let words = match ops.next {
-        Next::Op(op) => match op_name(parts.frame, &parts.adapted, op) {
+        Next::Op(op) => match op_name(parts.frame, parts.adapted, op) {
             Some(name) => Some(format!("`{name}` uses it next")),
             None => Some("it is resolved or copied next".to_owned()),
         },

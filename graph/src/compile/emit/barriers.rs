@@ -15,7 +15,7 @@ pub(super) struct Barriers<'p, 'a> {
 
 impl<'p, 'a> Barriers<'p, 'a> {
     pub(super) fn new(parts: &'p Parts<'a>) -> Barriers<'p, 'a> {
-        Barriers { parts, batched: &parts.batched, memory: 0 }
+        Barriers { parts, batched: parts.batched, memory: 0 }
     }
 
     /// The barriers of step number `step`; steps are asked for in order.

@@ -1,0 +1,188 @@
+//! Compiling frame after frame: what stayed the same is not found out again.
+
+mod difference;
+
+use super::emit::{self, Parts};
+use super::model::OpKind;
+use super::structure::{Settled, Structure};
+use super::synchronise::Pending;
+use super::{Options, legal, retain};
+use crate::describe::Diagnostic;
+use crate::device::{MemoryProvider, Profile};
+use crate::frame::Frame;
+use crate::plan::Plan;
+use difference::Difference;
+use std::sync::Arc;
+
+/// A compiler that remembers the last frame.
+///
+/// What it gives is always what [`compile`](super::compile) gives for the same input, byte for byte; only how long that
+/// takes depends on what came before:
+///
+/// - The very same frame (by its `Arc`), device and options: nothing is compared but these three, and nothing is allocated.
+///   A frame behind an `Arc` doesn't change, and since the last one is held on to, no other can stand in its place.
+/// - An equal frame: it is compared, pass by pass.
+/// - Other values (clear and fill values, parameters, counts of workgroups, texts of settings): they are put in.
+/// - Other sizes (of images and buffers): order, scopes and barriers are reused; memory is placed anew, and what follows from
+///   where things lie is found again. If the order that scores best is another one now, or draws meet in other ways, or
+///   passes that are off forward between images of other proportions, or several queues are used, all is compiled anew.
+/// - Anything else: all is compiled anew.
+#[derive(Debug, Default)]
+pub struct Compiler {
+    last: Option<Box<Last>>,
+}
+
+/// How much of the last frame's compilation served for this one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reuse {
+    /// None.
+    Nothing,
+    /// Order, scopes and what they make necessary.
+    Structure,
+    /// That and the places in memory: only values were put in.
+    Placement,
+    /// All.
+    Everything,
+}
+
+/// The last frame and what came of it.
+#[derive(Debug)]
+struct Last {
+    frame: Arc<Frame>,
+    device: Arc<Profile>,
+    options: Options,
+    exact_memory: bool,
+    structure: Structure,
+    /// Barriers before anything was known of places in memory.
+    pending: Vec<Pending>,
+    settled: Settled,
+    plan: Plan,
+    reuse: Reuse,
+}
+
+impl Compiler {
+    /// One that remembers nothing yet.
+    #[must_use]
+    pub fn new() -> Compiler {
+        Compiler::default()
+    }
+
+    /// Finds out how `frame` is made on `device`, as [`compile`](super::compile) does.
+    ///
+    /// `memory` must say of the same device, as long as it is equally exact, what it said before.
+    ///
+    /// # Errors
+    /// As [`compile`](super::compile). The next frame is compiled anew then.
+    pub fn compile(
+        &mut self,
+        frame: &Arc<Frame>,
+        device: &Arc<Profile>,
+        memory: &mut dyn MemoryProvider,
+        options: &Options,
+    ) -> Result<&Plan, Vec<Diagnostic>> {
+        let known = self.last.take().filter(|last| {
+            let same_device = Arc::ptr_eq(&last.device, device) || last.device == *device;
+            same_device && last.options == *options && last.exact_memory == memory.exact()
+        });
+        let last = match known {
+            Some(last) => last.follow(frame, memory)?,
+            None => Box::new(Last::new(frame, device, memory, options)?),
+        };
+        Ok(&self.last.insert(last).plan)
+    }
+
+    /// How much of the last compilation but one served for the last.
+    #[must_use]
+    pub fn reuse(&self) -> Reuse {
+        self.last.as_ref().map_or(Reuse::Nothing, |last| last.reuse)
+    }
+}
+
+impl Last {
+    fn new(
+        frame: &Arc<Frame>,
+        device: &Arc<Profile>,
+        memory: &mut dyn MemoryProvider,
+        options: &Options,
+    ) -> Result<Last, Vec<Diagnostic>> {
+        let mut structure = Structure::find(frame, device, options, true)?;
+        let pending = structure.walked.barriers.clone();
+        let settled = structure.settle(device, memory, options)?;
+        let plan = emit::emit(&Parts::new(frame, device, &structure, &settled));
+        Ok(Last {
+            frame: frame.clone(),
+            device: device.clone(),
+            options: *options,
+            exact_memory: memory.exact(),
+            structure,
+            pending,
+            settled,
+            plan,
+            reuse: Reuse::Nothing,
+        })
+    }
+
+    /// The next frame on the same device.
+    fn follow(
+        mut self: Box<Last>,
+        frame: &Arc<Frame>,
+        memory: &mut dyn MemoryProvider,
+    ) -> Result<Box<Last>, Vec<Diagnostic>> {
+        self.reuse = Reuse::Everything;
+        if Arc::ptr_eq(&self.frame, frame) {
+            return Ok(self);
+        }
+        let reuse = match difference::between(&self.frame, frame) {
+            Difference::None => Reuse::Everything,
+            Difference::Values => Reuse::Placement,
+            Difference::Sizes => Reuse::Structure,
+            Difference::Structure => Reuse::Nothing,
+        };
+        self.reuse = reuse;
+        let done = match reuse {
+            Reuse::Everything => true,
+            Reuse::Placement => self.put_in_values(frame)?,
+            Reuse::Structure => self.put_in_sizes(frame, memory)?,
+            Reuse::Nothing => false,
+        };
+        if !done {
+            *self = Last::new(frame, &self.device, memory, &self.options)?;
+        }
+        self.frame = frame.clone();
+        Ok(self)
+    }
+
+    fn put_in_values(&mut self, frame: &Frame) -> Result<bool, Vec<Diagnostic>> {
+        legal::check(frame)?;
+        let Last { structure, settled, device, plan, .. } = self;
+        retain::renew_clear_values(frame, &structure.adapted, &mut structure.retained);
+        emit::values(&Parts::new(frame, device, structure, settled), plan);
+        Ok(true)
+    }
+
+    /// Whether the structure served again.
+    fn put_in_sizes(&mut self, frame: &Frame, memory: &mut dyn MemoryProvider) -> Result<bool, Vec<Diagnostic>> {
+        legal::check(frame)?;
+        let Last { frame: before, device, options, structure, pending, settled, plan, .. } = self;
+        let forwards = structure.adapted.ops.iter().any(|op| matches!(op.kind, OpKind::ForwardDraw { .. }));
+        let forwards = forwards || difference::forwards(frame);
+        if forwards && !difference::keeps_proportions(before, frame) {
+            return Ok(false);
+        }
+        // What steps of several queues wait for depends on who had whose memory.
+        if structure.walked.queues.is_some() {
+            return Ok(false);
+        }
+        if !structure.still_holds(frame, device, options)? {
+            return Ok(false);
+        }
+        retain::renew_clear_values(frame, &structure.adapted, &mut structure.retained);
+        structure.walked.barriers.clone_from(pending);
+        *settled = structure.settle(device, memory, options)?;
+        if structure.scoped.steps.len() != plan.steps.len() {
+            return Ok(false);
+        }
+        emit::sizes(&Parts::new(frame, device, structure, settled), plan);
+        Ok(true)
+    }
+}

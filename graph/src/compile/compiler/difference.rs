@@ -1,0 +1,168 @@
+//! What differs between two frames.
+
+use crate::frame::{
+    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, ParamValue, Pass, StencilState, Work,
+};
+use crate::vocabulary::FillValue;
+
+/// How much two frames differ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Difference {
+    /// In nothing.
+    None,
+    /// In values that no decision depends on.
+    Values,
+    /// In sizes of images and buffers, and perhaps in values.
+    Sizes,
+    /// In more.
+    Structure,
+}
+
+use Difference::{None as Nothing, Sizes, Structure, Values};
+
+/// The difference that there is if two things are not the same.
+fn unless(same: bool, difference: Difference) -> Difference {
+    if same { Nothing } else { difference }
+}
+
+/// The greatest of the differences between the members of two lists.
+fn of_lists<T>(old: &[T], new: &[T], of: impl Fn(&T, &T) -> Difference) -> Difference {
+    if old.len() != new.len() {
+        return Structure;
+    }
+    let mut most = Nothing;
+    for (old, new) in old.iter().zip(new) {
+        most = most.max(of(old, new));
+        if most == Structure {
+            break;
+        }
+    }
+    most
+}
+
+pub(super) fn between(old: &Frame, new: &Frame) -> Difference {
+    let Frame { sources, settings, images, buffers, passes, outputs, switched_off } = new;
+    let same = old.sources == *sources && old.outputs == *outputs && old.switched_off == *switched_off;
+    if !same {
+        return Structure;
+    }
+    unless(old.settings == *settings, Values)
+        .max(of_lists(&old.images, images, image))
+        .max(of_lists(&old.buffers, buffers, buffer))
+        .max(of_lists(&old.passes, passes, pass))
+}
+
+fn image(old: &Image, new: &Image) -> Difference {
+    let Image { name, span, format, shape, extent, mips, layers, samples, lifetime } = new;
+    let same = old.name == *name
+        && old.span == *span
+        && (old.format, old.shape, old.mips, old.layers, old.samples) == (*format, *shape, *mips, *layers, *samples)
+        && same_lifetime(&old.lifetime, lifetime);
+    if same { unless(old.extent == *extent, Sizes) } else { Structure }
+}
+
+fn buffer(old: &Buffer, new: &Buffer) -> Difference {
+    let Buffer { name, span, bytes, lifetime } = new;
+    let same = old.name == *name && old.span == *span && same_lifetime(&old.lifetime, lifetime);
+    if same { unless(old.bytes == *bytes, Sizes) } else { Structure }
+}
+
+fn same_lifetime(old: &Lifetime, new: &Lifetime) -> bool {
+    let same_start = match (old, new) {
+        (Lifetime::Persistent { initial: old }, Lifetime::Persistent { initial: new }) => same_fill(old, new),
+        (Lifetime::History { initial: old, .. }, Lifetime::History { initial: new, .. }) => same_fill(old, new),
+        _ => true,
+    };
+    same_start && old == new
+}
+
+fn pass(old: &Pass, new: &Pass) -> Difference {
+    let Pass { name, span, work, sampled, storage, color, depth, buffers, transfers, side_effect, params } = new;
+    let same = old.name == *name
+        && old.span == *span
+        && old.side_effect == *side_effect
+        && old.sampled == *sampled
+        && old.storage == *storage
+        && old.buffers == *buffers
+        && old.transfers == *transfers;
+    if !same {
+        return Structure;
+    }
+    let depth = match (&old.depth, depth) {
+        (None, None) => Nothing,
+        (Some(old), Some(new)) => depth_target(old, new),
+        _ => Structure,
+    };
+    let same_params = old.params.len() == params.len()
+        && old.params.iter().zip(params).all(|(old, new)| old.0 == new.0 && same_param(old.1, new.1));
+    unless(same_params, Values).max(works(&old.work, work)).max(of_lists(&old.color, color, color_target)).max(depth)
+}
+
+fn works(old: &Work, new: &Work) -> Difference {
+    match (old, new) {
+        (Work::Dispatch { shader: a, groups: old }, Work::Dispatch { shader: b, groups: new }) if a == b => {
+            match (old, new) {
+                (Groups::Count(_), Groups::Count(_)) | (Groups::Invocations(_), Groups::Invocations(_)) => {
+                    unless(old == new, Values)
+                }
+                _ => unless(old == new, Structure),
+            }
+        }
+        (Work::Fill { value: old }, Work::Fill { value: new }) => unless(same_fill(old, new), Values),
+        _ => unless(old == new, Structure),
+    }
+}
+
+fn color_target(old: &ColorTarget, new: &ColorTarget) -> Difference {
+    let ColorTarget { image, range, span, clear, blend } = new;
+    let same = (old.image, old.range, old.span, old.blend) == (*image, *range, *span, *blend);
+    if !same || old.clear.is_some() != clear.is_some() {
+        return Structure;
+    }
+    let bits = |clear: &Option<[f32; 4]>| clear.map(|clear| clear.map(f32::to_bits));
+    unless(bits(&old.clear) == bits(clear), Values)
+}
+
+fn depth_target(old: &DepthTarget, new: &DepthTarget) -> Difference {
+    let DepthTarget { image, range, span, clear, test, write, stencil } = new;
+    let same = (old.image, old.range, old.span, old.test, old.write) == (*image, *range, *span, *test, *write);
+    let kind = |stencil: &Option<StencilState>| {
+        stencil.map(|stencil| StencilState { clear: stencil.clear.map(|_| 0), ..stencil })
+    };
+    if !same || old.clear.is_some() != clear.is_some() || kind(&old.stencil) != kind(stencil) {
+        return Structure;
+    }
+    let bits = |clear: &Option<f32>| clear.map(f32::to_bits);
+    unless(bits(&old.clear) == bits(clear) && old.stencil == *stencil, Values)
+}
+
+/// Whether two values are the same, bit for bit: a Plan tells 0 from −0.
+fn same_fill(old: &FillValue, new: &FillValue) -> bool {
+    match (old, new) {
+        (FillValue::Color(old), FillValue::Color(new)) => old.map(f32::to_bits) == new.map(f32::to_bits),
+        (FillValue::Depth(old, a), FillValue::Depth(new, b)) => (old.to_bits(), a) == (new.to_bits(), b),
+        _ => old == new,
+    }
+}
+
+fn same_param(old: ParamValue, new: ParamValue) -> bool {
+    match (old, new) {
+        (ParamValue::Number(old), ParamValue::Number(new)) => old.to_bits() == new.to_bits(),
+        _ => old == new,
+    }
+}
+
+/// Whether a pass that is off forwards one image to another.
+pub(super) fn forwards(frame: &Frame) -> bool {
+    frame.passes.iter().any(|pass| matches!(pass.work, Work::Forward { .. }))
+}
+
+/// Whether images that had one size have one size again, and others have others.
+pub(super) fn keeps_proportions(old: &Frame, new: &Frame) -> bool {
+    let mut sizes: Vec<_> = old.images.iter().zip(&new.images).map(|(old, new)| (old.extent, new.extent)).collect();
+    sizes.sort_unstable();
+    sizes.dedup();
+    let mut after: Vec<_> = sizes.iter().map(|(_, new)| *new).collect();
+    after.sort_unstable();
+    after.windows(2).all(|pair| pair[0] != pair[1]) && sizes.windows(2).all(|pair| pair[0].0 != pair[1].0)
+}

@@ -1,0 +1,89 @@
+//! Brings a Plan up to date where the structure stayed: new values, or new sizes too.
+
+use super::{Parts, attachments, barriers, notes, passes, role, settings, totals};
+use crate::compile::model::{Kind, OpKind};
+use crate::compile::scope::Step as Grouped;
+use crate::frame::Work as FrameWork;
+use crate::plan::{Param, Pass, Plan, Work};
+
+/// Brings clear values, parameters, counts of workgroups and settings up to date.
+pub(in crate::compile) fn values(parts: &Parts<'_>, plan: &mut Plan) {
+    plan.settings = settings(parts);
+    for ((step, grouped), number) in plan.steps.iter_mut().zip(&parts.scoped.steps).zip(0_u32..) {
+        match (&mut step.work, grouped) {
+            (Work::Render(planned), Grouped::Scope(scope)) => {
+                let attachments = planned.color.iter_mut().chain(&mut planned.depth).chain(&mut planned.stencil);
+                for (attachment, ops) in attachments.zip(parts.retained.of(number)) {
+                    attachment.clear = ops.clear;
+                }
+                for (pass, op) in planned.passes.iter_mut().zip(&scope.ops) {
+                    pass_values(parts, *op, pass);
+                }
+            }
+            (Work::Dispatch(pass) | Work::Custom(pass), Grouped::Single(op)) => pass_values(parts, *op, pass),
+            (Work::Fill(fill), Grouped::Single(op)) => {
+                if let Some(FrameWork::Fill { value }) = super::frame_work(parts, &parts.adapted.ops[*op as usize]) {
+                    fill.value = *value;
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn pass_values(parts: &Parts<'_>, op: u32, planned: &mut Pass) {
+    let kind = &parts.adapted.ops[op as usize].kind;
+    let (OpKind::Draw(pass) | OpKind::Pass(pass)) = kind else { return };
+    let declared = &parts.frame.passes[*pass as usize];
+    if let FrameWork::Dispatch { groups, .. } = &declared.work {
+        planned.groups = Some(*groups);
+    }
+    if let Some(stencil) = &mut planned.stencil {
+        stencil.clear = declared.depth.as_ref().and_then(|depth| depth.stencil).and_then(|stencil| stencil.clear);
+    }
+    if !declared.params.is_empty() || !planned.params.is_empty() {
+        planned.params.clear();
+        let params = declared.params.iter();
+        planned.params.extend(params.map(|(name, value)| Param { name: name.clone(), value: *value }));
+    }
+}
+
+/// Brings everything up to date that sizes or values say, where the steps are still the same.
+pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
+    values(parts, plan);
+    let stores = parts.adapted.stores.iter().zip(parts.states).zip(&parts.placed.placements);
+    for ((store, states), placement) in stores {
+        let role = role(parts.adapted, store, *states, placement.as_ref());
+        match &store.kind {
+            Kind::Image(image) => {
+                let planned = &mut plan.images[store.id as usize];
+                (planned.extent, planned.role) = (image.extent, role);
+            }
+            Kind::Buffer(buffer) => {
+                let planned = &mut plan.buffers[store.id as usize];
+                (planned.bytes, planned.role) = (buffer.bytes, role);
+            }
+        }
+    }
+    plan.heaps.clone_from(&parts.placed.heaps);
+    let mut barriers = barriers::Barriers::new(parts);
+    for ((step, grouped), number) in plan.steps.iter_mut().zip(&parts.scoped.steps).zip(0_u32..) {
+        (step.memory_barriers, step.image_barriers) = barriers.of(number);
+        match (&mut step.work, grouped) {
+            (Work::Render(planned), Grouped::Scope(scope)) => {
+                (planned.extent, ..) = attachments::shape(parts, scope);
+                for (pass, op) in planned.passes.iter_mut().zip(&scope.ops) {
+                    pass.merged = parts.scoped.merged(*op).cloned();
+                }
+            }
+            (work @ (Work::Copy(_) | Work::Blit(_) | Work::Resolve(_) | Work::Fill(_)), Grouped::Single(op)) => {
+                *work = passes::single(parts, *op);
+            }
+            _ => {}
+        }
+    }
+    if plan.steps.iter().any(|step| matches!(step.work, Work::Render(_))) {
+        plan.notes = notes(parts);
+    }
+    plan.totals = totals(parts, &plan.steps);
+}
