@@ -1,7 +1,7 @@
 //! What a compiler that remembers the last frame gives is, byte for byte, what compiling anew gives.
 
 use framewright_graph::compile::{Compiler, Options, Order, Reuse, compile};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
 use framewright_graph::frame::{Frame, Groups, ParamValue, Work};
 use framewright_graph::plan::Plan;
 use framewright_graph::vocabulary::FillValue;
@@ -131,14 +131,17 @@ fn random_frames_of_other_values_and_sizes_give_what_compiling_anew_gives() {
         held.reused.into_iter().for_each(|(reuse, count)| *reused.entry(reuse).or_insert(0) += count);
     }
     let structures = reused.get(&Reuse::Structure).copied().unwrap_or(0);
-    assert!(structures > 600, "the structure served too seldom: {reused:?}");
+    assert!(structures > 400, "the structure served too seldom: {reused:?}");
 }
 
 #[test]
 fn shipped_frames_of_other_values_and_sizes_give_what_compiling_anew_gives() {
     let frames = shipped::frames([640, 360]);
     for (at, shipped) in frames.iter().enumerate() {
-        let mut held = Held::new(device(), Options::default());
+        // Every other device has more than one queue.
+        let several = at % 2 == 1;
+        let queues = Queues { compute: several, transfer: several, ..Queues::default() };
+        let mut held = Held::new(Profile { queues, ..device() }, Options::default());
         let other = frames[(at + 1) % frames.len()].frame.clone();
         follow(&mut held, shipped.frame.clone(), other, &shipped.how);
     }

@@ -170,8 +170,7 @@ fn spread(parts: &Parts<'_>, queues: &Queues, steps: &mut [Step]) {
     for (step, number) in steps.iter_mut().zip(0..) {
         (step.queue, step.waits) = (queues.of(number), queues.waits(number));
     }
-    for Release { from, release, to, acquire } in queues::releases(parts.grids, parts.adapted, queues, parts.pending)
-    {
+    for Release { from, release, to, acquire } in queues::releases(parts.grids, parts.adapted, queues, parts.pending) {
         steps[from as usize].releases.push(release);
         steps[to as usize].image_barriers.push(acquire);
     }

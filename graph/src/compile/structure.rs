@@ -16,6 +16,7 @@ use crate::describe::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Note;
+use std::ops::Range;
 
 /// What the stages before `place` decided.
 #[derive(Debug)]
@@ -27,9 +28,10 @@ pub(super) struct Structure {
     /// Notes of the stages before `adapt`.
     pub(super) notes: Vec<Note>,
     pub(super) adapted: Adapted,
-    /// Uses as `adapt` left them, and how many notes it left; no uses unless they are kept.
+    /// Uses as `adapt` left them; none unless they are kept.
     pub(super) uses: Vec<Use>,
-    pub(super) notes_of_adapt: usize,
+    /// Which of the notes are those of `scope`.
+    pub(super) notes_of_scope: Range<usize>,
     /// Indices of operations in execution order.
     pub(super) order: Vec<u32>,
     pub(super) scoped: Scoped,
@@ -69,6 +71,7 @@ impl Structure {
         let uses = if keeps { adapted.uses.clone() } else { Vec::new() };
         let notes_of_adapt = adapted.notes.len();
         let scoped = scope::scope(frame, &grids, &mut adapted, &order, device);
+        let notes_of_scope = notes_of_adapt..adapted.notes.len();
         let retained = retain::retain(frame, &grids, &adapted, &scoped);
         let queues = queues::assign(frame, &grids, &mut adapted, &scoped, device, options);
         let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained, queues);
@@ -83,7 +86,7 @@ impl Structure {
             notes,
             adapted,
             uses,
-            notes_of_adapt,
+            notes_of_scope,
             order,
             scoped,
             retained,
@@ -114,8 +117,11 @@ impl Structure {
         let same_order = schedule::schedule(grids, adapted, options.order) == self.order;
         let mut same_steps = true;
         if adapted.ops.iter().any(|op| op.kind.draws()) {
-            adapted.notes.truncate(self.notes_of_adapt);
+            let later = adapted.notes.split_off(self.notes_of_scope.end);
+            adapted.notes.truncate(self.notes_of_scope.start);
             let again = scope::scope(frame, grids, adapted, &self.order, device);
+            self.notes_of_scope.end = adapted.notes.len();
+            adapted.notes.extend(later);
             same_steps = again.steps == scoped.steps[..self.export as usize];
             *scoped = again;
         }
