@@ -54,13 +54,14 @@ pub(super) fn promise(grids: &Grids, adapted: &Adapted, walked: &mut Walked, exp
     states
 }
 
-/// The oldest of the stores that become each other, which stand side by side from `first`, the newest, on.
+/// The oldest of the stores that become each other, which stand side by side, found from any of them on; a store that doesn't
+/// persist stands for itself.
 pub(super) fn last_of_cycle(adapted: &Adapted, first: StoreIndex) -> StoreIndex {
-    let becomes = |store: StoreIndex| match adapted.stores[store as usize].home {
-        Home::Persistent { becomes, .. } => becomes,
-        _ => first,
+    let becomes_next = |store: &StoreIndex| match adapted.stores[*store as usize].home {
+        Home::Persistent { becomes, .. } => becomes > *store,
+        _ => false,
     };
-    (first..).find(|store| becomes(*store) == first).unwrap_or(first)
+    (first..).find(|store| !becomes_next(store)).unwrap_or(first)
 }
 
 /// The cells of a store.
@@ -184,10 +185,7 @@ impl Circle<'_> {
         }
         let touched = self.parts().map(|part| self.cell(at, part)).filter(|cell| cell.is_touched());
         let layout = touched.max_by_key(|cell| cell.last)?.layout;
-        Some(match self.store(at).image() {
-            Some(image) if image.format.aspects().contains(Aspects::STENCIL) => of_both_planes(layout),
-            _ => layout,
-        })
+        Some(of_all_planes(self.store(at), layout))
     }
 
     /// Brings all parts of a store into its layout, or into the state that was asked for.
@@ -275,11 +273,14 @@ impl Circle<'_> {
     }
 }
 
-/// The layout of an image with depth and stencil one of whose planes is in `layout`.
-fn of_both_planes(layout: Layout) -> Layout {
+/// The layout of all of a store one of whose planes is in `layout`.
+pub(super) fn of_all_planes(store: &Store, layout: Layout) -> Layout {
+    let both = store.image().is_some_and(|image| image.format.aspects().contains(Aspects::STENCIL));
     match layout {
-        Layout::DepthAttachmentOptimal | Layout::StencilAttachmentOptimal => Layout::DepthStencilAttachmentOptimal,
-        Layout::DepthReadOnlyOptimal | Layout::StencilReadOnlyOptimal => Layout::DepthStencilReadOnlyOptimal,
-        both => both,
+        Layout::DepthAttachmentOptimal | Layout::StencilAttachmentOptimal if both => {
+            Layout::DepthStencilAttachmentOptimal
+        }
+        Layout::DepthReadOnlyOptimal | Layout::StencilReadOnlyOptimal if both => Layout::DepthStencilReadOnlyOptimal,
+        layout => layout,
     }
 }

@@ -3,7 +3,7 @@
 use super::{QUEUES, Queues, Seen};
 use crate::compile::hand_over::HandOver;
 use crate::compile::model::{Adapted, CellIndex, Kind, StoreIndex};
-use crate::compile::outlive::{States, cells, last_of_cycle};
+use crate::compile::outlive::{States, cells, last_of_cycle, of_all_planes};
 use crate::compile::parts::Grids;
 use crate::compile::synchronise::{NEVER, Pending, Walked};
 use crate::vocabulary::{Accesses, Layout, Stages, State};
@@ -37,9 +37,10 @@ pub(in crate::compile) fn promise(
     let mut left = vec![Layout::General; count];
     let mut known = Layout::General;
     for at in (0..count).chain(0..count) {
-        let touched = cells(grids, &adapted.stores[first as usize + at]).map(|cell| walked.cells[cell as usize]);
+        let store = &adapted.stores[first as usize + at];
+        let touched = cells(grids, store).map(|cell| walked.cells[cell as usize]);
         let latest = touched.filter(|cell| cell.is_touched()).max_by_key(|cell| cell.last);
-        known = latest.map_or(known, |cell| cell.layout);
+        known = latest.map_or(known, |cell| of_all_planes(store, cell.layout));
         left[at] = known;
     }
     for (store, at) in (first..=last).zip(0..) {
