@@ -71,8 +71,12 @@ fn plan(arguments: &Check, profile: &Profile) -> Result<Plan, Error> {
 
 /// That all is well, and how much the frame takes.
 pub(crate) fn fine(arguments: &Check, device: &str, totals: &Totals) -> String {
+    let waits = match totals.waits {
+        0 => String::new(),
+        waits => format!("{} between queues, ", text::count(waits as usize, "wait", "waits")),
+    };
     format!(
-        "{}: fine on {}: {} in {}, {}, {}, {} placed in {} (estimated)",
+        "{}: fine on {}: {} in {}, {}, {}, {waits}{} placed in {} (estimated)",
         text::path(&arguments.pipeline.file),
         text::escape(device),
         text::count((totals.passes + totals.inserted_passes) as usize, "pass", "passes"),

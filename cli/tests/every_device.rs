@@ -119,3 +119,46 @@ fn an_order_that_does_not_exist_is_refused_in_one_sentence() {
         }
     }
 }
+
+/// Particles move while the sky is drawn.
+const BESIDE: &str = r#"Pipeline(
+    version: 1,
+    images: [(name: "color", format: Color(hdr: true), size: Output), (name: "screen", format: Output, size: Output)],
+    buffers: [
+        (name: "flakes", bytes: 16000, lifetime: History),
+        (name: "seen", bytes: 4000),
+        (name: "counts", bytes: 16),
+    ],
+    passes: [
+        (name: "sky", draw: Sky, color: [(image: "color", clear: (0.0, 0.0, 0.0, 1.0))]),
+        (name: "fall", dispatch: "snow_fall", groups: Invocations(1000, 1, 1),
+            storage: {"before": (buffer: "flakes", previous: 1), "flakes": (buffer: "flakes", access: Write)},
+            params: {"seconds": 0.016, "wind": 0.0}),
+        (name: "gather", dispatch: "snow_gather", groups: Count(1, 1, 1), storage: {
+            "flakes": "flakes", "seen": (buffer: "seen", access: Write), "counts": (buffer: "counts", access: Write),
+        }),
+        (name: "copied", draw: FullScreen("copy"), sample: {"source": "color"}, color: ["screen"]),
+        (name: "snow", draw: Indirect("counts"), shader: "snow", storage: {"flakes": "flakes", "seen": "seen"},
+            params: {"brightness": 1.0}, color: [(image: "screen", blend: Premultiplied)]),
+    ],
+    outputs: ["screen"],
+)"#;
+
+#[test]
+fn work_on_other_queues_is_told_with_what_it_waits_for() {
+    let place = Place::new();
+    place.file("p.ron", BESIDE);
+    let command =
+        |word: &'static str, more: &[&'static str]| [&[word, "p.ron", "--device", "amd-rx-7800-xt"], more].concat();
+    let said = place.run(&command("check", &[])).exits(0).out;
+    assert!(said.contains(" between queues, "), "{said}");
+    assert!(said.contains("note: `fall`: runs on the compute queue, beside `sky` (p.ron:11:"), "{said}");
+    let tree = place.run(&command("inspect", &[])).exits(0).out;
+    assert!(tree.contains(" on the compute queue: dispatch") && tree.contains("waits in "), "{tree}");
+    let plan = json(&place, &command("inspect", &[]), 0);
+    let compute = plan["steps"].as_array().expect("steps").iter().filter(|step| step["queue"] == "COMPUTE").count();
+    assert_eq!(compute, 2, "{tree}");
+
+    let one = place.run(&command("check", &["--one-queue"])).exits(0).out;
+    assert!(!one.contains("queue"), "{one}");
+}
