@@ -1,15 +1,20 @@
 //! Random pipelines: what is made, what it means, and that software drivers agree with it bit for bit.
 
+use framewright_graph::compile::{Order, compile};
+use framewright_graph::device::Estimated;
 use framewright_graph::format::Format;
 use framewright_graph::frame::Shape;
+use framewright_graph::plan;
+use framewright_tests::frames::device;
 use framewright_tests::random_pipelines::allowed::{Allowed, NOT_YET};
 use framewright_tests::random_pipelines::generate;
-use framewright_tests::random_pipelines::judge::expected;
+use framewright_tests::random_pipelines::judge::{expected, options};
 use framewright_tests::random_pipelines::legal::is_legal;
 use framewright_tests::random_pipelines::pipeline::{
     Compute, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region, Store, StoreAccess, Thing,
     Work,
 };
+use framewright_tests::random_pipelines::to_frame::to_frame;
 use framewright_tests::random_pipelines::{passes, shader, shrink};
 use std::collections::HashMap;
 use std::process::Command;
@@ -97,10 +102,37 @@ fn every_kind_of_pass_and_resource_turns_up() {
         "imported",
         "mip 1",
         "layer 1",
+        ", stencil",
+        "recorded by the program",
+        "its vertex shader",
+        "imported without contents",
+        "frames ago to",
+        "custom copy",
+        "custom fill",
         "outputs: b",
     ] {
         assert!(text.contains(word), "no {word}");
     }
+}
+
+#[test]
+fn what_the_compiler_does_turns_up() {
+    let device = device();
+    let mut all = [0; 5];
+    for pipeline in many().take(300) {
+        let options = options(Order::Default, 0);
+        let plan = compile(&to_frame(&pipeline), &device, &mut Estimated(&device), &options).expect("it is legal");
+        let totals = &plan.totals;
+        let merged =
+            plan.steps.iter().any(|step| matches!(&step.work, plan::Work::Render(scope) if scope.passes.len() > 1));
+        let aliased = totals.placed_bytes < totals.transient_bytes;
+        let demoted = plan.notes.iter().any(|note| note.text.contains("1 sample instead of"));
+        let happens = [merged, aliased, demoted, totals.resolves > totals.folded_resolves, totals.folded_resolves > 0];
+        for (count, happens) in all.iter_mut().zip(happens) {
+            *count += u32::from(happens);
+        }
+    }
+    assert!(all.iter().all(|count| *count > 2), "{all:?}");
 }
 
 /// An image of 2 × 1 texels of one word each.
@@ -208,6 +240,21 @@ fn lavapipe_draws_bit_for_bit_what_random_pipelines_mean() {
 #[test]
 fn swiftshader_draws_bit_for_bit_what_random_pipelines_mean() {
     agree("swiftshader", ["1001", "250", "24"]);
+}
+
+#[test]
+fn a_plan_that_does_something_else_is_noticed() {
+    for what in ["Fill", "Clear", "Load", "Initial", "Blend", "Depth", "Stencil", "Pass"] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_random_pipelines"));
+        command.args(["--driver", "lavapipe", "--order", "default", "--failures", "1", "--spoil", what]);
+        let output = command.args(["--write", env!("CARGO_TARGET_TMPDIR")]).output().expect("the command starts");
+        if output.status.code() == Some(3) && std::env::var_os("CI").is_none() {
+            return eprintln!("skipped: {}", String::from_utf8_lossy(&output.stderr));
+        }
+        let words = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(1), "{what}: {words}");
+        assert!(words.contains("should be") && words.contains("replay it with"), "{what}: {words}");
+    }
 }
 
 #[test]

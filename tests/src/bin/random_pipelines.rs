@@ -5,6 +5,7 @@ use framewright_graph::compile::Order;
 use framewright_tests::random_pipelines::allowed::Allowed;
 use framewright_tests::random_pipelines::judge::{Fault, Judge, expected, frames, options};
 use framewright_tests::random_pipelines::pipeline::Pipeline;
+use framewright_tests::random_pipelines::spoil::Spoil;
 use framewright_tests::random_pipelines::{generate, passes, shrink};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
@@ -43,9 +44,26 @@ struct Line {
     /// Print each pipeline.
     #[arg(long)]
     show: bool,
+    /// Spoil each Plan before it is executed, to see that it is noticed.
+    #[arg(long, hide = true, value_parser = spoiled)]
+    spoil: Option<Spoil>,
     /// Stay in this process, with the driver that the environment offers, and note there what is being done.
     #[arg(long, hide = true)]
     notes: Option<PathBuf>,
+}
+
+fn spoiled(name: &str) -> Result<Spoil, String> {
+    let all = [
+        Spoil::Fill,
+        Spoil::Clear,
+        Spoil::Load,
+        Spoil::Initial,
+        Spoil::Blend,
+        Spoil::Depth,
+        Spoil::Stencil,
+        Spoil::Pass,
+    ];
+    all.into_iter().find(|spoil| format!("{spoil:?}") == name).ok_or_else(|| format!("nothing is called {name}"))
 }
 
 const EXIT_CODES: &str = "Exit codes:
@@ -191,6 +209,7 @@ fn here(line: &Line, notes: &Path) -> Result<u8, Box<dyn Error>> {
     std::panic::set_hook(Box::new(|_| ()));
     ctrlc::set_handler(|| ASKED_TO_STOP.store(true, Ordering::Relaxed))?;
     let mut judge = Judge::new()?;
+    judge.spoil = line.spoil;
     let driver = line.driver.map_or("?", Driver::name);
     let orders = line.order.map_or(ChosenOrder::ALL.to_vec(), |order| vec![order]);
     let bar =

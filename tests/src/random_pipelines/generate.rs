@@ -177,7 +177,8 @@ impl Maker<'_> {
     }
 
     fn draw(&mut self, geometry: Geometry) -> Option<Work> {
-        let first = self.image();
+        let before = self.attachments();
+        let first = before.first().map_or_else(|| self.image(), |part| part.image);
         let samples = self.pipeline.images[first].samples;
         let discards = self.rng.one_in(6);
         let direct =
@@ -193,10 +194,11 @@ impl Maker<'_> {
             depth: None,
             stores: Vec::new(),
         };
-        let part = self.part(first, 1, 1);
+        let part = before.first().copied().unwrap_or_else(|| self.part(first, 1, 1));
         self.extent = self.pipeline.images[first].extent_of(part.mip);
         self.attach(&mut draw, part);
-        for _ in 0..self.rng.below(3) {
+        before.iter().skip(1).for_each(|part| self.attach(&mut draw, *part));
+        for _ in 0..if before.is_empty() { self.rng.below(3) } else { 0 } {
             let image = self.image();
             let part = self.part(image, 1, 1);
             if self.pipeline.images[image].extent_of(part.mip) == self.extent {
@@ -215,6 +217,17 @@ impl Maker<'_> {
             draw.reads.push(Read::Own(self.part(image, 1, 1)));
         }
         Some(Work::Draw(draw))
+    }
+
+    /// The attachments of the pass before, if that draws, for every third draw: both can share a rendering scope.
+    fn attachments(&mut self) -> Vec<Part> {
+        let again = self.rng.one_in(3);
+        match self.pipeline.passes.last() {
+            Some(Pass { work: Work::Draw(draw), .. }) if again => {
+                draw.color.iter().map(|target| target.part).chain(draw.depth.map(|depth| depth.part)).collect()
+            }
+            _ => Vec::new(),
+        }
     }
 
     fn attach(&mut self, draw: &mut Draw, part: Part) {

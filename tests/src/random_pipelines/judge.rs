@@ -2,6 +2,7 @@
 
 use super::meaning::{self, Filled, State, imported_buffer, imported_image};
 use super::pipeline::{Count, Draw, Extent, Geometry, Life, Pass, Pipeline, Plane, Thing, Work};
+use super::spoil::Spoil;
 use super::{shader, texels, to_frame, to_ron};
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::describe::{self, Diagnostic};
@@ -34,6 +35,8 @@ pub struct Judge {
     shaders: ShaderLibrary,
     known: HashSet<String>,
     findings: usize,
+    /// What is spoiled in Plans before they are executed, to see that it is noticed.
+    pub spoil: Option<Spoil>,
 }
 
 /// What is wrong with the way from a pipeline to its outputs.
@@ -142,7 +145,15 @@ impl Judge {
         device.canary()?;
         let folder = tempfile::tempdir()?;
         let shaders = ShaderLibrary::new(vec![folder.path().to_owned()], SHADERS, interface);
-        Ok(Judge { profile: device.profile(), device, folder, shaders, known: HashSet::new(), findings: 0 })
+        Ok(Judge {
+            profile: device.profile(),
+            device,
+            folder,
+            shaders,
+            known: HashSet::new(),
+            findings: 0,
+            spoil: None,
+        })
     }
 
     /// The device's name.
@@ -157,7 +168,10 @@ impl Judge {
     /// The first [`Fault`].
     pub fn judge(&mut self, pipeline: &Pipeline, expected: &[State], options: &Options) -> Result<(), Fault> {
         let frame = self.frame(pipeline)?;
-        let plan = self.plan(pipeline, &frame, options)?;
+        let mut plan = self.plan(pipeline, &frame, options)?;
+        if let Some(spoil) = self.spoil {
+            spoil.spoil(&mut plan);
+        }
         let outcome = self.execute(pipeline, &plan, expected);
         // What the layer says explains more than what follows from it.
         let all = self.device.messages().list();

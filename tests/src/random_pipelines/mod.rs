@@ -15,6 +15,7 @@ pub mod pipeline;
 pub mod rng;
 pub mod shader;
 pub mod shrink;
+pub mod spoil;
 pub mod texels;
 pub mod text;
 pub mod to_frame;

@@ -110,6 +110,8 @@ fn draw_fits(pipeline: &Pipeline, draw: &Draw) -> bool {
         let plane = if stencil { Plane::Depth } else { Plane::All };
         format.is_depth() && depth.part.plane == plane && (stencil || depth.stencil.is_none())
     });
+    // Of a fragment with several samples a device may run the shader more than once.
+    let once = samples(first) == 1 || draw.stores.iter().all(|store| store.access == StoreAccess::Write);
     let plain = draw.stores.is_empty()
         || (draw.geometry == Geometry::FullScreen && !draw.discards && !draw.per_sample && draw.depth.is_none());
     let of =
@@ -137,6 +139,7 @@ fn draw_fits(pipeline: &Pipeline, draw: &Draw) -> bool {
         && color
         && depth
         && plain
+        && once
         && geometry
         && draw.vertex_reads <= draw.reads.len()
         && (draw.vertex_reads == 0 || draw.geometry != Geometry::FullScreen)
