@@ -13,7 +13,7 @@ pub enum Spoil {
     Clear,
     /// A load of a colour attachment, which becomes a clear.
     Load,
-    /// What an image is filled with before the first frame.
+    /// What images are filled with before the first frame.
     Initial,
     /// A blend, which becomes a replacement.
     Blend,
@@ -29,13 +29,13 @@ impl Spoil {
     /// Spoils a Plan; false if there is no such thing in it.
     pub fn spoil(self, plan: &mut Plan) -> bool {
         if self == Spoil::Initial {
-            return plan.images.iter_mut().any(|image| match &mut image.role {
-                Role::Persistent { initial, .. } => {
+            // All of them: those that become each other start alike.
+            for image in &mut plan.images {
+                if let Role::Persistent { initial, .. } = &mut image.role {
                     *initial = another(*initial);
-                    true
                 }
-                _ => false,
-            });
+            }
+            return true;
         }
         let Plan { steps, totals, .. } = plan;
         steps.iter_mut().any(|step| match &mut step.work {
