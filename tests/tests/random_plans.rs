@@ -33,7 +33,7 @@ fn options(seed: u64) -> Options {
 fn fault(frame: &Frame, options: &Options, seed: u64, has_queues: bool) -> Option<String> {
     let sharing = if seed % 5 == 1 { Sharing::Concurrent } else { Sharing::Exclusive };
     let queues = Queues { compute: has_queues && seed % 5 < 3, transfer: has_queues && seed % 5 < 2, sharing };
-    let device = Profile { local_read: seed % 2 == 0, queues, ..device() };
+    let device = Profile { local_read: seed.is_multiple_of(2), queues, ..device() };
     let compiled = catch_unwind(AssertUnwindSafe(|| compile(frame, &device, &mut Estimated(&device), options)));
     let plan = match compiled {
         Err(_) => return Some("panics".to_owned()),
