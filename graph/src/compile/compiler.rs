@@ -58,6 +58,8 @@ struct Last {
     settled: Settled,
     plan: Plan,
     reuse: Reuse,
+    /// Whether the Plan has other formats than the frame: then nothing of it fits another frame.
+    fell_back: bool,
 }
 
 impl Compiler {
@@ -105,10 +107,10 @@ impl Last {
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Last, Vec<Diagnostic>> {
-        let mut structure = Structure::find(frame, device, options, true)?;
+        let (mut structure, substitute) = Structure::find_with_fallback(frame, device, options, true)?;
         let pending = structure.walked.barriers.clone();
         let settled = structure.settle(device, memory, options)?;
-        let plan = emit::emit(&Parts::new(frame, device, &structure, &settled));
+        let plan = emit::emit(&Parts::new(substitute.as_ref().unwrap_or(frame), device, &structure, &settled));
         Ok(Last {
             frame: frame.clone(),
             device: device.clone(),
@@ -119,6 +121,7 @@ impl Last {
             settled,
             plan,
             reuse: Reuse::Nothing,
+            fell_back: substitute.is_some(),
         })
     }
 
@@ -134,6 +137,7 @@ impl Last {
         }
         let reuse = match difference::between(&self.frame, frame) {
             Difference::None => Reuse::Everything,
+            _ if self.fell_back => Reuse::Nothing,
             Difference::Values => Reuse::Placement,
             Difference::Sizes => Reuse::Structure,
             Difference::Structure => Reuse::Nothing,

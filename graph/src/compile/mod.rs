@@ -16,6 +16,7 @@ mod batch;
 mod compiler;
 mod cull;
 mod emit;
+mod formats;
 mod hand_over;
 mod legal;
 mod link;
@@ -84,7 +85,7 @@ pub fn compile(
     memory: &mut dyn MemoryProvider,
     options: &Options,
 ) -> Result<Plan, Vec<Diagnostic>> {
-    let mut structure = Structure::find(frame, device, options, false)?;
+    let (mut structure, substitute) = Structure::find_with_fallback(frame, device, options, false)?;
     let settled = structure.settle(device, memory, options)?;
-    Ok(emit::emit(&Parts::new(frame, device, &structure, &settled)))
+    Ok(emit::emit(&Parts::new(substitute.as_ref().unwrap_or(frame), device, &structure, &settled)))
 }

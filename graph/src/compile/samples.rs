@@ -100,7 +100,7 @@ fn attachments(pass: &Pass) -> impl Iterator<Item = (ImageIndex, Subresources)> 
     color.chain(pass.depth.as_ref().map(|depth| (depth.image, depth.range)))
 }
 
-fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
+pub(super) fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
     let mut add = |image: ImageIndex, used: Usage| usage[image.0 as usize] |= used;
     let shape = |image: ImageIndex| {
         let image = &frame.images[image.0 as usize];
@@ -124,7 +124,7 @@ fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
 }
 
 /// Adds what the images in use need for the states in which they come and go.
-fn note_states(frame: &Frame, usage: &mut [Usage]) {
+pub(super) fn note_states(frame: &Frame, usage: &mut [Usage]) {
     let mut add = |image: usize, state: &State| {
         if !usage[image].is_empty() {
             usage[image] |= usage_for(state.layout);

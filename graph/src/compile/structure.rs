@@ -11,7 +11,7 @@ use super::retain::{self, Retained};
 use super::schedule;
 use super::scope::{self, Scoped, Step};
 use super::synchronise::{self, Walked};
-use super::{Options, adapt, legal, link, purpose, queues, samples, take_over};
+use super::{Options, adapt, formats, legal, link, purpose, queues, samples, take_over};
 use crate::describe::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
@@ -52,6 +52,24 @@ pub(super) struct Settled {
 }
 
 impl Structure {
+    /// As [`Structure::find`]; where the device can't use formats as they are used, it is found for a frame with others,
+    /// which is returned too.
+    pub(super) fn find_with_fallback(
+        frame: &Frame,
+        device: &Profile,
+        options: &Options,
+        keeps: bool,
+    ) -> Result<(Structure, Option<Frame>), Vec<Diagnostic>> {
+        let errors = match Structure::find(frame, device, options, keeps) {
+            Ok(structure) => return Ok((structure, None)),
+            Err(errors) => errors,
+        };
+        let Some((substitute, notes)) = formats::fall_back(frame, device) else { return Err(errors) };
+        let mut structure = Structure::find(&substitute, device, options, keeps)?;
+        structure.notes.splice(0..0, notes);
+        Ok((structure, Some(substitute)))
+    }
+
     /// Runs the stages before `place`. `keeps`: for [`Structure::still_holds`], later.
     pub(super) fn find(
         frame: &Frame,

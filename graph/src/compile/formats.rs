@@ -1,0 +1,149 @@
+//! Format fallback: where the device can't use a format as the frame does, another one that holds at least as much.
+//!
+//! Only images that nobody outside of the frame sees, and whose texels no shader or program is told the layout of: neither
+//! imported ones nor outputs, no storage images, nothing that is copied to or from buffers or by custom passes.
+
+use super::parts::Grids;
+use super::{cull, legal, link, samples};
+use crate::device::{FormatSupport, Profile};
+use crate::format::Format::{self, *};
+use crate::frame::{Blend, Frame, Lifetime, Pass, Resource, Work};
+use crate::plan::{Note, Stage};
+use crate::vocabulary::{Filter, Usage};
+use petgraph::unionfind::UnionFind;
+use std::collections::BTreeMap;
+
+/// Formats that hold all that a format holds, the smallest first. Fixed-point colour that becomes floating-point isn't
+/// clamped to 0 to 1 any more, and a format without alpha gains one; the note says so.
+fn substitutes(format: Format) -> &'static [Format] {
+    match format {
+        R8G8B8A8_UNORM => &[B8G8R8A8_UNORM],
+        B8G8R8A8_UNORM => &[R8G8B8A8_UNORM],
+        R8G8B8A8_SRGB => &[B8G8R8A8_SRGB],
+        B8G8R8A8_SRGB => &[R8G8B8A8_SRGB],
+        A2B10G10R10_UNORM_PACK32 => &[R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT],
+        B10G11R11_UFLOAT_PACK32 => &[R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT],
+        R16_SFLOAT => &[R32_SFLOAT],
+        R16G16_SFLOAT => &[R32G32_SFLOAT],
+        R16G16B16A16_SFLOAT => &[R32G32B32A32_SFLOAT],
+        D16_UNORM => &[X8_D24_UNORM_PACK32, D32_SFLOAT],
+        X8_D24_UNORM_PACK32 => &[D32_SFLOAT],
+        D24_UNORM_S8_UINT => &[D32_SFLOAT_S8_UINT],
+        R8_UNORM | R8_UINT | R8G8_UNORM | R8G8B8A8_UINT | R32_UINT | R32_SFLOAT | R32G32_SFLOAT | R32G32B32A32_UINT
+        | R32G32B32A32_SFLOAT | D32_SFLOAT | D32_SFLOAT_S8_UINT => &[],
+    }
+}
+
+/// What the frame asks of an image's format.
+#[derive(Debug, Clone, Copy, Default)]
+struct Wanted {
+    usage: Usage,
+    filter: bool,
+    blend: bool,
+    /// Whether somebody relies on the very format.
+    fixed: bool,
+}
+
+impl Wanted {
+    fn missing(self, support: Option<&FormatSupport>) -> Vec<&'static str> {
+        let usage = support.map_or(Usage::empty(), |support| support.usage);
+        let mut missing: Vec<&str> = self.usage.difference(usage).iter_names().map(|(name, _)| name).collect();
+        if let Some(support) = support {
+            missing.extend((self.filter && !support.linear_filter).then_some("linear filtering"));
+            missing.extend((self.blend && !support.blend).then_some("blending"));
+        }
+        missing
+    }
+}
+
+/// The frame with other formats, and a note for each; `None` if the device has all formats that it needs, or no substitute.
+pub(super) fn fall_back(frame: &Frame, device: &Profile) -> Option<(Frame, Vec<Note>)> {
+    legal::check(frame).ok()?;
+    let linked = link::link(frame, &Grids::new(frame)).ok()?;
+    let live = cull::cull(frame, &linked).passes;
+    let passes = || live.iter().map(|pass| &frame.passes[*pass as usize]);
+    let wanted = wanted(frame, passes);
+    let mut alike = UnionFind::<u32>::new(frame.images.len());
+    passes().filter_map(|pass| alike_in(frame, pass)).for_each(|[one, other]| {
+        alike.union(one, other);
+    });
+    let mut substitute = frame.clone();
+    let mut notes = Vec::new();
+    let mut groups: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    (0..frame.images.len()).for_each(|image| groups.entry(alike.find(image as u32)).or_default().push(image));
+    for (declared, number) in frame.images.iter().zip(0_usize..) {
+        let group = &groups[&alike.find(number as u32)];
+        let lacks = |format: Format, image: &usize| !wanted[*image].missing(device.format(format)).is_empty();
+        let Some(first) = group.iter().find(|image| lacks(declared.format, image)) else { continue };
+        if group.iter().any(|image| wanted[*image].fixed) {
+            return None;
+        }
+        let fits = |format: &&Format| !group.iter().any(|image| lacks(**format, image));
+        let made = *substitutes(declared.format).iter().find(fits)?;
+        substitute.images[number].format = made;
+        let missing = wanted[*first].missing(device.format(declared.format)).join(", ");
+        notes.push(note(frame, number, made, &format!("`{}` has no {missing} for it", device.name)));
+    }
+    (!notes.is_empty()).then_some((substitute, notes))
+}
+
+fn wanted<'f, P: Iterator<Item = &'f Pass>>(frame: &Frame, passes: impl Fn() -> P) -> Vec<Wanted> {
+    let mut usage = vec![Usage::empty(); frame.images.len()];
+    passes().for_each(|pass| samples::note_usage(frame, pass, &mut usage));
+    samples::note_states(frame, &mut usage);
+    let fixed = |lifetime: &Lifetime| matches!(lifetime, Lifetime::Imported { .. });
+    let mut wanted: Vec<Wanted> = frame
+        .images
+        .iter()
+        .zip(usage)
+        .map(|(image, usage)| Wanted { usage, fixed: fixed(&image.lifetime), ..Wanted::default() })
+        .collect();
+    for output in &frame.outputs {
+        if let Resource::Image(image) = output.resource {
+            wanted[image.0 as usize].fixed = true;
+        }
+    }
+    for pass in passes() {
+        for sampled in &pass.sampled {
+            wanted[sampled.image.0 as usize].filter |= sampled.filter == Filter::Linear;
+        }
+        for target in &pass.color {
+            wanted[target.image.0 as usize].blend |= target.blend != Blend::Replace;
+        }
+        pass.storage.iter().for_each(|storage| wanted[storage.image.0 as usize].fixed = true);
+        let with_buffer = pass.transfers.iter().any(|used| matches!(used.resource, Resource::Buffer(_)));
+        if with_buffer || matches!(pass.work, Work::Custom { .. }) {
+            for used in &pass.transfers {
+                if let Resource::Image(image) = used.resource {
+                    wanted[image.0 as usize].fixed = true;
+                }
+            }
+        }
+    }
+    wanted
+}
+
+/// Two images of which a pass copies one into the other texel for texel.
+fn alike_in(frame: &Frame, pass: &Pass) -> Option<[u32; 2]> {
+    let pair = match (&pass.work, &pass.transfers[..]) {
+        (Work::Forward { from, to, .. }, _) => [*from, *to],
+        (Work::Copy | Work::Blit { .. }, [from, to]) => match (from.resource, to.resource) {
+            (Resource::Image(from), Resource::Image(to)) => [from, to],
+            _ => return None,
+        },
+        _ => return None,
+    };
+    let [one, other] = pair.map(|image| frame.images[image.0 as usize].format);
+    (one == other).then(|| pair.map(|image| image.0))
+}
+
+fn note(frame: &Frame, image: usize, made: Format, why: &str) -> Note {
+    let declared = &frame.images[image];
+    let gains = match declared.format {
+        A2B10G10R10_UNORM_PACK32 => "; values outside of 0 to 1 are kept",
+        B10G11R11_UFLOAT_PACK32 => "; it has an alpha, and negative values are kept",
+        _ => "",
+    };
+    let text = format!("{} was asked for, {made} is made: {why}{gains}", declared.format);
+    Note { stage: Stage::Adapt, subject: declared.name.clone(), text, at: frame.sources.place(declared.span) }
+}
