@@ -7,6 +7,7 @@ use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Plan, Queue, Sharing};
 use framewright_graph::verify::verify;
 use framewright_tests::happens_before::judge;
+use framewright_tests::mutation::Tally;
 use framewright_tests::random_pipelines;
 
 /// A desktop GPU with these queues.
@@ -93,4 +94,21 @@ fn the_brute_force_judge_finds_nothing_in_plans_for_several_queues() {
     let seen = check(5000..5400, 14, true);
     println!("{seen:?}");
     assert!(seen.waits > 300 && seen.releases > 50 && seen.concurrent > 50, "hardly ever: {seen:?}");
+}
+
+/// Every mistake that can be planted in Plans for several queues: no semaphore, no half of a transfer goes without notice.
+#[test]
+fn no_mistake_in_plans_for_several_queues_is_missed() {
+    let mut tally = Tally::default();
+    for sharing in [Sharing::Exclusive, Sharing::Concurrent] {
+        let device = device(true, true, sharing);
+        let frames = (0..200).map(|seed| (seed, random_pipelines::frame(seed, 6)));
+        let plans = frames.filter_map(|(seed, frame)| Some((seed, plan(&frame, &device, &Options::default())?)));
+        let several = plans.filter(|(_, plan)| plan.totals.waits > 1 && judge(plan).harms.is_empty());
+        for (seed, plan) in several.take(6) {
+            tally.add(&format!("seed {seed}, {sharing:?}"), &plan);
+        }
+    }
+    println!("{tally}");
+    assert_eq!(tally.missed, Vec::<String>::new());
 }

@@ -88,10 +88,10 @@ impl Structure {
         let order = schedule::schedule(&grids, &adapted, options.order);
         let uses = if keeps { adapted.uses.clone() } else { Vec::new() };
         let notes_of_adapt = adapted.notes.len();
-        let scoped = scope::scope(frame, &grids, &mut adapted, &order, device);
+        let mut scoped = scope::scope(frame, &grids, &mut adapted, &order, device);
         let notes_of_scope = notes_of_adapt..adapted.notes.len();
+        let queues = queues::assign(frame, &grids, &mut adapted, &mut scoped, device, options);
         let retained = retain::retain(frame, &grids, &adapted, &scoped);
-        let queues = queues::assign(frame, &grids, &mut adapted, &scoped, device, options);
         let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained, queues);
         let export = scoped.steps.len() as u32;
         let states = outlive::promise(&grids, &adapted, &mut walked, export);

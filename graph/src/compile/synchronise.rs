@@ -5,7 +5,7 @@
 
 use super::model::{Adapted, CellIndex, Role, StoreIndex, Use};
 use super::parts::Grids;
-use super::queues::Queues;
+use super::queues::{Change, Queues};
 use super::retain::{AttachmentOps, Retained};
 use super::scope::{Scoped, Step, Target};
 use crate::plan::Hazard;
@@ -108,6 +108,15 @@ struct Need {
     usage: u32,
 }
 
+impl Need {
+    /// A change of layout alone.
+    fn of_change(change: &Change) -> Need {
+        let Change { cell, store, layout } = *change;
+        let (stages, accesses) = (Stages::empty(), Accesses::empty());
+        Need { cell, store, stages, accesses, layout, keeps: true, usage: 0 }
+    }
+}
+
 impl Walked {
     /// Lets the last barrier before a cell's reads serve more of them.
     pub(super) fn read_also(&mut self, cell: CellIndex, stages: Stages, accesses: Accesses) {
@@ -202,7 +211,8 @@ impl Walk<'_> {
                 }
             }
         }
-        if self.walked.queues.is_some() {
+        if let Some(queues) = &self.walked.queues {
+            self.needs.extend(queues.changes(number).iter().map(|(_, change)| Need::of_change(change)));
             cross::step(&mut self.walked, &self.needs, number, true);
         } else {
             for need in &self.needs {

@@ -12,7 +12,8 @@
 //! - A [`Work::Dispatch`] or [`Work::Custom`] touches its accesses.
 //! - A [`Work::Resolve`], [`Work::Copy`] or [`Work::Blit`] reads its source and writes its target in the stage of that name
 //!   (`RESOLVE`, `COPY`, `BLIT`); a [`Work::Fill`] writes its target in `CLEAR`.
-//! - [`Work::Export`] touches nothing: its barriers leave images in the state that their [`Role`] promises.
+//! - [`Work::Export`] touches nothing: its barriers leave images in the state that their [`Role`] promises, or change their
+//!   layout before several queues read them.
 //!
 //! Order. Steps stand in the order in which they are submitted; those of one queue run in that order, as far as their
 //! barriers make them. A [`Wait`] of a step holds up the whole step, barriers included, until a step on another queue has

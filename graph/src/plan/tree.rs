@@ -67,7 +67,10 @@ impl Tree<'_> {
                 let value = fill_value(&fill.value);
                 format!("{name}fills {} with {value}{}", self.side(&fill.target), cause(&fill.cause))
             }
-            Work::Export => "images are left in their promised states".to_owned(),
+            Work::Export if self.id.0 as usize + 1 == self.plan.steps.len() => {
+                "images are left in their promised states".to_owned()
+            }
+            Work::Export => "images change their layouts before several queues read them".to_owned(),
         };
         parts.extend(step.releases.iter().map(|barrier| self.image_barrier(step, barrier)));
         let queue = match step.queue {

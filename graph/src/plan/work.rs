@@ -24,7 +24,7 @@ pub enum Work {
     Blit(Transfer),
     /// A clear by transfer (`vkCmdClearColorImage`, `vkCmdClearDepthStencilImage`, `vkCmdFillBuffer`).
     Fill(Fill),
-    /// Nothing: barriers alone leave images in their promised state.
+    /// Nothing: barriers alone leave images in their promised state, or change layouts before several queues read.
     Export,
 }
 

@@ -9,7 +9,7 @@ use super::able::{Able, Bound};
 use super::reach::Steps;
 use super::{QUEUES, Queues, Shared, number};
 use crate::compile::Options;
-use crate::compile::model::{Adapted, Home, Kind, OpKind, StoreIndex};
+use crate::compile::model::{Adapted, Home, Kind, OpKind, StoreIndex, Use};
 use crate::compile::parts::Grids;
 use crate::compile::scope::{Scoped, Step, op_name, store_name};
 use crate::device::Profile;
@@ -25,7 +25,7 @@ pub(in crate::compile) fn assign(
     frame: &Frame,
     grids: &Grids,
     adapted: &mut Adapted,
-    scoped: &Scoped,
+    scoped: &mut Scoped,
     device: &Profile,
     options: &Options,
 ) -> Option<Box<Queues>> {
@@ -62,7 +62,9 @@ pub(in crate::compile) fn assign(
     if queues.iter().all(|queue| *queue == Queue::Graphics) {
         return None;
     }
-    Some(Box::new(share(adapted, scoped, device, queues)))
+    let shared = share(adapted, scoped, device, &queues);
+    let changes = super::change::insert(grids, adapted, scoped, &mut queues, &shared);
+    Some(Box::new(Queues::new(queues, shared, changes, adapted.cells)))
 }
 
 /// The queue that each step would leave graphics for. A transfer beside dispatches goes where they go: that saves waits.
@@ -92,9 +94,14 @@ fn is_dispatch(frame: &Frame, adapted: &Adapted, step: &Step) -> bool {
 
 /// Every image and buffer that a step uses, whether it writes it, and in which layout.
 fn uses<'a>(adapted: &'a Adapted, step: &'a Step) -> impl Iterator<Item = (StoreIndex, bool, Layout)> + 'a {
+    uses_of(adapted, step).map(|used| (used.store, used.writes, used.layout))
+}
+
+/// Every use of a step, those of the resolves that it carries too.
+pub(super) fn uses_of<'a>(adapted: &'a Adapted, step: &'a Step) -> impl Iterator<Item = &'a Use> + 'a {
     let carried = if let Step::Scope(scope) = step { Some(scope.carries()) } else { None };
     let ops = step.ops().iter().copied().chain(carried.into_iter().flatten());
-    ops.flat_map(|op| adapted.uses(op)).map(|used| (used.store, used.writes, used.layout))
+    ops.flat_map(|op| adapted.uses(op))
 }
 
 /// The graphics steps of a window, without those that could leave and stay after all.
@@ -171,12 +178,12 @@ fn first_name<'f>(frame: &'f Frame, adapted: &'f Adapted, step: &Step) -> Option
 }
 
 /// Finds out what several queues use, and how they share it.
-fn share(adapted: &mut Adapted, scoped: &Scoped, device: &Profile, of: Vec<Queue>) -> Queues {
+fn share(adapted: &mut Adapted, scoped: &Scoped, device: &Profile, of: &[Queue]) -> Vec<Option<Shared>> {
     let count = adapted.stores.len();
     let mut users = vec![[false; QUEUES]; count];
     let mut layouts: Vec<Option<Layout>> = vec![None; count];
     let mut constant = vec![true; count];
-    for (step, queue) in scoped.steps.iter().zip(&of) {
+    for (step, queue) in scoped.steps.iter().zip(of) {
         for (store, writes, layout) in uses(adapted, step) {
             let store = store as usize;
             users[store][number(*queue)] = true;
@@ -225,7 +232,7 @@ fn share(adapted: &mut Adapted, scoped: &Scoped, device: &Profile, of: Vec<Queue
         let crossed = if persistent && constant[at] { Shared::Constant } else { crossed };
         shared[at] = Some(crossed).filter(|_| several || persistent);
     }
-    Queues::new(of, shared, adapted.cells)
+    shared
 }
 
 /// The last of the stores that become each other, from the first one on.

@@ -73,6 +73,11 @@ impl Clocks {
         self.known[step as usize]
     }
 
+    /// What those know who wait for a step.
+    pub(super) fn signal(&self, step: u32) -> Steps {
+        self.signals[step as usize]
+    }
+
     /// The waits of a step.
     pub(super) fn waits(&self, step: u32) -> Vec<Wait> {
         let start = self.waits.partition_point(|(of, _)| *of < step);

@@ -78,7 +78,12 @@ pub(in crate::compile) fn find(
         for (other, seen) in seen.iter().enumerate().filter(|(other, seen)| *other != queue && seen.until > 0) {
             queues.require_earlier(barrier.step, other, seen.until - 1, frames_ago);
         }
-        let own = seen[queue];
+        // What the queue did itself may be known to be done to whomever it waits for.
+        let until = seen[queue].until;
+        let knows = |(other, seen): (usize, &Seen)| {
+            other != queue && seen.until > 0 && queues.clocks.signal(seen.until - 1)[queue] >= until
+        };
+        let own = if seen.iter().enumerate().any(knows) { Seen::default() } else { seen[queue] };
         (barrier.src_stages, barrier.src_accesses) = (own.stages, own.accesses.writes());
         if barrier.keeps {
             barrier.old_layout = states.before.layout;

@@ -11,6 +11,7 @@
 
 mod able;
 mod assign;
+mod change;
 mod clocks;
 mod cross_frames;
 mod reach;
@@ -23,7 +24,7 @@ pub(super) use release::{HandOff, Release, releases};
 
 use super::model::{CellIndex, StoreIndex};
 use crate::plan::{Queue, Wait};
-use crate::vocabulary::{Accesses, Stages};
+use crate::vocabulary::{Accesses, Layout, Stages};
 use clocks::Clocks;
 use cross_frames::Edge;
 
@@ -49,6 +50,8 @@ pub(super) struct Queues {
     of: Vec<Queue>,
     /// For each store how several queues share it, if they do, be it from frame to frame.
     shared: Vec<Option<Shared>>,
+    /// Steps that only change layouts, each with what they change, in order.
+    changes: Vec<(u32, Change)>,
     clocks: Clocks,
     /// For each cell how the queues use it, if its store is crossed.
     tracks: Vec<Track>,
@@ -76,8 +79,18 @@ pub(super) enum Shared {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Track {
     pub(super) by: [Seen; QUEUES],
-    /// The queue and the step that wrote it or changed its layout, or used it first.
+    /// The queue and the step that wrote it or changed its layout, or used it first: whoever reads it comes after that.
     pub(super) begun: (usize, u32),
+    /// Whether that step wrote it, and nothing on its queue has read it since.
+    pub(super) unread: bool,
+}
+
+/// A change of layout by a step of its own, before several queues read.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Change {
+    pub(super) cell: CellIndex,
+    pub(super) store: StoreIndex,
+    pub(super) layout: Layout,
 }
 
 /// How one queue uses a cell.
@@ -92,11 +105,11 @@ pub(super) struct Seen {
 }
 
 impl Queues {
-    fn new(of: Vec<Queue>, shared: Vec<Option<Shared>>, cells: u32) -> Queues {
+    fn new(of: Vec<Queue>, shared: Vec<Option<Shared>>, changes: Vec<(u32, Change)>, cells: u32) -> Queues {
         let clocks = Clocks::new(of.len() as u32 + 1);
         let tracks = vec![Track::default(); cells as usize];
         let (held, hand_offs, edges) = (Vec::new(), Vec::new(), Vec::new());
-        Queues { of, shared, clocks, tracks, held, hand_offs, edges }
+        Queues { of, shared, changes, clocks, tracks, held, hand_offs, edges }
     }
 
     /// The queue of a step.
@@ -117,6 +130,11 @@ impl Queues {
     /// Whether several queues use a store.
     pub(super) fn is_crossed(&self, store: StoreIndex) -> bool {
         self.shared(store).is_some()
+    }
+
+    /// What a step changes that does nothing else.
+    pub(super) fn changes(&self, step: u32) -> &[(u32, Change)] {
+        crate::compile::hand_over::of_step(&self.changes, step, |(at, _)| *at)
     }
 
     pub(super) fn track(&self, cell: CellIndex) -> &Track {

@@ -1,5 +1,6 @@
 //! How much graphics work can run beside each step that may leave the graphics queue.
 
+use super::assign::uses_of;
 use crate::compile::model::{Adapted, Use};
 use crate::compile::parts::Grids;
 use crate::compile::scope::Step;
@@ -95,15 +96,7 @@ impl Steps<'_> {
         store.is_transient() && store.image().is_some()
     }
 
-    fn for_each_use(&self, step: u32, mut visit: impl FnMut(&Use)) {
-        let step = &self.steps[step as usize];
-        for op in step.ops() {
-            self.adapted.uses(*op).iter().for_each(&mut visit);
-        }
-        if let Step::Scope(scope) = step {
-            for op in scope.carries() {
-                self.adapted.uses(op).iter().for_each(&mut visit);
-            }
-        }
+    fn for_each_use(&self, step: u32, visit: impl FnMut(&Use)) {
+        uses_of(self.adapted, &self.steps[step as usize]).for_each(visit);
     }
 }

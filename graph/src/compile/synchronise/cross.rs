@@ -33,8 +33,10 @@ pub(super) fn step(walked: &mut Walked, needs: &[Need], step: u32, lasts: bool) 
 
 /// Whether a need is one more read beside the last ones.
 fn joins(cell: &Cell, track: &Track, need: &Need, queue: usize, shared: Shared) -> bool {
-    let reads = need.accesses.writes().is_empty() && cell.is_touched() && !cell.writes();
-    reads && cell.layout == need.layout && (shared != Shared::InTurns || track.begun.0 == queue)
+    let reads = need.accesses.writes().is_empty() && cell.is_touched();
+    // What nobody hands over is read by all behind its write.
+    let behind_reads = !cell.writes() || shared != Shared::InTurns;
+    reads && behind_reads && cell.layout == need.layout && (shared != Shared::InTurns || track.begun.0 == queue)
 }
 
 /// Adds the steps of other queues that a need comes after.
@@ -134,14 +136,41 @@ impl Crossing<'_> {
         (cell.stages, cell.accesses, cell.layout, cell.last) = (need.stages, need.accesses, need.layout, step);
         let mut by = [Seen::default(); QUEUES];
         by[queue] = Seen { stages: need.stages, accesses: need.accesses, until: step + 1, barrier };
-        *queues.track_mut(need.cell) = Track { by, begun: (queue, step) };
+        let unread = !need.accesses.writes().is_empty();
+        *queues.track_mut(need.cell) = Track { by, begun: (queue, step), unread };
     }
 }
 
-/// One more read beside the last ones: the barrier before those on its queue serves it, or the queue's wait.
+/// One more read beside the last ones, or behind a write: the barrier before those on its queue serves it, or the queue's
+/// wait.
 fn join(walked: &mut Walked, queues: &mut Queues, need: &Need, step: u32, queue: usize, lasts: bool) {
-    let seen = &mut queues.track_mut(need.cell).by[queue];
-    let known = seen.until > 0;
+    let known = queues.known(step)[queue];
+    let track = queues.track_mut(need.cell);
+    let behind_write = track.unread && track.begun.0 == queue;
+    let seen = &mut track.by[queue];
+    if behind_write {
+        let barrier = (seen.until > known).then_some(walked.barriers.len() as u32);
+        if barrier.is_some() {
+            walked.barriers.push(Pending {
+                cell: need.cell,
+                store: need.store,
+                step,
+                after: seen.until - 1,
+                src_stages: seen.stages,
+                src_accesses: seen.accesses.writes(),
+                dst_stages: need.stages,
+                dst_accesses: need.accesses,
+                old_layout: need.layout,
+                new_layout: need.layout,
+                hazard: Hazard::ReadAfterWrite,
+                keeps: true,
+            });
+        }
+        *seen = Seen { stages: need.stages, accesses: need.accesses, until: step + 1, barrier };
+        track.unread = false;
+        return;
+    }
+    let first = seen.until == 0;
     if let Some(barrier) = seen.barrier.and_then(|barrier| walked.barriers.get_mut(barrier as usize)) {
         barrier.dst_stages |= need.stages;
         barrier.dst_accesses |= need.accesses;
@@ -149,7 +178,7 @@ fn join(walked: &mut Walked, queues: &mut Queues, need: &Need, step: u32, queue:
     seen.stages |= need.stages;
     seen.accesses |= need.accesses;
     // The step behind all others is there only for barriers and waits.
-    if lasts || !known {
+    if lasts || first {
         seen.until = step + 1;
     }
 }

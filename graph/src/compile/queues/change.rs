@@ -1,0 +1,87 @@
+//! Changes of layout before several queues read.
+//!
+//! Whoever reads first would change the layout, and whoever reads beside it on another queue would wait for that step and
+//! its work. So a step of its own behind the write changes it, on the queue of the write, and nobody waits for a reader.
+
+use super::assign::uses_of;
+use super::{Change, QUEUES, Shared, number};
+use crate::compile::model::{Adapted, CellIndex, StoreIndex};
+use crate::compile::parts::Grids;
+use crate::compile::scope::{Scoped, Step};
+use crate::plan::Queue;
+use crate::vocabulary::Layout;
+
+/// What was done to a cell last: a write, or reads in one layout.
+#[derive(Debug, Clone, Copy)]
+struct Cell {
+    layout: Layout,
+    /// The last step that wrote it.
+    written: Option<u32>,
+    /// The change of layout that began the reads: which one among those that may be worth a step.
+    change: Option<u32>,
+}
+
+/// A change that several queues may have to come after.
+struct Candidate {
+    behind: u32,
+    change: Change,
+    readers: [bool; QUEUES],
+}
+
+/// Inserts steps behind writes; each with what it changes.
+pub(super) fn insert(
+    grids: &Grids,
+    adapted: &Adapted,
+    scoped: &mut Scoped,
+    queues: &mut Vec<Queue>,
+    shared: &[Option<Shared>],
+) -> Vec<(u32, Change)> {
+    let mut candidates = candidates(grids, adapted, scoped, queues, shared);
+    candidates.retain(|it| it.readers.iter().filter(|reads| **reads).count() > 1);
+    candidates.sort_by_key(|it| (it.behind, it.change.cell));
+    let mut changes = Vec::with_capacity(candidates.len());
+    let mut inserted = 0;
+    for same in candidates.chunk_by(|one, other| one.behind == other.behind) {
+        let at = same[0].behind + inserted + 1;
+        scoped.steps.insert(at as usize, Step::Export);
+        queues.insert(at as usize, queues[at as usize - 1]);
+        inserted += 1;
+        changes.extend(same.iter().map(|it| (at, it.change)));
+    }
+    changes
+}
+
+fn candidates(
+    grids: &Grids,
+    adapted: &Adapted,
+    scoped: &Scoped,
+    queues: &[Queue],
+    shared: &[Option<Shared>],
+) -> Vec<Candidate> {
+    let mut cells = vec![Cell { layout: Layout::Undefined, written: None, change: None }; adapted.cells as usize];
+    let mut candidates: Vec<Candidate> = Vec::new();
+    for ((step, at), queue) in scoped.steps.iter().zip(0..).zip(queues) {
+        for used in uses_of(adapted, step) {
+            if shared[used.store as usize] != Some(Shared::Image) {
+                continue;
+            }
+            let store: StoreIndex = used.store;
+            adapted.for_each_cell(grids, used, |number_of_cell: CellIndex| {
+                let cell = &mut cells[number_of_cell as usize];
+                if used.writes {
+                    *cell = Cell { layout: used.layout, written: Some(at), change: None };
+                } else if cell.layout != used.layout {
+                    let change = Change { cell: number_of_cell, store, layout: used.layout };
+                    let behind = cell.written.take().filter(|written| *written != at);
+                    let next = candidates.len() as u32;
+                    candidates.extend(behind.map(|behind| Candidate { behind, change, readers: [false; QUEUES] }));
+                    (cell.layout, cell.change) = (used.layout, behind.map(|_| next));
+                }
+                if let Some(candidate) = cell.change.and_then(|change| candidates.get_mut(change as usize)) {
+                    candidate.readers[number(*queue)] = true;
+                }
+            });
+        }
+    }
+    candidates
+}
