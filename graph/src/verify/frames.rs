@@ -127,6 +127,10 @@ impl<const Q: usize> Walk<'_, '_, Q> {
                 cell.layout = before.layout;
                 cell.contents = if unknown { Contents::Unwritten } else { Contents::Defined };
                 cell.write = Write::before_frame(pairs, time);
+                if !persistent {
+                    // What another queue has done since then says nothing of it.
+                    cell.write.queue = queue;
+                }
                 cell.reads.insert(queue, stages, time);
             }
         }
