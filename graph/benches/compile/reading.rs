@@ -1,0 +1,73 @@
+//! Reading a pipeline file of a thousand passes, and putting it together with its shaders' interfaces.
+
+use crate::timing::{Timing, beside, microseconds};
+use framewright_graph::describe;
+use framewright_graph::expand::{Facts, Inputs, expand};
+use framewright_graph::frame::{Draw, Frame};
+use framewright_graph::interface::{
+    Binding, BindingKind, Component, Dimension, DrawInterface, FragmentOutput, ImageShape, ShaderInterface,
+    ShaderInterfaces, ShaderProblem,
+};
+use framewright_graph::source::Sources;
+use framewright_graph::vocabulary::Stages;
+use std::sync::Arc;
+
+pub(crate) fn run(timing: &Timing) {
+    if timing.wants("reading 1000") {
+        let text = text(1000);
+        let time = timing.least(|| frame(text.clone()));
+        let figure = beside(format!("{:.2}", microseconds(time) / 1000.0), Some("20".to_owned()));
+        println!("\nreading a file of 1000 passes, {} KiB: {figure} ms", text.len() / 1024);
+    }
+}
+
+/// Each pass draws what the one before it drew.
+fn text(passes: u32) -> String {
+    let images = (0..=passes).map(|image| format!("(name: \"image{image}\", format: Output, size: Output),\n"));
+    let first = "(name: \"first\", draw: FullScreen(\"plain\"), color: [\"image0\"]),\n".to_owned();
+    let others = (1..=passes).map(|pass| {
+        let source = pass - 1;
+        format!(
+            "(name: \"pass{pass}\", draw: FullScreen(\"copy\"), \
+             sample: {{\"source\": (image: \"image{source}\", filter: Nearest)}}, color: [\"image{pass}\"]),\n"
+        )
+    });
+    let (images, passes_text): (String, String) = (images.collect(), std::iter::once(first).chain(others).collect());
+    format!("Pipeline(version: 1, images: [\n{images}], passes: [\n{passes_text}], outputs: [\"image{passes}\"])\n")
+}
+
+fn frame(text: String) -> Frame {
+    let mut sources = Sources::default();
+    let pipeline = describe::read(&mut sources, "many.ron", "many.ron", text).expect("the file is sound");
+    let facts = Facts::UNKNOWN;
+    let inputs = Inputs { set: &[], facts, facts_known: false, output_extent: [1920, 1080], dump: &[] };
+    expand(&pipeline, Arc::new(sources), &inputs, &mut FullScreen).expect("the pipeline fits its shaders")
+}
+
+/// Shaders that draw one colour, most of them from one image.
+struct FullScreen;
+
+impl ShaderInterfaces for FullScreen {
+    fn draw_shader(&mut self, name: &str, _: Draw) -> Result<ShaderInterface, ShaderProblem> {
+        let component = Component::Float;
+        let shape = ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: false, component };
+        let source = Binding {
+            set: 0,
+            binding: 0,
+            name: "source".to_owned(),
+            kind: BindingKind::SampledImage(shape),
+            stages: Stages::FRAGMENT_SHADER,
+        };
+        let output = FragmentOutput { location: 0, name: "color".to_owned(), component, components: 4 };
+        let bindings = if name == "plain" { Vec::new() } else { vec![source] };
+        Ok(ShaderInterface { bindings, outputs: vec![output], ..ShaderInterface::default() })
+    }
+
+    fn compute_shader(&mut self, _: &str) -> Result<ShaderInterface, ShaderProblem> {
+        Err(ShaderProblem::Unsupported { what: "no pass of the bench dispatches".to_owned() })
+    }
+
+    fn brought_along(&self, _: Draw) -> DrawInterface {
+        DrawInterface::default()
+    }
+}

@@ -1,0 +1,84 @@
+//! Compiling again: the same frame, an equal one, other values, other sizes.
+
+use crate::graphs;
+use crate::timing::{Timing, beside, microseconds};
+use framewright_graph::compile::{Compiler, Options, Reuse};
+use framewright_graph::device::Estimated;
+use framewright_graph::frame::{Frame, Groups, Work};
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+pub(crate) fn run(timing: &Timing) {
+    println!("\n{:<14}{:>16}{:>12}{:>18}{:>18}", "again", "same, µs", "equal, µs", "other values", "other sizes");
+    let frames = [
+        ("deferred 25", graphs::deferred()),
+        ("chain 100", graphs::chain(100)),
+        ("wide 100", graphs::wide(100)),
+        ("wide 1000", graphs::wide(1000)),
+    ];
+    for (name, frame) in frames.into_iter().filter(|(name, _)| timing.wants(name)) {
+        row(timing, name, &frame);
+    }
+}
+
+fn row(timing: &Timing, name: &str, frame: &Frame) {
+    let frame = Arc::new(frame.clone());
+    let equal = Arc::new(Frame::clone(&frame));
+    let [values, sizes] = [with_values(&frame), with_sizes(&frame)].map(Arc::new);
+    let full = alternate(timing, [&frame, &sizes], Reuse::Nothing, true);
+    let same = alternate(timing, [&frame, &frame], Reuse::Everything, false);
+    let compared = alternate(timing, [&frame, &equal], Reuse::Everything, false);
+    let values = alternate(timing, [&frame, &values], Reuse::Placement, false);
+    let sizes = alternate(timing, [&frame, &sizes], Reuse::Structure, false);
+    let share = |time: Duration| match time {
+        Duration::MAX => "compiled anew".to_owned(),
+        time => beside(format!("{:.0} %", 100.0 * time.as_secs_f64() / full.as_secs_f64()), Some("25".to_owned())),
+    };
+    println!(
+        "{name:<14}{:>16}{:>12.2}{:>18}{:>18}",
+        beside(format!("{:.3}", microseconds(same)), Some("1".to_owned())),
+        microseconds(compared),
+        share(values),
+        share(sizes),
+    );
+}
+
+/// The least time for one of two frames after the other; `anew`: with a compiler that remembers nothing.
+fn alternate(timing: &Timing, frames: [&Arc<Frame>; 2], expected: Reuse, anew: bool) -> Duration {
+    let (device, options) = (Arc::new(graphs::device()), Options::default());
+    let mut compiler = Compiler::new();
+    let mut least = Duration::MAX;
+    let mut at = 0;
+    timing.least(|| {
+        if anew {
+            compiler = Compiler::new();
+        }
+        let start = Instant::now();
+        let compiled = compiler.compile(frames[at], &device, &mut Estimated(&device), &options);
+        let time = start.elapsed();
+        black_box(&compiled).as_ref().expect("the graph is legal");
+        // The first of all has nothing to follow.
+        if compiler.reuse() == expected {
+            least = least.min(time);
+        }
+        at = 1 - at;
+    });
+    least
+}
+
+fn with_values(frame: &Frame) -> Frame {
+    let mut frame = frame.clone();
+    for pass in &mut frame.passes {
+        if let Work::Dispatch { groups, .. } = &mut pass.work {
+            *groups = Groups::Invocations([128, 128, 1]);
+        }
+    }
+    frame
+}
+
+fn with_sizes(frame: &Frame) -> Frame {
+    let mut frame = with_values(frame);
+    frame.images.iter_mut().for_each(|image| image.extent = image.extent.map(|side| side.div_ceil(2)));
+    frame
+}
