@@ -40,12 +40,10 @@ pub(super) fn insert(
     candidates.retain(|it| it.readers.iter().filter(|reads| **reads).count() > 1);
     candidates.sort_by_key(|it| (it.behind, it.change.cell));
     let mut changes = Vec::with_capacity(candidates.len());
-    let mut inserted = 0;
-    for same in candidates.chunk_by(|one, other| one.behind == other.behind) {
-        let at = same[0].behind + inserted + 1;
+    for (same, inserted) in candidates.chunk_by(|one, other| one.behind == other.behind).zip(1..) {
+        let at = same[0].behind + inserted;
         scoped.steps.insert(at as usize, Step::Export);
         queues.insert(at as usize, queues[at as usize - 1]);
-        inserted += 1;
         changes.extend(same.iter().map(|it| (at, it.change)));
     }
     changes
