@@ -216,7 +216,10 @@ impl<'p> Check<'_, 'p> {
             let writes =
                 pass.accesses.iter().filter(|access| access.accesses.intersects(ATTACHMENT & Accesses::WRITES));
             for write in writes {
-                let feedback = pass.accesses.iter().any(|access| local(&access) && access.image == write.image);
+                let feedback = pass
+                    .accesses
+                    .iter()
+                    .any(|access| local(&access) && access.image == write.image && overlap(access.range, write.range));
                 self.demand(
                     !feedback || pass.draw == Some(Draw::FullScreen),
                     write.image,
