@@ -27,6 +27,8 @@ pub(super) struct Walk<'w, 'p, const Q: usize> {
     batch: Vec<(Clock<Q>, StageSet, PairSet)>,
     /// What each queue has waited for with semaphores.
     waited: [Clock<Q>; Q],
+    /// What the step at hand waits for with semaphores.
+    held: Clock<Q>,
     /// For each frame, what comes before somebody who waits for a step: for each step that is waited for.
     signalled: Vec<Vec<Clock<Q>>>,
 }
@@ -54,6 +56,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             frame: 0,
             batch: Vec::new(),
             waited: [Clock::START; Q],
+            held: Clock::START,
             signalled: Vec::new(),
         }
     }
@@ -83,8 +86,12 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         }
     }
 
-    /// The whole step, barriers included, comes after what its queue waits for.
+    /// The whole step, barriers included, comes after what it waits for; later steps do so where their barriers, or the
+    /// stages that wait, lead on to them.
     fn wait(&mut self, span: &Span) {
+        self.held = Clock::START;
+        let touches = &self.program.touches[span.touches.clone()];
+        let work = touches.iter().fold(StageSet::default(), |all, touch| all.union(touch.stages));
         for wait in &self.program.waits[span.waits.clone()] {
             let signal = self.program.signals.binary_search(&wait.step);
             let frame = self.frame.checked_sub(wait.frames_ago).and_then(|frame| self.signalled.get(frame as usize));
@@ -92,9 +99,10 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             if let (Some(frame), Ok(signal)) = (frame, signal)
                 && let Some(before) = frame.get(signal)
             {
-                self.clocks.hold_up(span.queue, StageSet::ALL, before);
+                self.clocks.hold_up(span.queue, wait.stages.and_later().union(work), before);
                 self.clocks.show(span.queue, PairSet::of_stages(wait.stages), before);
                 self.waited[usize::from(span.queue)].join(before);
+                self.held.join(before);
             }
         }
     }
@@ -102,7 +110,9 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
     fn signal(&mut self, id: StepId, queue: u8) {
         let signalled = self.signalled.last_mut();
         if let Some(signalled) = signalled.filter(|before| self.program.signals.get(before.len()) == Some(&id.0)) {
-            signalled.push(self.clocks.signal(queue, self.frame * (self.program.steps() + 1) + id.0 + 2));
+            let mut before = self.clocks.signal(queue, self.frame * (self.program.steps() + 1) + id.0 + 2);
+            before.join(&self.waited[usize::from(queue)]);
+            signalled.push(before);
         }
     }
 
@@ -148,7 +158,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
     fn before(&self, queue: u8, stages: StageSet, now: Time) -> Clock<Q> {
         let mut before = self.clocks.before(queue, stages, now);
         if Q > 1 {
-            before.join(&self.waited[usize::from(queue)]);
+            before.join(&self.held);
         }
         before
     }

@@ -58,10 +58,13 @@ pub(crate) fn plan() -> Plan {
     let steps = vec![
         // `tonemap` of the frame before still reads what this writes.
         Step { queue: Queue::Compute, waits: vec![wait(3, 1, CS)], ..step(Vec::new(), Work::Dispatch(simulate)) },
-        // `blur` of the frame before has read `color`: `tonemap` waited for it.
+        // `blur` of the frame before has read `color`: the fragment shader of `tonemap` waited for it.
         Step {
             releases: vec![release(&color, COLOR, SAMPLED, TO_COMPUTE)],
-            ..step(vec![first(&color, COLOR)], scope(1, vec![cleared], None, vec![scene]))
+            ..step(
+                vec![barrier(&color, (FS, Accesses::empty()), UNDEFINED, COLOR, Hazard::FirstUse, None)],
+                scope(1, vec![cleared], None, vec![scene]),
+            )
         },
         Step {
             queue: Queue::Compute,
