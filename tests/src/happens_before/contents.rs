@@ -141,7 +141,11 @@ impl Follower<'_> {
                     continue;
                 }
                 Some(_) => {
-                    if cell.owner != (Owner::Released { to: queue, from: old, into: new }) {
+                    // Whoever prepared what persists has released it to the first queue that acquires it.
+                    let prepared = self.frame == 0
+                        && cell.owner == Owner::Nobody
+                        && matches!(role(self.world.plan, resource), Role::Persistent { .. });
+                    if !prepared && cell.owner != (Owner::Released { to: queue, from: old, into: new }) {
                         self.wrong(step, format!("`{name}` is acquired, but was not released like that"));
                     }
                     cell.owner = Owner::Queue(queue);
@@ -221,11 +225,11 @@ impl Follower<'_> {
         match work {
             Work::Render(scope) => self.render(step, scope),
             Work::Dispatch(pass) => {
-                let read = self.reads(step, pass, uses::of_pass(pass, 0, Kind::Plain));
+                let read = self.reads(step, pass, uses::of_pass(pass, [0; 2], Kind::Plain));
                 self.stores(pass, read);
             }
             Work::Custom(pass) => {
-                let read = self.reads(step, pass, uses::of_pass(pass, 0, Kind::Custom));
+                let read = self.reads(step, pass, uses::of_pass(pass, [0; 2], Kind::Custom));
                 self.outcome.push(read);
                 self.stores(pass, read);
             }
@@ -286,7 +290,7 @@ impl Follower<'_> {
 
     /// What a pass writes without attachments. What it doesn't read it replaces whole.
     fn stores(&mut self, pass: &Pass, read: Value) {
-        for (at, one) in uses::of_pass(pass, 0, Kind::Plain).iter().enumerate() {
+        for (at, one) in uses::of_pass(pass, [0; 2], Kind::Plain).iter().enumerate() {
             if one.kind != Kind::Attachment && !one.accesses.writes().is_empty() {
                 self.write(one, |place, _| read.map(|read| number((read, "store", at, place))));
             }
@@ -329,7 +333,7 @@ impl Follower<'_> {
     }
 
     fn draw(&mut self, step: usize, scope: &RenderScope, pass: &Pass) {
-        let mut read = self.reads(step, pass, uses::of_pass(pass, 0, Kind::Plain));
+        let mut read = self.reads(step, pass, uses::of_pass(pass, [0; 2], Kind::Plain));
         let depth = pass.depth.zip(scope.depth.as_ref());
         let stencil = pass.stencil.zip(scope.stencil.as_ref());
         let tested = depth.filter(|(state, _)| state.test != CompareOp::Always).map(|(_, attachment)| attachment);

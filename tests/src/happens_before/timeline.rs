@@ -228,7 +228,7 @@ impl Timeline {
         self.tracks.entry(queue).or_default().open.extend(opened);
         self.work(world, (frame, time), step, &held_up);
         for barrier in &step.releases {
-            self.image_barrier(world, (frame, time, call + 1), queue, barrier, &[]);
+            self.image_barrier(world, (frame, time, call + 1), queue, barrier, &held_up);
         }
         if !world.several_queues {
             return;
@@ -303,22 +303,24 @@ impl Timeline {
     fn work(&mut self, world: &World, (frame, time): (usize, usize), step: &Step, held_up: &[usize]) {
         let queue = step.queue;
         let uses = uses::of(&step.work);
-        // What reads behind a local barrier comes after all that colour output waits for, too.
-        let mut nodes: BTreeMap<(Stages, Option<usize>), usize> = BTreeMap::new();
+        let mut nodes: BTreeMap<Stages, usize> = BTreeMap::new();
+        let mut local = Vec::new();
         for (number, one) in uses.into_iter().enumerate() {
             let physical = world.physical(frame, one.resource);
             let cells = world.cells(physical, one.range);
-            let local = matches!(one.kind, Kind::Input { local_barrier: true }).then_some(one.pass);
             for (stage, access) in each(one.stages, one.accesses) {
-                let node = match nodes.get(&(stage, local)) {
-                    Some(node) => *node,
-                    None => {
-                        let track = self.tracks.entry(queue).or_default();
-                        let chained = if local.is_some() { Stages::COLOR_ATTACHMENT_OUTPUT } else { Stages::empty() };
-                        let open = track.open.iter().filter(|open| open.stages.intersects(stage | chained));
-                        let open = open.map(|open| open.node);
-                        let after: Vec<usize> = held_up.iter().copied().chain(open).collect();
-                        let after = self.after(&after);
+                let node = match (one.kind, nodes.get(&stage)) {
+                    (Kind::Input { shown: 1.., .. }, _) => {
+                        let part = (physical, cells.clone());
+                        let drawn = nodes.get(&Stages::COLOR_ATTACHMENT_OUTPUT).copied();
+                        let node = self.after_local_barrier(queue, 3 * time + 1, (stage, drawn), held_up, part);
+                        local.push((node, stage));
+                        node
+                    }
+                    (_, Some(node)) => *node,
+                    (_, None) => {
+                        let open = self.open(queue, stage);
+                        let after = self.after(&[held_up, &open].concat());
                         let node = self.made(queue, after);
                         nodes.insert((stage, local), node);
                         node
@@ -329,7 +331,41 @@ impl Timeline {
                 self.touch(Touch { node, queue, time, physical, cells: cells.clone(), what, of });
             }
         }
-        self.tracks.entry(queue).or_default().work.extend(nodes.into_iter().map(|((stage, _), node)| (node, stage)));
+        let nodes = nodes.into_iter().map(|(stage, node)| (node, stage)).chain(local);
+        self.tracks.entry(queue).or_default().work.extend(nodes);
+    }
+
+    /// Second scopes that a stage is in.
+    fn open(&mut self, queue: Queue, stage: Stages) -> Vec<usize> {
+        let track = self.tracks.entry(queue).or_default();
+        track.open.iter().filter(|open| open.stages.contains(stage)).map(|open| open.node).collect()
+    }
+
+    /// The node of what reads a part at its own position after a by-region barrier, which continues what colour output
+    /// waits for, and shows what it wrote.
+    fn after_local_barrier(
+        &mut self,
+        queue: Queue,
+        call: usize,
+        (stage, drawn): (Stages, Option<usize>),
+        held_up: &[usize],
+        part: (usize, Vec<usize>),
+    ) -> usize {
+        let first = [held_up, &self.open(queue, Stages::COLOR_ATTACHMENT_OUTPUT), drawn.as_slice()].concat();
+        let after = self.after(&first);
+        let from = self.made(queue, after);
+        let after = self.after(&[from]);
+        let to = self.made(queue, after);
+        self.operations.push(MemoryOperation {
+            queue,
+            call,
+            from: Some((Stages::COLOR_ATTACHMENT_OUTPUT, Accesses::COLOR_ATTACHMENT_WRITE, from)),
+            to: Some((Stages::FRAGMENT_SHADER, Accesses::INPUT_ATTACHMENT_READ, to)),
+            part: Some(part),
+        });
+        let after = [held_up, &self.open(queue, stage), &[to]].concat();
+        let after = self.after(&after);
+        self.made(queue, after)
     }
 
     /// The queue of the first (or last) step that uses it.

@@ -1,5 +1,6 @@
 //! What the work of a step does to images and buffers, use by use, as the Plan's module documentation says.
 
+use framewright_graph::frame::Draw;
 use framewright_graph::plan::{Attachment, BindingKind, Pass, RenderScope, Resource, Side, Work};
 use framewright_graph::vocabulary::{Accesses, Layout, LoadOp, Stages, StoreOp, Subresources};
 
@@ -26,8 +27,13 @@ pub(super) enum Kind {
     Custom,
     /// A draw's, as attachment: rasterisation order.
     Attachment,
-    /// An input attachment; whether a by-region barrier stands before it.
-    Input { local_barrier: bool },
+    /// An input attachment.
+    Input {
+        /// What passes before this one drew stands before a by-region barrier.
+        shown: usize,
+        /// Whether its pass draws each texel once.
+        once: bool,
+    },
     /// A load operation: before all draws.
     Load,
     /// A store operation: after all draws.
@@ -45,8 +51,8 @@ const ATTACHMENT: Accesses = Accesses::COLOR_ATTACHMENT_READ
 pub(super) fn of(work: &Work) -> Vec<Use> {
     match work {
         Work::Render(scope) => of_scope(scope),
-        Work::Dispatch(pass) => of_pass(pass, 0, Kind::Plain),
-        Work::Custom(pass) => of_pass(pass, 0, Kind::Custom),
+        Work::Dispatch(pass) => of_pass(pass, [0; 2], Kind::Plain),
+        Work::Custom(pass) => of_pass(pass, [0; 2], Kind::Custom),
         Work::Resolve(transfer) => of_transfer(&transfer.source, &transfer.target, Stages::RESOLVE),
         Work::Copy(transfer) => of_transfer(&transfer.source, &transfer.target, Stages::COPY),
         Work::Blit(transfer) => of_transfer(&transfer.source, &transfer.target, Stages::BLIT),
@@ -67,8 +73,8 @@ fn of_side(side: &Side, stages: Stages, accesses: Accesses) -> Use {
     Use { resource: side.resource(), range, layout, stages, accesses, kind: Kind::Plain, pass: 0 }
 }
 
-/// The accesses of a pass.
-pub(super) fn of_pass(pass: &Pass, number: usize, plain: Kind) -> Vec<Use> {
+/// The accesses of a pass: its number in its scope, and that of the last pass up to it with a by-region barrier.
+pub(super) fn of_pass(pass: &Pass, [number, shown]: [usize; 2], plain: Kind) -> Vec<Use> {
     let images = pass.accesses.iter().map(|access| {
         let input = access.binding.as_ref().is_some_and(|binding| binding.kind == BindingKind::InputAttachment);
         Use {
@@ -78,7 +84,7 @@ pub(super) fn of_pass(pass: &Pass, number: usize, plain: Kind) -> Vec<Use> {
             stages: access.stages,
             accesses: access.accesses,
             kind: match () {
-                () if input => Kind::Input { local_barrier: pass.local_barrier },
+                () if input => Kind::Input { shown, once: pass.draw == Some(Draw::FullScreen) },
                 () if ATTACHMENT.contains(access.accesses) => Kind::Attachment,
                 () => plain,
             },
@@ -142,8 +148,11 @@ fn of_scope(scope: &RenderScope) -> Vec<Use> {
             uses.push(Use { stages, accesses: write, ..store });
         }
     }
-    let passes = scope.passes.iter().enumerate();
-    uses.extend(passes.flat_map(|(number, pass)| of_pass(pass, number, Kind::Plain)));
+    let mut shown = 0;
+    for (number, pass) in scope.passes.iter().enumerate() {
+        shown = if pass.local_barrier { number } else { shown };
+        uses.extend(of_pass(pass, [number, shown], Kind::Plain));
+    }
     uses
 }
 
@@ -154,16 +163,22 @@ pub(super) fn ordered_within_a_step(one: &Use, other: &Use) -> bool {
     let ends = |of: &Use| matches!(of.kind, Kind::Load | Kind::Store);
     let local = |input: &Use, attachment: &Use| match input.kind {
         // Whoever draws later at the same place comes after in rasterisation order.
-        Kind::Input { local_barrier } => {
-            attachment.kind == Kind::Attachment
-                && ((attachment.pass < input.pass && local_barrier) || attachment.pass > input.pass)
+        Kind::Input { shown, once } => {
+            let own = attachment.pass == input.pass && once;
+            match attachment.kind {
+                Kind::Attachment => attachment.pass < shown || own || attachment.pass > input.pass,
+                Kind::Load => shown > 0 || reads(attachment),
+                Kind::Store => true,
+                _ => reads(attachment),
+            }
         }
         _ => false,
     };
+    if matches!(one.kind, Kind::Input { .. }) || matches!(other.kind, Kind::Input { .. }) {
+        return local(one, other) || local(other, one);
+    }
     (one.kind == Kind::Custom && other.kind == Kind::Custom)
         || (attached(one) && attached(other))
         || (ends(one) && reads(other))
         || (ends(other) && reads(one))
-        || local(one, other)
-        || local(other, one)
 }
