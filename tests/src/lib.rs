@@ -4,6 +4,7 @@
 //! - [`happens_before`]: a brute-force judge of Plans.
 //! - [`mutation`]: Plans with one mistake each, and who notices.
 //! - [`random_pipelines`]: pipelines from a seed, and what they mean.
+//! - [`incidents`]: frames after what users of other graphs reported.
 //! - [`raycast`]: a second, slow and simple way to a picture.
 //! - [`render`]: a pipeline file and a scene become pictures.
 //! - [`shapes`]: simple scenes.
@@ -14,6 +15,7 @@
 pub mod agreement;
 pub mod frames;
 pub mod happens_before;
+pub mod incidents;
 pub mod mutation;
 pub mod optima;
 pub mod random_pipelines;

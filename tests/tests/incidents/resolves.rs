@@ -3,24 +3,9 @@
 use super::{attachments, bound, resolves, right, scopes};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
-use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::vocabulary::{Aspects, ResolveMode, StoreOp};
-use framewright_tests::frames::{Builder, device};
-
-/// Opaque objects, transparent ones if there are any, then a full-screen pass that shows them: at 4 samples.
-fn forward(transparent: bool) -> Frame {
-    let mut builder = Builder::default();
-    let color = builder.image("color", R16G16B16A16_SFLOAT, 64, 4);
-    let depth = builder.image("depth", D32_SFLOAT, 64, 4);
-    let screen = builder.image("screen", R8G8B8A8_SRGB, 64, 1);
-    builder.objects("opaque").clear(color).depth(depth, Some(0.0), true);
-    if transparent {
-        builder.objects("glass").color(color, Blend::Alpha).depth(depth, None, false);
-    }
-    builder.full_screen("show").sample(color).color(screen, Blend::Replace);
-    builder.outputs(&[screen])
-}
+use framewright_tests::frames::device;
+use framewright_tests::incidents::{depth_sampled, forward, prepass, scaled, two_versions, weighted};
 
 /// The pass that carried the resolve was skipped, and the screen was black.
 #[test]
@@ -35,14 +20,7 @@ fn godot_81910_the_resolve_stays_when_nothing_transparent_is_drawn() {
 /// Depth of field silently did nothing: multisampled depth was never resolved.
 #[test]
 fn godot_80626_multisampled_depth_that_is_sampled_once_is_never_silently_left_out() {
-    let mut builder = Builder::default();
-    let depth = builder.image("depth", D32_SFLOAT, 64, 4);
-    let color = builder.image("color", R8G8B8A8_SRGB, 64, 4);
-    let screen = builder.image("screen", R8G8B8A8_SRGB, 64, 1);
-    builder.objects("opaque").clear(color).depth(depth, Some(0.0), true);
-    builder.full_screen("blur").sample(depth).sample(color).color(screen, Blend::Replace);
-    let device = device();
-    let frame = builder.outputs(&[screen]);
+    let (device, frame) = (device(), depth_sampled());
     match compile(&frame, &device, &mut Estimated(&device), &Options::default()) {
         Ok(plan) => assert_eq!(bound(&plan, "blur", "source0").samples, 1, "{}", plan.tree()),
         Err(wrong) => assert!(wrong.iter().any(|wrong| wrong.message.contains("depth")), "{wrong:?}"),
@@ -54,15 +32,7 @@ fn godot_80626_multisampled_depth_that_is_sampled_once_is_never_silently_left_ou
 fn godot_121453_and_121595_no_scope_is_empty_whatever_samples_and_scales_meet() {
     for samples in [1, 2, 4, 8] {
         for (drawn, shown) in [(16, 64), (64, 64), (128, 64), (1, 1)] {
-            let mut builder = Builder::default();
-            let color = builder.image("color", R16G16B16A16_SFLOAT, drawn, samples);
-            let depth = builder.image("depth", D32_SFLOAT, drawn, samples);
-            let mapped = builder.image("mapped", R8G8B8A8_SRGB, drawn, 1);
-            let screen = builder.image("screen", R8G8B8A8_SRGB, shown, 1);
-            builder.objects("opaque").clear(color).depth(depth, Some(0.0), true);
-            builder.full_screen("map").sample(color).color(mapped, Blend::Replace);
-            builder.full_screen("scale").sample(mapped).color(screen, Blend::Replace);
-            let plan = right(&builder.outputs(&[screen]), &Options::default());
+            let plan = right(&scaled(samples, drawn, shown), &Options::default());
             assert!(scopes(&plan).all(|scope| !scope.passes.is_empty()), "{}", plan.tree());
             assert_eq!(resolves(&plan).len(), usize::from(samples > 1), "{}", plan.tree());
         }
@@ -95,13 +65,7 @@ fn filament_7448_depth_is_never_averaged() {
 /// A wish: a resolve of one's own, weighted by brightness. A pass that reads single samples is one, and no other is made.
 #[test]
 fn filament_4702_a_pass_that_reads_samples_is_a_resolve_of_its_own() {
-    let mut builder = Builder::default();
-    let color = builder.image("color", R16G16B16A16_SFLOAT, 64, 4);
-    let screen = builder.image("screen", R8G8B8A8_SRGB, 64, 1);
-    builder.objects("opaque").clear(color);
-    let pass = builder.full_screen("weighted").sample(color).color(screen, Blend::Replace);
-    pass.0.sampled[0].per_sample = true;
-    let plan = right(&builder.outputs(&[screen]), &Options::default());
+    let plan = right(&weighted(), &Options::default());
     assert_eq!(resolves(&plan), [], "{}", plan.tree());
     assert_eq!(bound(&plan, "weighted", "source0").samples, 4);
 }
@@ -109,13 +73,7 @@ fn filament_4702_a_pass_that_reads_samples_is_a_resolve_of_its_own() {
 /// Multisampled normals and other targets beside the colour weren't resolved.
 #[test]
 fn bevy_22831_every_target_of_a_pass_is_resolved_integers_by_their_first_sample() {
-    let mut builder = Builder::default();
-    let [color, normals] = ["color", "normals"].map(|name| builder.image(name, R16G16B16A16_SFLOAT, 64, 4));
-    let ids = builder.image("ids", R32_UINT, 64, 4);
-    let screen = builder.image("screen", R8G8B8A8_SRGB, 64, 1);
-    builder.objects("prepass").clear(color).clear(normals).clear(ids);
-    builder.full_screen("show").sample(color).sample(normals).sample(ids).color(screen, Blend::Replace);
-    let plan = right(&builder.outputs(&[screen]), &Options::default());
+    let plan = right(&prepass(), &Options::default());
     let modes: Vec<_> = attachments(&plan).filter_map(|attachment| Some(attachment.resolve.as_ref()?.mode)).collect();
     assert_eq!(modes, [ResolveMode::Average, ResolveMode::Average, ResolveMode::SampleZero], "{}", plan.tree());
 }
@@ -123,14 +81,7 @@ fn bevy_22831_every_target_of_a_pass_is_resolved_integers_by_their_first_sample(
 /// The multisampled image was bound where the resolved one was meant.
 #[test]
 fn unity_2278_who_wants_one_value_a_texel_is_bound_to_a_single_sampled_image() {
-    let mut builder = Builder::default();
-    let color = builder.image("color", R8G8B8A8_SRGB, 64, 4);
-    let [first, screen] = ["first", "screen"].map(|name| builder.image(name, R8G8B8A8_SRGB, 64, 1));
-    builder.objects("opaque").clear(color);
-    builder.full_screen("early").sample(color).color(first, Blend::Replace);
-    builder.objects("glass").color(color, Blend::Alpha);
-    builder.full_screen("late").sample(color).sample(first).color(screen, Blend::Replace);
-    let plan = right(&builder.outputs(&[screen]), &Options::default());
+    let plan = right(&two_versions(), &Options::default());
     assert_eq!(resolves(&plan).len(), 2, "each of two versions is resolved:\n{}", plan.tree());
     for (pass, name) in [("early", "source0"), ("late", "source0"), ("late", "source1")] {
         assert_eq!(bound(&plan, pass, name).samples, 1, "{pass} {name}");

@@ -4,11 +4,15 @@ use super::right;
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::describe;
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_UNORM};
-use framewright_graph::frame::{Blend, Frame, ImageIndex};
+use framewright_graph::format::Format::R8G8B8A8_UNORM;
+use framewright_graph::frame::ImageIndex;
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::source::Sources;
 use framewright_tests::frames::{Builder, device};
+use framewright_tests::happens_before::judge;
+use framewright_tests::incidents::diamond;
+use framewright_tests::optima::orders;
+use std::collections::BTreeSet;
 
 /// The passes of a Plan in the order in which they run.
 fn order(plan: &Plan) -> Vec<String> {
@@ -18,19 +22,6 @@ fn order(plan: &Plan) -> Vec<String> {
         _ => Vec::new(),
     });
     passes.collect()
-}
-
-/// Two shadow maps, a scene that reads both, and a chain beside them.
-fn diamond() -> Frame {
-    let mut builder = Builder::default();
-    let [left, right] = ["left", "right"].map(|name| builder.image(name, D32_SFLOAT, 32, 1));
-    let [scene, noise, screen] = ["scene", "noise", "screen"].map(|name| builder.image(name, R8G8B8A8_UNORM, 32, 1));
-    builder.objects("shadow_left").depth(left, Some(0.0), true);
-    builder.dispatch("noise").store(noise, false);
-    builder.objects("shadow_right").depth(right, Some(0.0), true);
-    builder.objects("scene").sample(left).sample(right).clear(scene);
-    builder.full_screen("show").sample(scene).sample(noise).color(screen, Blend::Replace);
-    builder.outputs(&[screen])
 }
 
 /// A table of priorities was wrong for a long time, unseen. Golden Plans show the order of every shipped pipeline; this
@@ -43,6 +34,22 @@ fn godot_119204_orders_are_the_same_every_time() {
         assert_eq!(first, order(&right(&diamond(), &options)), "{order_of:?}");
         assert_eq!(first.len(), 5, "{first:?}");
     }
+}
+
+/// It was "not a real dependency graph": what ran when was what the file said. Here the order follows from the data: every
+/// order that the data allows is taken by some seed, no other one is, and all of them make the same picture.
+#[test]
+fn vk_graph_94_passes_are_ordered_by_their_data_and_by_nothing_else() {
+    let legal: BTreeSet<Vec<String>> = orders(&diamond(), 100)
+        .expect("a diamond has few orders")
+        .into_iter()
+        .map(|order| order.into_iter().map(|pass| diamond().passes[pass].name.to_string()).collect())
+        .collect();
+    let made = |seed| right(&diamond(), &Options { order: Order::Random(seed), ..Options::default() });
+    let taken: BTreeSet<Vec<String>> = (0..400).map(|seed| order(&made(seed))).collect();
+    assert_eq!(taken, legal);
+    let outcomes: BTreeSet<_> = (0..20).map(|seed| judge(&made(seed)).outcome).collect();
+    assert_eq!(outcomes.len(), 1);
 }
 
 /// Errors came again and again, without a place.
