@@ -25,6 +25,10 @@ pub enum Kind {
     AccessDropped,
     /// The old or the new layout of a barrier is another one.
     LayoutChanged,
+    /// The work of a step names an image in another layout.
+    UsedInOtherLayout,
+    /// A barrier leaves out one mip level, layer or plane.
+    RangeShrunk,
     /// A transient image or buffer is placed on another one that lives at the same time.
     AllocationShifted,
     /// An attachment is no longer loaded or cleared.
@@ -37,12 +41,34 @@ pub enum Kind {
     ResolveMoved,
     /// A wait for another queue is left out.
     WaitDropped,
-    /// One stage is taken out of a wait.
+    /// One stage is taken out of a wait, or it waits for the frame before.
     WaitWeakened,
     /// An image isn't released to the queue that takes it over.
     ReleaseDropped,
     /// A by-region barrier within a rendering scope is left out.
     LocalBarrierDropped,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Kind; 16] = [
+        Kind::ImageBarrierDropped,
+        Kind::MemoryBarrierDropped,
+        Kind::StageDropped,
+        Kind::AccessDropped,
+        Kind::LayoutChanged,
+        Kind::UsedInOtherLayout,
+        Kind::RangeShrunk,
+        Kind::AllocationShifted,
+        Kind::LoadLost,
+        Kind::StoreLost,
+        Kind::ResolveDropped,
+        Kind::ResolveMoved,
+        Kind::WaitDropped,
+        Kind::WaitWeakened,
+        Kind::ReleaseDropped,
+        Kind::LocalBarrierDropped,
+    ];
 }
 
 /// A Plan with a mistake.
