@@ -1,6 +1,6 @@
 //! What is known about each part of each image, and about each buffer, while the walk goes on.
 
-use super::clocks::{ANY_QUEUE, Availability, Time};
+use super::clocks::{Availability, Time};
 use super::scopes::{PairSet, STAGES, StageSet};
 use crate::vocabulary::Layout;
 
@@ -101,10 +101,10 @@ impl Write {
         barriers: [Availability { time: 0, stages: StageSet(0), queue: 0 }; Write::BARRIERS],
     };
 
-    /// What wrote before the frame, on whichever queue.
-    pub(super) fn before_frame(pairs: PairSet, time: Time) -> Write {
+    /// What wrote before the frame.
+    pub(super) fn before_frame(queue: u8, pairs: PairSet, time: Time) -> Write {
         let pairs = pairs.writes();
-        Write { time, queue: ANY_QUEUE, pairs, stages: pairs.stages(), ..Write::NONE }
+        Write { time, queue, pairs, stages: pairs.stages(), ..Write::NONE }
     }
 
     /// A layout change by an image barrier: available by itself, visible to what the barrier says.

@@ -8,6 +8,7 @@
 
 use super::Findings;
 use super::cells::{Cell, Contents, Owner, Write};
+use super::clocks::ANY_QUEUE;
 use super::dependencies::{before_access, before_layout_change};
 use super::scopes::{PairSet, StageSet, stage_of};
 use super::violation::Touched;
@@ -126,11 +127,9 @@ impl<const Q: usize> Walk<'_, '_, Q> {
                 *cell = Cell::FRESH;
                 cell.layout = before.layout;
                 cell.contents = if unknown { Contents::Unwritten } else { Contents::Defined };
-                cell.write = Write::before_frame(pairs, time);
-                if !persistent {
-                    // What another queue has done since then says nothing of it.
-                    cell.write.queue = queue;
-                }
+                // What is handed in was used where it is used first; what persists was prepared, and that waited for.
+                let by = if persistent { ANY_QUEUE } else { queue };
+                cell.write = Write::before_frame(by, pairs, time);
                 cell.reads.insert(queue, stages, time);
             }
         }
@@ -152,7 +151,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
                 }
                 self.check_layout(last, resource, index, after.layout);
                 self.check_state(last, resource, index, &after);
-                if persistent || matches!(self.cells[index].contents, Contents::Lost(..)) {
+                if persistent || matches!(self.cells[index].contents, Contents::Lost(..) | Contents::InPart(_)) {
                     self.read(last, resource, index);
                 }
             }
