@@ -322,7 +322,7 @@ impl Timeline {
                         let open = self.open(queue, stage);
                         let after = self.after(&[held_up, &open].concat());
                         let node = self.made(queue, after);
-                        nodes.insert((stage, local), node);
+                        nodes.insert(stage, node);
                         node
                     }
                 };
