@@ -195,7 +195,7 @@ pub enum Role {
         /// What it is in the next frame (index into the same list): itself, or with history the one that stands for one
         /// frame further back. Over all persistent images, and over all persistent buffers, this is a permutation.
         becomes: u32,
-        /// Contents before the first frame, in the state `before`.
+        /// Contents before the first frame, in the state `before`. The first frame waits until they are there.
         initial: FillValue,
         /// State in which a frame finds it: the `after` of the one that becomes it.
         before: State,

@@ -41,9 +41,6 @@ pub(super) struct Availability {
     pub(super) queue: u8,
 }
 
-/// Stands for whichever queue comes first: what was there before the frame, every queue may rely on.
-pub(super) const ANY_QUEUE: u8 = u8::MAX;
-
 impl<const Q: usize> Clock<Q> {
     pub(super) const START: Clock<Q> = Clock { ordered: [[0; LANES]; Q], available: [[0; LANES]; Q] };
 
@@ -153,10 +150,7 @@ impl<const Q: usize> Clocks<Q> {
 
 /// Whether a row reaches beyond `time` in the lane of `queue`.
 fn reaches<const Q: usize>(row: &Row<Q>, queue: u8, lane: usize, time: Time) -> bool {
-    match queue {
-        ANY_QUEUE => row.iter().any(|times| times[lane] > time),
-        queue => row[usize::from(queue)][lane] > time,
-    }
+    row[usize::from(queue)][lane] > time
 }
 
 fn raise<const Q: usize>(times: &mut Row<Q>, to: &Row<Q>) {

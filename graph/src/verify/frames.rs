@@ -8,7 +8,6 @@
 
 use super::Findings;
 use super::cells::{Cell, Contents, Owner, Write};
-use super::clocks::ANY_QUEUE;
 use super::dependencies::{before_access, before_layout_change};
 use super::scopes::{PairSet, StageSet, stage_of};
 use super::violation::Touched;
@@ -127,10 +126,12 @@ impl<const Q: usize> Walk<'_, '_, Q> {
                 *cell = Cell::FRESH;
                 cell.layout = before.layout;
                 cell.contents = if unknown { Contents::Unwritten } else { Contents::Defined };
-                // What is handed in was used where it is used first; what persists was prepared, and that waited for.
-                let by = if persistent { ANY_QUEUE } else { queue };
-                cell.write = Write::before_frame(by, pairs, time);
-                cell.reads.insert(queue, stages, time);
+                // What is handed in was used on the queue that uses it first. What persists was prepared, and who did so
+                // waited until that was done.
+                if !persistent {
+                    cell.write = Write::before_frame(queue, pairs, time);
+                    cell.reads.insert(queue, stages, time);
+                }
             }
         }
     }

@@ -401,7 +401,7 @@ impl Timeline {
                 part,
             });
         };
-        if stages.is_empty() && !external {
+        if !external {
             // Whoever prepared it waited until that was done, and whichever queue comes first may use it.
             let all = Accesses::MEMORY_READ | Accesses::MEMORY_WRITE;
             for queue in [Queue::Graphics, Queue::Compute, Queue::Transfer] {

@@ -150,7 +150,7 @@ fn a_state_that_is_wrong_only_frames_later_is_caught() {
     // Without this barrier the read of the oldest contents doesn't find them visible, two frames after they were written.
     plan.steps[0].image_barriers.remove(1);
     let said = said(&mut plan);
-    assert!(said[0].contains("by step 0 `accumulate` of the frame before"), "{said:#?}");
+    assert!(said[0].contains("the layout change by step 1 `tonemap` of the frame before"), "{said:#?}");
 }
 
 #[test]
