@@ -10,6 +10,7 @@ use super::reach::Steps;
 use super::{QUEUES, Queues, Shared, number};
 use crate::compile::Options;
 use crate::compile::model::{Adapted, Home, Kind, OpKind, StoreIndex, Use};
+use crate::compile::outlive::{last_of_cycle, of_all_planes};
 use crate::compile::parts::Grids;
 use crate::compile::scope::{Scoped, Step, op_name, store_name};
 use crate::device::Profile;
@@ -187,7 +188,10 @@ fn share(adapted: &mut Adapted, scoped: &Scoped, device: &Profile, of: &[Queue])
         for (store, writes, layout) in uses(adapted, step) {
             let store = store as usize;
             users[store][number(*queue)] = true;
-            constant[store] &= !writes && layouts[store].replace(layout).is_none_or(|other| other == layout);
+            // Between frames all planes have one layout.
+            let stays = of_all_planes(&adapted.stores[store], layout) == layout;
+            let same = layouts[store].replace(layout).is_none_or(|other| other == layout);
+            constant[store] &= !writes && stays && same;
         }
     }
     // Stores that become each other stand side by side, and are used by each other's queues in turns.
@@ -240,5 +244,5 @@ fn circle(adapted: &Adapted, first: usize) -> usize {
     if !matches!(adapted.stores[first].home, Home::Persistent { .. }) {
         return first;
     }
-    crate::compile::outlive::last_of_cycle(adapted, first as StoreIndex) as usize
+    last_of_cycle(adapted, first as StoreIndex) as usize
 }
