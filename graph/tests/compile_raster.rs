@@ -233,7 +233,7 @@ fn depth_that_is_only_tested_is_left_alone() {
     assert_eq!(barriers_of_depth, 2, "reads in one layout follow each other without a barrier");
 }
 
-/// As when it is dumped. Depth is never averaged unless a file asks for it.
+/// IQ-10: depth is never averaged unless a file asks for it, also where it is dumped.
 #[test]
 fn multisampled_depth_that_leaves_the_frame_is_its_sample_zero() {
     let mut raster = Raster::default();
