@@ -313,7 +313,8 @@ pub struct Sampled {
     pub binding: Arc<str>,
     /// Which image.
     pub image: ImageIndex,
-    /// Which part of it. Counts of mip levels and layers may be [`Subresources::REMAINING`]; no planes mean all.
+    /// Which part of it. Counts of mip levels and layers may be [`Subresources::REMAINING`]; shaders see one plane: no planes,
+    /// or all, mean depth where there is stencil beside it.
     pub range: Subresources,
     /// Of which frame: 0 is this one, 1 the one before. More than 0 only for images with history.
     pub frames_ago: u32,

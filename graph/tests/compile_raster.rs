@@ -111,6 +111,20 @@ fn readers_of_one_version_share_its_resolve_and_the_next_version_gets_its_own() 
     assert_eq!(opaque.store, StoreOp::Store, "glass draws on top of it");
 }
 
+/// IQ-8: an image that another one is forwarded to holds the same version.
+#[test]
+fn readers_of_a_forwarded_image_share_the_resolve_of_the_one_that_it_was() {
+    let mut raster = Raster::default();
+    let [color, other] = ["color", "other"].map(|name| raster.image(name, R16G16B16A16_SFLOAT, 4));
+    let [a, b] = ["a", "b"].map(|name| raster.image(name, R8G8B8A8_SRGB, 1));
+    raster.objects("opaque").clear(color);
+    raster.full_screen("first").sample(color).color(a, Blend::Replace);
+    raster.forward("glow", color, other);
+    raster.full_screen("second").sample(other).color(b, Blend::Replace);
+    let plan = compiled(&raster.outputs(&[a, b]));
+    assert_eq!((plan.totals.resolves, plan.totals.folded_resolves), (1, 1));
+}
+
 #[test]
 fn a_scope_that_was_resolved_is_closed_for_later_draws() {
     let mut raster = Raster::default();

@@ -55,7 +55,10 @@ fn what_cannot_be_is_refused_in_words() {
     fn noise(frame: &mut Frame) -> &mut Image {
         &mut frame.images[NOISE]
     }
-    let changes: [(&str, Change); 25] = [
+    let changes: [(&str, Change); 26] = [
+        ("accesses `color` as storage, which has several samples", |frame| {
+            frame.passes.push(dispatch("keep", ImageIndex(0)));
+        }),
         ("is 0×64×1", |frame| noise(frame).extent[0] = 0),
         ("is 64×64×0", |frame| noise(frame).extent[2] = 0),
         ("is 4294967295×64", |frame| noise(frame).extent[0] = u32::MAX),

@@ -41,7 +41,7 @@ pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
         input,
         store_of: vec![None; frame.images.len()],
         buffer_store_of: vec![None; frame.buffers.len()],
-        resolved_of: vec![None; frame.images.len()],
+        resolved_of: Vec::with_capacity(frame.images.len()),
         is_output: vec![false; frame.images.len()],
         inserted_for: BTreeMap::new(),
         known_as: BTreeMap::new(),
@@ -51,6 +51,7 @@ pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
         images: 0,
         buffers: 0,
         adapted: Adapted::default(),
+        drawn: Vec::with_capacity(frame.images.len()),
         errors: Vec::new(),
         scratch: Vec::new(),
         copies: Vec::new(),
@@ -86,7 +87,7 @@ struct Adapter<'a> {
     store_of: Vec<Option<StoreIndex>>,
     /// The same for buffers.
     buffer_store_of: Vec<Option<StoreIndex>>,
-    /// The single-sample copy of each image's current version, if there is one.
+    /// For each physical image the single-sample copy of what it holds, if there is one.
     resolved_of: Vec<Option<StoreIndex>>,
     /// Whether each image leaves the frame.
     is_output: Vec<bool>,
@@ -104,6 +105,8 @@ struct Adapter<'a> {
     images: u32,
     buffers: u32,
     adapted: Adapted,
+    /// For each physical image whether a draw wrote it last.
+    drawn: Vec<bool>,
     errors: Vec<Diagnostic>,
     /// Uses of the pass at hand.
     scratch: Vec<Use>,
@@ -123,7 +126,8 @@ impl Adapter<'_> {
         uses.clear();
         for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
             if let Some(store) = self.sampled(number, pass, sampled) {
-                let range = self.range(sampled.image, sampled.range);
+                let range = parts::seen(&frame.images[sampled.image.0 as usize], sampled.range);
+                let range = self.range(sampled.image, range);
                 uses.push(access::sampled(sampled, entry, store, range));
             }
         }
@@ -138,7 +142,7 @@ impl Adapter<'_> {
         for (entry, target) in (0_u32..).zip(&pass.color) {
             let start = match target.clear {
                 Some(_) => Start::Clear,
-                None if covers(pass, target) => Start::Discard,
+                None if covers(frame, pass, target) => Start::Discard,
                 None => Start::Keep,
             };
             let store = self.target(number, pass, target.image, target.range, target.span, start == Start::Keep);
@@ -180,6 +184,9 @@ impl Adapter<'_> {
     fn push(&mut self, kind: OpKind, uses: &[Use]) {
         let start = self.adapted.uses.len() as u32;
         for used in uses {
+            if used.writes {
+                self.drawn[used.store as usize] = kind.draws();
+            }
             let store = &self.adapted.stores[used.store as usize];
             let cell = if store.grid(self.input.grids).is_none() { store.first_cell } else { Use::CELLS };
             self.adapted.uses.push(Use { cell, ..*used });
@@ -294,7 +301,7 @@ impl Adapter<'_> {
             .color
             .iter()
             .filter(|target| target.image == image && overlaps(target.range))
-            .any(|target| !moves(target.range, target.clear.is_none() && !covers(pass, target)));
+            .any(|target| !moves(target.range, target.clear.is_none() && !covers(self.input.frame, pass, target)));
         let mut storage = pass.storage.iter().filter(|storage| storage.image == image && storage.write);
         color || storage.any(|storage| overlaps(storage.range) && !moves(storage.range, storage.read))
     }
@@ -362,8 +369,10 @@ impl Adapter<'_> {
         writes: bool,
     ) {
         let range = Subresources { aspects: plane, ..range };
+        let declared = &self.input.frame.images[image.0 as usize];
         let same = |sampled: &&Sampled| {
-            sampled.image == image && sampled.frames_ago == 0 && self.overlap(image, sampled.range, range)
+            let seen = parts::seen(declared, sampled.range);
+            sampled.image == image && sampled.frames_ago == 0 && self.overlap(image, seen, range)
         };
         if writes && let Some(sampled) = pass.sampled.iter().find(same) {
             let name = &self.input.frame.images[image.0 as usize].name;
@@ -386,17 +395,17 @@ impl Adapter<'_> {
 
     /// The single-sample copy of an image's current version: colour is averaged, integers and depth are sample zero.
     fn single_sample(&mut self, image: ImageIndex, because: String, span: Span) -> StoreIndex {
-        if let Some(resolved) = self.resolved_of[image.0 as usize] {
+        let source = self.current(image);
+        if let Some(resolved) = self.resolved_of[source as usize] {
             return resolved;
         }
         let declared = &self.input.frame.images[image.0 as usize];
         let averaged = !declared.format.is_integer() && !declared.format.is_depth();
         let mode = if averaged { ResolveMode::Average } else { ResolveMode::SampleZero };
-        let source = self.current(image);
         let why = self.reason(because, span);
         let target = self.second(image, "resolved", why.clone(), 1);
         self.push_transfer(OpKind::Resolve { mode, why }, source, target, Use::ALL);
-        self.resolved_of[image.0 as usize] = Some(target);
+        self.resolved_of[source as usize] = Some(target);
         target
     }
 }

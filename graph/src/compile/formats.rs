@@ -71,18 +71,24 @@ pub(super) fn fall_back(frame: &Frame, device: &Profile) -> Option<(Frame, Vec<N
     let mut notes = Vec::new();
     let mut groups: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     (0..frame.images.len()).for_each(|image| groups.entry(alike.find(image as u32)).or_default().push(image));
-    for (declared, number) in frame.images.iter().zip(0_usize..) {
-        let group = &groups[&alike.find(number as u32)];
+    let mut made: Vec<Option<(Format, String)>> = vec![None; frame.images.len()];
+    for group in groups.values() {
+        // What is copied texel for texel has one format.
+        let format = frame.images[group[0]].format;
         let lacks = |format: Format, image: &usize| !wanted[*image].missing(device.format(format)).is_empty();
-        let Some(first) = group.iter().find(|image| lacks(declared.format, image)) else { continue };
+        let Some(first) = group.iter().find(|image| lacks(format, image)) else { continue };
         if group.iter().any(|image| wanted[*image].fixed) {
             return None;
         }
         let fits = |format: &&Format| !group.iter().any(|image| lacks(**format, image));
-        let made = *substitutes(declared.format).iter().find(fits)?;
-        substitute.images[number].format = made;
-        let missing = wanted[*first].missing(device.format(declared.format)).join(", ");
-        notes.push(note(frame, number, made, &format!("`{}` has no {missing} for it", device.name)));
+        let other = *substitutes(format).iter().find(fits)?;
+        let missing = wanted[*first].missing(device.format(format)).join(", ");
+        group.iter().for_each(|image| made[*image] = Some((other, missing.clone())));
+    }
+    for (number, made) in made.into_iter().enumerate() {
+        let Some((format, missing)) = made else { continue };
+        substitute.images[number].format = format;
+        notes.push(note(frame, number, format, &format!("`{}` has no {missing} for it", device.name)));
     }
     (!notes.is_empty()).then_some((substitute, notes))
 }

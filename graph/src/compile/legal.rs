@@ -349,6 +349,9 @@ impl Check<'_> {
                 self.wrong(storage.span, &format!("neither reads nor writes `{}`", storage.binding));
             }
             let image = &self.frame.images[storage.image.0 as usize];
+            if image.samples > 1 {
+                self.wrong(storage.span, &format!("accesses `{}` as storage, which has several samples", image.name));
+            }
             let meets = |other: ImageIndex, range: Subresources| {
                 other == storage.image && parts::overlap(image, range, storage.range)
             };

@@ -54,9 +54,12 @@ impl Linked {
     }
 }
 
-/// Whether a draw replaces every pixel of its colour target.
-pub(super) fn covers(pass: &Pass, target: &ColorTarget) -> bool {
+/// Whether a draw replaces every pixel of its colour target: of several layers, a triangle meets only one.
+pub(super) fn covers(frame: &Frame, pass: &Pass, target: &ColorTarget) -> bool {
     let Work::Draw { draw: Draw::FullScreen, discards: false, .. } = pass.work else { return false };
+    if parts::resolve(&frame.images[target.image.0 as usize], target.range).layers > 1 {
+        return false;
+    }
     let tested = pass.depth.as_ref().is_some_and(|depth| depth.test != CompareOp::Always || depth.stencil.is_some());
     target.blend == Blend::Replace && !tested
 }
@@ -143,14 +146,15 @@ impl Linker<'_> {
     fn pass(&mut self, pass: &Pass) {
         for sampled in &pass.sampled {
             if sampled.frames_ago == 0 {
-                self.image(pass, sampled.image, sampled.range, sampled.span, true, false);
+                let range = parts::seen(&self.frame.images[sampled.image.0 as usize], sampled.range);
+                self.image(pass, sampled.image, range, sampled.span, true, false);
             }
         }
         for storage in &pass.storage {
             self.image(pass, storage.image, storage.range, storage.span, storage.read, storage.write);
         }
         for target in &pass.color {
-            let keeps = target.clear.is_none() && !covers(pass, target);
+            let keeps = target.clear.is_none() && !covers(self.frame, pass, target);
             self.image(pass, target.image, target.range, target.span, keeps, true);
         }
         if let Some(depth) = &pass.depth {

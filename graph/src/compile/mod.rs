@@ -1,8 +1,14 @@
 //! A frame becomes a Plan: one file per stage, each a function from data to data.
 //!
 //! ```text
-//! legal ─► link ─► cull ─► adapt ─► schedule ─► scope ─► retain ─► place ─► synchronise ─► emit
+//! legal ─► parts ─► link ─► cull ─► samples ─► adapt ─► schedule ─► scope ─► retain ─► queues
+//!       ─► synchronise ─► outlive ─► purpose ─► place ─► take_over ─► batch ─► hand_over ─► emit
 //! ```
+//!
+//! `place` stands between the halves of `synchronise`: how long something lives and what it is made for is known once all
+//! steps have been walked, and what its first use waits for (`take_over`) once it has a place. `structure` runs the stages,
+//! those before `place` by themselves since they don't depend on sizes; where the device refuses a format, `formats` finds
+//! another one and they run again. `compiler` keeps what they found from frame to frame.
 
 use crate::describe::Diagnostic;
 use crate::device::{MemoryProvider, Profile};

@@ -123,6 +123,14 @@ pub(super) fn resolve(image: &Image, range: Subresources) -> Subresources {
     }
 }
 
+/// What of `image` a pass samples that names `range`: shaders see one plane, of depth with stencil the depth unless another
+/// one is named.
+pub(super) fn seen(image: &Image, range: Subresources) -> Subresources {
+    let both = Aspects::DEPTH | Aspects::STENCIL;
+    let plain = image.format.aspects() == both && (range.aspects.is_empty() || range.aspects == both);
+    if plain { Subresources { aspects: Aspects::DEPTH, ..range } } else { range }
+}
+
 /// Whether two ranges of `image` have a part in common.
 pub(super) fn overlap(image: &Image, a: Subresources, b: Subresources) -> bool {
     let (a, b) = (resolve(image, a), resolve(image, b));

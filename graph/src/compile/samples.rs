@@ -35,7 +35,7 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
     let multisampled = frame.images.iter().any(|image| image.samples > 1);
     let mut together = UnionFind::<u32>::new(if multisampled { frame.images.len() } else { 0 });
     let mut usage = vec![Usage::empty(); frame.images.len()];
-    let mut forwarded = Vec::new();
+    let mut forwarded = vec![false; frame.images.len()];
     let mut errors = Vec::new();
     for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
         note_usage(frame, pass, &mut usage);
@@ -57,7 +57,7 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
             copied_together(frame, pass, &mut together);
         }
         if let Work::Forward { from, to, .. } = pass.work {
-            forwarded.push(to);
+            forwarded[to.0 as usize] = true;
             if multisampled && frame.images[from.0 as usize].samples == frame.images[to.0 as usize].samples {
                 together.union(from.0, to.0);
             }
@@ -69,7 +69,7 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
     }
     let mut groups: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (image, _) in frame.images.iter().enumerate().filter(|(_, image)| image.samples > 1) {
-        if !usage[image].is_empty() || forwarded.contains(&ImageIndex(image as u32)) {
+        if !usage[image].is_empty() || forwarded[image] {
             groups.entry(together.find(image as u32)).or_default().push(image);
         }
     }
@@ -233,7 +233,13 @@ fn lower(frame: &Frame, group: &[usize], supports: &Supports<'_>, negotiated: &m
     }
     if chosen != wanted {
         let first = &frame.images[group[0]];
-        let formats = group.iter().map(|image| frame.images[*image].format.name()).collect::<Vec<_>>().join(" with ");
+        let mut formats: Vec<&str> = Vec::new();
+        for name in group.iter().map(|image| frame.images[*image].format.name()) {
+            if !formats.contains(&name) {
+                formats.push(name);
+            }
+        }
+        let formats = formats.join(" with ");
         negotiated.notes.push(Note {
             stage: Stage::Adapt,
             subject: first.name.clone(),

@@ -183,7 +183,7 @@ impl Builder<'_> {
         let first = adapted.ops[op as usize].uses.start;
         for (used, number) in adapted.uses(op).iter().zip(first..) {
             // In a scope, whoever draws where another has read its own pixel comes after it.
-            if local.last().is_some_and(|last| *last >= first) && local.contains(&number) {
+            if local.iter().rev().take(adapted.uses(op).len()).any(|local| *local == number) {
                 continue;
             }
             adapted.for_each_cell(grids, used, |cell| {

@@ -60,8 +60,10 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
     for (number, pass) in passes().collect::<Vec<_>>().into_iter().rev() {
         for target in pass.color.iter().filter(|target| multisampled(target.image)) {
             let later = &mut needs[target.image.0 as usize];
-            let keeps = target.clear.is_none() && !covers(pass, target);
-            let fixed = outlives(&frame.images[target.image.0 as usize].lifetime);
+            let image = &frame.images[target.image.0 as usize];
+            // Who draws into some layers keeps the others.
+            let keeps = image.layers > 1 || target.clear.is_none() && !covers(frame, pass, target);
+            let fixed = outlives(&image.lifetime);
             match (is_flat(pass), keeps) {
                 // It follows its image to wherever that is.
                 (true, true) => {}

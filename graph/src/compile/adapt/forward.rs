@@ -95,7 +95,6 @@ impl Adapter<'_> {
             store.renamed = Some(name.clone());
             self.renamed = true;
             self.store_of[to.0 as usize] = Some(source);
-            self.resolved_of[to.0 as usize] = None;
             let what = if resolves { "the resolve goes straight into it" } else { "they are one image" };
             return self.note(&name, format!("{why}: {what}"), pass.span);
         }
@@ -158,7 +157,8 @@ impl Adapter<'_> {
         // What isn't used any more by now never is again, so a long chain of forwards is no long list.
         let used = |image: &ImageIndex| after(later.access[image.0 as usize]) || is_output[image.0 as usize];
         known.retain(|image| used(image) && *image != to);
-        known.retain(|image| held(*image) || resolved_of[image.0 as usize] == Some(store));
+        let resolved = |image: ImageIndex| store_of[image.0 as usize].and_then(|held| resolved_of[held as usize]);
+        known.retain(|image| held(*image) || resolved(*image) == Some(store));
         known.push(to);
         let both_leave = known.iter().filter(|image| is_output[image.0 as usize]).count() > 1;
         let told_apart =

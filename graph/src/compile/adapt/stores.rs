@@ -61,8 +61,9 @@ impl Adapter<'_> {
 
     /// The physical image with the current version, which is about to change.
     pub(super) fn continued(&mut self, image: ImageIndex) -> StoreIndex {
-        self.resolved_of[image.0 as usize] = None;
-        self.current(image)
+        let store = self.current(image);
+        self.resolved_of[store as usize] = None;
+        store
     }
 
     fn first_store(&mut self, image: ImageIndex) -> StoreIndex {
@@ -137,7 +138,6 @@ impl Adapter<'_> {
 
     /// A further physical image for `image`, which takes its next version.
     pub(super) fn replace(&mut self, image: ImageIndex, what: &str, why: Box<Reason>, samples: u32) -> StoreIndex {
-        self.resolved_of[image.0 as usize] = None;
         let store = self.second(image, what, why, samples);
         self.store_of[image.0 as usize] = Some(store);
         store
@@ -168,6 +168,8 @@ impl Adapter<'_> {
     }
 
     fn add(&mut self, of: Resource, id: u32, kind: Kind, cells: u32) -> StoreIndex {
+        self.resolved_of.push(None);
+        self.drawn.push(false);
         self.adapted.stores.push(Store {
             id,
             of,
@@ -210,9 +212,7 @@ impl Adapter<'_> {
     /// Whether a draw wrote an image's current version: then its rendering scope can carry a resolve.
     fn drawn_last(&mut self, image: ImageIndex) -> bool {
         let store = self.current(image);
-        let writes = |op: &u32| self.adapted.uses(*op).iter().any(|used| used.store == store && used.writes);
-        let last = (0..self.adapted.ops.len() as u32).rev().find(writes);
-        last.is_some_and(|op| self.adapted.ops[op as usize].kind.draws())
+        self.drawn[store as usize]
     }
 
     /// Whether the samples of depth can become one, for what `because` says; reports why not.
@@ -220,6 +220,8 @@ impl Adapter<'_> {
         let declared = &self.input.frame.images[image.0 as usize];
         let (what, help) = if declared.format.aspects().contains(Aspects::STENCIL) {
             ("stencil can't be resolved", "choose a depth format without stencil")
+        } else if declared.layers > 1 {
+            ("several layers can't be resolved at once", "give it 1 layer")
         } else if !self.drawn_last(image) {
             ("they were not drawn into it", "depth is resolved where it is drawn: draw into it")
         } else {

@@ -44,7 +44,12 @@ fn local_passes(parts: &Parts<'_>, scope: &Scope, attachments: &[AttachmentOps])
         let own = std::mem::take(&mut pass.blend);
         let blend = |target: &Target| of(Role::Color).position(|drawn| drawn == *target).and_then(|at| own.get(at));
         pass.blend = scope.color.iter().map(|target| blend(target).copied().unwrap_or_default()).collect();
-        fresh.extend(of(Role::Color));
+        // A scope has few attachments, but may have many passes.
+        for target in of(Role::Color) {
+            if !fresh.contains(&target) {
+                fresh.push(target);
+            }
+        }
         passes.push(pass);
     }
     passes

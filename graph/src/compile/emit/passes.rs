@@ -7,7 +7,7 @@ use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
     Transfer, Work,
 };
-use crate::vocabulary::{Aspects, Filter};
+use crate::vocabulary::Filter;
 use std::sync::Arc;
 
 /// The shader that draws one image into another.
@@ -175,11 +175,7 @@ fn binding(used: &Use, declared: &FramePass) -> Option<Binding> {
 /// One access of a pass; load, store and resolve operations are the scope's.
 fn access(parts: &Parts<'_>, used: &Use, binding: Option<Binding>) -> Access {
     let subject = &parts.subjects[used.store as usize];
-    let mut range = parts.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all);
-    // Shaders see one plane; of depth with stencil, plain sampling means depth.
-    if binding.is_some() && range.aspects == Aspects::DEPTH | Aspects::STENCIL {
-        range.aspects = Aspects::DEPTH;
-    }
+    let range = parts.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all);
     let image = ImageId(subject.id);
     Access { image, range, stages: used.stages, accesses: used.accesses, layout: used.layout, binding }
 }

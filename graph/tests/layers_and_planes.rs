@@ -1,0 +1,104 @@
+//! Raster passes that use some layers or one plane of an image leave the others as they are.
+
+#[allow(dead_code, reason = "most of what the builder can do isn't needed here")]
+mod raster;
+
+use framewright_graph::compile::{Options, compile};
+use framewright_graph::device::Estimated;
+use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM};
+use framewright_graph::frame::{Blend, Frame, StencilState};
+use framewright_graph::plan::Plan;
+use framewright_graph::verify::verify;
+use framewright_graph::vocabulary::{Aspects, CompareOp, Layout, StencilOp, Subresources};
+use raster::Raster;
+
+fn compiled(frame: &Frame) -> Result<Plan, String> {
+    let device = raster::device();
+    let plan = compile(frame, &device, &mut Estimated(&device), &Options::default());
+    let plan =
+        plan.map_err(|errors| errors.iter().map(|error| error.message.clone()).collect::<Vec<_>>().join("; "))?;
+    assert_eq!(verify(&plan), [], "{}", plan.tree());
+    Ok(plan)
+}
+
+fn layer(base_layer: u32) -> Subresources {
+    Subresources { base_layer, layers: 1, ..Subresources::WHOLE }
+}
+
+/// `first` clears both layers of `color`, with 4 samples, `cover` covers the first one, `show` samples both.
+fn two_layers(cover: Subresources) -> Frame {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_UNORM, 4);
+    let screen = raster.image("screen", R8G8B8A8_UNORM, 1);
+    raster.objects("first").clear(color);
+    raster.full_screen("cover").color(color, Blend::Replace);
+    raster.full_screen("show").sample(color).color(screen, Blend::Replace);
+    let mut frame = raster.output(screen);
+    frame.images[0].layers = 2;
+    frame.passes[1].color[0].range = cover;
+    frame
+}
+
+/// IQ-9: moving such a draw to an image with one sample would lose the other layers.
+#[test]
+fn a_full_screen_draw_into_one_layer_of_several_keeps_its_samples() {
+    let plan = compiled(&two_layers(layer(0))).expect("both layers are written");
+    assert_eq!(plan.totals.resolves, 1);
+    assert!(plan.images.iter().all(|image| !image.name.contains("1 sample")), "{}", plan.tree());
+}
+
+#[test]
+fn a_layer_that_is_cleared_after_a_full_screen_draw_leaves_the_other_as_it_is() {
+    let mut frame = two_layers(layer(0));
+    frame.passes.swap(0, 1);
+    frame.passes[0].color[0].range = layer(1);
+    frame.passes[1].color[0].range = layer(0);
+    compiled(&frame).expect("both layers are written");
+}
+
+/// A triangle meets one layer, unless its shader chooses others.
+#[test]
+fn a_full_screen_draw_covers_no_more_than_one_layer() {
+    let mut frame = two_layers(Subresources::WHOLE);
+    frame.passes.remove(0);
+    let refusal = compiled(&frame).map(|plan| plan.tree());
+    assert_eq!(
+        refusal.expect_err("nothing has written the second layer"),
+        "`cover` is the first to write `color`, and may leave parts of it untouched"
+    );
+}
+
+#[test]
+fn plain_sampling_of_depth_with_stencil_reads_the_depth_alone() {
+    let mut raster = Raster::default();
+    let depth = raster.image("depth", D32_SFLOAT_S8_UINT, 1);
+    let screen = raster.image("screen", R8G8B8A8_UNORM, 1);
+    raster.objects("opaque").clear_depth(depth);
+    raster.full_screen("show").sample(depth).color(screen, Blend::Replace);
+    let mut frame = raster.output(screen);
+    let stencil = StencilState { clear: Some(0), test: CompareOp::Always, reference: 1, pass: StencilOp::Replace };
+    for stencil in [None, Some(stencil)] {
+        frame.passes[0].depth.as_mut().expect("it tests depth").stencil = stencil;
+        let plan = compiled(&frame).expect("the depth is written");
+        let barriers = plan.steps.iter().flat_map(|step| &step.image_barriers);
+        let read: Vec<Aspects> = barriers
+            .filter(|barrier| barrier.new_layout == Layout::DepthReadOnlyOptimal)
+            .map(|barrier| barrier.range.aspects)
+            .collect();
+        assert_eq!(read, [Aspects::DEPTH]);
+    }
+}
+
+/// Neither can a rendering scope carry it, nor is there a command for it.
+#[test]
+fn several_layers_of_multisampled_depth_are_not_resolved() {
+    let mut raster = Raster::default();
+    let depth = raster.image("depth", D32_SFLOAT, 4);
+    raster.objects("opaque").clear_depth(depth);
+    let mut frame = raster.output(depth);
+    frame.images[0].layers = 2;
+    assert_eq!(
+        compiled(&frame).map(|plan| plan.tree()).expect_err("nothing could resolve it"),
+        "`depth` is an output and has 4 samples; several layers can't be resolved at once"
+    );
+}
