@@ -6,10 +6,12 @@ mod raster;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
-use framewright_graph::frame::{Blend, Frame, Groups, Image, ImageIndex, Pass, Resource, Shape, Storage, Work};
+use framewright_graph::frame::{
+    Blend, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Shape, Storage, Work,
+};
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Stages, Subresources};
+use framewright_graph::vocabulary::{Accesses, Layout, Stages, State, Subresources};
 use raster::Raster;
 
 /// Draws into `color`, filters it to `screen`, and has a compute pass write `noise`, which is filtered, too.
@@ -49,13 +51,33 @@ fn refusals(frame: &Frame, device: &Profile) -> Vec<String> {
 
 type Change = fn(&mut Frame);
 
+/// Something that compute shaders saw last.
+fn imported(accesses: Accesses, layout: Layout) -> Lifetime {
+    Lifetime::Imported { before: State { stages: Stages::COMPUTE_SHADER, accesses, layout }, after: None }
+}
+
+#[test]
+fn the_largest_images_with_the_most_samples_are_added_up_without_overflow() {
+    let mut device = raster::device();
+    device.formats.iter_mut().for_each(|format| format.samples = vec![1, 2, 4, 8, 16]);
+    let mut frame = frame();
+    for image in &mut frame.images {
+        image.extent = [16384, 16384, 1];
+    }
+    frame.images[0].samples = 16;
+    let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("it is only large");
+    assert_eq!(verify(&plan), []);
+    // 4 bytes × 16 samples, and once resolved; 8 bytes of noise.
+    assert_eq!(plan.totals.transient_bytes, (16384 * 16384) * (4 * 16 + 4 + 8));
+}
+
 #[test]
 fn what_cannot_be_is_refused_in_words() {
     const NOISE: usize = 1;
     fn noise(frame: &mut Frame) -> &mut Image {
         &mut frame.images[NOISE]
     }
-    let changes: [(&str, Change); 26] = [
+    let changes: [(&str, Change); 33] = [
         ("accesses `color` as storage, which has several samples", |frame| {
             frame.passes.push(dispatch("keep", ImageIndex(0)));
         }),
@@ -84,6 +106,24 @@ fn what_cannot_be_is_refused_in_words() {
         ("is three-dimensional and can't hold depth", |frame| {
             noise(frame).format = D32_SFLOAT;
             noise(frame).shape = Shape::D3;
+        }),
+        ("`blend` reads `noise` of 1 frames ago, and it keeps 0", |frame| frame.passes[2].sampled[1].frames_ago = 1),
+        ("`blend` names a part of `noise` that it doesn't have: it has 1 mip levels", |frame| {
+            frame.passes[2].sampled[1].range = Subresources { base_mip: 1, ..Subresources::WHOLE }
+        }),
+        ("`blend` names a part of `noise` that it doesn't have: it has 1 layers", |frame| {
+            frame.passes[2].sampled[1].range = Subresources { base_layer: u32::MAX, layers: 2, ..Subresources::WHOLE }
+        }),
+        ("`blend` reads `noise` before anything has written it", |frame| frame.passes.swap(0, 2)),
+        ("`noise` holds colour (R16G16B16A16_SFLOAT) and can't be in the layout DEPTH_READ_ONLY_OPTIMAL", |frame| {
+            noise(frame).lifetime = imported(Accesses::empty(), Layout::DepthReadOnlyOptimal)
+        }),
+        ("`noise` can't have seen TRANSFER_WRITE in these stages", |frame| {
+            noise(frame).lifetime = imported(Accesses::TRANSFER_WRITE, Layout::TransferDstOptimal)
+        }),
+        ("`screen` can't be left in the layout UNDEFINED", |frame| {
+            let Lifetime::Imported { before, .. } = imported(Accesses::empty(), Layout::Undefined) else { return };
+            frame.outputs[0].after = Some(before);
         }),
         ("an output does not exist", |frame| frame.outputs[0].resource = Resource::Image(ImageIndex(9))),
         ("names image number 9, which does not exist", |frame| frame.passes[0].storage[0].image = ImageIndex(9)),
