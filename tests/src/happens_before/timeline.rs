@@ -15,7 +15,7 @@ use super::uses::{self, Kind, Use};
 use super::world::{World, role};
 use framewright_graph::plan::{ImageBarrier, Queue, Resource, Role, Step};
 use framewright_graph::vocabulary::{Accesses, Layout, Stages, State};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A set of nodes.
 #[derive(Debug, Clone, Default)]
@@ -118,8 +118,8 @@ pub(super) struct Timeline {
     pub(super) unordered_acquisitions: Vec<String>,
     tracks: BTreeMap<Queue, Track>,
     signals: Vec<usize>,
-    /// Last release of each image: its node.
-    releases: BTreeMap<usize, usize>,
+    /// Last release of each part of each image: its node.
+    releases: BTreeMap<(usize, usize), usize>,
     initial: Nodes,
 }
 
@@ -263,15 +263,17 @@ impl Timeline {
         let acquisition = barrier.ownership.is_some_and(|[from, to]| to == queue && from != queue);
         let from = self.first_half(queue, barrier.src_stages, call);
         let mut first = [held_up, &[from]].concat();
-        if acquisition && let Some(release) = self.releases.get(&physical).copied() {
+        if acquisition {
+            let released: BTreeSet<usize> =
+                cells.iter().filter_map(|cell| self.releases.get(&(physical, *cell)).copied()).collect();
             // The semaphore, not the barrier, must bring the order.
-            if self.after(&first).contains(release) {
-                first.push(release);
-            } else {
+            let known = self.after(&first);
+            if released.iter().any(|release| !known.contains(*release)) {
                 let name = &world.physical[physical].name;
                 self.unordered_acquisitions
                     .push(format!("`{name}` is acquired before its release is known to be done"));
             }
+            first.extend(released.into_iter().filter(|release| known.contains(*release)));
         }
         let changes = barrier.old_layout != barrier.new_layout || barrier.old_layout == Layout::Undefined;
         if changes {
@@ -288,7 +290,7 @@ impl Timeline {
         let after = self.after(&[middle]);
         let to = self.made(queue, after);
         if release {
-            self.releases.insert(physical, to);
+            self.releases.extend(cells.iter().map(|cell| ((physical, *cell), to)));
         }
         self.operations.push(MemoryOperation {
             queue,
