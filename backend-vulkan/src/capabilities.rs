@@ -12,17 +12,22 @@ use framewright_graph::format::Format;
 use framewright_graph::frame::Shape;
 use framewright_graph::plan::Sharing;
 use framewright_graph::vocabulary::Usage;
+use std::ffi::CStr;
 
 /// The Vulkan version that devices and the loader must have.
 pub const MINIMUM_VERSION: u32 = vk::API_VERSION_1_3;
 
 /// Whether `physical` offers `VK_KHR_dynamic_rendering_local_read`.
 pub(crate) fn has_local_read(instance: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
+    has_extension(instance, physical, ash::khr::dynamic_rendering_local_read::NAME)
+        && Features::of(instance, physical, true).local_read()
+}
+
+/// Whether `physical` has the device extension of this name.
+pub(crate) fn has_extension(instance: &ash::Instance, physical: vk::PhysicalDevice, name: &CStr) -> bool {
     // SAFETY: `physical` belongs to `instance`.
     let extensions = unsafe { instance.enumerate_device_extension_properties(physical) }.unwrap_or_default();
-    let name = ash::khr::dynamic_rendering_local_read::NAME;
     extensions.iter().any(|it| it.extension_name_as_c_str() == Ok(name))
-        && Features::of(instance, physical, true).local_read()
 }
 
 /// All that `physical` lacks of the minimum, by Vulkan's names.

@@ -8,7 +8,7 @@ use crate::standing::Standing;
 use framewright_graph::device::{ImageDescriptor, MemoryNeeds};
 use framewright_graph::plan::{Buffer, Image, Placement, Plan, Queue, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vocabulary::{Aspects, BufferUsage, Usage};
+use framewright_graph::vocabulary::{Aspects, BufferUsage, Layout, Usage};
 
 /// Which of the Plan's own mistakes are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,6 +64,13 @@ fn checked_image(shared: &Shared, plan: &Plan, image: &Image, poison: bool) -> R
         }
         Role::External { .. } if image.samples > 1 && plan.outputs.contains(&Resource::Image(image.id)) => {
             bad(format!("the output `{name}` has {} samples and can't be read", image.samples))
+        }
+        Role::External { before, after } if [before, after].iter().any(|it| it.layout == Layout::PresentSrcKhr) => {
+            if shared.presents {
+                Ok(())
+            } else {
+                bad(format!("`{name}` is to be presented, and {} has no VK_KHR_swapchain", shared.summary.name))
+            }
         }
         Role::External { .. } => Ok(()),
     }

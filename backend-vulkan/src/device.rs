@@ -79,6 +79,8 @@ pub(crate) struct Shared {
     pub(crate) local_read: Option<khr::dynamic_rendering_local_read::Device>,
     /// Whether shaders can see several cubes at once.
     pub(crate) cube_arrays: bool,
+    /// Whether images can be in the layout `PRESENT_SRC_KHR`.
+    pub(crate) presents: bool,
     pub(crate) queues: Queues,
     pub(crate) summary: DeviceSummary,
     pub(crate) caches: crate::caches::Caches,
@@ -120,8 +122,14 @@ impl Device {
         let cube_arrays = features.cube_arrays();
         let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
         let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();
-        let extensions = if has_local_read { &[khr::dynamic_rendering_local_read::NAME.as_ptr()][..] } else { &[] };
-        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(extensions);
+        // Without swapchains there is no layout PRESENT_SRC_KHR.
+        let presents = instance.surfaces && capabilities::has_extension(&instance.raw, physical, khr::swapchain::NAME);
+        let extensions: Vec<_> =
+            [(has_local_read, khr::dynamic_rendering_local_read::NAME), (presents, khr::swapchain::NAME)]
+                .into_iter()
+                .filter_map(|(there, name)| there.then_some(name.as_ptr()))
+                .collect();
+        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&extensions);
         let info = features.chain(info);
         // SAFETY: `physical` belongs to the instance and has these features, extensions and queue families.
         let raw = unsafe { instance.raw.create_device(physical, &info, None) }
@@ -152,6 +160,7 @@ impl Device {
             labels,
             local_read,
             cube_arrays,
+            presents,
             queues: Queues::new(&raw, families),
             summary,
             caches: crate::caches::Caches::default(),

@@ -4,7 +4,7 @@ use crate::capabilities::MINIMUM_VERSION;
 use crate::error::Error;
 use crate::layer;
 use crate::validation::{FEATURES, LAYER, Layer, Messages, settings};
-use ash::{ext, vk};
+use ash::{ext, khr, vk};
 use std::ffi::CStr;
 
 /// An instance.
@@ -13,6 +13,8 @@ pub(crate) struct Instance {
     pub(crate) raw: ash::Instance,
     /// Whether `VK_EXT_debug_utils` is on.
     pub(crate) labels: bool,
+    /// Whether `VK_KHR_surface` is on, which devices that present need.
+    pub(crate) surfaces: bool,
     /// The validation layer, if it is on.
     pub(crate) validation: Option<Validation>,
     messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
@@ -47,9 +49,10 @@ impl Instance {
         };
         // SAFETY: the loader is loaded.
         let available = unsafe { entry.enumerate_instance_extension_properties(None) }.unwrap_or_default();
-        let labels = validate || available.iter().any(|it| it.extension_name_as_c_str() == Ok(ext::debug_utils::NAME));
-        let raw = create(&entry, labels, validation.as_ref())?;
-        let mut instance = Instance { raw, labels, validation, messenger: None, _entry: entry };
+        let has = |name| available.iter().any(|it| it.extension_name_as_c_str() == Ok(name));
+        let (labels, surfaces) = (validate || has(ext::debug_utils::NAME), has(khr::surface::NAME));
+        let raw = create(&entry, labels, surfaces, validation.as_ref())?;
+        let mut instance = Instance { raw, labels, surfaces, validation, messenger: None, _entry: entry };
         if let Some(validation) = &instance.validation {
             let functions = ext::debug_utils::Instance::new(&instance._entry, &instance.raw);
             // SAFETY: the messages live as long as the instance, which destroys the messenger first.
@@ -61,12 +64,20 @@ impl Instance {
     }
 }
 
-fn create(entry: &ash::Entry, labels: bool, validation: Option<&Validation>) -> Result<ash::Instance, Error> {
+fn create(
+    entry: &ash::Entry,
+    labels: bool,
+    surfaces: bool,
+    validation: Option<&Validation>,
+) -> Result<ash::Instance, Error> {
     let application = vk::ApplicationInfo::default().application_name(c"framewright").api_version(MINIMUM_VERSION);
     let mut extensions: Vec<&CStr> = Vec::new();
     let mut layers: Vec<&CStr> = Vec::new();
     if labels {
         extensions.push(ext::debug_utils::NAME);
+    }
+    if surfaces {
+        extensions.push(khr::surface::NAME);
     }
     let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&FEATURES);
     let settings = settings();

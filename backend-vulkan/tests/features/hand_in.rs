@@ -56,6 +56,7 @@ const SAMPLED: State = State {
     accesses: Accesses::SHADER_SAMPLED_READ,
     layout: Layout::ShaderReadOnlyOptimal,
 };
+const PRESENTED: State = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::PresentSrcKhr };
 const WRITTEN: State = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout: Layout::Undefined };
 const READ: State =
     State { stages: Stages::COMPUTE_SHADER, accesses: Accesses::SHADER_STORAGE_READ, layout: Layout::Undefined };
@@ -128,6 +129,20 @@ fn an_output_is_left_in_the_state_that_was_asked_for() {
             frame(executor);
             // Read from that state, and brought back into it: the layer would say if the image were in another.
             assert_eq!(texels(executor, "shown", 0), [0, 1, 10, 11]);
+        }
+    });
+}
+
+#[test]
+fn what_is_to_be_presented_is_left_for_that() {
+    let mut small = Small::default();
+    let window = small.image_like(imported("window", UNKNOWN, Some(PRESENTED)));
+    small.pass(draw("number", Draw::FullScreen).draws(window, WHOLE, None));
+    small.image_output(window);
+    everywhere(&small.frame, SHADERS, |executor| {
+        for _ in 0..2 {
+            frame(executor);
+            assert_eq!(texels(executor, "window", 0), [0, 1, 10, 11]);
         }
     });
 }
