@@ -34,3 +34,29 @@ fn a_hundred_thousand_passes_are_checked_and_their_mistakes_are_shown_in_moderat
     let err = place.run(&["check", "p.ron"]).exits(1).mentions("downsamples").err;
     assert!(err.lines().count() < 1000, "{} lines are more than anyone reads", err.lines().count());
 }
+
+#[test]
+fn an_image_of_thirty_thousand_parts_takes_moderate_memory() {
+    let place = Place::new();
+    let part = |pass: usize| format!("(image: \"a\", mip: {}, layer: {pass})", pass % 15);
+    let fills: String = (0..2048)
+        .map(|pass| format!("(name: \"p{pass}\", fill: (to: {}, value: 0), side_effect: true),\n", part(pass)))
+        .collect();
+    let text = format!(
+        "Pipeline(version: 1, images: [\n\
+        (name: \"a\", format: Color(hdr: true), size: Fixed(16384, 16384), mips: 15, layers: 2048),\n\
+        (name: \"screen\", format: Output, size: Output)], passes: [\n{fills}\
+        (name: \"all\", fill: (to: \"a\", value: 0)),\n\
+        (name: \"show\", draw: FullScreen(\"reinhard\"), sample: {{\"source\": (image: \"a\", layer: 0)}}, \
+        color: [\"screen\"])], outputs: [\"screen\"])"
+    );
+    place.file("p.ron", text);
+    for device in ["lavapipe", "nvidia-rtx-2080"] {
+        // Pairs of parts would take a hundred times as much.
+        let check = "ulimit -v 4000000; exec \"$0\" check p.ron --device \"$1\"";
+        let mut shell = std::process::Command::new("sh");
+        shell.args(["-c", check, env!("CARGO_BIN_EXE_framewright"), device]).current_dir(place.path(""));
+        let outcome = support::outcome(&mut shell).exits(0);
+        assert!(outcome.out.contains(": 2050 passes in 1 rendering scope, "), "{}", outcome.out);
+    }
+}

@@ -24,6 +24,7 @@ mod cull;
 mod emit;
 mod formats;
 mod hand_over;
+mod last_uses;
 mod legal;
 mod link;
 mod model;

@@ -5,6 +5,7 @@
 //! comes after the last.
 
 use super::hand_over::HandOver;
+use super::last_uses::LastUses;
 use super::model::{Adapted, StoreIndex};
 use super::outlive::{States, cells};
 use super::parts::Grids;
@@ -139,29 +140,36 @@ impl Taking<'_> {
         let described = |store: StoreIndex| &self.adapted.stores[store as usize];
         let (taker, holder) = (described(store), described(from));
         let is_image = taker.image().is_some();
+        let mut uses = LastUses::default();
         for held in cells(self.grids, holder) {
             let last = self.walked.cells[held as usize];
-            if !last.is_touched() {
-                continue;
+            if last.is_touched() {
+                uses.add(held, last.stages, last.accesses, last.last);
             }
-            for cell in cells(self.grids, taker) {
-                let first = self.walked.cells[cell as usize].first_barrier;
-                let Some(barrier) = self.walked.barriers.get_mut(first as usize) else { continue };
+        }
+        for cell in cells(self.grids, taker) {
+            let known = self.walked.cells[cell as usize];
+            let first = known.first_barrier;
+            let Some(barrier) = self.walked.barriers.get_mut(first as usize) else { continue };
+            // A buffer's barrier covers all memory; an image's covers what the same image wrote there.
+            if store == from && known.is_touched() {
+                barrier.src_accesses |= known.accesses.writes();
+            }
+            for last in uses.iter() {
                 barrier.src_stages |= last.stages;
                 if this_frame {
                     barrier.after = if barrier.after == NEVER { last.last } else { barrier.after.max(last.last) };
                 }
-                if !last.writes() {
+                if last.writes.is_empty() {
                     continue;
                 }
-                // A buffer's barrier covers all memory; an image's covers what the same image wrote there.
-                if !is_image || cell == held {
-                    barrier.src_accesses |= last.accesses.writes();
-                } else {
+                if !is_image {
+                    barrier.src_accesses |= last.writes;
+                } else if let Some(written) = last.apart_from(cell) {
                     self.hand_overs.push(HandOver {
                         stores: [from, store],
-                        write: (last.stages, last.accesses.writes()),
-                        written: last.last,
+                        write: (last.stages, last.writes),
+                        written,
                         this_frame,
                         barrier: first,
                     });

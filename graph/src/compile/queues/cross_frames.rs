@@ -2,6 +2,7 @@
 
 use super::{QUEUES, Queues, Seen};
 use crate::compile::hand_over::HandOver;
+use crate::compile::last_uses::LastUses;
 use crate::compile::model::{Adapted, CellIndex, Kind, StoreIndex};
 use crate::compile::outlive::{States, cells, last_of_cycle, of_all_planes};
 use crate::compile::parts::Grids;
@@ -141,40 +142,42 @@ pub(in crate::compile) fn take(
 ) {
     let Some(mut queues) = walked.queues.take() else { return };
     let (taker, holder) = (&adapted.stores[store as usize], &adapted.stores[from as usize]);
+    let mut uses: [LastUses; QUEUES] = Default::default();
     for held in cells(grids, holder).filter(|held| walked.cells[*held as usize].is_touched()) {
-        let by = seen(adapted, walked, &queues, from, held);
-        for cell in cells(grids, taker) {
-            let first = walked.cells[cell as usize].first_barrier;
-            let Some(barrier) = walked.barriers.get_mut(first as usize) else { continue };
-            let queue = queues.at(barrier.step);
-            for (other, seen) in by.iter().enumerate().filter(|(_, seen)| seen.until > 0) {
-                let last = seen.until - 1;
-                if this_frame {
-                    barrier.after = if barrier.after == NEVER { last } else { barrier.after.max(last) };
-                }
-                if other != queue {
-                    queues.require_earlier(barrier.step, other, last, u32::from(!this_frame));
-                    queues.hold(first);
-                    continue;
-                }
-                barrier.src_stages |= seen.stages;
-                let writes = seen.accesses.writes();
-                if writes.is_empty() {
-                    continue;
-                }
-                // A buffer's barrier covers all memory; an image's covers what the same image wrote there.
-                if taker.image().is_none() || cell == held {
-                    barrier.src_accesses |= writes;
-                } else {
-                    let write = (seen.stages, writes);
-                    hand_overs.push(HandOver {
-                        stores: [from, store],
-                        write,
-                        written: last,
-                        this_frame,
-                        barrier: first,
-                    });
-                }
+        for (uses, seen) in uses.iter_mut().zip(seen(adapted, walked, &queues, from, held)) {
+            if seen.until > 0 {
+                uses.add(held, seen.stages, seen.accesses, seen.until - 1);
+            }
+        }
+    }
+    for cell in cells(grids, taker) {
+        let known = walked.cells[cell as usize];
+        let own = (store == from && known.is_touched()).then(|| seen(adapted, walked, &queues, store, cell));
+        let first = known.first_barrier;
+        let Some(barrier) = walked.barriers.get_mut(first as usize) else { continue };
+        let queue = queues.at(barrier.step);
+        // A buffer's barrier covers all memory; an image's covers what the same image wrote there.
+        if let Some(own) = own.map(|by| by[queue]).filter(|own| own.until > 0) {
+            barrier.src_accesses |= own.accesses.writes();
+        }
+        for (other, last) in (0..).zip(&uses).flat_map(|(other, uses)| uses.iter().map(move |last| (other, last))) {
+            if this_frame {
+                barrier.after = if barrier.after == NEVER { last.last } else { barrier.after.max(last.last) };
+            }
+            if other != queue {
+                queues.require_earlier(barrier.step, other, last.last, u32::from(!this_frame));
+                queues.hold(first);
+                continue;
+            }
+            barrier.src_stages |= last.stages;
+            if last.writes.is_empty() {
+                continue;
+            }
+            if taker.image().is_none() {
+                barrier.src_accesses |= last.writes;
+            } else if let Some(written) = last.apart_from(cell) {
+                let write = (last.stages, last.writes);
+                hand_overs.push(HandOver { stores: [from, store], write, written, this_frame, barrier: first });
             }
         }
     }
