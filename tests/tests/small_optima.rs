@@ -56,9 +56,9 @@ impl Line {
         self.equal[2] += u64::from(least.bytes == reached.bytes);
     }
 
-    fn print(&self, name: &str) {
+    fn text(&self, name: &str) -> String {
         let Line { resolves, barriers, bytes, worst_barriers, worst_bytes, equal, count } = self;
-        println!(
+        format!(
             "{name:<28}{count:>8}{:>9}{:>9}{:>7}{:>9}{:>9}{:>7}{worst_barriers:>7.2}{:>11}{:>11}{:>7}{worst_bytes:>7.2}",
             resolves[0],
             resolves[1],
@@ -69,8 +69,28 @@ impl Line {
             bytes[0] >> 10,
             bytes[1] >> 10,
             equal[2],
-        );
+        )
     }
+}
+
+/// Where the table is published.
+const PUBLISHED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/small-optima.md");
+
+/// How a changed table is accepted.
+const ACCEPT: &str = "INSTA_UPDATE=always cargo test -p framewright-tests --test small_optima";
+
+/// Holds the published table, the block of code in its file, against this one.
+fn published(table: &str) {
+    let text = std::fs::read_to_string(PUBLISHED).expect("the table is published");
+    let [before, old, after] = text.split("```").collect::<Vec<_>>()[..] else {
+        panic!("{PUBLISHED} has one block of code")
+    };
+    let new = format!("\n{table}\n");
+    if old != new && std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+        let text = format!("{before}```{new}```{after}");
+        return std::fs::write(PUBLISHED, text).expect("the table can be written");
+    }
+    assert_eq!(old, new, "the published table is another one; accept with {ACCEPT}");
 }
 
 #[test]
@@ -105,16 +125,33 @@ fn every_order_of_small_frames_costs_no_more_than_it_must() {
             low_memory.add(best, reached(&compiled(&frame, Order::LowMemory)));
         }
     }
-    println!("frames of 0 to 8 passes: {sizes:?}");
-    println!("{:<28}{:>8}{:>25}{:>32}{:>36}", "", "count", "resolves", "image barriers", "KiB of transient memory");
-    println!(
-        "{:<36}{:>9}{:>9}{:>7}{:>9}{:>9}{:>7}{:>7}{:>11}{:>11}{:>7}{:>7}",
-        "", "least", "reached", "equal", "least", "reached", "equal", "worst", "least", "reached", "equal", "worst"
-    );
-    each.print("each legal order by itself");
-    default.print("default, best of all orders");
-    low_memory.print("low-memory, best of all");
+    let table = [
+        format!("frames of 0 to 8 passes: {sizes:?}"),
+        format!("{:<36}{:>25}{:>32}{:>36}", "", "resolves", "image barriers", "KiB of transient memory"),
+        format!(
+            "{:<28}{:>8}{:>9}{:>9}{:>7}{:>9}{:>9}{:>7}{:>7}{:>11}{:>11}{:>7}{:>7}",
+            "",
+            "count",
+            "least",
+            "reached",
+            "equal",
+            "least",
+            "reached",
+            "equal",
+            "worst",
+            "least",
+            "reached",
+            "equal",
+            "worst"
+        ),
+        each.text("each legal order by itself"),
+        default.text("default, best of all orders"),
+        low_memory.text("low-memory, best of all"),
+    ]
+    .join("\n");
+    println!("{table}");
     worse.iter().take(8).for_each(|line| println!("{line}"));
     assert!(each.count > 5_000, "{}", each.count);
     assert!(worse.is_empty(), "{} of {} orders cost more than they must", worse.len(), each.count);
+    published(&table);
 }

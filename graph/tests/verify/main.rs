@@ -6,6 +6,7 @@ mod contents;
 mod form;
 #[path = "../hand_written_plans/mod.rs"]
 mod hand_written_plans;
+mod large;
 mod mutations;
 #[path = "../raster/mod.rs"]
 #[allow(dead_code, reason = "some frames are only looked at where the compiler is tested")]
