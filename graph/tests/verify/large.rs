@@ -1,14 +1,11 @@
 //! Plans of any length and any size: no recursion, no overflow.
 
 use crate::hand_written_plans;
+use crate::raster::graphs;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Estimated;
 use framewright_graph::plan::{Plan, Role};
 use framewright_graph::verify::verify;
-
-#[path = "../graphs/mod.rs"]
-#[allow(dead_code, reason = "other tests use more of it")]
-mod graphs;
 
 /// Nothing grows with the Plan but what stands on the heap: a stack of 128 KiB is enough for 100,000 passes.
 #[test]
