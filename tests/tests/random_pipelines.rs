@@ -132,7 +132,7 @@ fn what_the_compiler_does_turns_up() {
             *count += u32::from(happens);
         }
     }
-    assert!(all.iter().all(|count| *count > 1), "{all:?}");
+    assert!(all.iter().all(|count| *count > 0), "{all:?}");
 }
 
 /// An image of 2 × 1 texels of one word each.
