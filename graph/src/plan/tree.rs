@@ -82,7 +82,11 @@ impl Tree<'_> {
     }
 
     fn wait(self, wait: &Wait) -> Node {
-        let frame = if wait.frames_ago == 0 { "" } else { " of the frame before" };
+        let frame = match wait.frames_ago {
+            0 => String::new(),
+            1 => " of the frame before".to_owned(),
+            ago => format!(" of {ago} frames ago"),
+        };
         let who = self.plan.step_name(wait.step);
         Node::leaf(format!("waits in {} for step {}{frame}: {who}", vulkan(&wait.stages), wait.step.0))
     }

@@ -46,22 +46,23 @@ fn transfer(parts: &Parts<'_>, op: &Op, number: u32, filter: Option<Filter>) -> 
     let uses = parts.adapted.uses(number);
     let [mut source, mut target] = [0, 1].map(|at| uses.get(at).map_or(NOTHING, |used| side(parts, used)));
     // Beside an image only the bytes of its texels count; between buffers those of the source.
-    if let Side::Image { image, range, extent, .. } = source
+    if let Side::Image { range, extent, .. } = source
         && let Side::Buffer { bytes, .. } = &mut target
     {
-        *bytes = texel_bytes(parts, uses, 0, image, range.layers, extent);
-    } else if let Side::Image { image, range, extent, .. } = target
+        *bytes = texel_bytes(parts, &uses[0], range.layers, extent);
+    } else if let Side::Image { range, extent, .. } = target
         && let Side::Buffer { bytes, .. } = &mut source
     {
-        *bytes = texel_bytes(parts, uses, 1, image, range.layers, extent);
+        *bytes = texel_bytes(parts, &uses[1], range.layers, extent);
     } else if let (Side::Buffer { bytes: some, .. }, Side::Buffer { bytes: others, .. }) = (source, &mut target) {
         *others = some;
     }
     Transfer { name: name(parts, op), cause: cause(parts, op), source, target, filter }
 }
 
-fn texel_bytes(parts: &Parts<'_>, uses: &[Use], at: usize, _: ImageId, layers: u32, extent: [u32; 3]) -> u64 {
-    let image = parts.adapted.stores[uses[at].store as usize].image();
+/// Bytes of the texels that a transfer moves from or to the image that is used here.
+fn texel_bytes(parts: &Parts<'_>, used: &Use, layers: u32, extent: [u32; 3]) -> u64 {
+    let image = parts.adapted.stores[used.store as usize].image();
     let bytes = image.map_or(0, |image| image.format.texel_bytes());
     extent.iter().fold(bytes.saturating_mul(layers.into()), |all, side| all.saturating_mul((*side).into()))
 }
