@@ -9,6 +9,7 @@ use framewright_graph::plan::{BindingKind, Image, ImageId, Plan, RenderScope, Ro
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Accesses, Layout, Stages, StoreOp, Subresources, Usage};
 use framewright_vulkan::{Device, Error, Executor, ExecutorOptions};
+use std::cell::Cell;
 
 const WHOLE: Subresources = Subresources::WHOLE;
 const LOCAL: Layout = Layout::RenderingLocalReadKhr;
@@ -117,6 +118,7 @@ fn needs(device: &Device, image: &Image) -> MemoryNeeds {
 
 #[test]
 fn a_pass_reads_what_its_scope_drew_at_its_own_position() {
+    let ran = Cell::new(false);
     on_each_driver(|device| {
         let plan = in_one_scope(device);
         let violations = verify(&plan);
@@ -136,7 +138,9 @@ fn a_pass_reads_what_its_scope_drew_at_its_own_position() {
             frame(&mut executor);
             assert_eq!(texels(&mut executor, "b", 0), [500, 501, 502, 510, 511, 512]);
         }
+        ran.set(true);
     });
+    assert!(ran.get() || std::env::var_os("CI").is_none(), "no driver here has local reads: SwiftShader does");
 }
 
 #[test]
