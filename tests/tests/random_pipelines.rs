@@ -119,7 +119,7 @@ fn every_kind_of_pass_and_resource_turns_up() {
 fn what_the_compiler_does_turns_up() {
     let device = device();
     let mut all = [0; 5];
-    for pipeline in many().take(300) {
+    for pipeline in many() {
         let options = options(Order::Default, 0);
         let plan = compile(&to_frame(&pipeline), &device, &mut Estimated(&device), &options).expect("it is legal");
         let totals = &plan.totals;
@@ -132,7 +132,7 @@ fn what_the_compiler_does_turns_up() {
             *count += u32::from(happens);
         }
     }
-    assert!(all.iter().all(|count| *count > 0), "{all:?}");
+    assert!(all.iter().all(|count| *count > 1), "{all:?}");
 }
 
 /// An image of 2 × 1 texels of one word each.

@@ -78,11 +78,6 @@ const SHADERS: &[(&str, &str)] = &[
         void main() { imageAtomicAdd(target, ivec2(gl_LocalInvocationID.x % 4, 0), gl_LocalInvocationID.x); }",
     ),
     (
-        "full_screen.vert",
-        "#version 460
-        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
-    ),
-    (
         "draw_and_tally.frag",
         "#version 460
         layout(set = 0, binding = 0) buffer Words { uint word[]; } words;

@@ -21,6 +21,21 @@ use std::sync::OnceLock;
 /// Shader files: name, GLSL text.
 pub(crate) type Shaders = &'static [(&'static str, &'static str)];
 
+/// A triangle over the whole target, and `x + 10 y` for each of its texels.
+const COMMON: Shaders = &[
+    (
+        "full_screen.vert",
+        "#version 460
+        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
+    ),
+    (
+        "number.frag",
+        "#version 460
+        layout(location = 0) out uint color;
+        void main() { color = uint(gl_FragCoord.x) + 10 * uint(gl_FragCoord.y); }",
+    ),
+];
+
 const SWIFTSHADER: &str = "/usr/lib/chromium/vk_swiftshader_icd.json";
 
 /// Lists SwiftShader beside the driver that the environment names, before anything in this process uses the loader.
@@ -275,8 +290,10 @@ pub(crate) fn planned(device: &Device, frame: &Frame, options: &Options) -> Plan
     plan
 }
 
+/// The shaders of a test, and behind them those that many tests have in common.
 pub(crate) fn library(shaders: Shaders) -> ShaderLibrary {
-    ShaderLibrary::new(Vec::new(), shaders, |_| DrawInterface::default())
+    let all: Shaders = [shaders, COMMON].concat().leak();
+    ShaderLibrary::new(Vec::new(), all, |_| DrawInterface::default())
 }
 
 /// Executes a frame in three ways that must not show: plainly, with memory shared, and with shared memory poisoned.

@@ -16,17 +16,6 @@ const ONE: Groups = Groups::Count([1, 1, 1]);
 
 const SHADERS: &[(&str, &str)] = &[
     (
-        "full_screen.vert",
-        "#version 460
-        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
-    ),
-    (
-        "number.frag",
-        "#version 460
-        layout(location = 0) out uint color;
-        void main() { color = uint(gl_FragCoord.x) + 10 * uint(gl_FragCoord.y); }",
-    ),
-    (
         "double.frag",
         "#version 460
         layout(set = 0, binding = 0) uniform usampler2D source;

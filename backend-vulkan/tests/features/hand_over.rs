@@ -13,11 +13,6 @@ const ONE: Groups = Groups::Count([1, 1, 1]);
 
 const SHADERS: &[(&str, &str)] = &[
     (
-        "full_screen.vert",
-        "#version 460
-        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
-    ),
-    (
         "begin.comp",
         "#version 460
         layout(set = 0, binding = 0) writeonly buffer Words { uint word[]; };

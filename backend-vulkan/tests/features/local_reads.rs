@@ -14,21 +14,9 @@ use std::cell::Cell;
 const WHOLE: Subresources = Subresources::WHOLE;
 const LOCAL: Layout = Layout::RenderingLocalReadKhr;
 
-const SHADERS: &[(&str, &str)] = &[
-    (
-        "full_screen.vert",
-        "#version 460
-        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
-    ),
-    (
-        "number.frag",
-        "#version 460
-        layout(location = 0) out uint color;
-        void main() { color = uint(gl_FragCoord.x) + 10 * uint(gl_FragCoord.y); }",
-    ),
-    (
-        "increase.frag",
-        "#version 460
+const SHADERS: &[(&str, &str)] = &[(
+    "increase.frag",
+    "#version 460
         #ifdef LOCAL_READ_source
         layout(input_attachment_index = 0, set = 0, binding = 0) uniform usubpassInput source;
         #define HERE subpassLoad(source)
@@ -38,8 +26,7 @@ const SHADERS: &[(&str, &str)] = &[
         #endif
         layout(location = 0) out uint color;
         void main() { color = HERE.r + 500; }",
-    ),
-];
+)];
 
 /// `number` draws into `a`, and `increase` draws what it reads there at its own position into the output `b`.
 fn in_two_scopes(device: &Device) -> Plan {

@@ -24,11 +24,6 @@ const SHADERS: &[(&str, &str)] = &[
         }",
     ),
     (
-        "full_screen.vert",
-        "#version 460
-        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
-    ),
-    (
         "place.frag",
         "#version 460
         layout(location = 0) out uint color;

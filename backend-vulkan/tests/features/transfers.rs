@@ -33,11 +33,6 @@ const SHADERS: &[(&str, &str)] = &[
         void main() { for (int i = 0; i < words.word.length(); ++i) words.word[i] = i * i; }",
     ),
     (
-        "full_screen.vert",
-        "#version 460
-        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
-    ),
-    (
         "quarters.frag",
         "#version 460
         layout(location = 0) out vec4 color;
