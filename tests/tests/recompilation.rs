@@ -60,6 +60,18 @@ fn scaled(frame: &Frame, by: u32) -> Frame {
     frame
 }
 
+/// The same frame with other proportions: what had one size has one size again.
+fn reshaped(frame: &Frame, by: u32) -> Frame {
+    let mut frame = frame.clone();
+    for image in &mut frame.images {
+        let [width, height, _] = image.extent;
+        let times = 1 + (width.wrapping_mul(31).wrapping_add(height.wrapping_mul(7)) / by) % 5;
+        (image.extent[0], image.extent[1]) = (width * times, height * times);
+    }
+    frame.buffers.iter_mut().for_each(|buffer| buffer.bytes *= 36);
+    frame
+}
+
 /// The same frame with other values.
 fn with_values(frame: &Frame, value: u8) -> Frame {
     let mut frame = frame.clone();
@@ -110,6 +122,9 @@ fn follow(held: &mut Held, first: Frame, other: Frame, what: &str) {
         held.hold(&Arc::new(scaled(&first, by)), &format!("{what}: {by} times as large"));
     }
     held.hold(&Arc::new(with_values(&scaled(&first, 2), 7)), &format!("{what}: twice as large, with other values"));
+    for by in 1..5 {
+        held.hold(&Arc::new(reshaped(&first, by)), &format!("{what}: of other proportions, {by}"));
+    }
     for image in 0..first.images.len().min(4) {
         let mut one = Frame::clone(&first);
         one.images[image].extent[0] += 1;
@@ -122,16 +137,19 @@ fn follow(held: &mut Held, first: Frame, other: Frame, what: &str) {
 #[test]
 fn random_frames_of_other_values_and_sizes_give_what_compiling_anew_gives() {
     let mut reused = BTreeMap::new();
-    for (number, order) in [Order::Default, Order::File, Order::LowMemory].into_iter().enumerate() {
-        let mut held = Held::new(device(), Options { order, ..Options::default() });
-        for seed in (0..300).filter(|seed| *seed as usize % 3 == number) {
+    let of = |order, several| (order, Queues { compute: several, transfer: several, ..Queues::default() });
+    let kinds = [Order::Default, Order::File, Order::LowMemory].map(|order| of(order, false));
+    for (number, (order, queues)) in kinds.into_iter().chain([of(Order::Default, true)]).enumerate() {
+        let mut held = Held::new(Profile { queues, ..device() }, Options { order, ..Options::default() });
+        for seed in (0..400).filter(|seed| *seed as usize % 4 == number) {
             let other = frame(seed + 1000, passes(seed + 1000, 20));
-            follow(&mut held, frame(seed, passes(seed, 30)), other, &format!("seed {seed}, {order:?}"));
+            follow(&mut held, frame(seed, passes(seed, 30)), other, &format!("seed {seed}, {order:?}, {queues:?}"));
         }
         held.reused.into_iter().for_each(|(reuse, count)| *reused.entry(reuse).or_insert(0) += count);
     }
-    let structures = reused.get(&Reuse::Structure).copied().unwrap_or(0);
-    assert!(structures > 400, "the structure served too seldom: {reused:?}");
+    let count = |reuse| reused.get(&reuse).copied().unwrap_or(0);
+    let (structures, barriers) = (count(Reuse::Structure), count(Reuse::Barriers));
+    assert!(structures > 50 && barriers > 3000, "too little served too seldom: {reused:?}");
 }
 
 #[test]

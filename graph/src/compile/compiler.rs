@@ -4,7 +4,7 @@ mod difference;
 
 use super::emit::{self, Parts};
 use super::model::OpKind;
-use super::structure::{Settled, Structure};
+use super::structure::{Settled, Settling, Structure};
 use super::synchronise::Pending;
 use super::{Options, legal, retain};
 use crate::describe::Diagnostic;
@@ -23,9 +23,10 @@ use std::sync::Arc;
 ///   A frame behind an `Arc` doesn't change, and since the last one is held on to, no other can stand in its place.
 /// - An equal frame: it is compared, pass by pass.
 /// - Other values (clear and fill values, parameters, counts of workgroups, texts of settings): they are put in.
-/// - Other sizes (of images and buffers): order, scopes and barriers are reused; memory is placed anew, and what follows from
-///   where things lie is found again. If the order that scores best is another one now, or draws meet in other ways, or
-///   passes that are off forward between images of other proportions, or several queues are used, all is compiled anew.
+/// - Other sizes (of images and buffers): memory is placed anew, and order and scopes are reused. If each image and buffer
+///   takes over the memory of those that it took over before, barriers are reused, too; else they are found again. All is
+///   compiled anew if another order might score best, or draws meet in other ways, or passes that are off forward between
+///   images of other proportions, or steps of several queues take over memory from others.
 /// - Anything else: all is compiled anew.
 #[derive(Debug, Default)]
 pub struct Compiler {
@@ -39,6 +40,8 @@ pub enum Reuse {
     Nothing,
     /// Order, scopes and what they make necessary.
     Structure,
+    /// That and the barriers: memory was placed anew, and changes hands as it did.
+    Barriers,
     /// That and the places in memory: only values were put in.
     Placement,
     /// All.
@@ -145,8 +148,8 @@ impl Last {
         self.reuse = reuse;
         let done = match reuse {
             Reuse::Everything => true,
-            Reuse::Placement => self.put_in_values(frame)?,
-            Reuse::Structure => self.put_in_sizes(frame, memory)?,
+            Reuse::Placement => self.put_in_values(frame),
+            Reuse::Structure | Reuse::Barriers => self.put_in_sizes(frame, memory)?,
             Reuse::Nothing => false,
         };
         if !done {
@@ -156,37 +159,42 @@ impl Last {
         Ok(self)
     }
 
-    fn put_in_values(&mut self, frame: &Frame) -> Result<bool, Vec<Diagnostic>> {
-        legal::check(frame)?;
+    /// Whether order, scopes and places served again.
+    fn put_in_values(&mut self, frame: &Frame) -> bool {
+        if !legal::still_holds(frame) {
+            return false;
+        }
         let Last { structure, settled, device, plan, .. } = self;
         retain::renew_clear_values(frame, &structure.adapted, &mut structure.retained);
         emit::values(&Parts::new(frame, device, structure, settled), plan);
-        Ok(true)
+        true
     }
 
     /// Whether the structure served again.
     fn put_in_sizes(&mut self, frame: &Frame, memory: &mut dyn MemoryProvider) -> Result<bool, Vec<Diagnostic>> {
-        legal::check(frame)?;
         let Last { frame: before, device, options, structure, pending, settled, plan, .. } = self;
         let forwards = structure.adapted.ops.iter().any(|op| matches!(op.kind, OpKind::ForwardDraw { .. }));
         let forwards = forwards || difference::forwards(frame);
         if forwards && !difference::keeps_proportions(before, frame) {
             return Ok(false);
         }
-        // What steps of several queues wait for depends on who had whose memory.
-        if structure.walked.queues.is_some() {
-            return Ok(false);
-        }
-        if !structure.still_holds(frame, device, options)? {
+        if !legal::still_holds(frame) || !structure.still_holds(frame, device, options) {
             return Ok(false);
         }
         retain::renew_clear_values(frame, &structure.adapted, &mut structure.retained);
-        structure.walked.barriers.clone_from(pending);
-        *settled = structure.settle(device, memory, options)?;
-        if structure.scoped.steps.len() != plan.steps.len() {
-            return Ok(false);
+        let settling = structure.settle_again(settled, pending, device, memory, options)?;
+        let parts = Parts::new(frame, device, structure, settled);
+        match settling {
+            Settling::Same => {
+                self.reuse = Reuse::Barriers;
+                emit::sizes(&parts, plan);
+            }
+            Settling::OtherBarriers if structure.scoped.steps.len() == plan.steps.len() => {
+                emit::barriers(&parts, plan);
+                emit::sizes(&parts, plan);
+            }
+            Settling::OtherBarriers | Settling::Nothing => return Ok(false),
         }
-        emit::sizes(&Parts::new(frame, device, structure, settled), plan);
         Ok(true)
     }
 }

@@ -5,7 +5,7 @@ mod barriers;
 mod passes;
 mod revise;
 
-pub(super) use revise::{sizes, values};
+pub(super) use revise::{barriers, sizes, values};
 
 use super::batch::Batched;
 use super::cull::Live;
@@ -117,7 +117,7 @@ pub(super) fn emit(parts: &Parts<'_>) -> Plan {
         buffers,
         outputs: parts.adapted.outputs.iter().map(|store| resource(&parts.adapted.stores[*store as usize])).collect(),
         heaps: parts.placed.heaps.clone(),
-        totals: totals(parts, &steps),
+        totals: with_bytes(parts, Totals::count(&steps)),
         steps,
         notes: notes(parts),
     }
@@ -128,13 +128,14 @@ fn settings(parts: &Parts<'_>) -> Vec<SettingUsed> {
     settings.map(|(name, value)| SettingUsed { name: name.clone(), value: value.clone() }).collect()
 }
 
-fn totals(parts: &Parts<'_>, steps: &[Step]) -> Totals {
+/// Sums with the bytes that only `place` knows.
+fn with_bytes(parts: &Parts<'_>, totals: Totals) -> Totals {
     Totals {
         transient_bytes: parts.placed.transient_bytes,
         placed_bytes: parts.placed.heaps.iter().map(|heap| heap.bytes).sum(),
         live_peak_bytes: parts.placed.live_peak_bytes,
         kept_bytes: parts.placed.kept_bytes,
-        ..Totals::count(steps)
+        ..totals
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! legal ─► parts ─► link ─► cull ─► samples ─► adapt ─► schedule ─► scope ─► retain ─► queues
-//!       ─► synchronise ─► outlive ─► purpose ─► place ─► take_over ─► batch ─► hand_over ─► emit
+//!       ─► synchronise ─► outlive ─► purpose ─► place ─► occupy ─► take_over ─► batch ─► hand_over
+//!       ─► emit
 //! ```
 //!
 //! `place` stands between the halves of `synchronise`: how long something lives and what it is made for is known once all
@@ -28,6 +29,7 @@ mod last_uses;
 mod legal;
 mod link;
 mod model;
+mod occupy;
 mod outlive;
 mod pack;
 mod parts;

@@ -81,6 +81,19 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
     if errors.is_empty() { Ok(negotiated) } else { Err(errors) }
 }
 
+/// Whether what was negotiated for a frame stays as it is for one that differs from it in nothing but sizes and values, and
+/// forwards between images of the same proportions.
+pub(super) fn still_holds(frame: &Frame, live: &[u32], device: &Profile) -> bool {
+    let passes = live.iter().map(|pass| &frame.passes[*pass as usize]);
+    frame.images.iter().all(|image| image.extent.iter().all(|side| *side <= largest(image, device)))
+        && passes.into_iter().all(|pass| disagreement(frame, pass).is_none())
+}
+
+/// The longest side that an image of this shape can have.
+fn largest(image: &Image, device: &Profile) -> u32 {
+    if image.shape == Shape::D3 { device.max_extent_3d } else { device.max_attachment_extent }
+}
+
 /// What is copied sample by sample has as many on both sides.
 fn copied_together(frame: &Frame, pass: &Pass, together: &mut UnionFind<u32>) {
     let images = pass.transfers.iter().filter_map(|used| match used.resource {
@@ -176,7 +189,7 @@ fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
 fn check_support(declared: &Image, used: Usage, supports: &Supports<'_>, errors: &mut Vec<Diagnostic>) {
     let device = supports.device;
     let [width, height, depth] = declared.extent;
-    let largest = if declared.shape == Shape::D3 { device.max_extent_3d } else { device.max_attachment_extent };
+    let largest = largest(declared, device);
     if width.max(height).max(depth) > largest {
         let (size, limit) = match declared.shape {
             Shape::D3 => (format!("{width}×{height}×{depth}"), format!("{largest}×{largest}×{largest}")),

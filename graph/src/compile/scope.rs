@@ -1,6 +1,7 @@
 //! `scope`: neighbouring raster passes become one rendering scope where nothing forbids it and something gains; resolves
 //! fold into the scope that wrote last.
 
+mod gain;
 mod local;
 mod meeting;
 
@@ -9,21 +10,24 @@ use super::parts::Grids;
 use crate::device::Profile;
 use crate::frame::Frame;
 use crate::plan::{Note, Stage, Subresources};
+use gain::Gain;
 use meeting::{Meeting, Refusal};
 use std::sync::Arc;
+
+pub(super) use meeting::same_areas;
 
 /// Steps in execution order.
 #[derive(Debug)]
 pub(super) struct Scoped {
     pub(super) steps: Vec<Step>,
-    /// Why a pass shares its scope with the pass before it, for each operation; empty if nothing is drawn.
-    pub(super) merged: Vec<Option<String>>,
+    /// What a pass gains that shares its scope with the pass before it, for each operation; empty if nothing is drawn.
+    gains: Vec<Option<Gain>>,
 }
 
 impl Scoped {
     /// Why operation number `op` shares its scope with the one before it.
-    pub(super) fn merged(&self, op: u32) -> Option<&String> {
-        self.merged.get(op as usize)?.as_ref()
+    pub(super) fn merged(&self, frame: &Frame, adapted: &Adapted, op: u32) -> Option<String> {
+        Some(self.gains.get(op as usize)?.as_ref()?.words(frame, adapted))
     }
 }
 
@@ -77,7 +81,7 @@ pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &mut Adapted, order: 
     if !adapted.ops.iter().any(|op| op.kind.draws()) {
         let mut steps = Vec::with_capacity(order.len() + 1);
         steps.extend(order.iter().map(|op| Step::Single(*op)));
-        return Scoped { steps, merged: Vec::new() };
+        return Scoped { steps, gains: Vec::new() };
     }
     let mut builder = Builder {
         frame,
@@ -85,7 +89,7 @@ pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &mut Adapted, order: 
         device,
         adapted,
         steps: Vec::with_capacity(order.len() + 1),
-        merged: vec![None; adapted.ops.len()],
+        gains: vec![None; adapted.ops.len()],
         traces: vec![Trace::default(); adapted.cells as usize],
         notes: Vec::new(),
         local: Vec::new(),
@@ -93,10 +97,10 @@ pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &mut Adapted, order: 
     for op in order {
         builder.op(*op);
     }
-    let Builder { steps, merged, notes, local, .. } = builder;
+    let Builder { steps, gains, notes, local, .. } = builder;
     adapted.notes.extend(notes);
     local::read_locally(adapted, &local);
-    Scoped { steps, merged }
+    Scoped { steps, gains }
 }
 
 struct Builder<'a> {
@@ -105,7 +109,7 @@ struct Builder<'a> {
     device: &'a Profile,
     adapted: &'a Adapted,
     steps: Vec<Step>,
-    merged: Vec<Option<String>>,
+    gains: Vec<Option<Gain>>,
     /// For each cell what is known of it.
     traces: Vec<Trace>,
     notes: Vec<Note>,
@@ -225,14 +229,14 @@ impl Builder<'_> {
         };
         match neighbour {
             Some(Meeting::Merge) => {
-                let mut text = self.gain(uses);
                 let first = adapted.ops[op as usize].uses.start;
                 let Some(Step::Scope(scope)) = self.steps.last() else { return };
                 let local: Vec<(u32, &Use)> =
                     (first..).zip(uses).filter(|(_, used)| reads_locally(scope, used)).collect();
-                if let Some((_, used)) = local.first() {
-                    text = self.local_gain(used);
-                }
+                let gain = match local.first() {
+                    Some((_, used)) => Gain::read_locally(adapted, used),
+                    None => Gain::shared(adapted, scope, uses),
+                };
                 let reads_any = !local.is_empty();
                 self.local.extend(local.into_iter().map(|(number, _)| number));
                 let Some(Step::Scope(scope)) = self.steps.last_mut() else { return };
@@ -246,7 +250,7 @@ impl Builder<'_> {
                 scope.depth = scope.depth.or_else(|| plane_of(adapted, uses, Role::Depth));
                 scope.stencil = scope.stencil.or_else(|| plane_of(adapted, uses, Role::Stencil));
                 scope.ops.push(op);
-                self.merged[op as usize] = Some(text);
+                self.gains[op as usize] = Some(gain);
                 if wishes && !reads_any {
                     self.explain(op);
                 }
@@ -283,31 +287,6 @@ impl Builder<'_> {
             depth_resolve: None,
             local: false,
         }));
-    }
-
-    /// Why sharing a scope pays.
-    fn gain(&self, uses: &[Use]) -> String {
-        let Some(Step::Scope(scope)) = self.steps.last() else { return String::new() };
-        let before = scope.ops.last().and_then(|op| op_name(self.frame, self.adapted, *op));
-        let attached = |used: &&Use| used.role.is_attachment() && scope.attaches(self.adapted, used);
-        let shared: Vec<&Use> = uses.iter().filter(attached).collect();
-        let bytes = shared.iter().map(|used| self.bytes(used)).fold(0, u64::saturating_add);
-        let names: Vec<String> = shared.iter().map(|used| format!("`{}`", self.name(used.store))).collect();
-        let before = before.map_or("", |name| name);
-        let mebibytes = bytes as f64 / f64::from(1 << 20);
-        format!(
-            "draws into {} like `{before}`: {mebibytes:.1} MiB need neither be stored nor loaded",
-            names.join(" and ")
-        )
-    }
-
-    /// Bytes of the part that a use is about.
-    fn bytes(&self, used: &Use) -> u64 {
-        let Some(image) = self.adapted.stores[used.store as usize].image() else { return 0 };
-        let range = self.adapted.range(used);
-        let sides = image.extent.map(|side| u64::from((side >> range.base_mip.min(31)).max(1)));
-        let texels = sides.into_iter().fold(u64::from(range.layers), u64::saturating_mul);
-        texels.saturating_mul(image.format.texel_bytes()).saturating_mul(u64::from(image.samples))
     }
 
     fn name(&self, store: StoreIndex) -> &str {

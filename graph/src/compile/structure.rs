@@ -4,36 +4,33 @@ use super::batch::{self, Batched};
 use super::cull::{self, Live};
 use super::hand_over::{self, MemoryScopes};
 use super::model::{Adapted, Use};
+use super::occupy::Occupancy;
 use super::outlive::{self, States};
 use super::parts::Grids;
 use super::place::{self, Placed};
 use super::retain::{self, Retained};
-use super::schedule;
+use super::schedule::{self, Scheduled};
 use super::scope::{self, Scoped, Step};
-use super::synchronise::{self, Walked};
-use super::{Options, adapt, formats, legal, link, purpose, queues, samples, take_over};
+use super::synchronise::{self, Pending, Walked};
+use super::{Options, Order, adapt, formats, legal, link, purpose, queues, samples, take_over};
 use crate::describe::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Note;
-use std::ops::Range;
 
 /// What the stages before `place` decided.
 #[derive(Debug)]
 pub(super) struct Structure {
     pub(super) grids: Grids,
     pub(super) live: Live,
-    /// Sample counts in force, for each image of the frame.
-    pub(super) samples: Vec<u32>,
     /// Notes of the stages before `adapt`.
     pub(super) notes: Vec<Note>,
     pub(super) adapted: Adapted,
-    /// Uses as `adapt` left them; none unless they are kept.
-    pub(super) uses: Vec<Use>,
-    /// Which of the notes are those of `scope`.
-    pub(super) notes_of_scope: Range<usize>,
-    /// Indices of operations in execution order.
-    pub(super) order: Vec<u32>,
+    /// Uses as `adapt` left them, if the order can be found again only from those.
+    uses: Vec<Use>,
+    scheduled: Scheduled,
+    /// Which draws share the area of the draw before them, in execution order.
+    same_areas: Vec<bool>,
     pub(super) scoped: Scoped,
     pub(super) retained: Retained,
     pub(super) walked: Walked,
@@ -46,9 +43,23 @@ pub(super) struct Structure {
 #[derive(Debug)]
 pub(super) struct Settled {
     pub(super) placed: Placed,
+    /// How long memory is taken, where steps of several queues run side by side.
+    spans: Option<Vec<[u32; 2]>>,
+    occupancy: Occupancy,
     pub(super) batched: Vec<Batched>,
     pub(super) memory: Vec<(u32, MemoryScopes)>,
     pub(super) exact_memory: bool,
+}
+
+/// How much of what was settled serves for other sizes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Settling {
+    /// All but sizes and offsets.
+    Same,
+    /// Memory changes hands in another way, so that barriers are other ones.
+    OtherBarriers,
+    /// Nothing.
+    Nothing,
 }
 
 impl Structure {
@@ -85,27 +96,24 @@ impl Structure {
         let notes = std::mem::take(&mut negotiated.notes);
         let input = adapt::Input { frame, grids: &grids, live: &live, negotiated: &negotiated, device, options };
         let mut adapted = adapt::adapt(input)?;
-        let order = schedule::schedule(&grids, &adapted, options.order);
-        let uses = if keeps { adapted.uses.clone() } else { Vec::new() };
-        let notes_of_adapt = adapted.notes.len();
-        let mut scoped = scope::scope(frame, &grids, &mut adapted, &order, device);
-        let notes_of_scope = notes_of_adapt..adapted.notes.len();
+        let scheduled = schedule::schedule(&grids, &adapted, options.order, keeps);
+        let same_areas = if keeps { scope::same_areas(&adapted, &scheduled.order).collect() } else { Vec::new() };
+        let uses = if keeps && options.order == Order::LowMemory { adapted.uses.clone() } else { Vec::new() };
+        let mut scoped = scope::scope(frame, &grids, &mut adapted, &scheduled.order, device);
         let queues = queues::assign(frame, &grids, &mut adapted, &mut scoped, device, options);
         let retained = retain::retain(frame, &grids, &adapted, &scoped);
         let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained, queues);
         let export = scoped.steps.len() as u32;
         let states = outlive::promise(&grids, &adapted, &mut walked, export);
         purpose::note(&grids, &mut adapted, &walked, &states, &retained, &scoped, options);
-        let samples = negotiated.samples;
         Ok(Structure {
             grids,
             live,
-            samples,
             notes,
             adapted,
             uses,
-            notes_of_scope,
-            order,
+            scheduled,
+            same_areas,
             scoped,
             retained,
             walked,
@@ -114,37 +122,27 @@ impl Structure {
         })
     }
 
-    /// Whether a frame that differs from the one it was found for in nothing but sizes and values has the same structure.
-    /// Takes over the sizes; if it says no, nothing here is of use any more.
-    ///
-    /// # Errors
-    /// What is wrong with the new sizes.
-    pub(super) fn still_holds(
-        &mut self,
-        frame: &Frame,
-        device: &Profile,
-        options: &Options,
-    ) -> Result<bool, Vec<Diagnostic>> {
-        let negotiated = samples::negotiate(frame, &self.live.passes, device)?;
-        if negotiated.samples != self.samples || negotiated.notes != self.notes {
-            return Ok(false);
+    /// Whether a legal frame that differs from the one it was found for in nothing but sizes and values, and forwards between
+    /// images of the same proportions, has the same structure. Takes over the sizes; if it says no, nothing here is of use
+    /// any more.
+    pub(super) fn still_holds(&mut self, frame: &Frame, device: &Profile, options: &Options) -> bool {
+        if !samples::still_holds(frame, &self.live.passes, device) {
+            return false;
         }
-        let Structure { grids, adapted, uses, scoped, .. } = self;
+        let Structure { grids, adapted, uses, scheduled, same_areas, .. } = self;
         adapted.stores.iter_mut().for_each(|store| store.resize(frame));
-        std::mem::swap(&mut adapted.uses, uses);
-        let same_order = schedule::schedule(grids, adapted, options.order) == self.order;
-        let mut same_steps = true;
-        if adapted.ops.iter().any(|op| op.kind.draws()) {
-            let later = adapted.notes.split_off(self.notes_of_scope.end);
-            adapted.notes.truncate(self.notes_of_scope.start);
-            let again = scope::scope(frame, grids, adapted, &self.order, device);
-            self.notes_of_scope.end = adapted.notes.len();
-            adapted.notes.extend(later);
-            same_steps = again.steps == scoped.steps[..self.export as usize];
-            *scoped = again;
+        if !scope::same_areas(adapted, &scheduled.order).eq(same_areas.iter().copied()) {
+            return false;
         }
-        std::mem::swap(&mut adapted.uses, uses);
-        Ok(same_order && same_steps)
+        let as_adapted = options.order == Order::LowMemory;
+        if as_adapted {
+            std::mem::swap(&mut adapted.uses, uses);
+        }
+        let same_order = scheduled.still_holds(grids, adapted, options.order);
+        if as_adapted {
+            std::mem::swap(&mut adapted.uses, uses);
+        }
+        same_order
     }
 
     /// Runs the stages from `place` on; barriers before first uses must be as `find` left them.
@@ -154,10 +152,48 @@ impl Structure {
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Settled, Vec<Diagnostic>> {
-        let Structure { grids, adapted, scoped, walked, states, export, .. } = self;
+        let Structure { adapted, scoped, walked, .. } = self;
         let spans = walked.queues.as_ref().map(|queues| queues.spans(adapted, scoped, &walked.lifetimes));
         let placed = place::place(adapted, &walked.lifetimes, spans.as_deref(), device, memory, options)?;
-        let hand_overs = take_over::take_over(grids, adapted, states, &placed, walked);
+        let occupancy = Occupancy::of(&placed, &walked.lifetimes);
+        let (batched, hand_overs) = self.synchronise(&occupancy);
+        Ok(Settled { placed, spans, occupancy, batched, memory: hand_overs, exact_memory: memory.exact() })
+    }
+
+    /// Settles again where the structure held for other sizes. `pending`: barriers as `find` left them.
+    pub(super) fn settle_again(
+        &mut self,
+        settled: &mut Settled,
+        pending: &[Pending],
+        device: &Profile,
+        memory: &mut dyn MemoryProvider,
+        options: &Options,
+    ) -> Result<Settling, Vec<Diagnostic>> {
+        let Structure { adapted, walked, .. } = self;
+        let spans = settled.spans.as_deref();
+        settled.placed = place::place(adapted, &walked.lifetimes, spans, device, memory, options)?;
+        if settled.occupancy.still_holds(&settled.placed) {
+            return Ok(Settling::Same);
+        }
+        let occupancy = Occupancy::of(&settled.placed, &walked.lifetimes);
+        let before = std::mem::replace(&mut settled.occupancy, occupancy);
+        if before.taken == settled.occupancy.taken {
+            return Ok(Settling::Same);
+        }
+        // What steps of several queues wait for depends on who had whose memory.
+        if walked.queues.is_some() {
+            return Ok(Settling::Nothing);
+        }
+        walked.barriers.clear();
+        walked.barriers.extend_from_slice(pending);
+        (settled.batched, settled.memory) = self.synchronise(&settled.occupancy);
+        Ok(Settling::OtherBarriers)
+    }
+
+    /// Runs the stages behind `occupy`.
+    fn synchronise(&mut self, occupancy: &Occupancy) -> (Vec<Batched>, Vec<(u32, MemoryScopes)>) {
+        let Structure { grids, adapted, scoped, walked, states, export, .. } = self;
+        let hand_overs = take_over::take_over(grids, adapted, states, occupancy, walked);
         let (pending, queues) = (&walked.barriers, &walked.queues);
         let batched = match queues {
             None => batch::batch(pending),
@@ -173,6 +209,6 @@ impl Structure {
             None => hand_over::memory_barriers(&hand_overs, pending, &batched, steps),
             Some(queues) => hand_over::memory_barriers_on(queues, &hand_overs, pending, &batched, steps),
         };
-        Ok(Settled { placed, batched, memory: memory_barriers, exact_memory: memory.exact() })
+        (batched, memory_barriers)
     }
 }

@@ -6,10 +6,10 @@
 
 use super::hand_over::HandOver;
 use super::last_uses::LastUses;
-use super::model::{Adapted, StoreIndex};
+use super::model::Adapted;
+use super::occupy::{Occupancy, Taken};
 use super::outlive::{States, cells};
 use super::parts::Grids;
-use super::place::Placed;
 use super::queues;
 use super::synchronise::{NEVER, Pending, Walked};
 
@@ -18,7 +18,7 @@ pub(super) fn take_over(
     grids: &Grids,
     adapted: &Adapted,
     states: &[Option<States>],
-    placed: &Placed,
+    occupancy: &Occupancy,
     walked: &mut Walked,
 ) -> Vec<HandOver> {
     for ((store, at), states) in adapted.stores.iter().zip(0..).zip(states) {
@@ -39,9 +39,7 @@ pub(super) fn take_over(
         }
     }
     let mut taking = Taking { grids, adapted, walked, hand_overs: Vec::new() };
-    for heap in 0..placed.heaps.len() as u32 {
-        taking.heap(placed, heap);
-    }
+    occupancy.taken.iter().for_each(|taken| taking.take(taken));
     let hand_overs = taking.hand_overs;
     if walked.queues.is_some() {
         queues::finish(adapted, walked);
@@ -75,58 +73,8 @@ struct Taking<'t> {
 }
 
 impl Taking<'_> {
-    /// Follows who holds which bytes of a heap, through the frame and into the next.
-    fn heap(&mut self, placed: &Placed, heap: u32) {
-        let mut members: Vec<(u32, StoreIndex)> = Vec::new();
-        let mut cuts: Vec<u64> = Vec::new();
-        for (placement, store) in placed.placements.iter().zip(0_u32..) {
-            if let Some(placement) = placement.as_ref().filter(|placement| placement.heap == heap) {
-                members.push((self.walked.lifetimes[store as usize][0], store));
-                cuts.push(placement.offset);
-                cuts.push(placement.offset + placement.bytes);
-            }
-        }
-        if !members.is_sorted() {
-            members.sort_unstable();
-        }
-        cuts.sort_unstable();
-        cuts.dedup();
-        let mut holders = vec![NEVER; cuts.len()];
-        let mut from_frame_before: Vec<(StoreIndex, u32)> = Vec::new();
-        let mut known: Vec<StoreIndex> = Vec::new();
-        for (_, store) in &members {
-            let Some(placement) = &placed.placements[*store as usize] else { continue };
-            let first = cuts.partition_point(|cut| *cut < placement.offset);
-            let end = placement.offset + placement.bytes;
-            known.clear();
-            for piece in first..cuts.len() {
-                if cuts[piece] >= end {
-                    break;
-                }
-                let holder = std::mem::replace(&mut holders[piece], *store);
-                if holder == NEVER {
-                    from_frame_before.push((*store, piece as u32));
-                } else if !known.contains(&holder) {
-                    known.push(holder);
-                    self.take(*store, holder, true);
-                }
-            }
-        }
-        let mut taker = NEVER;
-        for (store, piece) in from_frame_before {
-            if std::mem::replace(&mut taker, store) != store {
-                known.clear();
-            }
-            let holder = holders[piece as usize];
-            if !known.contains(&holder) {
-                known.push(holder);
-                self.take(store, holder, false);
-            }
-        }
-    }
-
-    /// `store` takes bytes of `from`.
-    fn take(&mut self, store: StoreIndex, from: StoreIndex, this_frame: bool) {
+    fn take(&mut self, taken: &Taken) {
+        let Taken { store, from, this_frame } = *taken;
         if self.walked.queues.is_some() {
             return queues::take(
                 self.grids,
@@ -137,8 +85,7 @@ impl Taking<'_> {
                 &mut self.hand_overs,
             );
         }
-        let described = |store: StoreIndex| &self.adapted.stores[store as usize];
-        let (taker, holder) = (described(store), described(from));
+        let [taker, holder] = [store, from].map(|store| &self.adapted.stores[store as usize]);
         let is_image = taker.image().is_some();
         let mut uses = LastUses::default();
         for held in cells(self.grids, holder) {

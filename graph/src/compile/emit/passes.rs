@@ -25,8 +25,8 @@ pub(super) fn single(parts: &Parts<'_>, number: u32) -> Work {
         None | Some(FrameWork::Copy) => Work::Copy(transfer(parts, op, number, None)),
         Some(FrameWork::Blit { filter }) => Work::Blit(transfer(parts, op, number, Some(*filter))),
         Some(FrameWork::Fill { value }) => {
-            let target = parts.adapted.uses(number).first().map_or(NOTHING, |used| side(parts, used));
-            Work::Fill(Fill { name: name(parts, op), cause: cause(parts, op), target, value: *value })
+            let (name, cause, target) = (name(parts, op), cause(parts, op), filled(parts, number));
+            Work::Fill(Fill { name, cause, target, value: *value })
         }
         Some(FrameWork::Custom { .. }) => Work::Custom(pass(parts, number)),
         Some(FrameWork::Dispatch { .. } | FrameWork::Draw { .. } | FrameWork::Forward { .. }) => {
@@ -43,6 +43,17 @@ fn name(parts: &Parts<'_>, op: &Op) -> Option<Arc<str>> {
 }
 
 fn transfer(parts: &Parts<'_>, op: &Op, number: u32, filter: Option<Filter>) -> Transfer {
+    let [source, target] = sides(parts, number);
+    Transfer { name: name(parts, op), cause: cause(parts, op), source, target, filter }
+}
+
+/// What a fill fills.
+pub(super) fn filled(parts: &Parts<'_>, number: u32) -> Side {
+    parts.adapted.uses(number).first().map_or(NOTHING, |used| side(parts, used))
+}
+
+/// Source and target of a transfer.
+pub(super) fn sides(parts: &Parts<'_>, number: u32) -> [Side; 2] {
     let uses = parts.adapted.uses(number);
     let [mut source, mut target] = [0, 1].map(|at| uses.get(at).map_or(NOTHING, |used| side(parts, used)));
     // Beside an image only the bytes of its texels count; between buffers those of the source.
@@ -57,7 +68,7 @@ fn transfer(parts: &Parts<'_>, op: &Op, number: u32, filter: Option<Filter>) -> 
     } else if let (Side::Buffer { bytes: some, .. }, Side::Buffer { bytes: others, .. }) = (source, &mut target) {
         *others = some;
     }
-    Transfer { name: name(parts, op), cause: cause(parts, op), source, target, filter }
+    [source, target]
 }
 
 /// Bytes of the texels that a transfer moves from or to the image that is used here.
@@ -95,7 +106,7 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
         return Pass {
             blend: vec![Blend::Replace],
             accesses: accesses.collect(),
-            merged: parts.scoped.merged(number).cloned(),
+            merged: parts.scoped.merged(parts.frame, parts.adapted, number),
             ..bare(name, cause, Some(Draw::FullScreen), None, COPY_SHADER.into())
         };
     }
@@ -118,7 +129,7 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     }
     if matches!(declared.work, FrameWork::Draw { .. }) {
         drawn(&mut planned, declared, uses);
-        planned.merged = parts.scoped.merged(number).cloned();
+        planned.merged = parts.scoped.merged(parts.frame, parts.adapted, number);
     }
     if !declared.params.is_empty() {
         let params = declared.params.iter();

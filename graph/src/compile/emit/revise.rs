@@ -1,10 +1,11 @@
 //! Brings a Plan up to date where the structure stayed: new values, or new sizes too.
 
-use super::{Parts, attachments, barriers, notes, passes, role, settings, totals};
+use super::barriers::Barriers;
+use super::{Parts, attachments, passes, settings, with_bytes};
 use crate::compile::model::{Kind, OpKind};
 use crate::compile::scope::Step as Grouped;
 use crate::frame::Work as FrameWork;
-use crate::plan::{Param, Pass, Plan, Work};
+use crate::plan::{Param, Pass, Plan, Role, Totals, Work};
 
 /// Brings clear values, parameters, counts of workgroups and settings up to date.
 pub(in crate::compile) fn values(parts: &Parts<'_>, plan: &mut Plan) {
@@ -48,42 +49,51 @@ fn pass_values(parts: &Parts<'_>, op: u32, planned: &mut Pass) {
     }
 }
 
-/// Brings everything up to date that sizes or values say, where the steps are still the same.
+/// Brings everything up to date that sizes or values say, where steps and barriers are the same.
 pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
     values(parts, plan);
-    let stores = parts.adapted.stores.iter().zip(parts.states).zip(&parts.placed.placements);
-    for ((store, states), placement) in stores {
-        let role = role(parts.adapted, store, *states, placement.as_ref());
-        match &store.kind {
+    let Plan { images, buffers, .. } = plan;
+    for (store, placement) in parts.adapted.stores.iter().zip(&parts.placed.placements) {
+        let role = match &store.kind {
             Kind::Image(image) => {
-                let planned = &mut plan.images[store.id as usize];
-                (planned.extent, planned.role) = (image.extent, role);
+                let planned = &mut images[store.id as usize];
+                planned.extent = image.extent;
+                &mut planned.role
             }
             Kind::Buffer(buffer) => {
-                let planned = &mut plan.buffers[store.id as usize];
-                (planned.bytes, planned.role) = (buffer.bytes, role);
+                let planned = &mut buffers[store.id as usize];
+                planned.bytes = buffer.bytes;
+                &mut planned.role
             }
+        };
+        if let (Role::Transient(planned), Some(placement)) = (role, placement) {
+            planned.clone_from(placement);
         }
     }
     plan.heaps.clone_from(&parts.placed.heaps);
-    let mut barriers = barriers::Barriers::new(parts);
-    for ((step, grouped), number) in plan.steps.iter_mut().zip(&parts.scoped.steps).zip(0_u32..) {
-        (step.memory_barriers, step.image_barriers) = barriers.of(number);
+    for (step, grouped) in plan.steps.iter_mut().zip(&parts.scoped.steps) {
         match (&mut step.work, grouped) {
             (Work::Render(planned), Grouped::Scope(scope)) => {
                 (planned.extent, ..) = attachments::shape(parts, scope);
                 for (pass, op) in planned.passes.iter_mut().zip(&scope.ops) {
-                    pass.merged = parts.scoped.merged(*op).cloned();
+                    pass.merged = parts.scoped.merged(parts.frame, parts.adapted, *op);
                 }
             }
-            (work @ (Work::Copy(_) | Work::Blit(_) | Work::Resolve(_) | Work::Fill(_)), Grouped::Single(op)) => {
-                *work = passes::single(parts, *op);
+            (Work::Copy(transfer) | Work::Blit(transfer) | Work::Resolve(transfer), Grouped::Single(op)) => {
+                [transfer.source, transfer.target] = passes::sides(parts, *op);
             }
+            (Work::Fill(fill), Grouped::Single(op)) => fill.target = passes::filled(parts, *op),
             _ => {}
         }
     }
-    if plan.steps.iter().any(|step| matches!(step.work, Work::Render(_))) {
-        plan.notes = notes(parts);
+    plan.totals = with_bytes(parts, plan.totals);
+}
+
+/// Brings barriers up to date where memory changes hands in another way, and the steps are the same.
+pub(in crate::compile) fn barriers(parts: &Parts<'_>, plan: &mut Plan) {
+    let mut barriers = Barriers::new(parts);
+    for (step, number) in plan.steps.iter_mut().zip(0..) {
+        (step.memory_barriers, step.image_barriers) = barriers.of(number);
     }
-    plan.totals = totals(parts, &plan.steps);
+    plan.totals = Totals::count(&plan.steps);
 }

@@ -2,12 +2,20 @@
 
 use super::memory::Memory;
 use super::runs::{Runs, for_each_cell};
+use super::weighed::{Sums, Weighed, Weight};
 use crate::compile::model::Adapted;
 use crate::compile::parts::Grids;
 use crate::vocabulary::Layout;
 
-/// The runs level by level; `None` if there is no level with more than one.
-pub(super) fn by_level(grids: &Grids, adapted: &Adapted, runs: &Runs, memory: &Memory) -> Option<Vec<u32>> {
+/// The runs level by level; `None` if there is no level with more than one. What bytes decide goes into `weighed`, if that is
+/// to be kept.
+pub(super) fn by_level(
+    grids: &Grids,
+    adapted: &Adapted,
+    runs: &Runs,
+    memory: &Memory,
+    mut weighed: Option<&mut Weighed>,
+) -> Option<Vec<u32>> {
     let mut upwards = Walk::new(grids, adapted, runs);
     let mut levels: Vec<u32> = Vec::with_capacity(runs.len() as usize);
     // For each store the first run that uses it.
@@ -32,25 +40,25 @@ pub(super) fn by_level(grids: &Grids, adapted: &Adapted, runs: &Runs, memory: &M
     for run in (0..runs.len()).rev() {
         let (lowest, highest) = (keys[run as usize], top - downwards.least(run));
         let uses = || runs.run(run).iter().flat_map(|op| adapted.uses(*op));
-        let (mut begun, mut ended, mut held) = (0_u64, 0_u64, 0_u64);
+        let mut sums = Sums::default();
         for used in uses() {
-            let (store, bytes) = (used.store as usize, memory.bytes(used.store));
-            if begins[store] == run {
-                begun = begun.saturating_add(bytes);
-            }
-            if ends[store] <= lowest + 1 {
-                ended = ended.saturating_add(bytes);
-            }
-            if ends[store] <= highest && begins[store] != run {
-                held = held.saturating_add(bytes);
+            let (store, begun) = (used.store as usize, begins[used.store as usize] == run);
+            let (ended, held) = (ends[store] <= lowest + 1, ends[store] <= highest && !begun);
+            let weight = Weight { store: used.store, begun, ended, held };
+            sums.add(weight, memory);
+            if let Some(weighed) = &mut weighed {
+                weighed.weigh(weight);
             }
         }
-        let rises = highest > lowest && begun > held;
-        let (level, ended) = if rises { (highest, held) } else { (lowest, ended) };
+        let decision = sums.decide(highest > lowest);
+        if let Some(weighed) = &mut weighed {
+            weighed.decided(highest > lowest, decision);
+        }
+        let level = if decision.rises { highest } else { lowest };
         downwards.put(runs.run(run).iter().rev(), top - level);
         uses().for_each(|used| ends[used.store as usize] = ends[used.store as usize].max(level + 1));
         // In a level first what ends more than it begins: what comes next then finds its memory free.
-        keys[run as usize] = 3 * level + (begun.cmp(&ended) as i8 + 1) as u32;
+        keys[run as usize] = 3 * level + (decision.begins as i8 + 1) as u32;
     }
     Some(counting_sort(&keys, 3 * top + 3))
 }

@@ -10,8 +10,29 @@ use std::collections::BinaryHeap;
 #[derive(Debug)]
 pub(super) struct Memory {
     bytes: Vec<u64>,
-    /// For each store the first and the last place of the order at hand that use it.
-    lifetimes: Vec<[u32; 2]>,
+}
+
+/// When an order uses what.
+#[derive(Debug)]
+pub(super) struct Lifetimes {
+    /// Number of places in the order.
+    places: u32,
+    /// For each store the first and the last place that use it.
+    of: Vec<[u32; 2]>,
+}
+
+impl Lifetimes {
+    /// In an order of runs.
+    pub(super) fn of(adapted: &Adapted, runs: &Runs, order: &[u32]) -> Lifetimes {
+        let mut of = vec![[u32::MAX, 0]; adapted.stores.len()];
+        for (run, place) in order.iter().zip(0_u32..) {
+            for used in runs.run(*run).iter().flat_map(|op| adapted.uses(*op)) {
+                let [first, last] = &mut of[used.store as usize];
+                (*first, *last) = (place.min(*first), place);
+            }
+        }
+        Lifetimes { places: order.len() as u32, of }
+    }
 }
 
 impl Memory {
@@ -27,7 +48,7 @@ impl Memory {
                 texels.saturating_mul(image.format.texel_bytes()).saturating_mul(u64::from(image.samples))
             }
         });
-        Memory { bytes: bytes.collect(), lifetimes: Vec::new() }
+        Memory { bytes: bytes.collect() }
     }
 
     /// Bytes of one store, 0 if it has memory of its own.
@@ -35,18 +56,10 @@ impl Memory {
         self.bytes[store as usize]
     }
 
-    /// The most bytes that are alive at one place of an order of runs.
-    pub(super) fn peak(&mut self, adapted: &Adapted, runs: &Runs, order: &[u32]) -> u64 {
-        self.lifetimes.clear();
-        self.lifetimes.resize(self.bytes.len(), [u32::MAX, 0]);
-        for (run, place) in order.iter().zip(0_u32..) {
-            for used in runs.run(*run).iter().flat_map(|op| adapted.uses(*op)) {
-                let [first, last] = &mut self.lifetimes[used.store as usize];
-                (*first, *last) = (place.min(*first), place);
-            }
-        }
-        let mut changes = vec![0_i128; order.len() + 1];
-        for ([first, last], bytes) in self.lifetimes.iter().zip(&self.bytes) {
+    /// The most bytes that are alive at one place of an order.
+    pub(super) fn peak(&self, lifetimes: &Lifetimes) -> u64 {
+        let mut changes = vec![0_i128; lifetimes.places as usize + 1];
+        for ([first, last], bytes) in lifetimes.of.iter().zip(&self.bytes) {
             if *first != u32::MAX {
                 changes[*first as usize] += i128::from(*bytes);
                 changes[*last as usize + 1] -= i128::from(*bytes);

@@ -19,50 +19,79 @@ mod dependencies;
 mod levels;
 mod memory;
 mod runs;
+mod weighed;
 
 use super::Order;
 use super::model::Adapted;
 use super::parts::Grids;
 use dependencies::Dependencies;
-use memory::Memory;
+use memory::{Lifetimes, Memory};
 use runs::Runs;
+use weighed::Weighed;
 
-/// Indices into [`Adapted::ops`], in execution order.
-pub(super) fn schedule(grids: &Grids, adapted: &Adapted, order: Order) -> Vec<u32> {
-    match order {
+/// An order, and what bytes decided about it.
+#[derive(Debug)]
+pub(super) struct Scheduled {
+    /// Indices into [`Adapted::ops`], in execution order.
+    pub(super) order: Vec<u32>,
+    weighed: Weighed,
+}
+
+/// Finds the order of execution. `keeps`: for [`Scheduled::still_holds`], later.
+pub(super) fn schedule(grids: &Grids, adapted: &Adapted, order: Order, keeps: bool) -> Scheduled {
+    let mut weighed = Weighed::default();
+    let order = match order {
         Order::File => (0..adapted.ops.len() as u32).collect(),
         Order::Default => {
             let runs = Runs::gather(grids, adapted);
-            runs.operations(&scored(grids, adapted, &runs, &mut Memory::of(adapted)))
+            let keep = keeps.then_some(&mut weighed);
+            runs.operations(&scored(grids, adapted, &runs, &Memory::of(adapted), keep))
         }
         Order::LowMemory => {
             let runs = Runs::gather(grids, adapted);
             runs.operations(&small(grids, adapted, &runs))
         }
         Order::Random(seed) => Dependencies::between(grids, adapted, &Runs::of_one(adapted)).random_order(seed),
+    };
+    Scheduled { order, weighed }
+}
+
+impl Scheduled {
+    /// Whether the same operations on images and buffers of other sizes come in the same order.
+    pub(super) fn still_holds(&self, grids: &Grids, adapted: &Adapted, order: Order) -> bool {
+        match order {
+            Order::File | Order::Random(_) => true,
+            Order::Default => self.weighed.decide_the_same(&Memory::of(adapted)),
+            // Of which runs come next, whichever is cheapest: too many comparisons to keep.
+            Order::LowMemory => schedule(grids, adapted, order, false).order == self.order,
+        }
     }
 }
 
 /// The runs in the order that scores best.
-fn scored(grids: &Grids, adapted: &Adapted, runs: &Runs, memory: &mut Memory) -> Vec<u32> {
+fn scored(grids: &Grids, adapted: &Adapted, runs: &Runs, memory: &Memory, mut keep: Option<&mut Weighed>) -> Vec<u32> {
     let file: Vec<u32> = (0..runs.len()).collect();
-    let Some(order) = levels::by_level(grids, adapted, runs, memory) else { return file };
-    let peak = memory.peak(adapted, runs, &file);
-    if memory.peak(adapted, runs, &order) <= peak.saturating_add(peak / 50) { order } else { file }
+    let Some(order) = levels::by_level(grids, adapted, runs, memory, keep.as_deref_mut()) else { return file };
+    let [in_file, in_levels] = [&file, &order].map(|order| Lifetimes::of(adapted, runs, order));
+    let takes_levels = weighed::takes_levels(memory, &in_file, &in_levels);
+    if let Some(weighed) = keep {
+        weighed.took(in_file, in_levels, takes_levels);
+    }
+    if takes_levels { order } else { file }
 }
 
 /// The runs in that of several orders in which the least memory is alive at one time.
 fn small(grids: &Grids, adapted: &Adapted, runs: &Runs) -> Vec<u32> {
-    let mut memory = Memory::of(adapted);
+    let memory = Memory::of(adapted);
     let dependencies = Dependencies::between(grids, adapted, runs);
     let mut orders = vec![
         (0..runs.len()).collect(),
-        scored(grids, adapted, runs, &mut memory),
+        scored(grids, adapted, runs, &memory, None),
         memory.greedy(adapted, runs, &dependencies),
     ];
     let mut backwards = memory.greedy(adapted, runs, &dependencies.reversed());
     backwards.reverse();
     orders.push(backwards);
-    let least = orders.into_iter().min_by_key(|order: &Vec<u32>| memory.peak(adapted, runs, order));
+    let least = orders.into_iter().min_by_key(|order: &Vec<u32>| memory.peak(&Lifetimes::of(adapted, runs, order)));
     least.unwrap_or_default()
 }

@@ -59,13 +59,6 @@ pub(super) fn read_locally(adapted: &mut Adapted, uses: &[u32]) {
 }
 
 impl Builder<'_> {
-    /// Why a local read pays.
-    pub(super) fn local_gain(&self, used: &Use) -> String {
-        let mebibytes = self.bytes(used) as f64 / f64::from(1 << 20);
-        let name = self.name(used.store);
-        format!("reads `{name}` at its own position: {mebibytes:.1} MiB need not be read from memory")
-    }
-
     /// Says why what a pass reads at its own position is read from memory.
     pub(super) fn explain(&mut self, op: u32) {
         let adapted = self.adapted;

@@ -1,7 +1,7 @@
 //! A scope meets the pass after it: whether they can be one.
 
 use super::{Scope, Target, colors_of, plane_of};
-use crate::compile::model::{Adapted, Role, Start, StoreIndex, Use};
+use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
 
 /// What comes of a scope and the pass after it.
 pub(super) enum Meeting {
@@ -112,15 +112,38 @@ impl Scope {
     }
 
     fn same_area(&self, adapted: &Adapted, uses: &[Use]) -> bool {
-        let shape = |target: Target| {
-            let image = adapted.stores[target.store as usize].image();
-            let mip = target.range.base_mip.min(31);
-            image.map(|image| (image.extent.map(|side| (side >> mip).max(1)), target.range.layers, image.samples))
-        };
         let first = self.targets().next();
         first.is_none_or(|first| {
             let attached = uses.iter().filter(|used| used.role.is_attachment());
-            attached.map(|used| Target::of(adapted, used)).all(|target| shape(target) == shape(first))
+            attached.map(|used| Target::of(adapted, used)).all(|target| area(adapted, target) == area(adapted, first))
         })
     }
+}
+
+/// Width, height and depth, layers and samples of an attachment.
+fn area(adapted: &Adapted, target: Target) -> Option<([u32; 3], u32, u32)> {
+    let image = adapted.stores[target.store as usize].image()?;
+    let mip = target.range.base_mip.min(31);
+    Some((image.extent.map(|side| (side >> mip).max(1)), target.range.layers, image.samples))
+}
+
+/// For each draw that may meet the scope of a draw before it, in the given order, whether they have the same area: all that
+/// sizes decide about scopes. All attachments of one draw have one area.
+pub(in crate::compile) fn same_areas(adapted: &Adapted, order: &[u32]) -> impl Iterator<Item = bool> {
+    let mut before = None;
+    order.iter().filter_map(move |op| {
+        match adapted.ops[*op as usize].kind {
+            OpKind::Draw(_) | OpKind::ForwardDraw { .. } => {}
+            // A scope may carry it.
+            OpKind::Resolve { .. } => return None,
+            OpKind::Pass(_) | OpKind::Copy(_) => {
+                before = None;
+                return None;
+            }
+        }
+        let attached = adapted.uses(*op).iter().find(|used| used.role.is_attachment());
+        let now = attached.map(|used| area(adapted, Target::of(adapted, used)));
+        let before = before.replace(now)?;
+        Some(before == now)
+    })
 }

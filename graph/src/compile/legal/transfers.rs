@@ -1,0 +1,110 @@
+//! Copies, blits and fills: what is on both sides fits together.
+
+use super::Check;
+use super::lifetimes::value_problem;
+use crate::compile::parts;
+use crate::format::Format;
+use crate::frame::{Image, Resource, TransferUse, Work};
+use crate::vocabulary::{Aspects, Subresources};
+
+impl Check<'_> {
+    pub(super) fn transfers(&mut self) {
+        let pass = self.pass;
+        let writes: Vec<bool> = pass.transfers.iter().map(|used| used.write).collect();
+        match (&pass.work, &writes[..]) {
+            (Work::Copy, [false, true]) => self.copy(&pass.transfers[0], &pass.transfers[1]),
+            (Work::Blit { .. }, [false, true]) => self.blit(&pass.transfers[0], &pass.transfers[1]),
+            (Work::Copy | Work::Blit { .. }, _) => self.wrong(pass.span, "needs one source and one target"),
+            (Work::Fill { value }, [true]) => {
+                let format = match pass.transfers[0].resource {
+                    Resource::Image(image) => Some(self.frame.images[image.0 as usize].format),
+                    Resource::Buffer(_) => None,
+                };
+                if let Some(what) = value_problem(value, format) {
+                    self.wrong(pass.span, &format!("fills with {what}"));
+                }
+            }
+            (Work::Fill { .. }, _) => self.wrong(pass.span, "fills one image or buffer"),
+            (Work::Custom { .. }, _) | (_, []) => {}
+            _ => self.wrong(pass.span, "transfers and is no copy, blit, fill or custom pass"),
+        }
+    }
+
+    /// The extent of the one mip level that a transfer is about, its layers and its image.
+    fn level(&mut self, used: &TransferUse) -> Option<(Subresources, [u32; 3], &Image)> {
+        let Resource::Image(image) = used.resource else { return None };
+        let image = &self.frame.images[image.0 as usize];
+        let part = parts::resolve(image, used.range);
+        Some((part, image.extent.map(|side| (side >> part.base_mip.min(31)).max(1)), image))
+    }
+
+    fn copy(&mut self, source: &TransferUse, target: &TransferUse) {
+        let span = self.pass.span;
+        let bytes = |side: &TransferUse| match side.resource {
+            Resource::Buffer(buffer) => self.frame.buffers[buffer.0 as usize].bytes,
+            Resource::Image(_) => 0,
+        };
+        let buffers = [bytes(source), bytes(target)];
+        let from = self.level(source).map(|(part, extent, image)| (part, extent, image.format, image.samples));
+        let to = self.level(target).map(|(part, extent, image)| (part, extent, image.format, image.samples));
+        let problem = match (from, to) {
+            (None, None) if buffers[0] > buffers[1] => Some("copies into a buffer that is too small"),
+            (None, None) => None,
+            (Some((from, size, format, count)), Some((to, other, target_format, samples))) => {
+                let same = format == target_format && size == other && from.layers == to.layers;
+                let counts = samples == 1 || samples == count;
+                let one = from.mips == 1 && to.mips == 1 && from.aspects == to.aspects && counts;
+                (!same || !one).then_some("copies between images that differ in format, size, layers or samples")
+            }
+            (Some((part, extent, format, samples)), None) | (None, Some((part, extent, format, samples))) => {
+                let texels = extent.iter().fold(u64::from(part.layers), |all, side| all.saturating_mul((*side).into()));
+                let size = buffers[0].max(buffers[1]);
+                if part.mips != 1 || samples > 1 && to.is_some() {
+                    Some("copies several mip levels or samples at once")
+                } else if format.aspects().contains(Aspects::STENCIL) {
+                    Some("copies depth with stencil to or from a buffer")
+                } else if texels.saturating_mul(format.texel_bytes()) > size {
+                    Some("copies between a buffer and an image that is larger")
+                } else {
+                    None
+                }
+            }
+        };
+        if let Some(what) = problem {
+            self.wrong(span, what);
+        }
+        self.apart(source, target);
+    }
+
+    fn blit(&mut self, source: &TransferUse, target: &TransferUse) {
+        let from = self.level(source).map(|(part, _, image)| (part, image.format, image.samples));
+        let to = self.level(target).map(|(part, _, image)| (part, image.format, image.samples));
+        let fits = match (from, to) {
+            (Some((from, format, samples)), Some((to, target_format, target_samples))) => {
+                let kind = |format: Format| (format.is_integer(), format.is_depth());
+                let depth = format.is_depth() && format != target_format;
+                let counts = (from.mips, to.mips, samples, target_samples) == (1, 1, 1, 1);
+                counts && from.layers == to.layers && kind(format) == kind(target_format) && !depth
+            }
+            _ => false,
+        };
+        if !fits {
+            self.wrong(self.pass.span, "blits between what is not two images of one kind with one sample");
+        }
+        self.apart(source, target);
+    }
+
+    /// Source and target of a transfer may be parts of one image that don't overlap.
+    fn apart(&mut self, source: &TransferUse, target: &TransferUse) {
+        if source.resource != target.resource || source.frames_ago != target.frames_ago {
+            return;
+        }
+        let overlaps = match source.resource {
+            Resource::Buffer(_) => true,
+            Resource::Image(image) => parts::overlap(&self.frame.images[image.0 as usize], source.range, target.range),
+        };
+        if overlaps {
+            self.wrong(self.pass.span, "transfers from and to the same part");
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! What bytes decided about an order, so that other bytes can be asked whether they decide the same.
+
+use super::memory::{Lifetimes, Memory};
+use crate::compile::model::StoreIndex;
+use std::cmp::Ordering;
+
+/// The comparisons of bytes that led to an order, in the sequence in which they were made; none if bytes decided nothing.
+///
+/// What is compared next depends on what came out so far. So where all come out the same, they are the same comparisons.
+#[derive(Debug, Default)]
+pub(super) struct Weighed {
+    runs: Vec<Run>,
+    stores: Vec<Weight>,
+    peaks: Option<Peaks>,
+}
+
+/// What was decided about one run.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    /// Where its part of the list of stores ends.
+    end: u32,
+    may_rise: bool,
+    decision: Decision,
+}
+
+/// A store that a run uses.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Weight {
+    pub(super) store: StoreIndex,
+    /// Whether the run begins it.
+    pub(super) begun: bool,
+    /// Whether the run ends it where it is.
+    pub(super) ended: bool,
+    /// Whether the run would hold it alive where it could rise to.
+    pub(super) held: bool,
+}
+
+/// Bytes of the stores that a run uses.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Sums {
+    begun: u64,
+    ended: u64,
+    held: u64,
+}
+
+/// What bytes decide about a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Decision {
+    /// Whether it moves up to the last level that it may stand in.
+    pub(super) rises: bool,
+    /// Whether it begins fewer bytes than it ends, or more.
+    pub(super) begins: Ordering,
+}
+
+/// The choice between the file's order and that by levels.
+#[derive(Debug)]
+struct Peaks {
+    file: Lifetimes,
+    levels: Lifetimes,
+    takes_levels: bool,
+}
+
+impl Sums {
+    pub(super) fn add(&mut self, weight: Weight, memory: &Memory) {
+        let bytes = memory.bytes(weight.store);
+        let of = |counts: bool| if counts { bytes } else { 0 };
+        self.begun = self.begun.saturating_add(of(weight.begun));
+        self.ended = self.ended.saturating_add(of(weight.ended));
+        self.held = self.held.saturating_add(of(weight.held));
+    }
+
+    pub(super) fn decide(self, may_rise: bool) -> Decision {
+        let rises = may_rise && self.begun > self.held;
+        Decision { rises, begins: self.begun.cmp(if rises { &self.held } else { &self.ended }) }
+    }
+}
+
+/// Whether the order by levels is taken: if it keeps at most a fiftieth more alive than the file's.
+pub(super) fn takes_levels(memory: &Memory, file: &Lifetimes, levels: &Lifetimes) -> bool {
+    let peak = memory.peak(file);
+    memory.peak(levels) <= peak.saturating_add(peak / 50)
+}
+
+impl Weighed {
+    /// Notes a store that the run at hand uses.
+    pub(super) fn weigh(&mut self, weight: Weight) {
+        self.stores.push(weight);
+    }
+
+    /// Notes what was decided about the run at hand.
+    pub(super) fn decided(&mut self, may_rise: bool, decision: Decision) {
+        self.runs.push(Run { end: self.stores.len() as u32, may_rise, decision });
+    }
+
+    /// Notes which of both orders was taken.
+    pub(super) fn took(&mut self, file: Lifetimes, levels: Lifetimes, takes_levels: bool) {
+        self.peaks = Some(Peaks { file, levels, takes_levels });
+    }
+
+    /// Whether these bytes decide everything in the same way.
+    pub(super) fn decide_the_same(&self, memory: &Memory) -> bool {
+        let mut start = 0;
+        let same_runs = self.runs.iter().all(|run| {
+            let mut sums = Sums::default();
+            self.stores[start..run.end as usize].iter().for_each(|weight| sums.add(*weight, memory));
+            start = run.end as usize;
+            sums.decide(run.may_rise) == run.decision
+        });
+        let same_choice = |peaks: &Peaks| takes_levels(memory, &peaks.file, &peaks.levels) == peaks.takes_levels;
+        same_runs && self.peaks.as_ref().is_none_or(same_choice)
+    }
+}
