@@ -4,7 +4,7 @@
 #[allow(dead_code, reason = "most of what the builder can do isn't needed here")]
 mod raster;
 
-use framewright_graph::compile::{Options, compile};
+use framewright_graph::compile::{Compiler, Options, Reuse, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{R8G8B8A8_SRGB, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{Blend, Frame};
@@ -12,6 +12,7 @@ use framewright_graph::plan::{BindingKind, Plan, RenderScope, Stage, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Accesses, Layout, Stages, StoreOp, Usage};
 use raster::Raster;
+use std::sync::Arc;
 
 /// Geometry draws into `albedo` and `normal`, `light` reads both at its own pixel into `lit`, `tonemap` samples that.
 fn deferred(samples: u32) -> Frame {
@@ -128,4 +129,24 @@ fn a_light_that_is_added_later_reads_without_a_second_barrier() {
     let plan = compiled(&frame, &device(true));
     let barriers: Vec<bool> = scopes(&plan)[0].passes.iter().map(|pass| pass.local_barrier).collect();
     assert_eq!(barriers, [false, true, false]);
+}
+
+#[test]
+fn sizes_that_come_apart_or_together_are_compiled_anew_where_a_local_read_depends_on_them() {
+    let device = Arc::new(device(true));
+    let options = Options { demote: false, ..Options::default() };
+    let of = |light: u32| {
+        let mut frame = deferred(1);
+        frame.images[2..].iter_mut().for_each(|image| image.extent = [light, light, 1]);
+        Arc::new(frame)
+    };
+    let mut compiler = Compiler::new();
+    for (light, count, reuse) in
+        [(64, 2, Reuse::Nothing), (32, 3, Reuse::Nothing), (16, 3, Reuse::Barriers), (64, 2, Reuse::Nothing)]
+    {
+        let frame = of(light);
+        let plan = compiler.compile(&frame, &device, &mut Estimated(&device), &options).expect("the frame is legal");
+        assert_eq!(*plan, compile(&frame, &device, &mut Estimated(&device), &options).expect("the frame is legal"));
+        assert_eq!((scopes(plan).len(), compiler.reuse()), (count, reuse), "{light} texels");
+    }
 }

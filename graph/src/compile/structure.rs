@@ -29,7 +29,7 @@ pub(super) struct Structure {
     /// Uses as `adapt` left them, if the order can be found again only from those.
     uses: Vec<Use>,
     scheduled: Scheduled,
-    /// Which draws share the area of the draw before them, in execution order.
+    /// Which draws have the area of the draw before them, in execution order, if that may decide anything.
     same_areas: Vec<bool>,
     pub(super) scoped: Scoped,
     pub(super) retained: Retained,
@@ -97,7 +97,8 @@ impl Structure {
         let input = adapt::Input { frame, grids: &grids, live: &live, negotiated: &negotiated, device, options };
         let mut adapted = adapt::adapt(input)?;
         let scheduled = schedule::schedule(&grids, &adapted, options.order, keeps);
-        let same_areas = if keeps { scope::same_areas(&adapted, &scheduled.order).collect() } else { Vec::new() };
+        let areas = || scope::same_areas(&adapted, &scheduled.order, device).collect();
+        let same_areas = if keeps { areas() } else { Vec::new() };
         let uses = if keeps && options.order == Order::LowMemory { adapted.uses.clone() } else { Vec::new() };
         let mut scoped = scope::scope(frame, &grids, &mut adapted, &scheduled.order, device);
         let queues = queues::assign(frame, &grids, &mut adapted, &mut scoped, device, options);
@@ -131,7 +132,7 @@ impl Structure {
         }
         let Structure { grids, adapted, uses, scheduled, same_areas, .. } = self;
         adapted.stores.iter_mut().for_each(|store| store.resize(frame));
-        if !scope::same_areas(adapted, &scheduled.order).eq(same_areas.iter().copied()) {
+        if !scope::same_areas(adapted, &scheduled.order, device).eq(same_areas.iter().copied()) {
             return false;
         }
         let as_adapted = options.order == Order::LowMemory;

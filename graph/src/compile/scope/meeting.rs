@@ -2,6 +2,7 @@
 
 use super::{Scope, Target, colors_of, plane_of};
 use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
+use crate::device::Profile;
 
 /// What comes of a scope and the pass after it.
 pub(super) enum Meeting {
@@ -128,8 +129,10 @@ fn area(adapted: &Adapted, target: Target) -> Option<([u32; 3], u32, u32)> {
 }
 
 /// For each draw that may meet the scope of a draw before it, in the given order, whether they have the same area: all that
-/// sizes decide about scopes. All attachments of one draw have one area.
-pub(in crate::compile) fn same_areas(adapted: &Adapted, order: &[u32]) -> impl Iterator<Item = bool> {
+/// sizes decide about scopes. All attachments of one draw have one area, and draws that meet share an attachment, so areas
+/// only differ where a draw meets what it reads at its own position: nothing is said of devices without local reads.
+pub(in crate::compile) fn same_areas(adapted: &Adapted, order: &[u32], device: &Profile) -> impl Iterator<Item = bool> {
+    let order = if device.local_read { order } else { &[] };
     let mut before = None;
     order.iter().filter_map(move |op| {
         match adapted.ops[*op as usize].kind {
