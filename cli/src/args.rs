@@ -47,6 +47,16 @@ pub(crate) struct Check {
     /// Device to compile for: the name of a shipped profile, a profile file, or `all` for every shipped one.
     #[arg(long, value_name = "NAME|PROFILE.ron|all")]
     pub(crate) device: Option<OsString>,
+    /// Check every combination of settings, facts of the scene that the pipeline asks for, and devices. Settings that
+    /// `--set` chooses don't vary.
+    #[arg(long)]
+    pub(crate) all_variants: bool,
+    /// Of the variants check so many that every pair of values of any two settings, facts and devices occurs.
+    #[arg(long, requires = "all_variants")]
+    pub(crate) pairwise: bool,
+    /// Variants that are checked at the same time; by default as many as there are processors.
+    #[arg(long, value_name = "N", requires = "all_variants", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
     /// How the Plan is made.
     #[command(flatten)]
     pub(crate) planning: Planning,

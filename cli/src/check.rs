@@ -4,7 +4,7 @@ use crate::args::{Check, CheckFormat};
 use crate::error::{Error, Exit};
 use crate::planning::{self, View};
 use crate::values::DEFAULT_SIZE;
-use crate::{every_device, profiles, text};
+use crate::{every_device, profiles, text, variants};
 use framewright_graph::describe;
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::plan::{Note, Plan, Stage, Totals};
@@ -46,6 +46,9 @@ pub(crate) const VIEW: View<'static> = View { facts: None, size: DEFAULT_SIZE, d
 /// In the form for people everything that is wrong is an error; in the form for programs the mistakes of the pipeline are
 /// its answer.
 pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
+    if arguments.all_variants {
+        return variants::check(arguments);
+    }
     if arguments.device.as_deref() == Some(OsStr::new(profiles::ALL)) {
         return every_device::check(arguments);
     }
@@ -71,14 +74,18 @@ fn plan(arguments: &Check, profile: &Profile) -> Result<Plan, Error> {
 
 /// That all is well, and how much the frame takes.
 pub(crate) fn fine(arguments: &Check, device: &str, totals: &Totals) -> String {
+    let (pipeline, device) = (text::path(&arguments.pipeline.file), text::escape(device));
+    format!("{pipeline}: fine on {device}: {}", sums(totals))
+}
+
+/// Sums of a Plan, in words.
+pub(crate) fn sums(totals: &Totals) -> String {
     let waits = match totals.waits {
         0 => String::new(),
         waits => format!("{} between queues, ", text::count(waits as usize, "wait", "waits")),
     };
     format!(
-        "{}: fine on {}: {} in {}, {}, {}, {waits}{} placed in {} (estimated)",
-        text::path(&arguments.pipeline.file),
-        text::escape(device),
+        "{} in {}, {}, {}, {waits}{} placed in {} (estimated)",
         text::count((totals.passes + totals.inserted_passes) as usize, "pass", "passes"),
         text::count(totals.scopes as usize, "rendering scope", "rendering scopes"),
         text::count(totals.resolves as usize, "resolve", "resolves"),

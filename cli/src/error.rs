@@ -98,6 +98,26 @@ pub(crate) enum Error {
         /// Names that are shipped.
         shipped: Vec<&'static str>,
     },
+    /// There are more variants than can be checked.
+    #[error(
+        "there are {variants} variants, and at most {most} are checked\nhelp: add `--pairwise`, which checks every pair of values, or choose settings by `--set`, which then don't vary"
+    )]
+    TooManyVariants {
+        /// How many there are.
+        variants: u128,
+        /// How many there may be.
+        most: usize,
+    },
+    /// There are more pairs of values than can be covered.
+    #[error(
+        "there are {pairs} pairs of values, and at most {most} are covered\nhelp: choose settings by `--set`: those don't vary"
+    )]
+    TooManyPairs {
+        /// How many there are.
+        pairs: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// A profile was given where a device is needed.
     #[error(
         "`{}` is a device profile, and a device is needed here: name one (`framewright devices` lists them)",
@@ -242,7 +262,9 @@ impl Error {
                 Blame::Environment => Exit::Environment,
                 Blame::Files | Blame::Program => Exit::Found,
             },
-            Error::UnknownProfile { .. }
+            Error::TooManyVariants { .. }
+            | Error::TooManyPairs { .. }
+            | Error::UnknownProfile { .. }
             | Error::ProfileIsNoDevice { .. }
             | Error::ReadAndWritten { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,

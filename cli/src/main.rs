@@ -19,6 +19,7 @@ mod run;
 mod shipped;
 mod text;
 mod values;
+mod variants;
 
 use args::Command;
 use error::Exit;

@@ -19,11 +19,14 @@ use std::sync::Arc;
 
 /// A pipeline that was read, and where its shaders come from.
 pub(crate) struct Loaded {
-    pipeline: Pipeline,
-    sources: Arc<Sources>,
+    /// What the file says.
+    pub(crate) pipeline: Pipeline,
+    /// The texts that it was read from.
+    pub(crate) sources: Arc<Sources>,
     /// Shaders beside the pipeline file, then shipped ones.
     pub(crate) shaders: ShaderLibrary,
-    set: Vec<(String, String)>,
+    /// Settings that the user chose, and their values, of which the last counts.
+    pub(crate) set: Vec<(String, String)>,
 }
 
 /// A frame and its Plan.
@@ -86,20 +89,23 @@ impl Loaded {
     /// # Errors
     /// What is wrong with the command line, the pipeline or its shaders, whatever the device.
     pub(crate) fn frame(&mut self, view: View<'_>) -> Result<Frame, Error> {
-        let inputs = Inputs {
-            set: &self.set,
-            facts: view.facts.unwrap_or(Facts::UNKNOWN),
-            facts_known: view.facts.is_some(),
-            output_extent: [view.size.width, view.size.height],
-            dump: view.dump,
-        };
-        let mistakes = expand::check_inputs(&self.pipeline, &inputs);
-        if !mistakes.is_empty() {
-            let (sources, diagnostics) = (Sources::clone(&self.sources), mistakes);
-            return Err(Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, by_command_line: true }) });
-        }
+        self.check_command_line(view)?;
+        let inputs = inputs(&self.set, view);
         expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.shaders)
             .map_err(|diagnostics| wrong(&self.sources, diagnostics))
+    }
+
+    /// Checks settings and sizes by themselves.
+    ///
+    /// # Errors
+    /// What is wrong with the command line.
+    pub(crate) fn check_command_line(&self, view: View<'_>) -> Result<(), Error> {
+        let diagnostics = expand::check_inputs(&self.pipeline, &inputs(&self.set, view));
+        if diagnostics.is_empty() {
+            return Ok(());
+        }
+        let sources = Sources::clone(&self.sources);
+        Err(Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, by_command_line: true }) })
     }
 
     /// Compiles a frame for a device, and has the result verified.
@@ -118,6 +124,16 @@ impl Loaded {
         let violations: Vec<_> =
             verify::verify(&plan).iter().map(|one| crate::text::escape(&one.to_string())).collect();
         if violations.is_empty() { Ok(plan) } else { Err(Error::Violations { violations }) }
+    }
+}
+
+fn inputs<'a>(set: &'a [(String, String)], view: View<'a>) -> Inputs<'a> {
+    Inputs {
+        set,
+        facts: view.facts.unwrap_or(Facts::UNKNOWN),
+        facts_known: view.facts.is_some(),
+        output_extent: [view.size.width, view.size.height],
+        dump: view.dump,
     }
 }
 

@@ -1,0 +1,168 @@
+//! What varies: settings, facts of the scene, devices. All that is known here of kinds of settings and facts stands in
+//! [`values`] and [`facts`].
+
+use super::mentions::Mentions;
+use super::space::Choice;
+use framewright_graph::describe::{Fact, Pipeline, SettingKind};
+use framewright_graph::expand::Facts;
+use framewright_graph::source::Sources;
+
+/// Whole numbers up to this many are all tried.
+const MOST_INTEGERS: i128 = 16;
+
+/// What an axis varies.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Varied {
+    /// A setting, by name.
+    Setting(String),
+    /// A fact of the scene.
+    Fact(Fact),
+    /// The device, by the name of its profile.
+    Device,
+}
+
+/// Something that varies, and the values that it takes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Axis {
+    /// What varies.
+    pub(crate) varied: Varied,
+    /// Its values as the command line has them, each once; what is in force without a choice comes first.
+    pub(crate) values: Vec<String>,
+}
+
+/// Everything that varies: settings in the file's order, then facts; the device comes last, even if there is only one.
+#[derive(Debug)]
+pub(crate) struct Axes {
+    /// The axes.
+    pub(crate) list: Vec<Axis>,
+    /// Settings that the user chose, and that therefore don't vary.
+    pub(crate) fixed: Vec<(String, String)>,
+}
+
+impl Axes {
+    /// What varies of a pipeline: whatever its files mention, except for what is `fixed`.
+    #[must_use]
+    pub(crate) fn of(pipeline: &Pipeline, sources: &Sources, fixed: &[(String, String)], devices: &[String]) -> Axes {
+        let mentions = Mentions::of(sources);
+        let is_fixed = |name: &str| fixed.iter().any(|(fixed, _)| fixed == name);
+        let settings = pipeline.settings.iter().filter_map(|setting| {
+            let name = &*setting.name.text;
+            // Its own declaration is one mention.
+            let varies = mentions.may_hold(name, 2) && !is_fixed(name);
+            varies.then(|| Axis { varied: Varied::Setting(name.to_owned()), values: values(&setting.kind) })
+        });
+        let device = Axis { varied: Varied::Device, values: devices.to_vec() };
+        let list = settings.chain(facts(&mentions)).filter(|axis| axis.values.len() > 1).chain([device]).collect();
+        Axes { list, fixed: fixed.to_vec() }
+    }
+
+    /// Numbers of values.
+    #[must_use]
+    pub(crate) fn sizes(&self) -> Vec<usize> {
+        self.list.iter().map(|axis| axis.values.len()).collect()
+    }
+
+    /// What is in force in a variant, axis by axis.
+    pub(crate) fn chosen<'a>(&'a self, choice: &'a [usize]) -> impl Iterator<Item = (&'a Varied, &'a str)> {
+        self.list.iter().zip(choice).map(|(axis, value)| (&axis.varied, &*axis.values[*value]))
+    }
+
+    /// The same of those axes alone that depart from their defaults.
+    pub(crate) fn departures<'a>(&'a self, choice: &'a [usize]) -> impl Iterator<Item = (&'a Varied, &'a str)> {
+        self.chosen(choice).zip(choice).filter(|(_, value)| **value != 0).map(|(chosen, _)| chosen)
+    }
+
+    /// Settings of a variant, as expansion takes them.
+    #[must_use]
+    pub(crate) fn settings(&self, choice: &[usize]) -> Vec<(String, String)> {
+        let chosen = self.chosen(choice).filter_map(|(varied, value)| match varied {
+            Varied::Setting(name) => Some((name.clone(), value.to_owned())),
+            Varied::Fact(_) | Varied::Device => None,
+        });
+        self.fixed.iter().cloned().chain(chosen).collect()
+    }
+
+    /// Facts of a variant; those that don't vary are as if there were no scene.
+    #[must_use]
+    pub(crate) fn facts(&self, choice: &[usize]) -> Facts {
+        self.chosen(choice).fold(Facts::UNKNOWN, |facts, (varied, value)| match varied {
+            Varied::Fact(fact) => facts.with(*fact, value == "true"),
+            Varied::Setting(_) | Varied::Device => facts,
+        })
+    }
+}
+
+/// The device of a variant, by its number.
+#[must_use]
+pub(crate) fn device(choice: &Choice) -> usize {
+    choice.last().copied().unwrap_or(0)
+}
+
+/// Values of a setting that are tried, the default first.
+fn values(kind: &SettingKind) -> Vec<String> {
+    match kind {
+        SettingKind::Bool { default } => vec![default.to_string(), (!default).to_string()],
+        SettingKind::OneOf { default, of } => first(default.to_string(), of.iter().map(i64::to_string)),
+        SettingKind::Integer { default, min, max } => {
+            let (least, greatest) = (i128::from(*min), i128::from(*max));
+            let some = if greatest - least < MOST_INTEGERS {
+                (least..=greatest).collect()
+            } else {
+                let between = least + (greatest - least) / 2;
+                // Another one, should that be the default.
+                let between = if between == i128::from(*default) { between + 1 } else { between };
+                vec![least, between, greatest]
+            };
+            first(default.to_string(), some.iter().map(i128::to_string))
+        }
+        SettingKind::Number { default, min, max } => {
+            // Written so that it reads as the very same number.
+            let text = |number: &f64| format!("{number:?}");
+            first(text(default), [min, max].into_iter().map(text))
+        }
+    }
+}
+
+/// `default`, then the others, each once.
+fn first(default: String, others: impl Iterator<Item = String>) -> Vec<String> {
+    let mut values = vec![default];
+    for value in others {
+        if !values.contains(&value) {
+            values.push(value);
+        }
+    }
+    values
+}
+
+/// Facts that are mentioned; without a scene all of them hold.
+fn facts(mentions: &Mentions<'_>) -> impl Iterator<Item = Axis> {
+    let mentioned = |fact: &Fact| {
+        let name = fact.name();
+        mentions.may_hold(name.rsplit_once('.').map_or(name, |(_, last)| last), 1)
+    };
+    let axis = |fact| Axis { varied: Varied::Fact(fact), values: vec!["true".to_owned(), "false".to_owned()] };
+    Fact::ALL.into_iter().filter(mentioned).map(axis)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(kind: &SettingKind) -> Vec<String> {
+        values(kind)
+    }
+
+    #[test]
+    fn a_setting_takes_all_values_or_those_at_the_ends_the_default_first() {
+        assert_eq!(of(&SettingKind::Bool { default: true }), ["true", "false"]);
+        assert_eq!(of(&SettingKind::OneOf { default: 4, of: vec![1, 2, 4] }), ["4", "1", "2"]);
+        assert_eq!(of(&SettingKind::Integer { default: 2, min: 1, max: 3 }), ["2", "1", "3"]);
+        assert_eq!(of(&SettingKind::Integer { default: 1, min: 0, max: 15 }).len(), 16);
+        assert_eq!(of(&SettingKind::Integer { default: 1, min: 0, max: 16 }), ["1", "0", "8", "16"]);
+        assert_eq!(of(&SettingKind::Integer { default: 8, min: 0, max: 16 }), ["8", "0", "9", "16"]);
+        let widest = SettingKind::Integer { default: 0, min: i64::MIN, max: i64::MAX };
+        assert_eq!(of(&widest), ["0", "-9223372036854775808", "-1", "9223372036854775807"]);
+        assert_eq!(of(&SettingKind::Number { default: 0.1, min: 0.0, max: 1e300 }), ["0.1", "0.0", "1e300"]);
+        assert_eq!(of(&SettingKind::Number { default: 1.0, min: 1.0, max: 1.0 }), ["1.0"]);
+    }
+}

@@ -1,0 +1,63 @@
+//! What the variants that fail have in common: each mistake with the least that brings it about.
+
+use super::judge::Judge;
+use super::minimise::minimise;
+use super::run::{Failure, Mistake, mistake};
+use super::space::{Choice, Space};
+use crate::interrupt;
+use framewright_graph::describe::Diagnostic;
+use std::collections::HashMap;
+
+/// Mistakes whose cause is looked for; what fails in more ways is best mended one by one.
+pub(crate) const MOST_CAUSES: usize = 100;
+
+/// A mistake, and what brings it about.
+#[derive(Debug)]
+pub(crate) struct Cause {
+    /// The mistake.
+    pub(crate) diagnostic: Diagnostic,
+    /// Variants that have it.
+    pub(crate) variants: usize,
+    /// Devices on which it was found, by their numbers.
+    pub(crate) devices: Vec<usize>,
+    /// A variant that has it.
+    pub(crate) choice: Choice,
+    /// Whether every departure from the defaults in that variant is known to be needed.
+    pub(crate) least: bool,
+}
+
+/// Takes the failures, those of most variants first, and looks for the causes of the first [`MOST_CAUSES`].
+pub(crate) fn find(failures: HashMap<Mistake, Failure>, space: &Space, judge: &mut Judge<'_>) -> Vec<Cause> {
+    let mut failures: Vec<(Mistake, Failure)> = failures.into_iter().collect();
+    failures.sort_by(|(key, one), (other_key, other)| {
+        let places = |key: &Mistake| key.1.map(|span| (span.file(), span.start, span.end));
+        let first = other.variants.cmp(&one.variants).then(one.example.cmp(&other.example));
+        first.then_with(|| places(key).cmp(&places(other_key))).then_with(|| key.0.cmp(&other_key.0))
+    });
+    failures.truncate(MOST_CAUSES);
+    failures.into_iter().map(|(key, failure)| cause(&key, failure, space, judge)).collect()
+}
+
+fn cause(key: &Mistake, failure: Failure, space: &Space, judge: &mut Judge<'_>) -> Cause {
+    let Failure { variants, example, mut diagnostic, devices } = failure;
+    let found = space.choice(example.number);
+    let departures: Vec<(usize, usize)> = found.iter().copied().enumerate().filter(|(_, value)| *value != 0).collect();
+    let with = |some: &[(usize, usize)]| {
+        let mut choice = vec![0; found.len()];
+        some.iter().for_each(|(axis, value)| choice[*axis] = *value);
+        choice
+    };
+    let mut interrupted = interrupt::asked();
+    let needed = minimise(&departures, &mut |some| {
+        interrupted |= interrupt::asked();
+        if interrupted {
+            return false;
+        }
+        let found = judge.judge(&with(some)).err().into_iter().flatten().find(|found| mistake(found) == *key);
+        let fails = found.is_some();
+        // The last one that fails is the least.
+        found.into_iter().for_each(|found| diagnostic = found);
+        fails
+    });
+    Cause { diagnostic, variants, devices: devices.into_iter().collect(), choice: with(&needed), least: !interrupted }
+}

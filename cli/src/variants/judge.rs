@@ -1,0 +1,135 @@
+//! What becomes of one variant: put together, compiled, verified.
+
+use super::axes::{self, Axes};
+use super::shaders::Shared;
+use super::space::Choice;
+use crate::check;
+use framewright_graph::compile::{Compiler, Options};
+use framewright_graph::describe::{Diagnostic, Pipeline};
+use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::expand::{self, Inputs};
+use framewright_graph::frame::Frame;
+use framewright_graph::plan::{DeviceUsed, Plan, Totals};
+use framewright_graph::source::Sources;
+use framewright_graph::verify;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::io;
+use std::sync::Arc;
+
+/// What all variants have in common.
+pub(crate) struct Subject<'a> {
+    /// The pipeline.
+    pub(crate) pipeline: &'a Pipeline,
+    /// The texts that it was read from.
+    pub(crate) sources: &'a Arc<Sources>,
+    /// What varies.
+    pub(crate) axes: Axes,
+    /// The devices, in the order of their axis.
+    pub(crate) devices: Vec<Arc<Profile>>,
+    /// How Plans are made.
+    pub(crate) options: Options,
+}
+
+/// What one thread judges variants with.
+pub(crate) struct Judge<'a> {
+    subject: &'a Subject<'a>,
+    shaders: Shared<'a>,
+    /// By device.
+    compilers: Vec<Compiler>,
+    /// The last frame with the choice that it is made for, but for the device: it serves for all of them.
+    last: Option<(Choice, Result<Arc<Frame>, Vec<Diagnostic>>)>,
+}
+
+/// A variant of which nothing is wrong.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fine {
+    /// The same for the same Plan.
+    pub(crate) plan: u64,
+    /// The Plan's sums.
+    pub(crate) totals: Totals,
+}
+
+impl<'a> Judge<'a> {
+    /// One that has judged nothing yet.
+    #[must_use]
+    pub(crate) fn new(subject: &'a Subject<'a>, shaders: Shared<'a>) -> Judge<'a> {
+        let compilers = subject.devices.iter().map(|_| Compiler::new()).collect();
+        Judge { subject, shaders, compilers, last: None }
+    }
+
+    /// Puts a variant together, compiles and verifies it.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub(crate) fn judge(&mut self, choice: &Choice) -> Result<Fine, Vec<Diagnostic>> {
+        let frame = self.frame(choice)?;
+        let device = axes::device(choice);
+        let profile = &self.subject.devices[device];
+        let plan = self.compilers[device].compile(&frame, profile, &mut Estimated(profile), &self.subject.options)?;
+        let violations = verify::verify(plan);
+        if violations.is_empty() {
+            Ok(Fine { plan: identity(plan), totals: plan.totals })
+        } else {
+            Err(violations.iter().map(|violation| own_mistake(&violation.to_string())).collect())
+        }
+    }
+
+    fn frame(&mut self, choice: &Choice) -> Result<Arc<Frame>, Vec<Diagnostic>> {
+        let without_device = &choice[..choice.len().saturating_sub(1)];
+        match &self.last {
+            Some((last, frame)) if last == without_device => frame.clone(),
+            _ => {
+                let frame = self.expand(choice).map(Arc::new);
+                self.last = Some((without_device.to_vec(), frame.clone()));
+                frame
+            }
+        }
+    }
+
+    fn expand(&mut self, choice: &Choice) -> Result<Frame, Vec<Diagnostic>> {
+        let Subject { pipeline, sources, axes, .. } = self.subject;
+        let inputs = Inputs {
+            set: &axes.settings(choice),
+            facts: axes.facts(choice),
+            facts_known: true,
+            output_extent: [check::VIEW.size.width, check::VIEW.size.height],
+            dump: check::VIEW.dump,
+        };
+        expand::expand(pipeline, Arc::clone(sources), &inputs, &mut self.shaders)
+    }
+}
+
+fn own_mistake(violation: &str) -> Diagnostic {
+    Diagnostic {
+        message: format!("the Plan breaks its own rules, which is a mistake of framewright itself: {violation}"),
+        labels: Vec::new(),
+        help: None,
+    }
+}
+
+/// A hash of all of a Plan but what it is named for: the texts of settings and the device's name.
+fn identity(plan: &Plan) -> u64 {
+    let Plan { format_version: _, device, settings: _, images, buffers, heaps, steps, outputs, notes, totals } = plan;
+    let DeviceUsed { name: _, exact_memory } = device;
+    let mut hasher = Written(DefaultHasher::new());
+    let all = (exact_memory, images, buffers, heaps, steps, outputs, notes, totals);
+    if serde_json::to_writer(io::BufWriter::new(&mut hasher), &all).is_err() {
+        // A Plan without a JSON form is like no other.
+        std::ptr::from_ref(plan).hash(&mut hasher.0);
+    }
+    hasher.0.finish()
+}
+
+/// A hash of what is written.
+struct Written(DefaultHasher);
+
+impl io::Write for Written {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.write(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}

@@ -1,0 +1,159 @@
+//! Which names a pipeline's files mention, so that what nobody asks for need not vary.
+//!
+//! Whatever refers to a setting or a fact stands in quotes. So a name of which no string has a trace is certainly not
+//! referred to. The other way round nothing is certain, and a name that only a description has counts as mentioned: then more
+//! variants are checked than had to be, never fewer.
+
+use framewright_graph::source::Sources;
+use std::collections::HashMap;
+
+/// Pieces of names in the strings of all files, with how often they occur.
+#[derive(Debug, Default)]
+pub(crate) struct Mentions<'a> {
+    pieces: HashMap<&'a str, usize>,
+    /// Whether a string is not read as it is written, and may hold any name.
+    hidden: bool,
+}
+
+impl<'a> Mentions<'a> {
+    /// Everything that the files mention.
+    #[must_use]
+    pub(crate) fn of(sources: &'a Sources) -> Mentions<'a> {
+        let mut mentions = Mentions::default();
+        for file in (0..).map_while(|file| sources.file(file)) {
+            mentions.text(&file.text);
+        }
+        mentions
+    }
+
+    /// Whether `name` may occur in at least `times` places. A `-` within it may be a minus: every piece must occur.
+    #[must_use]
+    pub(crate) fn may_hold(&self, name: &str, times: usize) -> bool {
+        self.hidden || name.split('-').all(|piece| self.pieces.get(piece).is_some_and(|found| *found >= times))
+    }
+
+    fn text(&mut self, text: &'a str) {
+        let mut rest = text;
+        while let Some(at) = rest.find(['"', '/', '\'']) {
+            let before = &rest[..at];
+            let from = &rest[at..];
+            rest = if from.starts_with("//") {
+                from.find('\n').map_or("", |end| &from[end..])
+            } else if from.starts_with("/*") {
+                after_comment(from)
+            } else if from.starts_with('\'') {
+                after_character(from)
+            } else if from.starts_with('"') {
+                let raw = before.trim_end_matches('#').ends_with('r');
+                let fence = before.len() - before.trim_end_matches('#').len();
+                if raw { self.raw_string(&from[1..], fence) } else { self.string(&from[1..]) }
+            } else {
+                &from[1..]
+            };
+        }
+    }
+
+    fn raw_string(&mut self, from: &'a str, fence: usize) -> &'a str {
+        let end = format!("\"{}", "#".repeat(fence));
+        let length = from.find(&end).unwrap_or(from.len());
+        self.words(&from[..length]);
+        from.get(length + end.len()..).unwrap_or("")
+    }
+
+    fn string(&mut self, from: &'a str) -> &'a str {
+        let mut at = 0;
+        while let Some(next) = from[at..].find(['"', '\\']) {
+            at += next;
+            if from[at..].starts_with('"') {
+                self.words(&from[..at]);
+                return &from[at + 1..];
+            }
+            self.hidden = true;
+            // The character after a backslash ends nothing.
+            at += 1 + from[at + 1..].chars().next().map_or(0, char::len_utf8);
+        }
+        self.words(from);
+        ""
+    }
+
+    fn words(&mut self, text: &'a str) {
+        let pieces = text.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|piece| !piece.is_empty());
+        pieces.for_each(|piece| *self.pieces.entry(piece).or_default() += 1);
+    }
+}
+
+/// What follows a comment, which may hold others.
+fn after_comment(from: &str) -> &str {
+    let mut depth = 0;
+    let mut rest = from;
+    loop {
+        let Some(at) = rest.find("/*").into_iter().chain(rest.find("*/")).min() else { return "" };
+        depth = if rest[at..].starts_with("/*") { depth + 1 } else { depth - 1 };
+        rest = &rest[at + 2..];
+        if depth == 0 {
+            return rest;
+        }
+    }
+}
+
+/// What follows a character such as `'"'` or `'\''`; or a lone quote.
+fn after_character(from: &str) -> &str {
+    let mut characters = from.char_indices().skip(1);
+    let escaped = characters.next().is_some_and(|(_, character)| character == '\\');
+    if escaped {
+        characters.next();
+    }
+    match characters.next() {
+        Some((at, '\'')) => &from[at + 1..],
+        _ => &from[1..],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(text: &str, name: &str, times: usize) -> bool {
+        let mut sources = Sources::default();
+        sources.add("a.ron", "a.ron", text.to_owned());
+        Mentions::of(&sources).may_hold(name, times)
+    }
+
+    #[test]
+    fn names_are_found_in_strings_and_nowhere_else() {
+        let text = "// \"one\"\n(name: \"two\", three: r#\"a \"four\" b\"#, /* \"five\" /* */ \"six\" */ 'x', '\"', \"seven\")";
+        for (name, there) in [
+            ("one", false),
+            ("two", true),
+            ("three", false),
+            ("four", true),
+            ("five", false),
+            ("six", false),
+            ("seven", true),
+            ("sev", false),
+        ] {
+            assert_eq!(found(text, name, 1), there, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_name_is_found_within_an_expression_and_counted() {
+        let text = "\"a-b\" \"!a && scene.has_sky\" \"min(a, 2)\"";
+        assert!(found(text, "a", 3) && !found(text, "a", 4));
+        assert!(found(text, "a-b", 1) && !found(text, "a-b", 2) && found(text, "has_sky", 1));
+        assert!(!found(text, "a-c", 1));
+    }
+
+    #[test]
+    fn an_escaped_character_may_hide_any_name() {
+        assert!(found(r#""\u{61}" "b""#, "anything", 9));
+        assert!(!found(r#"r"\u{61}" "b""#, "anything", 1));
+    }
+
+    #[test]
+    fn text_that_ends_within_something_ends_the_search() {
+        for text in ["\"abc", "r#\"abc", "/* \"abc\"", "// \"abc\"", "'", "'\\", "\"a\\", "/", "r##\"a\"#"] {
+            found(text, "abc", 1);
+        }
+    }
+}

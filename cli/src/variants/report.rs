@@ -1,0 +1,207 @@
+//! What is told of all variants, in the form for programs.
+
+use super::axes::{Axes, Varied};
+use super::causes::Cause;
+use super::judge::Subject;
+use super::run::Found;
+use super::space::{Choice, Space};
+use crate::args::Check;
+use framewright_graph::describe::{self, Diagnostic};
+use framewright_graph::plan::Totals;
+use framewright_graph::source::Sources;
+use serde::Serialize;
+use serde_json::Value;
+
+/// The answer.
+#[derive(Debug, Serialize)]
+pub(crate) struct Report {
+    pub(crate) format_version: u32,
+    /// The file, as it was named.
+    pub(crate) pipeline: String,
+    /// Whether nothing is wrong with any variant that was checked.
+    pub(crate) fine: bool,
+    /// What is wrong whatever the variant; then none was checked.
+    pub(crate) diagnostics: Value,
+    /// Settings that the command line chose.
+    pub(crate) chosen: Vec<Chosen>,
+    /// What varies.
+    pub(crate) axes: Vec<AxisTold>,
+    /// Whether `variants` are not all combinations, but enough for each pair of values.
+    pub(crate) pairwise: bool,
+    /// Variants to check.
+    pub(crate) variants: usize,
+    /// Variants that were checked: all, unless `interrupted`.
+    pub(crate) checked: usize,
+    /// Whether the user stopped it.
+    pub(crate) interrupted: bool,
+    /// Variants that are wrong.
+    pub(crate) failing: usize,
+    /// Mistakes, those of most variants first.
+    pub(crate) failures: Vec<FailureTold>,
+    /// Mistakes beyond those.
+    pub(crate) further_failures: usize,
+    /// Number of `plans`.
+    pub(crate) distinct_plans: usize,
+    /// Distinct Plans, those nearest to the defaults first.
+    pub(crate) plans: Vec<PlanTold>,
+}
+
+/// A setting with a value.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(crate) struct Chosen {
+    pub(crate) name: String,
+    pub(crate) value: String,
+}
+
+/// What varies, with its values, the default first.
+#[derive(Debug, Serialize)]
+pub(crate) struct AxisTold {
+    /// `setting`, `fact` or `device`.
+    pub(crate) kind: &'static str,
+    /// Of a setting or fact its name.
+    pub(crate) name: Option<String>,
+    pub(crate) values: Vec<String>,
+}
+
+/// A variant by its departures from the defaults.
+#[derive(Debug, Serialize)]
+pub(crate) struct Variant {
+    /// Settings that don't have their defaults, but for those that the command line chose.
+    pub(crate) settings: Vec<Chosen>,
+    /// Facts that don't hold; without a scene all of them do.
+    pub(crate) facts_that_do_not_hold: Vec<String>,
+    /// The device, if it isn't the first.
+    pub(crate) device: Option<String>,
+}
+
+/// A mistake that variants have in common.
+#[derive(Debug, Serialize)]
+pub(crate) struct FailureTold {
+    /// The mistake as in the answers of `check`, in the variant `breaks_with`.
+    pub(crate) diagnostic: Value,
+    /// The same for people.
+    #[serde(skip)]
+    pub(crate) shown: String,
+    /// Variants that have it.
+    pub(crate) variants: usize,
+    /// Devices on which it was found.
+    pub(crate) devices: Vec<String>,
+    /// What brings it about.
+    pub(crate) breaks_with: Variant,
+    /// Whether without any one of these departures the mistake is another or none: each was left out to see.
+    pub(crate) each_is_needed: bool,
+}
+
+/// A Plan that variants have in common.
+#[derive(Debug, Serialize)]
+pub(crate) struct PlanTold {
+    /// Variants that have it.
+    pub(crate) variants: usize,
+    /// One of them with the fewest departures from the defaults.
+    pub(crate) example: Variant,
+    /// The Plan's sums.
+    pub(crate) totals: Totals,
+}
+
+impl Report {
+    /// What is told where no variant was checked.
+    #[must_use]
+    pub(crate) fn of_nothing(arguments: &Check) -> Report {
+        let set = arguments.pipeline.set.iter();
+        Report {
+            format_version: 1,
+            pipeline: arguments.pipeline.file.to_string_lossy().into_owned(),
+            fine: false,
+            diagnostics: Value::Array(Vec::new()),
+            chosen: set.map(|one| Chosen { name: one.name.clone(), value: one.value.clone() }).collect(),
+            axes: Vec::new(),
+            pairwise: arguments.pairwise,
+            variants: 0,
+            checked: 0,
+            interrupted: false,
+            failing: 0,
+            failures: Vec::new(),
+            further_failures: 0,
+            distinct_plans: 0,
+            plans: Vec::new(),
+        }
+    }
+
+    /// What is told of all that was found.
+    #[must_use]
+    pub(crate) fn new(
+        arguments: &Check,
+        subject: &Subject<'_>,
+        space: &Space,
+        found: Found,
+        causes: Vec<Cause>,
+    ) -> Report {
+        let axes = &subject.axes;
+        let Found { checked, failing, plans, failures: _ } = found;
+        let mut plans: Vec<_> = plans.into_values().collect();
+        plans.sort_by_key(|plan| plan.example);
+        let told = plans.into_iter().map(|plan| PlanTold {
+            variants: plan.variants,
+            example: Variant::of(axes, &space.choice(plan.example.number)),
+            totals: plan.totals,
+        });
+        let plans: Vec<PlanTold> = told.collect();
+        Report {
+            fine: failing == 0,
+            axes: axes.list.iter().map(|axis| axis_told(&axis.varied, &axis.values)).collect(),
+            variants: space.len(),
+            checked,
+            interrupted: checked < space.len(),
+            failing,
+            failures: causes.into_iter().map(|cause| failure_told(subject, cause)).collect(),
+            distinct_plans: plans.len(),
+            plans,
+            ..Report::of_nothing(arguments)
+        }
+    }
+}
+
+impl Variant {
+    fn of(axes: &Axes, choice: &Choice) -> Variant {
+        let mut variant = Variant { settings: Vec::new(), facts_that_do_not_hold: Vec::new(), device: None };
+        for (varied, value) in axes.departures(choice) {
+            match varied {
+                Varied::Setting(name) => {
+                    variant.settings.push(Chosen { name: name.clone(), value: value.to_owned() });
+                }
+                Varied::Fact(fact) => variant.facts_that_do_not_hold.push(fact.name().to_owned()),
+                Varied::Device => variant.device = Some(value.to_owned()),
+            }
+        }
+        variant
+    }
+}
+
+fn axis_told(varied: &Varied, values: &[String]) -> AxisTold {
+    let (kind, name) = match varied {
+        Varied::Setting(name) => ("setting", Some(name.clone())),
+        Varied::Fact(fact) => ("fact", Some(fact.name().to_owned())),
+        Varied::Device => ("device", None),
+    };
+    AxisTold { kind, name, values: values.to_vec() }
+}
+
+fn failure_told(subject: &Subject<'_>, cause: Cause) -> FailureTold {
+    let Cause { diagnostic, variants, devices, choice, least } = cause;
+    let all = subject.axes.list.last().map_or(&[][..], |axis| &axis.values[..]);
+    FailureTold {
+        diagnostic: as_json(subject.sources, &diagnostic),
+        shown: describe::render(subject.sources, std::slice::from_ref(&diagnostic)),
+        variants,
+        devices: devices.into_iter().filter_map(|device| all.get(device).cloned()).collect(),
+        breaks_with: Variant::of(&subject.axes, &choice),
+        each_is_needed: least,
+    }
+}
+
+fn as_json(sources: &Sources, diagnostic: &Diagnostic) -> Value {
+    match describe::to_json(sources, std::slice::from_ref(diagnostic)) {
+        Value::Array(mut all) => all.pop().unwrap_or_default(),
+        other => other,
+    }
+}

@@ -1,0 +1,168 @@
+//! All variants, on several threads: what is found doesn't depend on how many.
+
+use super::axes;
+use super::judge::{Fine, Judge, Subject};
+use super::shaders::Shared;
+use super::space::Space;
+use crate::interrupt;
+use framewright_graph::describe::Diagnostic;
+use framewright_graph::plan::Totals;
+use framewright_graph::source::Span;
+use framewright_vulkan::ShaderLibrary;
+use indicatif::ProgressBar;
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Variants that a thread takes at a time: few, so that all threads end together, and enough that those which differ only
+/// in their device stay together.
+const BATCH: usize = 64;
+
+/// What was found.
+#[derive(Debug, Default)]
+pub(crate) struct Found {
+    /// Variants that were judged.
+    pub(crate) checked: usize,
+    /// Those of them that are wrong.
+    pub(crate) failing: usize,
+    /// Distinct Plans.
+    pub(crate) plans: HashMap<u64, PlanFound>,
+    /// Distinct mistakes, by message and place.
+    pub(crate) failures: HashMap<Mistake, Failure>,
+}
+
+/// A mistake, by which failures of several variants are told to be the same.
+pub(crate) type Mistake = (String, Option<Span>);
+
+/// A variant that stands for others: the one with the fewest departures from the defaults, of those the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Example {
+    /// On how many axes it departs from the default.
+    pub(crate) departures: usize,
+    /// Its number.
+    pub(crate) number: usize,
+}
+
+/// A Plan that variants have in common.
+#[derive(Debug)]
+pub(crate) struct PlanFound {
+    /// How many have it.
+    pub(crate) variants: usize,
+    /// One of them.
+    pub(crate) example: Example,
+    /// The Plan's sums.
+    pub(crate) totals: Totals,
+}
+
+/// A mistake that variants have in common.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    /// How many have it.
+    pub(crate) variants: usize,
+    /// One of them.
+    pub(crate) example: Example,
+    /// The mistake in that one.
+    pub(crate) diagnostic: Diagnostic,
+    /// On which devices, by their numbers.
+    pub(crate) devices: BTreeSet<usize>,
+}
+
+/// The key of a mistake.
+#[must_use]
+pub(crate) fn mistake(diagnostic: &Diagnostic) -> Mistake {
+    (diagnostic.message.clone(), diagnostic.labels.first().map(|label| label.span))
+}
+
+/// Judges all variants of `space`, or those that are judged when the user asks to stop.
+pub(crate) fn run(
+    subject: &Subject<'_>,
+    space: &Space,
+    library: &Mutex<ShaderLibrary>,
+    threads: usize,
+    progress: &ProgressBar,
+) -> Found {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut judge = Judge::new(subject, Shared::new(library));
+        let mut found = Found::default();
+        loop {
+            let from = next.fetch_add(BATCH, Ordering::Relaxed);
+            let to = (from + BATCH).min(space.len());
+            if from >= to {
+                return found;
+            }
+            for number in from..to {
+                if interrupt::asked() {
+                    return found;
+                }
+                let choice = space.choice(number);
+                let departures = choice.iter().filter(|value| **value != 0).count();
+                found.add(Example { departures, number }, axes::device(&choice), judge.judge(&choice));
+            }
+            progress.inc((to - from) as u64);
+        }
+    };
+    std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+        let mut found = work();
+        for other in others {
+            match other.join() {
+                Ok(more) => found.merge(more),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        found
+    })
+}
+
+impl Found {
+    fn add(&mut self, example: Example, device: usize, verdict: Result<Fine, Vec<Diagnostic>>) {
+        self.checked += 1;
+        match verdict {
+            Ok(Fine { plan, totals }) => {
+                let found = self.plans.entry(plan).or_insert(PlanFound { variants: 0, example, totals });
+                found.variants += 1;
+                found.example = found.example.min(example);
+            }
+            Err(diagnostics) => {
+                self.failing += 1;
+                let mut seen = HashSet::new();
+                for diagnostic in diagnostics {
+                    let key = mistake(&diagnostic);
+                    if seen.insert(key.clone()) {
+                        let devices = BTreeSet::from([device]);
+                        self.failure(key, Failure { variants: 1, example, diagnostic, devices });
+                    }
+                }
+            }
+        }
+    }
+
+    fn failure(&mut self, key: Mistake, mut more: Failure) {
+        match self.failures.get_mut(&key) {
+            Some(found) => {
+                if more.example < found.example {
+                    std::mem::swap(found, &mut more);
+                }
+                found.variants += more.variants;
+                found.devices.append(&mut more.devices);
+            }
+            None => {
+                self.failures.insert(key, more);
+            }
+        }
+    }
+
+    fn merge(&mut self, other: Found) {
+        self.checked += other.checked;
+        self.failing += other.failing;
+        for (plan, more) in other.plans {
+            let found = self.plans.entry(plan).or_insert(PlanFound { variants: 0, ..more });
+            found.variants += more.variants;
+            found.example = found.example.min(more.example);
+        }
+        for (key, failure) in other.failures {
+            self.failure(key, failure);
+        }
+    }
+}

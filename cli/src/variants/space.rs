@@ -1,0 +1,103 @@
+//! The variants that are checked: all combinations of the axes' values, or enough for every pair of values.
+
+use super::cover;
+use crate::error::Error;
+
+/// Variants that are checked at once; at two thousand a second minutes pass.
+pub(crate) const MOST_VARIANTS: usize = 1_000_000;
+
+/// One value of each axis, by its number.
+pub(crate) type Choice = Vec<usize>;
+
+/// Numbered variants.
+#[derive(Debug)]
+pub(crate) enum Space {
+    /// Every combination; the last axis changes fastest.
+    All {
+        /// Numbers of values.
+        sizes: Vec<usize>,
+    },
+    /// Some of them.
+    Rows(Vec<Choice>),
+}
+
+impl Space {
+    /// Every combination of so many values.
+    ///
+    /// # Errors
+    /// If there are too many.
+    pub(crate) fn all(sizes: Vec<usize>) -> Result<Space, Error> {
+        let variants = sizes.iter().fold(1_u128, |all, size| all.saturating_mul(*size as u128));
+        if variants > MOST_VARIANTS as u128 {
+            return Err(Error::TooManyVariants { variants, most: MOST_VARIANTS });
+        }
+        Ok(Space::All { sizes })
+    }
+
+    /// Rows in which each pair of values of any two axes occurs.
+    ///
+    /// # Errors
+    /// If there are too many pairs.
+    pub(crate) fn pairwise(sizes: &[usize]) -> Result<Space, Error> {
+        let pairs = cover::pairs(sizes);
+        if pairs > cover::MOST_PAIRS {
+            return Err(Error::TooManyPairs { pairs, most: cover::MOST_PAIRS });
+        }
+        let mut rows = cover::rows(sizes);
+        // What differs only on the last axes stands together; the first row, all 0, stays the first.
+        rows.sort_unstable();
+        Ok(Space::Rows(rows))
+    }
+
+    /// Number of variants.
+    #[must_use]
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Space::All { sizes } => sizes.iter().product(),
+            Space::Rows(rows) => rows.len(),
+        }
+    }
+
+    /// The variant of that number, below [`Space::len`].
+    #[must_use]
+    pub(crate) fn choice(&self, number: usize) -> Choice {
+        match self {
+            Space::All { sizes } => {
+                let mut left = number;
+                let mut choice: Choice = sizes
+                    .iter()
+                    .rev()
+                    .map(|size| {
+                        let value = left % size;
+                        left /= size;
+                        value
+                    })
+                    .collect();
+                choice.reverse();
+                choice
+            }
+            Space::Rows(rows) => rows[number].clone(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_combination_stands_once_in_its_order() {
+        let space = Space::all(vec![2, 3]).expect("few");
+        let all: Vec<Choice> = (0..space.len()).map(|number| space.choice(number)).collect();
+        assert_eq!(all, [[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [1, 2]]);
+    }
+
+    #[test]
+    fn too_many_combinations_or_pairs_are_refused() {
+        assert!(matches!(Space::all(vec![1000, 1000]), Ok(space) if space.len() == MOST_VARIANTS));
+        assert!(matches!(Space::all(vec![1000, 1001]), Err(Error::TooManyVariants { variants: 1_001_000, .. })));
+        let many = vec![usize::MAX; 9];
+        assert!(matches!(Space::all(many.clone()), Err(Error::TooManyVariants { variants: u128::MAX, .. })));
+        assert!(matches!(Space::pairwise(&many), Err(Error::TooManyPairs { .. })));
+    }
+}
