@@ -8,6 +8,7 @@ pub mod compile;
 pub mod describe;
 pub mod device;
 pub mod expand;
+pub mod expression;
 pub mod format;
 pub mod frame;
 pub mod interface;

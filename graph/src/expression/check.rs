@@ -1,0 +1,354 @@
+//! What names stand for, and whether types fit: one pass over the program, with a stack of types in place of values.
+
+use super::Expression;
+use super::environment::{Bound, Declarations, Found, Origin, Symbol};
+use super::functions::{Callee, Function};
+use super::program::{Binary, Operation, Program, shown};
+use super::types::{Type, Value, Wanted};
+use crate::describe::{Diagnostic, nearest, suggestion};
+use crate::format::Format;
+use crate::source::Span;
+
+/// Binds the names of a program, and checks its types and its value's.
+pub(super) fn check(
+    program: Program,
+    declarations: &dyn Declarations,
+    wanted: Wanted<'_>,
+) -> Result<Expression, Vec<Diagnostic>> {
+    let mut check = Check { program, declarations, names: Vec::new(), stack: Vec::new(), errors: Vec::new() };
+    check.bind();
+    for node in (0..).take(check.program.nodes.len()) {
+        let ty = check.node(node);
+        check.stack.extend(ty.map(|ty| Operand { ty: ty.known(), node }));
+    }
+    let ty = check.stack.pop().and_then(|value| check.result(value, wanted));
+    let Check { program, names, mut errors, .. } = check;
+    let bound = names.into_iter().map(|name| if let Name::Bound(bound) = name { Some(bound) } else { None });
+    match (ty, bound.collect::<Option<Vec<Bound>>>()) {
+        (Some(ty), Some(bound)) if errors.is_empty() => Ok(Expression { program, bound, ty }),
+        _ => {
+            errors.sort_by_key(|error| error.labels.first().map_or(0, |label| label.span.start));
+            Err(errors)
+        }
+    }
+}
+
+/// The type of what a node leaves.
+#[derive(Clone, Copy)]
+enum Leaves {
+    Known(Type),
+    /// A mistake was reported, so nothing more is said about it.
+    Unknown,
+}
+
+impl Leaves {
+    fn known(self) -> Option<Type> {
+        match self {
+            Leaves::Known(ty) => Some(ty),
+            Leaves::Unknown => None,
+        }
+    }
+
+    fn of(ty: Option<Type>) -> Leaves {
+        ty.map_or(Leaves::Unknown, Leaves::Known)
+    }
+}
+
+/// A type on the stack, `None` if a mistake in it was reported, and the node that left it.
+#[derive(Clone, Copy)]
+struct Operand {
+    ty: Option<Type>,
+    node: u32,
+}
+
+/// What became of a name.
+#[derive(Clone, Copy)]
+enum Name {
+    Bound(Bound),
+    /// Reported by whoever read its declaration.
+    Reported,
+    /// Reported here: the number of the mistake.
+    Unknown(usize),
+}
+
+struct Check<'a> {
+    program: Program,
+    declarations: &'a dyn Declarations,
+    names: Vec<Name>,
+    stack: Vec<Operand>,
+    errors: Vec<Diagnostic>,
+}
+
+impl Check<'_> {
+    fn bind(&mut self) {
+        for (name, range) in &self.program.names {
+            let format = || Format::ALL.iter().find(|format| format.name() == &**name).copied();
+            let bound = match self.declarations.find(name) {
+                Found::Symbol(symbol) => Name::Bound(Bound::Symbol(symbol)),
+                Found::Reported => Name::Reported,
+                Found::Unknown => match format() {
+                    Some(format) => Name::Bound(Bound::Format(format)),
+                    None => {
+                        let message = format!("there is nothing named {}", shown(name));
+                        let help = unknown(name, self.declarations);
+                        self.errors.push(Diagnostic { help, ..self.program.text.mistake(range.clone(), message) });
+                        Name::Unknown(self.errors.len() - 1)
+                    }
+                },
+            };
+            self.names.push(bound);
+        }
+    }
+
+    /// What a node leaves, if it leaves anything. Takes what it needs off the stack.
+    fn node(&mut self, node: u32) -> Option<Leaves> {
+        Some(match self.program.node(node).operation {
+            Operation::Literal(literal) => Leaves::Known(self.program.literals[literal as usize].ty()),
+            Operation::Name(name) => self.name(node, name),
+            Operation::Element(name) => self.element(node, name),
+            Operation::Not => {
+                let operand = self.stack.pop()?;
+                self.needs("`!`", operand, Wanted::BOOL);
+                Leaves::Known(Type::Bool)
+            }
+            Operation::Negate => {
+                let operand = self.stack.pop()?;
+                Leaves::of(self.number("`-`", operand))
+            }
+            Operation::Binary(binary) => {
+                let (right, left) = (self.stack.pop()?, self.stack.pop()?);
+                self.binary(node, binary, left, right)
+            }
+            Operation::Call(function, count) => {
+                let arguments = self.stack.split_off(self.stack.len().saturating_sub(count as usize));
+                self.call(function, &arguments)
+            }
+            Operation::IfHolds(_) | Operation::IfFails(_) => {
+                let left = *self.stack.last()?;
+                self.needs(self.sign(node), left, Wanted::BOOL);
+                return None;
+            }
+            Operation::And | Operation::Or => {
+                let (right, _) = (self.stack.pop()?, self.stack.pop()?);
+                self.needs(self.sign(node), right, Wanted::BOOL);
+                Leaves::Known(Type::Bool)
+            }
+            Operation::Branch(_) => {
+                let condition = self.stack.pop()?;
+                self.needs("the condition of `if`", condition, Wanted::BOOL);
+                return None;
+            }
+            Operation::Jump(_) => return None,
+            Operation::If { .. } => {
+                let (second, first) = (self.stack.pop()?, self.stack.pop()?);
+                self.choice(node, first, second)
+            }
+        })
+    }
+
+    fn sign(&self, node: u32) -> &'static str {
+        match self.program.node(node).operation {
+            Operation::IfHolds(_) | Operation::And => "`&&`",
+            _ => "`||`",
+        }
+    }
+
+    fn name(&mut self, node: u32, name: u32) -> Leaves {
+        match self.names[name as usize] {
+            Name::Bound(Bound::Format(_)) => Leaves::Known(Type::Format),
+            Name::Bound(Bound::Symbol(Symbol { ty, list: false, .. })) => Leaves::Known(ty),
+            Name::Bound(Bound::Symbol(symbol)) => {
+                let quoted = self.program.quoted(node);
+                let message = format!("{quoted} is a list of {}: it takes an index", symbol.ty.several());
+                let help = format!("write `{}[…]`, counted from 0", quoted.trim_matches('`'));
+                self.report(node, message, symbol.declared, Some(help));
+                Leaves::Unknown
+            }
+            Name::Reported | Name::Unknown(_) => Leaves::Unknown,
+        }
+    }
+
+    fn element(&mut self, node: u32, name: u32) -> Leaves {
+        let index = self.stack.pop();
+        if let Some(index) = index {
+            self.needs("an index", index, Wanted::INTEGER);
+        }
+        let declared = match self.names[name as usize] {
+            Name::Bound(Bound::Symbol(Symbol { ty, list: true, .. })) => return Leaves::Known(ty),
+            Name::Bound(Bound::Symbol(symbol)) => symbol.declared,
+            Name::Bound(Bound::Format(_)) => Span::NONE,
+            Name::Reported | Name::Unknown(_) => return Leaves::Unknown,
+        };
+        let message = format!("{} is no list: it takes no index", shown(&self.program.names[name as usize].0));
+        self.report(node, message, declared, None);
+        Leaves::Unknown
+    }
+
+    fn binary(&mut self, node: u32, binary: Binary, left: Operand, right: Operand) -> Leaves {
+        match binary {
+            Binary::Equal | Binary::NotEqual => {
+                self.equal(node, left, right);
+                Leaves::Known(Type::Bool)
+            }
+            Binary::Less | Binary::LessOrEqual | Binary::Greater | Binary::GreaterOrEqual => {
+                for operand in [left, right] {
+                    self.number(&format!("`{}`", binary.sign()), operand);
+                }
+                Leaves::Known(Type::Bool)
+            }
+            Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide | Binary::Remainder => {
+                let by = format!("`{}`", binary.sign());
+                let (left, right) = (self.number(&by, left), self.number(&by, right));
+                Leaves::of(left.zip(right).and_then(|(left, right)| match binary {
+                    Binary::Divide => Some(Type::Number),
+                    _ => left.meet(right),
+                }))
+            }
+        }
+    }
+
+    /// Two values that are compared: of one type, and a text only with a text that can occur.
+    fn equal(&mut self, node: u32, left: Operand, right: Operand) {
+        for (name, text) in [(left, right), (right, left)] {
+            self.text(name, text);
+        }
+        let (Some(left_type), Some(right_type)) = (left.ty, right.ty) else { return };
+        if left_type.meet(right_type).is_none() {
+            let (left, right) = (self.is(left.node, left_type), self.is(right.node, right_type));
+            self.report(node, format!("these can't be compared: {left}, and {right}"), Span::NONE, None);
+        }
+    }
+
+    /// What may be wrong when `text` is compared with `name`: a text without quotes, a text that never occurs.
+    fn text(&mut self, name: Operand, text: Operand) {
+        let Operation::Name(name) = self.program.node(name.node).operation else { return };
+        if let (Name::Unknown(mistake), Some(Type::Text)) = (self.names[name as usize], text.ty) {
+            let quoted = format!("texts stand in single quotes: `'{}'`", self.program.names[name as usize].0);
+            self.errors[mistake].help = Some(quoted);
+        }
+        let Name::Bound(Bound::Symbol(symbol @ Symbol { ty: Type::Text, list: false, .. })) = self.names[name as usize]
+        else {
+            return;
+        };
+        let Operation::Literal(literal) = self.program.node(text.node).operation else { return };
+        let Value::Text(found) = &self.program.literals[literal as usize] else { return };
+        let Some(choices) = self.declarations.choices(symbol.id).filter(|choices| !choices.contains(&&**found)) else {
+            return;
+        };
+        let name = shown(&self.program.names[name as usize].0);
+        let message = format!("{} {name} is never {}", symbol.origin.words(), self.program.quoted(text.node));
+        let quoted: Vec<String> = choices.into_iter().map(|choice| format!("'{choice}'")).collect();
+        let help = suggestion(&format!("'{found}'"), quoted.iter().map(String::as_str));
+        self.report(text.node, message, symbol.declared, help);
+    }
+
+    fn call(&mut self, function: Function, arguments: &[Operand]) -> Leaves {
+        let by = format!("`{}`", function.name());
+        if let Function::Of(_) = function {
+            for argument in arguments {
+                self.needs(&by, *argument, Wanted::IMAGE);
+            }
+            return Leaves::Known(Type::Integer);
+        }
+        let types: Vec<Option<Type>> = arguments.iter().map(|argument| self.number(&by, *argument)).collect();
+        match function {
+            Function::Min | Function::Max | Function::Clamp | Function::Abs => {
+                let met = types.into_iter().reduce(|met, ty| met.zip(ty).and_then(|(met, ty)| met.meet(ty)));
+                Leaves::of(met.flatten())
+            }
+            Function::Floor | Function::Ceil | Function::Round | Function::Of(_) => Leaves::Known(Type::Integer),
+            Function::Sqrt | Function::Exp2 | Function::Log2 | Function::Pow => Leaves::Known(Type::Number),
+        }
+    }
+
+    /// The type that both values of an `if` have; the shorter of two numbers widens.
+    fn choice(&mut self, node: u32, first: Operand, second: Operand) -> Leaves {
+        let (Some(first_type), Some(second_type)) = (first.ty, second.ty) else { return Leaves::Unknown };
+        let Some(met) = first_type.meet(second_type) else {
+            let (first, second) = (self.is(first.node, first_type), self.is(second.node, second_type));
+            let message = format!("the values of `if` have different types: {first}, and {second}");
+            self.report(node, message, Span::NONE, None);
+            return Leaves::Unknown;
+        };
+        self.program.nodes[node as usize].operation = Operation::If { widen: met == Type::Number };
+        Leaves::Known(met)
+    }
+
+    /// The type of the whole, which is that of its value.
+    fn result(&mut self, value: Operand, wanted: Wanted<'_>) -> Option<Type> {
+        let ty = value.ty?;
+        let widened = ty == Type::Integer && wanted.types.contains(&Type::Number);
+        if wanted.types.contains(&ty) {
+            return Some(ty);
+        }
+        if widened {
+            return Some(Type::Number);
+        }
+        self.mismatch(&format!("expected {}", wanted.words), value.node, ty, wanted.types);
+        None
+    }
+
+    /// Reports an operand that isn't a number.
+    fn number(&mut self, by: &str, operand: Operand) -> Option<Type> {
+        self.needs(by, operand, Wanted::NUMBER)
+    }
+
+    /// Reports an operand of a wrong type. Returns the right one.
+    fn needs(&mut self, by: &str, operand: Operand, wanted: Wanted<'_>) -> Option<Type> {
+        let ty = operand.ty?;
+        if wanted.types.contains(&ty) || ty == Type::Integer && wanted.types.contains(&Type::Number) {
+            return Some(ty);
+        }
+        self.mismatch(&format!("{by} needs {}", wanted.words), operand.node, ty, wanted.types);
+        None
+    }
+
+    fn mismatch(&mut self, needs: &str, node: u32, ty: Type, wanted: &[Type]) {
+        let is = self.is(node, ty);
+        let (message, declared) = match self.program.node(node).operation {
+            Operation::Literal(_) => (format!("{needs}, found {}", self.program.quoted(node)), Span::NONE),
+            Operation::Name(name) => match self.names[name as usize] {
+                // That an image is an image needn't be said twice.
+                Name::Bound(Bound::Symbol(symbol)) if matches!(symbol.origin, Origin::Image | Origin::Buffer) => {
+                    (format!("{needs}, but {is}"), symbol.declared)
+                }
+                Name::Bound(Bound::Symbol(symbol)) => {
+                    (format!("{needs}, but {} {is}", symbol.origin.words()), symbol.declared)
+                }
+                _ => (format!("{needs}, but {is}"), Span::NONE),
+            },
+            _ => (format!("{needs}, but {is}"), Span::NONE),
+        };
+        let help = match (ty, wanted) {
+            (Type::Number, [Type::Integer]) => Some("`floor(…)`, `round(…)` and `ceil(…)` give whole numbers"),
+            (Type::Integer | Type::Number, [Type::Bool]) => Some("compare it: `levels > 0`"),
+            (Type::Text, [.., Type::Image | Type::Buffer]) => Some("names of images and buffers stand without quotes"),
+            _ => None,
+        };
+        self.report(node, message, declared, help.map(str::to_owned));
+    }
+
+    /// "`levels` is a whole number"
+    fn is(&self, node: u32, ty: Type) -> String {
+        format!("{} is {}", self.program.quoted(node), ty.words())
+    }
+
+    fn report(&mut self, node: u32, message: String, declared: Span, help: Option<String>) {
+        let mistake = self.program.text.mistake(self.program.range(node), message);
+        let mistake = if declared.file().is_some() { mistake.label(declared, "declared here") } else { mistake };
+        self.errors.push(Diagnostic { help, ..mistake });
+    }
+}
+
+/// What to do about a name that nothing has.
+fn unknown(name: &str, declarations: &dyn Declarations) -> Option<String> {
+    if let Some(callee) = Callee::find(name) {
+        return Some(format!("the function is written `{}`", callee.form));
+    }
+    let known = declarations.names();
+    let formats = Format::ALL.iter().map(|format| format.name());
+    match nearest(name, known.iter().copied().chain(formats)) {
+        Some(near) => Some(format!("did you mean `{near}`?")),
+        None => suggestion(name, known),
+    }
+}

@@ -1,0 +1,179 @@
+//! What an expression's names stand for: declared while a file is read, given values when a frame is put together.
+
+use super::types::{Type, Value};
+use crate::format::Format;
+use crate::frame::ImageIndex;
+use crate::source::Span;
+use std::fmt;
+use std::sync::Arc;
+
+/// What kind of thing has a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Origin {
+    /// A setting, which a user chooses.
+    Setting,
+    /// A fact of the scene.
+    Fact,
+    /// A property of the view: its width, what it allows.
+    View,
+    /// A property of the device.
+    Device,
+    /// A parameter of a fragment.
+    Parameter,
+    /// The index of a repetition.
+    Index,
+    /// An image or a list of images.
+    Image,
+    /// A buffer or a list of buffers.
+    Buffer,
+}
+
+impl Origin {
+    /// What it is called in messages.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Origin::Setting => "setting",
+            Origin::Fact => "fact",
+            Origin::View => "property of the view",
+            Origin::Device => "property of the device",
+            Origin::Parameter => "parameter",
+            Origin::Index => "index",
+            Origin::Image => "image",
+            Origin::Buffer => "buffer",
+        }
+    }
+
+    /// Whether its value comes from outside the file, so that it is what decided.
+    #[must_use]
+    pub const fn decides(self) -> bool {
+        matches!(self, Origin::Setting | Origin::Fact | Origin::View | Origin::Device)
+    }
+}
+
+/// What a name stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Symbol {
+    /// By which [`Values`] knows it.
+    pub id: u32,
+    /// Its type; of a list, its elements' type.
+    pub ty: Type,
+    /// Whether it is a list, which takes an index.
+    pub list: bool,
+    /// What kind of thing it is.
+    pub origin: Origin,
+    /// Where it was declared, if a file declares it.
+    pub declared: Span,
+}
+
+/// What a name of an expression was bound to.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Bound {
+    Symbol(Symbol),
+    /// Its name is that of a format.
+    Format(Format),
+}
+
+/// What a search for a name ends in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Found {
+    /// It stands for this.
+    Symbol(Symbol),
+    /// It is declared, but a mistake in its declaration was reported already.
+    Reported,
+    /// Nothing has this name.
+    Unknown,
+}
+
+/// The names that an expression may use, without values.
+pub trait Declarations {
+    /// What `name` stands for: `levels`, `scene.has_opaque`.
+    fn find(&self, name: &str) -> Found;
+
+    /// Every name, those first that should be suggested first.
+    fn names(&self) -> Vec<&str>;
+
+    /// The values that a text can have, if only some can occur: a comparison with any other text is a mistake.
+    fn choices(&self, id: u32) -> Option<Vec<&str>> {
+        let _ = id;
+        None
+    }
+}
+
+/// A property of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Property {
+    /// Width of the largest mip level in texels.
+    Width,
+    /// Height of the largest mip level in texels.
+    Height,
+    /// Number of mip levels.
+    Mips,
+    /// Number of layers.
+    Layers,
+    /// Samples a texel.
+    Samples,
+}
+
+/// Why there is no value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Missing {
+    /// It is only known further below, where this was declared.
+    Below(Span),
+    /// A mistake that was reported already is in the way.
+    Reported,
+}
+
+/// The values of names, by the [`Symbol::id`] that [`Declarations`] gave them.
+pub trait Values {
+    /// The value of a name that is no list.
+    ///
+    /// # Errors
+    /// If there is none, or not yet.
+    fn value(&self, id: u32) -> Result<Value, Missing>;
+
+    /// How many elements a list has.
+    ///
+    /// # Errors
+    /// If that is not known, or not yet.
+    fn length(&self, id: u32) -> Result<u64, Missing>;
+
+    /// An element of a list, counted from 0; `at` is less than [`Values::length`].
+    ///
+    /// # Errors
+    /// If there is none, or not yet.
+    fn element(&self, id: u32, at: u64) -> Result<Value, Missing>;
+
+    /// A property of an image that [`Values::value`] or [`Values::element`] gave.
+    ///
+    /// # Errors
+    /// If it is not known, or not yet.
+    fn property(&self, image: ImageIndex, property: Property) -> Result<i64, Missing>;
+
+    /// What decided the value of a parameter, which was given by another expression: that stands in its place.
+    fn decided_by(&self, id: u32) -> &[Decision] {
+        let _ = id;
+        &[]
+    }
+
+    /// What decided a property of an image, whose declaration holds expressions itself.
+    fn property_decided_by(&self, image: ImageIndex, property: Property) -> &[Decision] {
+        let _ = (image, property);
+        &[]
+    }
+}
+
+/// A name whose value decided, written `msaa = 4`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decision {
+    /// The name of a setting, a fact or a property of the view or device.
+    pub name: Arc<str>,
+    /// Its value.
+    pub value: Value,
+}
+
+impl fmt::Display for Decision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} = {}", self.name, self.value)
+    }
+}

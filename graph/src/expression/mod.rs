@@ -1,0 +1,160 @@
+//! Expressions: what a pipeline file calculates from settings, facts of the scene, the view and the device.
+//!
+//! ```text
+//! text ─► tokens ─► parse ─► check (names, types) ─► Expression ─► evaluate (values) ─► Outcome
+//! ```
+//! An expression stands in quotes where a file takes a number, a format, a condition, an image or a buffer. It is
+//! checked as a whole when the file is read, whatever the settings, and evaluated for each frame that is put together.
+//! Its text is kept in a flat program, operands before operators: checking and evaluating it are loops, and thousands
+//! of variants of a pipeline share one program.
+//!
+//! # The language
+//! ```text
+//! a || b                      true if either is; `b` is evaluated only if `a` is false
+//! a && b                      true if both are; `b` is evaluated only if `a` is true
+//! == != < <= > >=             of two numbers; `==` and `!=` of any two values of one type; not chained
+//! a + b, a - b
+//! a * b, a / b, a % b
+//! !a, -a
+//! name[index]                 an element of a list, counted from 0
+//! ```
+//! from the loosest to the tightest, those of one line from left to right. The rest is parentheses, `true`, `false`,
+//! numbers (`12`, `0.5`, `1e-3`), texts in single quotes (`'high'`, without escapes), names (`levels`, `view.width`;
+//! also [formats](crate::format::Format) by Vulkan's names, unless something declared has that name) and calls:
+//! ```text
+//! if(condition, a, b)         evaluates only the one that it chooses; both have one type
+//! min(a, b, …)  max(a, b, …)  clamp(x, low, high)  abs(x)          whole for whole numbers
+//! floor(x)  ceil(x)  round(x)                                       whole; halves are rounded away from 0
+//! sqrt(x)  exp2(x)  log2(x)  pow(a, b)                              numbers
+//! width(image)  height(image)  mips(image)  layers(image)  samples(image)     whole
+//! ```
+//! # Types
+//! [`Type`] lists them. A whole number becomes a number where one is needed, never the other way round. `/` always gives
+//! a number: `floor(a / b)` divides whole numbers. The remainder `a % b` is never negative.
+//!
+//! Every expression has a value or a mistake with its place: division by zero, whole numbers beyond 64 bits, numbers
+//! that aren't finite, roots and logarithms that don't exist, indices outside a list. None wraps, clamps or is NaN.
+//!
+//! # Why the parser is our own
+//! Precedence climbing takes few lines, and three things matter here that combinators make harder: sentences that say
+//! what was found where and what to write instead, a bound on the recursion of prefix operators too (the expression
+//! parser of `winnow` has none), and the flat program as its direct output. Crates that evaluate expressions as a whole
+//! find types only as they go, and tell no places.
+
+mod arithmetic;
+mod check;
+mod environment;
+mod evaluate;
+mod functions;
+mod parse;
+mod program;
+mod tokens;
+mod types;
+
+pub use environment::{Decision, Declarations, Found, Missing, Origin, Property, Symbol, Values};
+pub use evaluate::{Failed, Outcome};
+pub use types::{Type, Value, Wanted};
+
+use crate::describe::Diagnostic;
+use crate::source::Span;
+use environment::Bound;
+use program::Program;
+
+/// An expression has at most this many bytes.
+pub const LONGEST_TEXT: usize = 4096;
+
+/// Parentheses, calls, brackets, `!` and `-` stand at most this deep in each other.
+pub const MOST_NESTED: usize = 64;
+
+/// An expression that was parsed; what its names stand for is not known yet.
+#[derive(Debug, Clone)]
+pub struct Parsed {
+    program: Program,
+}
+
+impl Parsed {
+    /// Parses `text`. `span` is where it stands: all between the quotes. If that has another length than `text`, the
+    /// file wrote it with escapes, and every mistake is placed at the whole span.
+    ///
+    /// # Errors
+    /// What is wrong with the first place that is.
+    pub fn new(text: &str, span: Span) -> Result<Parsed, Diagnostic> {
+        parse::parse(text, span).map(|program| Parsed { program })
+    }
+
+    /// Every name that it refers to, once, in the order of the text, with its first place. Formats are among them.
+    pub fn names(&self) -> impl Iterator<Item = (&str, Span)> {
+        self.program.names()
+    }
+
+    /// Finds what its names stand for, and whether the types fit together and to what is wanted.
+    ///
+    /// # Errors
+    /// Every mistake; none if all that is wrong was reported already ([`Found::Reported`]).
+    pub fn check(self, declarations: &dyn Declarations, wanted: Wanted<'_>) -> Result<Expression, Vec<Diagnostic>> {
+        check::check(self.program, declarations, wanted)
+    }
+}
+
+/// An expression with the meaning of its names: evaluated as often as there are values.
+#[derive(Debug, Clone)]
+pub struct Expression {
+    program: Program,
+    /// What the program's names stand for.
+    bound: Vec<Bound>,
+    ty: Type,
+}
+
+impl Expression {
+    /// Parses and checks: see [`Parsed::new`] and [`Parsed::check`].
+    ///
+    /// # Errors
+    /// Theirs.
+    pub fn new(
+        text: &str,
+        span: Span,
+        declarations: &dyn Declarations,
+        wanted: Wanted<'_>,
+    ) -> Result<Expression, Vec<Diagnostic>> {
+        Parsed::new(text, span).map_err(|mistake| vec![mistake])?.check(declarations, wanted)
+    }
+
+    /// As it was written.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.program.text.text
+    }
+
+    /// Where it stands.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        self.program.text.whole()
+    }
+
+    /// The type of its value.
+    #[must_use]
+    pub const fn ty(&self) -> Type {
+        self.ty
+    }
+
+    /// Every name that it refers to, once, in the order of the text, with its first place. Formats are among them.
+    pub fn names(&self) -> impl Iterator<Item = (&str, Span)> {
+        self.program.names()
+    }
+
+    /// What the names stand for, in the order of [`Expression::names`]; formats are left out.
+    pub fn symbols(&self) -> impl Iterator<Item = Symbol> {
+        self.bound.iter().filter_map(|bound| match bound {
+            Bound::Symbol(symbol) => Some(*symbol),
+            Bound::Format(_) => None,
+        })
+    }
+
+    /// Its value.
+    ///
+    /// # Errors
+    /// Why it has none; nothing if that was reported already ([`Missing::Reported`]).
+    pub fn evaluate(&self, values: &dyn Values) -> Result<Outcome, Vec<Diagnostic>> {
+        evaluate::evaluate(self, values)
+    }
+}
