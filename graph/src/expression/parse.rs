@@ -275,7 +275,7 @@ impl<'a> Parser<'a> {
         Mistake::new(self.next.range.clone(), "this takes no index").help("only the name of a list does: `down[i - 1]`")
     }
 
-    /// Takes the sign that ends what `open` began. Returns its last byte.
+    /// Takes the sign that ends what `open` began. Returns where that ends.
     fn close(&mut self, sign: &'static str, open: &Range<usize>) -> Result<usize, Mistake> {
         if self.at(sign) {
             let end = self.take()?.range.end;

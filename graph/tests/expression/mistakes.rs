@@ -154,6 +154,7 @@ fn expressions_without_a_value() {
             "pow(-2, strength)",
             "pow(none, -1)",
             "floor(1e300)",
+            "ceil(9223372036854775808.0)",
             "clamp(i, levels, 2)",
             "down[i + 2]",
             "down[i - 2]",

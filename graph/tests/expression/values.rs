@@ -91,6 +91,7 @@ fn whole_numbers_stay_whole_except_when_divided() {
     assert_eq!(integer("floor(-7 / 2)"), -4);
     assert_eq!(integer("ceil(7 / 2)"), 4);
     assert_eq!([integer("round(2.5)"), integer("round(-2.5)"), integer("round(levels)")], [3, -3, 5]);
+    assert_eq!(integer("floor(-9223372036854775808.0)"), i64::MIN);
     assert_eq!(number("levels * 0.5"), 2.5);
     assert_eq!(integer("abs(-3)"), 3);
     assert_eq!(number("abs(-3.5)"), 3.5);
@@ -112,6 +113,8 @@ fn whole_numbers_meet_numbers_as_numbers_even_where_the_whole_one_is_chosen() {
     assert_eq!(number("clamp(9, 0.5, 4)"), 4.0);
     assert_eq!(number("weights[1]"), 2.0);
     assert!(holds("1 == 1.0 && 1 < 1.5 && 2.5 >= 2"));
+    assert_eq!(number("if(true, 9223372036854775807, 0.5) + 1"), 9_223_372_036_854_775_808.0);
+    assert_eq!(number("min(9223372036854775807, 1e300) + 1"), 9_223_372_036_854_775_808.0);
     let world = World::new().with("radius", Value::Integer(3));
     assert_eq!(world.outcome("radius").value, Value::Number(3.0));
 }
