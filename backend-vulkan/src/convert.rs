@@ -13,11 +13,11 @@ pub(crate) fn format(format: Format) -> vk::Format {
 }
 
 pub(crate) fn stages(stages: Stages) -> vk::PipelineStageFlags2 {
-    vk::PipelineStageFlags2::from_raw(stages.bits())
+    vk::PipelineStageFlags2::from_raw(stages.vulkan())
 }
 
 pub(crate) fn accesses(accesses: Accesses) -> vk::AccessFlags2 {
-    vk::AccessFlags2::from_raw(accesses.bits())
+    vk::AccessFlags2::from_raw(accesses.vulkan())
 }
 
 pub(crate) fn usage(usage: Usage) -> vk::ImageUsageFlags {

@@ -1,7 +1,8 @@
 //! Vulkan's own words as plain data: pipeline stages, accesses, layouts, usages, load and store operations.
 //!
 //! Bit values and names are those of the Vulkan 1.3 specification (`VK_PIPELINE_STAGE_2_*_BIT` and so on, without prefix
-//! and suffix), so that a backend converts them without a table and a reader looks them up without a dictionary.
+//! and suffix), so that a backend converts them without a table and a reader looks them up without a dictionary. Of the flags
+//! that have 64 bits there, those from bit 32 on stand from bit 24 on here: a graph holds very many of them.
 
 use crate::format::Format;
 use bitflags::bitflags;
@@ -11,7 +12,7 @@ bitflags! {
     /// Pipeline stages (`VkPipelineStageFlagBits2`).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(transparent)]
-    pub struct Stages: u64 {
+    pub struct Stages: u32 {
         /// Reading of indirect draw and dispatch parameters.
         const DRAW_INDIRECT = 0x2;
         /// Fetch of indices and vertex attributes.
@@ -34,13 +35,13 @@ bitflags! {
         /// Everything a queue does.
         const ALL_COMMANDS = 0x1_0000;
         /// `vkCmdCopy*`.
-        const COPY = 0x1_0000_0000;
+        const COPY = 0x100_0000;
         /// `vkCmdResolveImage2`.
-        const RESOLVE = 0x2_0000_0000;
+        const RESOLVE = 0x200_0000;
         /// `vkCmdBlitImage2`.
-        const BLIT = 0x4_0000_0000;
+        const BLIT = 0x400_0000;
         /// `vkCmdClear*Image`.
-        const CLEAR = 0x8_0000_0000;
+        const CLEAR = 0x800_0000;
     }
 }
 
@@ -48,7 +49,7 @@ bitflags! {
     /// Kinds of memory access (`VkAccessFlagBits2`).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(transparent)]
-    pub struct Accesses: u64 {
+    pub struct Accesses: u32 {
         /// Indirect parameters.
         const INDIRECT_COMMAND_READ = 0x1;
         /// Indices.
@@ -80,15 +81,29 @@ bitflags! {
         /// Any write.
         const MEMORY_WRITE = 0x1_0000;
         /// Sampled images.
-        const SHADER_SAMPLED_READ = 0x1_0000_0000;
+        const SHADER_SAMPLED_READ = 0x100_0000;
         /// Reads of storage images and buffers.
-        const SHADER_STORAGE_READ = 0x2_0000_0000;
+        const SHADER_STORAGE_READ = 0x200_0000;
         /// Writes of storage images and buffers.
-        const SHADER_STORAGE_WRITE = 0x4_0000_0000;
+        const SHADER_STORAGE_WRITE = 0x400_0000;
+    }
+}
+
+impl Stages {
+    /// The bits of `VkPipelineStageFlags2`.
+    #[must_use]
+    pub const fn vulkan(self) -> u64 {
+        with_64_bits(self.bits())
     }
 }
 
 impl Accesses {
+    /// The bits of `VkAccessFlags2`.
+    #[must_use]
+    pub const fn vulkan(self) -> u64 {
+        with_64_bits(self.bits())
+    }
+
     /// Every access that changes memory.
     pub const WRITES: Accesses = Accesses::COLOR_ATTACHMENT_WRITE
         .union(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE)
@@ -102,6 +117,12 @@ impl Accesses {
     pub const fn writes(self) -> Accesses {
         self.intersection(Accesses::WRITES)
     }
+}
+
+/// Puts what stands from bit 24 on where Vulkan has it: from bit 32 on.
+const fn with_64_bits(bits: u32) -> u64 {
+    const LOW: u32 = 24;
+    (bits & ((1 << LOW) - 1)) as u64 | ((bits >> LOW) as u64) << 32
 }
 
 bitflags! {

@@ -79,7 +79,7 @@ const PAIR: [(usize, Accesses); PAIRS] = [
 const EARLIER: [u16; STAGES] = closure(true);
 const LATER: [u16; STAGES] = closure(false);
 const PAIRS_OF_STAGE: [u32; STAGES] = pairs_of_stages();
-const PAIRS_OF_ACCESS: [u32; 64] = pairs_of_accesses();
+const PAIRS_OF_ACCESS: [u32; 32] = pairs_of_accesses();
 
 const fn closure(earlier: bool) -> [u16; STAGES] {
     let mut reach = [0; STAGES];
@@ -121,8 +121,8 @@ const fn pairs_of_stages() -> [u32; STAGES] {
 }
 
 /// The pairs of each access, by the number of its bit.
-const fn pairs_of_accesses() -> [u32; 64] {
-    let mut pairs = [0; 64];
+const fn pairs_of_accesses() -> [u32; 32] {
+    let mut pairs = [0; 32];
     let mut pair = 0;
     while pair < PAIRS {
         pairs[PAIR[pair].1.bits().trailing_zeros() as usize] |= 1 << pair;
@@ -142,8 +142,8 @@ impl StageSet {
     /// Exactly these stages; `ALL_COMMANDS` stands for every one on a device.
     pub(super) fn of(stages: Stages) -> StageSet {
         let bits = stages.bits();
-        // Vulkan's bits 1–3, 7–11, 14 and 32–35, pushed together.
-        let dense = (bits >> 1 & 0x7) | (bits >> 4 & 0xf8) | (bits >> 6 & 0x100) | (bits >> 23 & 0x1e00);
+        // Bits 1–3, 7–11, 14 and 24–27, pushed together.
+        let dense = (bits >> 1 & 0x7) | (bits >> 4 & 0xf8) | (bits >> 6 & 0x100) | (bits >> 15 & 0x1e00);
         let all = if stages.contains(Stages::ALL_COMMANDS) { ALL_COMMANDS } else { 0 };
         StageSet(dense as u16 | all)
     }
@@ -179,7 +179,7 @@ impl StageSet {
 impl PairSet {
     /// Every pair of one of these stages, as they are written, and one of these accesses.
     pub(super) fn of(stages: Stages, accesses: Accesses) -> PairSet {
-        let of_accesses = bits(accesses.bits()).fold(0, |set, access| set | PAIRS_OF_ACCESS[access]);
+        let of_accesses = bits(accesses.bits().into()).fold(0, |set, access| set | PAIRS_OF_ACCESS[access]);
         PairSet(PairSet::of_stages(StageSet::of(stages)).0 & of_accesses)
     }
 
