@@ -31,6 +31,9 @@ impl Grids {
     /// Cuts images as the passes of `frame` use them; ranges must lie inside their images.
     pub(super) fn new(frame: &Frame) -> Grids {
         let mut grids = Grids::default();
+        if !frame.images.iter().any(can_be_cut) {
+            return grids;
+        }
         for (image, number) in frame.images.iter().zip(0_u32..) {
             if image.format.aspects().bits().count_ones() > 1 {
                 grids.grid(frame, ImageIndex(number), image);
@@ -107,6 +110,11 @@ impl Grids {
         let at = *self.of.get(image.0 as usize)?;
         self.grids.get(at as usize)
     }
+}
+
+/// Whether an image has more than one plane, mip level and layer.
+fn can_be_cut(image: &Image) -> bool {
+    image.mips > 1 || image.layers > 1 || image.format.aspects().bits().count_ones() > 1
 }
 
 /// The part of `image` that `range` means: counts without `REMAINING`, planes named.

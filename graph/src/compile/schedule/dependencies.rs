@@ -1,8 +1,7 @@
 //! Which runs depend on which, as lists.
 
-use super::runs::{Runs, for_each_cell};
-use crate::compile::model::Adapted;
-use crate::compile::parts::Grids;
+use super::runs::Runs;
+use super::touches::{Touch, Touches};
 
 /// No entry.
 const NONE: u32 = u32::MAX;
@@ -26,28 +25,26 @@ struct Cell {
 
 impl Dependencies {
     /// What depends on what among `runs`.
-    pub(super) fn between(grids: &Grids, adapted: &Adapted, runs: &Runs) -> Dependencies {
-        let mut cells = vec![Cell { writer: NONE, readers: NONE }; adapted.cells as usize + 1];
-        let mut readers: Vec<(u32, u32)> = Vec::with_capacity(adapted.uses.len());
-        let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(adapted.uses.len());
+    pub(super) fn between(touches: &Touches, runs: &Runs) -> Dependencies {
+        let mut cells = vec![Cell { writer: NONE, readers: NONE }; touches.cells];
+        let mut readers: Vec<(u32, u32)> = Vec::new();
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
         for run in 0..runs.len() {
-            for op in runs.run(run) {
-                for_each_cell(grids, adapted, *op, |cell, writes, _| {
-                    let cell = &mut cells[cell as usize];
-                    if cell.writer != NONE {
-                        pairs.push((cell.writer, run));
-                    }
-                    if !writes {
-                        readers.push((run, cell.readers));
-                        cell.readers = readers.len() as u32 - 1;
-                        return;
-                    }
-                    while let Some((reader, next)) = readers.get(cell.readers as usize) {
-                        pairs.push((*reader, run));
-                        cell.readers = *next;
-                    }
-                    cell.writer = run;
-                });
+            for Touch { cell, writes, .. } in runs.run(run).iter().flat_map(|op| touches.op(*op)) {
+                let cell = &mut cells[*cell as usize];
+                if cell.writer != NONE {
+                    pairs.push((cell.writer, run));
+                }
+                if !writes {
+                    readers.push((run, cell.readers));
+                    cell.readers = readers.len() as u32 - 1;
+                    continue;
+                }
+                while let Some((reader, next)) = readers.get(cell.readers as usize) {
+                    pairs.push((*reader, run));
+                    cell.readers = *next;
+                }
+                cell.writer = run;
             }
         }
         pairs.retain(|(before, after)| before != after);

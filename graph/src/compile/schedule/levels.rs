@@ -1,47 +1,46 @@
 //! Levels: a run is one level above the highest that it depends on, or further up where that saves memory.
 
 use super::memory::Memory;
-use super::runs::{Runs, for_each_cell};
+use super::runs::Runs;
+use super::touches::{Touch, Touches};
 use super::weighed::{Sums, Weighed, Weight};
 use crate::compile::model::Adapted;
-use crate::compile::parts::Grids;
 use crate::vocabulary::Layout;
 
 /// The runs level by level; `None` if there is no level with more than one. What bytes decide goes into `weighed`, if that is
 /// to be kept.
 pub(super) fn by_level(
-    grids: &Grids,
     adapted: &Adapted,
+    touches: &Touches,
     runs: &Runs,
     memory: &Memory,
     mut weighed: Option<&mut Weighed>,
 ) -> Option<Vec<u32>> {
-    let mut upwards = Walk::new(grids, adapted, runs);
+    let mut upwards = Walk::new(touches, runs);
     let mut levels: Vec<u32> = Vec::with_capacity(runs.len() as usize);
     // For each store the first run that uses it.
     let mut begins = vec![u32::MAX; adapted.stores.len()];
     for run in 0..runs.len() {
         let level = upwards.least(run);
-        upwards.put(runs.run(run).iter(), level);
+        runs.run(run).iter().for_each(|op| upwards.put(*op, level));
         levels.push(level);
-        for used in runs.run(run).iter().flat_map(|op| adapted.uses(*op)) {
+        runs.for_each_use(adapted, run, |used| {
             let first = &mut begins[used.store as usize];
             *first = run.min(*first);
-        }
+        });
     }
     let top = levels.iter().copied().max()?;
     if top + 1 == runs.len() {
         return None;
     }
-    let mut downwards = Walk::new(grids, adapted, runs);
+    let mut downwards = Walk::new(touches, runs);
     // For each store one more than the level of its last use, as far as that is known.
     let mut ends = vec![0_u32; adapted.stores.len()];
     let mut keys = levels;
     for run in (0..runs.len()).rev() {
         let (lowest, highest) = (keys[run as usize], top - downwards.least(run));
-        let uses = || runs.run(run).iter().flat_map(|op| adapted.uses(*op));
         let mut sums = Sums::default();
-        for used in uses() {
+        runs.for_each_use(adapted, run, |used| {
             let (store, begun) = (used.store as usize, begins[used.store as usize] == run);
             let (ended, held) = (ends[store] <= lowest + 1, ends[store] <= highest && !begun);
             let weight = Weight { store: used.store, begun, ended, held };
@@ -49,14 +48,17 @@ pub(super) fn by_level(
             if let Some(weighed) = &mut weighed {
                 weighed.weigh(weight);
             }
-        }
+        });
         let decision = sums.decide(highest > lowest);
         if let Some(weighed) = &mut weighed {
             weighed.decided(highest > lowest, decision);
         }
         let level = if decision.rises { highest } else { lowest };
-        downwards.put(runs.run(run).iter().rev(), top - level);
-        uses().for_each(|used| ends[used.store as usize] = ends[used.store as usize].max(level + 1));
+        runs.run(run).iter().rev().for_each(|op| downwards.put(*op, top - level));
+        runs.for_each_use(adapted, run, |used| {
+            let end = &mut ends[used.store as usize];
+            *end = (level + 1).max(*end);
+        });
         // In a level first what ends more than it begins: what comes next then finds its memory free.
         keys[run as usize] = 3 * level + (decision.begins as i8 + 1) as u32;
     }
@@ -81,8 +83,7 @@ fn counting_sort(keys: &[u32], bound: u32) -> Vec<u32> {
 
 /// A walk through all runs, from the first to the last or from the last to the first: what is behind is counted in levels.
 struct Walk<'a> {
-    grids: &'a Grids,
-    adapted: &'a Adapted,
+    touches: &'a Touches,
     runs: &'a Runs,
     cells: Vec<Cell>,
 }
@@ -97,38 +98,36 @@ struct Cell {
 }
 
 impl<'a> Walk<'a> {
-    fn new(grids: &'a Grids, adapted: &'a Adapted, runs: &'a Runs) -> Walk<'a> {
+    fn new(touches: &'a Touches, runs: &'a Runs) -> Walk<'a> {
         let cell = Cell { before: 0, readers: 0, layout: Layout::Undefined };
-        Walk { grids, adapted, runs, cells: vec![cell; adapted.cells as usize + 1] }
+        Walk { touches, runs, cells: vec![cell; touches.cells] }
     }
 
     /// The least level of a run behind all that it depends on.
     fn least(&self, run: u32) -> u32 {
         let mut least = 0;
         for op in self.runs.run(run) {
-            for_each_cell(self.grids, self.adapted, *op, |cell, writes, layout| {
-                let cell = &self.cells[cell as usize];
-                let joins = !writes && cell.layout == layout;
+            for touch in self.touches.op(*op) {
+                let cell = &self.cells[touch.cell as usize];
+                let joins = !touch.writes && cell.layout == touch.layout;
                 least = least.max(if joins { cell.before } else { cell.before.max(cell.readers) });
-            });
+            }
         }
         least
     }
 
-    /// Notes the level of the operations of a run.
-    fn put<'o>(&mut self, ops: impl Iterator<Item = &'o u32>, level: u32) {
+    /// Notes the level of an operation.
+    fn put(&mut self, op: u32, level: u32) {
         let behind = level + 1;
-        for op in ops {
-            for_each_cell(self.grids, self.adapted, *op, |cell, writes, layout| {
-                let cell = &mut self.cells[cell as usize];
-                if writes {
-                    *cell = Cell { before: behind, readers: 0, layout };
-                } else if cell.readers != 0 && cell.layout == layout {
-                    cell.readers = cell.readers.max(behind);
-                } else {
-                    *cell = Cell { before: cell.before.max(cell.readers), readers: behind, layout };
-                }
-            });
+        for Touch { cell, writes, layout } in self.touches.op(op).iter().copied() {
+            let cell = &mut self.cells[cell as usize];
+            if writes {
+                *cell = Cell { before: behind, readers: 0, layout };
+            } else if cell.readers != 0 && cell.layout == layout {
+                cell.readers = cell.readers.max(behind);
+            } else {
+                *cell = Cell { before: cell.before.max(cell.readers), readers: behind, layout };
+            }
         }
     }
 }

@@ -26,10 +26,10 @@ impl Lifetimes {
     pub(super) fn of(adapted: &Adapted, runs: &Runs, order: &[u32]) -> Lifetimes {
         let mut of = vec![[u32::MAX, 0]; adapted.stores.len()];
         for (run, place) in order.iter().zip(0_u32..) {
-            for used in runs.run(*run).iter().flat_map(|op| adapted.uses(*op)) {
+            runs.for_each_use(adapted, *run, |used| {
                 let [first, last] = &mut of[used.store as usize];
                 (*first, *last) = (place.min(*first), place);
-            }
+            });
         }
         Lifetimes { places: order.len() as u32, of }
     }

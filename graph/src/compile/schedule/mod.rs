@@ -19,6 +19,7 @@ mod dependencies;
 mod levels;
 mod memory;
 mod runs;
+mod touches;
 mod weighed;
 
 use super::Order;
@@ -27,6 +28,7 @@ use super::parts::Grids;
 use dependencies::Dependencies;
 use memory::{Lifetimes, Memory};
 use runs::Runs;
+use touches::Touches;
 use weighed::Weighed;
 
 /// An order, and what bytes decided about it.
@@ -40,18 +42,21 @@ pub(super) struct Scheduled {
 /// Finds the order of execution. `keeps`: for [`Scheduled::still_holds`], later.
 pub(super) fn schedule(grids: &Grids, adapted: &Adapted, order: Order, keeps: bool) -> Scheduled {
     let mut weighed = Weighed::default();
+    let touches = || Touches::of(grids, adapted);
     let order = match order {
         Order::File => (0..adapted.ops.len() as u32).collect(),
         Order::Default => {
-            let runs = Runs::gather(grids, adapted);
+            let touches = touches();
+            let runs = Runs::gather(grids, adapted, &touches);
             let keep = keeps.then_some(&mut weighed);
-            runs.operations(&scored(grids, adapted, &runs, &Memory::of(adapted), keep))
+            runs.operations(&scored(adapted, &touches, &runs, &Memory::of(adapted), keep))
         }
         Order::LowMemory => {
-            let runs = Runs::gather(grids, adapted);
-            runs.operations(&small(grids, adapted, &runs))
+            let touches = touches();
+            let runs = Runs::gather(grids, adapted, &touches);
+            runs.operations(&small(adapted, &touches, &runs))
         }
-        Order::Random(seed) => Dependencies::between(grids, adapted, &Runs::of_one(adapted)).random_order(seed),
+        Order::Random(seed) => Dependencies::between(&touches(), &Runs::of_one(adapted)).random_order(seed),
     };
     Scheduled { order, weighed }
 }
@@ -69,9 +74,15 @@ impl Scheduled {
 }
 
 /// The runs in the order that scores best.
-fn scored(grids: &Grids, adapted: &Adapted, runs: &Runs, memory: &Memory, mut keep: Option<&mut Weighed>) -> Vec<u32> {
+fn scored(
+    adapted: &Adapted,
+    touches: &Touches,
+    runs: &Runs,
+    memory: &Memory,
+    mut keep: Option<&mut Weighed>,
+) -> Vec<u32> {
     let file: Vec<u32> = (0..runs.len()).collect();
-    let Some(order) = levels::by_level(grids, adapted, runs, memory, keep.as_deref_mut()) else { return file };
+    let Some(order) = levels::by_level(adapted, touches, runs, memory, keep.as_deref_mut()) else { return file };
     let [in_file, in_levels] = [&file, &order].map(|order| Lifetimes::of(adapted, runs, order));
     let takes_levels = weighed::takes_levels(memory, &in_file, &in_levels);
     if let Some(weighed) = keep {
@@ -81,12 +92,12 @@ fn scored(grids: &Grids, adapted: &Adapted, runs: &Runs, memory: &Memory, mut ke
 }
 
 /// The runs in that of several orders in which the least memory is alive at one time.
-fn small(grids: &Grids, adapted: &Adapted, runs: &Runs) -> Vec<u32> {
+fn small(adapted: &Adapted, touches: &Touches, runs: &Runs) -> Vec<u32> {
     let memory = Memory::of(adapted);
-    let dependencies = Dependencies::between(grids, adapted, runs);
+    let dependencies = Dependencies::between(touches, runs);
     let mut orders = vec![
         (0..runs.len()).collect(),
-        scored(grids, adapted, runs, &memory, None),
+        scored(adapted, touches, runs, &memory, None),
         memory.greedy(adapted, runs, &dependencies),
     ];
     let mut backwards = memory.greedy(adapted, runs, &dependencies.reversed());

@@ -1,6 +1,7 @@
 //! Draws that may share a rendering scope are brought together, and from then on stay together.
 
-use crate::compile::model::{Adapted, CellIndex, Role, Start, Use};
+use super::touches::{Touch, Touches};
+use crate::compile::model::{Adapted, Role, Start, Use};
 use crate::compile::parts::Grids;
 use crate::vocabulary::Layout;
 
@@ -23,16 +24,17 @@ impl Runs {
     }
 
     /// Draws that may share a scope in one run.
-    pub(super) fn gather(grids: &Grids, adapted: &Adapted) -> Runs {
+    pub(super) fn gather(grids: &Grids, adapted: &Adapted, touches: &Touches) -> Runs {
         if !adapted.ops.iter().any(|op| op.kind.draws()) {
             return Runs::of_one(adapted);
         }
         let mut gatherer = Gatherer {
             grids,
             adapted,
+            touches,
             runs: Vec::new(),
             run_of: Vec::with_capacity(adapted.ops.len()),
-            cells: vec![Cell { before: NONE, readers: NONE, layout: Layout::Undefined }; adapted.cells as usize + 1],
+            cells: vec![Cell { before: NONE, readers: NONE, layout: Layout::Undefined }; touches.cells],
             places: 0,
         };
         for op in 0..adapted.ops.len() as u32 {
@@ -57,22 +59,19 @@ impl Runs {
         &self.ops[self.starts[run as usize] as usize..self.starts[run as usize + 1] as usize]
     }
 
+    /// Calls `visit` with each use of one run.
+    #[inline]
+    pub(super) fn for_each_use(&self, adapted: &Adapted, run: u32, mut visit: impl FnMut(&Use)) {
+        for op in self.run(run) {
+            adapted.uses(*op).iter().for_each(&mut visit);
+        }
+    }
+
     /// The operations of all runs, in the given order of runs.
     pub(super) fn operations(&self, order: &[u32]) -> Vec<u32> {
         let mut ops = Vec::with_capacity(self.ops.len());
         order.iter().for_each(|run| ops.extend_from_slice(self.run(*run)));
         ops
-    }
-}
-
-/// Calls `visit` with each cell that an operation uses, whether it writes it, and in which layout. Effects that nothing shows
-/// are writes of a cell behind all others.
-pub(super) fn for_each_cell(grids: &Grids, adapted: &Adapted, op: u32, mut visit: impl FnMut(CellIndex, bool, Layout)) {
-    for used in adapted.uses(op) {
-        adapted.for_each_cell(grids, used, |cell| visit(cell, used.writes, used.layout));
-    }
-    if adapted.ops[op as usize].side_effect {
-        visit(adapted.cells, true, Layout::Undefined);
     }
 }
 
@@ -100,6 +99,7 @@ struct Run {
 struct Gatherer<'a> {
     grids: &'a Grids,
     adapted: &'a Adapted,
+    touches: &'a Touches,
     runs: Vec<Run>,
     run_of: Vec<u32>,
     cells: Vec<Cell>,
@@ -108,20 +108,20 @@ struct Gatherer<'a> {
 
 impl Gatherer<'_> {
     fn op(&mut self, op: u32) {
-        let Gatherer { grids, adapted, runs, cells, .. } = self;
+        let Gatherer { grids, adapted, touches, runs, cells, .. } = self;
         let candidate = candidate(grids, adapted, cells, op).filter(|run| meet(adapted, runs[*run as usize].last, op));
         // The place of the rearmost run that it depends on besides the candidate.
         let mut behind = None;
-        for_each_cell(grids, adapted, op, |cell, writes, layout| {
-            let Cell { before, readers, layout: current } = cells[cell as usize];
-            let readers = if writes || current != layout { readers } else { NONE };
+        for Touch { cell, writes, layout } in touches.op(op) {
+            let Cell { before, readers, layout: current } = cells[*cell as usize];
+            let readers = if *writes || current != *layout { readers } else { NONE };
             for run in [before, readers] {
                 if run != NONE && Some(run) != candidate {
                     runs[run as usize].fixed = true;
                     behind = behind.max(Some(runs[run as usize].place));
                 }
             }
-        });
+        }
         let joined = candidate.filter(|candidate| {
             let run = &mut runs[*candidate as usize];
             if behind > Some(run.place) && !run.fixed {
@@ -141,9 +141,9 @@ impl Gatherer<'_> {
         });
         runs[run as usize].last = op;
         self.run_of.push(run);
-        for_each_cell(grids, adapted, op, |cell, writes, layout| {
-            note(runs, &mut cells[cell as usize], run, writes, layout)
-        });
+        for touch in touches.op(op) {
+            note(runs, &mut cells[touch.cell as usize], run, touch.writes, touch.layout);
+        }
     }
 }
 
