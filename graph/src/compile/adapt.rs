@@ -235,7 +235,8 @@ impl Adapter<'_> {
         if sampled.frames_ago > 0 {
             return Some(self.current(sampled.image) + sampled.frames_ago);
         }
-        let count = self.current_samples(sampled.image);
+        let before = self.current(sampled.image);
+        let count = self.samples(before);
         if sampled.per_sample {
             if count == 1 {
                 let message =
@@ -247,7 +248,7 @@ impl Adapter<'_> {
                 self.errors.push(Diagnostic::new(sampled.span, message).help(help));
                 return None;
             }
-            return self.version_before(number, pass, sampled);
+            return Some(self.version_before(number, pass, sampled, before));
         }
         if count > 1 {
             let because = format!("`{}` samples `{}` and it has {count} samples", pass.name, declared.name);
@@ -257,23 +258,27 @@ impl Adapter<'_> {
             let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
             self.note(&declared.name, text, sampled.span);
         }
-        self.version_before(number, pass, sampled)
+        Some(self.version_before(number, pass, sampled, before))
     }
 
-    /// A pass that samples what it also writes reads the version before itself.
-    fn version_before(&mut self, number: u32, pass: &Pass, sampled: &Sampled) -> Option<StoreIndex> {
-        let image = sampled.image;
-        let before = self.current(image);
+    /// A pass that samples what it also writes reads the version before itself, which `before` holds.
+    fn version_before(&mut self, number: u32, pass: &Pass, sampled: &Sampled, before: StoreIndex) -> StoreIndex {
         if let Some((_, copy)) = self.copies.iter().find(|(of, _)| *of == before) {
-            return Some(*copy);
+            return *copy;
         }
         if !self.overwrites(number, pass, sampled) {
-            return Some(before);
+            return before;
         }
+        self.copied(pass, sampled, before)
+    }
+
+    /// A copy of what a pass samples of `before`, in which it writes.
+    fn copied(&mut self, pass: &Pass, sampled: &Sampled, before: StoreIndex) -> StoreIndex {
+        let image = sampled.image;
         let declared = &self.input.frame.images[image.0 as usize];
         let because = format!("`{}` samples `{}` while it writes it", pass.name, declared.name);
         let why = self.reason(because, sampled.span);
-        let samples = self.current_samples(image);
+        let samples = self.samples(before);
         let copy = self.second(image, "copy", why.clone(), samples);
         // Whatever the pass samples of the image it then finds in the copy.
         let also = pass.sampled.iter().filter(|other| other.image == image && other.frames_ago == 0);
@@ -289,7 +294,7 @@ impl Adapter<'_> {
             }
         }
         self.copies.push((before, copy));
-        Some(copy)
+        copy
     }
 
     /// Whether a pass writes what it samples, in the very image that it samples.

@@ -24,23 +24,32 @@ impl LastUse {
     }
 }
 
-/// The last uses of all cells.
+/// The last uses of all cells: most often they are all alike.
 #[derive(Debug, Clone, Default)]
-pub(super) struct LastUses(Vec<LastUse>);
+pub(super) struct LastUses {
+    first: Option<LastUse>,
+    others: Vec<LastUse>,
+}
 
 impl LastUses {
     /// Adds how `cell` was used last, in `step`. Each cell is added once.
     pub(super) fn add(&mut self, cell: CellIndex, stages: Stages, accesses: Accesses, step: u32) {
         let writes = accesses.writes();
-        match self.0.iter_mut().find(|it| it.stages == stages && it.writes == writes) {
+        match self.first.iter_mut().chain(&mut self.others).find(|it| it.stages == stages && it.writes == writes) {
             Some(same) if step > same.last => *same = LastUse { last: step, cell, before: Some(same.last), ..*same },
             Some(same) => same.before = same.before.max(Some(step)),
-            None => self.0.push(LastUse { stages, writes, last: step, cell, before: None }),
+            None => {
+                let new = LastUse { stages, writes, last: step, cell, before: None };
+                match self.first {
+                    None => self.first = Some(new),
+                    Some(_) => self.others.push(new),
+                }
+            }
         }
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = &LastUse> {
-        self.0.iter()
+        self.first.iter().chain(&self.others)
     }
 }
 
@@ -55,7 +64,7 @@ mod tests {
             uses.add(cell, Stages::CLEAR, Accesses::TRANSFER_WRITE, step);
         }
         uses.add(3, Stages::COPY, Accesses::TRANSFER_READ, 9);
-        let [cleared, read] = uses.0[..] else { panic!("two kinds of uses") };
+        let [cleared, read] = uses.iter().collect::<Vec<_>>()[..] else { panic!("two kinds of uses") };
         assert_eq!((cleared.last, cleared.apart_from(0), cleared.apart_from(1)), (7, Some(7), Some(5)));
         assert_eq!((read.writes, read.last, read.apart_from(3)), (Accesses::empty(), 9, None));
     }

@@ -95,6 +95,6 @@ pub fn compile(
     options: &Options,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let (mut structure, substitute) = Structure::find_with_fallback(frame, device, options, false)?;
-    let settled = structure.settle(device, memory, options)?;
+    let settled = structure.settle_for_good(device, memory, options)?;
     Ok(emit::emit(&Parts::new(substitute.as_ref().unwrap_or(frame), device, &structure, &settled)))
 }

@@ -74,8 +74,9 @@ impl Occupancy {
     /// Follows who holds which bytes of a heap. `pieces`: for each store the first of the pieces that its ends cut the heap
     /// into, and the first behind it.
     fn heap(&mut self, placed: &Placed, lifetimes: &[[u32; 2]], heap: u32, pieces: &mut [[u32; 2]]) {
-        let mut members: Vec<(u32, StoreIndex)> = Vec::new();
-        let mut ends: Vec<(u64, StoreIndex, bool)> = Vec::new();
+        let most = placed.placements.len();
+        let mut members: Vec<(u32, StoreIndex)> = Vec::with_capacity(most);
+        let mut ends: Vec<(u64, StoreIndex, bool)> = Vec::with_capacity(2 * most);
         for (placement, store) in placed.placements.iter().zip(0_u32..) {
             if let Some(placement) = placement.as_ref().filter(|placement| placement.heap == heap) {
                 members.push((lifetimes[store as usize][0], store));
@@ -87,6 +88,8 @@ impl Occupancy {
             members.sort_unstable();
         }
         ends.sort_unstable();
+        self.ends.reserve(ends.len());
+        self.taken.reserve(ends.len());
         let mut piece = 0;
         let mut before = None;
         for (offset, store, upper) in ends {

@@ -66,7 +66,8 @@ pub(super) fn place(
             placed.placements.push(None);
             continue;
         }
-        let heap = choose_heap(&mut placed.heaps, &mut members, &needs, lazily, store.image().is_some());
+        let most = adapted.stores.len() - at as usize;
+        let heap = choose_heap(&mut placed.heaps, &mut members, &needs, lazily, store.image().is_some(), most);
         let block = Block { first: span[0], last: span[1], bytes: needs.bytes, alignment: needs.alignment };
         members[heap].list.push((at, block));
         placed.transient_bytes = placed.transient_bytes.saturating_add(needs.bytes);
@@ -114,20 +115,21 @@ pub(super) fn place(
     Ok(placed)
 }
 
-/// The first heap whose memory types fit, narrowed to those that both accept.
+/// The first heap whose memory types fit, narrowed to those that both accept; a new one for `most` members.
 fn choose_heap(
     heaps: &mut Vec<Heap>,
     members: &mut Vec<Members>,
     needs: &MemoryNeeds,
     lazily: bool,
     images: bool,
+    most: usize,
 ) -> usize {
     let fits = |(heap, members): (&Heap, &Members)| {
         members.images == images && heap.lazily_allocated == lazily && heap.type_bits & needs.type_bits != 0
     };
     let at = heaps.iter().zip(members.iter()).position(fits).unwrap_or_else(|| {
         heaps.push(Heap { bytes: 0, alignment: 1, type_bits: needs.type_bits, lazily_allocated: lazily });
-        members.push(Members { images, list: Vec::new() });
+        members.push(Members { images, list: Vec::with_capacity(most) });
         heaps.len() - 1
     });
     heaps[at].type_bits &= needs.type_bits;

@@ -35,7 +35,7 @@ impl Scoped {
 #[derive(Debug, PartialEq)]
 pub(super) enum Step {
     /// A rendering scope.
-    Scope(Scope),
+    Scope(Box<Scope>),
     /// One operation that is not drawn.
     Single(u32),
     /// The promised state of what outlives the frame.
@@ -278,7 +278,7 @@ impl Builder<'_> {
         let (adapted, uses) = (self.adapted, self.adapted.uses(op));
         let color = colors_of(adapted, uses);
         let resolves = vec![None; color.len()];
-        self.steps.push(Step::Scope(Scope {
+        self.steps.push(Step::Scope(Box::new(Scope {
             color,
             depth: plane_of(adapted, uses, Role::Depth),
             stencil: plane_of(adapted, uses, Role::Stencil),
@@ -286,7 +286,7 @@ impl Builder<'_> {
             resolves,
             depth_resolve: None,
             local: false,
-        }));
+        })));
     }
 
     fn name(&self, store: StoreIndex) -> &str {

@@ -161,6 +161,21 @@ impl Structure {
         Ok(Settled { placed, spans, occupancy, batched, memory: hand_overs, exact_memory: memory.exact() })
     }
 
+    /// As [`Structure::settle`], where nothing is settled again: what only that takes needn't lie beside the Plan.
+    pub(super) fn settle_for_good(
+        &mut self,
+        device: &Profile,
+        memory: &mut dyn MemoryProvider,
+        options: &Options,
+    ) -> Result<Settled, Vec<Diagnostic>> {
+        let mut settled = self.settle(device, memory, options)?;
+        settled.occupancy = Occupancy::default();
+        self.walked.cells = Vec::new();
+        self.walked.lifetimes = Vec::new();
+        self.scheduled.order = Vec::new();
+        Ok(settled)
+    }
+
     /// Settles again where the structure held for other sizes. `pending`: barriers as `find` left them.
     pub(super) fn settle_again(
         &mut self,

@@ -317,6 +317,20 @@ fn apply(walked: &mut Walked, need: &Need, step: u32, lasts: bool) {
         let lifetime = &mut lifetimes[need.store as usize];
         *lifetime = [lifetime[0].min(step), step];
     }
+    if cell.is_touched()
+        && !writes
+        && !cell.writes()
+        && cell.layout == need.layout
+        && (lasts || need.stages.contains(cell.stages))
+    {
+        cell.stages |= need.stages;
+        cell.accesses |= need.accesses;
+        cell.last = step;
+        let before = &mut barriers[cell.barrier as usize];
+        before.dst_stages |= need.stages;
+        before.dst_accesses |= need.accesses;
+        return;
+    }
     let barrier = barriers.len() as u32;
     let mut pending = Pending {
         cell: need.cell,
@@ -334,14 +348,6 @@ fn apply(walked: &mut Walked, need: &Need, step: u32, lasts: bool) {
     };
     if !cell.is_touched() {
         cell.first_barrier = barrier;
-    } else if !writes && !cell.writes() && cell.layout == need.layout && (lasts || need.stages.contains(cell.stages)) {
-        cell.stages |= need.stages;
-        cell.accesses |= need.accesses;
-        cell.last = step;
-        let before = &mut barriers[cell.barrier as usize];
-        before.dst_stages |= need.stages;
-        before.dst_accesses |= need.accesses;
-        return;
     } else {
         if cell.barrier == cell.first_barrier {
             cell.second_barrier = barrier;

@@ -33,6 +33,7 @@ pub(super) fn distinct_names(frame: &Frame, stores: &mut [Store]) {
 
 impl Adapter<'_> {
     /// The physical image with the current version; there is one, since `link` saw a version.
+    #[inline]
     pub(super) fn current(&mut self, image: ImageIndex) -> StoreIndex {
         match self.store_of[image.0 as usize] {
             Some(store) => store,
@@ -43,6 +44,11 @@ impl Adapter<'_> {
     /// The samples of an image's current version.
     pub(super) fn current_samples(&mut self, image: ImageIndex) -> u32 {
         let store = self.current(image);
+        self.samples(store)
+    }
+
+    /// The samples of a physical image.
+    pub(super) fn samples(&self, store: StoreIndex) -> u32 {
         self.adapted.stores[store as usize].image().map_or(1, |descriptor| descriptor.samples)
     }
 

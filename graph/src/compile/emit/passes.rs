@@ -119,7 +119,7 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
         }
     };
     let mut planned = bare(name, cause, draw, groups, shader);
-    planned.accesses.reserve_exact(uses.len());
+    planned.accesses = Vec::with_capacity(uses.len());
     for used in uses {
         if parts.subjects[used.store as usize].is_image {
             planned.accesses.push(access(parts, used, binding(used, declared)));

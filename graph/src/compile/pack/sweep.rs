@@ -14,7 +14,10 @@ const NONE: u32 = u32::MAX;
 pub(super) fn sweep(blocks: &[Block], peak: Peak, mut gaps: Gaps) -> Packing {
     let mut packing = Packing { offsets: vec![0; blocks.len()], height: 0 };
     let mut order: Vec<u32> = (0..blocks.len() as u32).collect();
-    order.sort_by_key(|at| (blocks[*at as usize].first, Reverse(blocks[*at as usize].bytes)));
+    let key = |at: &u32| (blocks[*at as usize].first, Reverse(blocks[*at as usize].bytes));
+    if !order.is_sorted_by_key(key) {
+        order.sort_by_key(key);
+    }
     let mut ranges = vec![NONE; blocks.len()];
     // For each step the blocks that end there, as lists.
     let mut heads = vec![NONE; steps(blocks)];
