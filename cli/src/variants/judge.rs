@@ -37,8 +37,11 @@ pub(crate) struct Judge<'a> {
     /// By device.
     compilers: Vec<Compiler>,
     /// The last frame with the choice that it is made for, but for the device: it serves for all of them.
-    last: Option<(Choice, Result<Arc<Frame>, Vec<Diagnostic>>)>,
+    last: Option<(Choice, Made)>,
 }
+
+/// A frame, or everything that is wrong with it.
+type Made = Result<Arc<Frame>, Vec<Diagnostic>>;
 
 /// A variant of which nothing is wrong.
 #[derive(Debug, Clone, Copy)]
@@ -74,7 +77,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn frame(&mut self, choice: &Choice) -> Result<Arc<Frame>, Vec<Diagnostic>> {
+    fn frame(&mut self, choice: &Choice) -> Made {
         let without_device = &choice[..choice.len().saturating_sub(1)];
         match &self.last {
             Some((last, frame)) if last == without_device => frame.clone(),

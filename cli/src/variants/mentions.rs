@@ -43,10 +43,10 @@ impl<'a> Mentions<'a> {
                 after_comment(from)
             } else if from.starts_with('\'') {
                 after_character(from)
-            } else if from.starts_with('"') {
+            } else if let Some(inside) = from.strip_prefix('"') {
                 let raw = before.trim_end_matches('#').ends_with('r');
                 let fence = before.len() - before.trim_end_matches('#').len();
-                if raw { self.raw_string(&from[1..], fence) } else { self.string(&from[1..]) }
+                if raw { self.raw_string(inside, fence) } else { self.string(inside) }
             } else {
                 &from[1..]
             };
