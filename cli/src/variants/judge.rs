@@ -1,6 +1,7 @@
 //! What becomes of one variant: put together, compiled, verified.
 
 use super::axes::{self, Axes};
+use super::identity;
 use super::shaders::Shared;
 use super::space::Choice;
 use crate::check;
@@ -9,11 +10,9 @@ use framewright_graph::describe::{Diagnostic, Pipeline};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::frame::Frame;
-use framewright_graph::plan::{DeviceUsed, Plan, Totals};
+use framewright_graph::plan::Totals;
 use framewright_graph::source::Sources;
 use framewright_graph::verify;
-use std::hash::{DefaultHasher, Hash, Hasher};
-use std::io;
 use std::sync::Arc;
 
 /// What all variants have in common.
@@ -71,7 +70,7 @@ impl<'a> Judge<'a> {
         let plan = self.compilers[device].compile(&frame, profile, &mut Estimated(profile), &self.subject.options)?;
         let violations = verify::verify(plan);
         if violations.is_empty() {
-            Ok(Fine { plan: identity(plan), totals: plan.totals })
+            Ok(Fine { plan: identity::of(plan), totals: plan.totals })
         } else {
             Err(violations.iter().map(|violation| own_mistake(&violation.to_string())).collect())
         }
@@ -107,32 +106,5 @@ fn own_mistake(violation: &str) -> Diagnostic {
         message: format!("the Plan breaks its own rules, which is a mistake of framewright itself: {violation}"),
         labels: Vec::new(),
         help: None,
-    }
-}
-
-/// A hash of all of a Plan but what it is named for: the texts of settings and the device's name.
-fn identity(plan: &Plan) -> u64 {
-    let Plan { format_version: _, device, settings: _, images, buffers, heaps, steps, outputs, notes, totals } = plan;
-    let DeviceUsed { name: _, exact_memory } = device;
-    let mut hasher = Written(DefaultHasher::new());
-    let all = (exact_memory, images, buffers, heaps, steps, outputs, notes, totals);
-    if serde_json::to_writer(io::BufWriter::new(&mut hasher), &all).is_err() {
-        // A Plan without a JSON form is like no other.
-        std::ptr::from_ref(plan).hash(&mut hasher.0);
-    }
-    hasher.0.finish()
-}
-
-/// A hash of what is written.
-struct Written(DefaultHasher);
-
-impl io::Write for Written {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.write(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }
