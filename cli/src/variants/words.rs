@@ -55,8 +55,8 @@ fn with(variant: &Variant) -> String {
 
 fn plans(report: &Report) -> String {
     let line = |plan: &PlanTold| {
-        let variants = text::count(plan.variants, "variant", "variants");
-        format!("  {variants}, such as {}: {}\n", with(&plan.example), check::sums(&plan.totals))
+        let variants = text::count(plan.variants, "variant, ", "variants, such as ");
+        format!("  {variants}{}: {}\n", with(&plan.example), check::sums(&plan.totals))
     };
     let mut answer = text::count(report.distinct_plans, "distinct Plan", "distinct Plans") + "\n";
     answer.extend(report.plans.iter().take(MOST).map(line));
