@@ -39,7 +39,7 @@ pub struct SourceFile {
     /// Relative to the pipeline's own folder: stands in Plans, which must not depend on the working directory.
     pub relative: Arc<str>,
     /// The text.
-    pub text: String,
+    pub text: Arc<str>,
     line_starts: Vec<u32>,
 }
 
@@ -51,7 +51,8 @@ pub struct Sources {
 
 impl Sources {
     /// Adds a text and returns its number.
-    pub fn add(&mut self, shown: impl Into<String>, relative: &str, text: String) -> u32 {
+    pub fn add(&mut self, shown: impl Into<String>, relative: &str, text: impl Into<Arc<str>>) -> u32 {
+        let text = text.into();
         let line_starts = std::iter::once(0)
             .chain(text.bytes().zip(1..).filter(|(byte, _)| *byte == b'\n').map(|(_, at)| at))
             .collect();

@@ -1,43 +1,41 @@
 //! `sample`, `storage`, `uniform` and `params`: what a pass gives to its shader, by the shader's own names.
 
 use super::Diagnostic;
-use super::leaf::{Entries, Leaf, Shape};
+use super::leaf::{Leaf, Number, Shape};
 use super::names::Scope;
 use super::parts::{self, Selected};
 use super::pass::{Face, Param, ParamValue, Part, Sample, Storage, StorageAccess, Uniform};
 use super::pipeline::Name;
 use super::reader::Reader;
 use super::values;
+use crate::fields;
 use crate::vocabulary::Filter;
-use serde::Deserialize;
 use std::collections::HashMap;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SampleFields<'src> {
-    #[serde(borrow)]
-    image: Leaf<'src>,
-    mip: Option<Leaf<'src>>,
-    mips: Option<Leaf<'src>>,
-    layer: Option<Leaf<'src>>,
-    layers: Option<Leaf<'src>>,
-    plane: Option<Leaf<'src>>,
-    previous: Option<Leaf<'src>>,
-    filter: Option<Leaf<'src>>,
-    own_pixel: Option<Leaf<'src>>,
+fields! {
+    struct SampleFields<'src> {
+        image: Leaf<'src>,
+        mip: Option<Leaf<'src>>,
+        mips: Option<Leaf<'src>>,
+        layer: Option<Leaf<'src>>,
+        layers: Option<Leaf<'src>>,
+        plane: Option<Leaf<'src>>,
+        previous: Option<Leaf<'src>>,
+        filter: Option<Leaf<'src>>,
+        own_pixel: Option<Leaf<'src>>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StorageFields<'src> {
-    #[serde(borrow)]
-    image: Option<Leaf<'src>>,
-    buffer: Option<Leaf<'src>>,
-    mip: Option<Leaf<'src>>,
-    layer: Option<Leaf<'src>>,
-    layers: Option<Leaf<'src>>,
-    previous: Option<Leaf<'src>>,
-    access: Option<Leaf<'src>>,
+fields! {
+    struct StorageFields<'src> {
+        image: Option<Leaf<'src>>,
+        buffer: Option<Leaf<'src>>,
+        mip: Option<Leaf<'src>>,
+        layer: Option<Leaf<'src>>,
+        layers: Option<Leaf<'src>>,
+        previous: Option<Leaf<'src>>,
+        access: Option<Leaf<'src>>,
+    }
 }
 
 const IMAGES: &str = "a sampled image is `\"image\"`, `Samples(\"image\")`, `Resolved(\"image\")` or \
@@ -50,7 +48,7 @@ const ACCESSES: [(&str, StorageAccess); 3] =
     [("Read", StorageAccess::Read), ("Write", StorageAccess::Write), ("ReadWrite", StorageAccess::ReadWrite)];
 
 /// Images by the shader's names.
-pub(super) fn samples<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Sample>> {
+pub(super) fn samples<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Sample>> {
     entries(reader, leaf, "`sample`", "a sampled image", |reader, binding, value| {
         let (name, selected, filter, own_pixel) = match value.shape() {
             Shape::Parentheses => {
@@ -62,13 +60,11 @@ pub(super) fn samples<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: 
         };
         let image = face(reader, name).map(|(name, face)| (parts::image_part(reader, scope, name, selected), face));
         let filter = match filter {
-            Some(leaf) => {
-                values::choice(reader, leaf, "a filter", &FILTERS).map(|filter| Some(reader.spanned(leaf, filter)))
-            }
+            Some(leaf) => values::choice(reader, leaf, "a filter", &FILTERS).map(|filter| Some(leaf.spanned(filter))),
             None => Some(None),
         };
         let own_pixel = match own_pixel {
-            Some(leaf) => reader.truth(leaf).map(|own| Some(reader.spanned(leaf, own))),
+            Some(leaf) => reader.truth(leaf).map(|own| Some(leaf.spanned(own))),
             None => Some(None),
         };
         let (part, face) = image?;
@@ -77,17 +73,17 @@ pub(super) fn samples<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: 
 }
 
 /// An image's name, and which of its faces is meant.
-fn face<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<(Leaf<'src>, Face)> {
+fn face<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(Leaf<'src>, Face)> {
     if let Shape::Text = leaf.shape() {
         return Some((leaf, Face::Plain));
     }
     let (word, rest) = reader.word(leaf, "a face of an image", &["Samples", "Resolved"], IMAGES)?;
-    let (inner,): (Leaf<'_>,) = reader.inside(leaf, rest, &format!("{word}(\"image\")"))?;
+    let [inner]: [Leaf<'_>; 1] = reader.inside(leaf, rest, &format!("{word}(\"image\")"))?;
     Some((inner, if word == "Samples" { Face::Samples } else { Face::Resolved }))
 }
 
 /// Images and buffers that the shader reads and writes, by its names.
-pub(super) fn storage<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Storage>> {
+pub(super) fn storage<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Storage>> {
     entries(reader, leaf, "`storage`", "a storage image or buffer", |reader, binding, value| {
         let Shape::Parentheses = value.shape() else {
             let part = parts::any(reader, scope, value);
@@ -98,9 +94,7 @@ pub(super) fn storage<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: 
         let selected = Selected { mip, layer, layers, previous, ..Selected::default() };
         let part = parts::one_of(reader, scope, value, image, buffer, selected);
         let access = match access {
-            Some(leaf) => {
-                values::choice(reader, leaf, "an access", &ACCESSES).map(|access| Some(reader.spanned(leaf, access)))
-            }
+            Some(leaf) => values::choice(reader, leaf, "an access", &ACCESSES).map(|access| Some(leaf.spanned(access))),
             None => Some(None),
         };
         let (part, access) = (part?, access?);
@@ -122,7 +116,7 @@ pub(super) fn storage<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: 
 }
 
 /// Buffers that the shader reads as uniform blocks, by its names.
-pub(super) fn uniforms<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Uniform>> {
+pub(super) fn uniforms<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Uniform>> {
     entries(reader, leaf, "`uniform`", "a uniform block", |reader, binding, value| {
         let part = parts::buffer(reader, scope, value);
         Some(Uniform { binding: binding?, part: part? })
@@ -130,37 +124,37 @@ pub(super) fn uniforms<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf:
 }
 
 /// Values by the names of the shader's parameters.
-pub(super) fn params<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Param>> {
+pub(super) fn params<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Param>> {
     entries(reader, leaf, "`params`", "a parameter", |reader, name, leaf| {
         let value = match leaf.shape() {
             Shape::Text => ParamValue::Setting(scope.any_setting(reader, leaf)?),
             Shape::Word("true" | "false", None) => ParamValue::Bool(reader.truth(leaf)?),
-            Shape::Number if !leaf.0.contains(['.', 'e', 'E']) && reader.probe::<i64>(leaf).is_some() => {
-                ParamValue::Integer(reader.integer(leaf)?)
-            }
-            Shape::Number | Shape::Word("NaN" | "inf", None) => ParamValue::Number(reader.number(leaf)?),
+            Shape::Number => match leaf.number() {
+                Some(Number::Whole(number)) => ParamValue::Integer(number),
+                _ => ParamValue::Number(reader.number(leaf)?),
+            },
+            Shape::Word("NaN" | "inf", None) => ParamValue::Number(reader.number(leaf)?),
             _ => {
                 reader.expected(leaf, "a number, `true`, `false` or the name of a setting in quotes");
                 return None;
             }
         };
-        Some(Param { name: name?, value: reader.spanned(leaf, value) })
+        Some(Param { name: name?, value: leaf.spanned(value) })
     })
 }
 
 /// The entries of a map whose keys are names, each once.
 fn entries<'src, T>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     leaf: Leaf<'src>,
     map: &str,
     what: &str,
-    mut lower: impl FnMut(&mut Reader<'src>, Option<Name>, Leaf<'src>) -> Option<T>,
+    mut lower: impl FnMut(&mut Reader, Option<Name>, Leaf<'src>) -> Option<T>,
 ) -> Option<Vec<T>> {
-    let Entries(pairs) = reader.map(leaf, map)?;
     let mut names = HashMap::new();
     let mut list = Vec::new();
     let mut complete = true;
-    for (key, value) in pairs {
+    for (key, value) in reader.map(leaf, map)? {
         let name = reader.reference(key, what);
         if let Some(name) = &name
             && let Some(first) = names.insert(name.text.clone(), name.span)

@@ -6,35 +6,34 @@ use super::pipeline::{SettingKind, Value};
 use super::reader::Reader;
 use super::resources::{Buffer, Bytes, Lifetime};
 use super::{Spanned, lifetimes, values};
-use serde::Deserialize;
+use crate::fields;
 
 /// Most bytes that a buffer may have: 1 TiB.
 pub(crate) const LARGEST_BUFFER: i64 = 1 << 40;
 
-#[derive(Deserialize)]
-#[serde(rename = "Buffer", deny_unknown_fields)]
-pub(super) struct BufferFields<'src> {
-    #[serde(borrow)]
-    name: Leaf<'src>,
-    bytes: Leaf<'src>,
-    lifetime: Option<Leaf<'src>>,
+fields! {
+    pub(super) struct BufferFields<'src> as "Buffer" {
+        name: Leaf<'src>,
+        bytes: Leaf<'src>,
+        lifetime: Option<Leaf<'src>>,
+    }
 }
 
 const SIZES: &str = "a buffer's size is a number, the name of a setting, `Times(16, \"setting\")`, \
                      `PerTexel(4, \"image\")` or `Like(\"buffer\")`";
 
 /// A buffer, once its fields are told apart.
-pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, fields: &BufferFields<'src>) -> Option<Buffer> {
+pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &BufferFields<'src>) -> Option<Buffer> {
     let name = reader.name(fields.name, "a buffer");
-    let bytes = bytes(reader, scope, fields.bytes).map(|bytes| reader.spanned(fields.bytes, bytes));
+    let bytes = bytes(reader, scope, fields.bytes).map(|bytes| fields.bytes.spanned(bytes));
     let lifetime = match fields.lifetime {
         Some(leaf) => lifetimes::lower(reader, scope, leaf, lifetimes::Of::Buffer),
-        None => Some(Spanned { value: Lifetime::Transient, span: reader.span(fields.name.0) }),
+        None => Some(Spanned { value: Lifetime::Transient, span: fields.name.span() }),
     };
     Some(Buffer { name: name?, bytes: bytes?, lifetime: lifetime? })
 }
 
-fn bytes<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Bytes> {
+fn bytes<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Bytes> {
     let what = "size of a buffer in bytes";
     match leaf.shape() {
         Shape::Text | Shape::Number => {
@@ -51,10 +50,10 @@ fn bytes<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -
         _ => {
             let (word, rest) = reader.word(leaf, "a buffer's size", &["Times", "PerTexel", "Like"], SIZES)?;
             if word == "Like" {
-                let (other,): (Leaf<'_>,) = reader.inside(leaf, rest, "Like(\"buffer\")")?;
+                let [other]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Like(\"buffer\")")?;
                 return scope.buffer(reader, other).map(Bytes::Like);
             }
-            let (each, of): (Leaf<'_>, Leaf<'_>) = reader.inside(leaf, rest, &format!("{word}(16, \"…\")"))?;
+            let [each, of]: [Leaf<'_>; 2] = reader.inside(leaf, rest, &format!("{word}(16, \"…\")"))?;
             let each = values::constant(reader, each, "number of bytes", 1..=LARGEST_BUFFER);
             if word == "PerTexel" {
                 let image = scope.image(reader, of);

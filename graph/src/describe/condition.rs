@@ -7,12 +7,12 @@ use super::reader::Reader;
 use super::suggest;
 
 /// A condition.
-pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Condition> {
+pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Condition> {
     let Shape::Text = leaf.shape() else {
         reader.expected(leaf, "a condition in quotes");
         return None;
     };
-    let super::leaf::Text::Plain(text) = reader.read(leaf, "condition")? else {
+    let Some(text) = leaf.plain() else {
         reader.wrong(leaf, "conditions take no escapes", "");
         return None;
     };
@@ -28,10 +28,10 @@ pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Le
         }
         any.push(terms);
     }
-    complete.then_some(Condition { any, span: reader.span(leaf.0) })
+    complete.then_some(Condition { any, span: leaf.span() })
 }
 
-fn term<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, whole: Leaf<'src>, part: &'src str) -> Option<Term> {
+fn term<'src>(reader: &mut Reader, scope: &Scope<'_>, whole: Leaf<'src>, part: &'src str) -> Option<Term> {
     let trimmed = part.trim();
     let name = trimmed.trim_start_matches(['!', ' ']);
     let negated = trimmed[..trimmed.len() - name.len()].matches('!').count() % 2 == 1;
@@ -40,36 +40,36 @@ fn term<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, whole: Leaf<'src>, p
         reader.wrong(whole, "a name is missing in this condition", help);
         return None;
     }
-    let odd = |c: char| !(c.is_alphanumeric() || matches!(c, '_' | '-' | '.'));
+    let odd = |c: char| !(c.is_alphanumeric() || matches!(c, '_' | '.'));
     // A blank within a name stands before what doesn't belong there.
     if let Some(at) = name.find(|c: char| odd(c) && c != ' ').or_else(|| name.find(odd)) {
         let found = name[at..].trim_start();
         let found = &found[..found.chars().next().map_or(0, char::len_utf8)];
         let help = "a condition is made of names, `!`, `&&` and `||`";
-        reader.wrong(Leaf(found), format!("unexpected `{found}` in a condition"), help);
+        reader.wrong_part(whole, found, format!("unexpected `{found}` in a condition"), help);
         return None;
     }
     let subject = if name.contains('.') {
-        Subject::Fact(fact(reader, Leaf(name))?)
+        Subject::Fact(fact(reader, whole, name)?)
     } else {
-        Subject::Setting(truth(reader, scope, Leaf(name))?)
+        Subject::Setting(truth(reader, scope, whole, name)?)
     };
     Some(Term { subject, negated })
 }
 
-fn fact<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<Fact> {
-    let found = Fact::ALL.into_iter().find(|fact| fact.name() == leaf.0);
+fn fact(reader: &mut Reader, whole: Leaf<'_>, name: &str) -> Option<Fact> {
+    let found = Fact::ALL.into_iter().find(|fact| fact.name() == name);
     if found.is_none() {
-        let help = suggest::help(leaf.0, Fact::ALL.map(Fact::name)).unwrap_or_default();
-        reader.wrong(leaf, format!("there is no fact named `{}`", leaf.0), &help);
+        let help = suggest::help(name, Fact::ALL.map(Fact::name)).unwrap_or_default();
+        reader.wrong_part(whole, name, format!("there is no fact named `{name}`"), &help);
     }
     found
 }
 
 /// A setting that is `true` or `false`.
-fn truth<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<SettingRef> {
-    let span = reader.span(leaf.0);
-    let name = super::Name { text: leaf.0.into(), span };
+fn truth(reader: &mut Reader, scope: &Scope<'_>, whole: Leaf<'_>, name: &str) -> Option<SettingRef> {
+    let span = whole.span_of(name);
+    let name = super::Name { text: name.into(), span };
     let index = scope.settings.find(reader, &name)?;
     let reference = SettingRef { index, span };
     scope.fitting(reader, reference, |kind| matches!(kind, SettingKind::Bool { .. }), "`true` or `false`")

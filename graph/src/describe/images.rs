@@ -6,8 +6,8 @@ use super::pipeline::{ImageRef, Name, SettingKind, Value};
 use super::reader::Reader;
 use super::resources::{Format, Image, Layers, Lifetime, Mips, Samples, Shape as ImageShape, Size};
 use super::{Spanned, lifetimes, values};
+use crate::fields;
 use crate::format;
-use serde::Deserialize;
 
 /// Largest width and height that a file may ask for.
 pub(crate) const LARGEST_SIZE: u32 = 16384;
@@ -21,25 +21,23 @@ const MOST_MIPS: i64 = 15;
 /// Sample counts that a file may ask for.
 pub(crate) const SAMPLE_COUNTS: [i64; 5] = [1, 2, 4, 8, 16];
 
-#[derive(Deserialize)]
-#[serde(rename = "Image", deny_unknown_fields)]
-pub(super) struct ImageFields<'src> {
-    #[serde(borrow)]
-    name: Leaf<'src>,
-    format: Leaf<'src>,
-    size: Leaf<'src>,
-    samples: Option<Leaf<'src>>,
-    mips: Option<Leaf<'src>>,
-    layers: Option<Leaf<'src>>,
-    shape: Option<Leaf<'src>>,
-    lifetime: Option<Leaf<'src>>,
+fields! {
+    pub(super) struct ImageFields<'src> as "Image" {
+        name: Leaf<'src>,
+        format: Leaf<'src>,
+        size: Leaf<'src>,
+        samples: Option<Leaf<'src>>,
+        mips: Option<Leaf<'src>>,
+        layers: Option<Leaf<'src>>,
+        shape: Option<Leaf<'src>>,
+        lifetime: Option<Leaf<'src>>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ColorFields<'src> {
-    #[serde(borrow)]
-    hdr: Option<Leaf<'src>>,
+fields! {
+    struct ColorFields<'src> {
+        hdr: Option<Leaf<'src>>,
+    }
 }
 
 const FORMATS: &str = "a format is `Color(hdr: …)`, `Depth`, `DepthStencil`, `Output`, `Like(\"image\")` or one of Vulkan's, such as `R16G16B16A16_SFLOAT`";
@@ -48,7 +46,7 @@ const SIZES: &str =
 const COUNTS: &str = "sample counts are 1, 2, 4, 8, 16, the name of a setting, or `Like(\"image\")`";
 
 /// An image, once its fields are told apart.
-pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, fields: &ImageFields<'src>) -> Option<Image> {
+pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &ImageFields<'src>) -> Option<Image> {
     let name = reader.name(fields.name, "an image");
     let format = format(reader, scope, fields.format);
     let size = size(reader, scope, fields.size);
@@ -65,8 +63,8 @@ pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, fields: 
     };
     Some(Image {
         name: name?,
-        format: reader.spanned(fields.format, format?),
-        size: reader.spanned(fields.size, size?),
+        format: fields.format.spanned(format?),
+        size: fields.size.spanned(size?),
         samples: samples?,
         mips: mips?,
         layers: layers?,
@@ -77,30 +75,25 @@ pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, fields: 
 
 /// The value of a field that may be absent; its place is then the image's name.
 fn or<'src, T>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     leaf: Option<Leaf<'src>>,
     name: &Option<Name>,
     absent: T,
-    lower: impl FnOnce(&mut Reader<'src>, Leaf<'src>) -> Option<T>,
+    lower: impl FnOnce(&mut Reader, Leaf<'src>) -> Option<T>,
 ) -> Option<Spanned<T>> {
     match leaf {
-        Some(leaf) => lower(reader, leaf).map(|value| reader.spanned(leaf, value)),
+        Some(leaf) => lower(reader, leaf).map(|value| leaf.spanned(value)),
         None => name.as_ref().map(|name| Spanned { value: absent, span: name.span }),
     }
 }
 
 /// `("image")`, what stands behind `Like`.
-fn like<'src>(
-    reader: &mut Reader<'src>,
-    scope: &Scope<'_>,
-    leaf: Leaf<'src>,
-    rest: Option<Leaf<'src>>,
-) -> Option<ImageRef> {
-    let (image,): (Leaf<'_>,) = reader.inside(leaf, rest, "Like(\"image\")")?;
+fn like<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>, rest: Option<Leaf<'src>>) -> Option<ImageRef> {
+    let [image]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Like(\"image\")")?;
     scope.image(reader, image)
 }
 
-fn format<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Format> {
+fn format<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Format> {
     let known: Vec<&str> = ["Color", "Depth", "DepthStencil", "Output", "Like"]
         .into_iter()
         .chain(format::Format::ALL.iter().map(|f| f.name()))
@@ -139,22 +132,22 @@ fn format<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) 
     }
 }
 
-fn size<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Size> {
+fn size<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Size> {
     let (word, rest) = reader.word(leaf, "a size", &["Output", "Scaled", "Fixed", "Like"], SIZES)?;
     match word {
         "Output" => reader.bare(word, rest).map(|()| Size::Output),
         "Like" => like(reader, scope, leaf, rest).map(Size::Like),
         "Fixed" => {
-            let (width, height): (Leaf<'_>, Leaf<'_>) = reader.inside(leaf, rest, "Fixed(width, height)")?;
+            let [width, height]: [Leaf<'_>; 2] = reader.inside(leaf, rest, "Fixed(width, height)")?;
             let (width, height) = (extent(reader, width), extent(reader, height));
             Some(Size::Fixed([width?, height?]))
         }
         _ => {
-            let both: Option<(Leaf<'_>, Leaf<'_>)> = rest.and_then(|rest| reader.probe(rest));
+            let both = rest.and_then(Leaf::tuple);
             let (by, of) = match both {
-                Some((by, of)) => (by, Some(scope.image(reader, of))),
+                Some([by, of]) => (by, Some(scope.image(reader, of))),
                 None => {
-                    let (by,): (Leaf<'_>,) = reader.inside(leaf, rest, "Scaled(0.5)` or `Scaled(0.5, \"image\")")?;
+                    let [by]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Scaled(0.5)` or `Scaled(0.5, \"image\")")?;
                     (by, None)
                 }
             };
@@ -167,7 +160,7 @@ fn size<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) ->
     }
 }
 
-fn extent<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<u32> {
+fn extent<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<u32> {
     let extent = reader.integer(leaf)?;
     match u32::try_from(extent) {
         Ok(extent @ 1..=LARGEST_SIZE) => Some(extent),
@@ -178,7 +171,7 @@ fn extent<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<u32> {
     }
 }
 
-fn scale<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Value<f64>> {
+fn scale<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Value<f64>> {
     if let Shape::Text = leaf.shape() {
         let setting = scope.setting(reader, leaf, |kind| !matches!(kind, SettingKind::Bool { .. }), "a number")?;
         let least = match scope.kinds.get(setting.index)?.as_ref().map(|setting| &setting.kind)? {
@@ -204,7 +197,7 @@ fn scale<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -
     Some(Value::Constant(by))
 }
 
-fn samples<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Samples> {
+fn samples<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Samples> {
     match leaf.shape() {
         Shape::Text => {
             let whole = |kind: &SettingKind| matches!(kind, SettingKind::OneOf { .. } | SettingKind::Integer { .. });
@@ -233,7 +226,7 @@ fn samples<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>)
     }
 }
 
-fn mips<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Mips> {
+fn mips<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Mips> {
     let forms = "mip levels are a number, the name of a setting, `Full` or `Like(\"image\")`";
     if let Shape::Text | Shape::Number = leaf.shape() {
         return values::whole(reader, scope, leaf, "number of mip levels", 1..=MOST_MIPS).map(Mips::Count);
@@ -245,7 +238,7 @@ fn mips<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) ->
     }
 }
 
-fn layers<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Layers> {
+fn layers<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Layers> {
     let forms = "layers are a number, the name of a setting or `Like(\"image\")`";
     if let Shape::Text | Shape::Number = leaf.shape() {
         return values::whole(reader, scope, leaf, "number of layers", 1..=MOST_LAYERS).map(Layers::Count);
@@ -254,14 +247,14 @@ fn layers<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) 
     like(reader, scope, leaf, rest).map(Layers::Like)
 }
 
-fn shape<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<ImageShape> {
+fn shape<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<ImageShape> {
     let forms = "a shape is `D2`, `D3(depth)` or `Cube`";
     let (word, rest) = reader.word(leaf, "a shape", &["D2", "D3", "Cube"], forms)?;
     match word {
         "D2" => reader.bare(word, rest).map(|()| ImageShape::D2),
         "Cube" => reader.bare(word, rest).map(|()| ImageShape::Cube),
         _ => {
-            let (depth,): (Leaf<'_>,) = reader.inside(leaf, rest, "D3(64)")?;
+            let [depth]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "D3(64)")?;
             values::whole(reader, scope, depth, "depth", 1..=i64::from(LARGEST_SIZE)).map(ImageShape::D3)
         }
     }

@@ -1,26 +1,27 @@
-//! Pieces of the file's text that are values, read one by one so that one mistake doesn't hide the next.
+//! Values of a file's tree, read one by one so that one mistake doesn't hide the next.
 
-use ron::value::RawValue;
-use serde::Deserialize;
-use serde::de::{self, Deserializer, MapAccess, Visitor};
-use std::fmt;
+use super::pipeline::Spanned;
+use super::tree::{Kind, Node, Tree};
+use super::{escapes, numbers};
+use crate::source::Span;
+use std::borrow::Cow;
 
-/// The text of one value, without the blanks and comments around it. It is a slice of the file, so it knows its place.
+/// One value of a [`Tree`]. A handle, copied freely.
 #[derive(Debug, Clone, Copy)]
-pub struct Leaf<'src>(
-    /// The slice.
-    pub &'src str,
-);
+pub struct Leaf<'t> {
+    tree: &'t Tree,
+    node: u32,
+}
 
-/// What a value looks like, told by how it begins.
+/// What a value looks like.
 #[derive(Debug, Clone, Copy)]
-pub enum Shape<'src> {
+pub enum Shape<'t> {
     /// `"text"`
     Text,
     /// `1`, `-0.5`
     Number,
-    /// `Word` or `Word(…)`, split after the word.
-    Word(&'src str, Option<Leaf<'src>>),
+    /// `Word` or `Word(…)`, with the parentheses by themselves.
+    Word(&'t str, Option<Leaf<'t>>),
     /// `(…)`
     Parentheses,
     /// `[…]`
@@ -49,89 +50,195 @@ impl Shape<'_> {
     }
 }
 
-impl<'src> Leaf<'src> {
+/// What a number is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Number {
+    /// Written without point and exponent.
+    Whole(i64),
+    /// The same, and beyond 64 bits; the nearest floating-point number.
+    Huge(f64),
+    /// Written with point or exponent; finite unless it is too large.
+    Real(f64),
+    /// `-inf` and the like.
+    NotFinite,
+}
+
+impl<'t> Leaf<'t> {
+    pub(super) const fn new(tree: &'t Tree, node: u32) -> Leaf<'t> {
+        Leaf { tree, node }
+    }
+
+    fn node(self) -> Node {
+        self.tree.nodes[self.node as usize]
+    }
+
     /// What it looks like.
     #[must_use]
-    pub fn shape(self) -> Shape<'src> {
-        let text = self.0;
-        match text.bytes().next() {
-            Some(b'"') => Shape::Text,
-            Some(b'r') if text[1..].trim_start_matches('#').starts_with('"') => Shape::Text,
-            Some(b'b') if text[1..].starts_with(['"', '\'', 'r']) => Shape::Other,
-            Some(b'0'..=b'9' | b'+' | b'-' | b'.') => Shape::Number,
-            Some(b'(') => Shape::Parentheses,
-            Some(b'[') => Shape::List,
-            Some(b'{') => Shape::Map,
-            _ => {
-                let end = text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len());
-                let (word, rest) = text.split_at(end);
-                let rest = rest.trim_start();
-                match word {
-                    "" => Shape::Other,
-                    _ => Shape::Word(word, (!rest.is_empty()).then_some(Leaf(rest))),
-                }
+    pub fn shape(self) -> Shape<'t> {
+        match self.node().kind {
+            Kind::Text | Kind::Escaped | Kind::Raw => Shape::Text,
+            Kind::Number => Shape::Number,
+            Kind::Word => Shape::Word(self.text(), None),
+            Kind::Named => {
+                let word = Leaf::new(self.tree, self.node + 1);
+                Shape::Word(word.text(), Some(Leaf::new(self.tree, self.node + 2)))
             }
+            Kind::Fields | Kind::Tuple => Shape::Parentheses,
+            Kind::List => Shape::List,
+            Kind::Map => Shape::Map,
+            Kind::Other | Kind::Broken => Shape::Other,
         }
+    }
+
+    /// Whether it could not be read, which was reported already.
+    #[must_use]
+    pub fn is_broken(self) -> bool {
+        self.node().kind == Kind::Broken
+    }
+
+    /// The text of the whole value, as it stands in the file.
+    #[must_use]
+    pub fn text(self) -> &'t str {
+        let Node { start, end, .. } = self.node();
+        &self.tree.text[start as usize..end as usize]
+    }
+
+    /// Where it stands.
+    #[must_use]
+    pub fn span(self) -> Span {
+        let Node { start, end, .. } = self.node();
+        Span::new(self.tree.file, start, end)
+    }
+
+    /// Where it begins: its first character.
+    #[must_use]
+    pub fn start(self) -> Span {
+        let text = self.text();
+        self.span_of(&text[..text.chars().next().map_or(0, char::len_utf8)])
+    }
+
+    /// Where a part of [`text`](Leaf::text) stands. Only addresses are compared.
+    #[must_use]
+    pub fn span_of(self, part: &str) -> Span {
+        let node = self.node();
+        let before = (part.as_ptr() as usize).saturating_sub(self.text().as_ptr() as usize);
+        let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX).min(node.end);
+        let start = node.start as usize + before;
+        Span::new(self.tree.file, offset(start), offset(start + part.len()))
+    }
+
+    /// A value with its place.
+    pub(super) fn spanned<T>(self, value: T) -> Spanned<T> {
+        Spanned { value, span: self.span() }
+    }
+
+    /// What stands in the quotes, if this is a text without escapes.
+    #[must_use]
+    pub fn plain(self) -> Option<&'t str> {
+        let text = self.text();
+        match self.node().kind {
+            Kind::Text => text.get(1..text.len() - 1),
+            Kind::Raw => {
+                let hashes = text.bytes().skip(1).take_while(|byte| *byte == b'#').count();
+                text.get(hashes + 2..text.len() - hashes - 1)
+            }
+            _ => None,
+        }
+    }
+
+    /// The text that the quotes mean, if this is one.
+    #[must_use]
+    pub fn words(self) -> Option<Cow<'t, str>> {
+        if self.node().kind != Kind::Escaped {
+            return self.plain().map(Cow::Borrowed);
+        }
+        let text = self.text();
+        escapes::undo(text.get(1..text.len() - 1)?).ok().map(Cow::Owned)
+    }
+
+    /// The number, if this is one.
+    #[must_use]
+    pub fn number(self) -> Option<Number> {
+        if self.node().kind == Kind::Number { numbers::parse(self.text()) } else { None }
+    }
+
+    /// The values in `[…]` or in `(…)` without names of fields, in file order.
+    #[must_use]
+    pub fn values(self) -> Option<impl Iterator<Item = Leaf<'t>>> {
+        matches!(self.node().kind, Kind::List | Kind::Tuple).then(|| self.children())
+    }
+
+    /// The values of `(…)` if there are just so many.
+    #[must_use]
+    pub fn tuple<const N: usize>(self) -> Option<[Leaf<'t>; N]> {
+        if self.node().kind != Kind::Tuple {
+            return None;
+        }
+        let mut values = self.children();
+        let mut tuple = [self; N];
+        for slot in &mut tuple {
+            *slot = values.next()?;
+        }
+        values.next().is_none().then_some(tuple)
+    }
+
+    /// Names and values of the fields in `(…)` or `Word(…)`, in file order. `()` has none.
+    #[must_use]
+    pub fn fields(self) -> Option<impl Iterator<Item = (Leaf<'t>, Leaf<'t>)>> {
+        match self.node() {
+            Node { kind: Kind::Named, .. } => Leaf::new(self.tree, self.node + 2).own_fields(),
+            _ => self.own_fields(),
+        }
+    }
+
+    fn own_fields(self) -> Option<Pairs<'t>> {
+        let node = self.node();
+        let empty = node.kind == Kind::Tuple && node.after == self.node + 1;
+        (empty || node.kind == Kind::Fields).then(|| Pairs(self.children()))
+    }
+
+    /// The value of the field called `name`, if there is one.
+    #[must_use]
+    pub fn field(self, name: &str) -> Option<Leaf<'t>> {
+        self.fields()?.find_map(|(field, value)| (field.text() == name).then_some(value))
+    }
+
+    /// Keys and values of `{…}` in file order, doubles included.
+    #[must_use]
+    pub fn entries(self) -> Option<impl Iterator<Item = (Leaf<'t>, Leaf<'t>)>> {
+        (self.node().kind == Kind::Map).then(|| Pairs(self.children()))
+    }
+
+    fn children(self) -> Children<'t> {
+        Children { tree: self.tree, at: self.node + 1, after: self.node().after }
     }
 }
 
-impl<'de: 'src, 'src> Deserialize<'de> for Leaf<'src> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        <&RawValue>::deserialize(deserializer).map(|raw| Leaf(raw.trim().get_ron()))
+struct Children<'t> {
+    tree: &'t Tree,
+    at: u32,
+    after: u32,
+}
+
+impl<'t> Iterator for Children<'t> {
+    type Item = Leaf<'t>;
+
+    fn next(&mut self) -> Option<Leaf<'t>> {
+        if self.at >= self.after {
+            return None;
+        }
+        let leaf = Leaf::new(self.tree, self.at);
+        self.at = leaf.node().after;
+        Some(leaf)
     }
 }
 
-/// The entries of a map in file order, doubles included: a map type would merge them silently.
-pub(super) struct Entries<'src>(pub(super) Vec<(Leaf<'src>, Leaf<'src>)>);
+struct Pairs<'t>(Children<'t>);
 
-impl<'de: 'src, 'src> Deserialize<'de> for Entries<'src> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Pairs;
-        impl<'de> Visitor<'de> for Pairs {
-            type Value = Entries<'de>;
+impl<'t> Iterator for Pairs<'t> {
+    type Item = (Leaf<'t>, Leaf<'t>);
 
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a map")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Entries<'de>, A::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
-                }
-                Ok(Entries(entries))
-            }
-        }
-        deserializer.deserialize_map(Pairs)
-    }
-}
-
-/// A text without escapes borrows from the file; one with escapes can't.
-pub(super) enum Text<'src> {
-    /// As it stands in the file.
-    Plain(&'src str),
-    /// With its escapes undone.
-    Escaped(String),
-}
-
-impl<'de: 'src, 'src> Deserialize<'de> for Text<'src> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct AnyText;
-        impl<'de> Visitor<'de> for AnyText {
-            type Value = Text<'de>;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a text in quotes")
-            }
-
-            fn visit_borrowed_str<E: de::Error>(self, text: &'de str) -> Result<Text<'de>, E> {
-                Ok(Text::Plain(text))
-            }
-
-            fn visit_str<E: de::Error>(self, text: &str) -> Result<Text<'de>, E> {
-                Ok(Text::Escaped(text.to_owned()))
-            }
-        }
-        deserializer.deserialize_str(AnyText)
+    fn next(&mut self) -> Option<(Leaf<'t>, Leaf<'t>)> {
+        Some((self.0.next()?, self.0.next()?))
     }
 }

@@ -1,45 +1,44 @@
 //! How long contents live, and in which state they come in and go out.
 
+use super::fields::FromLeaf;
 use super::leaf::{Leaf, Shape};
 use super::names::Scope;
 use super::parts::MOST_FRAMES;
 use super::reader::Reader;
 use super::resources::{Fill, Lifetime, State, StateWord};
 use super::{Spanned, values};
+use crate::fields;
 use crate::vocabulary::{self, Accesses, Layout, Stages};
 use bitflags::Flags;
-use serde::Deserialize;
 
-#[derive(Deserialize, Default)]
-#[serde(deny_unknown_fields)]
-struct PersistentFields<'src> {
-    #[serde(borrow)]
-    initial: Option<Leaf<'src>>,
+fields! {
+    #[derive(Default)]
+    struct PersistentFields<'src> {
+        initial: Option<Leaf<'src>>,
+    }
 }
 
-#[derive(Deserialize, Default)]
-#[serde(deny_unknown_fields)]
-struct HistoryFields<'src> {
-    #[serde(borrow)]
-    frames: Option<Leaf<'src>>,
-    initial: Option<Leaf<'src>>,
+fields! {
+    #[derive(Default)]
+    struct HistoryFields<'src> {
+        frames: Option<Leaf<'src>>,
+        initial: Option<Leaf<'src>>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ImportedFields<'src> {
-    #[serde(borrow)]
-    before: Leaf<'src>,
-    after: Option<Leaf<'src>>,
+fields! {
+    struct ImportedFields<'src> {
+        before: Leaf<'src>,
+        after: Option<Leaf<'src>>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StateFields<'src> {
-    #[serde(borrow)]
-    stages: Leaf<'src>,
-    accesses: Leaf<'src>,
-    layout: Option<Leaf<'src>>,
+fields! {
+    struct StateFields<'src> {
+        stages: Leaf<'src>,
+        accesses: Leaf<'src>,
+        layout: Option<Leaf<'src>>,
+    }
 }
 
 const LIFETIMES: &str = "a lifetime is `Transient`, `Persistent(initial: …)`, `History(frames: 1, initial: …)`, \
@@ -56,7 +55,7 @@ pub(super) enum Of {
 
 /// A lifetime.
 pub(super) fn lower<'src>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     scope: &Scope<'_>,
     leaf: Leaf<'src>,
     of: Of,
@@ -88,16 +87,16 @@ pub(super) fn lower<'src>(
             Lifetime::Imported { before: before?, after: after? }
         }
         _ => {
-            let (other,): (Leaf<'_>,) = reader.inside(leaf, rest, "Like(\"name\")")?;
+            let [other]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Like(\"name\")")?;
             Lifetime::Like(scope.resource(reader, other)?)
         }
     };
-    Some(reader.spanned(leaf, lifetime))
+    Some(leaf.spanned(lifetime))
 }
 
 /// What stands in parentheses, if there are any.
-fn within<'src, T: Deserialize<'src> + Default>(
-    reader: &mut Reader<'src>,
+fn within<'src, T: FromLeaf<'src> + Default>(
+    reader: &mut Reader,
     leaf: Leaf<'src>,
     rest: Option<Leaf<'src>>,
     form: &str,
@@ -108,10 +107,10 @@ fn within<'src, T: Deserialize<'src> + Default>(
     }
 }
 
-fn initial<'src>(reader: &mut Reader<'src>, leaf: Option<Leaf<'src>>) -> Option<Option<Spanned<Fill>>> {
+fn initial<'src>(reader: &mut Reader, leaf: Option<Leaf<'src>>) -> Option<Option<Spanned<Fill>>> {
     let Some(leaf) = leaf else { return Some(None) };
     let value = values::fill(reader, leaf)?;
-    Some(Some(reader.spanned(leaf, value)))
+    Some(Some(leaf.spanned(value)))
 }
 
 const WORDS: [(&str, StateWord); 13] = [
@@ -165,7 +164,7 @@ impl StateWord {
 }
 
 /// A state, by purpose or in Vulkan's words.
-pub(super) fn state<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>, of: Of) -> Option<Spanned<State>> {
+pub(super) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: Of) -> Option<Spanned<State>> {
     if let Shape::Parentheses = leaf.shape() {
         let fields: StateFields<'_> = reader.read(leaf, "a state")?;
         let stages = flags::<Stages>(reader, fields.stages, "`stages`", "a pipeline stage");
@@ -183,7 +182,7 @@ pub(super) fn state<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>, of: Of) -
             }
         };
         let state = vocabulary::State { stages: stages?, accesses: accesses?, layout: layout? };
-        return Some(reader.spanned(leaf, State::Named(state)));
+        return Some(leaf.spanned(State::Named(state)));
     }
     let fitting: Vec<(&'static str, StateWord)> = WORDS.into_iter().filter(|(_, word)| word.fits(of)).collect();
     let known: Vec<&'static str> = WORDS.iter().map(|(word, _)| *word).collect();
@@ -196,11 +195,11 @@ pub(super) fn state<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>, of: Of) -
         reader.wrong(leaf, format!("{whose} can't be in the state `{word}`"), &forms);
         return None;
     };
-    Some(reader.spanned(leaf, State::Word(word)))
+    Some(leaf.spanned(State::Word(word)))
 }
 
 /// A list of Vulkan's words.
-fn flags<'src, F: Flags + Copy>(reader: &mut Reader<'src>, leaf: Leaf<'src>, field: &str, what: &str) -> Option<F> {
+fn flags<'src, F: Flags + Copy>(reader: &mut Reader, leaf: Leaf<'src>, field: &str, what: &str) -> Option<F> {
     let choices: Vec<(&'static str, F)> =
         F::FLAGS.iter().filter(|flag| !flag.is_unnamed()).map(|flag| (flag.name(), *flag.value())).collect();
     let mut all = F::empty();

@@ -1,7 +1,7 @@
 //! What a file can say: one type per concept, names with source spans, diagnostics.
 //!
 //! ```text
-//! bytes ─► text ─► RON, cut into leaves (leaf, reader) ─► settings, images, passes (one file each) ─► Pipeline
+//! bytes ─► text ─► tree (lexer, syntax) ─► leaves with fields (leaf, fields, reader) ─► settings, images, passes ─► Pipeline
 //! ```
 //! Whatever can be judged by the file alone is judged here, and everything that is wrong is reported at once. What
 //! depends on chosen settings, the scene, the view and the shaders comes in [`crate::expand`].
@@ -61,18 +61,23 @@
 //! CONDITION  names of settings and facts (`scene.has_opaque`, `scene.has_alpha_clip`, `scene.has_transparent`) with `!`,
 //!            `&&` and `||`, the last binding least
 //! ```
-//! Names that a file gives begin with a letter or `_` and go on with letters, digits, `_` and `-`, at most 64 bytes.
+//! Names that a file gives begin with a letter or `_` and go on with letters, digits and `_`, those of shaders and
+//! custom work with `-` too, at most 64 bytes.
 
 mod bindings;
 mod buffers;
 mod circles;
 mod condition;
 mod diagnostic;
+mod escapes;
+mod fields;
 mod images;
 mod json;
 mod leaf;
+mod lexer;
 mod lifetimes;
 mod names;
+mod numbers;
 mod outputs;
 mod parts;
 mod pass;
@@ -82,10 +87,11 @@ mod previous;
 mod reader;
 mod render;
 mod resources;
-mod reword;
 mod settings;
 mod suggest;
+mod syntax;
 mod targets;
+mod tree;
 mod values;
 mod work;
 
@@ -111,16 +117,21 @@ pub(crate) use work::MOST_GROUPS;
 
 /// What readers of RON files are made of: pipelines here, scenes elsewhere.
 pub mod text {
-    pub use super::leaf::{Leaf, Shape};
+    pub use super::fields::{Field, FromLeaf, Known, slots};
+    pub use super::leaf::{Leaf, Number, Shape};
     pub use super::names::Names;
     pub use super::reader::Reader;
+    pub use super::tree::Tree;
 }
 
+use crate::fields;
 use crate::source::{Sources, Span};
+use fields::FromLeaf;
 use leaf::{Leaf, Shape};
 use names::{Names, Scope};
 use reader::Reader;
-use serde::Deserialize;
+use std::sync::Arc;
+use tree::Tree;
 
 /// The version of the language that this library reads.
 pub const LANGUAGE_VERSION: i64 = 1;
@@ -128,31 +139,16 @@ pub const LANGUAGE_VERSION: i64 = 1;
 /// A pipeline file has at most this many bytes (16 MiB).
 pub const LARGEST_FILE: usize = 16 << 20;
 
-#[derive(Deserialize)]
-#[serde(rename = "Pipeline", deny_unknown_fields)]
-struct PipelineFields<'src> {
-    #[serde(borrow, rename = "version")]
-    _version: Leaf<'src>,
-    settings: Option<Leaf<'src>>,
-    images: Leaf<'src>,
-    buffers: Option<Leaf<'src>>,
-    passes: Leaf<'src>,
-    outputs: Leaf<'src>,
-}
-
-/// The version alone, whatever else the file says.
-#[derive(Deserialize)]
-#[serde(rename = "Pipeline")]
-struct VersionField<'src> {
-    #[serde(borrow)]
-    version: Leaf<'src>,
-}
-
-/// An entry's name alone, whatever else it says.
-#[derive(Deserialize)]
-struct NameField<'src> {
-    #[serde(borrow)]
-    name: Leaf<'src>,
+fields! {
+    struct PipelineFields<'src> as "Pipeline" {
+        #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
+        version: Leaf<'src>,
+        settings: Option<Leaf<'src>>,
+        images: Leaf<'src>,
+        buffers: Option<Leaf<'src>>,
+        passes: Leaf<'src>,
+        outputs: Leaf<'src>,
+    }
 }
 
 /// Reads a pipeline file's bytes; `shown` and `relative` are as in [`read`].
@@ -192,18 +188,23 @@ pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) ->
     if text.len() > LARGEST_FILE {
         return Err(vec![too_large(shown, text.len())]);
     }
-    let file = sources.add(shown, relative, text);
-    let text = sources.file(file as usize).map_or("", |file| file.text.as_str());
-    let mut reader = Reader::new(file, text);
-    let pipeline = whole(&mut reader, text);
-    let mut errors = reader.errors;
-    match pipeline {
-        Some(pipeline) if errors.is_empty() => Ok(pipeline),
-        _ => {
-            errors.sort_by_key(|error| error.labels.first().map_or(0, |label| label.span.start));
-            Err(errors)
-        }
+    let text: Arc<str> = text.into();
+    let file = sources.add(shown, relative, text.clone());
+    let mut errors = Vec::new();
+    if let Some(error) = no_pipeline(file, &text) {
+        return Err(vec![error]);
     }
+    let Some(tree) = Tree::read(file, text, &mut errors) else { return Err(in_order(errors)) };
+    let mut reader = Reader { errors };
+    match whole(&mut reader, tree.root()) {
+        Some(pipeline) if reader.errors.is_empty() => Ok(pipeline),
+        _ => Err(in_order(reader.errors)),
+    }
+}
+
+fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    errors.sort_by_key(|error| error.labels.first().map_or(0, |label| label.span.start));
+    errors
 }
 
 fn too_large(shown: &str, bytes: usize) -> Diagnostic {
@@ -214,27 +215,32 @@ fn too_large(shown: &str, bytes: usize) -> Diagnostic {
     }
 }
 
-/// The whole file. `None` if errors were reported.
-fn whole<'src>(reader: &mut Reader<'src>, text: &'src str) -> Option<Pipeline> {
-    let all = Leaf(text);
+/// What shows at once that this is not a pipeline.
+fn no_pipeline(file: u32, text: &str) -> Option<Diagnostic> {
+    let span = |start: usize, end: usize| {
+        let [start, end] = [start, end].map(|at| u32::try_from(at).unwrap_or(u32::MAX));
+        Span::new(file, start, end)
+    };
     if text.trim().is_empty() {
-        reader.wrong(all, "the file is empty", "a pipeline begins with `Pipeline(version: 1,`");
-        return None;
+        let empty = Diagnostic::new(span(0, text.len()), "the file is empty");
+        return Some(empty.help("a pipeline begins with `Pipeline(version: 1,`"));
     }
     if let Some(at) = text.find('\0') {
-        let zero = Leaf(&text[at..=at]);
-        reader.wrong(zero, format!("this is not a text file: byte {at} is 0x00"), "a pipeline is RON text in UTF-8");
-        return None;
+        let zero = Diagnostic::new(span(at, at + 1), format!("this is not a text file: byte {at} is 0x00"));
+        return Some(zero.help("a pipeline is RON text in UTF-8"));
     }
-    if text.starts_with('\u{feff}') {
-        reader.wrong(Leaf(&text[..3]), "the file begins with a byte order mark", "save it as UTF-8 without one");
-        return None;
-    }
-    let version = reader.probe::<VersionField<'_>>(all).map(|fields| fields.version);
-    if let Some(version) = version {
+    let mark = text.starts_with('\u{feff}');
+    let begins = || Diagnostic::new(span(0, 3), "the file begins with a byte order mark");
+    mark.then(|| begins().help("save it as UTF-8 without one"))
+}
+
+/// The whole file. `None` if errors were reported.
+fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<Pipeline> {
+    if let Some(version) = all.field("version") {
         let number = reader.integer(version)?;
         if number != LANGUAGE_VERSION {
             let message = format!("this file is written in version {number} of the language");
+            reader.errors.clear();
             reader.wrong(version, message, &format!("this program reads version {LANGUAGE_VERSION}"));
             return None;
         }
@@ -281,8 +287,8 @@ fn whole<'src>(reader: &mut Reader<'src>, text: &'src str) -> Option<Pipeline> {
 }
 
 /// Tells the fields of each entry of a list apart, and takes down the entries' names.
-fn entries<'src, T: Deserialize<'src>>(
-    reader: &mut Reader<'src>,
+fn entries<'src, T: FromLeaf<'src>>(
+    reader: &mut Reader,
     list: Leaf<'src>,
     field: &str,
     what: &'static str,
@@ -296,7 +302,7 @@ fn entries<'src, T: Deserialize<'src>>(
     leaves
         .into_iter()
         .map(|leaf| {
-            let name = reader.probe::<NameField<'_>>(leaf).and_then(|fields| reader.probe_name(fields.name));
+            let name = leaf.field("name").and_then(Name::written);
             let known = name.as_ref().map_or_else(|| format!("this {what}"), |name| format!("{what} `{}`", name.text));
             names.give(reader, name);
             if !matches!(leaf.shape(), Shape::Parentheses | Shape::Word(_, Some(_))) {

@@ -8,6 +8,14 @@ use crate::frame::{BufferIndex, ImageIndex, Resource};
 use std::collections::HashMap;
 use std::sync::Arc;
 
+impl Name {
+    /// A name as it stands in the file, without a judgement.
+    #[must_use]
+    pub fn written(leaf: Leaf<'_>) -> Option<Name> {
+        leaf.plain().map(|text| Name { text: text.into(), span: leaf.span() })
+    }
+}
+
 /// Names of one kind of thing, in file order.
 pub struct Names {
     what: &'static str,
@@ -25,7 +33,7 @@ impl Names {
     }
 
     /// Gives the next thing its name; `None` if it couldn't be read. Reports a name that is given twice.
-    pub fn give(&mut self, reader: &mut Reader<'_>, name: Option<Name>) {
+    pub fn give(&mut self, reader: &mut Reader, name: Option<Name>) {
         if let Some(name) = &name {
             match self.index.get(&name.text).and_then(|first| self.given[*first].as_ref()) {
                 Some(first) => reader.report(
@@ -44,7 +52,7 @@ impl Names {
 
     /// The index of the thing named `name`. Reports a name that doesn't exist, unless some name couldn't be read: it
     /// may be that one.
-    pub fn find(&self, reader: &mut Reader<'_>, name: &Name) -> Option<usize> {
+    pub fn find(&self, reader: &mut Reader, name: &Name) -> Option<usize> {
         if let Some(index) = self.index.get(&name.text) {
             return Some(*index);
         }
@@ -73,7 +81,7 @@ pub(super) struct Scope<'a> {
 
 impl Scope<'_> {
     /// An image that is referred to.
-    pub(super) fn image<'src>(&self, reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<ImageRef> {
+    pub(super) fn image<'src>(&self, reader: &mut Reader, leaf: Leaf<'src>) -> Option<ImageRef> {
         let name = reader.reference(leaf, "an image")?;
         if self.other_kind(reader, &name, self.images, self.buffers) {
             return None;
@@ -83,7 +91,7 @@ impl Scope<'_> {
     }
 
     /// A buffer that is referred to.
-    pub(super) fn buffer<'src>(&self, reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<BufferRef> {
+    pub(super) fn buffer<'src>(&self, reader: &mut Reader, leaf: Leaf<'src>) -> Option<BufferRef> {
         let name = reader.reference(leaf, "a buffer")?;
         if self.other_kind(reader, &name, self.buffers, self.images) {
             return None;
@@ -93,7 +101,7 @@ impl Scope<'_> {
     }
 
     /// An image or buffer that is referred to.
-    pub(super) fn resource<'src>(&self, reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<ResourceRef> {
+    pub(super) fn resource<'src>(&self, reader: &mut Reader, leaf: Leaf<'src>) -> Option<ResourceRef> {
         let name = reader.reference(leaf, "an image or buffer")?;
         let span = name.span;
         let index = |names: &Names| names.index.get(&name.text).and_then(|index| u32::try_from(*index).ok());
@@ -113,7 +121,7 @@ impl Scope<'_> {
     }
 
     /// Reports a name that is not among `wanted` but among `others`.
-    fn other_kind(&self, reader: &mut Reader<'_>, name: &Name, wanted: &Names, others: &Names) -> bool {
+    fn other_kind(&self, reader: &mut Reader, name: &Name, wanted: &Names, others: &Names) -> bool {
         let Some(other) = others.index.get(&name.text).and_then(|at| others.given[*at].as_ref()) else { return false };
         if wanted.index.contains_key(&name.text) {
             return false;
@@ -125,7 +133,7 @@ impl Scope<'_> {
     }
 
     /// Reports names that are given to an image and a buffer.
-    pub(super) fn images_and_buffers_differ(&self, reader: &mut Reader<'_>) {
+    pub(super) fn images_and_buffers_differ(&self, reader: &mut Reader) {
         for name in self.buffers.given.iter().flatten() {
             let Some(first) = self.images.index.get(&name.text).and_then(|at| self.images.given[*at].as_ref()) else {
                 continue;
@@ -136,7 +144,7 @@ impl Scope<'_> {
     }
 
     /// A setting that is referred to, of whatever type.
-    pub(super) fn any_setting<'src>(&self, reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<SettingRef> {
+    pub(super) fn any_setting<'src>(&self, reader: &mut Reader, leaf: Leaf<'src>) -> Option<SettingRef> {
         let name = reader.reference(leaf, "a setting")?;
         let index = self.settings.find(reader, &name)?;
         Some(SettingRef { index, span: name.span })
@@ -145,7 +153,7 @@ impl Scope<'_> {
     /// A setting that is referred to, which must be of a kind that `fits`; `wanted` says which.
     pub(super) fn setting<'src>(
         &self,
-        reader: &mut Reader<'src>,
+        reader: &mut Reader,
         leaf: Leaf<'src>,
         fits: impl Fn(&SettingKind) -> bool,
         wanted: &str,
@@ -157,7 +165,7 @@ impl Scope<'_> {
     /// Checks the kind of a setting.
     pub(super) fn fitting(
         &self,
-        reader: &mut Reader<'_>,
+        reader: &mut Reader,
         reference: SettingRef,
         fits: impl Fn(&SettingKind) -> bool,
         wanted: &str,

@@ -5,21 +5,20 @@ use super::names::Scope;
 use super::pipeline::{Output, ResourceRef};
 use super::reader::Reader;
 use super::{Diagnostic, lifetimes};
+use crate::fields;
 use crate::frame::Resource;
-use serde::Deserialize;
 use std::collections::HashMap;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct OutputFields<'src> {
-    #[serde(borrow)]
-    image: Option<Leaf<'src>>,
-    buffer: Option<Leaf<'src>>,
-    after: Option<Leaf<'src>>,
+fields! {
+    struct OutputFields<'src> {
+        image: Option<Leaf<'src>>,
+        buffer: Option<Leaf<'src>>,
+        after: Option<Leaf<'src>>,
+    }
 }
 
 /// The images and buffers that leave the frame, each once.
-pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, list: Leaf<'src>) -> Option<Vec<Output>> {
+pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, list: Leaf<'src>) -> Option<Vec<Output>> {
     let leaves = reader.list(list, "`outputs`")?;
     if leaves.is_empty() {
         reader.wrong(list, "a frame without outputs shows nothing", "name the image that is shown: `outputs: [\"…\"]`");
@@ -38,7 +37,7 @@ pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, list: Le
     outputs.into_iter().collect()
 }
 
-fn output<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Output> {
+fn output<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Output> {
     let Shape::Parentheses = leaf.shape() else {
         return Some(Output { resource: scope.resource(reader, leaf)?, after: None });
     };

@@ -5,8 +5,8 @@ use super::names::Scope;
 use super::pass::{BufferPart, ImagePart, Part, Selection};
 use super::reader::Reader;
 use super::values;
+use crate::fields;
 use crate::vocabulary::{Aspects, Subresources};
-use serde::Deserialize;
 
 /// An image or buffer can be read at most this many frames back.
 pub(super) const MOST_FRAMES: i64 = 64;
@@ -14,18 +14,17 @@ pub(super) const MOST_FRAMES: i64 = 64;
 /// Larger numbers of mip levels and layers stand in no image.
 const MOST_PARTS: i64 = 65535;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PartFields<'src> {
-    #[serde(borrow)]
-    image: Option<Leaf<'src>>,
-    buffer: Option<Leaf<'src>>,
-    mip: Option<Leaf<'src>>,
-    mips: Option<Leaf<'src>>,
-    layer: Option<Leaf<'src>>,
-    layers: Option<Leaf<'src>>,
-    plane: Option<Leaf<'src>>,
-    previous: Option<Leaf<'src>>,
+fields! {
+    struct PartFields<'src> {
+        image: Option<Leaf<'src>>,
+        buffer: Option<Leaf<'src>>,
+        mip: Option<Leaf<'src>>,
+        mips: Option<Leaf<'src>>,
+        layer: Option<Leaf<'src>>,
+        layers: Option<Leaf<'src>>,
+        plane: Option<Leaf<'src>>,
+        previous: Option<Leaf<'src>>,
+    }
 }
 
 /// What is said about a part besides the image's name.
@@ -42,7 +41,7 @@ pub(super) struct Selected<'src> {
 const PLANES: [(&str, Aspects); 2] = [("Depth", Aspects::DEPTH), ("Stencil", Aspects::STENCIL)];
 
 /// `"name"` or `(image: "name", mip: 1, …)` or `(buffer: "name", …)`.
-pub(super) fn any<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Part> {
+pub(super) fn any<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Part> {
     match leaf.shape() {
         Shape::Text => Some(match scope.resource(reader, leaf)?.resource {
             crate::frame::Resource::Image(_) => Part::Image(image(reader, scope, leaf)?),
@@ -64,7 +63,7 @@ pub(super) fn any<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf
 
 /// The part of whichever of `image` and `buffer` is there.
 pub(super) fn one_of<'src>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     scope: &Scope<'_>,
     whole: Leaf<'src>,
     image: Option<Leaf<'src>>,
@@ -92,7 +91,7 @@ pub(super) fn one_of<'src>(
 }
 
 /// `"name"` or `(image: "name", mip: 1, …)`.
-pub(super) fn image<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<ImagePart> {
+pub(super) fn image<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<ImagePart> {
     if let Shape::Parentheses = leaf.shape() {
         return match any(reader, scope, leaf)? {
             Part::Image(part) => Some(part),
@@ -106,7 +105,7 @@ pub(super) fn image<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Le
 }
 
 /// `"name"` or `(buffer: "name", previous: 1)`.
-pub(super) fn buffer<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<BufferPart> {
+pub(super) fn buffer<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<BufferPart> {
     if let Shape::Parentheses = leaf.shape() {
         return match any(reader, scope, leaf)? {
             Part::Buffer(part) => Some(part),
@@ -120,7 +119,7 @@ pub(super) fn buffer<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: L
 }
 
 fn buffer_part<'src>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     scope: &Scope<'_>,
     buffer: Leaf<'src>,
     previous: Option<Leaf<'src>>,
@@ -132,7 +131,7 @@ fn buffer_part<'src>(
 
 /// The part of the image that `name` names.
 pub(super) fn image_part<'src>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     scope: &Scope<'_>,
     name: Leaf<'src>,
     selected: Selected<'src>,
@@ -141,23 +140,21 @@ pub(super) fn image_part<'src>(
     let mips = selection(reader, selected.mip, selected.mips, "mip level", "number of mip levels");
     let layers = selection(reader, selected.layer, selected.layers, "layer", "number of layers");
     let plane = match selected.plane {
-        Some(plane) => {
-            values::choice(reader, plane, "a plane", &PLANES).map(|value| Some(reader.spanned(plane, value)))
-        }
+        Some(plane) => values::choice(reader, plane, "a plane", &PLANES).map(|value| Some(plane.spanned(value))),
         None => Some(None),
     };
     let previous = frames(reader, selected.previous);
     Some(ImagePart { image: image?, mips: mips?, layers: layers?, plane: plane?, previous: previous? })
 }
 
-fn frames<'src>(reader: &mut Reader<'src>, leaf: Option<Leaf<'src>>) -> Option<Option<super::Spanned<u32>>> {
+fn frames<'src>(reader: &mut Reader, leaf: Option<Leaf<'src>>) -> Option<Option<super::Spanned<u32>>> {
     let Some(leaf) = leaf else { return Some(None) };
     let frames = values::constant(reader, leaf, "number of frames to look back", 1..=MOST_FRAMES)?;
-    Some(Some(reader.spanned(leaf, frames)))
+    Some(Some(leaf.spanned(frames)))
 }
 
 fn selection<'src>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     first: Option<Leaf<'src>>,
     count: Option<Leaf<'src>>,
     one: &str,
@@ -176,7 +173,7 @@ fn selection<'src>(
         None => None,
     };
     let spanned = |part: Option<(Leaf<'src>, Option<u32>)>| match part {
-        Some((leaf, value)) => value.map(|value| Some(reader.spanned(leaf, value))),
+        Some((leaf, value)) => value.map(|value| Some(leaf.spanned(value))),
         None => Some(None),
     };
     Some(Selection { first: spanned(first)?, count: spanned(count)? })

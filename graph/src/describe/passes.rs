@@ -6,47 +6,45 @@ use super::pass::{Color, Depth, Forward, Part, Pass, Work};
 use super::pipeline::ImageRef;
 use super::reader::Reader;
 use super::{Diagnostic, bindings, condition, parts, targets, work};
-use serde::Deserialize;
+use crate::fields;
 use std::collections::HashMap;
 
-#[derive(Deserialize)]
-#[serde(rename = "Pass", deny_unknown_fields)]
-pub(super) struct PassFields<'src> {
-    #[serde(borrow)]
-    pub(super) name: Leaf<'src>,
-    pub(super) draw: Option<Leaf<'src>>,
-    pub(super) dispatch: Option<Leaf<'src>>,
-    pub(super) copy: Option<Leaf<'src>>,
-    pub(super) blit: Option<Leaf<'src>>,
-    pub(super) fill: Option<Leaf<'src>>,
-    pub(super) custom: Option<Leaf<'src>>,
-    pub(super) shader: Option<Leaf<'src>>,
-    pub(super) groups: Option<Leaf<'src>>,
-    pub(super) sample: Option<Leaf<'src>>,
-    pub(super) storage: Option<Leaf<'src>>,
-    pub(super) uniform: Option<Leaf<'src>>,
-    pub(super) vertex: Option<Leaf<'src>>,
-    pub(super) index: Option<Leaf<'src>>,
-    pub(super) color: Option<Leaf<'src>>,
-    pub(super) depth: Option<Leaf<'src>>,
-    pub(super) reads: Option<Leaf<'src>>,
-    pub(super) writes: Option<Leaf<'src>>,
-    pub(super) params: Option<Leaf<'src>>,
-    pub(super) side_effect: Option<Leaf<'src>>,
-    when: Option<Leaf<'src>>,
-    otherwise: Option<Leaf<'src>>,
+fields! {
+    pub(super) struct PassFields<'src> as "Pass" {
+        pub(super) name: Leaf<'src>,
+        pub(super) draw: Option<Leaf<'src>>,
+        pub(super) dispatch: Option<Leaf<'src>>,
+        pub(super) copy: Option<Leaf<'src>>,
+        pub(super) blit: Option<Leaf<'src>>,
+        pub(super) fill: Option<Leaf<'src>>,
+        pub(super) custom: Option<Leaf<'src>>,
+        pub(super) shader: Option<Leaf<'src>>,
+        pub(super) groups: Option<Leaf<'src>>,
+        pub(super) sample: Option<Leaf<'src>>,
+        pub(super) storage: Option<Leaf<'src>>,
+        pub(super) uniform: Option<Leaf<'src>>,
+        pub(super) vertex: Option<Leaf<'src>>,
+        pub(super) index: Option<Leaf<'src>>,
+        pub(super) color: Option<Leaf<'src>>,
+        pub(super) depth: Option<Leaf<'src>>,
+        pub(super) reads: Option<Leaf<'src>>,
+        pub(super) writes: Option<Leaf<'src>>,
+        pub(super) params: Option<Leaf<'src>>,
+        pub(super) side_effect: Option<Leaf<'src>>,
+        when: Option<Leaf<'src>>,
+        otherwise: Option<Leaf<'src>>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ForwardFields<'src> {
-    #[serde(borrow)]
-    from: Leaf<'src>,
-    to: Leaf<'src>,
+fields! {
+    struct ForwardFields<'src> {
+        from: Leaf<'src>,
+        to: Leaf<'src>,
+    }
 }
 
 /// A pass, once its fields are told apart.
-pub(super) fn lower<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, fields: &PassFields<'src>) -> Option<Pass> {
+pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &PassFields<'src>) -> Option<Pass> {
     let name = reader.name(fields.name, "a pass");
     let what = name.as_ref().map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
     let work = work::lower(reader, scope, fields, &what);
@@ -96,7 +94,7 @@ fn optional<'src, T>(leaf: Option<Leaf<'src>>, lower: impl FnOnce(Leaf<'src>) ->
 }
 
 /// What a target takes when the pass is off.
-fn forward<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Forward> {
+fn forward<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Forward> {
     let form = "Forward(from: \"image\", to: \"image\")";
     let (_, rest) = reader.word(leaf, "a stand-in", &["Forward"], &format!("write `{form}`"))?;
     let fields: ForwardFields<'_> = reader.inside(leaf, rest, form)?;
@@ -106,14 +104,14 @@ fn forward<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>)
 
 /// A draw has targets, and none of them twice.
 fn targets_make_sense(
-    reader: &mut Reader<'_>,
+    reader: &mut Reader,
     fields: &PassFields<'_>,
     what: &str,
     color: &[Color],
     depth: Option<&Depth>,
 ) {
     if fields.draw.is_some() && color.is_empty() && depth.is_none() {
-        let nothing = Diagnostic::new(reader.span(fields.name.0), format!("{what} draws into nothing"));
+        let nothing = Diagnostic::new(fields.name.span(), format!("{what} draws into nothing"));
         reader.report(nothing.help("give it `color: [\"image\"]` or `depth: \"image\"`"));
     }
     let mut first = HashMap::new();
@@ -130,7 +128,7 @@ fn targets_make_sense(
 }
 
 /// A name of the shader stands in one map only.
-fn bindings_differ(reader: &mut Reader<'_>, pass: &Pass) {
+fn bindings_differ(reader: &mut Reader, pass: &Pass) {
     let sampled = pass.sample.iter().map(|sample| &sample.binding);
     let storage = pass.storage.iter().map(|storage| &storage.binding);
     let names = sampled.chain(storage).chain(pass.uniform.iter().map(|uniform| &uniform.binding));
@@ -160,15 +158,9 @@ fn written(pass: &Pass) -> impl Iterator<Item = ImageRef> {
 }
 
 /// A stand-in fills one of the pass's own images, from another image.
-fn forward_makes_sense(
-    reader: &mut Reader<'_>,
-    fields: &PassFields<'_>,
-    leaf: Leaf<'_>,
-    forward: &Forward,
-    pass: &Pass,
-) {
+fn forward_makes_sense(reader: &mut Reader, fields: &PassFields<'_>, leaf: Leaf<'_>, forward: &Forward, pass: &Pass) {
     if fields.when.is_none() {
-        let idle = Diagnostic::new(reader.span(leaf.0), "`otherwise` never comes to pass: there is no `when`");
+        let idle = Diagnostic::new(leaf.span(), "`otherwise` never comes to pass: there is no `when`");
         reader.report(idle.help("add `when`, or remove `otherwise`"));
     }
     if forward.from.index == forward.to.index {

@@ -3,40 +3,36 @@
 use super::leaf::Leaf;
 use super::pipeline::{Setting, SettingKind};
 use super::reader::Reader;
-use serde::Deserialize;
+use crate::fields;
 use std::collections::BTreeSet;
 
-#[derive(Deserialize)]
-#[serde(rename = "Setting", deny_unknown_fields)]
-pub(super) struct SettingFields<'src> {
-    #[serde(borrow)]
-    name: Leaf<'src>,
-    value: Leaf<'src>,
-    about: Option<Leaf<'src>>,
+fields! {
+    pub(super) struct SettingFields<'src> as "Setting" {
+        name: Leaf<'src>,
+        value: Leaf<'src>,
+        about: Option<Leaf<'src>>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BoolFields<'src> {
-    #[serde(borrow)]
-    default: Leaf<'src>,
+fields! {
+    struct BoolFields<'src> {
+        default: Leaf<'src>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct OneOfFields<'src> {
-    #[serde(borrow)]
-    default: Leaf<'src>,
-    of: Leaf<'src>,
+fields! {
+    struct OneOfFields<'src> {
+        default: Leaf<'src>,
+        of: Leaf<'src>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RangeFields<'src> {
-    #[serde(borrow)]
-    default: Leaf<'src>,
-    min: Leaf<'src>,
-    max: Leaf<'src>,
+fields! {
+    struct RangeFields<'src> {
+        default: Leaf<'src>,
+        min: Leaf<'src>,
+        max: Leaf<'src>,
+    }
 }
 
 const FORMS: &str = "a setting's value is `Bool(default: …)`, `OneOf(default: …, of: […])`, \
@@ -76,7 +72,7 @@ pub(crate) fn shown(number: f64) -> String {
 }
 
 /// A setting, once its fields are told apart.
-pub(super) fn lower<'src>(reader: &mut Reader<'src>, fields: &SettingFields<'src>) -> Option<Setting> {
+pub(super) fn lower<'src>(reader: &mut Reader, fields: &SettingFields<'src>) -> Option<Setting> {
     let name = reader.name(fields.name, "a setting");
     let about = match fields.about {
         Some(about) => Some(reader.words(about, "a description")?),
@@ -86,7 +82,7 @@ pub(super) fn lower<'src>(reader: &mut Reader<'src>, fields: &SettingFields<'src
     Some(Setting { name: name?, kind, about })
 }
 
-fn kind<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<SettingKind> {
+fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<SettingKind> {
     let (word, rest) = reader.word(leaf, "a setting's value", &["Bool", "OneOf", "Number", "Integer"], FORMS)?;
     match word {
         "Bool" => {
@@ -116,7 +112,7 @@ fn kind<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<SettingKind
     }
 }
 
-fn one_of<'src>(reader: &mut Reader<'src>, fields: &OneOfFields<'src>) -> Option<SettingKind> {
+fn one_of<'src>(reader: &mut Reader, fields: &OneOfFields<'src>) -> Option<SettingKind> {
     let default = reader.integer(fields.default);
     let entries = reader.list(fields.of, "`of`")?;
     if entries.is_empty() {
@@ -142,7 +138,7 @@ fn one_of<'src>(reader: &mut Reader<'src>, fields: &OneOfFields<'src>) -> Option
 }
 
 fn in_range<'src, T: PartialOrd + std::fmt::Display>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     fields: &RangeFields<'src>,
     default: T,
     min: T,

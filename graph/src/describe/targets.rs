@@ -7,44 +7,41 @@ use super::parts::{self, Selected};
 use super::pass::{Color, Depth};
 use super::reader::Reader;
 use super::values::{self, choice};
+use crate::fields;
 use crate::frame::{Blend, StencilState};
 use crate::vocabulary::{CompareOp, StencilOp};
-use serde::Deserialize;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ColorFields<'src> {
-    #[serde(borrow)]
-    image: Leaf<'src>,
-    mip: Option<Leaf<'src>>,
-    layer: Option<Leaf<'src>>,
-    layers: Option<Leaf<'src>>,
-    clear: Option<Leaf<'src>>,
-    blend: Option<Leaf<'src>>,
+fields! {
+    struct ColorFields<'src> {
+        image: Leaf<'src>,
+        mip: Option<Leaf<'src>>,
+        layer: Option<Leaf<'src>>,
+        layers: Option<Leaf<'src>>,
+        clear: Option<Leaf<'src>>,
+        blend: Option<Leaf<'src>>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct DepthFields<'src> {
-    #[serde(borrow)]
-    image: Leaf<'src>,
-    mip: Option<Leaf<'src>>,
-    layer: Option<Leaf<'src>>,
-    layers: Option<Leaf<'src>>,
-    clear: Option<Leaf<'src>>,
-    test: Option<Leaf<'src>>,
-    write: Option<Leaf<'src>>,
-    stencil: Option<Leaf<'src>>,
+fields! {
+    struct DepthFields<'src> {
+        image: Leaf<'src>,
+        mip: Option<Leaf<'src>>,
+        layer: Option<Leaf<'src>>,
+        layers: Option<Leaf<'src>>,
+        clear: Option<Leaf<'src>>,
+        test: Option<Leaf<'src>>,
+        write: Option<Leaf<'src>>,
+        stencil: Option<Leaf<'src>>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StencilFields<'src> {
-    #[serde(borrow)]
-    clear: Option<Leaf<'src>>,
-    test: Option<Leaf<'src>>,
-    reference: Option<Leaf<'src>>,
-    pass: Option<Leaf<'src>>,
+fields! {
+    struct StencilFields<'src> {
+        clear: Option<Leaf<'src>>,
+        test: Option<Leaf<'src>>,
+        reference: Option<Leaf<'src>>,
+        pass: Option<Leaf<'src>>,
+    }
 }
 
 const BLENDS: [(&str, Blend); 4] = [
@@ -75,14 +72,14 @@ const OPERATIONS: [(&str, StencilOp); 6] = [
 ];
 
 /// The list of colour targets.
-pub(super) fn color<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Color>> {
+pub(super) fn color<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Color>> {
     let entries = reader.list(leaf, "`color`")?;
     let targets: Vec<Option<Color>> = entries.into_iter().map(|entry| color_target(reader, scope, entry)).collect();
     targets.into_iter().collect()
 }
 
-fn color_target<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Color> {
-    let replace = reader.spanned(leaf, Blend::Replace);
+fn color_target<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Color> {
+    let replace = leaf.spanned(Blend::Replace);
     match leaf.shape() {
         Shape::Text => Some(Color { part: parts::image(reader, scope, leaf)?, clear: None, blend: replace }),
         Shape::Parentheses => {
@@ -95,7 +92,7 @@ fn color_target<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'
                 None => Some(None),
             };
             let blend = match fields.blend {
-                Some(blend) => choice(reader, blend, "a blend", &BLENDS).map(|value| reader.spanned(blend, value)),
+                Some(blend) => choice(reader, blend, "a blend", &BLENDS).map(|value| blend.spanned(value)),
                 None => Some(replace),
             };
             Some(Color { part: part?, clear: clear?, blend: blend? })
@@ -109,7 +106,7 @@ fn color_target<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'
 }
 
 /// The depth target.
-pub(super) fn depth<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Depth> {
+pub(super) fn depth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Depth> {
     let (test, write) = (CompareOp::GreaterOrEqual, true);
     match leaf.shape() {
         Shape::Text => {
@@ -147,13 +144,13 @@ pub(super) fn depth<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Le
 }
 
 /// What happens to the stencil plane.
-fn stencil<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<Spanned<StencilState>> {
+fn stencil<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<Spanned<StencilState>> {
     let Shape::Parentheses = leaf.shape() else {
         reader.expected(leaf, "a stencil state: `(clear: 0, test: Equal, reference: 1, pass: Replace)`");
         return None;
     };
     let fields: StencilFields<'_> = reader.read(leaf, "a stencil state")?;
-    let byte = |reader: &mut Reader<'src>, leaf| values::constant::<u8>(reader, leaf, "stencil value", 0..=255);
+    let byte = |reader: &mut Reader, leaf| values::constant::<u8>(reader, leaf, "stencil value", 0..=255);
     let clear = match fields.clear {
         Some(clear) => byte(reader, clear).map(Some),
         None => Some(None),
@@ -171,20 +168,20 @@ fn stencil<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<Spanned<
         None => Some(StencilOp::Keep),
     };
     let state = StencilState { clear: clear?, test: test?, reference: reference?, pass: pass? };
-    Some(reader.spanned(leaf, state))
+    Some(leaf.spanned(state))
 }
 
-fn clear_color<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<[f32; 4]> {
+fn clear_color<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<[f32; 4]> {
     if !matches!(leaf.shape(), Shape::Parentheses) {
         reader.expected(leaf, "a colour `(red, green, blue, alpha)`");
         return None;
     }
-    let parts: (Leaf<'_>, Leaf<'_>, Leaf<'_>, Leaf<'_>) = reader.read(leaf, "a colour `(red, green, blue, alpha)`")?;
-    let parts = [parts.0, parts.1, parts.2, parts.3].map(|part| component(reader, part));
+    let parts: [Leaf<'_>; 4] = reader.read(leaf, "a colour `(red, green, blue, alpha)`")?;
+    let parts = parts.map(|part| component(reader, part));
     Some([parts[0]?, parts[1]?, parts[2]?, parts[3]?])
 }
 
-fn component<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<f32> {
+fn component<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<f32> {
     let number = reader.number(leaf)?;
     #[allow(clippy::cast_possible_truncation, reason = "a colour is stored in single precision")]
     let component = number as f32;
@@ -199,7 +196,7 @@ fn component<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<f32> {
     None
 }
 
-fn clear_depth<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<f32> {
+fn clear_depth<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<f32> {
     let depth = reader.number(leaf)?;
     if !(0.0..=1.0).contains(&depth) {
         let help = "depth is reversed: 0 is infinitely far, 1 is nearest";

@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 
 /// A whole number of `range`, or a setting all of whose values lie there. `what` names it: "number of mip levels".
 pub(super) fn whole<'src, T: TryFrom<i64>>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     scope: &Scope<'_>,
     leaf: Leaf<'src>,
     what: &str,
@@ -39,7 +39,7 @@ pub(super) fn whole<'src, T: TryFrom<i64>>(
 
 /// A whole number of `range`.
 pub(super) fn constant<'src, T: TryFrom<i64>>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     leaf: Leaf<'src>,
     what: &str,
     range: RangeInclusive<i64>,
@@ -55,7 +55,7 @@ pub(super) fn constant<'src, T: TryFrom<i64>>(
 
 /// One of a few words.
 pub(super) fn choice<'src, T: Copy>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     leaf: Leaf<'src>,
     what: &str,
     choices: &[(&'static str, T)],
@@ -74,29 +74,18 @@ pub(super) fn choice<'src, T: Copy>(
 const FILLS: &str = "a value is a number, `(depth, stencil)` or `(red, green, blue, alpha)`";
 
 /// What an image or buffer is filled with.
-pub(super) fn fill<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<Fill> {
+pub(super) fn fill<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<Fill> {
     if !matches!(leaf.shape(), Shape::Parentheses) {
-        return number(reader, leaf).map(Fill::Number);
+        return reader.number(leaf).map(Fill::Number);
     }
-    if let Some((depth, stencil)) = reader.probe::<(Leaf<'_>, Leaf<'_>)>(leaf) {
-        let (depth, stencil) = (number(reader, depth), number(reader, stencil));
+    if let Some([depth, stencil]) = leaf.tuple() {
+        let (depth, stencil) = (reader.number(depth), reader.number(stencil));
         return Some(Fill::DepthStencil(depth?, stencil?));
     }
-    let parts: (Leaf<'_>, Leaf<'_>, Leaf<'_>, Leaf<'_>) = match reader.probe(leaf) {
-        Some(parts) => parts,
-        None => {
-            reader.wrong(leaf, "this is no value for all texels", FILLS);
-            return None;
-        }
+    let Some(parts) = leaf.tuple::<4>() else {
+        reader.wrong(leaf, "this is no value for all texels", FILLS);
+        return None;
     };
-    let parts = [parts.0, parts.1, parts.2, parts.3].map(|part| number(reader, part));
+    let parts = parts.map(|part| reader.number(part));
     Some(Fill::Color([parts[0]?, parts[1]?, parts[2]?, parts[3]?]))
-}
-
-/// A finite number; a whole one may be written in any base.
-fn number<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>) -> Option<f64> {
-    #[allow(clippy::cast_precision_loss, reason = "what is stored has 32 bits at most")]
-    let whole = |number: i64| number as f64;
-    let based = matches!(leaf.shape(), Shape::Number) && leaf.0.get(1..2).is_some_and(|c| "xbo".contains(c));
-    if based { reader.integer(leaf).map(whole) } else { reader.number(leaf) }
 }

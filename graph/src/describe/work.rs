@@ -9,32 +9,29 @@ use super::passes::PassFields;
 use super::pipeline::{Name, Value};
 use super::reader::Reader;
 use super::values;
+use crate::fields;
 use crate::frame::DrawList;
-use serde::Deserialize;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CopyFields<'src> {
-    #[serde(borrow)]
-    from: Leaf<'src>,
-    to: Leaf<'src>,
+fields! {
+    struct CopyFields<'src> {
+        from: Leaf<'src>,
+        to: Leaf<'src>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BlitFields<'src> {
-    #[serde(borrow)]
-    from: Leaf<'src>,
-    to: Leaf<'src>,
-    filter: Option<Leaf<'src>>,
+fields! {
+    struct BlitFields<'src> {
+        from: Leaf<'src>,
+        to: Leaf<'src>,
+        filter: Option<Leaf<'src>>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FillFields<'src> {
-    #[serde(borrow)]
-    to: Leaf<'src>,
-    value: Leaf<'src>,
+fields! {
+    struct FillFields<'src> {
+        to: Leaf<'src>,
+        value: Leaf<'src>,
+    }
 }
 
 const DRAWS: &str = "a draw is `Objects(Opaque)`, `Objects(Masked)`, `Objects(Transparent)`, `Sky`, \
@@ -48,7 +45,7 @@ pub(crate) const MOST_GROUPS: i64 = 65535;
 
 /// The one thing that the pass does. `what` names the pass.
 pub(super) fn lower<'src>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     scope: &Scope<'_>,
     fields: &PassFields<'src>,
     what: &str,
@@ -69,8 +66,8 @@ pub(super) fn lower<'src>(
         return None;
     };
     if let Some((second, more)) = given.next() {
-        let twice = super::Diagnostic::new(reader.span(more.0), format!("{what} has both `{word}` and `{second}`"));
-        let twice = twice.label(reader.span(leaf.0), format!("`{word}` stands here"));
+        let twice = super::Diagnostic::new(more.span(), format!("{what} has both `{word}` and `{second}`"));
+        let twice = twice.label(leaf.span(), format!("`{word}` stands here"));
         reader.report(twice.help("a pass does one thing: make it two passes"));
         return None;
     }
@@ -93,7 +90,7 @@ pub(super) fn lower<'src>(
             let (from, to) = (parts::image(reader, scope, fields.from), parts::image(reader, scope, fields.to));
             let filter = match fields.filter {
                 Some(leaf) => {
-                    values::choice(reader, leaf, "a filter", &FILTERS).map(|filter| Some(reader.spanned(leaf, filter)))
+                    values::choice(reader, leaf, "a filter", &FILTERS).map(|filter| Some(leaf.spanned(filter)))
                 }
                 None => Some(None),
             };
@@ -102,11 +99,11 @@ pub(super) fn lower<'src>(
         "fill" => {
             let fields: FillFields<'_> = reader.read(leaf, "a fill")?;
             let to = parts::any(reader, scope, fields.to);
-            let value = values::fill(reader, fields.value).map(|value| reader.spanned(fields.value, value));
+            let value = values::fill(reader, fields.value).map(|value| fields.value.spanned(value));
             Some(Work::Fill { to: to?, value: value? })
         }
         _ => {
-            let callback = reader.name(leaf, "what the program records");
+            let callback = reader.outside_name(leaf, "what the program records");
             let reads = listed(reader, scope, fields.reads, "`reads`");
             let writes = listed(reader, scope, fields.writes, "`writes`");
             Some(Work::Custom { callback: callback?, reads: reads?, writes: writes? })
@@ -115,7 +112,7 @@ pub(super) fn lower<'src>(
 }
 
 /// Reports fields that have no meaning beside what the pass does.
-fn fits(reader: &mut Reader<'_>, fields: &PassFields<'_>, what: &str, word: &str) {
+fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: &str, word: &str) {
     let reads_something = fields.sample.is_some() || fields.uniform.is_some();
     let all = [
         ("shader", fields.shader, &["draw"][..]),
@@ -136,13 +133,13 @@ fn fits(reader: &mut Reader<'_>, fields: &PassFields<'_>, what: &str, word: &str
         let fitting: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
         let message = format!("{what} has `{field}`, which means nothing beside `{word}`");
         let help = format!("`{field}` goes with {}", fitting.join(", "));
-        let diagnostic = super::Diagnostic::new(reader.span(leaf.0), message);
+        let diagnostic = super::Diagnostic::new(leaf.span(), message);
         reader.report(diagnostic.help(help));
     }
     let writes =
         fields.storage.is_some() || fields.writes.is_some() || fields.color.is_some() || fields.depth.is_some();
     if matches!(word, "dispatch" | "custom") && !writes && fields.side_effect.is_none() {
-        let nothing = super::Diagnostic::new(reader.span(fields.name.0), format!("{what} writes nothing"));
+        let nothing = super::Diagnostic::new(fields.name.span(), format!("{what} writes nothing"));
         let reads = if reads_something { "what it reads goes nowhere: " } else { "" };
         let field = if word == "dispatch" { "storage: {\"…\": \"…\"}" } else { "writes: [\"…\"]" };
         reader.report(nothing.help(format!("{reads}give it `{field}`, or say `side_effect: true`")));
@@ -151,7 +148,7 @@ fn fits(reader: &mut Reader<'_>, fields: &PassFields<'_>, what: &str, word: &str
 
 /// What is drawn, by which shader.
 fn draw_work<'src>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     scope: &Scope<'_>,
     fields: &PassFields<'src>,
     leaf: Leaf<'src>,
@@ -168,17 +165,17 @@ fn draw_work<'src>(
     }
     let (draw, verb) = match word {
         "FullScreen" => {
-            let (shader,): (Leaf<'_>,) = reader.inside(leaf, rest, "FullScreen(\"shader\")")?;
+            let [shader]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "FullScreen(\"shader\")")?;
             if let Some(second) = fields.shader {
                 reader.wrong(second, format!("{what} names its shader in `FullScreen(…)` already"), "");
                 return None;
             }
-            return Some(Work::Draw { draw: Draw::FullScreen, shader: reader.name(shader, "a shader")? });
+            return Some(Work::Draw { draw: Draw::FullScreen, shader: reader.outside_name(shader, "a shader")? });
         }
         "Sky" => {
             reader.bare(word, rest)?;
             if fields.shader.is_none() {
-                let shader = Name { text: "sky".into(), span: reader.span(leaf.0) };
+                let shader = Name { text: "sky".into(), span: leaf.span() };
                 return Some(Work::Draw { draw: Draw::Sky, shader });
             }
             (Draw::Sky, "draws the sky")
@@ -186,23 +183,23 @@ fn draw_work<'src>(
         "Objects" => (Draw::Objects(list(reader, leaf, rest)?), "draws objects"),
         "Vertices" => {
             let one = || Some(Value::Constant(1));
-            let number = |reader: &mut Reader<'src>, leaf, what: &str| {
+            let number = |reader: &mut Reader, leaf, what: &str| {
                 values::whole(reader, scope, leaf, what, 1..=i64::from(u32::MAX))
             };
             let form = "Vertices(3)` or `Vertices(3, 100)";
-            let (count, instances) = match rest.and_then(|rest| reader.probe::<(Leaf<'_>, Leaf<'_>)>(rest)) {
-                Some((count, instances)) => {
+            let (count, instances) = match rest.and_then(Leaf::tuple) {
+                Some([count, instances]) => {
                     (number(reader, count, "number of vertices"), number(reader, instances, "number of instances"))
                 }
                 None => {
-                    let (count,): (Leaf<'_>,) = reader.inside(leaf, rest, form)?;
+                    let [count]: [Leaf<'_>; 1] = reader.inside(leaf, rest, form)?;
                     (number(reader, count, "number of vertices"), one())
                 }
             };
             (Draw::Vertices { count: count?, instances: instances? }, "draws vertices")
         }
         _ => {
-            let (buffer,): (Leaf<'_>,) = reader.inside(leaf, rest, "Indirect(\"buffer\")")?;
+            let [buffer]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Indirect(\"buffer\")")?;
             (Draw::Indirect(parts::buffer(reader, scope, buffer)?), "draws vertices")
         }
     };
@@ -210,12 +207,12 @@ fn draw_work<'src>(
         reader.wrong(leaf, format!("{what} {verb} and needs a shader"), "add `shader: \"…\"`");
         return None;
     };
-    Some(Work::Draw { draw, shader: reader.name(shader, "a shader")? })
+    Some(Work::Draw { draw, shader: reader.outside_name(shader, "a shader")? })
 }
 
 /// One of the scene's draw lists.
-fn list<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>, rest: Option<Leaf<'src>>) -> Option<DrawList> {
-    let (list,): (Leaf<'_>,) = reader.inside(leaf, rest, "Objects(Opaque)")?;
+fn list<'src>(reader: &mut Reader, leaf: Leaf<'src>, rest: Option<Leaf<'src>>) -> Option<DrawList> {
+    let [list]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Objects(Opaque)")?;
     let (list, rest) = reader.word(list, "a draw list", &["Opaque", "Masked", "Transparent"], DRAWS)?;
     reader.bare(list, rest)?;
     Some(match list {
@@ -227,22 +224,22 @@ fn list<'src>(reader: &mut Reader<'src>, leaf: Leaf<'src>, rest: Option<Leaf<'sr
 
 /// A compute shader and how often it runs.
 fn dispatch_work<'src>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     scope: &Scope<'_>,
     fields: &PassFields<'src>,
     leaf: Leaf<'src>,
     what: &str,
 ) -> Option<Work> {
-    let shader = reader.name(leaf, "a shader");
+    let shader = reader.outside_name(leaf, "a shader");
     let Some(leaf) = fields.groups else {
         reader.wrong(leaf, format!("{what} doesn't say how many workgroups run"), GROUPS);
         return None;
     };
     let groups = groups(reader, scope, leaf);
-    Some(Work::Dispatch { shader: shader?, groups: reader.spanned(leaf, groups?) })
+    Some(Work::Dispatch { shader: shader?, groups: leaf.spanned(groups?) })
 }
 
-fn groups<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Groups> {
+fn groups<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Groups> {
     let words = ["Count", "Invocations", "Texels", "Indirect"];
     let (word, rest) = reader.word(leaf, "a number of workgroups", &words, GROUPS)?;
     match word {
@@ -253,16 +250,17 @@ fn groups<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) 
         "Texels" => {
             let image = match rest {
                 // `Texels(image: "x", mip: 1)` is the part itself, in the word's own parentheses.
-                Some(rest) if reader.probe::<(Leaf<'_>,)>(rest).is_none() => rest,
-                _ => reader.inside::<(Leaf<'_>,)>(leaf, rest, "Texels(\"image\")")?.0,
+                Some(rest) if rest.tuple::<1>().is_none() => rest,
+                _ => reader.inside::<[Leaf<'_>; 1]>(leaf, rest, "Texels(\"image\")")?[0],
             };
             parts::image(reader, scope, image).map(Groups::Texels)
         }
         _ => {
-            let (buffer, offset) = match rest.and_then(|rest| reader.probe::<(Leaf<'_>, Leaf<'_>)>(rest)) {
-                Some((buffer, offset)) => (buffer, Some(offset)),
+            let (buffer, offset) = match rest.and_then(Leaf::tuple) {
+                Some([buffer, offset]) => (buffer, Some(offset)),
                 None => (
-                    reader.inside::<(Leaf<'_>,)>(leaf, rest, "Indirect(\"buffer\")` or `Indirect(\"buffer\", 16)")?.0,
+                    reader.inside::<[Leaf<'_>; 1]>(leaf, rest, "Indirect(\"buffer\")` or `Indirect(\"buffer\", 16)")?
+                        [0],
                     None,
                 ),
             };
@@ -278,7 +276,7 @@ fn groups<'src>(reader: &mut Reader<'src>, scope: &Scope<'_>, leaf: Leaf<'src>) 
 
 /// One to three whole numbers; those that are left out are 1.
 fn three<'src>(
-    reader: &mut Reader<'src>,
+    reader: &mut Reader,
     scope: &Scope<'_>,
     leaf: Leaf<'src>,
     rest: Option<Leaf<'src>>,
@@ -286,13 +284,13 @@ fn three<'src>(
     most: i64,
 ) -> Option<[Value<u32>; 3]> {
     let probed = rest.and_then(|rest| {
-        let one = reader.probe::<(Leaf<'_>,)>(rest).map(|(x,)| (x, None, None));
-        one.or_else(|| reader.probe::<(Leaf<'_>, Leaf<'_>)>(rest).map(|(x, y)| (x, Some(y), None)))
+        let one = rest.tuple().map(|[x]| (x, None, None));
+        one.or_else(|| rest.tuple().map(|[x, y]| (x, Some(y), None)))
     });
     let (x, y, z) = match probed {
         Some(few) => few,
         None => {
-            let (x, y, z): (Leaf<'_>, Leaf<'_>, Leaf<'_>) = reader.inside(leaf, rest, "Count(8, 8, 1)")?;
+            let [x, y, z]: [Leaf<'_>; 3] = reader.inside(leaf, rest, "Count(8, 8, 1)")?;
             (x, Some(y), Some(z))
         }
     };
@@ -304,12 +302,7 @@ fn three<'src>(
 }
 
 /// Parts of images and buffers in a list.
-fn listed<'src>(
-    reader: &mut Reader<'src>,
-    scope: &Scope<'_>,
-    leaf: Option<Leaf<'src>>,
-    field: &str,
-) -> Option<Vec<Part>> {
+fn listed<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Option<Leaf<'src>>, field: &str) -> Option<Vec<Part>> {
     let Some(leaf) = leaf else { return Some(Vec::new()) };
     let entries = match leaf.shape() {
         Shape::List => reader.list(leaf, field)?,

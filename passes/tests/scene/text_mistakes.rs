@@ -62,7 +62,7 @@ fn files_that_are_no_scene() {
     let first = |text: &str| mistakes(text).into_iter().next().unwrap_or_default();
     assert_eq!(first(""), "1:1 the file is empty / a scene begins with `Scene(version: 1,`");
     assert_eq!(first("\u{feff}Scene()"), "1:1 the file begins with a byte order mark / save it as UTF-8 without one");
-    assert_eq!(first("Scene()"), "1:1 the scene lacks the field `version`");
+    assert_eq!(first("Scene()"), "1:1 the scene lacks the fields `version`, `materials` and `objects`");
     let pipeline = first("Pipeline(version: 1)");
     assert_eq!(pipeline, "1:1 expected `Scene(…)`, found `Pipeline`");
     let old = "1:16 this file is written in version 2 of the scene format / this program reads version 1";

@@ -4,20 +4,19 @@ use super::values::{color, counts, number, web_color};
 use crate::scene::pattern::{MOST_CELLS, Pattern, PatternKind};
 use crate::scene::{AlphaMode, Material, Texture, limits};
 use framewright_graph::describe::text::{Leaf, Reader};
-use serde::Deserialize;
+use framewright_graph::fields;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct MaterialFields<'s> {
-    #[serde(borrow)]
-    pub(super) name: Leaf<'s>,
-    color: Option<Leaf<'s>>,
-    opacity: Option<Leaf<'s>>,
-    texture: Option<Leaf<'s>>,
-    emissive: Option<Leaf<'s>>,
-    strength: Option<Leaf<'s>>,
-    alpha: Option<Leaf<'s>>,
-    double_sided: Option<Leaf<'s>>,
+fields! {
+    pub(super) struct MaterialFields<'s> {
+        pub(super) name: Leaf<'s>,
+        color: Option<Leaf<'s>>,
+        opacity: Option<Leaf<'s>>,
+        texture: Option<Leaf<'s>>,
+        emissive: Option<Leaf<'s>>,
+        strength: Option<Leaf<'s>>,
+        alpha: Option<Leaf<'s>>,
+        double_sided: Option<Leaf<'s>>,
+    }
 }
 
 /// Textures, each pattern once.
@@ -30,7 +29,7 @@ pub(super) struct Patterns {
 
 impl Patterns {
     /// The place of a pattern's texture in the list; a mistake at `leaf` if the textures grow too large.
-    fn place<'s>(&mut self, reader: &mut Reader<'s>, leaf: Leaf<'s>, pattern: Pattern, name: &str) -> Option<usize> {
+    fn place<'s>(&mut self, reader: &mut Reader, leaf: Leaf<'s>, pattern: Pattern, name: &str) -> Option<usize> {
         if let Some(place) = self.known.iter().position(|known| *known == pattern) {
             return Some(place);
         }
@@ -47,11 +46,7 @@ impl Patterns {
 }
 
 /// A material; `None` if mistakes were reported. Every field is read, whatever is wrong with another.
-pub(super) fn lower<'s>(
-    reader: &mut Reader<'s>,
-    fields: &MaterialFields<'s>,
-    patterns: &mut Patterns,
-) -> Option<Material> {
+pub(super) fn lower<'s>(reader: &mut Reader, fields: &MaterialFields<'s>, patterns: &mut Patterns) -> Option<Material> {
     let name = reader.reference(fields.name, "a material");
     let color = fields.color.map_or(Some([1.0; 3]), |leaf| color(reader, leaf, "the colour", 1.0));
     let opacity = fields.opacity.map_or(Some(1.0), |leaf| number(reader, leaf, "the opacity", 0.0, 1.0));
@@ -78,7 +73,7 @@ pub(super) fn lower<'s>(
     })
 }
 
-fn alpha<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<AlphaMode> {
+fn alpha<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<AlphaMode> {
     let forms = "write `Opaque`, `Mask(0.5)` or `Blend`";
     match reader.word(leaf, "what alpha does", &["Opaque", "Mask", "Blend"], forms)? {
         ("Mask", rest) => {
@@ -92,27 +87,25 @@ fn alpha<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<AlphaMode> {
     }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CheckerFields<'s> {
-    #[serde(borrow)]
-    count: Leaf<'s>,
-    colors: Leaf<'s>,
+fields! {
+    struct CheckerFields<'s> {
+        count: Leaf<'s>,
+        colors: Leaf<'s>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct DotsFields<'s> {
-    #[serde(borrow)]
-    count: Leaf<'s>,
-    radius: Leaf<'s>,
+fields! {
+    struct DotsFields<'s> {
+        count: Leaf<'s>,
+        radius: Leaf<'s>,
+    }
 }
 
-fn pattern<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<Pattern> {
+fn pattern<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Pattern> {
     const CHECKER: &str = "Checker(count: (8, 8), colors: (\"#ffffff\", \"#808080\"))";
     const DOTS: &str = "Dots(count: (8, 8), radius: 0.3)";
     let forms = format!("write `{CHECKER}` or `{DOTS}`");
-    let cells = |reader: &mut Reader<'s>, leaf| counts::<2>(reader, leaf, "(across, down)", MOST_CELLS);
+    let cells = |reader: &mut Reader, leaf| counts::<2>(reader, leaf, "(across, down)", MOST_CELLS);
     match reader.word(leaf, "a texture", &["Checker", "Dots"], &forms)? {
         ("Checker", rest) => {
             let fields: CheckerFields<'_> = reader.inside(leaf, rest, CHECKER)?;

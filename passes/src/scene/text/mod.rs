@@ -34,30 +34,30 @@ mod objects;
 mod values;
 
 use super::{Camera, PointLight, Scene, Sky, Sun, defaults, limits};
-use framewright_graph::describe::Diagnostic;
-use framewright_graph::describe::text::{Leaf, Names, Reader};
-use framewright_graph::source::Sources;
+use framewright_graph::describe::text::{Leaf, Names, Reader, Tree};
+use framewright_graph::describe::{Diagnostic, Name};
+use framewright_graph::fields;
+use framewright_graph::source::{Sources, Span};
 use glam::DVec3;
 use materials::{MaterialFields, Patterns};
 use objects::Objects;
-use serde::Deserialize;
+use std::sync::Arc;
 use values::{color, direction, number, place};
 
 /// The version of the format that this library reads.
 pub const VERSION: i64 = 1;
 
-#[derive(Deserialize)]
-#[serde(rename = "Scene", deny_unknown_fields)]
-struct SceneFields<'s> {
-    #[serde(borrow)]
-    version: Leaf<'s>,
-    camera: Option<Leaf<'s>>,
-    sun: Option<Leaf<'s>>,
-    ambient: Option<Leaf<'s>>,
-    sky: Option<Leaf<'s>>,
-    lights: Option<Leaf<'s>>,
-    materials: Leaf<'s>,
-    objects: Leaf<'s>,
+fields! {
+    struct SceneFields<'s> as "Scene" {
+        version: Leaf<'s>,
+        camera: Option<Leaf<'s>>,
+        sun: Option<Leaf<'s>>,
+        ambient: Option<Leaf<'s>>,
+        sky: Option<Leaf<'s>>,
+        lights: Option<Leaf<'s>>,
+        materials: Leaf<'s>,
+        objects: Leaf<'s>,
+    }
 }
 
 /// Reads a scene file's text, which is added to `sources`. `shown` is the path as the user named it, `relative` the file's
@@ -66,10 +66,10 @@ struct SceneFields<'s> {
 /// # Errors
 /// Everything that is wrong with the file, in its order.
 pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) -> Result<Scene, Vec<Diagnostic>> {
-    let file = sources.add(shown, relative, text);
-    let text = sources.file(file as usize).map_or("", |file| file.text.as_str());
-    let mut reader = Reader::new(file, text);
-    let scene = whole(&mut reader, Leaf(text));
+    let text: Arc<str> = text.into();
+    let file = sources.add(shown, relative, text.clone());
+    let mut reader = Reader::default();
+    let scene = readable(&mut reader, file, text).and_then(|tree| whole(&mut reader, tree.root()));
     let mut mistakes = reader.errors;
     match scene {
         Some(scene) if mistakes.is_empty() => Ok(scene),
@@ -80,15 +80,23 @@ pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) ->
     }
 }
 
-fn whole<'s>(reader: &mut Reader<'s>, all: Leaf<'s>) -> Option<Scene> {
-    if all.0.trim().is_empty() {
-        reader.wrong(all, "the file is empty", "a scene begins with `Scene(version: 1,`");
+/// The file's tree, unless it shows at once that this is no scene.
+fn readable(reader: &mut Reader, file: u32, text: Arc<str>) -> Option<Tree> {
+    if text.trim().is_empty() {
+        let end = u32::try_from(text.len()).unwrap_or(u32::MAX);
+        let empty = Diagnostic::new(Span::new(file, 0, end), "the file is empty");
+        reader.report(empty.help("a scene begins with `Scene(version: 1,`"));
         return None;
     }
-    if all.0.starts_with('\u{feff}') {
-        reader.wrong(Leaf(&all.0[..3]), "the file begins with a byte order mark", "save it as UTF-8 without one");
+    if text.starts_with('\u{feff}') {
+        let mark = Diagnostic::new(Span::new(file, 0, 3), "the file begins with a byte order mark");
+        reader.report(mark.help("save it as UTF-8 without one"));
         return None;
     }
+    Tree::read(file, text, &mut reader.errors)
+}
+
+fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
     let fields: SceneFields<'_> = reader.read(all, "the scene")?;
     let version = reader.integer(fields.version)?;
     if version != VERSION {
@@ -107,7 +115,7 @@ fn whole<'s>(reader: &mut Reader<'s>, all: Leaf<'s>) -> Option<Scene> {
     let mut materials = Vec::new();
     for leaf in reader.list(fields.materials, "`materials`")? {
         let entry: Option<MaterialFields<'_>> = reader.read(leaf, "this material");
-        let name = entry.as_ref().and_then(|entry| reader.probe_name(entry.name));
+        let name = entry.as_ref().and_then(|entry| Name::written(entry.name));
         names.give(reader, name);
         materials.push(entry.and_then(|entry| materials::lower(reader, &entry, &mut patterns)));
     }
@@ -143,15 +151,14 @@ fn whole<'s>(reader: &mut Reader<'s>, all: Leaf<'s>) -> Option<Scene> {
     })
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CameraFields<'s> {
-    #[serde(borrow)]
-    position: Leaf<'s>,
-    target: Leaf<'s>,
-    up: Option<Leaf<'s>>,
-    fov: Option<Leaf<'s>>,
-    near: Option<Leaf<'s>>,
+fields! {
+    struct CameraFields<'s> {
+        position: Leaf<'s>,
+        target: Leaf<'s>,
+        up: Option<Leaf<'s>>,
+        fov: Option<Leaf<'s>>,
+        near: Option<Leaf<'s>>,
+    }
 }
 
 /// Field of view in degrees where a file says nothing.
@@ -159,7 +166,7 @@ const FOV: f64 = 40.0;
 /// Near distance in metres where a file says nothing.
 const NEAR: f64 = 0.1;
 
-fn camera<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<Camera> {
+fn camera<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Camera> {
     let fields: CameraFields<'_> = reader.read(leaf, "the camera")?;
     let position = place(reader, fields.position, "the position");
     let target = place(reader, fields.target, "the target");
@@ -175,16 +182,15 @@ fn camera<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<Camera> {
     camera
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SunFields<'s> {
-    #[serde(borrow)]
-    direction: Leaf<'s>,
-    color: Option<Leaf<'s>>,
-    intensity: Option<Leaf<'s>>,
+fields! {
+    struct SunFields<'s> {
+        direction: Leaf<'s>,
+        color: Option<Leaf<'s>>,
+        intensity: Option<Leaf<'s>>,
+    }
 }
 
-fn sun<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<Sun> {
+fn sun<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Sun> {
     let fields: SunFields<'_> = reader.read(leaf, "the sun")?;
     let direction = direction(reader, fields.direction, "the sun's direction");
     let (color, intensity) = light(reader, fields.color, fields.intensity);
@@ -192,17 +198,16 @@ fn sun<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<Sun> {
     Some(Sun { direction: direction?.as_vec3().to_array(), color: color?.map(|part| part * intensity) })
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LightFields<'s> {
-    #[serde(borrow)]
-    position: Leaf<'s>,
-    color: Option<Leaf<'s>>,
-    intensity: Option<Leaf<'s>>,
-    range: Option<Leaf<'s>>,
+fields! {
+    struct LightFields<'s> {
+        position: Leaf<'s>,
+        color: Option<Leaf<'s>>,
+        intensity: Option<Leaf<'s>>,
+        range: Option<Leaf<'s>>,
+    }
 }
 
-fn lights<'s>(reader: &mut Reader<'s>, list: Leaf<'s>) -> Option<Vec<PointLight>> {
+fn lights<'s>(reader: &mut Reader, list: Leaf<'s>) -> Option<Vec<PointLight>> {
     let leaves = reader.list(list, "`lights`")?;
     if leaves.len() > limits::POINT_LIGHTS {
         let message = format!("the scene has {} lights", leaves.len());
@@ -213,7 +218,7 @@ fn lights<'s>(reader: &mut Reader<'s>, list: Leaf<'s>) -> Option<Vec<PointLight>
     lights.into_iter().collect()
 }
 
-fn point_light<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<PointLight> {
+fn point_light<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<PointLight> {
     let fields: LightFields<'_> = reader.read(leaf, "this light")?;
     let position = place(reader, fields.position, "the position");
     let (color, intensity) = light(reader, fields.color, fields.intensity);
@@ -229,7 +234,7 @@ fn point_light<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<PointLight
 
 /// Colour (white where the file says nothing) and intensity (1).
 fn light<'s>(
-    reader: &mut Reader<'s>,
+    reader: &mut Reader,
     hue: Option<Leaf<'s>>,
     intensity: Option<Leaf<'s>>,
 ) -> (Option<[f32; 3]>, Option<f32>) {
@@ -238,16 +243,15 @@ fn light<'s>(
     (hue, intensity.map_or(Some(1.0), strength).map(|intensity| intensity as f32))
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SkyFields<'s> {
-    #[serde(borrow)]
-    zenith: Leaf<'s>,
-    horizon: Leaf<'s>,
-    ground: Leaf<'s>,
+fields! {
+    struct SkyFields<'s> {
+        zenith: Leaf<'s>,
+        horizon: Leaf<'s>,
+        ground: Leaf<'s>,
+    }
 }
 
-fn sky<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<Sky> {
+fn sky<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Sky> {
     let fields: SkyFields<'_> = reader.read(leaf, "the sky")?;
     let mut read = |leaf, what| color(reader, leaf, what, limits::RADIANCE);
     let zenith = read(fields.zenith, "the zenith");

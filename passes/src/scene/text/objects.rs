@@ -3,33 +3,31 @@
 use super::values::{angles, count, counts, place, size, sizes};
 use crate::scene::{Bounds, Mesh, Object, limits, shapes};
 use framewright_graph::describe::text::{Leaf, Names, Reader, Shape};
+use framewright_graph::fields;
 use glam::{DMat4, DQuat, DVec3};
-use serde::Deserialize;
 use std::f64::consts::TAU;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ObjectFields<'s> {
-    name: Option<Leaf<'s>>,
-    #[serde(borrow)]
-    material: Leaf<'s>,
-    position: Option<Leaf<'s>>,
-    rotation: Option<Leaf<'s>>,
-    size: Leaf<'s>,
-    repeat: Option<Leaf<'s>>,
+fields! {
+    struct ObjectFields<'s> {
+        name: Option<Leaf<'s>>,
+        material: Leaf<'s>,
+        position: Option<Leaf<'s>>,
+        rotation: Option<Leaf<'s>>,
+        size: Leaf<'s>,
+        repeat: Option<Leaf<'s>>,
+    }
 }
 
-/// A sphere says its radius instead of its size.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SphereFields<'s> {
-    name: Option<Leaf<'s>>,
-    #[serde(borrow)]
-    material: Leaf<'s>,
-    position: Option<Leaf<'s>>,
-    rotation: Option<Leaf<'s>>,
-    radius: Leaf<'s>,
-    repeat: Option<Leaf<'s>>,
+fields! {
+    /// A sphere says its radius instead of its size.
+    struct SphereFields<'s> {
+        name: Option<Leaf<'s>>,
+        material: Leaf<'s>,
+        position: Option<Leaf<'s>>,
+        rotation: Option<Leaf<'s>>,
+        radius: Leaf<'s>,
+        repeat: Option<Leaf<'s>>,
+    }
 }
 
 /// The objects so far, and the meshes that they share.
@@ -65,7 +63,7 @@ impl Objects {
     /// Adds what one entry of the list says, or reports what is wrong with it.
     pub(super) fn add<'s>(
         &mut self,
-        reader: &mut Reader<'s>,
+        reader: &mut Reader,
         leaf: Leaf<'s>,
         number: usize,
         materials: &Names,
@@ -109,7 +107,7 @@ impl Objects {
 
 /// The fields of an entry, and how its unit shape is scaled (`None` if that is wrong).
 fn extents<'s>(
-    reader: &mut Reader<'s>,
+    reader: &mut Reader,
     leaf: Leaf<'s>,
     shape: &str,
     rest: Option<Leaf<'s>>,
@@ -132,7 +130,7 @@ fn extents<'s>(
 }
 
 /// One material, or several that copies take by turns.
-fn palette<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, materials: &Names) -> Option<Vec<usize>> {
+fn palette<'s>(reader: &mut Reader, leaf: Leaf<'s>, materials: &Names) -> Option<Vec<usize>> {
     let leaves = match leaf.shape() {
         Shape::List => reader.list(leaf, "`material`")?,
         _ => vec![leaf],
@@ -149,25 +147,23 @@ fn palette<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, materials: &Names) -> Op
     found.into_iter().collect()
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct GridFields<'s> {
-    #[serde(borrow)]
-    count: Leaf<'s>,
-    step: Leaf<'s>,
+fields! {
+    struct GridFields<'s> {
+        count: Leaf<'s>,
+        step: Leaf<'s>,
+    }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RingFields<'s> {
-    #[serde(borrow)]
-    count: Leaf<'s>,
-    radius: Leaf<'s>,
-    start: Option<Leaf<'s>>,
+fields! {
+    struct RingFields<'s> {
+        count: Leaf<'s>,
+        radius: Leaf<'s>,
+        start: Option<Leaf<'s>>,
+    }
 }
 
 /// Where copies stand, relative to the object's position.
-fn repeat<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<Vec<DMat4>> {
+fn repeat<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Vec<DMat4>> {
     const GRID: &str = "Grid(count: (3, 1, 3), step: (2, 0, 2))";
     const RING: &str = "Ring(count: 12, radius: 4, start: 0)";
     let forms = format!("write `{GRID}` or `{RING}`");

@@ -5,7 +5,7 @@ use framewright_graph::describe::text::{Leaf, Reader, Shape};
 use glam::DVec3;
 
 /// A number from `least` to `most`, both included.
-pub(super) fn number<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str, least: f64, most: f64) -> Option<f64> {
+pub(super) fn number<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str, least: f64, most: f64) -> Option<f64> {
     let number = reader.number(leaf)?;
     if (least..=most).contains(&number) {
         return Some(number);
@@ -15,7 +15,7 @@ pub(super) fn number<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str, le
 }
 
 /// A whole number from `least` to `most`, both included.
-pub(super) fn count<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str, least: u32, most: u32) -> Option<u32> {
+pub(super) fn count<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str, least: u32, most: u32) -> Option<u32> {
     let number = reader.integer(leaf)?;
     match u32::try_from(number) {
         Ok(count) if (least..=most).contains(&count) => Some(count),
@@ -27,11 +27,8 @@ pub(super) fn count<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str, lea
 }
 
 /// The leaves of `(…, …)`.
-fn parts<'s, const N: usize>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str, form: &str) -> Option<[Leaf<'s>; N]>
-where
-    [Leaf<'s>; N]: serde::Deserialize<'s>,
-{
-    let parts = reader.probe(leaf);
+fn parts<'s, const N: usize>(reader: &mut Reader, leaf: Leaf<'s>, what: &str, form: &str) -> Option<[Leaf<'s>; N]> {
+    let parts = leaf.tuple();
     if parts.is_none() {
         reader.expected(leaf, &format!("{what} as `{form}`"));
     }
@@ -39,7 +36,7 @@ where
 }
 
 /// Three numbers in a range each.
-fn three<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str, form: &str, least: f64, most: f64) -> Option<DVec3> {
+fn three<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str, form: &str, least: f64, most: f64) -> Option<DVec3> {
     let [x, y, z] = parts(reader, leaf, what, form)?;
     // Each is read even where another one is wrong, so that all mistakes are reported.
     let [x, y, z] = [x, y, z].map(|part| number(reader, part, what, least, most));
@@ -47,12 +44,12 @@ fn three<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str, form: &str, le
 }
 
 /// A place in the world, metres.
-pub(super) fn place<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str) -> Option<DVec3> {
+pub(super) fn place<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str) -> Option<DVec3> {
     three(reader, leaf, what, "(x, y, z)", -limits::COORDINATE, limits::COORDINATE)
 }
 
 /// A direction: of any length but 0.
-pub(super) fn direction<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str) -> Option<DVec3> {
+pub(super) fn direction<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str) -> Option<DVec3> {
     let direction = place(reader, leaf, what)?.try_normalize();
     if direction.is_none() {
         reader.wrong(leaf, format!("{what} has no length, so it points nowhere"), "");
@@ -61,7 +58,7 @@ pub(super) fn direction<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str)
 }
 
 /// Angles about x, y and z in degrees.
-pub(super) fn angles<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<DVec3> {
+pub(super) fn angles<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<DVec3> {
     three(reader, leaf, "the rotation", "(about x, about y, about z)", -36_000.0, 36_000.0)
 }
 
@@ -69,15 +66,12 @@ pub(super) fn angles<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>) -> Option<DVec
 const SIZES: (f64, f64) = (1e-6, limits::COORDINATE);
 
 /// An extent that isn't 0.
-pub(super) fn size<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str) -> Option<f64> {
+pub(super) fn size<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str) -> Option<f64> {
     number(reader, leaf, what, SIZES.0, SIZES.1)
 }
 
 /// Extents along `N` axes; one number stands for all of them.
-pub(super) fn sizes<'s, const N: usize>(reader: &mut Reader<'s>, leaf: Leaf<'s>, form: &str) -> Option<[f64; N]>
-where
-    [Leaf<'s>; N]: serde::Deserialize<'s>,
-{
+pub(super) fn sizes<'s, const N: usize>(reader: &mut Reader, leaf: Leaf<'s>, form: &str) -> Option<[f64; N]> {
     if let Shape::Number = leaf.shape() {
         return size(reader, leaf, "the size").map(|size| [size; N]);
     }
@@ -87,14 +81,11 @@ where
 
 /// Counts along `N` axes.
 pub(super) fn counts<'s, const N: usize>(
-    reader: &mut Reader<'s>,
+    reader: &mut Reader,
     leaf: Leaf<'s>,
     form: &str,
     most: u32,
-) -> Option<[u32; N]>
-where
-    [Leaf<'s>; N]: serde::Deserialize<'s>,
-{
+) -> Option<[u32; N]> {
     let parts = parts::<N>(reader, leaf, "the count", form)?;
     all(parts.map(|part| count(reader, part, "the count", 1, most)))
 }
@@ -105,7 +96,7 @@ fn all<T: Copy + Default, const N: usize>(values: [Option<T>; N]) -> Option<[T; 
 }
 
 /// A colour: three linear numbers, each 0 to `most`, or an sRGB colour as the web writes it.
-pub(super) fn color<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str, most: f64) -> Option<[f32; 3]> {
+pub(super) fn color<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str, most: f64) -> Option<[f32; 3]> {
     if let Shape::Text = leaf.shape() {
         return Some(web_color(reader, leaf, what)?.map(|byte| linear(byte) as f32));
     }
@@ -114,7 +105,7 @@ pub(super) fn color<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str, mos
 }
 
 /// `"#rrggbb"`
-pub(super) fn web_color<'s>(reader: &mut Reader<'s>, leaf: Leaf<'s>, what: &str) -> Option<[u8; 3]> {
+pub(super) fn web_color<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str) -> Option<[u8; 3]> {
     let text = reader.words(leaf, what)?;
     let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6);
     let code = digits.filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()));
