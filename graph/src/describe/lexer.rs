@@ -118,8 +118,13 @@ impl<'t> Lexer<'t> {
     pub(super) fn word(&self) -> usize {
         let bytes = &self.text.as_bytes()[self.at..];
         let ascii = bytes.iter().take_while(|byte| byte.is_ascii_alphanumeric() || **byte == b'_').count();
-        match bytes.first() {
-            Some(first) if first.is_ascii_digit() => 0,
+        match bytes {
+            [b'0'..=b'9', ..] => 0,
+            // A raw text, bytes or a byte.
+            [b'r', b'"', ..]
+            | [b'r', b'#', b'"' | b'#', ..]
+            | [b'b', b'"' | b'\'', ..]
+            | [b'b', b'r', b'"' | b'#', ..] => 0,
             _ if bytes.get(ascii).is_none_or(u8::is_ascii) => ascii,
             _ => {
                 let mut characters = self.rest().chars();

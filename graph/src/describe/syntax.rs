@@ -275,6 +275,7 @@ impl Parser<'_, '_> {
                     // What begins no value would be a second mistake at this place.
                     if !byte.is_ascii_alphanumeric() && !b"\"'([{+-._".contains(&byte) {
                         self.skip()?;
+                        self.lexer.at += usize::from(self.lexer.byte() == Some(b','));
                     }
                 }
             }
