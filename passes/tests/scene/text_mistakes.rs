@@ -69,7 +69,7 @@ fn files_that_are_no_scene() {
     assert_eq!(first("Scene(version: 2, materials: [], objects: [])"), old);
     assert_eq!(
         first("Scene(version: 1, materials: ["),
-        "1:30 the file ends in the middle of a value / is a bracket or a quote left open?"
+        "1:31 the file ends in the middle of a value / is a bracket or a quote left open?"
     );
     let deep = format!("Scene(version: 1, materials: {}", "[".repeat(100_000));
     assert!(first(&deep).contains("brackets are nested too deeply"), "{}", first(&deep));
