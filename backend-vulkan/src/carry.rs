@@ -7,7 +7,7 @@ use crate::physical::cycle;
 use crate::readback::memory_change;
 use crate::record::{barriers, state_change};
 use ash::vk;
-use framewright_graph::plan::{BufferId, ImageId, Plan, Queue, Resource, Role, Subresources};
+use framewright_graph::plan::{BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
 use framewright_graph::vocabulary::State;
 use std::sync::Arc;
 
@@ -81,7 +81,8 @@ impl Executor {
     /// How an image or buffer goes on; `None` if it doesn't.
     fn goes_on(&self, before: &Executor, to: Resource) -> Option<Carried> {
         let (name, role) = named(&self.plan, to);
-        let Role::Persistent { before: found, .. } = role else { return None };
+        // What comes from a file was read anew, and may have changed.
+        let Role::Persistent { before: found, initial: Initial::Value(_), .. } = role else { return None };
         let from = persistent(&before.plan).find(|it| named(&before.plan, *it).0 == name)?;
         let Role::Persistent { before: left, .. } = named(&before.plan, from).1 else { return None };
         let names = |plan: &Plan, first| -> Vec<String> {

@@ -5,6 +5,8 @@ use crate::device::Shared;
 use crate::error::Error;
 use crate::physical::{buffer_descriptor, cycle, descriptor};
 use crate::standing::Standing;
+use crate::textures::file_of;
+use ash::vk;
 use framewright_graph::device::{ImageDescriptor, MemoryNeeds};
 use framewright_graph::plan::{Buffer, Image, Placement, Plan, Queue, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
@@ -55,6 +57,12 @@ fn checked_image(shared: &Shared, plan: &Plan, image: &Image, poison: bool) -> R
             Ok(())
         }
         Role::Persistent { .. } => {
+            let smaller = vk::FormatFeatureFlags::BLIT_SRC
+                | vk::FormatFeatureFlags::BLIT_DST
+                | vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR;
+            if file_of(image).is_some() && image.mips > 1 && !shared.format_features(image.format).contains(smaller) {
+                return bad(format!("{} can't make the mip levels of `{name}`: {}", shared.summary.name, image.format));
+            }
             let plain = |image: &Image| ImageDescriptor { usage: Usage::empty(), ..self::descriptor(image) };
             let others = cycle(image.id.0, |id| &plan.images[id as usize].role).map(|id| &plan.images[id as usize]);
             match others.into_iter().find(|other| plain(other) != plain(image)) {

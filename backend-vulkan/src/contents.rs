@@ -11,9 +11,11 @@ use crate::physical::Physical;
 use crate::queues::Family;
 use crate::readback::{memory_change, mip_extent};
 use crate::record::{Place, barriers, copy_between, fill, state_change};
+use crate::resources::record_upload;
+use crate::textures::Staged;
 use crate::uses::Uses;
 use ash::vk;
-use framewright_graph::plan::{self, BufferId, ImageId, Plan, Queue, Resource, Role, Subresources};
+use framewright_graph::plan::{self, BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
 use framewright_graph::vocabulary::{Accesses, Aspects, FillValue, Layout, Stages, State, Usage};
 use std::sync::Arc;
 
@@ -29,12 +31,19 @@ const WRITTEN: State = State {
 };
 
 /// Sets everything that outlives the frame and has no contents yet to what the first frame finds: persistent things to their
-/// initial value, others that were not handed in to zero, each in the state that the Plan relies on and with the queue that
+/// initial value or the texels in `staged`, others that were not handed in to zero, each in the state that the Plan relies on and with the queue that
 /// uses it first.
-pub(crate) fn initialise(shared: &Arc<Shared>, plan: &Plan, uses: &Uses, physical: &Physical) -> Result<(), Error> {
+pub(crate) fn initialise(
+    shared: &Arc<Shared>,
+    plan: &Plan,
+    uses: &Uses,
+    physical: &Physical,
+    staged: &[Staged],
+) -> Result<(), Error> {
     let initial = |role: &Role, is_foreign: bool| match role {
-        Role::Persistent { before, initial, .. } => Some((*before, *initial)),
-        Role::External { before, .. } if !is_foreign => Some((*before, FillValue::Bits([0; 4]))),
+        Role::Persistent { before, initial: Initial::Value(value), .. } => Some((*before, Some(*value))),
+        Role::Persistent { before, initial: Initial::File(_), .. } => Some((*before, None)),
+        Role::External { before, .. } if !is_foreign => Some((*before, Some(FillValue::Bits([0; 4])))),
         Role::Transient(_) | Role::External { .. } => None,
     };
     let of_image = |id: ImageId| {
@@ -55,14 +64,21 @@ pub(crate) fn initialise(shared: &Arc<Shared>, plan: &Plan, uses: &Uses, physica
         shared.submit_once("preparing the first frame", queue, |commands| {
             let images = plan.images.iter().filter(|_| queue == Queue::Graphics);
             for (image, (before, initial)) in images.filter_map(|it| Some((it, of_image(it.id)?))) {
-                set_image(shared, commands, image, physical.image(image.id, 0), before, initial);
+                let made = physical.image(image.id, 0);
+                match (initial, staged.iter().find(|it| it.image == image.id)) {
+                    (Some(value), _) => set_image(shared, commands, image, made, before, value),
+                    (None, Some(staged)) => {
+                        record_upload(shared, commands, made, &staged.buffer, convert::layout(before.layout));
+                    }
+                    (None, None) => {}
+                }
             }
             for (buffer, (before, initial)) in plan.buffers.iter().filter_map(|it| Some((it, of_buffer(it.id)?))) {
                 let first = before_first_frame(plan, uses, Resource::Buffer(buffer.id)).unwrap_or(Queue::Graphics);
                 if shared.queues.families.family(first) == family {
                     let made = physical.buffer(buffer.id, 0);
                     let target = Place::Buffer { buffer: made.raw, bytes: made.bytes };
-                    fill(shared, commands, target, convert::clear(None, initial));
+                    fill(shared, commands, target, convert::clear(None, initial.unwrap_or(FillValue::Bits([0; 4]))));
                     barriers(shared, commands, &[memory_change(WRITTEN, before)], &[]);
                 }
             }

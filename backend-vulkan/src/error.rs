@@ -4,6 +4,7 @@ use ash::vk;
 use framewright_graph::describe::escape;
 use framewright_graph::device::MemoryNeeds;
 use framewright_graph::interface::ShaderProblem;
+use framewright_graph::texture::TextureProblem;
 use framewright_graph::verify::Violation;
 
 /// The packages that bring a loader, a driver that needs no graphics card, and a validation layer.
@@ -107,6 +108,16 @@ pub enum Error {
         /// Which and why.
         what: String,
     },
+    /// An image's file gives no texture.
+    #[error("image `{}`: the texture `{}` {}", escape(image), escape(path), escape(&problem.to_string()))]
+    Texture {
+        /// The image.
+        image: String,
+        /// The file, as the Plan names it.
+        path: String,
+        /// Why.
+        problem: TextureProblem,
+    },
     /// A shader has no usable form.
     #[error("shader `{}`: {}", escape(name), problem_text(problem))]
     Shader {
@@ -197,9 +208,11 @@ impl Error {
             | Error::DeviceLost { .. }
             | Error::Timeout { .. }
             | Error::OutOfMemory { .. } => Blame::Environment,
-            Error::Shader { .. } | Error::Mismatch { .. } | Error::BadResource { .. } | Error::DrawSource { .. } => {
-                Blame::Files
-            }
+            Error::Shader { .. }
+            | Error::Texture { .. }
+            | Error::Mismatch { .. }
+            | Error::BadResource { .. }
+            | Error::DrawSource { .. } => Blame::Files,
             Error::BadPlan { .. }
             | Error::Violations { .. }
             | Error::OtherMemoryNeeds { .. }

@@ -11,9 +11,11 @@ use crate::prepare::Prepared;
 use crate::record::Frame;
 use crate::recorder::DrawSource;
 use crate::shaders::ShaderLibrary;
+use crate::textures::{Staged, staged};
 use crate::timing::FrameReport;
 use crate::uses::Uses;
 use framewright_graph::plan::Plan;
+use framewright_graph::texture::{NoTextures, Textures};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -53,6 +55,8 @@ pub struct Executor {
     /// Before what it uses: dropping it waits for every frame.
     pub(crate) frames: Frames,
     pub(crate) prepared: Prepared,
+    /// Texels from files, until they are uploaded.
+    staged: Vec<Staged>,
     pub(crate) initialised: bool,
 }
 
@@ -68,7 +72,22 @@ impl Executor {
         shaders: &mut ShaderLibrary,
         options: &ExecutorOptions,
     ) -> Result<Executor, Error> {
-        Executor::checked(device, plan, shaders, options, Refuse::Violations)
+        Executor::checked(device, plan, shaders, &mut NoTextures, options, Refuse::Violations)
+    }
+
+    /// Like [`Executor::new`], for a Plan that has images from files: their texels are read here, and uploaded before the
+    /// first frame.
+    ///
+    /// # Errors
+    /// Those of [`Executor::new`], and [`Error::Texture`].
+    pub fn with_textures(
+        device: &Device,
+        plan: &Plan,
+        shaders: &mut ShaderLibrary,
+        textures: &mut dyn Textures,
+        options: &ExecutorOptions,
+    ) -> Result<Executor, Error> {
+        Executor::checked(device, plan, shaders, textures, options, Refuse::Violations)
     }
 
     /// Like [`Executor::new`], but hazards in the Plan pass, to see what the validation layer or the poison says of them.
@@ -85,13 +104,14 @@ impl Executor {
         shaders: &mut ShaderLibrary,
         options: &ExecutorOptions,
     ) -> Result<Executor, Error> {
-        Executor::checked(device, plan, shaders, options, Refuse::Malformed)
+        Executor::checked(device, plan, shaders, &mut NoTextures, options, Refuse::Malformed)
     }
 
     fn checked(
         device: &Device,
         plan: &Plan,
         shaders: &mut ShaderLibrary,
+        textures: &mut dyn Textures,
         options: &ExecutorOptions,
         refuse: Refuse,
     ) -> Result<Executor, Error> {
@@ -108,6 +128,7 @@ impl Executor {
             options: options.clone(),
             hand_ins,
             uses,
+            staged: staged(shared, plan, textures)?,
             initialised: false,
         })
     }
@@ -158,7 +179,8 @@ impl Executor {
     /// Gives what outlives the frame its first contents, unless that is done.
     pub(crate) fn ready(&mut self) -> Result<(), Error> {
         if !self.initialised {
-            initialise(&self.shared, &self.plan, &self.uses, &self.prepared.physical)?;
+            initialise(&self.shared, &self.plan, &self.uses, &self.prepared.physical, &self.staged)?;
+            self.staged = Vec::new();
             self.initialised = true;
         }
         Ok(())

@@ -115,7 +115,7 @@ mod tests {
     use super::*;
     use framewright_graph::format::Format;
     use framewright_graph::frame::Shape;
-    use framewright_graph::plan::{Access, Cause, DeviceUsed, Hazard, Image, Totals};
+    use framewright_graph::plan::{Access, Cause, DeviceUsed, Hazard, Image, Initial, Totals};
     use framewright_graph::vocabulary::{Accesses, FillValue, Stages, State, Usage};
 
     const FORMAT: Format = Format::R32_UINT;
@@ -124,7 +124,12 @@ mod tests {
     /// A Plan whose one image has two mip levels and persists, and whose steps are these.
     fn plan(steps: Vec<Step>) -> Plan {
         let state = State { stages: Stages::COMPUTE_SHADER, accesses: Accesses::SHADER_STORAGE_READ, layout: LAYOUT };
-        let role = Role::Persistent { becomes: 0, initial: FillValue::Bits([0; 4]), before: state, after: state };
+        let role = Role::Persistent {
+            becomes: 0,
+            initial: Initial::Value(FillValue::Bits([0; 4])),
+            before: state,
+            after: state,
+        };
         let image = Image {
             id: ImageId(0),
             name: "i".into(),

@@ -71,6 +71,7 @@ mod shader_fit;
 pub mod shaders;
 mod standing;
 mod submit;
+mod textures;
 mod timing;
 mod uses;
 mod validation;

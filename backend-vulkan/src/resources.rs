@@ -131,42 +131,49 @@ fn upload(shared: &Arc<Shared>, image: &Image, texels: &[u8]) -> Result<(), Erro
     let usage = vk::BufferUsageFlags::TRANSFER_SRC;
     let mut staging = RawBuffer::new(shared, "texture upload", texels.len() as u64, usage, Kind::Upload)?;
     staging.fill(texels)?;
-    let levels = image.descriptor.mips;
-    let [width, height, _] = image.descriptor.extent;
     shared.submit_once("uploading a texture", Queue::Graphics, |commands| {
-        let copy = vk::BufferImageCopy::default().image_subresource(level(0)).image_extent(vk::Extent3D {
-            width,
-            height,
-            depth: 1,
-        });
-        let target = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
-        transition(shared, commands, image.raw, 0..levels, vk::ImageLayout::UNDEFINED, target);
-        // SAFETY: the buffer holds all texels of the level, and both live until the submission was waited for.
-        unsafe { shared.raw.cmd_copy_buffer_to_image(commands, staging.raw, image.raw, target, &[copy]) };
-        for smaller in 1..levels {
-            let corner = |level: u32| {
-                let at = |extent: u32| i32::try_from((extent >> level).max(1)).unwrap_or(i32::MAX);
-                [vk::Offset3D::default(), vk::Offset3D { x: at(width), y: at(height), z: 1 }]
-            };
-            let blit = vk::ImageBlit::default()
-                .src_subresource(level(smaller - 1))
-                .src_offsets(corner(smaller - 1))
-                .dst_subresource(level(smaller))
-                .dst_offsets(corner(smaller));
-            let source = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
-            transition(shared, commands, image.raw, smaller - 1..smaller, target, source);
-            // SAFETY: both levels exist and are in these layouts.
-            unsafe {
-                let linear = vk::Filter::LINEAR;
-                shared.raw.cmd_blit_image(commands, image.raw, source, image.raw, target, &[blit], linear);
-            }
-        }
-        let ready = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
-        if levels > 1 {
-            transition(shared, commands, image.raw, 0..levels - 1, vk::ImageLayout::TRANSFER_SRC_OPTIMAL, ready);
-        }
-        transition(shared, commands, image.raw, levels - 1..levels, target, ready);
+        record_upload(shared, commands, image, &staging, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
     })
+}
+
+/// Records the copy of a new image's first level from `staging`, which must live as long as the commands, and of each smaller
+/// one from the level before; all of it is in the layout `ready` then, for whatever comes next on the queue.
+pub(crate) fn record_upload(
+    shared: &Shared,
+    commands: vk::CommandBuffer,
+    image: &Image,
+    staging: &RawBuffer,
+    ready: vk::ImageLayout,
+) {
+    let levels = image.descriptor.mips;
+    let extent = image.descriptor.extent;
+    let copy = vk::BufferImageCopy::default().image_subresource(level(0)).image_extent(crate::convert::extent(extent));
+    let target = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+    transition(shared, commands, image.raw, 0..levels, vk::ImageLayout::UNDEFINED, target);
+    // SAFETY: the buffer holds all texels of the level, and both live until the submission was waited for.
+    unsafe { shared.raw.cmd_copy_buffer_to_image(commands, staging.raw, image.raw, target, &[copy]) };
+    for smaller in 1..levels {
+        let corner = |level: u32| {
+            let [x, y, z] = extent.map(|side| i32::try_from((side >> level).max(1)).unwrap_or(i32::MAX));
+            [vk::Offset3D::default(), vk::Offset3D { x, y, z }]
+        };
+        let blit = vk::ImageBlit::default()
+            .src_subresource(level(smaller - 1))
+            .src_offsets(corner(smaller - 1))
+            .dst_subresource(level(smaller))
+            .dst_offsets(corner(smaller));
+        let source = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+        transition(shared, commands, image.raw, smaller - 1..smaller, target, source);
+        // SAFETY: both levels exist and are in these layouts.
+        unsafe {
+            let linear = vk::Filter::LINEAR;
+            shared.raw.cmd_blit_image(commands, image.raw, source, image.raw, target, &[blit], linear);
+        }
+    }
+    if levels > 1 {
+        transition(shared, commands, image.raw, 0..levels - 1, vk::ImageLayout::TRANSFER_SRC_OPTIMAL, ready);
+    }
+    transition(shared, commands, image.raw, levels - 1..levels, target, ready);
 }
 
 fn level(level: u32) -> vk::ImageSubresourceLayers {

@@ -46,6 +46,7 @@ fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
     let word = |at: usize| u32::from_ne_bytes([texel[at], texel[at + 1], texel[at + 2], texel[at + 3]]);
     let float = |at: usize| f32::from_bits(word(at));
     let unorm = |byte: u8| f32::from(byte) / 255.0;
+    let word16 = |at: usize| f32::from(u16::from_ne_bytes([texel[at], texel[at + 1]])) / 65535.0;
     match format {
         F::R8G8B8A8_SRGB => [texel[0], texel[1], texel[2]],
         F::B8G8R8A8_SRGB => [texel[2], texel[1], texel[0]],
@@ -57,6 +58,7 @@ fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
         F::R8G8B8A8_UNORM => [texel[0], texel[1], texel[2]].map(unorm).map(encode),
         F::B8G8R8A8_UNORM => [texel[2], texel[1], texel[0]].map(unorm).map(encode),
         F::A2B10G10R10_UNORM_PACK32 => [0, 10, 20].map(|shift| encode(bits(word(0), shift, 10))),
+        F::R16G16B16A16_UNORM => [0, 2, 4].map(word16).map(encode),
         F::R16_SFLOAT | F::R16G16_SFLOAT => [half(0), 0.0, 0.0].map(encode),
         F::R16G16B16A16_SFLOAT => [half(0), half(2), half(4)].map(encode),
         F::R32_SFLOAT | F::R32G32_SFLOAT => [float(0), 0.0, 0.0].map(encode),

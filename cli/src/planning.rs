@@ -12,6 +12,7 @@ use framewright_graph::frame::Frame;
 use framewright_graph::plan::Plan;
 use framewright_graph::source::Sources;
 use framewright_graph::verify;
+use framewright_passes::texture_files::TextureFiles;
 use framewright_passes::{draw, shipped};
 use framewright_vulkan::ShaderLibrary;
 use std::path::PathBuf;
@@ -25,6 +26,8 @@ pub(crate) struct Loaded {
     pub(crate) sources: Arc<Sources>,
     /// Shaders beside the pipeline file, then shipped ones.
     pub(crate) shaders: ShaderLibrary,
+    /// Pictures beside the pipeline file.
+    pub(crate) textures: TextureFiles,
     /// Settings that the user chose, and their values, of which the last counts.
     pub(crate) set: Vec<(String, String)>,
 }
@@ -60,6 +63,7 @@ pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
         Ok(pipeline) => Ok(Loaded {
             pipeline,
             sources: Arc::new(sources),
+            textures: TextureFiles::new(folder.clone()),
             shaders: library(folder),
             set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
         }),

@@ -112,7 +112,7 @@ fn plan(arguments: &Run, pipeline: &mut Loaded, scene: &Scene, device: &Device) 
 fn not_handed_in(frame: &Frame) -> impl Iterator<Item = &str> {
     let imported = |lifetime: &Lifetime| match lifetime {
         Lifetime::Imported { before, .. } => Some(*before),
-        Lifetime::Transient | Lifetime::Persistent { .. } | Lifetime::History { .. } => None,
+        Lifetime::Transient | Lifetime::Persistent { .. } | Lifetime::History { .. } | Lifetime::File(_) => None,
     };
     let has_contents = move |image: &&Image| imported(&image.lifetime).is_some_and(|it| it.layout != Layout::Undefined);
     let images = frame.images.iter().filter(has_contents).map(|image| &*image.name);
@@ -156,7 +156,8 @@ fn draw(
     let wanted = wanted(arguments, planned)?;
     let mut source = SceneDrawSource::new(device, scene, [arguments.size.width, arguments.size.height])?;
     let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
-    let mut executor = Executor::new(device, &planned.plan, &mut pipeline.shaders, &options)?;
+    let Loaded { shaders, textures, .. } = pipeline;
+    let mut executor = Executor::with_textures(device, &planned.plan, shaders, textures, &options)?;
     let progress = progress(arguments.frames);
     let mut frames = Vec::new();
     for drawn in 0..arguments.frames {

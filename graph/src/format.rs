@@ -72,6 +72,7 @@ formats! {
     A2B10G10R10_UNORM_PACK32 = 64, 4 bytes, 4 x Unorm, COLOR;
     R16_SFLOAT = 76, 2 bytes, 1 x Sfloat, COLOR;
     R16G16_SFLOAT = 83, 4 bytes, 2 x Sfloat, COLOR;
+    R16G16B16A16_UNORM = 91, 8 bytes, 4 x Unorm, COLOR;
     R16G16B16A16_SFLOAT = 97, 8 bytes, 4 x Sfloat, COLOR;
     R32_UINT = 98, 4 bytes, 1 x Uint, COLOR;
     R32_SFLOAT = 100, 4 bytes, 1 x Sfloat, COLOR;

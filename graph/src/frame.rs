@@ -5,6 +5,7 @@
 
 use crate::format::Format;
 use crate::source::{Sources, Span};
+use crate::texture::TextureFile;
 use crate::vocabulary::{Aspects, CompareOp, FillValue, Filter, Stages, State, StencilOp, Subresources};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -112,7 +113,7 @@ pub struct Buffer {
 }
 
 /// How long the contents of an image or a buffer live.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub enum Lifetime {
     /// Within the frame.
     #[default]
@@ -136,6 +137,8 @@ pub enum Lifetime {
         /// The state in which it is to be left; `None`: that of its last use, which the Plan says.
         after: Option<State>,
     },
+    /// An image whose contents come from a file before the first frame, and which is only sampled.
+    File(Arc<TextureFile>),
 }
 
 /// An image or buffer that leaves the frame.

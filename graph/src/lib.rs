@@ -15,5 +15,6 @@ pub mod interface;
 pub mod plan;
 pub mod source;
 mod states;
+pub mod texture;
 pub mod verify;
 pub mod vocabulary;

@@ -272,6 +272,7 @@ fn texel_format(operand: &Operand) -> Option<Format> {
         ImageFormat::Rgb10A2 => Some(Format::A2B10G10R10_UNORM_PACK32),
         ImageFormat::R16f => Some(Format::R16_SFLOAT),
         ImageFormat::Rg16f => Some(Format::R16G16_SFLOAT),
+        ImageFormat::Rgba16 => Some(Format::R16G16B16A16_UNORM),
         ImageFormat::Rgba16f => Some(Format::R16G16B16A16_SFLOAT),
         ImageFormat::R32ui => Some(Format::R32_UINT),
         ImageFormat::R32f => Some(Format::R32_SFLOAT),

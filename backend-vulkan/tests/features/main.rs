@@ -15,4 +15,5 @@ mod local_reads;
 mod outlasting;
 mod queues;
 mod subresources;
+mod textures;
 mod transfers;

@@ -20,13 +20,13 @@ use super::scope::{Scoped, Step as Grouped, store_name};
 use super::structure::{Settled, Structure};
 use super::synchronise::Pending;
 use crate::device::Profile;
-use crate::frame::{Frame, Resource as Declared, Work as FrameWork};
+use crate::frame::{Frame, Lifetime, Resource as Declared, Work as FrameWork};
 use crate::plan::{
-    Buffer, BufferId, Cause, DeviceUsed, FORMAT_VERSION, Image, ImageId, Note, Placement, Plan, Queue, Resource, Role,
-    SettingUsed, Stage, Step, Subresources, Totals, Work,
+    Buffer, BufferId, Cause, DeviceUsed, FORMAT_VERSION, Image, ImageId, Initial, Note, Placement, Plan, Queue,
+    Resource, Role, SettingUsed, Stage, Step, Subresources, Totals, Work,
 };
 use crate::source::Place;
-use crate::vocabulary::State;
+use crate::vocabulary::{FillValue, State};
 use std::sync::Arc;
 
 /// What the stages decided.
@@ -191,7 +191,7 @@ fn resources(parts: &Parts<'_>) -> (Vec<Image>, Vec<Buffer>) {
             Some(why) => Cause::Inserted { because: why.because.clone(), at: why.at.clone() },
             None => Cause::Written(frame.sources.place(span)),
         };
-        let role = role(parts.adapted, store, *states, placement.as_ref());
+        let role = role(frame, parts.adapted, store, *states, placement.as_ref());
         match &store.kind {
             Kind::Image(image) => images.push(Image {
                 id: ImageId(store.id),
@@ -221,7 +221,13 @@ fn resources(parts: &Parts<'_>) -> (Vec<Image>, Vec<Buffer>) {
     (images, buffers)
 }
 
-fn role(adapted: &Adapted, store: &Store, states: Option<States>, placement: Option<&Placement>) -> Role {
+fn role(
+    frame: &Frame,
+    adapted: &Adapted,
+    store: &Store,
+    states: Option<States>,
+    placement: Option<&Placement>,
+) -> Role {
     let nothing = State {
         stages: crate::vocabulary::Stages::empty(),
         accesses: crate::vocabulary::Accesses::empty(),
@@ -230,10 +236,22 @@ fn role(adapted: &Adapted, store: &Store, states: Option<States>, placement: Opt
     let States { before, after } = states.unwrap_or(States { before: nothing, after: nothing });
     match (store.home, placement) {
         (Home::Persistent { becomes, initial }, _) => {
+            let initial = initial.map_or_else(|| file(frame, store), Initial::Value);
             Role::Persistent { becomes: adapted.stores[becomes as usize].id, initial, before, after }
         }
         (Home::Transient, Some(placement)) => Role::Transient(placement.clone()),
         (Home::Transient | Home::Output | Home::Imported { .. }, _) => Role::External { before, after },
+    }
+}
+
+/// The file of what has no initial value.
+fn file(frame: &Frame, store: &Store) -> Initial {
+    match store.of {
+        Declared::Image(image) => match &frame.images[image.0 as usize].lifetime {
+            Lifetime::File(file) => Initial::File(file.clone()),
+            _ => Initial::Value(FillValue::Bits([0; 4])),
+        },
+        Declared::Buffer(_) => Initial::Value(FillValue::Bits([0; 4])),
     }
 }
 

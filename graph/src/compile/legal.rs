@@ -37,6 +37,7 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         if check.resources() {
             check.work();
             check.storage();
+            check.files();
         }
     }
     outputs(frame, &mut errors);
@@ -91,6 +92,12 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
         if std::mem::replace(&mut listed[number], true) {
             errors.push(Diagnostic::new(output.span, format!("`{}` is an output twice", subject.name)));
         }
+        if let Resource::Image(image) = output.resource
+            && matches!(frame.images[image.0 as usize].lifetime, Lifetime::File(_))
+        {
+            let message = format!("`{}` is an output and comes from a file: no pass makes it", subject.name);
+            errors.push(Diagnostic::new(output.span, message));
+        }
         // Samples are resolved on the way out.
         let subject = Subject { samples: 1, ..subject };
         errors.extend(output.after.and_then(|after| lifetimes::check_state(&after, output.span, subject, When::After)));
@@ -117,6 +124,8 @@ fn image_problem(image: &Image) -> Option<String> {
         Some("is three-dimensional and has layers".to_owned())
     } else if image.shape == Shape::D3 && image.format.is_depth() {
         Some("is three-dimensional and can't hold depth".to_owned())
+    } else if matches!(image.lifetime, Lifetime::File(_)) && (image.layers > 1 || image.shape == Shape::Cube) {
+        Some("comes from a file and has layers".to_owned())
     } else if image.shape == Shape::Cube && (width != height || !image.layers.is_multiple_of(6)) {
         Some(format!("is a cube of {width}×{height} with {} layers; cubes are square and have 6", image.layers))
     } else {
@@ -173,6 +182,13 @@ impl Check<'_> {
             }
         }
         self.errors.len() == before
+    }
+
+    /// What comes from a file is only sampled.
+    fn files(&mut self) {
+        if let Some((span, what)) = lifetimes::misused_file(self.frame, self.pass) {
+            self.wrong(span, &what);
+        }
     }
 
     fn image(&mut self, index: ImageIndex, range: Subresources, frames_ago: u32, span: Span) {

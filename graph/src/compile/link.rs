@@ -123,7 +123,7 @@ pub(super) fn link(frame: &Frame, grids: &Grids) -> Result<Linked, Vec<Diagnosti
 fn lives(lifetime: &Lifetime, has_layout: bool) -> (bool, bool) {
     let there = match lifetime {
         Lifetime::Transient | Lifetime::History { .. } => false,
-        Lifetime::Persistent { .. } => true,
+        Lifetime::Persistent { .. } | Lifetime::File(_) => true,
         Lifetime::Imported { before, .. } => !has_layout || before.layout != Layout::Undefined,
     };
     (there, outlives(lifetime))

@@ -49,8 +49,8 @@ pub(super) enum Home {
     Transient,
     /// Memory of its own, without contents from before the frame.
     Output,
-    /// Its contents stay, and are found as those of `becomes` in the next frame.
-    Persistent { becomes: StoreIndex, initial: FillValue },
+    /// Its contents stay, and are found as those of `becomes` in the next frame; at first those of its file, or `initial`.
+    Persistent { becomes: StoreIndex, initial: Option<FillValue> },
     /// It is handed in in this state.
     Imported { before: State },
 }

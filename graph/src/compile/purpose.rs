@@ -48,6 +48,8 @@ pub(super) fn note(
                         image.usage |= Usage::TRANSIENT_ATTACHMENT;
                     }
                     Home::Transient => {}
+                    // A file is copied into it, and mip levels are made one from the other.
+                    Home::Persistent { initial: None, .. } if image.mips == 1 => image.usage |= Usage::TRANSFER_DST,
                     Home::Persistent { .. } => image.usage |= Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
                     Home::Imported { .. } => image.usage |= Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
                     Home::Output => image.usage |= Usage::TRANSFER_SRC,

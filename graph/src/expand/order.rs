@@ -166,7 +166,7 @@ impl Check<'_> {
     fn missing(&self, of: Resource, cells: &Cells, frames_ago: u32) -> Option<Cell> {
         let holds = match self.things.lifetime(of)? {
             Lifetime::Transient => false,
-            Lifetime::Persistent { .. } => true,
+            Lifetime::Persistent { .. } | Lifetime::File(_) => true,
             Lifetime::History { .. } => false,
             Lifetime::Imported { before, .. } => {
                 matches!(of, Resource::Buffer(_)) || before.layout != Layout::Undefined

@@ -68,7 +68,7 @@ impl Things {
         let name = chosen.name(of);
         let lowered = states::lower(after, Subject { name: &name.text, format, samples }, When::After, errors)?;
         if let Some(Lifetime::Imported { after: Some(promised), .. }) = self.lifetime(of)
-            && promised != lowered
+            && *promised != lowered
         {
             let message = format!("`{}` is to be left in two states", name.text);
             let wrong = Diagnostic::new(after.span, message).remark("one is asked for here");
@@ -79,10 +79,10 @@ impl Things {
     }
 
     /// How long the contents of an image or buffer live.
-    pub(super) fn lifetime(&self, of: Resource) -> Option<Lifetime> {
+    pub(super) fn lifetime(&self, of: Resource) -> Option<&Lifetime> {
         match of {
-            Resource::Image(index) => self.image(index).map(|image| image.image.lifetime),
-            Resource::Buffer(index) => self.buffer(index).map(|buffer| buffer.lifetime),
+            Resource::Image(index) => self.image(index).map(|image| &image.image.lifetime),
+            Resource::Buffer(index) => self.buffer(index).map(|buffer| &buffer.lifetime),
         }
     }
 }

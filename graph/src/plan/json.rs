@@ -1,7 +1,7 @@
 //! The JSON form: writing it, and reading it with enough checks that indexing a Plan can't fail afterwards.
 
 use super::{
-    Attachment, BufferId, FORMAT_VERSION, ImageId, Param, Pass, Plan, Resource, Role, Side, Step, StepId, Work,
+    Attachment, BufferId, FORMAT_VERSION, ImageId, Initial, Param, Pass, Plan, Resource, Role, Side, Step, StepId, Work,
 };
 use crate::frame::ParamValue;
 use crate::plan::names::Shown;
@@ -172,7 +172,7 @@ impl Plan {
     fn check_numbers(&self) -> Result<(), PlanError> {
         let initial = self.images.iter().map(|image| &image.role).chain(self.buffers.iter().map(|buffer| &buffer.role));
         for role in initial {
-            if let Role::Persistent { initial, .. } = role
+            if let Role::Persistent { initial: Initial::Value(initial), .. } = role
                 && !is_finite_fill(initial)
             {
                 return Err(PlanError::NotFinite { place: "an initial value".to_owned() });

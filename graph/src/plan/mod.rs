@@ -29,6 +29,7 @@
 use crate::format::Format;
 use crate::frame::Shape;
 use crate::source::Place;
+use crate::texture::TextureFile;
 pub use crate::vocabulary::Subresources;
 use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
 use serde::{Deserialize, Serialize};
@@ -49,7 +50,7 @@ pub use work::{
 };
 
 /// The version of the JSON form that this library writes and reads.
-pub const FORMAT_VERSION: u32 = 2;
+pub const FORMAT_VERSION: u32 = 3;
 
 /// Index of an image in [`Plan::images`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -196,7 +197,7 @@ pub enum Role {
         /// frame further back. Over all persistent images, and over all persistent buffers, this is a permutation.
         becomes: u32,
         /// Contents before the first frame, in the state `before`. The first frame waits until they are there.
-        initial: FillValue,
+        initial: Initial,
         /// State in which a frame finds it: the `after` of the one that becomes it.
         before: State,
         /// State in which a frame leaves it.
@@ -211,6 +212,17 @@ pub enum Role {
         /// its own, or by a semaphore if there are none.
         after: State,
     },
+}
+
+/// What something persistent holds before the first frame.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Initial {
+    /// This, in every texel or word.
+    Value(FillValue),
+    /// An image: the picture of a file in its first mip level, and in each smaller one the mean of the level before. No step
+    /// writes it.
+    File(Arc<TextureFile>),
 }
 
 /// A place in a heap.

@@ -3,12 +3,13 @@
 use super::names::{Shown, vulkan};
 use super::outline::Node;
 use super::{
-    Access, Attachment, BindingKind, Buffer, BufferAccess, Cause, Hazard, Image, ImageBarrier, ImageId, MemoryBarrier,
-    Note, Pass, Plan, Queue, RenderScope, Resource, Role, Side, Step, StepId, Subresources, Totals, Transfer, Wait,
-    Work,
+    Access, Attachment, BindingKind, Buffer, BufferAccess, Cause, Hazard, Image, ImageBarrier, ImageId, Initial,
+    MemoryBarrier, Note, Pass, Plan, Queue, RenderScope, Resource, Role, Side, Step, StepId, Subresources, Totals,
+    Transfer, Wait, Work,
 };
 use crate::frame::{Blend, BufferRole, Draw, DrawList, Groups, ParamValue, StencilState};
 use crate::source::Place;
+use crate::texture::ColorSpace;
 use crate::vocabulary::FillValue;
 
 /// The tree form.
@@ -299,7 +300,14 @@ fn role<'p>(role: &Role, name: &str, next: impl Fn(u32) -> &'p str) -> String {
             let [taken, offset] = [placement.bytes, placement.offset].map(bytes);
             format!(": {taken} at {offset} in heap {}, {steps}", placement.heap)
         }
-        Role::Persistent { becomes, initial, .. } => {
+        Role::Persistent { initial: Initial::File(file), .. } => {
+            let decoded = match file.color_space {
+                ColorSpace::Srgb => "sRGB",
+                ColorSpace::Linear => "linear",
+            };
+            format!(": the file `{}` ({decoded}), only read", Shown(&file.path))
+        }
+        Role::Persistent { becomes, initial: Initial::Value(initial), .. } => {
             let next = next(*becomes);
             let becomes = if next == name { "stays".to_owned() } else { format!("becomes `{}`", Shown(next)) };
             format!(": persistent, {becomes} in the next frame, at first {}", fill_value(initial))

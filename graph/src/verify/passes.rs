@@ -1,6 +1,7 @@
 //! Whether each pass is well formed: what it draws or dispatches, and what it accesses.
 
 use super::barriers::{check_scope, planes, possible};
+use super::structure::is_of_file;
 use super::touches::{ATTACHMENT, attachments};
 use super::work::{Check, is_read_only, is_written};
 use crate::frame::{Blend, BufferRole, Draw, Groups};
@@ -164,6 +165,8 @@ impl<'p> Check<'_, 'p> {
         let planes = planes(access.layout, self.plan.image(access.image).format.aspects());
         let what = if read_only { "can't be read so in its layout" } else { "can't be written so in its layout" };
         self.demand(fits && planes.contains(access.range.aspects), access.image, what);
+        let fixed = is_of_file(self.plan.image(access.image));
+        self.demand(read_only || !fixed, access.image, "is written, and its contents are a file's");
         self.binding(access);
     }
 

@@ -4,7 +4,8 @@ use super::Findings;
 use super::frames::{self, Frames};
 use super::violation::{Rule, Violation};
 use crate::frame::Shape;
-use crate::plan::{Buffer, Image, Placement, Plan, Resource, Role};
+use crate::plan::{Buffer, Image, Initial, Placement, Plan, Resource, Role};
+use crate::texture::format_problem;
 use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
 use std::collections::HashSet;
 
@@ -86,12 +87,31 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
         }
         Role::External { before, after } => check_states(image.id.0, [before, after], true, found),
         Role::Persistent { before, after, initial, .. } => {
-            if !fill_fits(image, initial) {
+            let fits = match initial {
+                Initial::Value(value) => fill_fits(image, value),
+                Initial::File(file) => format_problem(file, image.format).is_none(),
+            };
+            if !fits {
                 wrong("has initial contents of another kind than its format");
+            }
+            if is_of_file(image) && !may_be_of_file(image) {
+                wrong("comes from a file and has samples, layers or uses that such an image can't have");
             }
             check_states(image.id.0, [before, after], true, found);
         }
     }
+}
+
+/// Whether an image's contents are a file's.
+pub(super) fn is_of_file(image: &Image) -> bool {
+    matches!(image.role, Role::Persistent { initial: Initial::File(_), .. })
+}
+
+/// Whether an image has the form of one that a file fills, and is only read.
+fn may_be_of_file(image: &Image) -> bool {
+    let read = Usage::SAMPLED | Usage::TRANSFER_SRC | Usage::TRANSFER_DST;
+    let stays = matches!(image.role, Role::Persistent { becomes, .. } if becomes == image.id.0);
+    read.contains(image.usage) && image.samples == 1 && image.layers == 1 && image.shape != Shape::Cube && stays
 }
 
 /// Whether an image of this format can be set to a value.
@@ -122,7 +142,7 @@ fn check_buffer(plan: &Plan, buffer: &Buffer, index: u32, found: &mut Findings) 
         }
         Role::External { before, after } => check_states(index, [before, after], false, found),
         Role::Persistent { before, after, initial, .. } => {
-            if !matches!(initial, FillValue::Bits(_)) {
+            if !matches!(initial, Initial::Value(FillValue::Bits(_))) {
                 wrong("has initial contents that are no bits");
             }
             check_states(index, [before, after], false, found);

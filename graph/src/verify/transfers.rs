@@ -2,7 +2,7 @@
 
 use super::barriers::planes;
 use super::parts::overlap;
-use super::structure::fill_fits;
+use super::structure::{fill_fits, is_of_file};
 use super::work::{Check, mip_extent};
 use crate::format::Format;
 use crate::plan::{BufferId, Fill, Image, ImageId, Queue, Side, Subresources, Transfer};
@@ -126,6 +126,7 @@ impl<'p> Check<'_, 'p> {
         let all = mip_extent(described, range.base_mip);
         let within = all.iter().zip(&extent).all(|(all, part)| part <= all) && !extent.contains(&0);
         self.demand(within, image, "is transferred beyond its size");
+        self.demand(source || !is_of_file(described), image, "is written, and its contents are a file's");
         Some(ImageSide { image: described, range, extent })
     }
 

@@ -4,8 +4,8 @@ use framewright_graph::format::Format;
 use framewright_graph::frame::{Groups, Shape};
 use framewright_graph::plan::{
     Access, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap, Image, ImageBarrier, ImageId,
-    MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Sharing, Step, StepId, Subresources, Totals, Wait,
-    Work,
+    Initial, MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Sharing, Step, StepId, Subresources, Totals,
+    Wait, Work,
 };
 use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Stages, State, Usage};
 
@@ -70,7 +70,11 @@ pub(crate) fn output(plan: &mut Plan, name: &str) -> ImageId {
 /// An image that frames hand on in `GENERAL`; the next frame knows it as the image number `becomes`.
 pub(crate) fn persistent(plan: &mut Plan, name: &str, becomes: u32) -> ImageId {
     let state = State { stages: CS, accesses: W, layout: Layout::General };
-    image(plan, name, Role::Persistent { becomes, initial: FillValue::Color([0.0; 4]), before: state, after: state })
+    image(
+        plan,
+        name,
+        Role::Persistent { becomes, initial: Initial::Value(FillValue::Color([0.0; 4])), before: state, after: state },
+    )
 }
 
 /// An access of a compute pass: sampled in `SHADER_READ_ONLY_OPTIMAL`, or written in `GENERAL`.

@@ -104,7 +104,7 @@ impl Adapter<'_> {
         mut add: impl FnMut(&mut Self) -> StoreIndex,
     ) -> StoreIndex {
         let first = add(self);
-        let home = |initial: FillValue, becomes: StoreIndex| Home::Persistent { becomes, initial };
+        let home = |initial: FillValue, becomes: StoreIndex| Home::Persistent { becomes, initial: Some(initial) };
         match *lifetime {
             Lifetime::Transient => {}
             Lifetime::Persistent { initial } => self.adapted.stores[first as usize].home = home(initial, first),
@@ -119,6 +119,9 @@ impl Adapter<'_> {
                     let becomes = if store == first + frames { first } else { store + 1 };
                     self.adapted.stores[store as usize].home = home(initial, becomes);
                 }
+            }
+            Lifetime::File(_) => {
+                self.adapted.stores[first as usize].home = Home::Persistent { becomes: first, initial: None };
             }
             Lifetime::Imported { before, after } => {
                 let store = &mut self.adapted.stores[first as usize];

@@ -2,9 +2,10 @@
 
 use crate::describe::Diagnostic;
 use crate::format::Format;
-use crate::frame::Lifetime;
+use crate::frame::{Frame, Lifetime, Pass, Resource, Work};
 use crate::source::Span;
 use crate::states::{Subject, When, contradiction};
+use crate::texture::{TextureFile, format_problem};
 use crate::vocabulary::{FillValue, Layout, State};
 
 /// Most frames that history goes back: what a checker of the Plan can follow around.
@@ -25,7 +26,43 @@ pub(super) fn check(lifetime: &Lifetime, span: Span, of: Subject<'_>) -> Option<
             let after = after.and_then(|after| check_state(&after, span, of, When::After));
             check_state(before, span, of, When::Before).or(after)
         }
+        Lifetime::File(file) => file_problem(file, of).map(wrong),
     }
+}
+
+/// Why nothing like that can come from a file.
+fn file_problem(file: &TextureFile, of: Subject<'_>) -> Option<String> {
+    let Some(format) = of.format else {
+        return Some("is a buffer and comes from a file, which only images can".to_owned());
+    };
+    if file.path.is_empty() {
+        Some("comes from a file without a name".to_owned())
+    } else if of.samples > 1 {
+        Some("comes from a file and is multisampled".to_owned())
+    } else {
+        format_problem(file, format).map(|why| format!("comes from a file and is {format}: {why}"))
+    }
+}
+
+/// Where a pass uses an image that comes from a file for anything but sampling it.
+pub(super) fn misused_file(frame: &Frame, pass: &Pass) -> Option<(Span, String)> {
+    let storage = pass.storage.iter().map(|used| (used.image, used.span));
+    let color = pass.color.iter().map(|target| (target.image, target.span));
+    let depth = pass.depth.iter().map(|target| (target.image, target.span));
+    let transfers = pass.transfers.iter().filter_map(|used| match used.resource {
+        Resource::Image(image) => Some((image, used.span)),
+        Resource::Buffer(_) => None,
+    });
+    let forwarded = match pass.work {
+        Work::Forward { from, to, .. } => Some([(from, pass.span), (to, pass.span)]),
+        _ => None,
+    };
+    let others = storage.chain(color).chain(depth).chain(transfers).chain(forwarded.into_iter().flatten());
+    let images = others.map(|(image, span)| (&frame.images[image.0 as usize], span));
+    let mut files = images.filter(|(image, _)| matches!(image.lifetime, Lifetime::File(_)));
+    files
+        .next()
+        .map(|(image, span)| (span, format!("does more with `{}` than sample it: it comes from a file", image.name)))
 }
 
 /// What is wrong with a state in which something comes or goes.

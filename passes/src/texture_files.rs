@@ -1,0 +1,218 @@
+//! Textures from picture files: PNG, JPEG, Radiance HDR, OpenEXR.
+
+use framewright_graph::format::{Format, Numeric};
+use framewright_graph::texture::{
+    ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
+};
+use half::f16;
+use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use std::fs::{self, File};
+use std::io::BufReader;
+use std::path::PathBuf;
+
+/// Texels along a side of a picture. A strip for a three-dimensional image is longer than textures of other kinds.
+pub const MOST_SIDE: u32 = 16384;
+/// Texels of a picture: 64 Mi.
+pub const MOST_TEXELS: u64 = 64 << 20;
+/// Bytes of a picture's file: 1 GiB.
+pub const MOST_BYTES: u64 = 1 << 30;
+/// Bytes that a decoder may take beside the file's own: what the largest picture takes with four 32-bit components.
+const MOST_DECODED: u64 = MOST_TEXELS * 16 + (64 << 20);
+
+/// Textures from the files of a folder.
+///
+/// What the bytes of a file are counts, not its name. PNG of 8 bits and JPEG become `R8G8B8A8_SRGB` or `R8G8B8A8_UNORM`, PNG
+/// of 16 bits `R16G16B16A16_UNORM`, HDR and EXR `R16G16B16A16_SFLOAT`; a frame may say `R32G32B32A32_SFLOAT` or any other
+/// format of colour, of which the picture fills as many components as there are.
+#[derive(Debug, Clone)]
+pub struct TextureFiles {
+    root: PathBuf,
+}
+
+/// A picture's values by texel: red, green, blue, alpha.
+enum Texels {
+    Bytes(Vec<u8>),
+    Words(Vec<u16>),
+    Floats(Vec<f32>),
+}
+
+type Decoder = Box<dyn ImageDecoder>;
+
+impl TextureFiles {
+    /// Those of the folder `root` and of folders in it.
+    #[must_use]
+    pub fn new(root: PathBuf) -> TextureFiles {
+        TextureFiles { root }
+    }
+
+    /// The file behind a path: it can't lead out of the folder, by no link either.
+    fn locate(&self, path: &str) -> Result<PathBuf, TextureProblem> {
+        let inside = !path.contains(['\\', '\0', ':']) && path.split('/').all(|part| !matches!(part, "" | "." | ".."));
+        if !inside {
+            return Err(TextureProblem::Outside);
+        }
+        let unreadable = |error: std::io::Error| TextureProblem::Unreadable { reason: error.to_string() };
+        let root = if self.root.as_os_str().is_empty() { PathBuf::from(".") } else { self.root.clone() };
+        let root = root.canonicalize().map_err(unreadable)?;
+        let found = root.join(path).canonicalize().map_err(unreadable)?;
+        if !found.starts_with(&root) {
+            return Err(TextureProblem::Outside);
+        }
+        let metadata = fs::metadata(&found).map_err(unreadable)?;
+        if !metadata.is_file() {
+            return Err(TextureProblem::Unreadable { reason: "not a regular file".to_owned() });
+        }
+        if metadata.len() > MOST_BYTES {
+            let reason = format!("it has {} bytes, more than the {MOST_BYTES} of a texture", metadata.len());
+            return Err(TextureProblem::Unreadable { reason });
+        }
+        Ok(found)
+    }
+
+    /// The decoder of a picture whose size is within the limits, and its kind.
+    fn open(&self, path: &str) -> Result<(Decoder, ImageFormat), TextureProblem> {
+        let file =
+            File::open(self.locate(path)?).map_err(|error| TextureProblem::Unreadable { reason: error.to_string() })?;
+        let mut reader = ImageReader::new(BufReader::new(file))
+            .with_guessed_format()
+            .map_err(|error| TextureProblem::Unreadable { reason: error.to_string() })?;
+        let format = reader.format().ok_or_else(|| damaged("neither PNG nor JPEG, HDR or EXR"))?;
+        let mut limits = Limits::no_limits();
+        limits.max_alloc = Some(MOST_DECODED);
+        reader.limits(limits);
+        let decoder = reader.into_decoder().map_err(damaged)?;
+        let (width, height) = decoder.dimensions();
+        let texels = u64::from(width) * u64::from(height);
+        if width == 0 || height == 0 {
+            return Err(damaged("it is empty"));
+        }
+        if width.max(height) > MOST_SIDE || texels > MOST_TEXELS {
+            return Err(TextureProblem::TooLarge { extent: [width, height], side: MOST_SIDE, texels: MOST_TEXELS });
+        }
+        Ok((Box::new(decoder), format))
+    }
+}
+
+impl Textures for TextureFiles {
+    fn info(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        let (decoder, kind) = self.open(&file.path)?;
+        let (width, height) = decoder.dimensions();
+        let format = match (kind, decoder.color_type(), file.color_space) {
+            (ImageFormat::Hdr | ImageFormat::OpenExr, ..) => Format::R16G16B16A16_SFLOAT,
+            (_, ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16, _) => {
+                Format::R16G16B16A16_UNORM
+            }
+            (.., ColorSpace::Srgb) => Format::R8G8B8A8_SRGB,
+            (.., ColorSpace::Linear) => Format::R8G8B8A8_UNORM,
+        };
+        check_space(kind, file, format)?;
+        Ok(TextureInfo { extent: [width, height], format })
+    }
+
+    fn texels(&mut self, file: &TextureFile, format: Format, extent: [u32; 3]) -> Result<Vec<u8>, TextureProblem> {
+        let (decoder, kind) = self.open(&file.path)?;
+        check_space(kind, file, format)?;
+        let (width, height) = decoder.dimensions();
+        let expected = picture_extent(extent);
+        if expected != [width, height] {
+            return Err(TextureProblem::Size { found: [width, height], expected, strip: extent[2] > 1 });
+        }
+        let decoded = DynamicImage::from_decoder(decoder).map_err(damaged)?;
+        let texels = match decoded.color() {
+            ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => {
+                Texels::Bytes(decoded.into_rgba8().into_raw())
+            }
+            ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => {
+                Texels::Words(decoded.into_rgba16().into_raw())
+            }
+            _ => Texels::Floats(decoded.into_rgba32f().into_raw()),
+        };
+        // Encoded values stay so where the format decodes them.
+        let decodes = file.color_space == ColorSpace::Srgb && format.numeric() != Numeric::Srgb;
+        let mut bytes = Vec::new();
+        let [across, down, slices] = extent.map(|side| side as usize);
+        for slice in 0..slices {
+            for row in 0..down {
+                for column in 0..across {
+                    let at = (row * slices + slice) * across + column;
+                    let [red, green, blue, alpha] = texels.at(at);
+                    let color = [red, green, blue].map(|value| if decodes { decode(value) } else { value });
+                    pack([color[0], color[1], color[2], alpha], format, &mut bytes)?;
+                }
+            }
+        }
+        Ok(bytes)
+    }
+}
+
+fn damaged(reason: impl std::fmt::Display) -> TextureProblem {
+    TextureProblem::Damaged { reason: reason.to_string() }
+}
+
+/// Light in floating point is never encoded.
+fn check_space(kind: ImageFormat, file: &TextureFile, format: Format) -> Result<(), TextureProblem> {
+    let floats = matches!(kind, ImageFormat::Hdr | ImageFormat::OpenExr);
+    let why = if floats && file.color_space == ColorSpace::Srgb {
+        Some("HDR and EXR hold linear light: declare it linear")
+    } else {
+        format_problem(file, format)
+    };
+    why.map_or(Ok(()), |why| Err(TextureProblem::Format { format, why }))
+}
+
+impl Texels {
+    /// Red, green, blue and alpha of the texel number `at`, fixed-point values as 0…1.
+    fn at(&self, at: usize) -> [f32; 4] {
+        let four = [0, 1, 2, 3].map(|component| 4 * at + component);
+        match self {
+            Texels::Bytes(bytes) => four.map(|at| f32::from(bytes[at]) / 255.0),
+            Texels::Words(words) => four.map(|at| f32::from(words[at]) / 65535.0),
+            Texels::Floats(floats) => four.map(|at| floats[at]),
+        }
+    }
+}
+
+/// The linear value of one that is encoded with the sRGB curve (IEC 61966-2-1).
+fn decode(encoded: f32) -> f32 {
+    let encoded = f64::from(encoded);
+    let linear = if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
+    #[allow(clippy::cast_possible_truncation, reason = "rounded to the nearest")]
+    let linear = linear as f32;
+    linear
+}
+
+/// Adds one texel; not a number becomes 0, and what is too large the largest that there is.
+fn pack(color: [f32; 4], format: Format, bytes: &mut Vec<u8>) -> Result<(), TextureProblem> {
+    use Format as F;
+    let color = color.map(|value| if value.is_nan() { 0.0 } else { value });
+    let components = format.components() as usize;
+    match format {
+        F::R8_UNORM | F::R8G8_UNORM | F::R8G8B8A8_UNORM | F::R8G8B8A8_SRGB => {
+            bytes.extend(color.iter().take(components).map(|value| fixed(*value, 255.0).to_ne_bytes()[LOW]));
+        }
+        F::B8G8R8A8_UNORM | F::B8G8R8A8_SRGB => {
+            bytes.extend([2, 1, 0, 3].map(|at| fixed(color[at], 255.0).to_ne_bytes()[LOW]));
+        }
+        F::R16G16B16A16_UNORM => bytes.extend(color.iter().flat_map(|value| fixed(*value, 65535.0).to_ne_bytes())),
+        F::R16_SFLOAT | F::R16G16_SFLOAT | F::R16G16B16A16_SFLOAT => {
+            let largest = f32::from(f16::MAX);
+            let half = |value: &f32| f16::from_f32(value.clamp(-largest, largest)).to_ne_bytes();
+            bytes.extend(color.iter().take(components).flat_map(half));
+        }
+        F::R32_SFLOAT | F::R32G32_SFLOAT | F::R32G32B32A32_SFLOAT => {
+            let float = |value: &f32| value.clamp(f32::MIN, f32::MAX).to_ne_bytes();
+            bytes.extend(color.iter().take(components).flat_map(float));
+        }
+        _ => return Err(TextureProblem::Format { format, why: "no picture is stored in this format" }),
+    }
+    Ok(())
+}
+
+/// The place of the low byte of a 16-bit value in memory.
+const LOW: usize = if cfg!(target_endian = "little") { 0 } else { 1 };
+
+/// A value 0…1 in steps of 1 / `most`, to the nearest.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 65535")]
+fn fixed(value: f32, most: f32) -> u16 {
+    (value.clamp(0.0, 1.0) * most).round() as u16
+}
