@@ -52,8 +52,8 @@ pub struct SamplerDescriptor {
     pub minify: TexelFilter,
     /// Filter between mip levels.
     pub mip: TexelFilter,
-    /// What lies beyond the edges, horizontally and vertically.
-    pub address: [AddressMode; 2],
+    /// What lies beyond the edges, horizontally, vertically and in depth.
+    pub address: [AddressMode; 3],
 }
 
 /// How a value between texels is found.
@@ -108,7 +108,7 @@ impl Shared {
                 })
                 .address_mode_u(address(it.address[0]))
                 .address_mode_v(address(it.address[1]))
-                .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+                .address_mode_w(address(it.address[2]))
                 .max_lod(vk::LOD_CLAMP_NONE);
             // SAFETY: the device lives.
             unsafe { self.raw.create_sampler(&info, None) }.map_err(Error::vulkan("creating a sampler"))

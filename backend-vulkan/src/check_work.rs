@@ -72,7 +72,8 @@ fn renderable(shared: &Shared, plan: &Plan, scope: &RenderScope) -> Result<(), E
 /// Whether the device can filter what a pass samples so.
 fn filtered(shared: &Shared, plan: &Plan, pass: &Pass) -> Result<(), Error> {
     let linear = pass.accesses.iter().filter(|access| {
-        access.binding.as_ref().is_some_and(|binding| binding.kind == BindingKind::Sampled(Filter::Linear))
+        let binding = access.binding.as_ref();
+        binding.is_some_and(|it| matches!(it.kind, BindingKind::Sampled(sampler) if sampler.is_linear()))
     });
     for access in linear {
         lacks(shared, plan, access.image, vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR, "filter")?;

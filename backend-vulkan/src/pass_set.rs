@@ -13,7 +13,7 @@ use crate::physical::{Physical, part};
 use ash::vk;
 use framewright_graph::interface::{self, Component, Dimension, ImageShape, PASS_SET};
 use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource, Subresources};
-use framewright_graph::vocabulary::{Accesses, Aspects, Filter, Stages};
+use framewright_graph::vocabulary::{self, Accesses, Aspects, Filter, Sampler, Stages};
 use std::sync::Arc;
 
 /// What a pass's own set is filled with, whatever stands for its images and buffers.
@@ -73,7 +73,7 @@ impl SetTemplate {
                 }
                 _ => {
                     let (ty, image) = image(shared, plan, pass, wanted).map_err(mismatch)?;
-                    let sampler = image.filter.map(|filter| shared.sampler(sampler(filter))).transpose()?;
+                    let sampler = image.sampler.map(|it| shared.sampler(it.into())).transpose()?;
                     let BoundImage { image, range, shape, layout, .. } = image;
                     (ty, Bound::Image { image, range, shape, layout, sampler: sampler.unwrap_or_default() })
                 }
@@ -171,7 +171,7 @@ struct BoundImage {
     range: Subresources,
     shape: ViewShape,
     layout: vk::ImageLayout,
-    filter: Option<Filter>,
+    sampler: Option<Sampler>,
 }
 
 /// The part of an image that is bound, in the shape that the shader declares.
@@ -207,13 +207,13 @@ fn image(
         Err(format!("`{name}` has {} samples and another kind of sampler", image.samples))
     };
     let layout = convert::layout(access.layout);
-    let whole = |shape, filter| BoundImage { image: access.image, range, shape, layout, filter };
+    let whole = |shape, sampler| BoundImage { image: access.image, range, shape, layout, sampler };
     match (&wanted.kind, kind) {
-        (interface::BindingKind::SampledImage(shape), BindingKind::Sampled(filter)) => {
+        (interface::BindingKind::SampledImage(shape), BindingKind::Sampled(sampler)) => {
             samples(shape.multisampled)?;
             read(shape.component)?;
             let shape = view_shape(shared, name, *shape, image, range)?;
-            Ok((vk::DescriptorType::COMBINED_IMAGE_SAMPLER, whole(shape, Some(filter))))
+            Ok((vk::DescriptorType::COMBINED_IMAGE_SAMPLER, whole(shape, Some(sampler))))
         }
         (interface::BindingKind::StorageImage { shape, format, writable, .. }, BindingKind::Storage) => {
             samples(shape.multisampled)?;
@@ -257,17 +257,19 @@ fn view_shape(
     }
 }
 
-/// Images of a frame end at their edges, and mip levels are read without filter between them.
-fn sampler(filter: Filter) -> SamplerDescriptor {
-    let filter = match filter {
-        Filter::Nearest => TexelFilter::Nearest,
-        Filter::Linear => TexelFilter::Linear,
-    };
-    SamplerDescriptor {
-        magnify: filter,
-        minify: filter,
-        mip: TexelFilter::Nearest,
-        address: [AddressMode::ClampToEdge; 2],
+impl From<Sampler> for SamplerDescriptor {
+    fn from(sampler: Sampler) -> SamplerDescriptor {
+        let texel_filter = |filter| match filter {
+            Filter::Nearest => TexelFilter::Nearest,
+            Filter::Linear => TexelFilter::Linear,
+        };
+        let address = match sampler.address {
+            vocabulary::AddressMode::ClampToEdge => AddressMode::ClampToEdge,
+            vocabulary::AddressMode::Repeat => AddressMode::Repeat,
+            vocabulary::AddressMode::MirroredRepeat => AddressMode::MirroredRepeat,
+        };
+        let filter = texel_filter(sampler.filter);
+        SamplerDescriptor { magnify: filter, minify: filter, mip: texel_filter(sampler.mips), address: [address; 3] }
     }
 }
 

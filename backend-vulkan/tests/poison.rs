@@ -8,7 +8,7 @@ use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Frame, ImageIndex
 use framewright_graph::interface::DrawInterface;
 use framewright_graph::plan::{Plan, Role};
 use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{Filter, Stages, Subresources};
+use framewright_graph::vocabulary::{Filter, Sampler, Stages, Subresources};
 use framewright_vulkan::{Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, ShaderLibrary};
 
 /// Each image holds the one before, and a little more; `sum` adds two.
@@ -58,7 +58,7 @@ fn pass(name: &str, shader: &str, sampled: &[(&str, u32)], target: u32) -> Pass 
         span: Span::NONE,
         per_sample: false,
         own_pixel: false,
-        filter: Filter::Nearest,
+        sampler: Sampler::new(Filter::Nearest),
         stages: Stages::FRAGMENT_SHADER,
     });
     let work = Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: false };

@@ -11,7 +11,7 @@ use framewright_graph::plan::{
     Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, Heap, Image, ImageId, Placement, Plan, Role,
     Sharing, StepId, Subresources, Work,
 };
-use framewright_graph::vocabulary::{Filter, Layout, ResolveMode, Usage};
+use framewright_graph::vocabulary::{Filter, Layout, ResolveMode, Sampler, Usage};
 use framewright_vulkan::{BufferUsage, Device, Executor, ExecutorOptions, Resource, ShaderLibrary};
 
 const SHADERS: &[(&str, &str)] = &[
@@ -127,7 +127,7 @@ fn a_filter_that_a_format_does_not_have_is_refused() {
         if let Work::Render(scope) = &mut plan.steps[1].work {
             let pass = &mut scope.passes[0];
             let range = Subresources::all(format, 1, 1);
-            let binding = Some(Binding { name: "source".into(), kind: BindingKind::Sampled(filter) });
+            let binding = Some(Binding { name: "source".into(), kind: BindingKind::Sampled(Sampler::new(filter)) });
             pass.accesses[1] = Access { image: depth, range, binding, ..pass.accesses[1].clone() };
         }
         add_up(&mut plan);

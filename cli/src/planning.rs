@@ -63,7 +63,7 @@ pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
         Ok(pipeline) => Ok(Loaded {
             pipeline,
             sources: Arc::new(sources),
-            textures: TextureFiles::new(folder.clone()),
+            textures: TextureFiles::new(folder.clone().unwrap_or_default()),
             shaders: library(folder),
             set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
         }),

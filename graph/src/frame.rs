@@ -6,7 +6,7 @@
 use crate::format::Format;
 use crate::source::{Sources, Span};
 use crate::texture::TextureFile;
-use crate::vocabulary::{Aspects, CompareOp, FillValue, Filter, Stages, State, StencilOp, Subresources};
+use crate::vocabulary::{Aspects, CompareOp, FillValue, Filter, Sampler, Stages, State, StencilOp, Subresources};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -328,8 +328,8 @@ pub struct Sampled {
     /// Whether each fragment reads only the texel at its own position: then, where the device has local reads, the pass
     /// can share the rendering scope of the one that drew it.
     pub own_pixel: bool,
-    /// Filter between texels.
-    pub filter: Filter,
+    /// How it is looked up between its texels and beyond its edges.
+    pub sampler: Sampler,
     /// Shader stages that sample it.
     pub stages: Stages,
 }

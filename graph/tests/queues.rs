@@ -13,7 +13,9 @@ use framewright_graph::frame::{
 use framewright_graph::plan::{self, Plan, Queue, Role, Sharing};
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Accesses, Aspects, FillValue, Filter, Layout, Stages, State, Subresources};
+use framewright_graph::vocabulary::{
+    Accesses, Aspects, FillValue, Filter, Layout, Sampler, Stages, State, Subresources,
+};
 
 const EXCLUSIVE: Queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive };
 const CONCURRENT: Queues = Queues { compute: true, transfer: true, sharing: Sharing::Concurrent };
@@ -91,7 +93,7 @@ fn sampled(image: ImageIndex, stages: Stages) -> Sampled {
         span: Span::NONE,
         per_sample: false,
         own_pixel: false,
-        filter: Filter::Nearest,
+        sampler: Sampler::new(Filter::Nearest),
         stages,
     }
 }

@@ -14,7 +14,7 @@ use framewright_graph::frame::{
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{CompareOp, Filter, Stages, Subresources};
+use framewright_graph::vocabulary::{CompareOp, Filter, Sampler, Stages, Subresources};
 use proptest::prelude::*;
 
 /// Images of every random frame: format and samples.
@@ -135,7 +135,7 @@ impl Maker {
                 span: Span::NONE,
                 per_sample,
                 own_pixel: false,
-                filter: Filter::Nearest,
+                sampler: Sampler::new(Filter::Nearest),
                 stages,
             });
         }

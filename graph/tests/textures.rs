@@ -14,7 +14,7 @@ use framewright_graph::plan::{Initial, Plan, Resource as Planned, Role, Sharing}
 use framewright_graph::source::Span;
 use framewright_graph::texture::{ColorSpace, TextureFile, TextureInfo, TextureProblem};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{FillValue, Layout, Stages, Subresources, Usage};
+use framewright_graph::vocabulary::{AddressMode, FillValue, Filter, Layout, Sampler, Stages, Subresources, Usage};
 use raster::Raster;
 use std::sync::Arc;
 
@@ -199,4 +199,26 @@ fn a_strip_of_squares_makes_a_three_dimensional_image_and_nothing_else_does() {
     let problem = info([255, 16]).image_extent(Shape::D3).expect_err("no strip");
     assert_eq!(problem, TextureProblem::Size { found: [255, 16], expected: [256, 16], strip: true });
     assert_eq!(problem.to_string(), "is 255×16, and 256×16 are needed: a strip of one square for each slice");
+}
+
+#[test]
+fn a_sampler_stands_in_the_plan_and_the_tree_says_what_is_unusual() {
+    let mut frame = frame();
+    let sampler = Sampler { filter: Filter::Linear, mips: Filter::Linear, address: AddressMode::MirroredRepeat };
+    frame.passes[0].sampled[0].sampler = sampler;
+    let plan = plan(&frame);
+    let json = plan.to_json().expect("it has one");
+    assert_eq!(Plan::from_json(&json).expect("it is read"), plan);
+    let said = "source0 = `grain`, sampled, LINEAR, between mip levels too, MIRRORED_REPEAT";
+    assert!(plan.tree().contains(said), "{}", plan.tree());
+}
+
+#[test]
+fn a_mean_between_mip_levels_needs_a_format_that_can_be_filtered() {
+    let mut frame = frame();
+    frame.passes[0].sampled[0].sampler.mips = Filter::Linear;
+    let mut device = raster::device();
+    device.formats.iter_mut().for_each(|support| support.linear_filter = false);
+    let errors = on(&frame, &device).expect_err("nothing can be filtered");
+    assert!(errors[0].starts_with("`film` can't filter `grain`"), "{errors:?}");
 }

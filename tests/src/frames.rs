@@ -7,7 +7,7 @@ use framewright_graph::frame::{
     Storage, Work,
 };
 use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{CompareOp, Filter, Stages, Subresources, Usage};
+use framewright_graph::vocabulary::{CompareOp, Filter, Sampler, Stages, Subresources, Usage};
 
 /// A device that has every format at 1, 2, 4 and 8 samples, adds nothing to an image's bytes, and has one queue.
 #[must_use]
@@ -136,7 +136,7 @@ impl Added<'_> {
             span: Span::NONE,
             per_sample: false,
             own_pixel: false,
-            filter: Filter::Nearest,
+            sampler: Sampler::new(Filter::Nearest),
             stages: if compute { Stages::COMPUTE_SHADER } else { Stages::FRAGMENT_SHADER },
         });
         self

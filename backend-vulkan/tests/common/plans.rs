@@ -8,7 +8,9 @@ use framewright_graph::plan::{
     Image, ImageBarrier, ImageId, Param, Pass, Placement, Plan, Queue, RenderScope, Resource, Role, Sharing, Step,
     StepId, Subresources, Totals, Work,
 };
-use framewright_graph::vocabulary::{Accesses, Filter, Layout, LoadOp, ResolveMode, Stages, State, StoreOp, Usage};
+use framewright_graph::vocabulary::{
+    Accesses, Filter, Layout, LoadOp, ResolveMode, Sampler, Stages, State, StoreOp, Usage,
+};
 use framewright_vulkan::Device;
 
 pub(crate) const FORMAT: Format = Format::R8G8B8A8_UNORM;
@@ -71,7 +73,7 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
     plan.steps.push(render(barriers, 4, color, vec![drawn]));
 
     let mut shown = pass("show", second, Draw::FullScreen, SCREEN);
-    let binding = Some(Binding { name: "source".into(), kind: BindingKind::Sampled(Filter::Nearest) });
+    let binding = Some(Binding { name: "source".into(), kind: BindingKind::Sampled(Sampler::new(Filter::Nearest)) });
     shown.accesses.push(Access { binding, ..access(RESOLVED, SAMPLED) });
     shown.params.push(Param { name: "invert".into(), value: ParamValue::Bool(true) });
     let barriers = vec![

@@ -11,7 +11,7 @@ use framewright_graph::interface::DrawInterface;
 use framewright_graph::plan::Plan;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Aspects, Filter, Stages, Subresources};
+use framewright_graph::vocabulary::{Aspects, Filter, Sampler, Stages, Subresources};
 use framewright_vulkan::{
     Blame, CustomRecorder, Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Recorder,
     ShaderLibrary,
@@ -212,7 +212,7 @@ fn sampled(pass: &Pass, binding: &str, image: ImageIndex, range: Subresources) -
         span: Span::NONE,
         per_sample: false,
         own_pixel: false,
-        filter: Filter::Nearest,
+        sampler: Sampler::new(Filter::Nearest),
         stages: stages(pass),
     }
 }

@@ -5,7 +5,7 @@ use framewright_graph::compile::Options;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, Frame, Image, Lifetime, Shape};
 use framewright_graph::texture::{ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures};
-use framewright_graph::vocabulary::Subresources;
+use framewright_graph::vocabulary::{AddressMode, Filter, Sampler, Subresources};
 use framewright_vulkan::{Device, Error, Executor, ExecutorOptions};
 use std::sync::Arc;
 
@@ -150,4 +150,60 @@ fn a_plan_that_goes_on_reads_its_textures_anew() {
         self::frame(&mut after);
         assert_eq!(texels(&mut after, "words", 0), [9; 16]);
     });
+}
+
+/// A row of words that `show` makes of the picture with these bytes, sampled so, on each driver.
+fn row(picture: Image, sampler: Sampler, shaders: Shaders, bytes: &[u8], expected: [u32; 4]) {
+    let mut frame = shown(picture);
+    frame.passes[0].sampled[0].sampler = sampler;
+    on_each_driver(|device| {
+        let mut executor = executor(device, &frame, shaders, bytes).expect("an executor");
+        self::frame(&mut executor);
+        let name = &device.summary().name;
+        assert_eq!(texels(&mut executor, "words", 0)[..4], expected, "{name}, {sampler:?}");
+    });
+}
+
+#[test]
+fn beyond_its_edges_a_picture_is_what_the_sampler_says() {
+    // At −0.75, 0.25, 1.25 and 2.25 of the width of two texels.
+    const ALONG: Shaders = &[(
+        "show.frag",
+        "#version 460
+        layout(set = 0, binding = 0) uniform sampler2D picture;
+        layout(location = 0) out uint word;
+        void main() {
+            float place = floor(gl_FragCoord.x) - 0.75;
+            word = uint(round(textureLod(picture, vec2(place, 0.5), 0.0).r * 255.0));
+        }",
+    )];
+    for (address, expected) in [
+        (AddressMode::ClampToEdge, [10, 10, 20, 20]),
+        (AddressMode::Repeat, [10, 10, 10, 10]),
+        (AddressMode::MirroredRepeat, [20, 10, 20, 10]),
+    ] {
+        let sampler = Sampler { address, ..Sampler::new(Filter::Nearest) };
+        let bytes = [10, 0, 0, 255, 20, 0, 0, 255];
+        row(picture(Format::R8G8B8A8_UNORM, [2, 1, 1], 1, "picture"), sampler, ALONG, &bytes, expected);
+    }
+}
+
+#[test]
+fn between_mip_levels_lies_a_mean_or_the_nearest_as_the_sampler_says() {
+    // From the texel 100 to the mean 60 of all four.
+    const BETWEEN: Shaders = &[(
+        "show.frag",
+        "#version 460
+        layout(set = 0, binding = 0) uniform sampler2D picture;
+        layout(location = 0) out uint word;
+        void main() {
+            float level = float[](0.0, 0.25, 0.75, 1.0)[int(gl_FragCoord.x)];
+            word = uint(round(textureLod(picture, vec2(0.25), level).r * 255.0));
+        }",
+    )];
+    let bytes: Vec<u8> = [100, 60, 60, 20].iter().flat_map(|red| [*red, 0, 0, 255]).collect();
+    for (mips, expected) in [(Filter::Nearest, [100, 100, 60, 60]), (Filter::Linear, [100, 90, 70, 60])] {
+        let sampler = Sampler { mips, ..Sampler::new(Filter::Nearest) };
+        row(picture(Format::R8G8B8A8_UNORM, [2, 2, 1], 2, "picture"), sampler, BETWEEN, &bytes, expected);
+    }
 }

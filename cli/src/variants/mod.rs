@@ -62,7 +62,7 @@ fn report(arguments: &Check) -> Result<Report, Error> {
     let devices = devices(arguments)?;
     let loaded = planning::load(&arguments.pipeline)?;
     loaded.check_command_line(check::VIEW)?;
-    let Loaded { pipeline, sources, shaders, set } = loaded;
+    let Loaded { pipeline, sources, shaders, set, .. } = loaded;
     let (names, devices): (Vec<String>, _) = devices.into_iter().unzip();
     let axes = Axes::of(&pipeline, &sources, &set, &names);
     let sizes = axes.sizes();

@@ -9,7 +9,7 @@ use crate::device::{FormatSupport, Profile};
 use crate::format::Format::{self, *};
 use crate::frame::{Blend, Frame, Lifetime, Pass, Resource, Work};
 use crate::plan::{Note, Stage};
-use crate::vocabulary::{Filter, Usage};
+use crate::vocabulary::Usage;
 use petgraph::unionfind::UnionFind;
 use std::collections::BTreeMap;
 
@@ -111,7 +111,7 @@ fn wanted<'f, P: Iterator<Item = &'f Pass>>(frame: &Frame, passes: impl Fn() -> 
     }
     for pass in passes() {
         for sampled in &pass.sampled {
-            wanted[sampled.image.0 as usize].filter |= sampled.filter == Filter::Linear;
+            wanted[sampled.image.0 as usize].filter |= sampled.sampler.is_linear();
         }
         for target in &pass.color {
             wanted[target.image.0 as usize].blend |= target.blend != Blend::Replace;

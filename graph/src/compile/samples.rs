@@ -9,7 +9,7 @@ use crate::frame::{Blend, Frame, Image, ImageIndex, Lifetime, Pass, Resource, Sh
 use crate::plan::{Note, Stage};
 use crate::source::Span;
 use crate::states::usage_for;
-use crate::vocabulary::{Filter, State, Subresources, Usage};
+use crate::vocabulary::{State, Subresources, Usage};
 use petgraph::unionfind::UnionFind;
 use std::collections::BTreeMap;
 
@@ -224,7 +224,7 @@ fn check_operations(frame: &Frame, pass: &Pass, supports: &Supports<'_>, errors:
         errors.push(Diagnostic::new(span, message).label(image.span, "declared here").help(help));
     };
     let support = |image: ImageIndex| supports.of(frame.images[image.0 as usize].format);
-    for sampled in pass.sampled.iter().filter(|sampled| sampled.filter == Filter::Linear) {
+    for sampled in pass.sampled.iter().filter(|sampled| sampled.sampler.is_linear()) {
         if support(sampled.image).is_some_and(|support| !support.linear_filter) {
             refuse(sampled.image, sampled.span, "filter", "write `filter: Nearest`, or choose another format");
         }

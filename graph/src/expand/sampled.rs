@@ -8,7 +8,7 @@ use super::{Chosen, storage};
 use crate::describe::{self, Diagnostic, Face, nearest, suggestion};
 use crate::frame::{Pass, Sampled, Shape};
 use crate::interface::{BindingKind, Component, Dimension, ImageShape, PASS_SET, ShaderInterface};
-use crate::vocabulary::{Aspects, Filter, Subresources};
+use crate::vocabulary::{Aspects, Filter, Sampler, Subresources};
 
 /// A sampled image as its shader declares it.
 #[derive(Clone, Copy)]
@@ -72,7 +72,7 @@ pub(super) fn lower(
         span: sample.part.image.span,
         per_sample,
         own_pixel: sample.own_pixel.map_or(input, |own| own.value),
-        filter: sample.filter.map_or(default, |filter| filter.value),
+        sampler: Sampler::new(sample.filter.map_or(default, |filter| filter.value)),
         stages: storage::stages(interface, name, raster),
     })
 }

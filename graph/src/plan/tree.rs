@@ -10,7 +10,7 @@ use super::{
 use crate::frame::{Blend, BufferRole, Draw, DrawList, Groups, ParamValue, StencilState};
 use crate::source::Place;
 use crate::texture::ColorSpace;
-use crate::vocabulary::FillValue;
+use crate::vocabulary::{AddressMode, FillValue, Filter, Sampler};
 
 /// The tree form.
 pub(super) fn tree(plan: &Plan) -> String {
@@ -175,7 +175,7 @@ impl Tree<'_> {
     fn binding(self, access: &Access) -> Option<Node> {
         let binding = access.binding.as_ref()?;
         let kind = match binding.kind {
-            BindingKind::Sampled(filter) => format!("sampled, {}", vulkan(&filter)),
+            BindingKind::Sampled(sampler) => format!("sampled, {}", words_of(&sampler)),
             BindingKind::Storage => "storage".to_owned(),
             BindingKind::InputAttachment => "read at its own position".to_owned(),
         };
@@ -314,6 +314,18 @@ fn role<'p>(role: &Role, name: &str, next: impl Fn(u32) -> &'p str) -> String {
         }
         Role::External { .. } => ": external".to_owned(),
     }
+}
+
+/// A sampler, without what is usual.
+fn words_of(sampler: &Sampler) -> String {
+    let mut words = vulkan(&sampler.filter);
+    if sampler.mips == Filter::Linear {
+        words += ", between mip levels too";
+    }
+    if sampler.address != AddressMode::default() {
+        words += &format!(", {}", vulkan(&sampler.address));
+    }
+    words
 }
 
 fn fill_value(value: &FillValue) -> String {

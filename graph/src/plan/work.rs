@@ -2,7 +2,9 @@
 
 use super::{BufferId, Cause, ImageId, Resource, Subresources};
 use crate::frame::{Blend, BufferRole, Draw, Groups, ParamValue, StencilState};
-use crate::vocabulary::{Accesses, CompareOp, FillValue, Filter, Layout, LoadOp, ResolveMode, Stages, StoreOp};
+use crate::vocabulary::{
+    Accesses, CompareOp, FillValue, Filter, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
+};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -147,8 +149,8 @@ pub struct Binding {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BindingKind {
-    /// A combined image sampler with this filter.
-    Sampled(Filter),
+    /// A combined image sampler.
+    Sampled(Sampler),
     /// A storage image.
     Storage,
     /// An input attachment.

@@ -7,7 +7,7 @@ use super::work::{Check, is_read_only, is_written};
 use crate::frame::{Blend, BufferRole, Draw, Groups};
 use crate::plan::names::{Shown, vulkan};
 use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Pass, RenderScope};
-use crate::vocabulary::{Accesses, CompareOp, Filter, Layout, Stages, StencilOp};
+use crate::vocabulary::{Accesses, CompareOp, Layout, Stages, StencilOp};
 
 const STORAGE: Accesses = Accesses::SHADER_STORAGE_READ.union(Accesses::SHADER_STORAGE_WRITE);
 const SHADER: Accesses = STORAGE.union(Accesses::SHADER_SAMPLED_READ).union(Accesses::INPUT_ATTACHMENT_READ);
@@ -184,7 +184,7 @@ impl<'p> Check<'_, 'p> {
         };
         self.demand(!of_shader.is_empty(), access.image, "is bound without such an access");
         self.demand(possible.contains(of_shader), access.image, "is accessed by a shader without such a binding");
-        let linear = binding.kind == BindingKind::Sampled(Filter::Linear);
+        let linear = matches!(binding.kind, BindingKind::Sampled(sampler) if sampler.is_linear());
         let integer = self.plan.image(access.image).format.is_integer();
         self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
     }

@@ -4,7 +4,7 @@ use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Frame, Groups, Image, ImageIndex, Output, Pass, Resource, Sampled, Storage, Work};
 use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{Filter, Stages, Subresources, Usage};
+use framewright_graph::vocabulary::{Filter, Sampler, Stages, Subresources, Usage};
 use std::sync::Arc;
 
 /// A device that has every format at 1, 4 and 8 samples and adds nothing to an image's bytes.
@@ -71,7 +71,7 @@ impl Builder {
             span: Span::NONE,
             per_sample: false,
             own_pixel: false,
-            filter: Filter::Nearest,
+            sampler: Sampler::new(Filter::Nearest),
             stages,
         };
         let store = |(image, read): &(ImageIndex, bool)| Storage {

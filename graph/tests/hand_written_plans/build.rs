@@ -5,7 +5,9 @@ use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, BufferRole, Draw, Groups, Shape};
 use framewright_graph::plan::*;
 use framewright_graph::source::Place;
-use framewright_graph::vocabulary::{self, Accesses, BufferUsage, Filter, Layout, LoadOp, Stages, StoreOp, Usage};
+use framewright_graph::vocabulary::{
+    self, Accesses, BufferUsage, Filter, Layout, LoadOp, Sampler, Stages, StoreOp, Usage,
+};
 
 /// A stage, an access and a layout.
 pub(crate) type State = (Stages, Accesses, Layout);
@@ -104,7 +106,7 @@ pub(crate) fn storage(name: &str, image: &Image, state: State) -> Access {
 
 /// A sampled image by its shader's name.
 pub(crate) fn sampled(name: &str, image: &Image, state: State) -> Access {
-    let kind = BindingKind::Sampled(Filter::Nearest);
+    let kind = BindingKind::Sampled(Sampler::new(Filter::Nearest));
     Access { binding: Some(Binding { name: name.into(), kind }), ..access(image, state) }
 }
 

@@ -177,7 +177,7 @@ fn colour_is_filtered_and_depth_and_single_samples_are_not_unless_asked() {
     let frame = right(&pipeline("", images, passes), &INPUTS);
     let sampled = |pass: usize| {
         let sampled = &frame.passes[pass].sampled[0];
-        (sampled.filter, sampled.per_sample)
+        (sampled.sampler.filter, sampled.per_sample)
     };
     assert_eq!(sampled(2), (Filter::Linear, false));
     assert_eq!(sampled(3), (Filter::Nearest, false));

@@ -9,7 +9,7 @@ use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Image, ImageIndex, Output, Pass, Resource, Sampled, Work,
 };
 use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{CompareOp, Filter, Stages, Subresources};
+use framewright_graph::vocabulary::{CompareOp, Filter, Sampler, Stages, Subresources};
 pub(crate) use graphs::device;
 
 /// Builds a frame of raster passes, all images 64×64.
@@ -125,7 +125,7 @@ impl Added<'_> {
             span: Span::NONE,
             per_sample,
             own_pixel: false,
-            filter,
+            sampler: Sampler::new(filter),
             stages: Stages::FRAGMENT_SHADER,
         });
         self

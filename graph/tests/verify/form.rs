@@ -146,7 +146,7 @@ fn a_text_that_is_no_plan_is_refused_with_its_reason() {
         Plan::from_json(&text.replacen(from, to, 1)).expect_err(to).to_string()
     };
     assert_eq!(
-        changed("\"format_version\": 2", "\"format_version\": 7"),
+        changed("\"format_version\": 3", "\"format_version\": 7"),
         "the Plan has format version 7, this program reads version 2: compile it again"
     );
     assert_eq!(changed("\"id\": 0", "\"id\": 9"), "images[0] has the id 9: ids are indices");

@@ -50,6 +50,6 @@ fn sampler(sampler: Sampler) -> SamplerDescriptor {
         magnify: filter(sampler.magnify),
         minify: filter(sampler.minify),
         mip: filter(sampler.mip.unwrap_or(Filter::Nearest)),
-        address: [address(sampler.wrap_u), address(sampler.wrap_v)],
+        address: [address(sampler.wrap_u), address(sampler.wrap_v), AddressMode::ClampToEdge],
     }
 }

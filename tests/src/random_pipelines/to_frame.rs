@@ -9,7 +9,7 @@ use super::{shader, texels};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Frame, ImageIndex, Lifetime, Resource};
 use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Stages, State, Subresources};
+use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Sampler, Stages, State, Subresources};
 
 /// The frame that `pipeline` says.
 #[must_use]
@@ -214,7 +214,7 @@ fn sampled(pipeline: &Pipeline, binding: &str, part: Part, stages: Stages) -> fr
         span: Span::NONE,
         per_sample: false,
         own_pixel: false,
-        filter: Filter::Nearest,
+        sampler: Sampler::new(Filter::Nearest),
         stages,
     }
 }

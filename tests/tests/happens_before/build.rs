@@ -7,7 +7,7 @@ use framewright_graph::plan::{
     Initial, MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Sharing, Step, StepId, Subresources, Totals,
     Wait, Work,
 };
-use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Stages, State, Usage};
+use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Sampler, Stages, State, Usage};
 
 pub(crate) const R: Accesses = Accesses::SHADER_SAMPLED_READ;
 pub(crate) const W: Accesses = Accesses::SHADER_STORAGE_WRITE;
@@ -80,7 +80,7 @@ pub(crate) fn persistent(plan: &mut Plan, name: &str, becomes: u32) -> ImageId {
 /// An access of a compute pass: sampled in `SHADER_READ_ONLY_OPTIMAL`, or written in `GENERAL`.
 pub(crate) fn access(image: ImageId, accesses: Accesses) -> Access {
     let (layout, kind) = match accesses {
-        R => (Layout::ShaderReadOnlyOptimal, BindingKind::Sampled(Filter::Nearest)),
+        R => (Layout::ShaderReadOnlyOptimal, BindingKind::Sampled(Sampler::new(Filter::Nearest))),
         _ => (Layout::General, BindingKind::Storage),
     };
     let range = Subresources::all(FORMAT, 1, 1);

@@ -7,7 +7,7 @@ use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
     Transfer, Work,
 };
-use crate::vocabulary::Filter;
+use crate::vocabulary::{Filter, Sampler};
 use std::sync::Arc;
 
 /// The shader that draws one image into another.
@@ -100,7 +100,7 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     };
     let (name, cause) = (declared.name.clone(), cause(parts, op));
     if let OpKind::ForwardDraw { filter, .. } = op.kind {
-        let binding = || Some(Binding { name: COPY_SOURCE.into(), kind: BindingKind::Sampled(filter) });
+        let binding = || Some(Binding { name: COPY_SOURCE.into(), kind: BindingKind::Sampled(Sampler::new(filter)) });
         let accesses =
             uses.iter().map(|used| access(parts, used, (used.role == Role::Sampled).then(binding).flatten()));
         return Pass {
@@ -173,7 +173,7 @@ fn binding(used: &Use, declared: &FramePass) -> Option<Binding> {
     match used.role {
         Role::Sampled => {
             let sampled = &declared.sampled[entry];
-            Some(Binding { name: sampled.binding.clone(), kind: BindingKind::Sampled(sampled.filter) })
+            Some(Binding { name: sampled.binding.clone(), kind: BindingKind::Sampled(sampled.sampler) })
         }
         Role::Input => {
             let name = declared.sampled[entry].binding.clone();
