@@ -28,7 +28,8 @@ const EXIT_CODES: &str = "Exit codes:
 pub(crate) enum Command {
     /// Read a pipeline, compile its shaders and its Plan, and verify the Plan. Needs no GPU.
     ///
-    /// Passes that the settings turn off, and their shaders, are left out: check them with `--set`.
+    /// Passes that the settings turn off, and their shaders, are left out: check them with `--set`, or all variants at once
+    /// with `--all-variants`.
     Check(Check),
     /// Print the Plan of a pipeline: its passes, scopes, resolves, memory and barriers, each with its cause. Needs no GPU.
     Inspect(Inspect),

@@ -5,7 +5,7 @@ mod support;
 use framewright_graph::device::SHIPPED_PROFILES;
 use serde_json::Value;
 use std::fmt::Write;
-use support::{Outcome, Place};
+use support::{Outcome, Place, repository};
 
 /// Wrong only with eight samples, without HDR, in a scene without transparent objects: then eight samples are copied to four.
 const TREACHEROUS: &str = r#"Pipeline(
@@ -152,8 +152,14 @@ fn a_file_that_cannot_be_read_is_an_answer_for_programs_and_an_error_for_people(
 #[test]
 fn every_shipped_pipeline_is_fine_in_every_variant_on_every_shipped_device() {
     let place = Place::new();
-    for pipeline in ["auto_exposure", "forward", "snow", "soft_focus"] {
-        let answer = json(&place, &[pipeline, "--device", "all"], 0);
+    for entry in std::fs::read_dir(repository("examples/pipelines")).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let pipeline = path.to_str().filter(|path| path.ends_with(".ron"));
+        let Some(pipeline) = pipeline else { continue };
+        let all = [pipeline, "--device", "all"];
+        let too_many = check(&place, &all).code == Some(2);
+        let pairwise: &[&str] = if too_many { &["--pairwise"] } else { &[] };
+        let answer = json(&place, &[&all, pairwise].concat(), 0);
         assert_eq!((&answer["fine"], &answer["failing"]), (&true.into(), &0.into()), "{pipeline}");
         let devices = answer["axes"].as_array().and_then(|axes| axes.last()).expect("an axis");
         assert_eq!(devices["values"].as_array().map(Vec::len), Some(SHIPPED_PROFILES.len()));

@@ -14,9 +14,11 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Variants that a thread takes at a time: few, so that all threads end together, and enough that those which differ only
-/// in their device stay together.
-const BATCH: usize = 64;
+/// Variants that a thread takes at a time, if there are many: those that differ only in their device stay together.
+const LARGEST_BATCH: usize = 64;
+
+/// Batches for each thread, if there are few variants: all threads end at about the same time.
+const BATCHES: usize = 8;
 
 /// What was found.
 #[derive(Debug, Default)]
@@ -81,13 +83,14 @@ pub(crate) fn run(
     threads: usize,
     progress: &ProgressBar,
 ) -> Found {
+    let batch = (space.len() / (threads * BATCHES)).clamp(1, LARGEST_BATCH);
     let next = AtomicUsize::new(0);
     let work = || {
         let mut judge = Judge::new(subject, Shared::new(library));
         let mut found = Found::default();
         loop {
-            let from = next.fetch_add(BATCH, Ordering::Relaxed);
-            let to = (from + BATCH).min(space.len());
+            let from = next.fetch_add(batch, Ordering::Relaxed);
+            let to = (from + batch).min(space.len());
             if from >= to {
                 return found;
             }
@@ -103,7 +106,7 @@ pub(crate) fn run(
         }
     };
     std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+        let others: Vec<_> = (1..threads.min(space.len())).map(|_| scope.spawn(work)).collect();
         let mut found = work();
         for other in others {
             match other.join() {
