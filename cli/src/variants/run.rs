@@ -169,3 +169,34 @@ impl Found {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_stands_for_others_is_nearest_to_the_defaults_whoever_found_it() {
+        let diagnostic = Diagnostic { message: "wrong".to_owned(), labels: Vec::new(), help: None };
+        let fine = Fine { plan: 7, totals: Totals::default() };
+        let numbers = [(2, 1), (1, 5), (1, 7), (3, 0)];
+        for split in 0..=numbers.len() {
+            for turned in 0..numbers.len() {
+                let mut halves = [Found::default(), Found::default()];
+                for at in 0..numbers.len() {
+                    let (departures, number) = numbers[(at + turned) % numbers.len()];
+                    let (found, example) = (&mut halves[usize::from(at < split)], Example { departures, number });
+                    found.add(example, number % 2, Err(vec![diagnostic.clone(), diagnostic.clone()]));
+                    found.add(example, 0, Ok(fine));
+                }
+                let [mut found, other] = halves;
+                found.merge(other);
+                assert_eq!((found.checked, found.failing), (8, 4));
+                let least = Example { departures: 1, number: 5 };
+                let failure = &found.failures[&mistake(&diagnostic)];
+                assert_eq!((failure.example, failure.variants), (least, 4));
+                assert_eq!(failure.devices, BTreeSet::from([0, 1]));
+                assert_eq!((found.plans[&7].example, found.plans[&7].variants), (least, 4));
+            }
+        }
+    }
+}
