@@ -16,6 +16,7 @@
 //! What ties keeps the file's order.
 
 mod dependencies;
+mod greedy;
 mod levels;
 mod memory;
 mod runs;
@@ -26,6 +27,7 @@ use super::Order;
 use super::model::Adapted;
 use super::parts::Grids;
 use dependencies::Dependencies;
+use greedy::Greedy;
 use memory::{Lifetimes, Memory};
 use runs::Runs;
 use touches::Touches;
@@ -94,15 +96,6 @@ fn scored(
 /// The runs in that of several orders in which the least memory is alive at one time.
 fn small(adapted: &Adapted, touches: &Touches, runs: &Runs) -> Vec<u32> {
     let memory = Memory::of(adapted);
-    let dependencies = Dependencies::between(touches, runs);
-    let mut orders = vec![
-        (0..runs.len()).collect(),
-        scored(adapted, touches, runs, &memory, None),
-        memory.greedy(adapted, runs, &dependencies),
-    ];
-    let mut backwards = memory.greedy(adapted, runs, &dependencies.reversed());
-    backwards.reverse();
-    orders.push(backwards);
-    let least = orders.into_iter().min_by_key(|order: &Vec<u32>| memory.peak(&Lifetimes::of(adapted, runs, order)));
-    least.unwrap_or_default()
+    let others = vec![(0..runs.len()).collect(), scored(adapted, touches, runs, &memory, None)];
+    Greedy::new(adapted, runs, &memory, Dependencies::between(touches, runs)).best(others)
 }
