@@ -77,7 +77,7 @@ fn what_cannot_be_is_refused_in_words() {
     fn noise(frame: &mut Frame) -> &mut Image {
         &mut frame.images[NOISE]
     }
-    let changes: [(&str, Change); 33] = [
+    let changes: [(&str, Change); 34] = [
         ("accesses `color` as storage, which has several samples", |frame| {
             frame.passes.push(dispatch("keep", ImageIndex(0)));
         }),
@@ -129,6 +129,7 @@ fn what_cannot_be_is_refused_in_words() {
         ("names image number 9, which does not exist", |frame| frame.passes[0].storage[0].image = ImageIndex(9)),
         ("`screen` is an output twice", |frame| frame.outputs.push(frame.outputs[0].clone())),
         ("`fill` has attachments and doesn't draw", |frame| frame.passes[0].color = frame.passes[1].color.clone()),
+        ("`opaque` draws into nothing: it has no attachment", |frame| frame.passes[1].color.clear()),
         ("`blend` accesses `source1` in stages", |frame| frame.passes[2].sampled[1].stages = Stages::COMPUTE_SHADER),
         ("`fill` accesses `target` in stages", |frame| frame.passes[0].storage[0].stages = Stages::empty()),
         ("`fill` neither reads nor writes `target`", |frame| frame.passes[0].storage[0].write = false),

@@ -67,6 +67,10 @@ impl Maker {
             6 => self.dispatch(&mut pass),
             _ => self.forward(&mut pass),
         }
+        if matches!(pass.work, Work::Draw { .. }) && pass.color.is_empty() {
+            // There was nothing that it could have drawn into.
+            return;
+        }
         let targets = pass.color.iter().map(|target| target.image);
         let stored = pass.storage.iter().filter(|storage| storage.write).map(|storage| storage.image);
         let depth = pass.depth.iter().map(|depth| depth.image);

@@ -245,8 +245,10 @@ impl Check<'_> {
             Work::Custom { .. } => Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER | Stages::COMPUTE_SHADER,
             Work::Copy | Work::Blit { .. } | Work::Fill { .. } | Work::Forward { .. } => Stages::empty(),
         };
-        if attached && !matches!(pass.work, Work::Draw { .. }) {
-            return self.wrong(pass.span, "has attachments and doesn't draw");
+        match (attached, matches!(pass.work, Work::Draw { .. })) {
+            (true, false) => return self.wrong(pass.span, "has attachments and doesn't draw"),
+            (false, true) => return self.wrong(pass.span, "draws into nothing: it has no attachment"),
+            _ => {}
         }
         let fits = |stages: Stages| !stages.is_empty() && shaded.contains(stages);
         let sampled = pass.sampled.iter().filter(|sampled| !fits(sampled.stages)).map(|sampled| &sampled.binding);
