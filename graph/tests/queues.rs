@@ -375,6 +375,14 @@ fn what_other_queues_cannot_do_stays_and_says_why() {
 }
 
 #[test]
+fn what_the_devices_other_queue_cannot_do_stays_and_says_why() {
+    let queues = Queues { compute: false, transfer: true, ..Queues::default() };
+    let plan = compiled(&simulated(), queues);
+    assert!(plan.steps.iter().all(|step| step.queue == Queue::Graphics), "{}", plan.tree());
+    assert_eq!(note(&plan, "simulate"), "stays on the graphics queue: no other queue of the device can do it");
+}
+
+#[test]
 fn what_persists_is_waited_for_across_frames() {
     let mut builder = Builder::default();
     let [shadow, screen] = ["shadow", "screen"].map(|name| builder.image(name));

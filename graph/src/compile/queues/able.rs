@@ -27,7 +27,7 @@ pub(super) enum Bound {
     Planes,
     /// What it touches is handed in or leaves the frame.
     Outside,
-    /// The device has no queue for it.
+    /// The device has no other queue that can do it.
     NoQueue,
 }
 
@@ -35,12 +35,13 @@ impl Bound {
     /// In the reader's words; `None` where there is nothing to say.
     pub(super) fn why(self) -> Option<&'static str> {
         match self {
-            Bound::Graphics | Bound::NoQueue => None,
+            Bound::Graphics => None,
             Bound::Scales => Some("blits need it"),
             Bound::Recorded => Some("the embedding program records it"),
             Bound::Effect => Some("its effect comes in order with others that no image or buffer shows"),
             Bound::Planes => Some("copies and fills of depth, stencil or several samples need it"),
             Bound::Outside => Some("what it touches is handed in or leaves the frame"),
+            Bound::NoQueue => Some("no other queue of the device can do it"),
         }
     }
 }

@@ -21,6 +21,11 @@ use crate::vocabulary::Layout;
 /// How often all windows are looked at: no frame that passes are written for takes more than a few rounds.
 const MOST_ROUNDS: u32 = 32;
 
+/// Why steps stay on graphics that could leave it.
+const ALONE: &str = "nothing that neither waits for it nor is waited for runs beside it";
+const UNDECIDED: &str =
+    "what can run beside what was not found out in as many rounds as are tried, so nothing leaves it";
+
 /// Gives each step its queue, and each image and buffer its sharing; `None` if all steps run on graphics.
 pub(in crate::compile) fn assign(
     frame: &Frame,
@@ -37,12 +42,14 @@ pub(in crate::compile) fn assign(
     let bound: Vec<Result<[bool; QUEUES], Bound>> = scoped.steps.iter().map(|step| able.of(step)).collect();
     let mut queues = wanted(frame, adapted, scoped, &bound);
     let mut windows = Vec::new();
+    let mut gives_up = false;
     for round in 0.. {
         if queues.iter().all(|queue| *queue == Queue::Graphics) {
             break;
         }
         if round == MOST_ROUNDS {
             queues.fill(Queue::Graphics);
+            gives_up = true;
             break;
         }
         let steps = Steps { grids, adapted, steps: &scoped.steps, queues: &queues, sharing: device.queues.sharing };
@@ -58,7 +65,8 @@ pub(in crate::compile) fn assign(
             *queue = Queue::Graphics;
         }
     }
-    let notes = notes(frame, adapted, scoped, &bound, &queues, &windows);
+    let stays = if gives_up { UNDECIDED } else { ALONE };
+    let notes = notes(frame, adapted, scoped, &bound, &queues, &windows, stays);
     adapted.notes.extend(notes);
     if queues.iter().all(|queue| *queue == Queue::Graphics) {
         return None;
@@ -70,7 +78,7 @@ pub(in crate::compile) fn assign(
 
 /// The queue that each step would leave graphics for. A transfer beside dispatches goes where they go: that saves waits.
 fn wanted(frame: &Frame, adapted: &Adapted, scoped: &Scoped, bound: &[Result<[bool; QUEUES], Bound>]) -> Vec<Queue> {
-    let [_, compute, transfer] = [0, 1, 2];
+    let [compute, transfer] = [Queue::Compute, Queue::Transfer].map(number);
     let mut dispatched = vec![false; adapted.stores.len()];
     for (step, able) in scoped.steps.iter().zip(bound) {
         if able.is_ok_and(|able| able[compute]) && is_dispatch(frame, adapted, step) {
@@ -127,7 +135,7 @@ fn split_users(adapted: &Adapted, scoped: &Scoped, queues: &[Queue], stays: &mut
     }
 }
 
-/// Why each pass that isn't drawn runs where it does.
+/// Why each pass that isn't drawn runs where it does. `stays`: why those stay on graphics that could leave it.
 fn notes(
     frame: &Frame,
     adapted: &Adapted,
@@ -135,6 +143,7 @@ fn notes(
     bound: &[Result<[bool; QUEUES], Bound>],
     queues: &[Queue],
     windows: &[[u32; 2]],
+    stays: &str,
 ) -> Vec<Note> {
     let mut notes = Vec::new();
     for (step, at) in scoped.steps.iter().zip(0..) {
@@ -146,10 +155,7 @@ fn notes(
                 Some(why) => format!("stays on the graphics queue: {why}"),
                 None => continue,
             },
-            (Queue::Graphics, Ok(_)) => {
-                "stays on the graphics queue: nothing that neither waits for it nor is waited for runs beside it"
-                    .to_owned()
-            }
+            (Queue::Graphics, Ok(_)) => format!("stays on the graphics queue: {stays}"),
             (queue, _) => {
                 let mut others = beside(bound, windows[at]);
                 let name = others.next().and_then(|step| first_name(frame, adapted, &scoped.steps[step as usize]));
