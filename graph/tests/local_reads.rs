@@ -4,11 +4,12 @@
 #[allow(dead_code, reason = "most of what the builder can do isn't needed here")]
 mod raster;
 
-use framewright_graph::compile::{Compiler, Options, Reuse, compile};
+use framewright_graph::compile::{Compiler, Options, Order, Reuse, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{R8G8B8A8_SRGB, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
-use framewright_graph::frame::{Blend, Frame};
+use framewright_graph::frame::{Blend, Frame, ImageIndex, Output, Resource};
 use framewright_graph::plan::{BindingKind, Plan, RenderScope, Stage, Work};
+use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Accesses, Layout, Stages, StoreOp, Usage};
 use raster::Raster;
@@ -129,6 +130,30 @@ fn a_light_that_is_added_later_reads_without_a_second_barrier() {
     let plan = compiled(&frame, &device(true));
     let barriers: Vec<bool> = scopes(&plan)[0].passes.iter().map(|pass| pass.local_barrier).collect();
     assert_eq!(barriers, [false, true, false]);
+}
+
+#[test]
+fn what_was_read_locally_is_drawn_over_behind_a_barrier() {
+    let mut frame = deferred(1);
+    let mut marks = frame.passes[0].clone();
+    marks.name = "marks".into();
+    marks.color.truncate(1);
+    marks.color[0].clear = None;
+    frame.passes.insert(2, marks);
+    frame.outputs.push(Output { resource: Resource::Image(ImageIndex(0)), span: Span::NONE, after: None });
+    let options = Options { demote: false, order: Order::File, ..Options::default() };
+    let plan = compile(&frame, &device(true), &mut Estimated(&device(true)), &options).expect("the frame is legal");
+    assert_eq!(verify(&plan), [], "{}", plan.tree());
+    let barriers: Vec<bool> = scopes(&plan)[0].passes.iter().map(|pass| pass.local_barrier).collect();
+    assert_eq!(barriers, [false, true, true], "{}", plan.tree());
+    let mut without = plan;
+    for step in &mut without.steps {
+        if let Work::Render(scope) = &mut step.work {
+            scope.passes.iter_mut().filter(|pass| &*pass.name == "marks").for_each(|pass| pass.local_barrier = false);
+        }
+    }
+    let [violation] = &verify(&without)[..] else { panic!("one violation") };
+    assert!(violation.to_string().contains("albedo"), "{violation}");
 }
 
 #[test]

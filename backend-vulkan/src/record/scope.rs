@@ -72,7 +72,8 @@ impl Frame<'_> {
         Ok(())
     }
 
-    /// Makes what the scope drew so far visible to fragment shaders at their own position.
+    /// Makes what the scope drew so far visible to fragment shaders at their own position; what they read so far may be drawn
+    /// over behind it, since colour output comes later than they do.
     fn local_barrier(&self, commands: vk::CommandBuffer) {
         let barrier = [vk::MemoryBarrier2::default()
             .src_stage_mask(vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT)

@@ -186,7 +186,7 @@ impl Builder<'_> {
         let Builder { adapted, grids, traces, local, .. } = self;
         let first = adapted.ops[op as usize].uses.start;
         for (used, number) in adapted.uses(op).iter().zip(first..) {
-            // In a scope, whoever draws where another has read its own pixel comes after it.
+            // In a scope, whoever draws where another has read its own pixel waits for it behind a local barrier.
             if local.iter().rev().take(adapted.uses(op).len()).any(|local| *local == number) {
                 continue;
             }

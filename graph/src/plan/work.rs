@@ -119,7 +119,9 @@ pub struct Pass {
     /// Every access to a buffer that it makes.
     pub buffers: Vec<BufferAccess>,
     /// Whether what earlier passes of the scope drew is made visible to it by a by-region barrier
-    /// (`COLOR_ATTACHMENT_OUTPUT`, `COLOR_ATTACHMENT_WRITE` to `FRAGMENT_SHADER`, `INPUT_ATTACHMENT_READ`).
+    /// (`COLOR_ATTACHMENT_OUTPUT`, `COLOR_ATTACHMENT_WRITE` to `FRAGMENT_SHADER`, `INPUT_ATTACHMENT_READ`). Its scopes
+    /// include earlier and later stages of the pipeline, so colour that they read at their own position is read by then, and
+    /// may be drawn over.
     pub local_barrier: bool,
     /// Why it shares its scope with the pass before it.
     pub merged: Option<String>,

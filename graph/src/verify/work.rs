@@ -191,7 +191,8 @@ impl<'p> Check<'_, 'p> {
     }
 
     /// What passes draw is there for later passes of the scope that read it at their own position only after a local
-    /// barrier, and such a barrier shows colour only.
+    /// barrier, and what they read is drawn over only after one. Such a barrier is about colour only: tests of depth come
+    /// before fragment shaders.
     fn local_reads(&mut self, scope: &RenderScope) {
         let local = |access: &&Access| access.accesses.intersects(Accesses::INPUT_ATTACHMENT_READ);
         let reads = |pass: &Pass| pass.accesses.iter().any(|access| local(&access));
@@ -200,9 +201,12 @@ impl<'p> Check<'_, 'p> {
         }
         let begun = attachments(scope).filter(|(attachment, _)| attachment.load != LoadOp::Load);
         let mut drawn: Vec<_> = begun.map(|(attachment, _)| (attachment.image, attachment.range)).collect();
+        let mut read: Vec<(ImageId, Subresources)> = Vec::new();
         for pass in &scope.passes {
             if pass.local_barrier {
-                drawn.retain(|(_, range)| !range.aspects.contains(Aspects::COLOR));
+                for known in [&mut drawn, &mut read] {
+                    known.retain(|(_, range)| !range.aspects.contains(Aspects::COLOR));
+                }
             }
             for access in pass.accesses.iter().filter(local) {
                 let attached = attachments(scope).any(|(attachment, _)| attachment.image == access.image);
@@ -210,7 +214,7 @@ impl<'p> Check<'_, 'p> {
                 if let Some((image, range)) =
                     drawn.iter().find(|(image, range)| *image == access.image && overlap(*range, access.range))
                 {
-                    self.unseen(*image, *range);
+                    self.apart(*image, *range, [written(*range), READ]);
                 }
             }
             let writes =
@@ -225,30 +229,43 @@ impl<'p> Check<'_, 'p> {
                     write.image,
                     "is read at its own position by a pass that may draw to it more than once",
                 );
+                let before = read.iter().find(|(image, range)| *image == write.image && overlap(*range, write.range));
+                if before.is_some() {
+                    self.apart(write.image, write.range, [READ, written(write.range)]);
+                }
                 if !drawn.contains(&(write.image, write.range)) {
                     drawn.push((write.image, write.range));
+                }
+            }
+            for own in pass.accesses.iter().filter(local).map(|access| (access.image, access.range)) {
+                if !read.contains(&own) {
+                    read.push(own);
                 }
             }
         }
     }
 
-    fn unseen(&mut self, image: ImageId, range: Subresources) {
-        let (stages, accesses) = if range.aspects == Aspects::COLOR {
-            (Stages::COLOR_ATTACHMENT_OUTPUT, Accesses::COLOR_ATTACHMENT_WRITE)
-        } else {
-            (Stages::LATE_FRAGMENT_TESTS, Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE)
-        };
+    /// Two accesses of one scope that no local barrier keeps apart.
+    fn apart(&mut self, image: ImageId, range: Subresources, [earlier, later]: [(Stages, Accesses); 2]) {
         self.found.push(Finding {
-            rule: Rule::Execution {
-                earlier: Touched::By(stages, accesses),
-                later: Touched::By(Stages::FRAGMENT_SHADER, Accesses::INPUT_ATTACHMENT_READ),
-            },
+            rule: Rule::Execution { earlier: Touched::By(earlier.0, earlier.1), later: Touched::By(later.0, later.1) },
             step: self.id,
             other: Some(StepName::new(self.plan, self.id, 0)),
             resource: image.0,
             range: Some(range),
             bytes: None,
         });
+    }
+}
+
+/// A read at a fragment's own position.
+const READ: (Stages, Accesses) = (Stages::FRAGMENT_SHADER, Accesses::INPUT_ATTACHMENT_READ);
+
+/// How draws write a plane.
+fn written(range: Subresources) -> (Stages, Accesses) {
+    match range.aspects {
+        Aspects::COLOR => (Stages::COLOR_ATTACHMENT_OUTPUT, Accesses::COLOR_ATTACHMENT_WRITE),
+        _ => (Stages::LATE_FRAGMENT_TESTS, Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE),
     }
 }
 

@@ -1,5 +1,5 @@
-//! Geometry and lighting in one rendering scope: lighting reads what geometry drew at its own position, and nothing of it
-//! ever leaves the scope.
+//! Geometry, lighting and marks in one rendering scope: lighting reads what geometry drew at its own position, then marks are
+//! drawn over it, and nothing of it ever leaves the scope.
 
 use super::build::*;
 use framewright_graph::format::Format;
@@ -28,6 +28,11 @@ pub(crate) fn plan() -> Plan {
         merged: Some("it reads `albedo` at its own position".to_owned()),
         ..draw("lighting", 20, Draw::FullScreen, &blend, None, vec![input, access(&lit, drawn)])
     };
+    let marks = Pass {
+        local_barrier: true,
+        merged: Some("it draws into `albedo` like `geometry`".to_owned()),
+        ..draw("marks", 30, objects, &blend, None, vec![access(&albedo, drawn)])
+    };
     let attachments = vec![
         attachment(&albedo, LOCAL, LoadOp::Clear, StoreOp::DontCare, "`geometry` clears it; nothing reads it later"),
         attachment(&lit, LOCAL, LoadOp::DontCare, StoreOp::Store, "`lighting` covers it; `tonemap` reads it"),
@@ -39,7 +44,7 @@ pub(crate) fn plan() -> Plan {
             barrier(&albedo, color, UNDEFINED, drawn, Hazard::FirstUse, None),
             barrier(&lit, (SAMPLED.0, Accesses::empty()), UNDEFINED, drawn, Hazard::FirstUse, None),
         ],
-        scope(1, attachments, None, vec![geometry, lighting]),
+        scope(1, attachments, None, vec![geometry, lighting, marks]),
     )];
     steps.extend(tone_map(&lit, drawn, &screen, 1));
     let mut lit = lit;

@@ -279,7 +279,7 @@ impl Follower<'_> {
         };
         let mut all = Some(number(&*pass.name));
         for (at, one) in uses.iter().enumerate() {
-            let reads = !(one.accesses - Accesses::WRITES).is_empty() && one.kind != Kind::Attachment;
+            let reads = !(one.accesses - Accesses::WRITES).is_empty() && !matches!(one.kind, Kind::Attachment { .. });
             if reads {
                 let value = self.read(step, one);
                 all = all.zip(value).map(|(all, value)| number((all, named(at), value)));
@@ -291,7 +291,7 @@ impl Follower<'_> {
     /// What a pass writes without attachments. What it doesn't read it replaces whole.
     fn stores(&mut self, pass: &Pass, read: Value) {
         for (at, one) in uses::of_pass(pass, [0; 2], Kind::Plain).iter().enumerate() {
-            if one.kind != Kind::Attachment && !one.accesses.writes().is_empty() {
+            if !matches!(one.kind, Kind::Attachment { .. }) && !one.accesses.writes().is_empty() {
                 self.write(one, |place, _| read.map(|read| number((read, "store", at, place))));
             }
         }

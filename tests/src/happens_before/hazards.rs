@@ -112,7 +112,7 @@ fn lost_between(timeline: &Timeline, (earlier, later): (&Touch, &Touch), cell: u
 /// then the read sees only what the scope itself wrote.
 fn replaced(timeline: &Timeline, read: &Touch, cell: usize) -> bool {
     let within =
-        read.of.is_some_and(|(_, one)| matches!(one.kind, Kind::Attachment | Kind::Store | Kind::Input { .. }));
+        read.of.is_some_and(|(_, one)| matches!(one.kind, Kind::Attachment { .. } | Kind::Store | Kind::Input { .. }));
     within
         && timeline.touches.iter().any(|touch| {
             (touch.time, touch.physical) == (read.time, read.physical)

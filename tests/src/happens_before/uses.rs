@@ -25,8 +25,11 @@ pub(super) enum Kind {
     Plain,
     /// By what an embedding program records: its own matter.
     Custom,
-    /// A draw's, as attachment: rasterisation order.
-    Attachment,
+    /// A draw's, as attachment: rasterisation order among them.
+    Attachment {
+        /// What passes before this one read at their own position stands before a by-region barrier.
+        shown: usize,
+    },
     /// An input attachment.
     Input {
         /// What passes before this one drew stands before a by-region barrier.
@@ -85,7 +88,7 @@ pub(super) fn of_pass(pass: &Pass, [number, shown]: [usize; 2], plain: Kind) -> 
             accesses: access.accesses,
             kind: match () {
                 () if input => Kind::Input { shown, once: pass.draw == Some(Draw::FullScreen) },
-                () if ATTACHMENT.contains(access.accesses) => Kind::Attachment,
+                () if ATTACHMENT.contains(access.accesses) => Kind::Attachment { shown },
                 () => plain,
             },
             pass: number,
@@ -158,15 +161,16 @@ fn of_scope(scope: &RenderScope) -> Vec<Use> {
 
 /// Whether two uses of one image by one step are kept in order without a barrier.
 pub(super) fn ordered_within_a_step(one: &Use, other: &Use) -> bool {
-    let attached = |of: &Use| matches!(of.kind, Kind::Attachment | Kind::Load | Kind::Store);
+    let attached = |of: &Use| matches!(of.kind, Kind::Attachment { .. } | Kind::Load | Kind::Store);
     let reads = |of: &Use| of.accesses.writes().is_empty();
     let ends = |of: &Use| matches!(of.kind, Kind::Load | Kind::Store);
     let local = |input: &Use, attachment: &Use| match input.kind {
-        // Whoever draws later at the same place comes after in rasterisation order.
+        // Rasterisation order is that of attachments: it says nothing of what shaders read. The barrier is about colour.
         Kind::Input { shown, once } => {
             let own = attachment.pass == input.pass && once;
+            let color = attachment.stages == Stages::COLOR_ATTACHMENT_OUTPUT;
             match attachment.kind {
-                Kind::Attachment => attachment.pass < shown || own || attachment.pass > input.pass,
+                Kind::Attachment { shown: over } => attachment.pass < shown || own || (color && over > input.pass),
                 Kind::Load => shown > 0 || reads(attachment),
                 Kind::Store => true,
                 _ => reads(attachment),

@@ -2,10 +2,13 @@
 //! doesn't.
 
 mod build;
+#[path = "../../../graph/tests/hand_written_plans/mod.rs"]
+#[allow(dead_code, reason = "one of them is judged by itself here")]
+mod hand_written_plans;
 
 use Layout::{General, ShaderReadOnlyOptimal, TransferDstOptimal, Undefined};
 use build::{CS, NONE, R, W, access, barrier, dispatch, empty, memory, output, persistent, transient, wait};
-use framewright_graph::plan::{Plan, Queue, Step};
+use framewright_graph::plan::{Plan, Queue, Step, Work};
 use framewright_graph::vocabulary::{Accesses, Layout, Stages};
 use framewright_tests::happens_before::{Harm, Missing, judge};
 
@@ -51,6 +54,27 @@ fn written_then_sampled() -> Plan {
     second.image_barriers.push(barrier(out, [Undefined, General], NONE, (CS, W)));
     plan.steps = vec![first, second];
     plan
+}
+
+#[test]
+fn what_is_read_at_its_own_position_is_drawn_over_behind_a_local_barrier() {
+    let plans = hand_written_plans::all();
+    let named = |plan: &Plan, name: &str| {
+        let scopes =
+            plan.steps.iter().filter_map(|step| if let Work::Render(it) = &step.work { Some(it) } else { None });
+        scopes.flat_map(|scope| &scope.passes).any(|pass| &*pass.name == name)
+    };
+    let (_, plan) = plans.into_iter().find(|(_, plan)| named(plan, "marks")).expect("a Plan with local reads");
+    fine(&plan);
+    for name in ["lighting", "marks"] {
+        let mut without = plan.clone();
+        for step in &mut without.steps {
+            if let Work::Render(scope) = &mut step.work {
+                scope.passes.iter_mut().filter(|pass| &*pass.name == name).for_each(|pass| pass.local_barrier = false);
+            }
+        }
+        assert_ne!(harms(&without), [], "without the local barrier of `{name}`");
+    }
 }
 
 #[test]

@@ -27,27 +27,33 @@ pub(super) fn scope(parts: &Parts<'_>, scope: &Scope, step: u32) -> RenderScope 
     }
 }
 
-/// The passes of a scope with local reads. What is drawn or cleared is shown to them once, before the first that reads it.
+/// The passes of a scope with local reads. What is drawn or cleared is shown to them once, before the first that reads it;
+/// what was read is drawn over behind another barrier, unless one stands between already.
 fn local_passes(parts: &Parts<'_>, scope: &Scope, attachments: &[AttachmentOps]) -> Vec<Pass> {
     let begun = attachments.iter().filter(|ops| ops.role == Role::Color && ops.load != LoadOp::Load);
     let mut fresh: Vec<Target> = begun.map(|ops| ops.target).collect();
+    let mut read: Vec<Target> = Vec::new();
     let mut passes = Vec::with_capacity(scope.ops.len());
     for op in &scope.ops {
         let mut pass = passes::pass(parts, *op);
         let uses = parts.adapted.uses(*op);
         let of =
             |role: Role| uses.iter().filter(move |used| used.role == role).map(|used| Target::of(parts.adapted, used));
-        pass.local_barrier = of(Role::Input).any(|target| fresh.contains(&target));
+        let draws_over = || of(Role::Color).any(|target| read.contains(&target));
+        pass.local_barrier = of(Role::Input).any(|target| fresh.contains(&target)) || draws_over();
         if pass.local_barrier {
             fresh.clear();
+            read.clear();
         }
         let own = std::mem::take(&mut pass.blend);
         let blend = |target: &Target| of(Role::Color).position(|drawn| drawn == *target).and_then(|at| own.get(at));
         pass.blend = scope.color.iter().map(|target| blend(target).copied().unwrap_or_default()).collect();
         // A scope has few attachments, but may have many passes.
-        for target in of(Role::Color) {
-            if !fresh.contains(&target) {
-                fresh.push(target);
+        for (known, role) in [(&mut fresh, Role::Color), (&mut read, Role::Input)] {
+            for target in of(role) {
+                if !known.contains(&target) {
+                    known.push(target);
+                }
             }
         }
         passes.push(pass);
