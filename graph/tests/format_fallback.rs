@@ -164,3 +164,47 @@ fn a_frame_that_fell_back_is_compiled_anew_when_it_changes() {
         assert_eq!(again.ok(), planned(&frame, &device).ok().as_ref());
     }
 }
+
+/// What the compiler inserts takes more of a format than the passes say.
+#[test]
+fn what_is_inserted_and_the_format_cannot_do_is_refused_and_said() {
+    let lacking = |format: Format, usage: Usage| {
+        let mut device = raster::device();
+        let supports = device.formats.iter_mut().filter(|support| support.format == format);
+        supports.for_each(|support| support.usage.remove(usage));
+        device
+    };
+    let said = |frame: &Frame, device: &Profile| -> Vec<(String, String)> {
+        let errors = planned(frame, device).expect_err("the format can't do that");
+        errors.into_iter().map(|error| (error.message, error.help.unwrap_or_default())).collect()
+    };
+    // A pass that samples what it writes samples a copy.
+    let mut raster = Raster::default();
+    let color = raster.image("color", R16G16B16A16_SFLOAT, 1);
+    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+    raster.objects("opaque").clear(color);
+    raster.full_screen("again").sample(color).color(color, Blend::Alpha);
+    raster.full_screen("show").sample(color).color(screen, Blend::Replace);
+    let again = raster.output(screen);
+    let (why, copied) = ("`again` samples `color` while it writes it", Usage::TRANSFER_SRC | Usage::TRANSFER_DST);
+    let refused = said(&again, &lacking(R16G16B16A16_SFLOAT, copied));
+    let words = |name: &str, missing: &str| {
+        (
+            format!("`{name}` can't be R16G16B16A16_SFLOAT on `a device for tests`: no {missing}"),
+            format!("it takes that since {why}; choose another format"),
+        )
+    };
+    assert_eq!(refused, [words("color", "TRANSFER_SRC"), words("color (copy)", "TRANSFER_DST")]);
+    assert!(planned(&again, &lacking(B8G8R8A8_SRGB, copied)).is_ok());
+
+    // Several layers are resolved by a step of its own.
+    let mut layered = frame(R16G16B16A16_SFLOAT, D32_SFLOAT);
+    layered.images[..2].iter_mut().for_each(|image| image.layers = 2);
+    let refused = said(&layered, &lacking(R16G16B16A16_SFLOAT, Usage::TRANSFER_SRC));
+    assert_eq!(refused.len(), 1, "{refused:?}");
+    assert!(refused[0].1.contains("`show` samples `color` and it has 4 samples"), "{refused:?}");
+
+    // Outputs can be copied by whoever takes them.
+    let refused = said(&again, &lacking(R8G8B8A8_SRGB, Usage::TRANSFER_SRC));
+    assert!(refused[0].1.contains("outputs can be copied"), "{refused:?}");
+}

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! legal ─► parts ─► link ─► cull ─► samples ─► adapt ─► schedule ─► scope ─► retain ─► queues
-//!       ─► synchronise ─► outlive ─► purpose ─► place ─► occupy ─► take_over ─► batch ─► hand_over
-//!       ─► emit
+//!       ─► synchronise ─► outlive ─► purpose ─► usable ─► place ─► occupy ─► take_over ─► batch
+//!       ─► hand_over ─► emit
 //! ```
 //!
 //! `place` stands between the halves of `synchronise`: how long something lives and what it is made for is known once all
@@ -43,6 +43,7 @@ mod scope;
 mod structure;
 mod synchronise;
 mod take_over;
+mod usable;
 
 pub use compiler::{Compiler, Reuse};
 

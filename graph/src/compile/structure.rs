@@ -12,7 +12,7 @@ use super::retain::{self, Retained};
 use super::schedule::{self, Scheduled};
 use super::scope::{self, Scoped, Step};
 use super::synchronise::{self, Pending, Walked};
-use super::{Options, Order, adapt, formats, legal, link, purpose, queues, samples, take_over};
+use super::{Options, Order, adapt, formats, legal, link, purpose, queues, samples, take_over, usable};
 use crate::describe::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
@@ -107,6 +107,7 @@ impl Structure {
         let export = scoped.steps.len() as u32;
         let states = outlive::promise(&grids, &adapted, &mut walked, export);
         purpose::note(&grids, &mut adapted, &walked, &states, &retained, &scoped, options);
+        usable::check(frame, &adapted, &scoped, device)?;
         Ok(Structure {
             grids,
             live,

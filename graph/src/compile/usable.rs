@@ -1,0 +1,90 @@
+//! After `purpose`: what images are made for, the device can do with their formats. What passes do with images was looked at
+//! before (`samples`); here it is resolves, copies and draws that the compiler inserts, and what comes and goes.
+
+use super::model::{Adapted, Home, OpKind, Reason, Role, Store, StoreIndex};
+use super::scope::{Scoped, Step, store_name};
+use crate::describe::Diagnostic;
+use crate::device::{ImageDescriptor, Profile};
+use crate::format::Format;
+use crate::frame::{Frame, Resource};
+use crate::source::Span;
+use crate::vocabulary::Usage;
+
+/// Refuses images whose formats can't be used as the Plan does on this device.
+pub(super) fn check(
+    frame: &Frame,
+    adapted: &Adapted,
+    scoped: &Scoped,
+    device: &Profile,
+) -> Result<(), Vec<Diagnostic>> {
+    let mut known: Option<(Format, Usage)> = None;
+    let mut supported = |format: Format| match known {
+        Some((same, usage)) if same == format => usage,
+        _ => {
+            let usage = device.format(format).map_or(Usage::empty(), |support| support.usage);
+            known.insert((format, usage)).1
+        }
+    };
+    let mut errors = Vec::new();
+    for (store, at) in adapted.stores.iter().zip(0..) {
+        let Some(image) = store.image() else { continue };
+        let missing = image.usage.difference(FOLLOWS).difference(supported(image.format));
+        if !missing.is_empty() {
+            errors.push(refusal(frame, adapted, device, at, (image, missing)));
+        }
+    }
+    for op in scoped.steps.iter().filter_map(|step| if let Step::Single(op) = step { Some(*op) } else { None }) {
+        if !matches!(adapted.ops[op as usize].kind, OpKind::Resolve { .. }) {
+            continue;
+        }
+        // Whatever is resolved by a step of its own takes a format that can be drawn into as well.
+        let Some(target) = adapted.uses(op).iter().find(|used| used.role == Role::Target) else { continue };
+        let Some(image) = adapted.stores[target.store as usize].image() else { continue };
+        let missing = Usage::COLOR_ATTACHMENT.difference(supported(image.format));
+        if !missing.is_empty() {
+            errors.push(refusal(frame, adapted, device, target.store, (image, missing)));
+        }
+    }
+    if errors.is_empty() { Ok(()) } else { Err(errors) }
+}
+
+/// What every format has that can be drawn into.
+const FOLLOWS: Usage = Usage::TRANSIENT_ATTACHMENT.union(Usage::INPUT_ATTACHMENT);
+
+fn refusal(
+    frame: &Frame,
+    adapted: &Adapted,
+    device: &Profile,
+    at: StoreIndex,
+    (image, missing): (&ImageDescriptor, Usage),
+) -> Diagnostic {
+    let store = &adapted.stores[at as usize];
+    let span = match store.of {
+        Resource::Image(image) => frame.images[image.0 as usize].span,
+        Resource::Buffer(_) => Span::NONE,
+    };
+    let name = store_name(frame, adapted, at);
+    let missing = missing.iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
+    let message = format!("`{name}` can't be {} on `{}`: no {missing}", image.format, device.name);
+    let help = format!("it takes that since {}; choose another format", why(adapted, store, at));
+    Diagnostic::new(span, message).help(help)
+}
+
+/// What the compiler inserted that uses a store, or where it comes from and goes.
+fn why<'a>(adapted: &'a Adapted, store: &'a Store, at: StoreIndex) -> &'a str {
+    let inserted = |number: u32| -> Option<&Reason> {
+        let (OpKind::Resolve { why, .. } | OpKind::ForwardDraw { why, .. } | OpKind::Copy(why)) =
+            &adapted.ops[number as usize].kind
+        else {
+            return None;
+        };
+        adapted.uses(number).iter().any(|used| used.store == at).then_some(why)
+    };
+    let because = (0..adapted.ops.len() as u32).find_map(inserted).or(store.inserted.as_deref());
+    match (because, store.home) {
+        (Some(reason), _) => &reason.because,
+        (None, Home::Transient) => "memory that is shared may be filled before it is used",
+        (None, Home::Output) => "outputs can be copied",
+        (None, Home::Persistent { .. } | Home::Imported { .. }) => "what outlives the frame can be copied and filled",
+    }
+}
