@@ -204,6 +204,21 @@ pub trait ShaderInterfaces {
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     fn draw_shader(&mut self, name: &str, draw: Draw) -> Result<ShaderInterface, ShaderProblem>;
 
+    /// The interface of the shader `name` when it draws `draw` and reads what goes by the names `local` at its own position
+    /// from its own rendering scope, as devices with local reads let it; `None` if that isn't known here.
+    ///
+    /// # Errors
+    /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
+    fn local_draw_shader(
+        &mut self,
+        name: &str,
+        draw: Draw,
+        local: &[&str],
+    ) -> Result<Option<ShaderInterface>, ShaderProblem> {
+        let _ = (name, draw, local);
+        Ok(None)
+    }
+
     /// The interface of the compute shader `name`.
     ///
     /// # Errors

@@ -42,7 +42,8 @@ pub struct CompiledCompute {
 /// compute shader `NAME` is `NAME.comp`. Every file is looked for in the folders in their order, then among the shipped
 /// texts; so is every `#include "x.glsl"`, whose name is never relative to the including file. Where a pass reads the
 /// image `NAME` locally, as an input attachment of its own rendering scope, its fragment stage is compiled with the macro
-/// `LOCAL_READ_NAME` and must declare it `subpassInput` then, and `sampler2D` otherwise. What was once compiled is kept for the library's lifetime: changes on disk need a new library.
+/// `LOCAL_READ_NAME` and must declare it `subpassInput` then, and `sampler2D` otherwise. What was once compiled is kept for
+/// the library's lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
     files: ShaderFiles,
     draws: fn(Draw) -> DrawInterface,
@@ -146,6 +147,15 @@ impl ShaderLibrary {
 impl ShaderInterfaces for ShaderLibrary {
     fn draw_shader(&mut self, name: &str, draw: Draw) -> Result<ShaderInterface, ShaderProblem> {
         self.compiled(name, draw, &[]).map(|shader| shader.interface)
+    }
+
+    fn local_draw_shader(
+        &mut self,
+        name: &str,
+        draw: Draw,
+        local: &[&str],
+    ) -> Result<Option<ShaderInterface>, ShaderProblem> {
+        self.compiled(name, draw, local).map(|shader| Some(shader.interface))
     }
 
     fn compute_shader(&mut self, name: &str) -> Result<ShaderInterface, ShaderProblem> {

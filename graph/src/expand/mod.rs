@@ -9,6 +9,7 @@ mod conditions;
 mod facts;
 mod fills;
 mod images;
+mod local;
 mod order;
 mod params;
 mod parts;

@@ -2,7 +2,7 @@
 
 use super::shader::Checked;
 use super::things::Things;
-use super::{Chosen, params, parts, sampled, shader, storage, supplied, targets, work};
+use super::{Chosen, local, params, parts, sampled, shader, storage, supplied, targets, work};
 use crate::describe::{self, Diagnostic, Work as Described};
 use crate::frame::{BufferRole, BufferUse, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
 use crate::interface::ShaderInterface;
@@ -22,7 +22,11 @@ pub(super) fn lower(
     work::check(chosen, things, pass, &lowered, interface.as_ref(), errors);
     if let Some(interface) = &interface {
         supplied::check(chosen, shaders, pass, interface, errors);
+        let before = errors.len();
         let mut misspelt = sampled::check(chosen, things, pass, &lowered, interface, errors);
+        if errors.len() == before {
+            local::check(chosen, things, pass, &lowered, interface, shaders, errors);
+        }
         misspelt.extend(storage::check(chosen, things, pass, &lowered, interface, errors));
         shader::missing(pass, interface, &misspelt, errors);
         lowered.params = params::give(chosen, pass, interface, errors);

@@ -38,8 +38,27 @@ impl<'s> Checked<'s> {
             Work::Dispatch { shader, .. } => (shader, self.shaders.compute_shader(&shader.text)),
             Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => return None,
         };
+        self.known(shader, found, errors)
+    }
+
+    /// The interface of a draw's shader where it reads these names at its own position from its own rendering scope, if that
+    /// is known.
+    pub(super) fn local_interface(
+        &mut self,
+        chosen: &Chosen<'_>,
+        pass: &describe::Pass,
+        local: &[&str],
+        errors: &mut Vec<Diagnostic>,
+    ) -> Option<ShaderInterface> {
+        let Work::Draw { shader, draw } = &pass.work else { return None };
+        let found = self.shaders.local_draw_shader(&shader.text, work::draw(chosen, draw), local);
+        self.known(shader, found, errors)?
+    }
+
+    /// What was found of a shader; a problem is reported once.
+    fn known<T>(&mut self, shader: &Name, found: Result<T, ShaderProblem>, errors: &mut Vec<Diagnostic>) -> Option<T> {
         match found {
-            Ok(interface) => Some(interface),
+            Ok(found) => Some(found),
             Err(problem) => {
                 let said = self.reported.iter().any(|(other, known)| *other == shader.text && *known == problem);
                 if !said {

@@ -1,0 +1,58 @@
+//! What passes read at their fragments' own position: devices with local reads let shaders read it as input attachments.
+
+use super::Chosen;
+use super::shader::Checked;
+use super::things::Things;
+use crate::describe::{self, Diagnostic};
+use crate::frame::Pass;
+use crate::interface::{BindingKind, PASS_SET, ShaderInterface};
+
+/// Reports what a pass reads at its own position and its shader can't, where it is compiled for local reads. `interface`: the
+/// shader as it is compiled without; what is wrong with that was reported.
+pub(super) fn check(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    pass: &describe::Pass,
+    lowered: &Pass,
+    interface: &ShaderInterface,
+    shaders: &mut Checked<'_>,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let declared = |name: &str| interface.bindings.iter().any(|it| it.set == PASS_SET && *it.name == *name);
+    let read = |sample: &&describe::Sample| {
+        let name = &sample.binding.text;
+        let sampled = lowered.sampled.iter().find(|sampled| sampled.binding == *name);
+        // Depth and single samples are read from memory, whatever the device.
+        sampled.is_some_and(|sampled| {
+            let image = things.image(sampled.image);
+            let color = image.is_some_and(|image| !image.image.format.is_depth());
+            sampled.own_pixel && !sampled.per_sample && color && declared(name)
+        })
+    };
+    let own: Vec<&describe::Sample> = pass.sample.iter().filter(read).collect();
+    if own.is_empty() {
+        return;
+    }
+    let names: Vec<&str> = own.iter().map(|sample| &*sample.binding.text).collect();
+    let Some(local) = shaders.local_interface(chosen, pass, &names, errors) else { return };
+    let shader = pass.shader().map_or("", |shader| &*shader.text);
+    for sample in own {
+        let name = &sample.binding.text;
+        let reads = local.bindings.iter().any(|binding| {
+            binding.set == PASS_SET
+                && *binding.name == **name
+                && matches!(binding.kind, BindingKind::InputAttachment { .. })
+        });
+        if !reads {
+            let span = sample.own_pixel.map_or(sample.part.image.span, |own| own.span);
+            let message = format!(
+                "`{name}` is read at the fragment's own position, but shader `{shader}` can't read it as an input attachment"
+            );
+            let help = format!(
+                "declare it `subpassInput` where `LOCAL_READ_{name}` is defined, as it is on devices with local reads; or \
+                 leave `own_pixel` out"
+            );
+            errors.push(Diagnostic::new(span, message).help(help));
+        }
+    }
+}
