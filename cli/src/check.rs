@@ -4,10 +4,10 @@ use crate::args::{Check, CheckFormat};
 use crate::error::{Error, Exit};
 use crate::planning::{self, View};
 use crate::values::DEFAULT_SIZE;
-use crate::{every_device, profiles, text, variants};
+use crate::{every_device, notes, profiles, progress, text, variants};
 use framewright_graph::describe;
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::plan::{Note, Plan, Stage, Totals};
+use framewright_graph::plan::{Note, Plan, Totals};
 use serde::Serialize;
 use std::ffi::OsStr;
 
@@ -58,7 +58,7 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
         CheckFormat::Human => {
             let plan = result?;
             let fine = fine(arguments, &plan.device.name, &plan.totals);
-            let notes = told(&plan.notes).map(|note| shown(note) + "\n");
+            let notes = notes::lines(notes::told(&plan.notes)).into_iter().map(|line| line + "\n");
             text::print(&(fine + "\n" + &notes.collect::<String>())).map_err(Error::Print)?;
             Ok(Exit::Fine)
         }
@@ -67,9 +67,11 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
 }
 
 fn plan(arguments: &Check, profile: &Profile) -> Result<Plan, Error> {
+    let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline)?;
-    let options = arguments.planning.options();
-    pipeline.plan(VIEW, profile, &mut Estimated(profile), &options).map(|planned| planned.plan)
+    let frame = pipeline.frame(VIEW)?;
+    busy.set_message(progress::compiling(&frame, &profile.name));
+    pipeline.compile(&frame, profile, &mut Estimated(profile), &arguments.planning.options())
 }
 
 /// That all is well, and how much the frame takes.
@@ -93,17 +95,6 @@ pub(crate) fn sums(totals: &Totals) -> String {
         text::bytes(totals.transient_bytes),
         text::bytes(totals.placed_bytes),
     )
-}
-
-/// Notes for whoever checks a pipeline; why scopes are separate is for those who look into the Plan.
-pub(crate) fn told(notes: &[Note]) -> impl Iterator<Item = &Note> {
-    notes.iter().filter(|note| note.stage != Stage::Scope)
-}
-
-/// A note in one line.
-pub(crate) fn shown(note: &Note) -> String {
-    let at = note.at.as_ref().map_or_else(String::new, |place| format!(" ({})", text::escape(&place.to_string())));
-    format!("note: `{}`: {}{at}", text::escape(&note.subject), text::escape(&note.text))
 }
 
 /// What comes of a pipeline on `device`.

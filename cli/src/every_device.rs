@@ -3,11 +3,12 @@
 use crate::args::{Check, CheckFormat};
 use crate::check::{self, Verdict};
 use crate::error::{Error, Exit};
-use crate::{planning, profiles, text};
+use crate::{notes, planning, profiles, progress, text};
 use framewright_graph::describe;
 use framewright_graph::device::Estimated;
 use framewright_graph::plan::{Note, Plan};
 use serde::Serialize;
+use std::collections::HashSet;
 
 /// The answer for programs.
 #[derive(Debug, Serialize)]
@@ -54,11 +55,13 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
 /// # Errors
 /// What is wrong whatever the device.
 fn compile(arguments: &Check) -> Result<Vec<Checked>, Error> {
+    let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline)?;
     let frame = pipeline.frame(check::VIEW)?;
     let options = arguments.planning.options();
     let mut all = Vec::new();
     for (name, profile) in profiles::all()? {
+        busy.set_message(progress::compiling(&frame, &profile.name));
         let result = pipeline.compile(&frame, &profile, &mut Estimated(&profile), &options);
         all.push(Checked { profile: name, device: profile.name, result });
     }
@@ -76,14 +79,15 @@ fn compile(arguments: &Check) -> Result<Vec<Checked>, Error> {
 fn human(arguments: &Check, results: Vec<Checked>) -> Result<Exit, Error> {
     let all = results.len();
     let plans: Vec<&Plan> = results.iter().filter_map(|it| it.result.as_ref().ok()).collect();
-    let everywhere = |note: &&Note| plans.len() > 1 && plans.iter().all(|plan| plan.notes.contains(note));
+    let said: Vec<HashSet<(&str, &str)>> = plans.iter().map(|plan| plan.notes.iter().map(words).collect()).collect();
+    let everywhere = |note: &&Note| said.len() > 1 && said.iter().all(|notes| notes.contains(&words(note)));
     let mut answer = String::new();
     for Checked { profile, result, .. } in &results {
         match result {
             Ok(plan) => {
                 answer += &format!("{}\n", check::fine(arguments, profile, &plan.totals));
-                for note in check::told(&plan.notes).filter(|note| !everywhere(note)) {
-                    answer += &format!("  {}\n", check::shown(note));
+                for line in notes::lines(notes::told(&plan.notes).filter(|note| !everywhere(note))) {
+                    answer += &format!("  {line}\n");
                 }
             }
             Err(error) => {
@@ -92,12 +96,17 @@ fn human(arguments: &Check, results: Vec<Checked>) -> Result<Exit, Error> {
             }
         }
     }
-    for note in plans.first().into_iter().flat_map(|plan| check::told(&plan.notes)).filter(everywhere) {
-        answer += &format!("{} (on every device that takes it)\n", check::shown(note));
+    for line in notes::lines(plans.first().into_iter().flat_map(|plan| notes::told(&plan.notes)).filter(everywhere)) {
+        answer += &format!("{line} (on every device that takes it)\n");
     }
     answer += &format!("{}: fine on {} of {all} devices\n", text::path(&arguments.pipeline.file), plans.len());
     text::print(&answer).map_err(Error::Print)?;
     Ok(if plans.len() == all { Exit::Fine } else { Exit::Found })
+}
+
+/// What a note says of what.
+fn words(note: &Note) -> (&str, &str) {
+    (&note.subject, &note.text)
 }
 
 fn indented(lines: &str) -> String {

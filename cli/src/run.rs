@@ -4,14 +4,13 @@ use crate::args::Run;
 use crate::error::{Error, Exit};
 use crate::planning::{self, Loaded, Planned, View};
 use crate::report::{Report, Setting, Validation};
-use crate::{files, interrupt, output, picture, rows, text};
+use crate::{files, interrupt, output, picture, progress, rows, text};
 use framewright_graph::frame::{Frame, Image, Lifetime, Resource};
 use framewright_graph::plan::Totals;
 use framewright_graph::vocabulary::Layout;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, DeviceChoice, DeviceOptions, Executor, ExecutorOptions, FrameReport};
-use indicatif::{ProgressBar, ProgressStyle};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -158,7 +157,7 @@ fn draw(
     let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
     let Loaded { shaders, textures, .. } = pipeline;
     let mut executor = Executor::with_textures(device, &planned.plan, shaders, textures, &options)?;
-    let progress = progress(arguments.frames);
+    let progress = progress::frames(arguments.frames);
     let mut frames = Vec::new();
     for drawn in 0..arguments.frames {
         if interrupt::asked() {
@@ -212,15 +211,6 @@ fn output_name(frame: &Frame) -> String {
         None => None,
     };
     name.map_or_else(String::new, ToString::to_string)
-}
-
-/// A bar on a terminal; nothing anywhere else.
-fn progress(frames: u32) -> ProgressBar {
-    let bar = ProgressBar::new(frames.into());
-    if let Ok(style) = ProgressStyle::with_template("drawing {wide_bar} {pos}/{len} frames, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
 }
 
 fn shown(path: &Path) -> String {
