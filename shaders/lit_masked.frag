@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "include/cross_fade.glsl"
 #include "include/material.glsl"
 #include "include/surface.glsl"
 
@@ -13,7 +14,8 @@ layout(location = 0) out vec4 color;
 
 void main() {
     const vec4 base = base_color(object_index, texture_uv);
-    if (base.a < objects.object[object_index].alpha_cutoff) {
+    if (base.a < objects.object[object_index].alpha_cutoff
+        || fades_out(objects.object[object_index].cross_fade, gl_FragCoord.xy)) {
         discard;
     }
     color = lit_surface(object_index, base, world_position, world_normal);

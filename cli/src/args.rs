@@ -35,6 +35,8 @@ pub(crate) enum Command {
     Inspect(Inspect),
     /// Draw a scene through a pipeline.
     Run(Run),
+    /// Print what the conditions of a pipeline may ask of a scene, and what decided each answer. Needs no GPU.
+    Facts(Facts),
     /// List the Vulkan devices of this machine, or save the profile of one.
     Devices(Devices),
 }
@@ -125,6 +127,17 @@ pub(crate) struct Run {
     /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) device: Option<OsString>,
+}
+
+/// `framewright facts`.
+#[derive(Debug, Args)]
+pub(crate) struct Facts {
+    /// Scene: a .glb file, or a scene of our own in RON; if there is none by that name, a shipped scene's name.
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: PathBuf,
+    /// Answer for programs.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// `framewright devices`.

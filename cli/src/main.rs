@@ -5,6 +5,7 @@ mod check;
 mod devices;
 mod error;
 mod every_device;
+mod facts;
 mod files;
 mod inspect;
 mod interrupt;
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::check(arguments),
         Command::Inspect(arguments) => inspect::inspect(arguments),
         Command::Run(arguments) => run::run(arguments),
+        Command::Facts(arguments) => facts::facts(arguments),
         Command::Devices(arguments) => devices::devices(arguments),
     };
     match result {

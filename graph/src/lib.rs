@@ -9,6 +9,7 @@ pub mod describe;
 pub mod device;
 pub mod expand;
 pub mod expression;
+pub mod facts;
 pub mod format;
 pub mod frame;
 pub mod interface;

@@ -47,7 +47,7 @@ fn alternatives(kind: &SettingKind) -> Vec<String> {
 
 fn variants(file: &str, pipeline: &Pipeline) -> Vec<Variant> {
     let name = file.trim_end_matches(".ron");
-    let opaque = Facts { has_alpha_clip: false, has_transparent: false, ..Facts::UNKNOWN };
+    let opaque = Facts { has_alpha_clip: false, has_cross_fade: false, has_transparent: false, ..Facts::UNKNOWN };
     let mut variants =
         vec![(name.to_owned(), Vec::new(), Facts::UNKNOWN), (format!("{name}@opaque_scene"), Vec::new(), opaque)];
     for setting in &pipeline.settings {

@@ -15,6 +15,7 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "downsample.frag",
     "expose.frag",
     "full_screen.vert",
+    "include/cross_fade.glsl",
     "include/lighting.glsl",
     "include/luminance.glsl",
     "include/material.glsl",

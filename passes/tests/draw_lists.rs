@@ -28,8 +28,10 @@ fn scene(objects: &[(usize, usize, Vec3)]) -> Scene {
         indices: vec![0, 1, 2],
         bounds: Bounds { min: Vec3::ZERO, max: Vec3::new(1.0, 1.0, 0.0) },
     };
-    let object =
-        |&(mesh, material, at)| Object { name: String::new(), mesh, material, transform: Mat4::from_translation(at) };
+    let object = |&(mesh, material, at)| {
+        let transform = Mat4::from_translation(at);
+        Object { name: String::new(), mesh, material, transform, cross_fade: 1.0 }
+    };
     let camera = Camera::look_at(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y, 1.0, 0.1);
     Scene {
         meshes: vec![mesh.clone(), mesh],
@@ -41,7 +43,7 @@ fn scene(objects: &[(usize, usize, Vec3)]) -> Scene {
         ],
         textures: Vec::new(),
         objects: objects.iter().map(object).collect(),
-        sun: Sun { direction: [0.0, -1.0, 0.0], color: BLACK },
+        sun: Sun { direction: [0.0, -1.0, 0.0], color: BLACK, shadows: false },
         ambient: BLACK,
         point_lights: Vec::new(),
         sky: Sky { zenith: BLACK, horizon: BLACK, ground: BLACK },

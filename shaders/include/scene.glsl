@@ -19,6 +19,8 @@ struct Object {
     float alpha_cutoff;
     // 1 if alpha says how much of what is behind stays hidden, 0 if alpha is to be ignored.
     uint transparent;
+    // How much of it is seen, −1 to 1; see cross_fade.glsl.
+    float cross_fade;
 };
 
 struct PointLight {

@@ -12,7 +12,7 @@ pub fn empty_scene() -> Scene {
         materials: Vec::new(),
         textures: Vec::new(),
         objects: Vec::new(),
-        sun: Sun { direction: [0.0, -1.0, 0.0], color: black },
+        sun: Sun { direction: [0.0, -1.0, 0.0], color: black, shadows: false },
         ambient: black,
         point_lights: Vec::new(),
         sky: Sky { zenith: black, horizon: black, ground: black },
@@ -76,7 +76,8 @@ pub fn sphere(rings: u32) -> Mesh {
 /// A scene of (mesh, material, transform) without light, seen from z = 5 towards −z with 60° from border to border.
 #[must_use]
 pub fn scene(meshes: Vec<Mesh>, materials: Vec<Material>, objects: Vec<(usize, usize, Mat4)>) -> Scene {
-    let object = |(mesh, material, transform)| Object { name: String::new(), mesh, material, transform };
+    let object =
+        |(mesh, material, transform)| Object { name: String::new(), mesh, material, transform, cross_fade: 1.0 };
     Scene {
         meshes,
         materials,

@@ -55,7 +55,7 @@ pub fn frames(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
         let mut sources = Sources::default();
         let pipeline = describe::read(&mut sources, &name, &name, text).expect("a shipped pipeline is right");
         let sources = Arc::new(sources);
-        let opaque = Facts { has_alpha_clip: false, has_transparent: false, ..Facts::UNKNOWN };
+        let opaque = Facts { has_alpha_clip: false, has_cross_fade: false, has_transparent: false, ..Facts::UNKNOWN };
         for (set, facts) in combinations(&pipeline).iter().flat_map(|set| [(set, Facts::UNKNOWN), (set, opaque)]) {
             let inputs = Inputs { set, facts, facts_known: true, output_extent, dump: &[] };
             let frame = expand(&pipeline, sources.clone(), &inputs, &mut shaders)

@@ -104,7 +104,7 @@ fn wrapped_squares() -> Scene {
         scene.materials.push(material);
         let at = Vec3::new((number % 3) as f32 - 1.0, (number / 3) as f32 - 1.0, 0.0) * 1.8;
         let transform = Mat4::from_translation(at) * Mat4::from_scale(Vec3::splat(0.8));
-        scene.objects.push(Object { name: String::new(), mesh: 0, material: number, transform });
+        scene.objects.push(Object { name: String::new(), mesh: 0, material: number, transform, cross_fade: 1.0 });
     }
     scene
 }

@@ -90,14 +90,14 @@ fn the_sun_with_its_highlight_and_ambient_light_are_their_twins() -> Result<(), 
     let normal = mirror.transform_vector3(Vec3::Z).normalize();
     let to_camera = (scene.camera.position() - mirror.transform_point3(Vec3::ZERO)).normalize();
     let to_sun = 2.0 * normal.dot(to_camera) * normal - to_camera;
-    scene.sun = Sun { direction: (-to_sun).to_array(), color: [30.0, 2.5, 2.0] };
+    scene.sun = Sun { direction: (-to_sun).to_array(), color: [30.0, 2.5, 2.0], shadows: false };
     demand_twin(&scene)
 }
 
 #[test]
 fn point_lights_with_and_without_range_are_their_twins() -> Result<(), Box<dyn Error>> {
     let mut scene = surfaces();
-    let light = |position, color, intensity, range| PointLight { position, color, intensity, range };
+    let light = |position, color, intensity, range| PointLight { position, color, intensity, range, shadows: false };
     scene.point_lights = vec![
         light([0.0, 2.0, 2.0], [1.0, 0.9, 0.8], 100.0, None),
         light([-1.0, 0.5, 1.0], [0.0, 1.0, 0.5], 0.5, Some(1.5)),

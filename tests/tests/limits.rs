@@ -8,7 +8,7 @@ use framewright_tests::shapes::empty_scene;
 #[test]
 fn a_scene_with_more_point_lights_than_can_be_drawn_is_refused() {
     let Some(device) = device() else { return };
-    let light = PointLight { position: [0.0; 3], color: [1.0; 3], intensity: 1.0, range: None };
+    let light = PointLight { position: [0.0; 3], color: [1.0; 3], intensity: 1.0, range: None, shadows: false };
     let mut scene = empty_scene();
     scene.point_lights = vec![light; MOST_POINT_LIGHTS];
     assert!(SceneDrawSource::new(device, &scene, [16, 16]).is_ok());

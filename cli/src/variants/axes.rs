@@ -3,8 +3,8 @@
 
 use super::mentions::Mentions;
 use super::space::Choice;
-use framewright_graph::describe::{Fact, Pipeline, SettingKind};
-use framewright_graph::expand::Facts;
+use framewright_graph::describe::{Pipeline, SettingKind};
+use framewright_graph::facts::{Fact, FactType, FactValue, Facts};
 use framewright_graph::source::Sources;
 
 /// Whole numbers up to this many are all tried.
@@ -86,7 +86,7 @@ impl Axes {
     #[must_use]
     pub(crate) fn facts(&self, choice: &[usize]) -> Facts {
         self.chosen(choice).fold(Facts::UNKNOWN, |facts, (varied, value)| match varied {
-            Varied::Fact(fact) => facts.with(*fact, value == "true"),
+            Varied::Fact(fact) => facts.with(*fact, FactValue::Bool(value == "true")),
             Varied::Setting(_) | Varied::Device => facts,
         })
     }
@@ -134,14 +134,14 @@ fn first(default: String, others: impl Iterator<Item = String>) -> Vec<String> {
     values
 }
 
-/// Facts that are mentioned; without a scene all of them hold.
+/// Facts that are true or false and mentioned; without a scene all of them hold.
 fn facts(mentions: &Mentions<'_>) -> impl Iterator<Item = Axis> {
     let mentioned = |fact: &Fact| {
         let name = fact.name();
         mentions.may_hold(name.rsplit_once('.').map_or(name, |(_, last)| last), 1)
     };
     let axis = |fact| Axis { varied: Varied::Fact(fact), values: vec!["true".to_owned(), "false".to_owned()] };
-    Fact::ALL.into_iter().filter(mentioned).map(axis)
+    Fact::ALL.into_iter().filter(|fact| fact.ty() == FactType::Bool).filter(mentioned).map(axis)
 }
 
 #[cfg(test)]

@@ -2,9 +2,10 @@
 
 use super::leaf::{Leaf, Shape};
 use super::names::Scope;
-use super::pipeline::{Condition, Fact, SettingKind, SettingRef, Subject, Term};
+use super::pipeline::{Condition, SettingKind, SettingRef, Subject, Term};
 use super::reader::Reader;
 use super::suggest;
+use crate::facts::{Fact, FactType};
 
 /// A condition.
 pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Condition> {
@@ -57,13 +58,24 @@ fn term<'src>(reader: &mut Reader, scope: &Scope<'_>, whole: Leaf<'src>, part: &
     Some(Term { subject, negated })
 }
 
+/// A fact that is `true` or `false`.
 fn fact(reader: &mut Reader, whole: Leaf<'_>, name: &str) -> Option<Fact> {
-    let found = Fact::ALL.into_iter().find(|fact| fact.name() == name);
-    if found.is_none() {
-        let help = suggest::help(name, Fact::ALL.map(Fact::name)).unwrap_or_default();
-        reader.wrong_part(whole, name, format!("there is no fact named `{name}`"), &help);
+    let asked = || Fact::ALL.into_iter().filter(|fact| fact.ty() == FactType::Bool).map(Fact::name);
+    match Fact::ALL.into_iter().find(|fact| fact.name() == name) {
+        Some(fact) if fact.ty() == FactType::Bool => Some(fact),
+        Some(_) => {
+            let names: Vec<String> = asked().map(|name| format!("`{name}`")).collect();
+            let help = format!("a condition may ask {}", names.join(", "));
+            let message = format!("`{name}` is a number, and a condition asks what is true or false");
+            reader.wrong_part(whole, name, message, &help);
+            None
+        }
+        None => {
+            let help = suggest::help(name, asked().collect::<Vec<_>>()).unwrap_or_default();
+            reader.wrong_part(whole, name, format!("there is no fact named `{name}`"), &help);
+            None
+        }
     }
-    found
 }
 
 /// A setting that is `true` or `false`.

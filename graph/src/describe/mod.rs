@@ -58,8 +58,8 @@
 //! STENCIL    (clear: 0, test: Always, reference: 0, pass: Keep)
 //! PARAM      1.0 | 1 | true | "setting"
 //! OUTPUT     "name" | (image: "…", after: STATE) | (buffer: "…", after: STATE)
-//! CONDITION  names of settings and facts (`scene.has_opaque`, `scene.has_alpha_clip`, `scene.has_transparent`) with `!`,
-//!            `&&` and `||`, the last binding least
+//! CONDITION  names of settings and of facts that are true or false ([`crate::facts::Fact`]) with `!`, `&&` and `||`, the
+//!            last binding least
 //! ```
 //! Names that a file gives begin with a letter or `_` and go on with letters, digits and `_`, those of shaders and
 //! custom work with `-` too, at most 64 bytes.
@@ -104,8 +104,8 @@ pub use pass::{
     Storage, StorageAccess, Uniform, Work,
 };
 pub use pipeline::{
-    BufferRef, Condition, Fact, ImageRef, Name, Output, Pipeline, ResourceRef, Setting, SettingKind, SettingRef,
-    Spanned, Subject, Term, Value,
+    BufferRef, Condition, ImageRef, Name, Output, Pipeline, ResourceRef, Setting, SettingKind, SettingRef, Spanned,
+    Subject, Term, Value,
 };
 pub use render::{escape, render};
 pub use resources::{

@@ -2,6 +2,7 @@
 
 use super::pass::Pass;
 use super::resources::{Buffer, Image, State};
+use crate::facts::Fact;
 use crate::frame::{BufferIndex, ImageIndex, Resource};
 use crate::source::Span;
 use std::sync::Arc;
@@ -164,32 +165,6 @@ pub struct Term {
 pub enum Subject {
     /// A setting that is `true` or `false`.
     Setting(SettingRef),
-    /// A fact of the scene.
+    /// A fact of the scene that is `true` or `false`.
     Fact(Fact),
-}
-
-/// A fact of the scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fact {
-    /// Anything opaque is drawn.
-    HasOpaque,
-    /// Anything with alpha-clipped holes is drawn.
-    HasAlphaClip,
-    /// Anything transparent is drawn.
-    HasTransparent,
-}
-
-impl Fact {
-    /// Every fact.
-    pub const ALL: [Fact; 3] = [Fact::HasOpaque, Fact::HasAlphaClip, Fact::HasTransparent];
-
-    /// The name that conditions use.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Fact::HasOpaque => "scene.has_opaque",
-            Fact::HasAlphaClip => "scene.has_alpha_clip",
-            Fact::HasTransparent => "scene.has_transparent",
-        }
-    }
 }

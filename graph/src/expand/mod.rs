@@ -6,7 +6,6 @@
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
 mod conditions;
-mod facts;
 mod fills;
 mod images;
 mod local;
@@ -29,7 +28,7 @@ mod waits;
 mod work;
 mod written;
 
-pub use facts::Facts;
+pub use crate::facts::Facts;
 
 use crate::describe::{self, Diagnostic, LARGEST_SIZE, Pipeline, suggestion};
 use crate::frame::{Frame, ImageIndex, Output, ParamValue, Resource, SwitchedOff};
@@ -45,7 +44,7 @@ pub struct Inputs<'a> {
     pub set: &'a [(String, String)],
     /// What is known about the scene.
     pub facts: Facts,
-    /// Whether there is a scene at all; if not, every fact counts as true.
+    /// Whether there is a scene at all; if not, [`Facts::UNKNOWN`] counts.
     pub facts_known: bool,
     /// Width and height of the frame, in texels, 1 to 16384 each.
     pub output_extent: [u32; 2],

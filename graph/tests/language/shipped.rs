@@ -57,7 +57,7 @@ fn without_tone_mapping_color_is_forwarded_to_the_screen() {
 
 #[test]
 fn what_the_scene_does_not_hold_is_not_drawn_and_leaves_no_trace_among_passes() {
-    let facts = Facts { has_opaque: true, has_alpha_clip: false, has_transparent: false };
+    let facts = Facts { has_alpha_clip: false, has_cross_fade: false, has_transparent: false, ..Facts::UNKNOWN };
     let frame = forward(&[], facts);
     assert_eq!(names(&frame), ["opaque", "sky", "tone_map"]);
     let off: Vec<(&str, &str)> = frame.switched_off.iter().map(|off| (&*off.name, &*off.because)).collect();
@@ -69,7 +69,13 @@ fn what_the_scene_does_not_hold_is_not_drawn_and_leaves_no_trace_among_passes() 
 
 #[test]
 fn facts_of_no_scene_count_as_true() {
-    let facts = Facts { has_opaque: false, has_alpha_clip: false, has_transparent: false };
+    let facts = Facts {
+        has_opaque: false,
+        has_alpha_clip: false,
+        has_cross_fade: false,
+        has_transparent: false,
+        ..Facts::UNKNOWN
+    };
     let inputs = Inputs { facts, facts_known: false, ..INPUTS };
     let frame = frame(&shipped("forward.ron"), &inputs).unwrap_or_else(|text| panic!("{text}"));
     assert!(frame.switched_off.is_empty());

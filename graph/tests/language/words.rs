@@ -95,7 +95,7 @@ fn off(condition: &str) -> Option<String> {
     let settings = r#"(name: "yes", value: Bool(default: true)), (name: "no", value: Bool(default: false))"#;
     let images = r#"(name: "extra", format: Output, size: Output)"#;
     let pass = format!(r#"(name: "extra", when: "{condition}", draw: FullScreen("plain"), color: ["extra"]),"#);
-    let facts = Facts { has_opaque: false, has_alpha_clip: false, has_transparent: true };
+    let facts = Facts { has_opaque: false, has_alpha_clip: false, ..Facts::UNKNOWN };
     let inputs = Inputs { facts, facts_known: true, ..INPUTS };
     let frame = right(&pipeline(settings, images, &pass), &inputs);
     assert_eq!(frame.passes.len() + frame.switched_off.len(), 2);

@@ -52,10 +52,14 @@ pub(super) fn objects_block(scene: &Scene) -> Vec<u8> {
         };
         block.mat4(object_to_world(&scene.camera, object.transform));
         block.mat3(object.normal_matrix());
-        block.vec4(material.base_color);
+        let [red, green, blue, alpha] = material.base_color;
+        // What is transparent fades by its opacity.
+        let seen = if transparent == 1 { object.shown_share() as f32 } else { 1.0 };
+        block.vec4([red, green, blue, alpha * seen]);
         block.vec3(material.emissive);
         block.float(alpha_cutoff);
         block.uint(transparent);
+        block.float(object.cross_fade);
         block.align();
     }
     block.bytes()

@@ -1,6 +1,6 @@
 //! Which objects each draw list holds, and in which order.
 
-use crate::scene::{AlphaMode, Scene};
+use crate::scene::Scene;
 use framewright_graph::frame::DrawList;
 use glam::DMat4;
 
@@ -12,13 +12,7 @@ use glam::DMat4;
 pub fn draw_order(scene: &Scene, list: DrawList) -> Vec<u32> {
     let mut order: Vec<u32> = (0..)
         .zip(&scene.objects)
-        .filter(|(_, object)| {
-            list == match scene.materials[object.material].alpha {
-                AlphaMode::Opaque => DrawList::Opaque,
-                AlphaMode::Mask { .. } => DrawList::Masked,
-                AlphaMode::Blend => DrawList::Transparent,
-            }
-        })
+        .filter(|(_, object)| scene.draw_list(object) == list)
         .map(|(index, _)| index)
         .collect();
     let object = |index: u32| &scene.objects[index as usize];

@@ -3,7 +3,8 @@
 use super::{AlphaMode, Material, Sky, Sun};
 
 /// From the front left, high above, warm.
-pub(crate) const SUN: Sun = Sun { direction: [2.0 / 7.0, -6.0 / 7.0, -3.0 / 7.0], color: [1.05, 1.0, 0.9] };
+pub(crate) const SUN: Sun =
+    Sun { direction: [2.0 / 7.0, -6.0 / 7.0, -3.0 / 7.0], color: [1.05, 1.0, 0.9], shadows: false };
 
 /// Bluish.
 pub(crate) const AMBIENT: [f32; 3] = [0.24, 0.26, 0.3];

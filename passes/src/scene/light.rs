@@ -7,6 +7,16 @@ pub struct Sun {
     pub direction: [f32; 3],
     /// Linear colour with the intensity multiplied in, each at least 0: what a white surface facing it gives. Black: no sun.
     pub color: [f32; 3],
+    /// Whether what stands in its light casts a shadow.
+    pub shadows: bool,
+}
+
+impl Sun {
+    /// Whether it gives any light.
+    #[must_use]
+    pub fn shines(&self) -> bool {
+        self.color.iter().any(|channel| *channel > 0.0)
+    }
 }
 
 /// Light from a point, in all directions.
@@ -20,9 +30,17 @@ pub struct PointLight {
     pub intensity: f32,
     /// Distance in metres at which the light has faded to nothing; `None`: it reaches everywhere.
     pub range: Option<f32>,
+    /// Whether what stands in its light casts a shadow.
+    pub shadows: bool,
 }
 
 impl PointLight {
+    /// Whether it gives any light.
+    #[must_use]
+    pub fn shines(&self) -> bool {
+        self.intensity > 0.0 && self.color.iter().any(|channel| *channel > 0.0)
+    }
+
     /// The share of `color · intensity` that arrives at a distance in metres: `1/d²`, and with a range
     /// `clamp(1 − (d/range)⁴, 0, 1)/d²` (glTF's KHR_lights_punctual recommends it). Distances below
     /// [`PointLight::NEAREST`] count as that, so nothing is infinite.

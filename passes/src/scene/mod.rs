@@ -16,6 +16,7 @@
 mod bounds;
 mod camera;
 mod defaults;
+mod facts;
 pub mod glb;
 mod light;
 pub mod limits;
@@ -24,16 +25,17 @@ mod material;
 mod mesh;
 mod notes;
 mod pattern;
+mod peak;
 mod shapes;
 pub mod text;
 
 pub use bounds::Bounds;
 pub use camera::Camera;
+pub use facts::Found;
 pub use light::{PointLight, Sky, Sun};
 pub use material::{AlphaMode, Material, Sampler, Texture, Wrap};
 pub use mesh::Mesh;
 
-use framewright_graph::expand::Facts;
 use glam::{DMat3, Mat3, Mat4};
 pub use load::{SceneError, load};
 use notes::Notes;
@@ -75,6 +77,10 @@ pub struct Object {
     pub material: usize,
     /// From the mesh's space to the world's; affine (its last row is 0 0 0 1).
     pub transform: Mat4,
+    /// How much of it is seen, −1 to 1, where 1 is all of it. At 0.3 three tenths of its pixels are drawn, in a fixed
+    /// pattern; at −0.3 exactly the others. So what changes for something else fades into it without showing what is behind
+    /// both. What is transparent fades by its opacity instead.
+    pub cross_fade: f32,
 }
 
 impl Object {
@@ -83,6 +89,19 @@ impl Object {
     #[must_use]
     pub fn mirrored(&self) -> bool {
         DMat3::from_mat4(self.transform.as_dmat4()).determinant() < 0.0
+    }
+
+    /// Whether less than all of it is seen.
+    #[must_use]
+    pub fn fades(&self) -> bool {
+        self.cross_fade < 1.0
+    }
+
+    /// The share of it that is seen, 0 to 1.
+    #[must_use]
+    pub fn shown_share(&self) -> f64 {
+        let share = f64::from(self.cross_fade);
+        if share < 0.0 { 1.0 + share } else { share }
     }
 
     /// Takes normals from the mesh's space to the world's, up to their length: the matrix of cofactors, which is the
@@ -100,19 +119,6 @@ impl Object {
 }
 
 impl Scene {
-    /// What conditions in pipeline files may ask: which of the three draw lists hold anything.
-    #[must_use]
-    pub fn facts(&self) -> Facts {
-        let any = |wanted: fn(&AlphaMode) -> bool| {
-            self.objects.iter().any(|object| wanted(&self.materials[object.material].alpha))
-        };
-        Facts {
-            has_opaque: any(|alpha| matches!(alpha, AlphaMode::Opaque)),
-            has_alpha_clip: any(|alpha| matches!(alpha, AlphaMode::Mask { .. })),
-            has_transparent: any(|alpha| matches!(alpha, AlphaMode::Blend)),
-        }
-    }
-
     /// The box around all objects, in the world; `None` if there are none.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {

@@ -9,6 +9,10 @@ const HEAD_ON_REFLECTANCE: f64 = 0.04;
 /// Blinn-Phong exponent.
 const SHININESS: f64 = 64.0;
 
+/// No surface mirrors more than this share of the sun's colour, whatever its normal and wherever it is seen from: the largest
+/// value of `max(n · l, 0) · highlight(n, v, l)` over all unit vectors is 0.7986.
+pub const LARGEST_HIGHLIGHT: f64 = 0.8;
+
 /// The share of arriving light that is mirrored towards the camera. All three are unit vectors.
 #[must_use]
 pub fn highlight(normal: DVec3, to_camera: DVec3, to_light: DVec3) -> f64 {

@@ -1,8 +1,10 @@
 //! CPU twins of the shaders' closed formulas, in 64-bit floating point: what the GPU is held against.
 
+pub mod cross_fade;
 pub mod exposure;
 pub mod filters;
 pub mod lighting;
 pub mod radiance;
+pub mod sky;
 pub mod snow;
 pub mod tone_mapping;

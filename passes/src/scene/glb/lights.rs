@@ -36,7 +36,8 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
                 let direction = (-to_world.z_axis.truncate()).try_normalize().unwrap_or(DVec3::NEG_Y);
                 let color = color.map(|part| (part * intensity).min(limits::RADIANCE) as f32);
                 if sun.is_none() {
-                    sun = Some(Sun { direction: direction.as_vec3().to_array(), color });
+                    let direction = direction.as_vec3().to_array();
+                    sun = Some(Sun { direction, color, shadows: false });
                 } else {
                     notes.add(format!("{at}: only one directional light is used"));
                 }
@@ -57,6 +58,7 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
                     color: color.map(|part| part as f32),
                     intensity: intensity as f32,
                     range: range.map(|range| (range as f32).max(f32::MIN_POSITIVE)),
+                    shadows: false,
                 });
             }
             "spot" => notes.add(format!("{at}: spot lights are not used")),
@@ -71,7 +73,7 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
         let (is, limit) = (points.len() as u64, limits::POINT_LIGHTS as u64);
         return Err(GlbError { at: String::new(), problem: Problem::TooMuch { what: "point lights", is, limit } });
     }
-    let dark = Sun { direction: defaults::SUN.direction, color: [0.0; 3] };
+    let dark = Sun { direction: defaults::SUN.direction, color: [0.0; 3], shadows: false };
     let sun = sun.unwrap_or(if points.is_empty() { defaults::SUN } else { dark });
     Ok(Lights { sun, points })
 }

@@ -144,7 +144,7 @@ fn objects(
             }
             all = Some(all.map_or(bounds, |all| all.union(bounds)));
             let name = if index == 0 { name.clone() } else { format!("{name}, primitive {index}") };
-            objects.push(Object { name, mesh: part.mesh, material: part.material, transform });
+            objects.push(Object { name, mesh: part.mesh, material: part.material, transform, cross_fade: 1.0 });
         }
     }
     Ok((objects, all))

@@ -1,6 +1,6 @@
 //! The objects of a scene file.
 
-use super::values::{angles, count, counts, place, size, sizes};
+use super::values::{angles, count, counts, number, place, size, sizes};
 use crate::scene::{Bounds, Mesh, Object, limits, shapes};
 use framewright_graph::describe::text::{Leaf, Names, Reader, Shape};
 use framewright_graph::fields;
@@ -15,6 +15,7 @@ fields! {
         rotation: Option<Leaf<'s>>,
         size: Leaf<'s>,
         repeat: Option<Leaf<'s>>,
+        cross_fade: Option<Leaf<'s>>,
     }
 }
 
@@ -27,6 +28,7 @@ fields! {
         rotation: Option<Leaf<'s>>,
         radius: Leaf<'s>,
         repeat: Option<Leaf<'s>>,
+        cross_fade: Option<Leaf<'s>>,
     }
 }
 
@@ -65,7 +67,7 @@ impl Objects {
         &mut self,
         reader: &mut Reader,
         leaf: Leaf<'s>,
-        number: usize,
+        index: usize,
         materials: &Names,
         names: &mut Names,
     ) -> Option<()> {
@@ -78,12 +80,14 @@ impl Objects {
                 names.give(reader, Some(name.clone()));
                 Some(name.text.to_string())
             }
-            None => Some(format!("{} {number}", shape.to_lowercase())),
+            None => Some(format!("{} {index}", shape.to_lowercase())),
         };
         let palette = palette(reader, fields.material, materials);
         let position = fields.position.map_or(Some(DVec3::ZERO), |leaf| place(reader, leaf, "the position"));
         let rotation = fields.rotation.map_or(Some(DVec3::ZERO), |leaf| angles(reader, leaf));
         let places = fields.repeat.map_or(Some(vec![DMat4::IDENTITY]), |leaf| repeat(reader, leaf));
+        let fade = |leaf| number(reader, leaf, "the share that is seen", -1.0, 1.0);
+        let cross_fade = fields.cross_fade.map_or(Some(1.0), fade);
         let (name, palette, places, position) = (name?, palette?, places?, position?);
         let turns = rotation?.to_array().map(f64::to_radians);
         let rotation =
@@ -94,12 +98,12 @@ impl Objects {
             self.full = true;
             return None;
         }
-        let mesh = self.mesh(shape);
+        let (mesh, cross_fade) = (self.mesh(shape), cross_fade? as f32);
         let own = DMat4::from_scale_rotation_translation(extents?, rotation, DVec3::ZERO);
         for (copy, (place, material)) in places.iter().zip(palette.iter().cycle()).enumerate() {
             let transform = (DMat4::from_translation(position) * *place * own).as_mat4();
             let name = if copy == 0 { name.clone() } else { format!("{name}, copy {copy}") };
-            self.objects.push(Object { name, mesh, material: *material, transform });
+            self.objects.push(Object { name, mesh, material: *material, transform, cross_fade });
         }
         Some(())
     }
@@ -114,9 +118,10 @@ fn extents<'s>(
 ) -> Option<(ObjectFields<'s>, Option<DVec3>)> {
     if shape == "Sphere" {
         let form = "Sphere(material: \"…\", radius: 0.5)";
-        let SphereFields { name, material, position, rotation, radius, repeat } = reader.inside(leaf, rest, form)?;
+        let SphereFields { name, material, position, rotation, radius, repeat, cross_fade } =
+            reader.inside(leaf, rest, form)?;
         let extents = size(reader, radius, "the radius").map(|radius| DVec3::splat(2.0 * radius));
-        return Some((ObjectFields { name, material, position, rotation, size: radius, repeat }, extents));
+        return Some((ObjectFields { name, material, position, rotation, size: radius, repeat, cross_fade }, extents));
     }
     let plane = shape == "Plane";
     let form = if plane { "Plane(material: \"…\", size: (10, 10))" } else { "Cube(material: \"…\", size: 1)" };
@@ -190,8 +195,7 @@ fn repeat<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Vec<DMat4>> {
         (_, rest) => {
             let fields: RingFields<'_> = reader.inside(leaf, rest, RING)?;
             let copies = count(reader, fields.count, "the count", 1, limits::OBJECTS as u32);
-            let start =
-                fields.start.map_or(Some(0.0), |leaf| super::values::number(reader, leaf, "the start", -360.0, 360.0));
+            let start = fields.start.map_or(Some(0.0), |leaf| number(reader, leaf, "the start", -360.0, 360.0));
             let radius = size(reader, fields.radius, "the radius")?;
             let (copies, start) = (copies?, start?.to_radians());
             let turn = |copy| DMat4::from_rotation_y(start + TAU * f64::from(copy) / f64::from(copies));

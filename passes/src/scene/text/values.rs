@@ -1,6 +1,7 @@
 //! Values that scenes are made of: numbers in ranges, vectors, colours.
 
 use crate::scene::limits;
+use crate::scene::material::decode_srgb;
 use framewright_graph::describe::text::{Leaf, Reader, Shape};
 use glam::DVec3;
 
@@ -98,7 +99,7 @@ fn all<T: Copy + Default, const N: usize>(values: [Option<T>; N]) -> Option<[T; 
 /// A colour: three linear numbers, each 0 to `most`, or an sRGB colour as the web writes it.
 pub(super) fn color<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str, most: f64) -> Option<[f32; 3]> {
     if let Shape::Text = leaf.shape() {
-        return Some(web_color(reader, leaf, what)?.map(|byte| linear(byte) as f32));
+        return Some(web_color(reader, leaf, what)?.map(|byte| decode_srgb(byte) as f32));
     }
     let color = three(reader, leaf, what, "(red, green, blue)` or `\"#rrggbb\"", 0.0, most)?;
     Some(color.as_vec3().to_array())
@@ -119,10 +120,4 @@ pub(super) fn web_color<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str) -> 
         return None;
     };
     Some([(code >> 16) as u8, (code >> 8) as u8, code as u8])
-}
-
-/// IEC 61966-2-1.
-fn linear(byte: u8) -> f64 {
-    let encoded = f64::from(byte) / 255.0;
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
