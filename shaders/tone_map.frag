@@ -6,7 +6,9 @@
 
 layout(set = 0, binding = 0) uniform sampler2D source;
 layout(set = 0, binding = 1) uniform Params {
-    // The radiance that becomes white, at least 1.
+    // What radiance is multiplied by first.
+    float exposure;
+    // The radiance after exposure that becomes white, at least 1.
     float white_point;
 } params;
 
@@ -15,6 +17,6 @@ layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 color;
 
 void main() {
-    const vec3 radiance = guard_radiance(textureLod(source, uv, 0.0).rgb);
+    const vec3 radiance = guard_radiance(guard_radiance(textureLod(source, uv, 0.0).rgb) * params.exposure);
     color = vec4(modified_reinhard(radiance, params.white_point), 1.0);
 }

@@ -16,7 +16,8 @@ pub trait DrawSource {
     /// Records the draws of `draw` and returns how many draw calls it made.
     ///
     /// It is called once for each pass that draws objects, the sky or something of its own ([`Draw::Custom`], where
-    /// [`Recorder::shader`] says what), in the frame's order; never for the other kinds. Pipeline, viewport and the pass's
+    /// [`Recorder::shader`] says what), and for full-screen draws whose shader reads what the draw source brings along; in
+    /// the frame's order, never for others. Pipeline, viewport and the pass's
     /// own set are bound already; face culling is off and the front face is counter-clockwise. With several frames in
     /// flight the frame before may still be drawn from what it was drawn from.
     ///
@@ -98,6 +99,13 @@ pub(crate) struct PassState {
     pub(crate) supplied: Vec<(vk::DescriptorSetLayout, bool)>,
     /// Bytes from vertex to vertex of what whoever draws brings along; 0 if the pipeline reads no such vertex buffer.
     pub(crate) vertex_stride: u32,
+}
+
+impl PassState {
+    /// Whether the shader reads anything that whoever draws brings along.
+    pub(crate) fn reads_supplied(&self) -> bool {
+        self.supplied.iter().any(|(_, needed)| *needed)
+    }
 }
 
 impl<'f> Recorder<'f> {

@@ -32,7 +32,8 @@ macro_rules! carried {
 }
 
 /// The pipelines in `examples/pipelines`.
-pub(crate) const PIPELINES: &[Example] = carried!("pipelines": "auto_exposure", "forward", "snow", "soft_focus");
+pub(crate) const PIPELINES: &[Example] =
+    carried!("pipelines": "auto_exposure", "deferred", "forward", "snow", "soft_focus");
 
 /// The scenes in `examples/scenes`.
 pub(crate) const SCENES: &[Example] = carried!("scenes": "spheres_and_cubes");

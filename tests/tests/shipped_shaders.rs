@@ -14,13 +14,22 @@ const TRANSPARENT: Draw = Draw::Objects(DrawList::Transparent);
 /// Every shipped fragment shader with a draw that it is made for.
 const DRAWN: &[(&str, Draw)] = &[
     ("accumulate", Draw::FullScreen),
+    ("bloom_grow", Draw::FullScreen),
+    ("bloom_mix", Draw::FullScreen),
+    ("bloom_shrink", Draw::FullScreen),
     ("blur", Draw::FullScreen),
     ("copy", Draw::FullScreen),
+    ("deferred_lighting", Draw::FullScreen),
     ("downsample", Draw::FullScreen),
+    ("encode_hdr10", Draw::FullScreen),
     ("expose", Draw::FullScreen),
+    ("g_buffer", OPAQUE),
+    ("g_buffer_masked", MASKED),
+    ("gauss", Draw::FullScreen),
     ("lit", OPAQUE),
     ("lit", TRANSPARENT),
     ("lit_masked", MASKED),
+    ("overlay", Draw::FullScreen),
     ("reinhard", Draw::FullScreen),
     ("sky", Draw::Sky),
     ("snow", Draw::Indirect),
@@ -120,15 +129,22 @@ fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Result<(), Box<dyn Error>> {
-    let cases: [(&str, &[&str], &[&str]); 8] = [
+    let cases: [(&str, &[&str], &[&str]); 15] = [
         ("accumulate", &["now", "before"], &["share"]),
+        ("bloom_grow", &["own", "below"], &["radius", "share"]),
+        ("bloom_mix", &["sharp", "bloom"], &["radius", "strength"]),
+        ("bloom_shrink", &["source"], &["partial"]),
         ("blur", &["source"], &["direction_x", "direction_y"]),
         ("copy", &["source"], &[]),
+        ("deferred_lighting", &["base_color", "normal", "emissive", "depth"], &[]),
         ("downsample", &["source"], &[]),
+        ("encode_hdr10", &["source"], &["reference_white"]),
         ("expose", &["source"], &["white_point"]),
+        ("gauss", &["source"], &["direction_x", "direction_y", "radius"]),
+        ("overlay", &["shown"], &["scale", "offset_x", "offset_y", "gain", "farthest"]),
         ("reinhard", &["source"], &[]),
         ("soft_focus", &["sharp", "soft"], &["strength"]),
-        ("tone_map", &["source"], &["white_point"]),
+        ("tone_map", &["source"], &["exposure", "white_point"]),
     ];
     for (name, images, params) in cases {
         let (found_images, found_params) = wanted(name, Draw::FullScreen)?;

@@ -13,9 +13,9 @@ const RELATIVE: f64 = 9.0 / 8_388_608.0;
 const ABSOLUTE: f64 = f32::MIN_POSITIVE as f64;
 
 /// Radiance that went in, and what modified and plain Reinhard made of it, for each channel of each texel.
-fn mapped(white_point: &str) -> Result<Option<Vec<[f32; 3]>>, Box<dyn Error>> {
+fn mapped(exposure: &str, white_point: &str) -> Result<Option<Vec<[f32; 3]>>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
-    let set = [("white_point", white_point)];
+    let set = [("exposure", exposure), ("white_point", white_point)];
     let scene = empty_scene();
     let setup = Setup { pipeline: "tests/pipelines/tone_mapping.ron", set: &set, scene: &scene, extent: [8, 8] };
     let outputs = render(device, &setup)?;
@@ -36,7 +36,7 @@ fn assert_close(found: f32, expected: f64, of: f32) {
 
 #[test]
 fn the_inputs_hold_every_kind_of_number() -> Result<(), Box<dyn Error>> {
-    let Some(values) = mapped("1.0")? else { return Ok(()) };
+    let Some(values) = mapped("1.0", "1.0")? else { return Ok(()) };
     let inputs = || values.iter().map(|[radiance, ..]| *radiance);
     assert_eq!(values.len(), 3 * 65536);
     assert!(inputs().any(|it| it == 0.0 && it.is_sign_negative()));
@@ -51,7 +51,7 @@ fn the_inputs_hold_every_kind_of_number() -> Result<(), Box<dyn Error>> {
 #[test]
 fn tone_mapping_on_the_gpu_is_its_twin() -> Result<(), Box<dyn Error>> {
     for white_point in ["1.0", "4.0", "100.0", "1e30"] {
-        let Some(values) = mapped(white_point)? else { return Ok(()) };
+        let Some(values) = mapped("1.0", white_point)? else { return Ok(()) };
         for [radiance, modified, plain] in values {
             let guarded = guard_radiance(f64::from(radiance));
             assert_close(modified, modified_reinhard(guarded, white_point.parse()?), radiance);
@@ -62,9 +62,22 @@ fn tone_mapping_on_the_gpu_is_its_twin() -> Result<(), Box<dyn Error>> {
 }
 
 #[test]
+fn exposure_multiplies_radiance_before_the_curve() -> Result<(), Box<dyn Error>> {
+    for exposure in ["0.0", "0.125", "2.0", "1e30", "-1.0"] {
+        let Some(values) = mapped(exposure, "4.0")? else { return Ok(()) };
+        for [radiance, modified, _] in values {
+            // Guarded twice: what is multiplied, and the product.
+            let exposed = guard_radiance(guard_radiance(f64::from(radiance)) * exposure.parse::<f64>()?);
+            assert_close(modified, modified_reinhard(exposed, 4.0), radiance);
+        }
+    }
+    Ok(())
+}
+
+#[test]
 fn every_result_lies_between_zero_and_one_and_zero_stays_zero() -> Result<(), Box<dyn Error>> {
     for white_point in ["0.0", "1.0", "100.0"] {
-        let Some(values) = mapped(white_point)? else { return Ok(()) };
+        let Some(values) = mapped("1.0", white_point)? else { return Ok(()) };
         for [radiance, modified, plain] in values {
             assert!((0.0..=1.0).contains(&modified) && (0.0..=1.0).contains(&plain), "{radiance}: {modified}, {plain}");
             if radiance == 0.0 {

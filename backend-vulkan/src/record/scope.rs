@@ -126,7 +126,7 @@ impl Frame<'_> {
         recorder.set_cull_mode(CullMode::None);
         recorder.set_front_face(FrontFace::CounterClockwise);
         let drawn = match pass.draw {
-            Draw::FullScreen => {
+            Draw::FullScreen if !pass.state.reads_supplied() => {
                 recorder.draw(0..3, 0..1);
                 1
             }
@@ -143,7 +143,9 @@ impl Frame<'_> {
                 }
                 1
             }
-            Draw::Objects(_) | Draw::Sky | Draw::Custom => source.record(pass.draw, &mut recorder)?,
+            Draw::FullScreen | Draw::Objects(_) | Draw::Sky | Draw::Custom => {
+                source.record(pass.draw, &mut recorder)?
+            }
         };
         recorder.finish().map_err(|what| Error::Recording { pass: plan.name.to_string(), what })?;
         Ok(drawn)

@@ -61,7 +61,8 @@ fn what_the_scene_does_not_hold_is_not_drawn_and_leaves_no_trace_among_passes() 
     let frame = forward(&[], facts);
     assert_eq!(names(&frame), ["opaque", "sky", "tone_map"]);
     let off: Vec<(&str, &str)> = frame.switched_off.iter().map(|off| (&*off.name, &*off.because)).collect();
-    assert_eq!(off, [("masked", "scene.has_alpha_clip = false"), ("transparent", "scene.has_transparent = false")]);
+    let masked = "scene.has_alpha_clip = false, scene.has_cross_fade = false";
+    assert_eq!(off, [("masked", masked), ("transparent", "scene.has_transparent = false")]);
     let line = shipped("forward.ron").lines().position(|line| line.contains("name: \"masked\"")).map(|line| line + 1);
     let place = frame.sources.place(frame.switched_off[0].span);
     assert_eq!(place.map(|place| place.line as usize), line, "where the condition stands");
@@ -85,7 +86,10 @@ fn facts_of_no_scene_count_as_true() {
 fn tone_mapping_samples_one_value_a_texel_and_takes_its_parameter_from_the_setting() {
     let frame = forward(&[("white_point", "4")], Facts::UNKNOWN);
     let pass = &frame.passes[4];
-    assert_eq!(pass.params, [("white_point".into(), ParamValue::Number(4.0))]);
+    assert_eq!(
+        pass.params,
+        [("exposure".into(), ParamValue::Number(1.0)), ("white_point".into(), ParamValue::Number(4.0))]
+    );
     assert_eq!(&*pass.sampled[0].binding, "source");
     assert!(!pass.sampled[0].per_sample);
 }

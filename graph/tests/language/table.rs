@@ -159,7 +159,37 @@ impl ShaderInterfaces for Table {
             "lit_masked" => lit(true),
             "sky" | "plain" => full_screen(vec![]),
             "whole" => ShaderInterface { outputs: outputs(1, Component::Uint, 1), ..ShaderInterface::default() },
-            "tone_map" => full_screen(vec![source(), params(&[("white_point", "float")])]),
+            "tone_map" => full_screen(vec![source(), params(&[("exposure", "float"), ("white_point", "float")])]),
+            "g_buffer" | "g_buffer_masked" => {
+                let mut outputs = outputs(3, float, 4);
+                outputs[1].components = 2;
+                ShaderInterface { outputs, ..lit(name == "g_buffer_masked") }
+            }
+            "deferred_lighting" => {
+                let frame = |binding, name: &str, kind| {
+                    let stages = Stages::FRAGMENT_SHADER;
+                    Binding { set: 1, binding, name: name.to_owned(), kind, stages }
+                };
+                full_screen(vec![
+                    texture("base_color", 0, false, float),
+                    texture("normal", 1, false, float),
+                    texture("emissive", 2, false, float),
+                    texture("depth", 3, false, float),
+                    frame(0, "view", BindingKind::UniformBlock(Block::default())),
+                    frame(1, "lights", BindingKind::StorageBlock { readable: true, writable: false }),
+                ])
+            }
+            "bloom_shrink" => full_screen(vec![source(), params(&[("partial", "uint")])]),
+            "bloom_grow" => full_screen(vec![
+                texture("own", 0, false, float),
+                texture("below", 1, false, float),
+                params(&[("radius", "float"), ("share", "float")]),
+            ]),
+            "bloom_mix" => full_screen(vec![
+                texture("sharp", 0, false, float),
+                texture("bloom", 1, false, float),
+                params(&[("radius", "float"), ("strength", "float")]),
+            ]),
             "expose" => full_screen(vec![
                 source(),
                 of_stage(uniform_block("exposure", 4), Stages::FRAGMENT_SHADER),
@@ -248,6 +278,7 @@ impl ShaderInterfaces for Table {
     fn brought_along(&self, draw: Draw) -> DrawInterface {
         let supplied = |set, binding, name, kind| Supplied { set, binding, name, kind };
         let view = supplied(1, 0, "view", SuppliedKind::UniformBlock);
+        let lights = supplied(1, 1, "lights", SuppliedKind::StorageBlock);
         match draw {
             Draw::Objects(DrawList::Opaque | DrawList::Masked | DrawList::Transparent) => DrawInterface {
                 vertex_stride: 32,
@@ -258,13 +289,14 @@ impl ShaderInterfaces for Table {
                 ],
                 supplied: vec![
                     view,
-                    supplied(1, 1, "lights", SuppliedKind::StorageBlock),
+                    lights,
                     supplied(1, 2, "objects", SuppliedKind::StorageBlock),
                     supplied(2, 0, "base_color_texture", SuppliedKind::SampledImage),
                 ],
             },
             Draw::Sky => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
-            Draw::FullScreen | Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => DrawInterface::default(),
+            Draw::FullScreen => DrawInterface { supplied: vec![view, lights], ..DrawInterface::default() },
+            Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => DrawInterface::default(),
         }
     }
 }

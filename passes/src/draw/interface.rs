@@ -20,8 +20,8 @@ pub const BASE_COLOR_TEXTURE_BINDING: u32 = 0;
 /// What whoever draws `draw` with the shipped draw source finds bound. Known without any device, so `check` can hold
 /// shaders against it.
 ///
-/// The sky is given the same frame set as objects, so that one bind group serves both; all other draws are given nothing
-/// but what is their pass's own.
+/// The sky and full-screen draws are given the same frame set as objects, so that one bind group serves all; other draws are
+/// given nothing but what is their pass's own.
 #[must_use]
 pub fn interface(draw: Draw) -> DrawInterface {
     let frame = |binding, name, kind| Supplied { set: FRAME_SET, binding, name, kind };
@@ -48,7 +48,7 @@ pub fn interface(draw: Draw) -> DrawInterface {
                 supplied,
             }
         }
-        Draw::Sky => DrawInterface { supplied, ..DrawInterface::default() },
-        Draw::FullScreen | Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => DrawInterface::default(),
+        Draw::Sky | Draw::FullScreen => DrawInterface { supplied, ..DrawInterface::default() },
+        Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => DrawInterface::default(),
     }
 }

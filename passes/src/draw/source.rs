@@ -100,12 +100,8 @@ impl DrawSource for SceneDrawSource {
                 self.record_objects(list, recorder);
                 Ok(u32::try_from(self.list(list).len()).unwrap_or(u32::MAX))
             }
-            Draw::Sky => {
+            Draw::Sky | Draw::FullScreen => {
                 recorder.bind_group(FRAME_SET, &self.frame);
-                recorder.draw(0..3, 0..1);
-                Ok(1)
-            }
-            Draw::FullScreen => {
                 recorder.draw(0..3, 0..1);
                 Ok(1)
             }

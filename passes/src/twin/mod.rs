@@ -1,9 +1,13 @@
 //! CPU twins of the shaders' closed formulas, in 64-bit floating point: what the GPU is held against.
 
+pub mod bloom;
 pub mod cross_fade;
 pub mod exposure;
 pub mod filters;
+pub mod g_buffer;
+pub mod hdr10;
 pub mod lighting;
+pub mod overlay;
 pub mod radiance;
 pub mod sky;
 pub mod snow;

@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/g_buffer.glsl"
+#include "include/lighting.glsl"
+#include "include/radiance.glsl"
+
+// As include/g_buffer_surface.glsl writes them, of the size that is drawn and without filter.
+layout(set = 0, binding = 0) uniform sampler2D base_color;
+layout(set = 0, binding = 1) uniform sampler2D normal;
+layout(set = 0, binding = 2) uniform sampler2D emissive;
+layout(set = 0, binding = 3) uniform sampler2D depth;
+
+layout(location = 0) in vec2 uv;
+
+layout(location = 0) out vec4 color;
+
+// Where no object is the result is black: the sky goes there.
+void main() {
+    const float place = textureLod(depth, uv, 0.0).r;
+    if (place <= 0.0) {
+        color = vec4(0.0, 0.0, 0.0, 1.0);
+        return;
+    }
+    const vec4 from_camera = view.clip_to_world * vec4(uv * 2.0 - 1.0, place, 1.0);
+    const vec3 facing = from_octahedral(textureLod(normal, uv, 0.0).xy);
+    const Reflected reflected = reflect_light(from_camera.xyz / from_camera.w, facing);
+    const vec3 scattered = textureLod(base_color, uv, 0.0).rgb * reflected.diffuse;
+    color = vec4(guard_radiance(scattered + reflected.specular + textureLod(emissive, uv, 0.0).rgb), 1.0);
+}
