@@ -91,10 +91,9 @@ fn point_lights_count_from_where_they_are_nearest() {
 
 #[test]
 fn textures_count_by_their_brightest_texel() {
-    let checkered = r##"ambient: (1, 1, 1), materials: [(name: "grey", color: (0.5, 0.5, 0.5),
+    let checkered = r##"materials: [(name: "grey", color: (0.5, 0.5, 0.5),
         texture: Checker(count: (2, 2), colors: ("#000000", "#ff0000")))], objects: [Cube(material: "grey", size: 1)]"##;
-    let night = night(&format!("{checkered}").replace("ambient: (1, 1, 1), ", ""));
-    let lit = Scene { ambient: [1.0; 3], ..night };
+    let lit = Scene { ambient: [1.0; 3], ..night(checkered) };
     assert!(is_close(peak(&lit), 0.5));
 }
 

@@ -11,7 +11,10 @@ use std::error::Error;
 /// 0.5 and 2, to 3·10⁻⁵.
 const BOUND: f64 = 1.0 / 1023.0 / 16.0;
 
-fn signals(reference_white: &str) -> Result<Option<Vec<[[f32; 4]; 2]>>, Box<dyn Error>> {
+/// Radiance that went in, and the signal, texel by texel.
+type Signals = Vec<[[f32; 4]; 2]>;
+
+fn signals(reference_white: &str) -> Result<Option<Signals>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
     let set = [("reference_white", reference_white)];
     let scene = empty_scene();

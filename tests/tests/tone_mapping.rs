@@ -66,6 +66,10 @@ fn exposure_multiplies_radiance_before_the_curve() -> Result<(), Box<dyn Error>>
     for exposure in ["0.0", "0.125", "2.0", "1e30", "-1.0"] {
         let Some(values) = mapped(exposure, "4.0")? else { return Ok(()) };
         for [radiance, modified, _] in values {
+            // Drivers may flush numbers below the smallest normal float before they are multiplied.
+            if radiance.is_subnormal() && modified == 0.0 {
+                continue;
+            }
             // Guarded twice: what is multiplied, and the product.
             let exposed = guard_radiance(guard_radiance(f64::from(radiance)) * exposure.parse::<f64>()?);
             assert_close(modified, modified_reinhard(exposed, 4.0), radiance);
