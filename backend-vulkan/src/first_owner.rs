@@ -148,6 +148,7 @@ mod tests {
             format_version: framewright_graph::plan::FORMAT_VERSION,
             device: DeviceUsed { name: String::new(), exact_memory: true },
             settings: Vec::new(),
+            views: Vec::new(),
             images: vec![image],
             buffers: Vec::new(),
             heaps: Vec::new(),
@@ -175,6 +176,7 @@ mod tests {
         let pass = Pass {
             name: "p".into(),
             cause: Cause::Written(None),
+            view: None,
             draw: None,
             groups: None,
             shader: "p".into(),

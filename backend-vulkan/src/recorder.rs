@@ -129,6 +129,12 @@ impl<'f> Recorder<'f> {
         &self.plan.name
     }
 
+    /// The view that the pass draws for, in the list of the Plan; `None` if the Plan has none.
+    #[must_use]
+    pub fn view(&self) -> Option<plan::ViewId> {
+        self.plan.view
+    }
+
     /// The name of the pass's shader. For custom draws it says what is drawn; if there is no shader of that name then no
     /// pipeline is bound, and only [`Recorder::raw`] can draw.
     #[must_use]

@@ -153,7 +153,8 @@ fn draw(
     device: &Device,
 ) -> Result<(Vec<FrameReport>, Vec<Picture>), Error> {
     let wanted = wanted(arguments, planned)?;
-    let mut source = SceneDrawSource::new(device, scene, [arguments.size.width, arguments.size.height])?;
+    let size = [arguments.size.width, arguments.size.height];
+    let mut source = SceneDrawSource::with_views(device, scene, size, &planned.plan.views)?;
     let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
     let Loaded { shaders, textures, .. } = pipeline;
     let mut executor = Executor::with_textures(device, &planned.plan, shaders, textures, &options)?;

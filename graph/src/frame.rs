@@ -6,6 +6,7 @@
 use crate::format::Format;
 use crate::source::{Sources, Span};
 use crate::texture::TextureFile;
+use crate::view::{View, ViewIndex};
 use crate::vocabulary::{Aspects, CompareOp, FillValue, Filter, Sampler, Stages, State, StencilOp, Subresources};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -34,6 +35,8 @@ pub struct Frame {
     pub sources: Arc<Sources>,
     /// The settings in force, by name, as they are shown.
     pub settings: Vec<(Arc<str>, String)>,
+    /// The views, the main one first. None: one that is the scene's default camera's.
+    pub views: Vec<View>,
     /// The images that passes name.
     pub images: Vec<Image>,
     /// The buffers that passes name.
@@ -170,6 +173,8 @@ pub struct Pass {
     pub name: Arc<str>,
     /// Where it was declared.
     pub span: Span,
+    /// The view that it draws for.
+    pub view: ViewIndex,
     /// What it does.
     pub work: Work,
     /// Images that its shaders sample.
@@ -197,6 +202,7 @@ impl Pass {
         Pass {
             name: name.into(),
             span: Span::NONE,
+            view: ViewIndex::default(),
             work,
             sampled: Vec::new(),
             storage: Vec::new(),

@@ -18,4 +18,5 @@ pub mod source;
 mod states;
 pub mod texture;
 pub mod verify;
+pub mod view;
 pub mod vocabulary;

@@ -48,6 +48,7 @@ fn scene(objects: &[(usize, usize, Vec3)]) -> Scene {
         point_lights: Vec::new(),
         sky: Sky { zenith: BLACK, horizon: BLACK, ground: BLACK },
         camera: camera.unwrap_or_else(|| Camera::framing(Bounds { min: Vec3::ZERO, max: Vec3::ONE })),
+        cameras: Vec::new(),
         notes: Vec::new(),
     }
 }

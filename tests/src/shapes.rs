@@ -17,6 +17,7 @@ pub fn empty_scene() -> Scene {
         point_lights: Vec::new(),
         sky: Sky { zenith: black, horizon: black, ground: black },
         camera: Camera::framing(Bounds { min: Vec3::ZERO, max: Vec3::ONE }),
+        cameras: Vec::new(),
         notes: Vec::new(),
     }
 }

@@ -40,6 +40,7 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: device.profile().name, exact_memory: true },
         settings: Vec::new(),
+        views: Vec::new(),
         images: Vec::new(),
         buffers: Vec::new(),
         heaps: vec![Heap { bytes: 0, alignment: 1, type_bits: u32::MAX, lazily_allocated: false }],
@@ -191,6 +192,7 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
     Pass {
         name: name.into(),
         cause: Cause::Written(None),
+        view: None,
         draw: Some(draw),
         groups: None,
         shader: shader.into(),

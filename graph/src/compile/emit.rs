@@ -23,7 +23,7 @@ use crate::device::Profile;
 use crate::frame::{Frame, Lifetime, Resource as Declared, Work as FrameWork};
 use crate::plan::{
     Buffer, BufferId, Cause, DeviceUsed, FORMAT_VERSION, Image, ImageId, Initial, Note, Placement, Plan, Queue,
-    Resource, Role, SettingUsed, Stage, Step, Subresources, Totals, Work,
+    Resource, Role, SettingUsed, Stage, Step, Subresources, Totals, View, Work,
 };
 use crate::source::Place;
 use crate::vocabulary::{FillValue, State};
@@ -113,6 +113,7 @@ pub(super) fn emit(parts: &Parts<'_>) -> Plan {
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: parts.device.name.clone(), exact_memory: parts.exact_memory },
         settings: settings(parts),
+        views: views(parts),
         images,
         buffers,
         outputs: parts.adapted.outputs.iter().map(|store| resource(&parts.adapted.stores[*store as usize])).collect(),
@@ -253,6 +254,16 @@ fn file(frame: &Frame, store: &Store) -> Initial {
         },
         Declared::Buffer(_) => Initial::Value(FillValue::Bits([0; 4])),
     }
+}
+
+fn views(parts: &Parts<'_>) -> Vec<View> {
+    let view = |view: &crate::view::View| View {
+        name: view.name.clone(),
+        extent: view.extent,
+        camera: view.camera.clone(),
+        allows: view.allows,
+    };
+    parts.frame.views.iter().map(view).collect()
 }
 
 /// Notes by stage.

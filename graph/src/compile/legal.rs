@@ -32,6 +32,7 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
     if !errors.is_empty() {
         return Err(errors);
     }
+    views(frame, &mut errors);
     for pass in &frame.passes {
         let mut check = Check { frame, pass, errors: &mut errors };
         if check.resources() {
@@ -64,6 +65,24 @@ pub(super) fn still_holds(frame: &Frame) -> bool {
 fn clears_are_finite(pass: &Pass) -> bool {
     let mut clears = pass.color.iter().filter_map(|target| target.clear).flatten();
     clears.all(f32::is_finite) && pass.depth.as_ref().and_then(|depth| depth.clear).is_none_or(f32::is_finite)
+}
+
+/// Each view has a name of its own and a size, and each pass one of them.
+fn views(frame: &Frame, errors: &mut Vec<Diagnostic>) {
+    for (number, view) in frame.views.iter().enumerate() {
+        if view.extent.contains(&0) {
+            let [width, height] = view.extent;
+            let message = format!("view `{}` is {width}×{height}; each side has at least 1 texel", view.name);
+            errors.push(Diagnostic::new(view.span, message));
+        }
+        if frame.views[..number].iter().any(|other| other.name == view.name) {
+            errors.push(Diagnostic::new(view.span, format!("two views are named `{}`", view.name)));
+        }
+    }
+    for pass in frame.passes.iter().filter(|pass| pass.view.0 as usize >= frame.views.len().max(1)) {
+        let message = format!("`{}` draws for view number {}, which does not exist", pass.name, pass.view.0);
+        errors.push(Diagnostic::new(pass.span, message));
+    }
 }
 
 fn of_image(image: &Image) -> Subject<'_> {

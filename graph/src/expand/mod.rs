@@ -125,7 +125,7 @@ pub fn expand(
         (Some(images), Some(buffers)) if errors.is_empty() => {
             let settings = settings::shown(pipeline, &chosen.values);
             let passes = states.into_iter().filter_map(order::State::into_pass).collect();
-            Ok(Frame { sources, settings, images, buffers, passes, outputs, switched_off })
+            Ok(Frame { sources, settings, views: Vec::new(), images, buffers, passes, outputs, switched_off })
         }
         _ => {
             errors.sort_by_key(|error| error.labels.first().map_or(0, |label| label.span.start));

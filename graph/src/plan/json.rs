@@ -1,7 +1,8 @@
 //! The JSON form: writing it, and reading it with enough checks that indexing a Plan can't fail afterwards.
 
 use super::{
-    Attachment, BufferId, FORMAT_VERSION, ImageId, Initial, Param, Pass, Plan, Resource, Role, Side, Step, StepId, Work,
+    Attachment, BufferId, FORMAT_VERSION, ImageId, Initial, Param, Pass, Plan, Resource, Role, Side, Step, StepId,
+    ViewId, Work,
 };
 use crate::frame::ParamValue;
 use crate::plan::names::Shown;
@@ -163,6 +164,8 @@ impl Plan {
             attachment.resolve.as_ref().map_or(Ok(()), |resolve| image("work", resolve.image))?;
         }
         for pass in passes {
+            let view = pass.view.map(|ViewId(id)| in_range("views", id, self.views.len(), || place("work")));
+            view.unwrap_or(Ok(()))?;
             pass.accesses.iter().try_for_each(|access| image("work", access.image))?;
             pass.buffers.iter().try_for_each(|access| buffer("work", access.buffer))?;
         }

@@ -30,6 +30,7 @@ use crate::format::Format;
 use crate::frame::Shape;
 use crate::source::Place;
 use crate::texture::TextureFile;
+use crate::view::Allowances;
 pub use crate::vocabulary::Subresources;
 use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
 use serde::{Deserialize, Serialize};
@@ -77,6 +78,11 @@ pub enum Resource {
 #[serde(transparent)]
 pub struct StepId(pub u32);
 
+/// Index of a view in [`Plan::views`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct ViewId(pub u32);
+
 /// What a frame does on a device, step by step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -87,6 +93,9 @@ pub struct Plan {
     pub device: DeviceUsed,
     /// Settings in force.
     pub settings: Vec<SettingUsed>,
+    /// The views that passes draw for, the main one first; empty if the frame names none. A [`ViewId`] is an index into this
+    /// list.
+    pub views: Vec<View>,
     /// Every image; an [`ImageId`] is an index into this list.
     pub images: Vec<Image>,
     /// Every buffer; a [`BufferId`] is an index into this list.
@@ -121,6 +130,20 @@ pub struct SettingUsed {
     pub name: Arc<str>,
     /// Value, as it is shown.
     pub value: String,
+}
+
+/// A view: from where, and how large, passes draw.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct View {
+    /// Unique name.
+    pub name: Arc<str>,
+    /// Width and height of its picture in texels.
+    pub extent: [u32; 2],
+    /// The scene's camera of that name; `None`: the scene's default camera.
+    pub camera: Option<Arc<str>>,
+    /// What its passes may cost.
+    pub allows: Allowances,
 }
 
 /// A physical image.

@@ -5,11 +5,12 @@ use super::outline::Node;
 use super::{
     Access, Attachment, BindingKind, Buffer, BufferAccess, Cause, Hazard, Image, ImageBarrier, ImageId, Initial,
     MemoryBarrier, Note, Pass, Plan, Queue, RenderScope, Resource, Role, Side, Step, StepId, Subresources, Totals,
-    Transfer, Wait, Work,
+    Transfer, View, Wait, Work,
 };
 use crate::frame::{Blend, BufferRole, Draw, DrawList, Groups, ParamValue, StencilState};
 use crate::source::Place;
 use crate::texture::ColorSpace;
+use crate::view::Allowances;
 use crate::vocabulary::{AddressMode, FillValue, Filter, Sampler};
 
 /// The tree form.
@@ -19,6 +20,9 @@ pub(super) fn tree(plan: &Plan) -> String {
     if !plan.settings.is_empty() {
         let settings = plan.settings.iter().map(|used| format!("{} = {}", Shown(&used.name), Shown(&used.value)));
         parts.push(Node::leaf(format!("settings: {}", settings.collect::<Vec<_>>().join(", "))));
+    }
+    if !plan.views.is_empty() {
+        parts.push(Node::new("views", plan.views.iter().map(view).collect()));
     }
     parts.extend((0..).map(StepId).zip(&plan.steps).map(|(id, step)| Tree { plan, id }.step(step)));
     parts.push(Node::new("images", plan.images.iter().map(|it| image(plan, it)).collect()));
@@ -155,6 +159,9 @@ impl Tree<'_> {
         if let Some(StencilState { test, reference, pass, .. }) = &pass.stencil {
             text += &format!(", stencil {} {reference} then {}", vulkan(test), vulkan(pass));
         }
+        if let Some(view) = pass.view.and_then(|view| self.plan.views.get(view.0 as usize)) {
+            text += &format!(", for view `{}`", Shown(&view.name));
+        }
         text += &cause(&pass.cause);
         let mut parts: Vec<Node> = pass.accesses.iter().filter_map(|access| self.binding(access)).collect();
         parts.extend(pass.buffers.iter().map(|access| self.buffer(access)));
@@ -282,6 +289,17 @@ fn hazard(who: &str, hazard: Hazard, after: Option<StepId>) -> String {
         Hazard::Export => format!("promised state, after {after}"),
         Hazard::Ownership => format!("another queue takes it over after {after}"),
     }
+}
+
+fn view(view: &View) -> Node {
+    let [width, height] = view.extent;
+    let camera =
+        view.camera.as_ref().map_or_else(|| "default camera".to_owned(), |it| format!("camera `{}`", Shown(it)));
+    let Allowances { msaa, hdr, scale } = view.allows;
+    let not = [(msaa, "MSAA"), (hdr, "HDR"), (scale, "scaling")];
+    let not: Vec<&str> = not.iter().filter(|(allowed, _)| !allowed).map(|(_, what)| *what).collect();
+    let not = if not.is_empty() { String::new() } else { format!(", without {}", not.join(", ")) };
+    Node::leaf(format!("`{}` {width}×{height}, {camera}{not}", Shown(&view.name)))
 }
 
 fn buffer(plan: &Plan, buffer: &Buffer) -> Node {

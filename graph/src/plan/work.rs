@@ -1,6 +1,6 @@
 //! What the steps of a Plan do: rendering scopes, passes, dispatches, resolves, copies, fills.
 
-use super::{BufferId, Cause, ImageId, Resource, Subresources};
+use super::{BufferId, Cause, ImageId, Resource, Subresources, ViewId};
 use crate::frame::{Blend, BufferRole, Draw, Groups, ParamValue, StencilState};
 use crate::vocabulary::{
     Accesses, CompareOp, FillValue, Filter, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
@@ -97,6 +97,8 @@ pub struct Pass {
     pub name: Arc<str>,
     /// Where the file declares it, or why it was inserted.
     pub cause: Cause,
+    /// The view that it draws for; `None` if the Plan has none.
+    pub view: Option<ViewId>,
     /// What is drawn; `None` for a dispatch.
     pub draw: Option<Draw>,
     /// How many workgroups; `None` for what is no dispatch.

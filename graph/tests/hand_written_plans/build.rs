@@ -134,6 +134,7 @@ pub(crate) fn draw(
     Pass {
         name: name.into(),
         cause: at(line),
+        view: None,
         draw: Some(draw),
         groups: None,
         shader: name.into(),
@@ -257,6 +258,7 @@ pub(crate) fn plan(images: Vec<Image>, heap_bytes: u64, steps: Vec<Step>) -> Pla
     let mut plan = Plan {
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: "made up".to_owned(), exact_memory: false },
+        views: Vec::new(),
         settings: vec![SettingUsed { name: "msaa".into(), value: "4".to_owned() }],
         images,
         buffers: Vec::new(),

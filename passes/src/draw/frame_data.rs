@@ -21,7 +21,7 @@ pub(super) fn view_block(camera: &Camera, aspect: f64) -> Vec<u8> {
 }
 
 /// Sun, ambient light, sky and point lights.
-pub(super) fn lights_block(scene: &Scene) -> Vec<u8> {
+pub(super) fn lights_block(scene: &Scene, camera: &Camera) -> Vec<u8> {
     let mut block = Block::default();
     block.vec3((-Vec3::from(scene.sun.direction)).to_array());
     block.uint(u32::try_from(scene.point_lights.len()).unwrap_or(u32::MAX));
@@ -32,7 +32,7 @@ pub(super) fn lights_block(scene: &Scene) -> Vec<u8> {
     block.vec3(scene.sky.ground);
     block.align();
     for light in &scene.point_lights {
-        block.vec3(from_camera(&scene.camera, Vec3::from(light.position).as_dvec3()).as_vec3().to_array());
+        block.vec3(from_camera(camera, Vec3::from(light.position).as_dvec3()).as_vec3().to_array());
         block.float(light.range.map_or(0.0, f32::recip));
         block.vec3(light.color.map(|channel| channel * light.intensity));
         block.align();
@@ -41,7 +41,7 @@ pub(super) fn lights_block(scene: &Scene) -> Vec<u8> {
 }
 
 /// Matrices and material factors of every object, in the scene's order.
-pub(super) fn objects_block(scene: &Scene) -> Vec<u8> {
+pub(super) fn objects_block(scene: &Scene, camera: &Camera) -> Vec<u8> {
     let mut block = Block::default();
     for object in &scene.objects {
         let material = &scene.materials[object.material];
@@ -50,7 +50,7 @@ pub(super) fn objects_block(scene: &Scene) -> Vec<u8> {
             AlphaMode::Mask { cutoff } => (cutoff, 0),
             AlphaMode::Blend => (0.0, 1),
         };
-        block.mat4(object_to_world(&scene.camera, object.transform));
+        block.mat4(object_to_world(camera, object.transform));
         block.mat3(object.normal_matrix());
         let [red, green, blue, alpha] = material.base_color;
         // What is transparent fades by its opacity.

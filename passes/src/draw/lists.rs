@@ -1,15 +1,21 @@
 //! Which objects each draw list holds, and in which order.
 
-use crate::scene::Scene;
+use crate::scene::{Camera, Scene};
 use framewright_graph::frame::DrawList;
 use glam::DMat4;
 
-/// Indices into [`Scene::objects`] of the objects in `list`, in the order of drawing.
+/// Indices into [`Scene::objects`] of the objects in `list`, in the order of drawing for the scene's default camera.
 ///
 /// Transparent objects run from back to front by the depth of their box's centre; the others run so that texture, mesh and
 /// raster state change seldom. Equals keep the scene's order, so the same scene gives the same order everywhere.
 #[must_use]
 pub fn draw_order(scene: &Scene, list: DrawList) -> Vec<u32> {
+    draw_order_from(scene, &scene.camera, list)
+}
+
+/// The same for another camera.
+#[must_use]
+pub fn draw_order_from(scene: &Scene, camera: &Camera, list: DrawList) -> Vec<u32> {
     let mut order: Vec<u32> = (0..)
         .zip(&scene.objects)
         .filter(|(_, object)| scene.draw_list(object) == list)
@@ -22,7 +28,7 @@ pub fn draw_order(scene: &Scene, list: DrawList) -> Vec<u32> {
             (material.base_color_texture, object.mesh, material.double_sided, object.mirrored())
         }),
         DrawList::Transparent => {
-            let world_to_view = scene.camera.transform.as_dmat4().inverse();
+            let world_to_view = camera.transform.as_dmat4().inverse();
             order.sort_by(|&a, &b| depth(scene, world_to_view, b).total_cmp(&depth(scene, world_to_view, a)));
         }
     }

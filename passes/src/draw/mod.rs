@@ -11,5 +11,5 @@ mod textures;
 pub use interface::{
     BASE_COLOR_TEXTURE_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING, VIEW_BINDING, interface,
 };
-pub use lists::draw_order;
+pub use lists::{draw_order, draw_order_from};
 pub use source::{MOST_POINT_LIGHTS, SceneDrawSource};

@@ -3,10 +3,11 @@
 use super::frame_data::{lights_block, objects_block, view_block};
 use super::geometry::Geometry;
 use super::interface::{FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING, VIEW_BINDING, interface};
-use super::lists::draw_order;
+use super::lists::draw_order_from;
 use super::textures::Textures;
-use crate::scene::Scene;
+use crate::scene::{Camera, Scene};
 use framewright_graph::frame::{Draw, DrawList};
+use framewright_graph::plan::View;
 use framewright_vulkan::{BindGroup, BufferUsage, CullMode, Device, DrawSource, Error, FrontFace, Recorder, Resource};
 
 /// Every fragment looks at every point light, so their number is kept small.
@@ -17,11 +18,17 @@ pub const MOST_POINT_LIGHTS: usize = 64;
 /// It supplies what [`interface`] lists. Each object is one draw call, whose first instance is the object's index in the
 /// scene.
 pub struct SceneDrawSource {
-    frame: BindGroup,
+    /// By view, the main one first; at least one.
+    views: Vec<Seen>,
     geometry: Geometry,
     textures: Textures,
     opaque: Vec<ObjectDraw>,
     masked: Vec<ObjectDraw>,
+}
+
+/// What a view's camera decides.
+struct Seen {
+    frame: BindGroup,
     transparent: Vec<ObjectDraw>,
 }
 
@@ -34,43 +41,67 @@ struct ObjectDraw {
 }
 
 impl SceneDrawSource {
-    /// Uploads a scene. `extent` is the picture's width and height, of which only the ratio counts: passes may draw into
-    /// images of other sizes.
+    /// Uploads a scene, seen by its default camera. `extent` is the picture's width and height, of which only the ratio
+    /// counts: passes may draw into images of other sizes.
     ///
     /// # Errors
     /// More than [`MOST_POINT_LIGHTS`] point lights, a texture or scene larger than the device takes, or no memory.
     pub fn new(device: &Device, scene: &Scene, extent: [u32; 2]) -> Result<SceneDrawSource, Error> {
+        SceneDrawSource::with_views(device, scene, extent, &[])
+    }
+
+    /// Uploads a scene for the views of a Plan, each with its camera; if there are none, as [`SceneDrawSource::new`] does.
+    ///
+    /// # Errors
+    /// Those of [`SceneDrawSource::new`]; [`Error::DrawSource`] if the scene has no camera that a view names.
+    pub fn with_views(
+        device: &Device,
+        scene: &Scene,
+        extent: [u32; 2],
+        views: &[View],
+    ) -> Result<SceneDrawSource, Error> {
         let lights = scene.point_lights.len();
         if lights > MOST_POINT_LIGHTS {
             let what = format!("the scene has {lights} point lights, and at most {MOST_POINT_LIGHTS} can be drawn");
             return Err(Error::DrawSource { what });
         }
         let objects = interface(Draw::Objects(DrawList::Opaque));
-        let [width, height] = extent.map(|side| f64::from(side.max(1)));
-        let view = device.buffer(BufferUsage::Uniform, &view_block(&scene.camera, width / height))?;
-        let lights = device.buffer(BufferUsage::Storage, &lights_block(scene))?;
-        let by_object = device.buffer(BufferUsage::Storage, &objects_block(scene))?;
-        let resources = [
-            (VIEW_BINDING, Resource::Buffer(&view)),
-            (LIGHTS_BINDING, Resource::Buffer(&lights)),
-            (OBJECTS_BINDING, Resource::Buffer(&by_object)),
-        ];
+        let seen = |camera: &Camera, extent: [u32; 2]| {
+            let [width, height] = extent.map(|side| f64::from(side.max(1)));
+            let view = device.buffer(BufferUsage::Uniform, &view_block(camera, width / height))?;
+            let lights = device.buffer(BufferUsage::Storage, &lights_block(scene, camera))?;
+            let by_object = device.buffer(BufferUsage::Storage, &objects_block(scene, camera))?;
+            let resources = [
+                (VIEW_BINDING, Resource::Buffer(&view)),
+                (LIGHTS_BINDING, Resource::Buffer(&lights)),
+                (OBJECTS_BINDING, Resource::Buffer(&by_object)),
+            ];
+            let frame = device.bind_group(&objects, FRAME_SET, &resources)?;
+            Ok::<_, Error>(Seen { frame, transparent: draws(scene, camera, DrawList::Transparent) })
+        };
+        let of_view = |view: &View| {
+            let camera = scene.camera_named(view.camera.as_deref()).ok_or_else(|| no_camera(scene, view))?;
+            seen(camera, view.extent)
+        };
+        let mut of_views = views.iter().map(of_view).collect::<Result<Vec<_>, _>>()?;
+        if of_views.is_empty() {
+            of_views.push(seen(&scene.camera, extent)?);
+        }
         Ok(SceneDrawSource {
-            frame: device.bind_group(&objects, FRAME_SET, &resources)?,
+            views: of_views,
             geometry: Geometry::new(device, scene)?,
             textures: Textures::new(device, &objects, &scene.textures)?,
-            opaque: draws(scene, DrawList::Opaque),
-            masked: draws(scene, DrawList::Masked),
-            transparent: draws(scene, DrawList::Transparent),
+            opaque: draws(scene, &scene.camera, DrawList::Opaque),
+            masked: draws(scene, &scene.camera, DrawList::Masked),
         })
     }
 
     /// Records one draw list. State is set only where it differs from the draw before.
-    fn record_objects(&self, list: DrawList, recorder: &mut Recorder<'_>) {
-        recorder.bind_group(FRAME_SET, &self.frame);
+    fn record_objects(&self, list: &[ObjectDraw], seen: &Seen, recorder: &mut Recorder<'_>) {
+        recorder.bind_group(FRAME_SET, &seen.frame);
         self.geometry.bind(recorder);
         let (mut texture, mut raster) = (None, None);
-        for draw in self.list(list) {
+        for draw in list {
             if texture != Some(draw.texture) {
                 recorder.bind_group(MATERIAL_SET, self.textures.group(draw.texture));
                 texture = Some(draw.texture);
@@ -84,12 +115,21 @@ impl SceneDrawSource {
         }
     }
 
-    fn list(&self, list: DrawList) -> &[ObjectDraw] {
+    fn list<'s>(&'s self, list: DrawList, seen: &'s Seen) -> &'s [ObjectDraw] {
         match list {
             DrawList::Opaque => &self.opaque,
             DrawList::Masked => &self.masked,
-            DrawList::Transparent => &self.transparent,
+            DrawList::Transparent => &seen.transparent,
         }
+    }
+
+    /// What the view of a pass sees.
+    fn seen(&self, recorder: &Recorder<'_>) -> Result<&Seen, Error> {
+        let view = recorder.view().map_or(0, |view| view.0 as usize);
+        self.views.get(view).ok_or_else(|| {
+            let (pass, views) = (recorder.pass(), self.views.len());
+            Error::DrawSource { what: format!("pass `{pass}` draws for view {view}, and {views} were prepared") }
+        })
     }
 }
 
@@ -97,11 +137,14 @@ impl DrawSource for SceneDrawSource {
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
         match draw {
             Draw::Objects(list) => {
-                self.record_objects(list, recorder);
-                Ok(u32::try_from(self.list(list).len()).unwrap_or(u32::MAX))
+                let seen = self.seen(recorder)?;
+                let draws = self.list(list, seen);
+                self.record_objects(draws, seen, recorder);
+                Ok(u32::try_from(draws.len()).unwrap_or(u32::MAX))
             }
             Draw::Sky | Draw::FullScreen => {
-                recorder.bind_group(FRAME_SET, &self.frame);
+                let seen = self.seen(recorder)?;
+                recorder.bind_group(FRAME_SET, &seen.frame);
                 recorder.draw(0..3, 0..1);
                 Ok(1)
             }
@@ -114,8 +157,15 @@ impl DrawSource for SceneDrawSource {
     }
 }
 
+fn no_camera(scene: &Scene, view: &View) -> Error {
+    let wanted = view.camera.as_deref().unwrap_or_default();
+    let known: Vec<String> = scene.cameras.iter().map(|it| format!("`{}`", it.name)).collect();
+    let known = if known.is_empty() { "none by a name".to_owned() } else { known.join(", ") };
+    Error::DrawSource { what: format!("view `{}` asks for the camera `{wanted}`; the scene has {known}", view.name) }
+}
+
 /// The draws of a list, in order.
-fn draws(scene: &Scene, list: DrawList) -> Vec<ObjectDraw> {
+fn draws(scene: &Scene, camera: &Camera, list: DrawList) -> Vec<ObjectDraw> {
     let draw = |index: u32| {
         let object = &scene.objects[index as usize];
         let material = &scene.materials[object.material];
@@ -123,5 +173,5 @@ fn draws(scene: &Scene, list: DrawList) -> Vec<ObjectDraw> {
         let front = if object.mirrored() { FrontFace::Clockwise } else { FrontFace::CounterClockwise };
         ObjectDraw { object: index, mesh: object.mesh, texture: material.base_color_texture, raster: (cull, front) }
     };
-    draw_order(scene, list).into_iter().map(draw).collect()
+    draw_order_from(scene, camera, list).into_iter().map(draw).collect()
 }

@@ -14,6 +14,15 @@ pub struct Camera {
     pub near: f32,
 }
 
+/// A camera that a view asks for by its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedCamera {
+    /// Its name. It may hold any character, and in files of others need not be unique: the first of a name counts.
+    pub name: String,
+    /// The camera.
+    pub camera: Camera,
+}
+
 impl Camera {
     /// A camera at `position` that looks at `target`, with `up` (any length, not along the view) upwards in the picture.
     /// `None` where these leave the direction open or aren't finite.

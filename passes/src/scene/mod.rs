@@ -30,7 +30,7 @@ mod shapes;
 pub mod text;
 
 pub use bounds::Bounds;
-pub use camera::Camera;
+pub use camera::{Camera, NamedCamera};
 pub use facts::Found;
 pub use light::{PointLight, Sky, Sun};
 pub use material::{AlphaMode, Material, Sampler, Texture, Wrap};
@@ -59,8 +59,10 @@ pub struct Scene {
     pub point_lights: Vec<PointLight>,
     /// What is seen where no object is.
     pub sky: Sky,
-    /// From where it is seen.
+    /// From where it is seen by views that ask for no camera.
     pub camera: Camera,
+    /// Cameras that views may ask for.
+    pub cameras: Vec<NamedCamera>,
     /// What the file holds that isn't drawn, each a sentence without final stop ("mesh 2: vertex colours are ignored").
     /// Names in it are escaped.
     pub notes: Vec<String>,
@@ -119,6 +121,15 @@ impl Object {
 }
 
 impl Scene {
+    /// The camera of that name, or without a name the default one; `None` if the scene has no such camera.
+    #[must_use]
+    pub fn camera_named(&self, name: Option<&str>) -> Option<&Camera> {
+        match name {
+            None => Some(&self.camera),
+            Some(name) => self.cameras.iter().find(|camera| camera.name == name).map(|found| &found.camera),
+        }
+    }
+
     /// The box around all objects, in the world; `None` if there are none.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {

@@ -201,7 +201,9 @@ fn sides_are_told_apart() {
 
 #[test]
 fn a_camera_in_the_file_is_used_without_its_scale() {
-    let camera = fixture("camera_and_lights.glb").camera;
+    let scene = fixture("camera_and_lights.glb");
+    let camera = scene.camera;
+    assert_eq!(scene.camera_named(Some("eye")), Some(&camera));
     assert_eq!((camera.vertical_fov, camera.near), (0.8, 0.05));
     let (sin, cos) = 0.4f32.sin_cos();
     assert!(camera.position().abs_diff_eq(Vec3::new(1.0 + 5.0 * sin, 0.25, 5.0 * cos), 1e-5), "{}", camera.position());

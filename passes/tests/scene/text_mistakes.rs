@@ -157,6 +157,24 @@ fn counts_are_bounded() {
 }
 
 #[test]
+fn cameras_are_known_by_their_names_and_the_first_one_is_the_default() {
+    let front = "(name: \"front\", position: (0, 0, 9), target: (0, 0, 0))";
+    let top = "(name: \"top\", position: (0, 9, 0), target: (0, 0, 0), up: (0, 0, -1))";
+    let plain = "camera: (position: (9, 0, 0), target: (0, 0, 0)),";
+    let read = |fields: &str| read(&scene(fields, "")).unwrap_or_else(|mistakes| panic!("{mistakes}"));
+    let named = read(&format!("cameras: [{front}, {top}],"));
+    assert_eq!(named.camera_named(None), named.camera_named(Some("front")));
+    assert_eq!(named.camera_named(Some("top")).map(|camera| camera.position()), Some(Vec3::new(0.0, 9.0, 0.0)));
+    assert_eq!(named.camera_named(Some("side")), None);
+    let beside = read(&format!("{plain} cameras: [{front}],"));
+    assert_eq!(beside.camera_named(None).map(|camera| camera.position()), Some(Vec3::new(9.0, 0.0, 0.0)));
+    assert_eq!(beside.cameras.len(), 1);
+    let twice = mistakes(&scene(&format!("cameras: [{front}, {front}],"), ""));
+    assert_eq!(twice.len(), 1, "{twice:?}");
+    assert!(twice[0].starts_with("2:"), "{twice:?}");
+}
+
+#[test]
 fn cameras_and_suns_need_a_direction() {
     let camera = "camera: (position: (0, 1, 0), target: (0, 1, 0)),";
     let help = "position and target must differ, and the view must not run along `up`";

@@ -22,6 +22,7 @@ pub(crate) fn empty() -> Plan {
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: "built by hand".to_owned(), exact_memory: true },
         settings: Vec::new(),
+        views: Vec::new(),
         images: Vec::new(),
         buffers: Vec::new(),
         heaps: vec![Heap { bytes: 8 * BYTES, alignment: 256, type_bits: 1, lazily_allocated: false }],
@@ -93,6 +94,7 @@ pub(crate) fn dispatch(name: &str, accesses: Vec<Access>) -> Step {
     let pass = Pass {
         name: name.into(),
         cause: Cause::Written(None),
+        view: None,
         draw: None,
         groups: Some(Groups::Count([1; 3])),
         shader: name.into(),

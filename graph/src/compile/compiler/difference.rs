@@ -3,6 +3,7 @@
 use crate::frame::{
     Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, ParamValue, Pass, StencilState, Work,
 };
+use crate::view::View;
 use crate::vocabulary::FillValue;
 
 /// How much two frames differ.
@@ -41,15 +42,22 @@ fn of_lists<T>(old: &[T], new: &[T], of: impl Fn(&T, &T) -> Difference) -> Diffe
 }
 
 pub(super) fn between(old: &Frame, new: &Frame) -> Difference {
-    let Frame { sources, settings, images, buffers, passes, outputs, switched_off } = new;
+    let Frame { sources, settings, views, images, buffers, passes, outputs, switched_off } = new;
     let same = old.sources == *sources && old.outputs == *outputs && old.switched_off == *switched_off;
     if !same {
         return Structure;
     }
     unless(old.settings == *settings, Values)
+        .max(of_lists(&old.views, views, view))
         .max(of_lists(&old.images, images, image))
         .max(of_lists(&old.buffers, buffers, buffer))
         .max(of_lists(&old.passes, passes, pass))
+}
+
+fn view(old: &View, new: &View) -> Difference {
+    let View { name, span, extent, camera, allows } = new;
+    let same = old.name == *name && old.span == *span && old.camera == *camera && old.allows == *allows;
+    if same { unless(old.extent == *extent, Sizes) } else { Structure }
 }
 
 fn image(old: &Image, new: &Image) -> Difference {
@@ -77,9 +85,10 @@ fn same_lifetime(old: &Lifetime, new: &Lifetime) -> bool {
 }
 
 fn pass(old: &Pass, new: &Pass) -> Difference {
-    let Pass { name, span, work, sampled, storage, color, depth, buffers, transfers, side_effect, params } = new;
+    let Pass { name, span, view, work, sampled, storage, color, depth, buffers, transfers, side_effect, params } = new;
     let same = old.name == *name
         && old.span == *span
+        && old.view == *view
         && old.side_effect == *side_effect
         && old.sampled == *sampled
         && old.storage == *storage

@@ -5,7 +5,7 @@ use crate::compile::model::{Kind, Op, OpKind, Role, Use};
 use crate::frame::{Blend, DepthTarget, Draw, Groups, Pass as FramePass, Work as FrameWork};
 use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
-    Transfer, Work,
+    Transfer, ViewId, Work,
 };
 use crate::vocabulary::{Filter, Sampler};
 use std::sync::Arc;
@@ -107,6 +107,7 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
             blend: vec![Blend::Replace],
             accesses: accesses.collect(),
             merged: parts.scoped.merged(parts.frame, parts.adapted, number),
+            view: view(parts, declared),
             ..bare(name, cause, Some(Draw::FullScreen), None, COPY_SHADER.into())
         };
     }
@@ -119,6 +120,7 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
         }
     };
     let mut planned = bare(name, cause, draw, groups, shader);
+    planned.view = view(parts, declared);
     planned.accesses = Vec::with_capacity(uses.len());
     for used in uses {
         if parts.subjects[used.store as usize].is_image {
@@ -138,6 +140,11 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     planned
 }
 
+/// The view that a pass is for, if the frame has any.
+fn view(parts: &Parts<'_>, declared: &FramePass) -> Option<ViewId> {
+    (!parts.frame.views.is_empty()).then_some(ViewId(declared.view.0))
+}
+
 /// What only draws have.
 fn drawn(planned: &mut Pass, declared: &FramePass, uses: &[Use]) {
     planned.discards = matches!(declared.work, FrameWork::Draw { discards: true, .. });
@@ -153,6 +160,7 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
     Pass {
         name,
         cause,
+        view: None,
         draw,
         groups,
         shader,

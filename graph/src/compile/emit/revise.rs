@@ -1,7 +1,7 @@
 //! Brings a Plan up to date where the structure stayed: new values, or new sizes too.
 
 use super::barriers::Barriers;
-use super::{Parts, attachments, passes, settings, with_bytes};
+use super::{Parts, attachments, passes, settings, views, with_bytes};
 use crate::compile::model::{Kind, OpKind};
 use crate::compile::scope::Step as Grouped;
 use crate::frame::Work as FrameWork;
@@ -52,6 +52,7 @@ fn pass_values(parts: &Parts<'_>, op: u32, planned: &mut Pass) {
 /// Brings everything up to date that sizes or values say, where steps and barriers are the same.
 pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
     values(parts, plan);
+    plan.views = views(parts);
     let Plan { images, buffers, .. } = plan;
     for (store, placement) in parts.adapted.stores.iter().zip(&parts.placed.placements) {
         let role = match &store.kind {

@@ -25,7 +25,7 @@ mod problem;
 
 pub use problem::{GlbError, Problem};
 
-use super::{Bounds, Camera, Material, Mesh, Notes, Object, Scene, defaults, limits};
+use super::{Bounds, Camera, Material, Mesh, NamedCamera, Notes, Object, Scene, defaults, limits};
 use accessor::Data;
 use document::{Document, follow};
 use glam::{DMat4, DVec3};
@@ -54,7 +54,8 @@ pub fn read(bytes: &[u8]) -> Result<Scene, GlbError> {
     let (objects, bounds) = objects(&document, &placed, &meshes, &groups, &mut notes)?;
     let bounds = bounds.ok_or(GlbError { at: String::new(), problem: Problem::Nothing })?;
     let lights = lights::read(&document, &placed, &mut notes)?;
-    let camera = camera(&document, &placed, &mut notes)?.unwrap_or_else(|| Camera::framing(bounds));
+    let cameras = cameras(&document, &placed, &mut notes)?;
+    let camera = cameras.first().map_or_else(|| Camera::framing(bounds), |first| first.camera);
     Ok(Scene {
         meshes,
         materials,
@@ -65,6 +66,7 @@ pub fn read(bytes: &[u8]) -> Result<Scene, GlbError> {
         point_lights: lights.points,
         sky: defaults::SKY,
         camera,
+        cameras,
         notes: notes.finish(),
     })
 }
@@ -150,8 +152,9 @@ fn objects(
     Ok((objects, all))
 }
 
-/// The first perspective camera, without the scale of its node.
-fn camera(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Result<Option<Camera>, GlbError> {
+/// Every perspective camera that stands somewhere, without the scale of its node, by the name of its node.
+fn cameras(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Result<Vec<NamedCamera>, GlbError> {
+    let mut cameras = Vec::new();
     for Placed { number, node, to_world } in placed {
         let Some(index) = node.camera else { continue };
         let camera = follow(&document.cameras, index, "camera", &format!("node {number}"))?;
@@ -171,11 +174,14 @@ fn camera(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Resu
         let fov = check("the vertical field of view", fov, Camera::allows_fov(fov), "1e-4 to 3.1 radians")?;
         let near = check("the near distance", near, Camera::allows_near(near), "1e-6 to 1e9 m")?;
         match looking(*to_world, fov, near) {
-            Some(camera) => return Ok(Some(camera)),
+            Some(camera) => {
+                let name = node.name.clone().unwrap_or_else(|| at.clone());
+                cameras.push(NamedCamera { name, camera });
+            }
             None => notes.add(format!("{at}: its node gives it no direction, so it is not used")),
         }
     }
-    Ok(None)
+    Ok(cameras)
 }
 
 fn looking(to_world: DMat4, vertical_fov: f32, near: f32) -> Option<Camera> {

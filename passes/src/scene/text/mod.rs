@@ -4,6 +4,7 @@
 //! Scene(
 //!     version: 1,
 //!     camera: (position: (4, 3, 8), target: (0, 1, 0), fov: 40),
+//!     cameras: [(name: "top", position: (0, 9, 0), target: (0, 0, 0), up: (0, 0, -1))],
 //!     sun: (direction: (1, -2, -1), color: "#fff0d0", intensity: 1.2),
 //!     ambient: (0.1, 0.1, 0.12),
 //!     sky: (zenith: "#3060a0", horizon: "#c0d0e0", ground: "#505050"),
@@ -34,7 +35,7 @@ mod materials;
 mod objects;
 mod values;
 
-use super::{Camera, PointLight, Scene, Sky, Sun, defaults, limits};
+use super::{Camera, NamedCamera, PointLight, Scene, Sky, Sun, defaults, limits};
 use framewright_graph::describe::text::{Leaf, Names, Reader, Tree};
 use framewright_graph::describe::{Diagnostic, Name};
 use framewright_graph::fields;
@@ -52,6 +53,7 @@ fields! {
     struct SceneFields<'s> as "Scene" {
         version: Leaf<'s>,
         camera: Option<Leaf<'s>>,
+        cameras: Option<Leaf<'s>>,
         sun: Option<Leaf<'s>>,
         ambient: Option<Leaf<'s>>,
         sky: Option<Leaf<'s>>,
@@ -128,9 +130,12 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
             break;
         }
     }
-    let camera = match fields.camera {
-        Some(leaf) => camera(reader, leaf),
-        None => {
+    let cameras = fields.cameras.map_or(Some(Vec::new()), |leaf| cameras(reader, leaf));
+    let first = cameras.as_ref().and_then(|cameras| cameras.first());
+    let camera = match (fields.camera, first) {
+        (Some(leaf), _) => camera(reader, leaf),
+        (None, Some(first)) => Some(first.camera),
+        (None, None) => {
             let bounds = objects::bounds(&objects);
             if bounds.is_none() && reader.errors.is_empty() {
                 reader.wrong(fields.objects, "a scene without objects needs a camera", "");
@@ -148,6 +153,7 @@ fn whole<'s>(reader: &mut Reader, all: Leaf<'s>) -> Option<Scene> {
         point_lights: point_lights?,
         sky: sky?,
         camera: camera?,
+        cameras: cameras?,
         notes: Vec::new(),
     })
 }
@@ -168,7 +174,11 @@ const FOV: f64 = 40.0;
 const NEAR: f64 = 0.1;
 
 fn camera<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Camera> {
-    let fields: CameraFields<'_> = reader.read(leaf, "the camera")?;
+    let fields = reader.read(leaf, "the camera")?;
+    standing(reader, fields)
+}
+
+fn standing(reader: &mut Reader, fields: CameraFields<'_>) -> Option<Camera> {
     let position = place(reader, fields.position, "the position");
     let target = place(reader, fields.target, "the target");
     let up = fields.up.map_or(Some(DVec3::Y), |leaf| direction(reader, leaf, "the upward direction"));
@@ -181,6 +191,34 @@ fn camera<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Camera> {
         reader.wrong(fields.target, "this leaves the camera's direction open", help);
     }
     camera
+}
+
+fields! {
+    struct NamedCameraFields<'s> {
+        name: Leaf<'s>,
+        position: Leaf<'s>,
+        target: Leaf<'s>,
+        up: Option<Leaf<'s>>,
+        fov: Option<Leaf<'s>>,
+        near: Option<Leaf<'s>>,
+    }
+}
+
+fn cameras<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Vec<NamedCamera>> {
+    let mut names = Names::new("camera");
+    let mut cameras = Vec::new();
+    for leaf in reader.list(leaf, "`cameras`")? {
+        let entry: Option<NamedCameraFields<'_>> = reader.read(leaf, "this camera");
+        let name = entry.as_ref().and_then(|entry| Name::written(entry.name));
+        let written = name.as_ref().map(|name| name.text.to_string());
+        names.give(reader, name);
+        cameras.push(entry.and_then(|entry| {
+            let NamedCameraFields { position, target, up, fov, near, .. } = entry;
+            let camera = standing(reader, CameraFields { position, target, up, fov, near })?;
+            Some(NamedCamera { name: written?, camera })
+        }));
+    }
+    cameras.into_iter().collect()
 }
 
 fields! {
