@@ -1,0 +1,67 @@
+//! One flat frame: what a pipeline file says once settings, conditions, facts and sizes are put in.
+//!
+//! This is what [`crate::compile`] reads. It still says only *what*: no barrier, layout, load or store operation, resolve
+//! or alias. It is plain data, so an embedding program may also build it without any file.
+
+use crate::source::{Sources, Span};
+use crate::view::View;
+use std::sync::Arc;
+
+mod output;
+mod pass;
+mod resource;
+mod touch;
+
+pub use output::Output;
+pub use pass::{Draw, DrawList, Groups, ParamValue, Pass, Work};
+pub use resource::{Buffer, Image, Lifetime, Shape};
+pub use touch::{Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Sampled, StencilState, Storage, TransferUse};
+
+/// Index of an image in [`Frame::images`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ImageIndex(pub u32);
+
+/// Index of a buffer in [`Frame::buffers`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct BufferIndex(pub u32);
+
+/// An image or a buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Resource {
+    /// An image.
+    Image(ImageIndex),
+    /// A buffer.
+    Buffer(BufferIndex),
+}
+
+/// A frame: images, buffers, passes in the order that gives them meaning, outputs.
+#[derive(Debug, Clone, Default)]
+pub struct Frame {
+    /// The texts that spans point into.
+    pub sources: Arc<Sources>,
+    /// The settings in force, by name, as they are shown.
+    pub settings: Vec<(Arc<str>, String)>,
+    /// The views, the main one first. None: one that is the scene's default camera's.
+    pub views: Vec<View>,
+    /// The images that passes name.
+    pub images: Vec<Image>,
+    /// The buffers that passes name.
+    pub buffers: Vec<Buffer>,
+    /// Passes in file order. A pass reads the version of an image that stands *before itself*.
+    pub passes: Vec<Pass>,
+    /// Images and buffers whose last version the frame is made for.
+    pub outputs: Vec<Output>,
+    /// Passes that conditions switched off, and why.
+    pub switched_off: Vec<SwitchedOff>,
+}
+
+/// A pass that a condition switched off.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SwitchedOff {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Where the condition stands.
+    pub span: Span,
+    /// The condition with its value: "tone_mapping = false".
+    pub because: String,
+}

@@ -1,0 +1,16 @@
+//! What leaves the frame.
+
+use super::Resource;
+use crate::source::Span;
+use crate::vocabulary::State;
+
+/// An image or buffer that leaves the frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output {
+    /// Which one.
+    pub resource: Resource,
+    /// Where it was named.
+    pub span: Span,
+    /// The state in which it is to be left; `None`: that of its last use, which the Plan says.
+    pub after: Option<State>,
+}

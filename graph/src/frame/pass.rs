@@ -1,0 +1,172 @@
+//! Passes of a frame, and what they do.
+
+use super::{BufferUse, ColorTarget, DepthTarget, ImageIndex, Sampled, Storage, TransferUse};
+use crate::source::Span;
+use crate::view::ViewIndex;
+use crate::vocabulary::{FillValue, Filter};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+#[cfg(doc)]
+use super::BufferRole;
+
+/// One pass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pass {
+    /// Unique name.
+    pub name: Arc<str>,
+    /// Where it was declared.
+    pub span: Span,
+    /// The view that it draws for.
+    pub view: ViewIndex,
+    /// What it does.
+    pub work: Work,
+    /// Images that its shaders sample.
+    pub sampled: Vec<Sampled>,
+    /// Images that its shaders write (and perhaps read) without attachments.
+    pub storage: Vec<Storage>,
+    /// Colour attachments by location.
+    pub color: Vec<ColorTarget>,
+    /// Depth (and stencil) attachment.
+    pub depth: Option<DepthTarget>,
+    /// Buffers that it reads or writes by anything but a copy or fill.
+    pub buffers: Vec<BufferUse>,
+    /// What a copy, blit, fill or custom pass reads and writes by transfer: source before target.
+    pub transfers: Vec<TransferUse>,
+    /// Whether it has an effect that no image or buffer shows: it is never culled.
+    pub side_effect: bool,
+    /// Values for the shader's parameter block, by member name.
+    pub params: Vec<(Arc<str>, ParamValue)>,
+}
+
+impl Pass {
+    /// A pass that touches nothing yet, and that no file declares.
+    #[must_use]
+    pub fn new(name: &str, work: Work) -> Pass {
+        Pass {
+            name: name.into(),
+            span: Span::NONE,
+            view: ViewIndex::default(),
+            work,
+            sampled: Vec::new(),
+            storage: Vec::new(),
+            color: Vec::new(),
+            depth: None,
+            buffers: Vec::new(),
+            transfers: Vec::new(),
+            side_effect: false,
+            params: Vec::new(),
+        }
+    }
+}
+
+/// What a pass does.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Work {
+    /// Draws into its attachments.
+    Draw {
+        /// What is drawn.
+        draw: Draw,
+        /// The shader's name.
+        shader: Arc<str>,
+        /// Whether its fragment shader discards fragments: then a full-screen draw doesn't cover.
+        discards: bool,
+        /// Whether its fragment shader runs once a sample.
+        per_sample: bool,
+    },
+    /// Runs compute shaders.
+    Dispatch {
+        /// The shader's name.
+        shader: Arc<str>,
+        /// How many workgroups.
+        groups: Groups,
+    },
+    /// Copies its first transfer into its second: texel for texel, byte for byte, or rows of texels to or from a buffer.
+    Copy,
+    /// Scales its first transfer into its second.
+    Blit {
+        /// Filter between texels.
+        filter: Filter,
+    },
+    /// Sets all of its one transfer to a value.
+    Fill {
+        /// The value.
+        value: FillValue,
+    },
+    /// The embedding program records it outside of rendering scopes.
+    Custom {
+        /// The name by which the program knows it.
+        callback: Arc<str>,
+    },
+    /// Stands in for a pass that is off: `to` takes what `from` holds.
+    Forward {
+        /// Source.
+        from: ImageIndex,
+        /// Target.
+        to: ImageIndex,
+        /// The condition that switched the pass off: "tone_mapping = false".
+        because: String,
+    },
+}
+
+/// How many workgroups a dispatch has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Groups {
+    /// So many in x, y and z.
+    Count([u32; 3]),
+    /// As many as cover so many invocations in x, y and z: divided by the shader's own workgroup size, rounded up.
+    Invocations([u32; 3]),
+    /// As many as its buffer of the role [`BufferRole::Indirect`] says, a `VkDispatchIndirectCommand` at this byte.
+    Indirect {
+        /// Byte offset, a multiple of 4.
+        offset: u64,
+    },
+}
+
+/// What a raster pass draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Draw {
+    /// One of the scene's draw lists.
+    Objects(DrawList),
+    /// The sky, behind everything.
+    Sky,
+    /// One triangle that covers every pixel.
+    FullScreen,
+    /// So many vertices and instances of triangles, whose vertex shader finds its data itself or in the pass's vertex
+    /// buffers.
+    Vertices {
+        /// Vertices, or indices if the pass has an index buffer (32 bits each).
+        count: u32,
+        /// Instances.
+        instances: u32,
+    },
+    /// As `Vertices`; the counts stand in the pass's buffer of the role [`BufferRole::Indirect`]: a
+    /// `VkDrawIndirectCommand`, or `VkDrawIndexedIndirectCommand` if the pass has an index buffer.
+    Indirect,
+    /// What the embedding program records inside the rendering scope, known to it by the pass's shader name.
+    Custom,
+}
+
+/// The scene's draw lists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum DrawList {
+    /// Objects that hide what is behind them.
+    Opaque,
+    /// Objects with holes: fragments whose alpha is below the material's cut-off are discarded.
+    Masked,
+    /// Objects that let through what is behind them, sorted back to front.
+    Transparent,
+}
+
+/// A value for a shader parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum ParamValue {
+    /// A truth value, given to the shader as a 32-bit 0 or 1.
+    Bool(bool),
+    /// A whole number.
+    Integer(i64),
+    /// A number.
+    Number(f64),
+}

@@ -1,0 +1,103 @@
+//! Images and buffers of a frame.
+
+use crate::format::Format;
+use crate::source::Span;
+use crate::texture::TextureFile;
+use crate::vocabulary::{FillValue, State};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// An image of a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    /// Unique name.
+    pub name: Arc<str>,
+    /// Where it was declared.
+    pub span: Span,
+    /// Texel format.
+    pub format: Format,
+    /// Flat, deep, or a cube.
+    pub shape: Shape,
+    /// Width, height, depth in texels, each at least 1.
+    pub extent: [u32; 3],
+    /// Mip levels, at least 1.
+    pub mips: u32,
+    /// Array layers, at least 1; of a cube 6 for each.
+    pub layers: u32,
+    /// Samples a texel that were asked for: 1, 2, 4, 8 or 16. `adapt` lowers it to what the device has.
+    pub samples: u32,
+    /// How long its contents live.
+    pub lifetime: Lifetime,
+}
+
+impl Image {
+    /// A flat transient image of one mip level, one layer and one sample, that no file declares.
+    #[must_use]
+    pub fn new(name: &str, format: Format, width: u32, height: u32) -> Image {
+        Image {
+            name: name.into(),
+            span: Span::NONE,
+            format,
+            shape: Shape::D2,
+            extent: [width, height, 1],
+            mips: 1,
+            layers: 1,
+            samples: 1,
+            lifetime: Lifetime::Transient,
+        }
+    }
+}
+
+/// The shape of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
+pub enum Shape {
+    /// Two-dimensional, or an array of such layers.
+    #[default]
+    D2,
+    /// Three-dimensional.
+    D3,
+    /// Six square layers that may be sampled as a cube, or several times six.
+    Cube,
+}
+
+/// A buffer of a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Buffer {
+    /// Unique name, among images too.
+    pub name: Arc<str>,
+    /// Where it was declared.
+    pub span: Span,
+    /// Bytes, at least 1.
+    pub bytes: u64,
+    /// How long its contents live. A fill value is its bits in the first component.
+    pub lifetime: Lifetime,
+}
+
+/// How long the contents of an image or a buffer live.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Lifetime {
+    /// Within the frame.
+    #[default]
+    Transient,
+    /// From frame to frame: a read before the first write finds what the frame before left.
+    Persistent {
+        /// What the first frame finds.
+        initial: FillValue,
+    },
+    /// Each frame writes it anew; what earlier frames left can be read beside it (`frames_ago`).
+    History {
+        /// How many frames back it can be read, at least 1.
+        frames: u32,
+        /// What stands for frames before the first.
+        initial: FillValue,
+    },
+    /// It belongs to the embedding program, which hands it in for each frame.
+    Imported {
+        /// The state in which it is handed in. An image in the layout `Undefined` has no contents to read.
+        before: State,
+        /// The state in which it is to be left; `None`: that of its last use, which the Plan says.
+        after: Option<State>,
+    },
+    /// An image whose contents come from a file before the first frame, and which is only sampled.
+    File(Arc<TextureFile>),
+}
