@@ -33,6 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         facts_known: true,
         output_extent: EXTENT,
         dump: &[],
+        device: None,
     };
     let frame = expand::expand(&pipeline, sources.clone(), &inputs, &mut shaders)
         .map_err(|mistakes| describe::render(&sources, &mistakes))?;

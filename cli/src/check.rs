@@ -69,7 +69,7 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
 fn plan(arguments: &Check, profile: &Profile) -> Result<Plan, Error> {
     let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline)?;
-    let frame = pipeline.frame(VIEW)?;
+    let frame = pipeline.frame(VIEW, profile)?;
     busy.set_message(progress::compiling(&frame, &profile.name));
     pipeline.compile(&frame, profile, &mut Estimated(profile), &arguments.planning.options())
 }

@@ -6,6 +6,7 @@ use crate::error::{Error, Exit};
 use crate::{notes, planning, profiles, progress, text};
 use framewright_graph::describe;
 use framewright_graph::device::Estimated;
+use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Note, Plan};
 use serde::Serialize;
 use std::collections::HashSet;
@@ -57,12 +58,24 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
 fn compile(arguments: &Check) -> Result<Vec<Checked>, Error> {
     let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline)?;
-    let frame = pipeline.frame(check::VIEW)?;
     let options = arguments.planning.options();
+    let mut same: Option<Frame> = None;
     let mut all = Vec::new();
     for (name, profile) in profiles::all()? {
-        busy.set_message(progress::compiling(&frame, &profile.name));
-        let result = pipeline.compile(&frame, &profile, &mut Estimated(&profile), &options);
+        let frame = match same.take() {
+            Some(frame) => Ok(frame),
+            None => pipeline.frame(check::VIEW, &profile),
+        };
+        let result = match frame {
+            Ok(frame) => {
+                busy.set_message(progress::compiling(&frame, &profile.name));
+                let result = pipeline.compile(&frame, &profile, &mut Estimated(&profile), &options);
+                same = Some(frame).filter(|_| !pipeline.pipeline.asks_device());
+                result
+            }
+            Err(wrong) if pipeline.pipeline.asks_device() => Err(wrong),
+            Err(wrong) => return Err(wrong),
+        };
         all.push(Checked { profile: name, device: profile.name, result });
     }
     let mut said = all.iter().map(|it| it.result.as_ref().err().filter(|it| it.is_wrong()).map(Error::shown));

@@ -5,7 +5,7 @@ use crate::error::{Error, Wrong};
 use crate::files::{self, PipelineFile};
 use crate::values::Size;
 use framewright_graph::compile::{self, Options};
-use framewright_graph::describe::{self, Diagnostic, Pipeline};
+use framewright_graph::describe::{self, Diagnostic, Document};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Facts, Inputs};
 use framewright_graph::frame::Frame;
@@ -21,7 +21,7 @@ use std::sync::Arc;
 /// A pipeline that was read, and where its shaders come from.
 pub(crate) struct Loaded {
     /// What the file says.
-    pub(crate) pipeline: Pipeline,
+    pub(crate) pipeline: Document,
     /// The texts that it was read from.
     pub(crate) sources: Arc<Sources>,
     /// Shaders beside the pipeline file, then shipped ones.
@@ -83,18 +83,18 @@ impl Loaded {
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Planned, Error> {
-        let frame = self.frame(view)?;
+        let frame = self.frame(view, device)?;
         let plan = self.compile(&frame, device, memory, options)?;
         Ok(Planned { frame, plan })
     }
 
-    /// Puts in settings, facts and sizes.
+    /// Puts in settings, facts, sizes and what the device can do.
     ///
     /// # Errors
-    /// What is wrong with the command line, the pipeline or its shaders, whatever the device.
-    pub(crate) fn frame(&mut self, view: View<'_>) -> Result<Frame, Error> {
+    /// What is wrong with the command line, the pipeline or its shaders.
+    pub(crate) fn frame(&mut self, view: View<'_>, device: &Profile) -> Result<Frame, Error> {
         self.check_command_line(view)?;
-        let inputs = inputs(&self.set, view);
+        let inputs = Inputs { device: Some(device), ..inputs(&self.set, view) };
         expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.shaders)
             .map_err(|diagnostics| wrong(&self.sources, diagnostics))
     }
@@ -138,6 +138,7 @@ fn inputs<'a>(set: &'a [(String, String)], view: View<'a>) -> Inputs<'a> {
         facts_known: view.facts.is_some(),
         output_extent: [view.size.width, view.size.height],
         dump: view.dump,
+        device: None,
     }
 }
 

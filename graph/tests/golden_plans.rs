@@ -7,7 +7,7 @@
 mod table;
 
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::{self, Pipeline, SettingKind};
+use framewright_graph::describe::{self, Document, SettingKind};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::frame::Frame;
@@ -39,13 +39,14 @@ fn alternatives(kind: &SettingKind) -> Vec<String> {
     let (default, values) = match kind {
         SettingKind::Bool { default } => (default.to_string(), vec!["false".to_owned(), "true".to_owned()]),
         SettingKind::OneOf { default, of, .. } => (default.to_string(), of.iter().map(ToString::to_string).collect()),
+        SettingKind::Choice { default, of } => (default.to_string(), of.iter().map(ToString::to_string).collect()),
         SettingKind::Number { default, min, max, .. } => (default.to_string(), vec![min.to_string(), max.to_string()]),
         SettingKind::Integer { default, min, max, .. } => (default.to_string(), vec![min.to_string(), max.to_string()]),
     };
     values.into_iter().filter(|value| *value != default).collect()
 }
 
-fn variants(file: &str, pipeline: &Pipeline) -> Vec<Variant> {
+fn variants(file: &str, pipeline: &Document) -> Vec<Variant> {
     let name = file.trim_end_matches(".ron");
     let opaque = Facts { has_alpha_clip: false, has_cross_fade: false, has_transparent: false, ..Facts::UNKNOWN };
     let mut variants =

@@ -76,7 +76,7 @@ pub fn plan(
     let pipeline = pipeline.map_err(rendered)?;
     let set: Vec<_> = setup.set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
     let facts = setup.scene.facts();
-    let inputs = Inputs { set: &set, facts, facts_known: true, output_extent: setup.extent, dump: &[] };
+    let inputs = Inputs { set: &set, facts, facts_known: true, output_extent: setup.extent, dump: &[], device: None };
     let frame = expand::expand(&pipeline, sources.clone(), &inputs, shaders).map_err(rendered)?;
     let plan = compile::compile(&frame, &device.profile(), &mut device.memory(), options);
     let plan = plan.map_err(rendered)?;

@@ -1,7 +1,7 @@
 //! The shipped pipelines as frames, in every combination of their discrete settings.
 
 use crate::render::in_repository;
-use framewright_graph::describe::{self, Pipeline, SettingKind};
+use framewright_graph::describe::{self, Document, SettingKind};
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::frame::Frame;
 use framewright_graph::source::Sources;
@@ -23,12 +23,13 @@ fn values(kind: &SettingKind) -> Vec<String> {
     match kind {
         SettingKind::Bool { .. } => vec!["false".to_owned(), "true".to_owned()],
         SettingKind::OneOf { of, .. } => of.iter().map(ToString::to_string).collect(),
+        SettingKind::Choice { of, .. } => of.iter().map(ToString::to_string).collect(),
         SettingKind::Number { min, max, .. } => vec![min.to_string(), max.to_string()],
         SettingKind::Integer { min, max, .. } => vec![min.to_string(), max.to_string()],
     }
 }
 
-fn combinations(pipeline: &Pipeline) -> Vec<Vec<(String, String)>> {
+fn combinations(pipeline: &Document) -> Vec<Vec<(String, String)>> {
     pipeline.settings.iter().fold(vec![Vec::new()], |combinations, setting| {
         let with = |chosen: &Vec<(String, String)>, value: String| {
             [&chosen[..], &[(setting.name.text.to_string(), value)]].concat()
@@ -57,7 +58,7 @@ pub fn frames(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
         let sources = Arc::new(sources);
         let opaque = Facts { has_alpha_clip: false, has_cross_fade: false, has_transparent: false, ..Facts::UNKNOWN };
         for (set, facts) in combinations(&pipeline).iter().flat_map(|set| [(set, Facts::UNKNOWN), (set, opaque)]) {
-            let inputs = Inputs { set, facts, facts_known: true, output_extent, dump: &[] };
+            let inputs = Inputs { set, facts, facts_known: true, output_extent, dump: &[], device: None };
             let frame = expand(&pipeline, sources.clone(), &inputs, &mut shaders)
                 .unwrap_or_else(|wrong| panic!("{}", describe::render(&sources, &wrong)));
             frames.push(ShippedFrame { how: format!("{name} {set:?} {facts:?}"), frame });

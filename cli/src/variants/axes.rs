@@ -3,7 +3,7 @@
 
 use super::mentions::Mentions;
 use super::space::Choice;
-use framewright_graph::describe::{Pipeline, SettingKind};
+use framewright_graph::describe::{Document, SettingKind};
 use framewright_graph::facts::{Fact, FactType, FactValue, Facts};
 use framewright_graph::source::Sources;
 
@@ -42,7 +42,7 @@ pub(crate) struct Axes {
 impl Axes {
     /// What varies of a pipeline: whatever its files mention, except for what is `fixed`.
     #[must_use]
-    pub(crate) fn of(pipeline: &Pipeline, sources: &Sources, fixed: &[(String, String)], devices: &[String]) -> Axes {
+    pub(crate) fn of(pipeline: &Document, sources: &Sources, fixed: &[(String, String)], devices: &[String]) -> Axes {
         let mentions = Mentions::of(sources);
         let is_fixed = |name: &str| fixed.iter().any(|(fixed, _)| fixed == name);
         let settings = pipeline.settings.iter().filter_map(|setting| {
@@ -103,22 +103,27 @@ fn values(kind: &SettingKind) -> Vec<String> {
     match kind {
         SettingKind::Bool { default } => vec![default.to_string(), (!default).to_string()],
         SettingKind::OneOf { default, of } => first(default.to_string(), of.iter().map(i64::to_string)),
-        SettingKind::Integer { default, min, max } => {
-            let (least, greatest) = (i128::from(*min), i128::from(*max));
-            let some = if greatest - least < MOST_INTEGERS {
-                (least..=greatest).collect()
+        SettingKind::Choice { default, of } => first(default.to_string(), of.iter().map(ToString::to_string)),
+        SettingKind::Integer { default, min, max, step } => {
+            let (least, step) = (i128::from(*min), i128::from(*step).max(1));
+            let steps = (i128::from(*max) - least) / step;
+            let nth = |number: i128| least + number * step;
+            let some: Vec<i128> = if steps < MOST_INTEGERS {
+                (0..=steps).map(nth).collect()
             } else {
-                let between = least + (greatest - least) / 2;
+                let between = steps / 2;
                 // Another one, should that be the default.
-                let between = if between == i128::from(*default) { between + 1 } else { between };
-                vec![least, between, greatest]
+                let between = if nth(between) == i128::from(*default) { between + 1 } else { between };
+                [0, between, steps].map(nth).to_vec()
             };
             first(default.to_string(), some.iter().map(i128::to_string))
         }
-        SettingKind::Number { default, min, max } => {
+        SettingKind::Number { default, min, max, step } => {
+            // The last that a step reaches; rounding apart it is `max`.
+            let greatest = step.map_or(*max, |step| min + ((max - min) / step + 1e-9).floor() * step);
             // Written so that it reads as the very same number.
             let text = |number: &f64| format!("{number:?}");
-            first(text(default), [min, max].into_iter().map(text))
+            first(text(default), [min, &greatest].into_iter().map(text))
         }
     }
 }
@@ -156,13 +161,13 @@ mod tests {
     fn a_setting_takes_all_values_or_those_at_the_ends_the_default_first() {
         assert_eq!(of(&SettingKind::Bool { default: true }), ["true", "false"]);
         assert_eq!(of(&SettingKind::OneOf { default: 4, of: vec![1, 2, 4] }), ["4", "1", "2"]);
-        assert_eq!(of(&SettingKind::Integer { default: 2, min: 1, max: 3 }), ["2", "1", "3"]);
-        assert_eq!(of(&SettingKind::Integer { default: 1, min: 0, max: 15 }).len(), 16);
-        assert_eq!(of(&SettingKind::Integer { default: 1, min: 0, max: 16 }), ["1", "0", "8", "16"]);
-        assert_eq!(of(&SettingKind::Integer { default: 8, min: 0, max: 16 }), ["8", "0", "9", "16"]);
-        let widest = SettingKind::Integer { default: 0, min: i64::MIN, max: i64::MAX };
+        assert_eq!(of(&SettingKind::Integer { default: 2, min: 1, max: 3, step: 1 }), ["2", "1", "3"]);
+        assert_eq!(of(&SettingKind::Integer { default: 1, min: 0, max: 15, step: 1 }).len(), 16);
+        assert_eq!(of(&SettingKind::Integer { default: 1, min: 0, max: 16, step: 1 }), ["1", "0", "8", "16"]);
+        assert_eq!(of(&SettingKind::Integer { default: 8, min: 0, max: 16, step: 1 }), ["8", "0", "9", "16"]);
+        let widest = SettingKind::Integer { default: 0, min: i64::MIN, max: i64::MAX, step: 1 };
         assert_eq!(of(&widest), ["0", "-9223372036854775808", "-1", "9223372036854775807"]);
-        assert_eq!(of(&SettingKind::Number { default: 0.1, min: 0.0, max: 1e300 }), ["0.1", "0.0", "1e300"]);
-        assert_eq!(of(&SettingKind::Number { default: 1.0, min: 1.0, max: 1.0 }), ["1.0"]);
+        assert_eq!(of(&SettingKind::Number { default: 0.1, min: 0.0, max: 1e300, step: None }), ["0.1", "0.0", "1e300"]);
+        assert_eq!(of(&SettingKind::Number { default: 1.0, min: 1.0, max: 1.0, step: None }), ["1.0"]);
     }
 }

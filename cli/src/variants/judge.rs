@@ -6,7 +6,7 @@ use super::shaders::Shared;
 use super::space::Choice;
 use crate::check;
 use framewright_graph::compile::{Compiler, Options};
-use framewright_graph::describe::{Diagnostic, Pipeline};
+use framewright_graph::describe::{Diagnostic, Document};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::frame::Frame;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// What all variants have in common.
 pub(crate) struct Subject<'a> {
     /// The pipeline.
-    pub(crate) pipeline: &'a Pipeline,
+    pub(crate) pipeline: &'a Document,
     /// The texts that it was read from.
     pub(crate) sources: &'a Arc<Sources>,
     /// What varies.
@@ -77,7 +77,8 @@ impl<'a> Judge<'a> {
     }
 
     fn frame(&mut self, choice: &Choice) -> Made {
-        let without_device = &choice[..choice.len().saturating_sub(1)];
+        let same_for_all = usize::from(!self.subject.pipeline.asks_device());
+        let without_device = &choice[..choice.len().saturating_sub(same_for_all)];
         match &self.last {
             Some((last, frame)) if last == without_device => frame.clone(),
             _ => {
@@ -96,6 +97,7 @@ impl<'a> Judge<'a> {
             facts_known: true,
             output_extent: [check::VIEW.size.width, check::VIEW.size.height],
             dump: check::VIEW.dump,
+            device: self.subject.devices.get(axes::device(choice)).map(|device| &**device),
         };
         expand::expand(pipeline, Arc::clone(sources), &inputs, &mut self.shaders)
     }

@@ -48,7 +48,7 @@ fn frame(text: String) -> Frame {
     let mut sources = Sources::default();
     let pipeline = describe::read(&mut sources, "many.ron", "many.ron", text).expect("the file is sound");
     let facts = Facts::UNKNOWN;
-    let inputs = Inputs { set: &[], facts, facts_known: false, output_extent: [1920, 1080], dump: &[] };
+    let inputs = Inputs { set: &[], facts, facts_known: false, output_extent: [1920, 1080], dump: &[], device: None };
     expand(&pipeline, Arc::new(sources), &inputs, &mut FullScreen).expect("the pipeline fits its shaders")
 }
 

@@ -1,12 +1,12 @@
 //! `sample`, `storage`, `uniform` and `params`: what a pass gives to its shader, by the shader's own names.
 
 use super::Diagnostic;
-use super::leaf::{Leaf, Number, Shape};
-use super::names::Scope;
+use super::leaf::{Leaf, Shape};
 use super::parts::{self, Selected};
-use super::pass::{Face, Param, ParamValue, Part, Sample, Storage, StorageAccess, Uniform};
+use super::pass::{Face, Param, Part, Sample, Storage, StorageAccess, Uniform};
 use super::pipeline::Name;
 use super::reader::Reader;
+use super::scope::Scope;
 use super::values;
 use crate::fields;
 use crate::vocabulary::Filter;
@@ -64,7 +64,7 @@ pub(super) fn samples<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'
             None => Some(None),
         };
         let own_pixel = match own_pixel {
-            Some(leaf) => reader.truth(leaf).map(|own| Some(leaf.spanned(own))),
+            Some(leaf) => values::truth(reader, scope, leaf).map(|own| Some(leaf.spanned(own))),
             None => Some(None),
         };
         let (part, face) = image?;
@@ -126,20 +126,8 @@ pub(super) fn uniforms<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<
 /// Values by the names of the shader's parameters.
 pub(super) fn params<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Param>> {
     entries(reader, leaf, "`params`", "a parameter", |reader, name, leaf| {
-        let value = match leaf.shape() {
-            Shape::Text => ParamValue::Setting(scope.any_setting(reader, leaf)?),
-            Shape::Word("true" | "false", None) => ParamValue::Bool(reader.truth(leaf)?),
-            Shape::Number => match leaf.number() {
-                Some(Number::Whole(number)) => ParamValue::Integer(number),
-                _ => ParamValue::Number(reader.number(leaf)?),
-            },
-            Shape::Word("NaN" | "inf", None) => ParamValue::Number(reader.number(leaf)?),
-            _ => {
-                reader.expected(leaf, "a number, `true`, `false` or the name of a setting in quotes");
-                return None;
-            }
-        };
-        Some(Param { name: name?, value: leaf.spanned(value) })
+        let (value, written) = values::param(reader, scope, leaf)?;
+        Some(Param { name: name?, value: leaf.spanned(value), written })
     })
 }
 

@@ -71,7 +71,7 @@ macro_rules! fields {
             ) -> ::std::option::Option<Self> {
                 use $crate::describe::text::{Field, Known, Leaf, slots};
                 let word: &[&'static str] = &[$($word)?];
-                let fields = [$((stringify!($field), <$type as Field<$t>>::REQUIRED)),*];
+                let fields = [$(($crate::describe::text::plain_name(stringify!($field)), <$type as Field<$t>>::REQUIRED)),*];
                 let mut found: [Option<Leaf<$t>>; [$(stringify!($field)),*].len()] = [None; [$(stringify!($field)),*].len()];
                 let known = Known { word: word.first().copied(), fields: &fields };
                 slots(leaf, what, known, &mut found, errors)?;
@@ -80,6 +80,12 @@ macro_rules! fields {
             }
         }
     };
+}
+
+/// The name of a field whose name is a word of Rust's: `r#use` is `use`.
+#[must_use]
+pub fn plain_name(name: &'static str) -> &'static str {
+    name.strip_prefix("r#").unwrap_or(name)
 }
 
 /// Sorts the fields of `leaf` into the places of those that are known.

@@ -1,13 +1,16 @@
 //! `images`: format, size, samples, mip levels, layers, shape and lifetime, most its own or another image's.
 
 use super::leaf::{Leaf, Shape};
-use super::names::Scope;
-use super::pipeline::{ImageRef, Name, SettingKind, Value};
+use super::pipeline::{ImageRef, Name, SettingKind};
 use super::reader::Reader;
 use super::resources::{Format, Image, Layers, Lifetime, Mips, Samples, Shape as ImageShape, Size};
-use super::{Spanned, lifetimes, values};
+use super::scope::{Quoted, Scope, joined};
+use super::values::Decided;
+use super::{Diagnostic, Spanned, lifetimes, values};
+use crate::expression::{Value, Wanted};
 use crate::fields;
 use crate::format;
+use std::sync::Arc;
 
 /// Largest width and height that a file may ask for.
 pub(crate) const LARGEST_SIZE: u32 = 16384;
@@ -24,6 +27,7 @@ pub(crate) const SAMPLE_COUNTS: [i64; 5] = [1, 2, 4, 8, 16];
 fields! {
     pub(super) struct ImageFields<'src> as "Image" {
         name: Leaf<'src>,
+        pub(super) repeat: Option<Leaf<'src>>,
         format: Leaf<'src>,
         size: Leaf<'src>,
         samples: Option<Leaf<'src>>,
@@ -43,33 +47,37 @@ fields! {
 const FORMATS: &str = "a format is `Color(hdr: …)`, `Depth`, `DepthStencil`, `Output`, `Like(\"image\")` or one of Vulkan's, such as `R16G16B16A16_SFLOAT`";
 const SIZES: &str =
     "a size is `Output`, `Scaled(0.5)`, `Scaled(0.5, \"image\")`, `Fixed(640, 480)` or `Like(\"image\")`";
-const COUNTS: &str = "sample counts are 1, 2, 4, 8, 16, the name of a setting, or `Like(\"image\")`";
+const COUNTS: &str = "sample counts are 1, 2, 4, 8, 16, an expression in quotes, or `Like(\"image\")`";
 
 /// An image, once its fields are told apart.
 pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &ImageFields<'src>) -> Option<Image> {
     let name = reader.name(fields.name, "an image");
     let format = format(reader, scope, fields.format);
     let size = size(reader, scope, fields.size);
-    let samples = or(reader, fields.samples, &name, Samples::Count(Value::Constant(1)), |reader, leaf| {
-        samples(reader, scope, leaf)
-    });
-    let mips =
-        or(reader, fields.mips, &name, Mips::Count(Value::Constant(1)), |reader, leaf| mips(reader, scope, leaf));
+    let samples = match fields.samples {
+        Some(leaf) => samples(reader, scope, leaf, &name).map(|(samples, because)| (leaf.spanned(samples), because)),
+        None => name.as_ref().map(|name| (Spanned { value: Samples::Count(1), span: name.span }, None)),
+    };
+    let mips = or(reader, fields.mips, &name, Mips::Count(1), |reader, leaf| mips(reader, scope, leaf));
     let layers = or(reader, fields.layers, &name, Layers::Default, |reader, leaf| layers(reader, scope, leaf));
     let shape = or(reader, fields.shape, &name, ImageShape::D2, |reader, leaf| shape(reader, scope, leaf));
     let lifetime = match fields.lifetime {
         Some(leaf) => lifetimes::lower(reader, scope, leaf, lifetimes::Of::Image),
         None => name.as_ref().map(|name| Spanned { value: Lifetime::Transient, span: name.span }),
     };
+    let ((size, size_because), (samples, samples_because)) = (size?, samples?);
     Some(Image {
         name: name?,
         format: fields.format.spanned(format?),
-        size: fields.size.spanned(size?),
-        samples: samples?,
+        size: fields.size.spanned(size),
+        size_because,
+        samples,
+        samples_because,
         mips: mips?,
         layers: layers?,
         shape: shape?,
         lifetime: lifetime?,
+        instance: None,
     })
 }
 
@@ -98,6 +106,13 @@ fn format<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opt
         .into_iter()
         .chain(format::Format::ALL.iter().map(|f| f.name()))
         .collect();
+    if let Shape::Text = leaf.shape() {
+        if let Some(word @ ("Depth" | "DepthStencil" | "Output")) = leaf.plain() {
+            reader.wrong(leaf, format!("`{word}` is no format of Vulkan's"), "it stands without quotes");
+            return None;
+        }
+        return values::format(reader, scope, leaf).map(Format::Named);
+    }
     let (word, rest) = reader.word(leaf, "a format", &known, FORMATS)?;
     match word {
         "Color" => {
@@ -105,21 +120,10 @@ fn format<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opt
                 Some(_) => reader.inside::<ColorFields<'_>>(leaf, rest, "Color(hdr: …)")?.hdr,
                 None => None,
             };
-            let Some(hdr) = hdr else { return Some(Format::Color { hdr: Value::Constant(false) }) };
-            let hdr = match hdr.shape() {
-                Shape::Text => Value::Setting(scope.setting(
-                    reader,
-                    hdr,
-                    |kind| matches!(kind, SettingKind::Bool { .. }),
-                    "`true` or `false`",
-                )?),
-                Shape::Word("true" | "false", None) => Value::Constant(reader.truth(hdr)?),
-                _ => {
-                    reader.expected(hdr, "`true`, `false` or the name of a setting in quotes");
-                    return None;
-                }
-            };
-            Some(Format::Color { hdr })
+            match hdr {
+                Some(hdr) => values::truth(reader, scope, hdr).map(|hdr| Format::Color { hdr }),
+                None => Some(Format::Color { hdr: false }),
+            }
         }
         "Depth" => reader.bare(word, rest).map(|()| Format::Depth),
         "DepthStencil" => reader.bare(word, rest).map(|()| Format::DepthStencil),
@@ -132,15 +136,15 @@ fn format<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opt
     }
 }
 
-fn size<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Size> {
+fn size<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<Size>> {
     let (word, rest) = reader.word(leaf, "a size", &["Output", "Scaled", "Fixed", "Like"], SIZES)?;
     match word {
-        "Output" => reader.bare(word, rest).map(|()| Size::Output),
-        "Like" => like(reader, scope, leaf, rest).map(Size::Like),
+        "Output" => reader.bare(word, rest).map(|()| (Size::Output, None)),
+        "Like" => like(reader, scope, leaf, rest).map(|of| (Size::Like(of), None)),
         "Fixed" => {
             let [width, height]: [Leaf<'_>; 2] = reader.inside(leaf, rest, "Fixed(width, height)")?;
-            let (width, height) = (extent(reader, width), extent(reader, height));
-            Some(Size::Fixed([width?, height?]))
+            let (width, height) = (extent(reader, scope, width), extent(reader, scope, height));
+            Some((Size::Fixed([width?, height?]), None))
         }
         _ => {
             let both = rest.and_then(Leaf::tuple);
@@ -151,16 +155,19 @@ fn size<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Optio
                     (by, None)
                 }
             };
-            let by = scale(reader, scope, by);
+            let (by, because) = scale(reader, scope, by)?;
             match of {
-                Some(of) => Some(Size::Scaled { by: by?, of: Some(of?) }),
-                None => Some(Size::Scaled { by: by?, of: None }),
+                Some(of) => Some((Size::Scaled { by, of: Some(of?) }, because)),
+                None => Some((Size::Scaled { by, of: None }, because)),
             }
         }
     }
 }
 
-fn extent<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<u32> {
+fn extent<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<u32> {
+    if let Shape::Text = leaf.shape() {
+        return values::whole(reader, scope, leaf, "size", 1..=i64::from(LARGEST_SIZE));
+    }
     let extent = reader.integer(leaf)?;
     match u32::try_from(extent) {
         Ok(extent @ 1..=LARGEST_SIZE) => Some(extent),
@@ -171,63 +178,76 @@ fn extent<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<u32> {
     }
 }
 
-fn scale<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Value<f64>> {
-    if let Shape::Text = leaf.shape() {
-        let setting = scope.setting(reader, leaf, |kind| !matches!(kind, SettingKind::Bool { .. }), "a number")?;
-        let least = match scope.kinds.get(setting.index)?.as_ref().map(|setting| &setting.kind)? {
-            SettingKind::Number { min, .. } => *min,
-            #[allow(clippy::cast_precision_loss, reason = "only the sign matters")]
-            SettingKind::Integer { min, .. } => *min as f64,
-            #[allow(clippy::cast_precision_loss, reason = "only the sign matters")]
-            SettingKind::OneOf { of, .. } => of.iter().min().map_or(0.0, |least| *least as f64),
-            SettingKind::Bool { .. } => return None,
-        };
-        if least <= 0.0 {
-            let message = format!("a scale is greater than 0, but this setting allows {}", super::shown_number(least));
-            reader.wrong(leaf, message, "let the setting begin above 0");
-            return None;
-        }
-        return Some(Value::Setting(setting));
-    }
-    let by = reader.number(leaf)?;
-    if by <= 0.0 {
-        reader.wrong(leaf, format!("a scale is greater than 0, found {}", super::shown_number(by)), "");
+fn scale<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<f64>> {
+    if let Shape::Text = leaf.shape()
+        && scope.known.settings
+        && let Quoted::Given(parameter, _) = scope.quoted(reader, leaf, SettingKind::is_number, "a number")?
+        && let Some(least) = parameter.least().filter(|least| *least <= 0.0)
+    {
+        let message = format!("a scale is greater than 0, but this setting allows {}", super::shown_number(least));
+        reader.wrong(leaf, message, "let the setting begin above 0");
         return None;
     }
-    Some(Value::Constant(by))
+    let (by, because) = values::number_because(reader, scope, leaf)?;
+    if by <= 0.0 {
+        let wrong = format!("a scale is greater than 0, found {}", super::shown_number(by));
+        let wrong = Diagnostic::new(leaf.span(), wrong).remark(because.as_deref().unwrap_or_default());
+        scope.fault(reader, leaf, wrong);
+        return None;
+    }
+    Some((by, because))
 }
 
-fn samples<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Samples> {
-    match leaf.shape() {
-        Shape::Text => {
-            let whole = |kind: &SettingKind| matches!(kind, SettingKind::OneOf { .. } | SettingKind::Integer { .. });
-            let setting = scope.setting(reader, leaf, whole, "a whole number")?;
-            if let Some(SettingKind::OneOf { of, .. }) =
-                scope.kinds.get(setting.index)?.as_ref().map(|setting| &setting.kind)
-                && let Some(odd) = of.iter().find(|count| !SAMPLE_COUNTS.contains(count))
-            {
-                reader.wrong(leaf, format!("this setting allows {odd}, which is no sample count"), COUNTS);
-                return None;
+fn samples<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    image: &Option<Name>,
+) -> Option<Decided<Samples>> {
+    let (count, because): Decided<i64> = match leaf.shape() {
+        Shape::Text => match scope.quoted(reader, leaf, SettingKind::is_whole, "a whole number")? {
+            Quoted::Given(parameter, given) => {
+                if scope.known.settings
+                    && let Some(odd) = parameter.one_of().iter().find(|count| !SAMPLE_COUNTS.contains(count))
+                {
+                    reader.wrong(leaf, format!("this setting allows {odd}, which is no sample count"), COUNTS);
+                    return None;
+                }
+                let Value::Integer(count) = given.value else { return None };
+                (count, scope.because(parameter, given))
             }
-            Some(Samples::Count(Value::Setting(setting)))
-        }
+            Quoted::Expression => {
+                let outcome = scope.evaluate(reader, leaf, Wanted::INTEGER)?;
+                let Value::Integer(count) = outcome.value else { return None };
+                (count, joined(&outcome.decided))
+            }
+        },
         Shape::Number => {
             let count = reader.integer(leaf)?;
             if !SAMPLE_COUNTS.contains(&count) {
                 reader.wrong(leaf, format!("{count} is no sample count"), COUNTS);
                 return None;
             }
-            u32::try_from(count).ok().map(|count| Samples::Count(Value::Constant(count)))
+            (count, None)
         }
         _ => {
             let (_, rest) = reader.word(leaf, "a sample count", &["Like"], COUNTS)?;
-            like(reader, scope, leaf, rest).map(Samples::Like)
+            return like(reader, scope, leaf, rest).map(|of| (Samples::Like(of), None));
         }
+    };
+    if !SAMPLE_COUNTS.contains(&count) {
+        let why = because.map(|because: Arc<str>| format!(" ({because})")).unwrap_or_default();
+        let name = image.as_ref().map_or("", |name| &*name.text);
+        let wrong = Diagnostic::new(leaf.span(), format!("image `{name}` can't have {count} samples{why}"));
+        let allowed = SAMPLE_COUNTS.map(|count| count.to_string()).join(", ");
+        scope.fault(reader, leaf, wrong.help(format!("sample counts are {allowed}")));
+        return None;
     }
+    u32::try_from(count).ok().map(|count| (Samples::Count(count), because))
 }
 
 fn mips<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Mips> {
-    let forms = "mip levels are a number, the name of a setting, `Full` or `Like(\"image\")`";
+    let forms = "mip levels are a number, an expression in quotes, `Full` or `Like(\"image\")`";
     if let Shape::Text | Shape::Number = leaf.shape() {
         return values::whole(reader, scope, leaf, "number of mip levels", 1..=MOST_MIPS).map(Mips::Count);
     }
@@ -239,7 +259,7 @@ fn mips<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Optio
 }
 
 fn layers<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Layers> {
-    let forms = "layers are a number, the name of a setting or `Like(\"image\")`";
+    let forms = "layers are a number, an expression in quotes or `Like(\"image\")`";
     if let Shape::Text | Shape::Number = leaf.shape() {
         return values::whole(reader, scope, leaf, "number of layers", 1..=MOST_LAYERS).map(Layers::Count);
     }

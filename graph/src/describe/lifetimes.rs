@@ -2,10 +2,10 @@
 
 use super::fields::FromLeaf;
 use super::leaf::{Leaf, Shape};
-use super::names::Scope;
 use super::parts::MOST_FRAMES;
 use super::reader::Reader;
 use super::resources::{Fill, Lifetime, State, StateWord};
+use super::scope::Scope;
 use super::{Spanned, values};
 use crate::fields;
 use crate::vocabulary::{self, Accesses, Layout, Stages};
@@ -66,15 +66,15 @@ pub(super) fn lower<'src>(
         "Transient" => reader.bare(word, rest).map(|()| Lifetime::Transient)?,
         "Persistent" => {
             let fields: PersistentFields<'_> = within(reader, leaf, rest, "Persistent(initial: …)")?;
-            Lifetime::Persistent { initial: initial(reader, fields.initial)? }
+            Lifetime::Persistent { initial: initial(reader, scope, fields.initial)? }
         }
         "History" => {
             let fields: HistoryFields<'_> = within(reader, leaf, rest, "History(frames: 1, initial: …)")?;
             let frames = match fields.frames {
-                Some(frames) => values::constant(reader, frames, "number of frames to look back", 1..=MOST_FRAMES),
+                Some(frames) => values::whole(reader, scope, frames, "number of frames to look back", 1..=MOST_FRAMES),
                 None => Some(1),
             };
-            let initial = initial(reader, fields.initial);
+            let initial = initial(reader, scope, fields.initial);
             Lifetime::History { frames: frames?, initial: initial? }
         }
         "Imported" => {
@@ -107,9 +107,13 @@ fn within<'src, T: FromLeaf<'src> + Default>(
     }
 }
 
-fn initial<'src>(reader: &mut Reader, leaf: Option<Leaf<'src>>) -> Option<Option<Spanned<Fill>>> {
+fn initial<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Option<Leaf<'src>>,
+) -> Option<Option<Spanned<Fill>>> {
     let Some(leaf) = leaf else { return Some(None) };
-    let value = values::fill(reader, leaf)?;
+    let value = values::fill(reader, scope, leaf)?;
     Some(Some(leaf.spanned(value)))
 }
 

@@ -65,71 +65,79 @@
 //! custom work with `-` too, at most 64 bytes.
 
 mod bindings;
+mod body;
 mod buffers;
 mod circles;
-mod condition;
 mod diagnostic;
+mod document;
 mod escapes;
 mod fields;
+mod fragments;
 mod images;
 mod json;
+mod known;
 mod leaf;
 mod lexer;
 mod lifetimes;
+mod lower;
 mod names;
 mod numbers;
 mod outputs;
+mod parameters;
 mod parts;
 mod pass;
 mod passes;
 mod pipeline;
 mod previous;
+mod properties;
+mod put_in;
 mod reader;
 mod render;
 mod resources;
+mod scope;
+mod scope_names;
 mod settings;
 mod suggest;
+mod surroundings;
 mod syntax;
 mod targets;
 mod tree;
+mod uses;
 mod values;
 mod work;
 
 pub(crate) use buffers::LARGEST_BUFFER;
 pub use diagnostic::{Diagnostic, Label};
-pub(crate) use images::{LARGEST_SIZE, SAMPLE_COUNTS};
+pub use document::Document;
+pub(crate) use images::LARGEST_SIZE;
 pub use json::to_json;
 pub use pass::{
-    BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, Param, ParamValue, Part, Pass, Sample, Selection,
+    BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, Off, Param, Part, Pass, Sample, Selection, StandIn,
     Storage, StorageAccess, Uniform, Work,
 };
 pub use pipeline::{
-    BufferRef, Condition, ImageRef, Name, Output, Pipeline, ResourceRef, Setting, SettingKind, SettingRef, Spanned,
-    Subject, Term, Value,
+    BufferRef, ImageRef, Instance, Name, Output, Pipeline, ResourceRef, Setting, SettingKind, Spanned,
 };
+pub(crate) use properties::scaled;
 pub use render::{escape, render};
 pub use resources::{
     Buffer, Bytes, Fill, Format, Image, Layers, Lifetime, Mips, Samples, Shape as ImageShape, Size, State, StateWord,
 };
 pub(crate) use settings::shown as shown_number;
 pub use suggest::{help as suggestion, nearest};
+pub use surroundings::Surroundings;
 pub(crate) use work::MOST_GROUPS;
 
 /// What readers of RON files are made of: pipelines here, scenes elsewhere.
 pub mod text {
-    pub use super::fields::{Field, FromLeaf, Known, slots};
+    pub use super::fields::{Field, FromLeaf, Known, plain_name, slots};
     pub use super::leaf::{Leaf, Number, Shape};
     pub use super::names::Names;
     pub use super::reader::Reader;
     pub use super::tree::Tree;
 }
 
-use crate::fields;
 use crate::source::{Sources, Span};
-use fields::FromLeaf;
-use leaf::{Leaf, Shape};
-use names::{Names, Scope};
-use reader::Reader;
 use std::sync::Arc;
 use tree::Tree;
 
@@ -138,18 +146,6 @@ pub const LANGUAGE_VERSION: i64 = 1;
 
 /// A pipeline file has at most this many bytes (16 MiB).
 pub const LARGEST_FILE: usize = 16 << 20;
-
-fields! {
-    struct PipelineFields<'src> as "Pipeline" {
-        #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
-        version: Leaf<'src>,
-        settings: Option<Leaf<'src>>,
-        images: Leaf<'src>,
-        buffers: Option<Leaf<'src>>,
-        passes: Leaf<'src>,
-        outputs: Leaf<'src>,
-    }
-}
 
 /// Reads a pipeline file's bytes; `shown` and `relative` are as in [`read`].
 ///
@@ -160,7 +156,7 @@ pub fn read_bytes(
     shown: &str,
     relative: &str,
     bytes: Vec<u8>,
-) -> Result<Pipeline, Vec<Diagnostic>> {
+) -> Result<Document, Vec<Diagnostic>> {
     if bytes.len() > LARGEST_FILE {
         return Err(vec![too_large(shown, bytes.len())]);
     }
@@ -184,7 +180,7 @@ pub fn read_bytes(
 ///
 /// # Errors
 /// Everything that is wrong with the file by itself, in the order of the file.
-pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) -> Result<Pipeline, Vec<Diagnostic>> {
+pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) -> Result<Document, Vec<Diagnostic>> {
     if text.len() > LARGEST_FILE {
         return Err(vec![too_large(shown, text.len())]);
     }
@@ -195,11 +191,7 @@ pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) ->
         return Err(vec![error]);
     }
     let Some(tree) = Tree::read(file, text, &mut errors) else { return Err(in_order(errors)) };
-    let mut reader = Reader { errors };
-    match whole(&mut reader, tree.root()) {
-        Some(pipeline) if reader.errors.is_empty() => Ok(pipeline),
-        _ => Err(in_order(reader.errors)),
-    }
+    Document::read(tree, errors).map_err(in_order)
 }
 
 fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
@@ -232,84 +224,4 @@ fn no_pipeline(file: u32, text: &str) -> Option<Diagnostic> {
     let mark = text.starts_with('\u{feff}');
     let begins = || Diagnostic::new(span(0, 3), "the file begins with a byte order mark");
     mark.then(|| begins().help("save it as UTF-8 without one"))
-}
-
-/// The whole file. `None` if errors were reported.
-fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<Pipeline> {
-    if let Some(version) = all.field("version") {
-        let number = reader.integer(version)?;
-        if number != LANGUAGE_VERSION {
-            let message = format!("this file is written in version {number} of the language");
-            reader.errors.clear();
-            reader.wrong(version, message, &format!("this program reads version {LANGUAGE_VERSION}"));
-            return None;
-        }
-    }
-    let fields: PipelineFields<'_> = reader.read(all, "the pipeline")?;
-
-    let mut setting_names = Names::new("setting");
-    let kinds: Vec<Option<Setting>> = match fields.settings {
-        Some(list) => entries(reader, list, "`settings`", "setting", &mut setting_names)
-            .iter()
-            .map(|fields| fields.as_ref().and_then(|fields| settings::lower(reader, fields)))
-            .collect(),
-        None => Vec::new(),
-    };
-    let mut image_names = Names::new("image");
-    let images = entries(reader, fields.images, "`images`", "image", &mut image_names);
-    let mut buffer_names = Names::new("buffer");
-    let buffers = match fields.buffers {
-        Some(list) => entries(reader, list, "`buffers`", "buffer", &mut buffer_names),
-        None => Vec::new(),
-    };
-    let scope = Scope { settings: &setting_names, kinds: &kinds, images: &image_names, buffers: &buffer_names };
-    scope.images_and_buffers_differ(reader);
-    let images: Vec<Option<Image>> =
-        images.iter().map(|fields| fields.as_ref().and_then(|fields| images::lower(reader, &scope, fields))).collect();
-    let buffers: Vec<Option<Buffer>> = buffers
-        .iter()
-        .map(|fields| fields.as_ref().and_then(|fields| buffers::lower(reader, &scope, fields)))
-        .collect();
-    circles::find(&images, &buffers, &mut reader.errors);
-    let passes: Vec<Option<Pass>> = entries(reader, fields.passes, "`passes`", "pass", &mut Names::new("pass"))
-        .iter()
-        .map(|fields| fields.as_ref().and_then(|fields| passes::lower(reader, &scope, fields)))
-        .collect();
-    previous::check(&images, &buffers, &passes, &mut reader.errors);
-    let outputs = outputs::lower(reader, &scope, fields.outputs)?;
-    Some(Pipeline {
-        settings: kinds.into_iter().collect::<Option<_>>()?,
-        images: images.into_iter().collect::<Option<_>>()?,
-        buffers: buffers.into_iter().collect::<Option<_>>()?,
-        passes: passes.into_iter().collect::<Option<_>>()?,
-        outputs,
-    })
-}
-
-/// Tells the fields of each entry of a list apart, and takes down the entries' names.
-fn entries<'src, T: FromLeaf<'src>>(
-    reader: &mut Reader,
-    list: Leaf<'src>,
-    field: &str,
-    what: &'static str,
-    names: &mut Names,
-) -> Vec<Option<T>> {
-    let Some(leaves) = reader.list(list, field) else {
-        // Whatever is looked for may be in the list that couldn't be read.
-        names.give(reader, None);
-        return Vec::new();
-    };
-    leaves
-        .into_iter()
-        .map(|leaf| {
-            let name = leaf.field("name").and_then(Name::written);
-            let known = name.as_ref().map_or_else(|| format!("this {what}"), |name| format!("{what} `{}`", name.text));
-            names.give(reader, name);
-            if !matches!(leaf.shape(), Shape::Parentheses | Shape::Word(_, Some(_))) {
-                reader.expected(leaf, &format!("the {what} as `(name: \"…\", …)`"));
-                return None;
-            }
-            reader.read(leaf, &known)
-        })
-        .collect()
 }

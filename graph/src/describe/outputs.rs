@@ -1,9 +1,9 @@
 //! `outputs`: what leaves the frame, and in which state.
 
 use super::leaf::{Leaf, Shape};
-use super::names::Scope;
 use super::pipeline::{Output, ResourceRef};
 use super::reader::Reader;
+use super::scope::Scope;
 use super::{Diagnostic, lifetimes};
 use crate::fields;
 use crate::frame::Resource;

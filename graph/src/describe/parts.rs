@@ -1,11 +1,13 @@
 //! Parts of images and buffers, as passes name them: mip levels, layers, planes, earlier frames.
 
 use super::leaf::{Leaf, Shape};
-use super::names::Scope;
 use super::pass::{BufferPart, ImagePart, Part, Selection};
+use super::pipeline::{BufferRef, ImageRef};
 use super::reader::Reader;
+use super::scope::Scope;
 use super::values;
 use crate::fields;
+use crate::frame::Resource;
 use crate::vocabulary::{Aspects, Subresources};
 
 /// An image or buffer can be read at most this many frames back.
@@ -44,8 +46,8 @@ const PLANES: [(&str, Aspects); 2] = [("Depth", Aspects::DEPTH), ("Stencil", Asp
 pub(super) fn any<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Part> {
     match leaf.shape() {
         Shape::Text => Some(match scope.resource(reader, leaf)?.resource {
-            crate::frame::Resource::Image(_) => Part::Image(image(reader, scope, leaf)?),
-            crate::frame::Resource::Buffer(_) => Part::Buffer(buffer(reader, scope, leaf)?),
+            Resource::Image(index) => Part::Image(ImagePart::whole(ImageRef { index, span: leaf.span() })),
+            Resource::Buffer(index) => Part::Buffer(whole_buffer(BufferRef { index, span: leaf.span() })),
         }),
         Shape::Parentheses => {
             let fields: PartFields<'_> = reader.read(leaf, "a part of an image or buffer")?;
@@ -59,6 +61,11 @@ pub(super) fn any<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>
             None
         }
     }
+}
+
+/// All of a buffer.
+pub(super) const fn whole_buffer(buffer: BufferRef) -> BufferPart {
+    BufferPart { buffer, previous: None }
 }
 
 /// The part of whichever of `image` and `buffer` is there.
@@ -125,7 +132,7 @@ fn buffer_part<'src>(
     previous: Option<Leaf<'src>>,
 ) -> Option<BufferPart> {
     let buffer = scope.buffer(reader, buffer);
-    let previous = frames(reader, previous);
+    let previous = frames(reader, scope, previous);
     Some(BufferPart { buffer: buffer?, previous: previous? })
 }
 
@@ -137,37 +144,42 @@ pub(super) fn image_part<'src>(
     selected: Selected<'src>,
 ) -> Option<ImagePart> {
     let image = scope.image(reader, name);
-    let mips = selection(reader, selected.mip, selected.mips, "mip level", "number of mip levels");
-    let layers = selection(reader, selected.layer, selected.layers, "layer", "number of layers");
+    let mips = selection(reader, scope, selected.mip, selected.mips, "mip level", "number of mip levels");
+    let layers = selection(reader, scope, selected.layer, selected.layers, "layer", "number of layers");
     let plane = match selected.plane {
         Some(plane) => values::choice(reader, plane, "a plane", &PLANES).map(|value| Some(plane.spanned(value))),
         None => Some(None),
     };
-    let previous = frames(reader, selected.previous);
+    let previous = frames(reader, scope, selected.previous);
     Some(ImagePart { image: image?, mips: mips?, layers: layers?, plane: plane?, previous: previous? })
 }
 
-fn frames<'src>(reader: &mut Reader, leaf: Option<Leaf<'src>>) -> Option<Option<super::Spanned<u32>>> {
+fn frames<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Option<Leaf<'src>>,
+) -> Option<Option<super::Spanned<u32>>> {
     let Some(leaf) = leaf else { return Some(None) };
-    let frames = values::constant(reader, leaf, "number of frames to look back", 1..=MOST_FRAMES)?;
+    let frames = values::whole(reader, scope, leaf, "number of frames to look back", 1..=MOST_FRAMES)?;
     Some(Some(leaf.spanned(frames)))
 }
 
 fn selection<'src>(
     reader: &mut Reader,
+    scope: &Scope<'_>,
     first: Option<Leaf<'src>>,
     count: Option<Leaf<'src>>,
     one: &str,
     several: &str,
 ) -> Option<Selection> {
-    let first = first.map(|leaf| (leaf, values::constant(reader, leaf, one, 0..=MOST_PARTS)));
+    let first = first.map(|leaf| (leaf, values::whole(reader, scope, leaf, one, 0..=MOST_PARTS)));
     let count = match count {
         Some(leaf) if matches!(leaf.shape(), Shape::Word("Rest", None)) => Some((leaf, Some(Subresources::REMAINING))),
-        Some(leaf) if matches!(leaf.shape(), Shape::Number) => {
-            Some((leaf, values::constant(reader, leaf, several, 1..=MOST_PARTS)))
+        Some(leaf) if matches!(leaf.shape(), Shape::Number | Shape::Text) => {
+            Some((leaf, values::whole(reader, scope, leaf, several, 1..=MOST_PARTS)))
         }
         Some(leaf) => {
-            reader.expected(leaf, "a whole number or `Rest`");
+            reader.expected(leaf, "a whole number, an expression in quotes or `Rest`");
             return None;
         }
         None => None,

@@ -1,17 +1,19 @@
 //! What a pipeline file says of a pass: what it does, with which parts of which images and buffers, and when.
 
-use super::pipeline::{BufferRef, Condition, ImageRef, Name, ResourceRef, SettingRef, Spanned, Value};
+use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, Spanned};
 use super::resources::Fill;
-use crate::frame::{Blend, DrawList, StencilState};
+use crate::frame::{Blend, DrawList, ParamValue, StencilState};
+use crate::source::Span;
 use crate::vocabulary::{Aspects, CompareOp, Filter};
+use std::sync::Arc;
 
 /// A pass.
 #[derive(Debug, Clone)]
 pub struct Pass {
     /// Unique name.
     pub name: Name,
-    /// When it runs; `None`: always.
-    pub when: Option<Condition>,
+    /// That and why it does not run; `None`: it does.
+    pub off: Option<Off>,
     /// What it does.
     pub work: Work,
     /// Images that its shaders sample.
@@ -32,8 +34,19 @@ pub struct Pass {
     pub params: Vec<Param>,
     /// Whether it has an effect that no image or buffer shows.
     pub side_effect: bool,
-    /// What its target takes instead when it is off.
-    pub otherwise: Option<Forward>,
+    /// What its targets take instead when it is off.
+    pub otherwise: Vec<StandIn>,
+    /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).
+    pub instance: Option<u32>,
+}
+
+/// Why a pass does not run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Off {
+    /// Where its condition stands.
+    pub span: Span,
+    /// What made the condition fail: "tone_mapping = false".
+    pub because: String,
 }
 
 /// What a pass does.
@@ -99,9 +112,9 @@ pub enum Draw {
     /// So many vertices (or indices) of triangles.
     Vertices {
         /// How many.
-        count: Value<u32>,
+        count: u32,
         /// How many times.
-        instances: Value<u32>,
+        instances: u32,
     },
     /// As many as a buffer says.
     Indirect(BufferPart),
@@ -111,9 +124,9 @@ pub enum Draw {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Groups {
     /// So many in x, y and z.
-    Count([Value<u32>; 3]),
+    Count([u32; 3]),
     /// As many as cover so many invocations in x, y and z.
-    Invocations([Value<u32>; 3]),
+    Invocations([u32; 3]),
     /// As many as cover one invocation for each texel of an image, its layers or depth in z.
     Texels(ImagePart),
     /// As many as a buffer says.
@@ -258,19 +271,22 @@ pub struct Param {
     pub name: Name,
     /// Its value.
     pub value: Spanned<ParamValue>,
+    /// What stands for it in the file, if that is no plain value: "setting `white_point`".
+    pub written: Option<Arc<str>>,
 }
 
-/// A parameter's value.
+/// What fills a target of a pass that is off.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ParamValue {
-    /// `true` or `false`.
-    Bool(bool),
-    /// A whole number.
-    Integer(i64),
-    /// A finite number.
-    Number(f64),
-    /// A setting's.
-    Setting(SettingRef),
+pub enum StandIn {
+    /// Another image is copied into it.
+    Forward(Forward),
+    /// It is set to a value.
+    Clear {
+        /// Target, one of the pass's own.
+        to: ImageRef,
+        /// The value.
+        value: Spanned<Fill>,
+    },
 }
 
 /// What a target takes when its pass is off: `to` gets what `from` holds.
@@ -280,6 +296,26 @@ pub struct Forward {
     pub from: ImageRef,
     /// Target, one of the pass's own.
     pub to: ImageRef,
+}
+
+impl ImagePart {
+    /// All of an image.
+    #[must_use]
+    pub const fn whole(image: ImageRef) -> ImagePart {
+        let all = Selection { first: None, count: None };
+        ImagePart { image, mips: all, layers: all, plane: None, previous: None }
+    }
+}
+
+impl StandIn {
+    /// What it fills.
+    #[must_use]
+    pub const fn target(&self) -> ImageRef {
+        match self {
+            StandIn::Forward(forward) => forward.to,
+            StandIn::Clear { to, .. } => *to,
+        }
+    }
 }
 
 impl Part {

@@ -1,17 +1,18 @@
 //! `passes`: what each does, when, and what stands in for it when it is off.
 
-use super::leaf::Leaf;
-use super::names::Scope;
-use super::pass::{Color, Depth, Forward, Part, Pass, Work};
-use super::pipeline::ImageRef;
+use super::leaf::{Leaf, Shape};
+use super::pass::{Color, Depth, Forward, Off, Part, Pass, StandIn, Work};
+use super::pipeline::{BufferRef, ImageRef, Name};
 use super::reader::Reader;
-use super::{Diagnostic, bindings, condition, parts, targets, work};
+use super::scope::Scope;
+use super::{Diagnostic, bindings, parts, targets, values, work};
 use crate::fields;
 use std::collections::HashMap;
 
 fields! {
     pub(super) struct PassFields<'src> as "Pass" {
         pub(super) name: Leaf<'src>,
+        pub(super) repeat: Option<Leaf<'src>>,
         pub(super) draw: Option<Leaf<'src>>,
         pub(super) dispatch: Option<Leaf<'src>>,
         pub(super) copy: Option<Leaf<'src>>,
@@ -43,12 +44,72 @@ fields! {
     }
 }
 
-/// A pass, once its fields are told apart.
+fields! {
+    struct ClearFields<'src> {
+        image: Leaf<'src>,
+        value: Leaf<'src>,
+    }
+}
+
+const STAND_INS: &str = "write `Forward(from: \"image\", to: \"image\")`, `Clear(image: \"image\", value: 0)` or a list of these";
+
+/// A pass, once its fields are told apart. What has no value because the pass is off is no mistake.
 pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &PassFields<'src>) -> Option<Pass> {
     let name = reader.name(fields.name, "a pass");
-    let what = name.as_ref().map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
+    let off = optional(fields.when, |leaf| when(reader, scope, leaf)).map(Option::flatten);
+    let is_off = matches!(off, Some(Some(_)));
+    let otherwise = {
+        // What never comes to pass needs no values.
+        let scope = &Scope { lenient: scope.lenient || !is_off, ..*scope };
+        scope.forgave.set(false);
+        let otherwise = optional(fields.otherwise, |leaf| stand_ins(reader, scope, leaf));
+        let otherwise = otherwise.map(Option::unwrap_or_default);
+        if otherwise.is_none() && scope.forgave.get() { Some(Vec::new()) } else { otherwise }
+    };
+    let scope = &Scope { lenient: scope.lenient || is_off, ..*scope };
+    scope.forgave.set(false);
+    let before = reader.errors.len();
+    let pass = parts_of(reader, scope, fields, name.as_ref());
+    let idle = pass.is_none() && is_off && scope.forgave.get() && reader.errors.len() == before;
+    let (name, off, otherwise) = (name?, off?, otherwise?);
+    if idle {
+        return Some(Pass { off, otherwise, ..Pass::idle(name) });
+    }
+    let pass = Pass { off, otherwise, ..pass? };
+    bindings_differ(reader, &pass);
+    if let Some(leaf) = fields.otherwise {
+        stand_ins_make_sense(reader, fields.when.is_some(), leaf, &pass);
+    }
+    Some(pass)
+}
+
+impl Pass {
+    /// One that does nothing.
+    pub(super) fn idle(name: Name) -> Pass {
+        let work = Work::Custom { callback: name.clone(), reads: Vec::new(), writes: Vec::new() };
+        Pass {
+            name,
+            off: None,
+            work,
+            sample: Vec::new(),
+            storage: Vec::new(),
+            uniform: Vec::new(),
+            vertex: None,
+            index: None,
+            color: Vec::new(),
+            depth: None,
+            params: Vec::new(),
+            side_effect: false,
+            otherwise: Vec::new(),
+            instance: None,
+        }
+    }
+}
+
+/// What the pass does, with what.
+fn parts_of<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &PassFields<'src>, name: Option<&Name>) -> Option<Pass> {
+    let what = name.map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
     let work = work::lower(reader, scope, fields, &what);
-    let when = optional(fields.when, |leaf| condition::lower(reader, scope, leaf));
     let sample = optional(fields.sample, |leaf| bindings::samples(reader, scope, leaf));
     let storage = optional(fields.storage, |leaf| bindings::storage(reader, scope, leaf));
     let uniform = optional(fields.uniform, |leaf| bindings::uniforms(reader, scope, leaf));
@@ -57,15 +118,11 @@ pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &PassF
     let color = optional(fields.color, |leaf| targets::color(reader, scope, leaf));
     let depth = optional(fields.depth, |leaf| targets::depth(reader, scope, leaf));
     let params = optional(fields.params, |leaf| bindings::params(reader, scope, leaf));
-    let side_effect = optional(fields.side_effect, |leaf| reader.truth(leaf));
-    let otherwise = optional(fields.otherwise, |leaf| forward(reader, scope, leaf));
-
+    let side_effect = optional(fields.side_effect, |leaf| values::truth(reader, scope, leaf));
     if let (Some(color), Some(depth)) = (&color, &depth) {
         targets_make_sense(reader, fields, &what, color.as_deref().unwrap_or(&[]), depth.as_ref());
     }
-    let pass = Pass {
-        name: name?,
-        when: when?,
+    Some(Pass {
         work: work?,
         sample: sample?.unwrap_or_default(),
         storage: storage?.unwrap_or_default(),
@@ -76,30 +133,48 @@ pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &PassF
         depth: depth?,
         params: params?.unwrap_or_default(),
         side_effect: side_effect?.unwrap_or_default(),
-        otherwise: otherwise?,
+        ..Pass::idle(name?.clone())
+    })
+}
+
+/// Whether a pass runs: `Some(None)`, or why it doesn't.
+pub(super) fn when<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Option<Off>> {
+    let Shape::Text = leaf.shape() else {
+        reader.expected(leaf, "a condition in quotes");
+        return None;
     };
-    bindings_differ(reader, &pass);
-    if let (Some(otherwise), Some(leaf)) = (pass.otherwise, fields.otherwise) {
-        forward_makes_sense(reader, fields, leaf, &otherwise, &pass);
-    }
-    Some(pass)
+    let outcome = scope.condition(reader, leaf)?;
+    Some(outcome.map(|because| Off { span: leaf.span(), because }))
 }
 
 /// A field that may be absent: `None` if it is there and wrong.
-fn optional<'src, T>(leaf: Option<Leaf<'src>>, lower: impl FnOnce(Leaf<'src>) -> Option<T>) -> Option<Option<T>> {
+pub(super) fn optional<'src, T>(leaf: Option<Leaf<'src>>, lower: impl FnOnce(Leaf<'src>) -> Option<T>) -> Option<Option<T>> {
     match leaf {
         Some(leaf) => lower(leaf).map(Some),
         None => Some(None),
     }
 }
 
-/// What a target takes when the pass is off.
-fn forward<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Forward> {
-    let form = "Forward(from: \"image\", to: \"image\")";
-    let (_, rest) = reader.word(leaf, "a stand-in", &["Forward"], &format!("write `{form}`"))?;
-    let fields: ForwardFields<'_> = reader.inside(leaf, rest, form)?;
+/// What targets take when the pass is off: one or several.
+pub(super) fn stand_ins<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<StandIn>> {
+    if let Shape::List = leaf.shape() {
+        let entries = reader.list(leaf, "`otherwise`")?;
+        let all: Vec<Option<StandIn>> = entries.into_iter().map(|entry| stand_in(reader, scope, entry)).collect();
+        return all.into_iter().collect();
+    }
+    stand_in(reader, scope, leaf).map(|one| vec![one])
+}
+
+fn stand_in<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<StandIn> {
+    let (word, rest) = reader.word(leaf, "a stand-in", &["Forward", "Clear"], STAND_INS)?;
+    if word == "Clear" {
+        let fields: ClearFields<'_> = reader.inside(leaf, rest, "Clear(image: \"image\", value: 0)")?;
+        let (to, value) = (scope.image(reader, fields.image), values::fill(reader, scope, fields.value));
+        return Some(StandIn::Clear { to: to?, value: fields.value.spanned(value?) });
+    }
+    let fields: ForwardFields<'_> = reader.inside(leaf, rest, "Forward(from: \"image\", to: \"image\")")?;
     let (from, to) = (scope.image(reader, fields.from), scope.image(reader, fields.to));
-    Some(Forward { from: from?, to: to? })
+    Some(StandIn::Forward(Forward { from: from?, to: to? }))
 }
 
 /// A draw has targets, and none of them twice.
@@ -142,7 +217,7 @@ fn bindings_differ(reader: &mut Reader, pass: &Pass) {
 }
 
 /// Images that a pass may write.
-fn written(pass: &Pass) -> impl Iterator<Item = ImageRef> {
+pub(super) fn written(pass: &Pass) -> impl Iterator<Item = ImageRef> {
     let targets = pass.color.iter().map(|color| color.part).chain(pass.depth.as_ref().map(|depth| depth.part));
     let storage = pass.storage.iter().map(|storage| storage.part);
     let transferred = match &pass.work {
@@ -157,19 +232,42 @@ fn written(pass: &Pass) -> impl Iterator<Item = ImageRef> {
     targets.chain(parts).map(|part| part.image)
 }
 
-/// A stand-in fills one of the pass's own images, from another image.
-fn forward_makes_sense(reader: &mut Reader, fields: &PassFields<'_>, leaf: Leaf<'_>, forward: &Forward, pass: &Pass) {
-    if fields.when.is_none() {
+/// Buffers that a pass may write.
+pub(super) fn written_buffers(pass: &Pass) -> impl Iterator<Item = BufferRef> {
+    let storage = pass.storage.iter().map(|storage| storage.part);
+    let transferred = match &pass.work {
+        Work::Copy { to, .. } | Work::Fill { to, .. } => std::slice::from_ref(to),
+        Work::Custom { writes, .. } => writes,
+        Work::Blit { .. } | Work::Draw { .. } | Work::Dispatch { .. } => &[],
+    };
+    storage.chain(transferred.iter().copied()).filter_map(|part| match part {
+        Part::Buffer(part) => Some(part.buffer),
+        Part::Image(_) => None,
+    })
+}
+
+/// Stand-ins fill images of the pass's own, each once, from other images.
+pub(super) fn stand_ins_make_sense(reader: &mut Reader, conditional: bool, leaf: Leaf<'_>, pass: &Pass) {
+    if !conditional {
         let idle = Diagnostic::new(leaf.span(), "`otherwise` never comes to pass: there is no `when`");
         reader.report(idle.help("add `when`, or remove `otherwise`"));
     }
-    if forward.from.index == forward.to.index {
-        let same = Diagnostic::new(forward.to.span, "an image can't be forwarded to itself");
-        reader.report(same.label(forward.from.span, "the same image"));
-        return;
-    }
-    if !written(pass).any(|image| image.index == forward.to.index) {
-        let foreign = Diagnostic::new(forward.to.span, "`otherwise` fills an image that this pass doesn't write");
-        reader.report(foreign.help("`to` is one of the images that the pass draws into or writes"));
+    let mut first = HashMap::new();
+    for stand_in in &pass.otherwise {
+        let to = stand_in.target();
+        if let StandIn::Forward(forward) = stand_in
+            && forward.from.index == forward.to.index
+        {
+            let same = Diagnostic::new(to.span, "an image can't be forwarded to itself");
+            reader.report(same.label(forward.from.span, "the same image"));
+            continue;
+        }
+        if !written(pass).any(|image| image.index == to.index) {
+            let foreign = Diagnostic::new(to.span, "`otherwise` fills an image that this pass doesn't write");
+            reader.report(foreign.help("it is one of the images that the pass draws into or writes"));
+        } else if let Some(first) = first.insert(to.index, to.span) {
+            let twice = Diagnostic::new(to.span, "`otherwise` fills this image twice");
+            reader.report(twice.remark("again here").label(first, "first here"));
+        }
     }
 }

@@ -2,18 +2,15 @@
 
 use super::pass::Pass;
 use super::resources::{Buffer, Image, State};
-use crate::facts::Fact;
 use crate::frame::{BufferIndex, ImageIndex, Resource};
 use crate::source::Span;
 use std::sync::Arc;
 
-/// A pipeline file, read and checked on its own: names are unique, everything that is referred to exists and has the
-/// right kind, nothing follows itself. Made by [`crate::describe::read`].
+/// A pipeline with all that it was made for put in: flat lists, names unique, every reference found, every expression
+/// evaluated, nothing follows itself. Made by [`Document::lower`](super::Document::lower).
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Pipeline {
-    /// What a user may choose.
-    pub settings: Vec<Setting>,
     /// Images; an [`ImageIndex`] is an index into this list.
     pub images: Vec<Image>,
     /// Buffers; a [`BufferIndex`] is an index into this list.
@@ -22,6 +19,19 @@ pub struct Pipeline {
     pub passes: Vec<Pass>,
     /// Images and buffers that leave the frame.
     pub outputs: Vec<Output>,
+    /// Fragments that were put in, each before those within it.
+    pub instances: Vec<Instance>,
+}
+
+/// A fragment that was put in.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Instance {
+    /// The whole name, which what is in it has before its own: `glow`, `effects.glow[1]`.
+    pub name: Arc<str>,
+    /// Where its use is named.
+    pub span: Span,
+    /// The instance that it is in: an index into [`Pipeline::instances`].
+    pub within: Option<u32>,
 }
 
 /// An image or buffer that leaves the frame.
@@ -78,15 +88,6 @@ pub struct ResourceRef {
     pub span: Span,
 }
 
-/// A setting that is referred to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SettingRef {
-    /// Index into [`Pipeline::settings`].
-    pub index: usize,
-    /// Where it was named.
-    pub span: Span,
-}
-
 /// A value that a user may choose.
 #[derive(Debug, Clone)]
 pub struct Setting {
@@ -113,6 +114,13 @@ pub enum SettingKind {
         /// What is allowed; not empty.
         of: Vec<i64>,
     },
+    /// One of a few texts.
+    Choice {
+        /// Without a choice.
+        default: Arc<str>,
+        /// What is allowed; not empty.
+        of: Vec<Arc<str>>,
+    },
     /// A finite number.
     Number {
         /// Without a choice.
@@ -121,6 +129,8 @@ pub enum SettingKind {
         min: f64,
         /// Greatest allowed.
         max: f64,
+        /// The distance from one allowed value to the next, counted from `min`; `None`: all between are allowed.
+        step: Option<f64>,
     },
     /// A whole number.
     Integer {
@@ -130,41 +140,7 @@ pub enum SettingKind {
         min: i64,
         /// Greatest allowed.
         max: i64,
+        /// The distance from one allowed value to the next, counted from `min`; at least 1.
+        step: i64,
     },
-}
-
-/// A constant, or the value of a setting that has the same type.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Value<T> {
-    /// Written in place.
-    Constant(T),
-    /// A setting's.
-    Setting(SettingRef),
-}
-
-/// When a pass runs: if all terms of any of the groups hold (`a && !b || c`).
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Condition {
-    /// Groups joined by `||`; the terms of each are joined by `&&`.
-    pub any: Vec<Vec<Term>>,
-    /// Where it was written.
-    pub span: Span,
-}
-
-/// A yes-or-no question.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Term {
-    /// What is asked.
-    pub subject: Subject,
-    /// Whether `no` is the answer that lets the pass run.
-    pub negated: bool,
-}
-
-/// What a condition asks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Subject {
-    /// A setting that is `true` or `false`.
-    Setting(SettingRef),
-    /// A fact of the scene that is `true` or `false`.
-    Fact(Fact),
 }

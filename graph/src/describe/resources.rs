@@ -1,8 +1,9 @@
 //! What a pipeline file says of an image or a buffer: what it is like, and how long it lives.
 
-use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, SettingRef, Spanned, Value};
+use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, Spanned};
 use crate::format;
 use crate::vocabulary;
+use std::sync::Arc;
 
 /// An image.
 #[derive(Debug, Clone)]
@@ -13,8 +14,12 @@ pub struct Image {
     pub format: Spanned<Format>,
     /// Width and height.
     pub size: Spanned<Size>,
+    /// What decided the factor of its size, if anything did: "scale = 0.5".
+    pub size_because: Option<Arc<str>>,
     /// Samples a texel.
     pub samples: Spanned<Samples>,
+    /// What decided how many samples it has, if anything did: "msaa = 4".
+    pub samples_because: Option<Arc<str>>,
     /// Mip levels.
     pub mips: Spanned<Mips>,
     /// Array layers.
@@ -23,6 +28,8 @@ pub struct Image {
     pub shape: Spanned<Shape>,
     /// How long its contents live.
     pub lifetime: Spanned<Lifetime>,
+    /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).
+    pub instance: Option<u32>,
 }
 
 /// A texel format, by purpose or by name.
@@ -31,7 +38,7 @@ pub enum Format {
     /// Colour: `R16G16B16A16_SFLOAT` with high dynamic range, else `R8G8B8A8_SRGB`.
     Color {
         /// Whether values above 1 are kept.
-        hdr: Value<bool>,
+        hdr: bool,
     },
     /// Depth: `D32_SFLOAT`.
     Depth,
@@ -53,7 +60,7 @@ pub enum Size {
     /// The frame's or another image's, times a factor greater than 0; rounded down, at least 1.
     Scaled {
         /// The factor.
-        by: Value<f64>,
+        by: f64,
         /// Of which image; `None`: of the frame.
         of: Option<ImageRef>,
     },
@@ -66,8 +73,8 @@ pub enum Size {
 /// Samples a texel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Samples {
-    /// As many as written here (1, 2, 4, 8 or 16) or as a whole-number setting says.
-    Count(Value<u32>),
+    /// So many: 1, 2, 4, 8 or 16.
+    Count(u32),
     /// As another image has.
     Like(ImageRef),
 }
@@ -76,7 +83,7 @@ pub enum Samples {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Mips {
     /// So many.
-    Count(Value<u32>),
+    Count(u32),
     /// Down to a single texel.
     Full,
     /// As another image has.
@@ -89,7 +96,7 @@ pub enum Layers {
     /// One, or the six of a cube: the file says nothing.
     Default,
     /// So many; of a cube a multiple of 6.
-    Count(Value<u32>),
+    Count(u32),
     /// As another image has.
     Like(ImageRef),
 }
@@ -100,7 +107,7 @@ pub enum Shape {
     /// Two-dimensional, or an array of such layers.
     D2,
     /// Three-dimensional, so many texels deep.
-    D3(Value<u32>),
+    D3(u32),
     /// Six square layers that may be sampled as a cube, or several times six.
     Cube,
 }
@@ -112,17 +119,21 @@ pub struct Buffer {
     pub name: Name,
     /// Size in bytes.
     pub bytes: Spanned<Bytes>,
+    /// What decided its size, if anything did: "count = 100".
+    pub bytes_because: Option<Arc<str>>,
     /// How long its contents live.
     pub lifetime: Spanned<Lifetime>,
+    /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).
+    pub instance: Option<u32>,
 }
 
 /// Size of a buffer, in bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bytes {
     /// So many, a multiple of 4.
-    Count(Value<u64>),
-    /// So many for each of as many things as a setting says; rounded up to a multiple of 4.
-    Times(u64, SettingRef),
+    Count(u64),
+    /// So many for each of so many things; rounded up to a multiple of 4.
+    Times(u64, u64),
     /// So many for each texel of an image's first mip level, layers and depth included; rounded up to a multiple of 4.
     PerTexel(u64, ImageRef),
     /// As another buffer has.

@@ -1,10 +1,12 @@
 //! `settings`: what a user may choose.
 
-use super::leaf::Leaf;
+use super::leaf::{Leaf, Shape};
 use super::pipeline::{Setting, SettingKind};
 use super::reader::Reader;
+use crate::expression::{Type, Value};
 use crate::fields;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 fields! {
     pub(super) struct SettingFields<'src> as "Setting" {
@@ -32,6 +34,7 @@ fields! {
         default: Leaf<'src>,
         min: Leaf<'src>,
         max: Leaf<'src>,
+        step: Option<Leaf<'src>>,
     }
 }
 
@@ -45,6 +48,7 @@ impl SettingKind {
         match self {
             SettingKind::Bool { .. } => "`true` or `false`",
             SettingKind::OneOf { .. } => "one of several whole numbers",
+            SettingKind::Choice { .. } => "one of several texts",
             SettingKind::Number { .. } => "a number",
             SettingKind::Integer { .. } => "a whole number",
         }
@@ -59,10 +63,67 @@ impl SettingKind {
                 let all: Vec<String> = of.iter().map(i64::to_string).collect();
                 format!("one of {}", all.join(", "))
             }
-            SettingKind::Number { min, max, .. } => format!("a number from {} to {}", shown(*min), shown(*max)),
-            SettingKind::Integer { min, max, .. } => format!("a whole number from {min} to {max}"),
+            SettingKind::Choice { of, .. } => {
+                let all: Vec<String> = of.iter().map(|text| format!("`{text}`")).collect();
+                format!("one of {}", all.join(", "))
+            }
+            SettingKind::Number { min, max, step, .. } => {
+                let steps = step.map(|step| format!(" in steps of {}", shown(step))).unwrap_or_default();
+                format!("a number from {} to {}{steps}", shown(*min), shown(*max))
+            }
+            SettingKind::Integer { min, max, step, .. } => {
+                let steps = if *step == 1 { String::new() } else { format!(" in steps of {step}") };
+                format!("a whole number from {min} to {max}{steps}")
+            }
         }
     }
+
+    /// The value without a choice.
+    #[must_use]
+    pub fn default(&self) -> Value {
+        match self {
+            SettingKind::Bool { default } => Value::Bool(*default),
+            SettingKind::OneOf { default, .. } | SettingKind::Integer { default, .. } => Value::Integer(*default),
+            SettingKind::Choice { default, .. } => Value::Text(default.clone()),
+            SettingKind::Number { default, .. } => Value::Number(*default),
+        }
+    }
+
+    /// The type of its values.
+    #[must_use]
+    pub const fn ty(&self) -> Type {
+        match self {
+            SettingKind::Bool { .. } => Type::Bool,
+            SettingKind::OneOf { .. } | SettingKind::Integer { .. } => Type::Integer,
+            SettingKind::Choice { .. } => Type::Text,
+            SettingKind::Number { .. } => Type::Number,
+        }
+    }
+
+    /// Whether it allows a value. Of numbers with a step those that are off by rounding alone are allowed.
+    #[must_use]
+    pub fn allows(&self, value: &Value) -> bool {
+        match (self, value) {
+            (SettingKind::Bool { .. }, Value::Bool(_)) => true,
+            (SettingKind::OneOf { of, .. }, Value::Integer(value)) => of.contains(value),
+            (SettingKind::Choice { of, .. }, Value::Text(value)) => of.contains(value),
+            (SettingKind::Number { min, max, step, .. }, Value::Number(value)) => {
+                (min..=max).contains(&value) && step.is_none_or(|step| on_step(value - min, step))
+            }
+            (SettingKind::Integer { min, max, step, .. }, Value::Integer(value)) => {
+                // Beyond 64 bits only if `min` is far below 0: then the distance is found in more.
+                let from_min = i128::from(*value) - i128::from(*min);
+                (min..=max).contains(&value) && from_min % i128::from(*step) == 0
+            }
+            _ => false,
+        }
+    }
+}
+
+/// Whether `distance` is a whole number of steps, up to rounding.
+fn on_step(distance: f64, step: f64) -> bool {
+    let steps = distance / step;
+    (steps - steps.round()).abs() <= 1e-9 * steps.abs().max(1.0)
 }
 
 /// A number, as it is shown: whole ones without a fraction, very large and small ones with an exponent.
@@ -97,44 +158,94 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<SettingKind> {
             let fields: RangeFields<'_> = reader.inside(leaf, rest, "Number(default: …, min: …, max: …)")?;
             let (default, min, max) =
                 (reader.number(fields.default), reader.number(fields.min), reader.number(fields.max));
+            let step = step(reader, fields.step, |reader, leaf| reader.number(leaf), 0.0);
             let (default, min, max) = (default?, min?, max?);
             in_range(reader, &fields, default, min, max)?;
-            Some(SettingKind::Number { default, min, max })
+            let kind = SettingKind::Number { default, min, max, step: step? };
+            default_on_step(reader, fields.default, &kind)?;
+            Some(kind)
         }
         _ => {
             let fields: RangeFields<'_> = reader.inside(leaf, rest, "Integer(default: …, min: …, max: …)")?;
             let (default, min, max) =
                 (reader.integer(fields.default), reader.integer(fields.min), reader.integer(fields.max));
+            let step = step(reader, fields.step, |reader, leaf| reader.integer(leaf), 0);
             let (default, min, max) = (default?, min?, max?);
             in_range(reader, &fields, default, min, max)?;
-            Some(SettingKind::Integer { default, min, max })
+            let kind = SettingKind::Integer { default, min, max, step: step?.unwrap_or(1) };
+            default_on_step(reader, fields.default, &kind)?;
+            Some(kind)
         }
     }
 }
 
-fn one_of<'src>(reader: &mut Reader, fields: &OneOfFields<'src>) -> Option<SettingKind> {
-    let default = reader.integer(fields.default);
-    let entries = reader.list(fields.of, "`of`")?;
-    if entries.is_empty() {
-        reader.wrong(fields.of, "the list `of` is empty, so no value is allowed", "");
+/// A step, greater than `zero`.
+pub(super) fn step<'src, T: PartialOrd + std::fmt::Display>(
+    reader: &mut Reader,
+    leaf: Option<Leaf<'src>>,
+    read: impl FnOnce(&mut Reader, Leaf<'src>) -> Option<T>,
+    zero: T,
+) -> Option<Option<T>> {
+    let Some(leaf) = leaf else { return Some(None) };
+    let step = read(reader, leaf)?;
+    if step <= zero {
+        reader.wrong(leaf, format!("a step is greater than 0, found {step}"), "");
         return None;
     }
+    Some(Some(step))
+}
+
+/// Reports a default that lies between two steps.
+pub(super) fn default_on_step(reader: &mut Reader, leaf: Leaf<'_>, kind: &SettingKind) -> Option<()> {
+    let default = kind.default();
+    if kind.allows(&default) {
+        return Some(());
+    }
+    reader.wrong(leaf, format!("the default `{default}` lies between two steps"), &format!("it is {}", kind.allowed()));
+    None
+}
+
+fn one_of<'src>(reader: &mut Reader, fields: &OneOfFields<'src>) -> Option<SettingKind> {
+    let entries = reader.list(fields.of, "`of`")?;
+    let Some(first) = entries.first() else {
+        reader.wrong(fields.of, "the list `of` is empty, so no value is allowed", "");
+        return None;
+    };
+    if let Shape::Text = first.shape() {
+        let text = |reader: &mut Reader, leaf: Leaf<'src>| reader.words(leaf, "a text").map(Arc::<str>::from);
+        let (default, of) = listed(reader, fields.default, &entries, text)?;
+        return Some(SettingKind::Choice { default, of });
+    }
+    let (default, of) = listed(reader, fields.default, &entries, |reader, leaf| reader.integer(leaf))?;
+    Some(SettingKind::OneOf { default, of })
+}
+
+/// The default and all values of a list, each once, the default among them.
+pub(super) fn listed<'src, T: Ord + Clone + std::fmt::Display>(
+    reader: &mut Reader,
+    default: Leaf<'src>,
+    entries: &[Leaf<'src>],
+    read: impl Fn(&mut Reader, Leaf<'src>) -> Option<T>,
+) -> Option<(T, Vec<T>)> {
+    let chosen = read(reader, default);
     let mut of = Vec::with_capacity(entries.len());
     let mut seen = BTreeSet::new();
     let mut complete = true;
     for entry in entries {
-        match reader.integer(entry) {
-            Some(value) if !seen.insert(value) => reader.wrong(entry, format!("`{value}` is listed twice"), ""),
+        match read(reader, *entry) {
+            Some(value) if !seen.insert(value.clone()) => {
+                reader.wrong(*entry, format!("`{value}` is listed twice"), "");
+            }
             Some(value) => of.push(value),
             None => complete = false,
         }
     }
-    let default = default?;
-    if complete && !seen.contains(&default) {
-        reader.wrong(fields.default, format!("the default `{default}` is not in the list `of`"), "");
+    let chosen = chosen?;
+    if complete && !seen.contains(&chosen) {
+        reader.wrong(default, format!("the default `{chosen}` is not in the list `of`"), "");
         return None;
     }
-    complete.then_some(SettingKind::OneOf { default, of })
+    complete.then_some((chosen, of))
 }
 
 fn in_range<'src, T: PartialOrd + std::fmt::Display>(

@@ -1,11 +1,11 @@
 //! `color` and `depth`: what a pass draws into, and how.
 
-use super::Spanned;
+use super::{Diagnostic, Spanned};
 use super::leaf::{Leaf, Shape};
-use super::names::Scope;
 use super::parts::{self, Selected};
 use super::pass::{Color, Depth};
 use super::reader::Reader;
+use super::scope::Scope;
 use super::values::{self, choice};
 use crate::fields;
 use crate::frame::{Blend, StencilState};
@@ -88,7 +88,7 @@ fn color_target<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) 
             let part =
                 parts::image_part(reader, scope, fields.image, Selected { mip, layer, layers, ..Selected::default() });
             let clear = match fields.clear {
-                Some(clear) => clear_color(reader, clear).map(Some),
+                Some(clear) => clear_color(reader, scope, clear).map(Some),
                 None => Some(None),
             };
             let blend = match fields.blend {
@@ -119,7 +119,7 @@ pub(super) fn depth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'sr
             let part =
                 parts::image_part(reader, scope, fields.image, Selected { mip, layer, layers, ..Selected::default() });
             let clear = match fields.clear {
-                Some(clear) => clear_depth(reader, clear).map(Some),
+                Some(clear) => clear_depth(reader, scope, clear).map(Some),
                 None => Some(None),
             };
             let test = match fields.test {
@@ -127,11 +127,11 @@ pub(super) fn depth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'sr
                 None => Some(test),
             };
             let write = match fields.write {
-                Some(write) => reader.truth(write),
+                Some(write) => values::truth(reader, scope, write),
                 None => Some(write),
             };
             let stencil = match fields.stencil {
-                Some(leaf) => stencil(reader, leaf).map(Some),
+                Some(leaf) => stencil(reader, scope, leaf).map(Some),
                 None => Some(None),
             };
             Some(Depth { part: part?, clear: clear?, test: test?, write: write?, stencil: stencil? })
@@ -144,13 +144,13 @@ pub(super) fn depth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'sr
 }
 
 /// What happens to the stencil plane.
-fn stencil<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<Spanned<StencilState>> {
+fn stencil<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Spanned<StencilState>> {
     let Shape::Parentheses = leaf.shape() else {
         reader.expected(leaf, "a stencil state: `(clear: 0, test: Equal, reference: 1, pass: Replace)`");
         return None;
     };
     let fields: StencilFields<'_> = reader.read(leaf, "a stencil state")?;
-    let byte = |reader: &mut Reader, leaf| values::constant::<u8>(reader, leaf, "stencil value", 0..=255);
+    let byte = |reader: &mut Reader, leaf| values::whole::<u8>(reader, scope, leaf, "stencil value", 0..=255);
     let clear = match fields.clear {
         Some(clear) => byte(reader, clear).map(Some),
         None => Some(None),
@@ -171,36 +171,36 @@ fn stencil<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<Spanned<Stenci
     Some(leaf.spanned(state))
 }
 
-fn clear_color<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<[f32; 4]> {
+fn clear_color<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<[f32; 4]> {
     if !matches!(leaf.shape(), Shape::Parentheses) {
         reader.expected(leaf, "a colour `(red, green, blue, alpha)`");
         return None;
     }
     let parts: [Leaf<'_>; 4] = reader.read(leaf, "a colour `(red, green, blue, alpha)`")?;
-    let parts = parts.map(|part| component(reader, part));
+    let parts = parts.map(|part| component(reader, scope, part));
     Some([parts[0]?, parts[1]?, parts[2]?, parts[3]?])
 }
 
-fn component<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<f32> {
-    let number = reader.number(leaf)?;
+fn component<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<f32> {
+    let (number, because) = values::number_because(reader, scope, leaf)?;
     #[allow(clippy::cast_possible_truncation, reason = "a colour is stored in single precision")]
     let component = number as f32;
     if component.is_finite() {
         return Some(component);
     }
-    reader.wrong(
-        leaf,
-        format!("{} is too large for a colour", super::shown_number(number)),
-        "32-bit floating point reaches about 3.4e38",
-    );
+    let wrong = format!("{} is too large for a colour", super::shown_number(number));
+    let wrong = Diagnostic::new(leaf.span(), wrong).remark(because.as_deref().unwrap_or_default());
+    scope.fault(reader, leaf, wrong.help("32-bit floating point reaches about 3.4e38"));
     None
 }
 
-fn clear_depth<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<f32> {
-    let depth = reader.number(leaf)?;
+fn clear_depth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<f32> {
+    let (depth, because) = values::number_because(reader, scope, leaf)?;
     if !(0.0..=1.0).contains(&depth) {
         let help = "depth is reversed: 0 is infinitely far, 1 is nearest";
-        reader.wrong(leaf, format!("depth lies from 0 to 1, found {}", super::shown_number(depth)), help);
+        let wrong = format!("depth lies from 0 to 1, found {}", super::shown_number(depth));
+        let wrong = Diagnostic::new(leaf.span(), wrong).remark(because.as_deref().unwrap_or_default());
+        scope.fault(reader, leaf, wrong.help(help));
         return None;
     }
     #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]

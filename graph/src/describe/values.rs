@@ -1,44 +1,77 @@
-//! Values that several fields take: whole numbers, words, and what images and buffers are filled with.
+//! Values that several fields take: numbers, truths, words, and what images and buffers are filled with. Each stands
+//! there by itself or as an expression in quotes.
 
-use super::leaf::{Leaf, Shape};
-use super::names::Scope;
-use super::pipeline::{SettingKind, Value};
+use super::Diagnostic;
+use super::leaf::{Leaf, Number, Shape};
+use super::parameters::ParameterKind;
+use super::pipeline::SettingKind;
 use super::reader::Reader;
 use super::resources::Fill;
+use super::scope::{Quoted, Scope, joined};
+use crate::expression::{Outcome, Value, Wanted};
+use crate::format::Format;
+use crate::frame::ParamValue;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
-/// A whole number of `range`, or a setting all of whose values lie there. `what` names it: "number of mip levels".
+/// A value and what decided it.
+pub(super) type Decided<T> = (T, Option<Arc<str>>);
+
+/// A whole number of `range`. Of a plain setting all values must lie there. `what` names it: "number of mip levels".
 pub(super) fn whole<'src, T: TryFrom<i64>>(
     reader: &mut Reader,
     scope: &Scope<'_>,
     leaf: Leaf<'src>,
     what: &str,
     range: RangeInclusive<i64>,
-) -> Option<Value<T>> {
-    let Shape::Text = leaf.shape() else {
-        if !matches!(leaf.shape(), Shape::Number) {
-            reader.expected(leaf, "a whole number or the name of a setting in quotes");
-            return None;
-        }
-        return constant(reader, leaf, what, range).map(Value::Constant);
-    };
-    let fits = |kind: &SettingKind| matches!(kind, SettingKind::OneOf { .. } | SettingKind::Integer { .. });
-    let setting = scope.setting(reader, leaf, fits, "a whole number")?;
-    let odd = match &scope.kinds.get(setting.index)?.as_ref()?.kind {
-        SettingKind::OneOf { of, .. } => of.iter().find(|value| !range.contains(value)).copied(),
-        SettingKind::Integer { min, max, .. } => [*min, *max].into_iter().find(|value| !range.contains(value)),
-        SettingKind::Bool { .. } | SettingKind::Number { .. } => None,
-    };
-    if let Some(odd) = odd {
-        let message = format!("this setting allows {odd}, which is no {what}");
-        reader.wrong(leaf, message, &format!("{} to {} are allowed", range.start(), range.end()));
-        return None;
-    }
-    Some(Value::Setting(setting))
+) -> Option<T> {
+    whole_because(reader, scope, leaf, what, range).map(|(value, _)| value)
 }
 
-/// A whole number of `range`.
-pub(super) fn constant<'src, T: TryFrom<i64>>(
+/// The same with what decided it.
+pub(super) fn whole_because<'src, T: TryFrom<i64>>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    what: &str,
+    range: RangeInclusive<i64>,
+) -> Option<Decided<T>> {
+    let Shape::Text = leaf.shape() else {
+        if !matches!(leaf.shape(), Shape::Number) {
+            reader.expected(leaf, "a whole number, or an expression in quotes");
+            return None;
+        }
+        return constant(reader, leaf, what, range).map(|number| (number, None));
+    };
+    let (value, because) = match scope.quoted(reader, leaf, SettingKind::is_whole, "a whole number")? {
+        Quoted::Given(parameter, given) => {
+            if let ParameterKind::Value(kind) = &parameter.kind
+                && let Some(odd) = kind.whole_beyond(&range)
+                && scope.known.settings
+            {
+                let message = format!("this setting allows {odd}, which is no {what}");
+                reader.wrong(leaf, message, &format!("{} to {} are allowed", range.start(), range.end()));
+                return None;
+            }
+            (given.value.clone(), scope.because(parameter, given))
+        }
+        Quoted::Expression => {
+            let Outcome { value, decided, .. } = scope.evaluate(reader, leaf, Wanted::INTEGER)?;
+            (value, joined(&decided))
+        }
+    };
+    let Value::Integer(number) = value else { return None };
+    let fitting = T::try_from(number).ok().filter(|_| range.contains(&number));
+    if fitting.is_none() {
+        let (least, most) = (range.start(), range.end());
+        let wrong = Diagnostic::new(leaf.span(), format!("{number} is no {what}: {least} to {most} are allowed"));
+        scope.fault(reader, leaf, wrong.remark(because.as_deref().unwrap_or_default()));
+    }
+    fitting.map(|number| (number, because))
+}
+
+/// A whole number of `range` that stands there by itself.
+fn constant<'src, T: TryFrom<i64>>(
     reader: &mut Reader,
     leaf: Leaf<'src>,
     what: &str,
@@ -51,6 +84,116 @@ pub(super) fn constant<'src, T: TryFrom<i64>>(
         reader.wrong(leaf, format!("{number} is no {what}: {least} to {most} are allowed"), "");
     }
     fitting
+}
+
+/// A number.
+pub(super) fn number<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<f64> {
+    number_because(reader, scope, leaf).map(|(number, _)| number)
+}
+
+/// A number, and what decided it.
+pub(super) fn number_because<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<f64>> {
+    let Shape::Text = leaf.shape() else { return reader.number(leaf).map(|number| (number, None)) };
+    let (value, because) = match scope.quoted(reader, leaf, SettingKind::is_number, "a number")? {
+        Quoted::Given(parameter, given) => (given.value.clone(), scope.because(parameter, given)),
+        Quoted::Expression => {
+            let Outcome { value, decided, .. } = scope.evaluate(reader, leaf, Wanted::NUMBER)?;
+            (value, joined(&decided))
+        }
+    };
+    match value {
+        Value::Number(number) => Some((number, because)),
+        #[allow(clippy::cast_precision_loss, reason = "the nearest number is meant")]
+        Value::Integer(number) => Some((number as f64, because)),
+        _ => None,
+    }
+}
+
+/// `true` or `false`.
+pub(super) fn truth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<bool> {
+    let Shape::Text = leaf.shape() else { return reader.truth(leaf) };
+    let fits = |kind: &SettingKind| matches!(kind, SettingKind::Bool { .. });
+    let value = match scope.quoted(reader, leaf, fits, "`true` or `false`")? {
+        Quoted::Given(_, given) => given.value.clone(),
+        Quoted::Expression => scope.evaluate(reader, leaf, Wanted::BOOL)?.value,
+    };
+    if let Value::Bool(value) = value { Some(value) } else { None }
+}
+
+/// A format that an expression says.
+pub(super) fn format<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Format> {
+    match scope.evaluate(reader, leaf, Wanted::FORMAT)?.value {
+        Value::Format(format) => Some(format),
+        _ => None,
+    }
+}
+
+/// A value for a shader's parameter, and what stands for it in the file.
+pub(super) fn param<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<ParamValue>> {
+    let (value, written) = match leaf.shape() {
+        Shape::Text => {
+            let fits = |kind: &SettingKind| !matches!(kind, SettingKind::Choice { .. });
+            match scope.quoted(reader, leaf, fits, Wanted::PARAMETER.words)? {
+                Quoted::Given(parameter, given) => {
+                    (given.value.clone(), format!("{} `{}`", scope.known.given_word(), parameter.name.text))
+                }
+                Quoted::Expression => {
+                    let Outcome { value, decided, .. } = scope.evaluate(reader, leaf, Wanted::PARAMETER)?;
+                    (value, joined(&decided).map_or_else(|| leaf.text().to_owned(), |because| because.to_string()))
+                }
+            }
+        }
+        Shape::Word("true" | "false", None) => return Some((ParamValue::Bool(reader.truth(leaf)?), None)),
+        Shape::Number | Shape::Word("NaN" | "inf", None) => {
+            return Some(match leaf.number() {
+                Some(Number::Whole(number)) => (ParamValue::Integer(number), None),
+                _ => (ParamValue::Number(reader.number(leaf)?), None),
+            });
+        }
+        _ => {
+            reader.expected(leaf, "a number, `true`, `false`, or an expression in quotes");
+            return None;
+        }
+    };
+    let value = match value {
+        Value::Bool(value) => ParamValue::Bool(value),
+        Value::Integer(value) => ParamValue::Integer(value),
+        Value::Number(value) => ParamValue::Number(value),
+        _ => return None,
+    };
+    Some((value, Some(written.into())))
+}
+
+impl SettingKind {
+    /// Whether its values are whole numbers.
+    pub(super) fn is_whole(&self) -> bool {
+        matches!(self, SettingKind::OneOf { .. } | SettingKind::Integer { .. })
+    }
+
+    /// Whether its values are numbers.
+    pub(super) fn is_number(&self) -> bool {
+        matches!(self, SettingKind::OneOf { .. } | SettingKind::Integer { .. } | SettingKind::Number { .. })
+    }
+
+    /// A whole number that it allows and that lies outside of `range`.
+    pub(super) fn whole_beyond(&self, range: &RangeInclusive<i64>) -> Option<i64> {
+        match self {
+            SettingKind::OneOf { of, .. } => of.iter().find(|value| !range.contains(value)).copied(),
+            SettingKind::Integer { min, max, .. } => [*min, *max].into_iter().find(|value| !range.contains(value)),
+            SettingKind::Bool { .. } | SettingKind::Choice { .. } | SettingKind::Number { .. } => None,
+        }
+    }
+
+    /// The least number that it allows, if its values are numbers.
+    pub(super) fn least(&self) -> Option<f64> {
+        #[allow(clippy::cast_precision_loss, reason = "only whether it is greater than 0 matters")]
+        match self {
+            SettingKind::Number { min, .. } => Some(*min),
+            SettingKind::Integer { min, .. } => Some(*min as f64),
+            SettingKind::OneOf { of, .. } => of.iter().min().map(|least| *least as f64),
+            SettingKind::Bool { .. } | SettingKind::Choice { .. } => None,
+        }
+    }
 }
 
 /// One of a few words.
@@ -74,18 +217,18 @@ pub(super) fn choice<'src, T: Copy>(
 const FILLS: &str = "a value is a number, `(depth, stencil)` or `(red, green, blue, alpha)`";
 
 /// What an image or buffer is filled with.
-pub(super) fn fill<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<Fill> {
+pub(super) fn fill<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Fill> {
     if !matches!(leaf.shape(), Shape::Parentheses) {
-        return reader.number(leaf).map(Fill::Number);
+        return number(reader, scope, leaf).map(Fill::Number);
     }
     if let Some([depth, stencil]) = leaf.tuple() {
-        let (depth, stencil) = (reader.number(depth), reader.number(stencil));
+        let (depth, stencil) = (number(reader, scope, depth), number(reader, scope, stencil));
         return Some(Fill::DepthStencil(depth?, stencil?));
     }
     let Some(parts) = leaf.tuple::<4>() else {
         reader.wrong(leaf, "this is no value for all texels", FILLS);
         return None;
     };
-    let parts = parts.map(|part| reader.number(part));
+    let parts = parts.map(|part| number(reader, scope, part));
     Some(Fill::Color([parts[0]?, parts[1]?, parts[2]?, parts[3]?]))
 }

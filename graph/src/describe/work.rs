@@ -2,12 +2,12 @@
 
 use super::bindings::FILTERS;
 use super::leaf::{Leaf, Shape};
-use super::names::Scope;
 use super::parts;
 use super::pass::{Draw, Groups, Part, Work};
 use super::passes::PassFields;
-use super::pipeline::{Name, Value};
+use super::pipeline::Name;
 use super::reader::Reader;
+use super::scope::Scope;
 use super::values;
 use crate::fields;
 use crate::frame::DrawList;
@@ -99,7 +99,7 @@ pub(super) fn lower<'src>(
         "fill" => {
             let fields: FillFields<'_> = reader.read(leaf, "a fill")?;
             let to = parts::any(reader, scope, fields.to);
-            let value = values::fill(reader, fields.value).map(|value| fields.value.spanned(value));
+            let value = values::fill(reader, scope, fields.value).map(|value| fields.value.spanned(value));
             Some(Work::Fill { to: to?, value: value? })
         }
         _ => {
@@ -182,7 +182,7 @@ fn draw_work<'src>(
         }
         "Objects" => (Draw::Objects(list(reader, leaf, rest)?), "draws objects"),
         "Vertices" => {
-            let one = || Some(Value::Constant(1));
+            let one = || Some(1);
             let number = |reader: &mut Reader, leaf, what: &str| {
                 values::whole(reader, scope, leaf, what, 1..=i64::from(u32::MAX))
             };
@@ -266,7 +266,7 @@ fn groups<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opt
             };
             let buffer = parts::buffer(reader, scope, buffer);
             let offset = match offset {
-                Some(leaf) => values::constant(reader, leaf, "offset in bytes", 0..=super::buffers::LARGEST_BUFFER),
+                Some(leaf) => values::whole(reader, scope, leaf, "offset in bytes", 0..=super::buffers::LARGEST_BUFFER),
                 None => Some(0),
             };
             Some(Groups::Indirect { buffer: buffer?, offset: offset? })
@@ -282,7 +282,7 @@ fn three<'src>(
     rest: Option<Leaf<'src>>,
     what: &str,
     most: i64,
-) -> Option<[Value<u32>; 3]> {
+) -> Option<[u32; 3]> {
     let probed = rest.and_then(|rest| {
         let one = rest.tuple().map(|[x]| (x, None, None));
         one.or_else(|| rest.tuple().map(|[x, y]| (x, Some(y), None)))
@@ -296,7 +296,7 @@ fn three<'src>(
     };
     let number = [Some(x), y, z].map(|leaf| match leaf {
         Some(leaf) => values::whole(reader, scope, leaf, what, 1..=most),
-        None => Some(Value::Constant(1)),
+        None => Some(1),
     });
     Some([number[0]?, number[1]?, number[2]?])
 }

@@ -1,24 +1,17 @@
 //! Formats, sizes and sample counts of images, each its own or that of an image that it follows.
 
-use super::Chosen;
-use super::settings::{SettingValue, show};
-use super::shapes;
-use crate::describe::{
-    self, Diagnostic, Format as Described, ImageRef, LARGEST_SIZE, Layers, Mips, SAMPLE_COUNTS, Samples, Size, Value,
-    shown_number,
-};
+use super::{Chosen, shapes};
+use crate::describe::{self, Diagnostic, Format as Described, ImageRef, Layers, Mips, Samples, Size};
 use crate::format::Format;
-use crate::frame::{Image, ParamValue};
+use crate::frame::Image;
+use std::sync::Arc;
 
 /// An image of the frame, and where its samples come from.
 pub(super) struct Resolved {
     pub(super) image: Image,
     /// "msaa = 4" if a setting decides how many samples it has.
-    pub(super) samples_because: Option<String>,
+    pub(super) samples_because: Option<Arc<str>>,
 }
-
-/// A size is rounded down, but a product that is whole in exact arithmetic stays whole: 0.29 of 100 is 29.
-const ROUNDING: f64 = 1e-6;
 
 /// Every image of the pipeline; `None` where a mistake was reported.
 pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Diagnostic>) -> Vec<Option<Resolved>> {
@@ -29,7 +22,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Di
             Described::Like(of) => Some(of),
             _ => None,
         },
-        |image, followed| format(chosen, image, followed),
+        format,
     );
     let extents = follow(
         images,
@@ -37,7 +30,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Di
             Size::Like(of) | Size::Scaled { of: Some(of), .. } => Some(of),
             _ => None,
         },
-        |image, followed| extent(chosen, image, output, followed, errors),
+        |image, followed| extent(image, output, followed, errors),
     );
     let samples = follow(
         images,
@@ -45,7 +38,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Di
             Samples::Like(of) => Some(of),
             Samples::Count(_) => None,
         },
-        |image, followed| samples(chosen, image, followed, errors),
+        samples,
     );
     let layers = follow(
         images,
@@ -53,7 +46,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Di
             Layers::Like(of) => Some(of),
             _ => None,
         },
-        |image, followed| shapes::layers(chosen, image, followed),
+        shapes::layers,
     );
     let mips = follow(
         images,
@@ -62,7 +55,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Di
             _ => None,
         },
         |image, followed| match image.mips.value {
-            Mips::Count(count) => chosen.whole(count).map(shapes::Levels::Count),
+            Mips::Count(count) => Some(shapes::Levels::Count(count)),
             Mips::Full => Some(shapes::Levels::Full),
             Mips::Like(_) => followed,
         },
@@ -72,7 +65,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Di
         let ([width, height], (samples, samples_because)) = (extent?, samples?);
         let image =
             Image { span: described.name.span, samples, ..Image::new(&described.name.text, format?, width, height) };
-        let image = shapes::shaped(chosen, described, image, layers?, mips?, errors)?;
+        let image = shapes::shaped(described, image, layers?, mips?, errors)?;
         Some(Resolved { image, samples_because })
     })
     .collect()
@@ -106,25 +99,18 @@ fn follow<T: Clone>(
     known.into_iter().map(Option::flatten).collect()
 }
 
-fn format(chosen: &Chosen<'_>, image: &describe::Image, followed: Option<Format>) -> Option<Format> {
+fn format(image: &describe::Image, followed: Option<Format>) -> Option<Format> {
     match image.format.value {
-        Described::Color { hdr } => {
-            let hdr = match hdr {
-                Value::Constant(hdr) => hdr,
-                Value::Setting(reference) => matches!(chosen.setting(reference).1, ParamValue::Bool(true)),
-            };
-            Some(if hdr { Format::R16G16B16A16_SFLOAT } else { Format::R8G8B8A8_SRGB })
-        }
+        Described::Color { hdr: true } => Some(Format::R16G16B16A16_SFLOAT),
+        Described::Color { hdr: false } | Described::Output => Some(Format::R8G8B8A8_SRGB),
         Described::Depth => Some(Format::D32_SFLOAT),
         Described::DepthStencil => Some(Format::D32_SFLOAT_S8_UINT),
-        Described::Output => Some(Format::R8G8B8A8_SRGB),
         Described::Named(format) => Some(format),
         Described::Like(_) => followed,
     }
 }
 
 fn extent(
-    chosen: &Chosen<'_>,
     image: &describe::Image,
     output: [u32; 2],
     followed: Option<[u32; 2]>,
@@ -136,57 +122,17 @@ fn extent(
         Size::Like(_) => return followed,
         Size::Scaled { by, of } => (by, of),
     };
-    let (factor, because) = match by {
-        Value::Constant(factor) => (factor, shown_number(factor)),
-        Value::Setting(reference) => {
-            let (setting, value) = chosen.setting(reference);
-            (number(value)?, format!("{} = {}", setting.name.text, show(value)))
-        }
-    };
     let base = if of.is_some() { followed? } else { output };
-    let scaled = base.map(|extent| (f64::from(extent) * factor + ROUNDING).floor().max(1.0));
-    if scaled.iter().any(|extent| *extent > f64::from(LARGEST_SIZE)) {
-        let name = &image.name.text;
-        let [width, height] = scaled.map(shown_number);
-        let message = format!("image `{name}` would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
-        let remark = format!("{because} times {}×{}", base[0], base[1]);
-        errors.push(Diagnostic::new(image.size.span, message).remark(remark));
-        return None;
-    }
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 16384, as checked above")]
-    Some(scaled.map(|extent| extent as u32))
-}
-
-#[allow(clippy::cast_precision_loss, reason = "a scale needs no more than 53 bits")]
-fn number(value: SettingValue) -> Option<f64> {
-    match value {
-        ParamValue::Number(number) => Some(number),
-        ParamValue::Integer(number) => Some(number as f64),
-        ParamValue::Bool(_) => None,
-    }
+    describe::scaled(image, base, by).map_err(|wrong| errors.push(wrong)).ok()
 }
 
 fn samples(
-    chosen: &Chosen<'_>,
     image: &describe::Image,
-    followed: Option<(u32, Option<String>)>,
-    errors: &mut Vec<Diagnostic>,
-) -> Option<(u32, Option<String>)> {
+    followed: Option<(u32, Option<Arc<str>>)>,
+) -> Option<(u32, Option<Arc<str>>)> {
     match image.samples.value {
         Samples::Like(_) => followed,
-        Samples::Count(Value::Constant(count)) => Some((count, None)),
-        Samples::Count(Value::Setting(reference)) => {
-            let (setting, value) = chosen.setting(reference);
-            let because = format!("{} = {}", setting.name.text, show(value));
-            let ParamValue::Integer(count) = value else { return None };
-            if !SAMPLE_COUNTS.contains(&count) {
-                let message = format!("image `{}` can't have {count} samples ({because})", image.name.text);
-                let allowed = SAMPLE_COUNTS.map(|count| count.to_string()).join(", ");
-                errors.push(Diagnostic::new(image.samples.span, message).help(format!("sample counts are {allowed}")));
-                return None;
-            }
-            u32::try_from(count).ok().map(|count| (count, Some(because)))
-        }
+        Samples::Count(count) => Some((count, image.samples_because.clone())),
     }
 }
 

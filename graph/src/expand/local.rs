@@ -1,6 +1,5 @@
 //! What passes read at their fragments' own position: devices with local reads let shaders read it as input attachments.
 
-use super::Chosen;
 use super::shader::Checked;
 use super::things::Things;
 use crate::describe::{self, Diagnostic};
@@ -10,7 +9,6 @@ use crate::interface::{BindingKind, PASS_SET, ShaderInterface};
 /// Reports what a pass reads at its own position and its shader can't, where it is compiled for local reads. `interface`: the
 /// shader as it is compiled without; what is wrong with that was reported.
 pub(super) fn check(
-    chosen: &Chosen<'_>,
     things: &Things,
     pass: &describe::Pass,
     lowered: &Pass,
@@ -34,7 +32,7 @@ pub(super) fn check(
         return;
     }
     let names: Vec<&str> = own.iter().map(|sample| &*sample.binding.text).collect();
-    let Some(local) = shaders.local_interface(chosen, pass, &names, errors) else { return };
+    let Some(local) = shaders.local_interface(pass, &names, errors) else { return };
     let shader = pass.shader().map_or("", |shader| &*shader.text);
     for sample in own {
         let name = &sample.binding.text;

@@ -1,11 +1,10 @@
-//! Settings, conditions, facts and sizes are put in: a pipeline becomes one flat frame.
+//! Settings, facts, the view and the device are put in: a pipeline becomes one flat frame.
 //!
 //! ```text
-//! Pipeline ─► settings ─► images and buffers ─► conditions ─► passes (parts, shaders) ─► order ─► Frame
+//! Document ─► settings ─► describe::lower ─► images and buffers ─► passes (parts, shaders) ─► order ─► Frame
 //! ```
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
-mod conditions;
 mod fills;
 mod images;
 mod local;
@@ -30,8 +29,9 @@ mod written;
 
 pub use crate::facts::Facts;
 
-use crate::describe::{self, Diagnostic, LARGEST_SIZE, Pipeline, suggestion};
-use crate::frame::{Frame, ImageIndex, Output, ParamValue, Resource, SwitchedOff};
+use crate::describe::{self, Diagnostic, Document, LARGEST_SIZE, Pipeline, Surroundings, suggestion};
+use crate::device::Profile;
+use crate::frame::{Frame, ImageIndex, Output, Resource, SwitchedOff};
 use crate::interface::ShaderInterfaces;
 use crate::source::{Sources, Span};
 use std::sync::Arc;
@@ -48,27 +48,38 @@ pub struct Inputs<'a> {
     pub facts_known: bool,
     /// Width and height of the frame, in texels, 1 to 16384 each.
     pub output_extent: [u32; 2],
+    /// The device that the frame is for; `None`: one that can do just what Vulkan 1.3 demands. Only pipelines that ask for
+    /// properties of the device depend on it.
+    pub device: Option<&'a Profile>,
     /// Names of further images that leave the frame.
     pub dump: &'a [String],
 }
 
-/// What expansion asks everywhere: the pipeline, and the values of its settings.
+/// What expansion asks everywhere.
 struct Chosen<'a> {
     pipeline: &'a Pipeline,
-    values: Vec<settings::SettingValue>,
-    facts: Facts,
 }
 
 /// What is wrong with `inputs` themselves: settings that the pipeline doesn't have or values that they don't allow, a size
 /// that no frame has, names of no image. [`expand`] reports these too; a program that tells its user's command line from
 /// its user's files asks here first.
 #[must_use]
-pub fn check_inputs(pipeline: &Pipeline, inputs: &Inputs<'_>) -> Vec<Diagnostic> {
+pub fn check_inputs(document: &Document, inputs: &Inputs<'_>) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
-    settings::choose(pipeline, inputs.set, &mut errors);
+    let values = settings::choose(&document.settings, inputs.set, &mut errors);
     check_extent(inputs.output_extent, &mut errors);
-    dumped(pipeline, inputs.dump, &mut Vec::new(), &mut errors);
+    if errors.is_empty()
+        && !inputs.dump.is_empty()
+        && let Ok(pipeline) = document.lower(&values, &surroundings(inputs))
+    {
+        dumped(&pipeline, inputs.dump, &mut Vec::new(), &mut errors);
+    }
     errors
+}
+
+fn surroundings<'a>(inputs: &Inputs<'a>) -> Surroundings<'a> {
+    let facts = if inputs.facts_known { inputs.facts } else { Facts::UNKNOWN };
+    Surroundings { facts, extent: inputs.output_extent, device: inputs.device }
 }
 
 fn check_extent(extent: [u32; 2], errors: &mut Vec<Diagnostic>) {
@@ -78,43 +89,52 @@ fn check_extent(extent: [u32; 2], errors: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Puts settings, facts and sizes into a pipeline and checks it against its shaders. `sources` are those that the
-/// pipeline was read into.
+/// Puts settings, facts, sizes and the device into a pipeline and checks it against its shaders. `sources` are those that
+/// the document was read into.
 ///
 /// # Errors
-/// Everything that is wrong with these inputs, with the order of passes, and between passes and shaders.
+/// Everything that is wrong with these inputs, with the file, with the order of passes, and between passes and shaders.
 pub fn expand(
-    pipeline: &Pipeline,
+    document: &Document,
     sources: Arc<Sources>,
     inputs: &Inputs<'_>,
     shaders: &mut dyn ShaderInterfaces,
 ) -> Result<Frame, Vec<Diagnostic>> {
     let mut errors = Vec::new();
-    let facts = if inputs.facts_known { inputs.facts } else { Facts::UNKNOWN };
-    let chosen = Chosen { pipeline, values: settings::choose(pipeline, inputs.set, &mut errors), facts };
+    let values = settings::choose(&document.settings, inputs.set, &mut errors);
     let before = errors.len();
     check_extent(inputs.output_extent, &mut errors);
     if errors.len() > before {
         return Err(errors);
     }
+    let pipeline = match document.lower(&values, &surroundings(inputs)) {
+        Ok(pipeline) => pipeline,
+        Err(mistakes) => {
+            errors.extend(mistakes);
+            return Err(errors);
+        }
+    };
+    let chosen = Chosen { pipeline: &pipeline };
     let things = Things::resolve(&chosen, inputs.output_extent, &mut errors);
 
     let mut checked = shader::Checked::new(shaders);
     let mut states = Vec::with_capacity(pipeline.passes.len());
     let mut switched_off = Vec::new();
     for pass in &pipeline.passes {
+        let before = errors.len();
         targets::fit(&chosen, &things, pass, &mut errors);
-        let because = pass.when.as_ref().and_then(|condition| conditions::failing(&chosen, condition));
-        states.push(match (because, &pass.when) {
-            (Some(because), Some(condition)) => {
+        states.push(match &pass.off {
+            Some(describe::Off { span, because }) => {
                 let name = pass.name.text.clone();
-                switched_off.push(SwitchedOff { name, span: condition.span, because: because.clone() });
+                switched_off.push(SwitchedOff { name, span: *span, because: because.clone() });
                 // What a pass that is off would do wrong does no harm.
                 let would = passes::draft(&chosen, &things, pass, None, &mut Vec::new());
-                order::State::Off { would, stand_in: passes::stand_in(pass, because.clone()).map(Box::new), because }
+                let stand_ins = passes::stand_ins(&things, pass, because, &mut errors);
+                order::State::Off { would, stand_ins, because: because.clone() }
             }
-            _ => order::State::On(passes::lower(&chosen, &things, pass, &mut checked, &mut errors)),
+            None => order::State::On(passes::lower(&chosen, &things, pass, &mut checked, &mut errors)),
         });
+        used_here(&pipeline, pass.instance, &mut errors[before..]);
     }
     let outputs = outputs(&chosen, &things, inputs.dump, &mut errors);
     order::check(&chosen, &things, &states, &outputs, &mut errors);
@@ -123,14 +143,25 @@ pub fn expand(
     let images = images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>();
     match (images, buffers.into_iter().collect::<Option<Vec<_>>>()) {
         (Some(images), Some(buffers)) if errors.is_empty() => {
-            let settings = settings::shown(pipeline, &chosen.values);
-            let passes = states.into_iter().filter_map(order::State::into_pass).collect();
+            let settings = settings::shown(&document.settings, &values);
+            let passes = states.into_iter().flat_map(order::State::into_passes).collect();
             Ok(Frame { sources, settings, views: Vec::new(), images, buffers, passes, outputs, switched_off })
         }
         _ => {
             errors.sort_by_key(|error| error.labels.first().map_or(0, |label| label.span.start));
             Err(errors)
         }
+    }
+}
+
+/// Says of mistakes in a fragment where it was used.
+fn used_here(pipeline: &Pipeline, instance: Option<u32>, errors: &mut [Diagnostic]) {
+    let mut next = instance;
+    while let Some(instance) = next.and_then(|at| pipeline.instances.get(at as usize)) {
+        for error in errors.iter_mut() {
+            error.labels.push(describe::Label { span: instance.span, text: format!("used here as `{}`", instance.name) });
+        }
+        next = instance.within;
     }
 }
 
@@ -171,20 +202,5 @@ fn nowhere(message: String) -> Diagnostic {
 impl<'a> Chosen<'a> {
     fn image(&self, index: ImageIndex) -> &'a describe::Image {
         &self.pipeline.images[index.0 as usize]
-    }
-
-    fn setting(&self, reference: describe::SettingRef) -> (&'a describe::Setting, settings::SettingValue) {
-        (&self.pipeline.settings[reference.index], self.values[reference.index])
-    }
-
-    /// A constant, or the value of a whole-number setting. `None` only for what reading a pipeline rules out.
-    fn whole<T: TryFrom<i64>>(&self, value: describe::Value<T>) -> Option<T> {
-        match value {
-            describe::Value::Constant(value) => Some(value),
-            describe::Value::Setting(reference) => match self.setting(reference).1 {
-                ParamValue::Integer(value) => T::try_from(value).ok(),
-                ParamValue::Bool(_) | ParamValue::Number(_) => None,
-            },
-        }
     }
 }

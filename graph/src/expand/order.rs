@@ -6,7 +6,7 @@ use super::touches::{self, Read, Write};
 use super::waits::{self, Need};
 use super::written::{Cell, Written};
 use super::{Chosen, passes};
-use crate::describe::Diagnostic;
+use crate::describe::{Diagnostic, StandIn};
 use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::source::Span;
 use crate::vocabulary::{Aspects, Layout};
@@ -23,18 +23,18 @@ pub(super) enum State {
         /// What it would do.
         would: Pass,
         /// What runs instead.
-        stand_in: Option<Box<Pass>>,
+        stand_ins: Vec<Pass>,
         /// Why it is off.
         because: String,
     },
 }
 
 impl State {
-    /// The pass that runs, if one does.
-    pub(super) fn into_pass(self) -> Option<Pass> {
+    /// The passes that run.
+    pub(super) fn into_passes(self) -> Vec<Pass> {
         match self {
-            State::On(pass) => Some(pass),
-            State::Off { stand_in, .. } => stand_in.map(|pass| *pass),
+            State::On(pass) => vec![pass],
+            State::Off { stand_ins, .. } => stand_ins,
         }
     }
 }
@@ -61,13 +61,14 @@ impl Writers {
         let count = images + chosen.pipeline.buffers.len();
         let mut writers = Writers { images, on: vec![Vec::new(); count], off: vec![Vec::new(); count] };
         for (position, state) in states.iter().enumerate() {
-            let stood_for = chosen.pipeline.passes[position].otherwise.map(|forward| Resource::Image(forward.to.index));
-            for write in state.runs().into_iter().flat_map(|pass| touches::writes(things, pass)) {
+            let otherwise = &chosen.pipeline.passes[position].otherwise;
+            let stood_for = |of: Resource| otherwise.iter().any(|one| of == Resource::Image(one.target().index));
+            for write in state.runs().iter().flat_map(|pass| touches::writes(things, pass)) {
                 let at = writers.index(write.resource);
                 writers.on[at].push(Writer { position, span: write.span });
             }
             if let State::Off { would, .. } = state {
-                for (resource, span) in passes::would_write(would).filter(|(of, _)| Some(*of) != stood_for) {
+                for (resource, span) in passes::would_write(would).filter(|(of, _)| !stood_for(*of)) {
                     let at = writers.index(resource);
                     writers.off[at].push(Writer { position, span });
                 }
@@ -114,17 +115,23 @@ pub(super) fn check(
     let mut check = Check { chosen, things, states, writers, written, errors };
     for (position, state) in states.iter().enumerate() {
         let name = &chosen.pipeline.passes[position].name.text;
+        let before = check.errors.len();
         match state {
             State::On(pass) => check.runs(position, pass, &format!("pass `{name}`"), None),
-            State::Off { stand_in: Some(pass), .. } => {
-                let named = chosen.pipeline.passes[position].otherwise.map(|forward| forward.from.span);
-                check.runs(position, pass, &format!("the stand-in of pass `{name}`"), named);
+            State::Off { stand_ins, .. } => {
+                for (pass, described) in stand_ins.iter().zip(&chosen.pipeline.passes[position].otherwise) {
+                    let named = match described {
+                        StandIn::Forward(forward) => Some(forward.from.span),
+                        StandIn::Clear { .. } => None,
+                    };
+                    check.runs(position, pass, &format!("the stand-in of pass `{name}`"), named);
+                }
             }
-            State::Off { stand_in: None, .. } => {}
         }
+        super::used_here(chosen.pipeline, chosen.pipeline.passes[position].instance, &mut check.errors[before..]);
     }
     for (position, state) in states.iter().enumerate() {
-        for read in state.runs().into_iter().flat_map(|pass| touches::reads(things, pass)) {
+        for read in state.runs().iter().flat_map(|pass| touches::reads(things, pass)) {
             if read.frames_ago > 0 {
                 let reader = format!("pass `{}`", chosen.pipeline.passes[position].name.text);
                 check.needs(states.len(), &read, &reader);
@@ -289,7 +296,7 @@ impl Check<'_> {
         let few = self.errors.len() < MANY_MISTAKES;
         let writes = |writer: &&Writer| {
             let pass = self.states[writer.position].runs();
-            let writes = pass.into_iter().flat_map(|pass| touches::writes(self.things, pass));
+            let writes = pass.iter().flat_map(|pass| touches::writes(self.things, pass));
             writes.into_iter().any(|write| write.resource == of && write.cells.contains(cell))
         };
         let first = if few { writers.iter().find(writes) } else { writers.first() };

@@ -1,15 +1,13 @@
 //! Parameters of a pass meet the members of its shader's block.
 
 use super::shader::PARAMS;
-use super::{Chosen, settings};
-use crate::describe::{self, Diagnostic, Name, nearest, suggestion};
+use crate::describe::{self, Diagnostic, Name, nearest, shown_number, suggestion};
 use crate::frame::ParamValue;
 use crate::interface::{BindingKind, Block, PASS_SET, ShaderInterface};
 use std::sync::Arc;
 
 /// Values for the members of the shader's block, in the pass's order, each of its member's type.
 pub(super) fn give(
-    chosen: &Chosen<'_>,
     pass: &describe::Pass,
     interface: &ShaderInterface,
     errors: &mut Vec<Diagnostic>,
@@ -29,13 +27,13 @@ pub(super) fn give(
             errors.push(Diagnostic { help, ..Diagnostic::new(param.name.span, unknown) });
             continue;
         };
-        let (value, shown) = value(chosen, param);
-        match convert(value, &member.ty) {
+        match convert(param.value.value, &member.ty) {
             Some(value) => given.push((name.clone(), value)),
             None => {
                 let message = format!(
-                    "parameter `{name}` of shader `{shader}` has the type `{}` and can't be {shown}",
-                    member.ty
+                    "parameter `{name}` of shader `{shader}` has the type `{}` and can't be {}",
+                    member.ty,
+                    shown(param)
                 );
                 errors.push(Diagnostic::new(param.value.span, message));
             }
@@ -57,8 +55,8 @@ pub(super) fn give(
 }
 
 /// Values as the file has them, for what the embedding program records: no block says their types.
-pub(super) fn as_written(chosen: &Chosen<'_>, pass: &describe::Pass) -> Vec<(Arc<str>, ParamValue)> {
-    pass.params.iter().map(|param| (param.name.text.clone(), value(chosen, param).0)).collect()
+pub(super) fn as_written(pass: &describe::Pass) -> Vec<(Arc<str>, ParamValue)> {
+    pass.params.iter().map(|param| (param.name.text.clone(), param.value.value)).collect()
 }
 
 fn block(interface: &ShaderInterface) -> Option<&Block> {
@@ -68,17 +66,16 @@ fn block(interface: &ShaderInterface) -> Option<&Block> {
     })
 }
 
-/// A parameter's value, and how it is shown.
-fn value(chosen: &Chosen<'_>, param: &describe::Param) -> (ParamValue, String) {
-    let constant = |value| (value, format!("`{}`", settings::show(value)));
-    match param.value.value {
-        describe::ParamValue::Bool(value) => constant(ParamValue::Bool(value)),
-        describe::ParamValue::Integer(value) => constant(ParamValue::Integer(value)),
-        describe::ParamValue::Number(value) => constant(ParamValue::Number(value)),
-        describe::ParamValue::Setting(reference) => {
-            let (setting, value) = chosen.setting(reference);
-            (value, format!("`{}` (setting `{}`)", settings::show(value), setting.name.text))
-        }
+/// How a parameter's value is shown: "`3` (setting `steps`)".
+fn shown(param: &describe::Param) -> String {
+    let value = match param.value.value {
+        ParamValue::Bool(value) => value.to_string(),
+        ParamValue::Integer(value) => value.to_string(),
+        ParamValue::Number(value) => shown_number(value),
+    };
+    match &param.written {
+        Some(written) => format!("`{value}` ({written})"),
+        None => format!("`{value}`"),
     }
 }
 

@@ -2,11 +2,11 @@
 
 use super::shader::Checked;
 use super::things::Things;
-use super::{Chosen, local, params, parts, sampled, shader, storage, supplied, targets, work};
-use crate::describe::{self, Diagnostic, Work as Described};
+use super::{Chosen, fills, local, params, parts, sampled, shader, storage, supplied, targets, transfers, work};
+use crate::describe::{self, Diagnostic, StandIn, Work as Described};
 use crate::frame::{BufferRole, BufferUse, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
 use crate::interface::ShaderInterface;
-use crate::vocabulary::{Stages, Subresources};
+use crate::vocabulary::{FillValue, Stages, Subresources};
 
 /// The pass as it runs, checked against its shader. Of a shader that can't be had nothing is known: mistakes were
 /// reported then, and what it would write counts as written.
@@ -17,22 +17,22 @@ pub(super) fn lower(
     shaders: &mut Checked<'_>,
     errors: &mut Vec<Diagnostic>,
 ) -> Pass {
-    let interface = shaders.interface(chosen, pass, errors);
+    let interface = shaders.interface(pass, errors);
     let mut lowered = draft(chosen, things, pass, interface.as_ref(), errors);
     work::check(chosen, things, pass, &lowered, interface.as_ref(), errors);
     if let Some(interface) = &interface {
-        supplied::check(chosen, shaders, pass, interface, errors);
+        supplied::check(shaders, pass, interface, errors);
         let before = errors.len();
         let mut misspelt = sampled::check(chosen, things, pass, &lowered, interface, errors);
         if errors.len() == before {
-            local::check(chosen, things, pass, &lowered, interface, shaders, errors);
+            local::check(things, pass, &lowered, interface, shaders, errors);
         }
         misspelt.extend(storage::check(chosen, things, pass, &lowered, interface, errors));
         shader::missing(pass, interface, &misspelt, errors);
-        lowered.params = params::give(chosen, pass, interface, errors);
+        lowered.params = params::give(pass, interface, errors);
         targets::fed(things, pass, interface, errors);
     } else if let Described::Custom { .. } = pass.work {
-        lowered.params = params::as_written(chosen, pass);
+        lowered.params = params::as_written(pass);
     }
     lowered
 }
@@ -75,7 +75,7 @@ pub(super) fn draft(
         stencil: target.stencil.map(|stencil| stencil.value),
     });
     buffers(pass, interface, raster, &mut lowered);
-    transfers(chosen, things, pass, &mut lowered, errors);
+    transferred(chosen, things, pass, &mut lowered, errors);
     lowered
 }
 
@@ -121,7 +121,7 @@ pub(super) fn used(
     }
 }
 
-fn transfers(
+fn transferred(
     chosen: &Chosen<'_>,
     things: &Things,
     pass: &describe::Pass,
@@ -148,11 +148,38 @@ fn transfers(
     }
 }
 
-/// What runs in place of a pass that is off, if its target must be filled all the same.
-pub(super) fn stand_in(pass: &describe::Pass, because: String) -> Option<Pass> {
-    let forward = pass.otherwise?;
-    let work = Work::Forward { from: forward.from.index, to: forward.to.index, because };
-    Some(Pass { span: pass.name.span, ..Pass::new(&pass.name.text, work) })
+/// What runs in place of a pass that is off, if its targets must be filled all the same. The first has the name of the
+/// pass, others a number beside it.
+pub(super) fn stand_ins(
+    things: &Things,
+    pass: &describe::Pass,
+    because: &str,
+    errors: &mut Vec<Diagnostic>,
+) -> Vec<Pass> {
+    let stand_in = |(number, stand_in): (usize, &StandIn)| {
+        let (work, transfer) = match *stand_in {
+            StandIn::Forward(describe::Forward { from, to }) => {
+                (Work::Forward { from: from.index, to: to.index, because: because.to_owned() }, None)
+            }
+            StandIn::Clear { to, value } => {
+                let part = describe::Part::Image(describe::ImagePart::whole(to));
+                transfers::fill(things, &part, value, errors);
+                let format = things.image(to.index).map(|image| image.image.format);
+                let filled = fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4]));
+                let (resource, range) = (Resource::Image(to.index), Subresources::WHOLE);
+                let transfer = TransferUse { resource, range, frames_ago: 0, span: to.span, write: true };
+                (Work::Fill { value: filled }, Some(transfer))
+            }
+        };
+        let name = &pass.name.text;
+        let name = if number == 0 { name.to_string() } else { format!("{name} (otherwise {})", number + 1) };
+        Pass {
+            span: pass.name.span,
+            transfers: transfer.into_iter().collect(),
+            ..Pass::new(&name, work)
+        }
+    };
+    pass.otherwise.iter().enumerate().map(stand_in).collect()
 }
 
 /// Images and buffers whose contents `pass` would make, were it on.

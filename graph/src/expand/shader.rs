@@ -1,6 +1,6 @@
 //! A pass and its shader meet: shaders are found, and what they need is given.
 
-use super::{Chosen, work};
+use super::work;
 use crate::describe::{self, Diagnostic, Name, Work, suggestion};
 use crate::frame::Draw;
 use crate::interface::{
@@ -29,12 +29,11 @@ impl<'s> Checked<'s> {
     /// The interface of a pass's shader, if it has one. A shader that can't be had is reported where it is first named.
     pub(super) fn interface(
         &mut self,
-        chosen: &Chosen<'_>,
         pass: &describe::Pass,
         errors: &mut Vec<Diagnostic>,
     ) -> Option<ShaderInterface> {
         let (shader, found) = match &pass.work {
-            Work::Draw { shader, draw } => (shader, self.shaders.draw_shader(&shader.text, work::draw(chosen, draw))),
+            Work::Draw { shader, draw } => (shader, self.shaders.draw_shader(&shader.text, work::draw(draw))),
             Work::Dispatch { shader, .. } => (shader, self.shaders.compute_shader(&shader.text)),
             Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => return None,
         };
@@ -45,13 +44,12 @@ impl<'s> Checked<'s> {
     /// is known.
     pub(super) fn local_interface(
         &mut self,
-        chosen: &Chosen<'_>,
         pass: &describe::Pass,
         local: &[&str],
         errors: &mut Vec<Diagnostic>,
     ) -> Option<ShaderInterface> {
         let Work::Draw { shader, draw } = &pass.work else { return None };
-        let found = self.shaders.local_draw_shader(&shader.text, work::draw(chosen, draw), local);
+        let found = self.shaders.local_draw_shader(&shader.text, work::draw(draw), local);
         self.known(shader, found, errors)?
     }
 
@@ -72,9 +70,9 @@ impl<'s> Checked<'s> {
 
     /// What whoever draws brings along (nothing, for a dispatch), the first time that a shader draws this; then it is
     /// known to fit or not.
-    pub(super) fn brought_along_first(&mut self, chosen: &Chosen<'_>, pass: &describe::Pass) -> Option<DrawInterface> {
+    pub(super) fn brought_along_first(&mut self, pass: &describe::Pass) -> Option<DrawInterface> {
         let (shader, draw) = match &pass.work {
-            Work::Draw { shader, draw } => (shader, Some(work::draw(chosen, draw))),
+            Work::Draw { shader, draw } => (shader, Some(work::draw(draw))),
             Work::Dispatch { shader, .. } => (shader, None),
             Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => return None,
         };

@@ -1,6 +1,5 @@
 //! Shape, layers and mip levels of an image, and what can't go together.
 
-use super::Chosen;
 use crate::describe::{self, Diagnostic, ImageShape as Described, Layers};
 use crate::frame::{Image, Shape};
 
@@ -13,11 +12,11 @@ pub(super) enum Levels {
 }
 
 /// Array layers of an image that follows `followed`, or none.
-pub(super) fn layers(chosen: &Chosen<'_>, image: &describe::Image, followed: Option<u32>) -> Option<u32> {
+pub(super) fn layers(image: &describe::Image, followed: Option<u32>) -> Option<u32> {
     match image.layers.value {
         Layers::Default if image.shape.value == Described::Cube => Some(6),
         Layers::Default => Some(1),
-        Layers::Count(count) => chosen.whole(count),
+        Layers::Count(count) => Some(count),
         Layers::Like(_) => followed,
     }
 }
@@ -30,7 +29,6 @@ const fn full(extent: [u32; 3]) -> u32 {
 
 /// The image with its shape, layers and mip levels. `None` if they contradict each other.
 pub(super) fn shaped(
-    chosen: &Chosen<'_>,
     described: &describe::Image,
     mut image: Image,
     layers: u32,
@@ -41,7 +39,7 @@ pub(super) fn shaped(
         Described::D2 => Shape::D2,
         Described::Cube => Shape::Cube,
         Described::D3(depth) => {
-            image.extent[2] = chosen.whole(depth)?;
+            image.extent[2] = depth;
             Shape::D3
         }
     };

@@ -1,6 +1,5 @@
 //! A shader meets whoever draws: vertex attributes, and the resources of sets from 1 on.
 
-use super::Chosen;
 use super::shader::Checked;
 use crate::describe::{self, Diagnostic, Draw, Name, Work, suggestion};
 use crate::interface::{
@@ -10,7 +9,6 @@ use crate::interface::{
 
 /// Reports what the shader wants and whoever draws doesn't bring along.
 pub(super) fn check(
-    chosen: &Chosen<'_>,
     shaders: &mut Checked<'_>,
     pass: &describe::Pass,
     interface: &ShaderInterface,
@@ -21,7 +19,7 @@ pub(super) fn check(
     if own {
         own_attributes(pass, shader, interface, errors);
     }
-    let Some(brought) = shaders.brought_along_first(chosen, pass) else { return };
+    let Some(brought) = shaders.brought_along_first(pass) else { return };
     if !own {
         attributes(shader, interface, &brought, errors);
     }

@@ -45,16 +45,18 @@ pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass, e
     let parts = pass.color.iter().map(|target| &target.part).chain(pass.depth.as_ref().map(|target| &target.part));
     let parts: Vec<Part<'_>> = parts.filter_map(|part| drawn(chosen, things, part, errors)).collect();
     agree(pass, &parts, errors);
-    if let Some(forward) = pass.otherwise
-        && let (Some(from), Some(to)) = (resolved(forward.from), resolved(forward.to))
-        && kind(from) != kind(to)
-    {
-        let message = format!("`{}` can't take what `{}` holds", to.image.name, from.image.name);
-        errors.push(
-            Diagnostic::new(forward.from.span, message)
-                .remark(format!("{} ({})", kind(from), from.image.format))
-                .label(forward.to.span, format!("{} ({})", kind(to), to.image.format)),
-        );
+    for stand_in in &pass.otherwise {
+        let describe::StandIn::Forward(forward) = stand_in else { continue };
+        if let (Some(from), Some(to)) = (resolved(forward.from), resolved(forward.to))
+            && kind(from) != kind(to)
+        {
+            let message = format!("`{}` can't take what `{}` holds", to.image.name, from.image.name);
+            errors.push(
+                Diagnostic::new(forward.from.span, message)
+                    .remark(format!("{} ({})", kind(from), from.image.format))
+                    .label(forward.to.span, format!("{} ({})", kind(to), to.image.format)),
+            );
+        }
     }
 }
 

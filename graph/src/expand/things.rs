@@ -23,18 +23,22 @@ impl Things {
             if let Some(resolved) = image {
                 let (format, samples) = (Some(resolved.image.format), resolved.image.samples);
                 let subject = Subject { name: &described.name.text, format, samples };
+                let before = errors.len();
                 match lifetime(chosen, described.lifetime, subject, errors) {
                     Some(lifetime) => resolved.image.lifetime = lifetime,
                     None => *image = None,
                 }
+                super::used_here(chosen.pipeline, described.instance, &mut errors[before..]);
             }
         }
         let mut sizes: Vec<Option<Option<u64>>> = vec![None; chosen.pipeline.buffers.len()];
         let buffers = &chosen.pipeline.buffers;
         let buffers = buffers.iter().enumerate().map(|(at, buffer)| {
+            let before = errors.len();
             let bytes = followed(chosen, &images, &mut sizes, at, errors);
             let subject = Subject { name: &buffer.name.text, format: None, samples: 1 };
             let lifetime = lifetime(chosen, buffer.lifetime, subject, errors);
+            super::used_here(chosen.pipeline, buffer.instance, &mut errors[before..]);
             let (name, span) = (buffer.name.text.clone(), buffer.name.span);
             Some(Buffer { name, span, bytes: bytes?, lifetime: lifetime? })
         });
@@ -114,7 +118,7 @@ fn followed(
         match chosen.pipeline.buffers[last].bytes.value {
             // A circle would be longer than all buffers together; reading a pipeline has ruled it out.
             Bytes::Like(of) if path.len() <= sizes.len() => path.push(of.index.0 as usize),
-            _ => break own(chosen, images, &chosen.pipeline.buffers[last], errors),
+            _ => break own(images, &chosen.pipeline.buffers[last], errors),
         }
     };
     for at in path {
@@ -125,21 +129,17 @@ fn followed(
 
 /// The size of a buffer that follows no other.
 fn own(
-    chosen: &Chosen<'_>,
     images: &[Option<images::Resolved>],
     buffer: &describe::Buffer,
     errors: &mut Vec<Diagnostic>,
 ) -> Option<u64> {
     let (bytes, because) = match buffer.bytes.value {
         Bytes::Count(bytes) => {
-            let bytes = chosen.whole(bytes)?;
             (bytes.checked_next_multiple_of(4), format!("{bytes} bytes"))
         }
-        Bytes::Times(each, setting) => {
-            let (setting, value) = chosen.setting(setting);
-            let crate::frame::ParamValue::Integer(count) = value else { return None };
-            let bytes = each.checked_mul(u64::try_from(count).ok()?);
-            (bytes, format!("{each} bytes times {count} ({} = {count})", setting.name.text))
+        Bytes::Times(each, count) => {
+            let because = buffer.bytes_because.as_ref().map(|because| format!(" ({because})")).unwrap_or_default();
+            (each.checked_mul(count), format!("{each} bytes times {count}{because}"))
         }
         Bytes::PerTexel(each, of) => {
             let image = &images[of.index.0 as usize].as_ref()?.image;

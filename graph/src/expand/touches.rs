@@ -126,11 +126,11 @@ pub(super) fn writes(things: &Things, pass: &Pass) -> Vec<Write> {
 }
 
 impl State {
-    /// The pass that runs here, if one does: itself or its stand-in.
-    pub(super) fn runs(&self) -> Option<&Pass> {
+    /// The passes that run here: itself or its stand-ins.
+    pub(super) fn runs(&self) -> &[Pass] {
         match self {
-            State::On(pass) => Some(pass),
-            State::Off { stand_in, .. } => stand_in.as_deref(),
+            State::On(pass) => std::slice::from_ref(pass),
+            State::Off { stand_ins, .. } => stand_ins,
         }
     }
 }

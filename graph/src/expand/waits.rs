@@ -29,10 +29,11 @@ pub(super) fn circle(things: &Things, states: &[order::State], writers: &Writers
     let mut found: HashMap<usize, Need> = HashMap::new();
     let mut queue = VecDeque::from([first.writer]);
     while let Some(at) = queue.pop_front() {
-        let Some(pass) = states.get(at).and_then(order::State::runs) else { continue };
-        let read = touches::reads(things, pass).into_iter().filter(|read| read.frames_ago == 0);
+        let runs = states.get(at).map_or(&[][..], order::State::runs);
+        let read = runs.iter().flat_map(|pass| touches::reads(things, pass)).filter(|read| read.frames_ago == 0);
         let read = read.map(|read| (read.resource, read.span));
-        let continued = touches::writes(things, pass).into_iter().filter(|write| write.continues.is_some());
+        let continued = runs.iter().flat_map(|pass| touches::writes(things, pass));
+        let continued = continued.filter(|write| write.continues.is_some());
         for (resource, span) in read.chain(continued.map(|write| (write.resource, write.span))) {
             let Some(writer) = writers.last_before(resource, at).filter(|writer| *writer >= first.pass) else {
                 continue;

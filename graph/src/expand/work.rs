@@ -9,14 +9,14 @@ use crate::source::Span;
 use crate::vocabulary::{FillValue, Filter};
 
 /// What `draw` comes to in the frame.
-pub(super) fn draw(chosen: &Chosen<'_>, draw: &describe::Draw) -> Draw {
+pub(super) fn draw(draw: &describe::Draw) -> Draw {
     match draw {
         describe::Draw::Objects(list) => Draw::Objects(*list),
         describe::Draw::Sky => Draw::Sky,
         describe::Draw::FullScreen => Draw::FullScreen,
         describe::Draw::Vertices { count, instances } => Draw::Vertices {
-            count: chosen.whole(*count).unwrap_or(1),
-            instances: chosen.whole(*instances).unwrap_or(1),
+            count: *count,
+            instances: *instances,
         },
         describe::Draw::Indirect(_) => Draw::Indirect,
     }
@@ -36,7 +36,7 @@ pub(super) fn lower(
         per_sample: interface.is_some_and(|interface| interface.per_sample),
     };
     match &pass.work {
-        describe::Work::Draw { draw: what, shader } => drawn(draw(chosen, what), shader),
+        describe::Work::Draw { draw: what, shader } => drawn(draw(what), shader),
         describe::Work::Dispatch { shader, groups } => {
             Work::Dispatch { shader: shader.text.clone(), groups: self::groups(chosen, things, &groups.value) }
         }
@@ -65,10 +65,9 @@ pub(super) fn lower(
 }
 
 fn groups(chosen: &Chosen<'_>, things: &Things, groups: &Described) -> Groups {
-    let three = |values: &[describe::Value<u32>; 3]| (*values).map(|value| chosen.whole(value).unwrap_or(1));
     match groups {
-        Described::Count(count) => Groups::Count(three(count)),
-        Described::Invocations(count) => Groups::Invocations(three(count)),
+        Described::Count(count) => Groups::Count(*count),
+        Described::Invocations(count) => Groups::Invocations(*count),
         Described::Texels(part) => Groups::Invocations(texels(chosen, things, part)),
         Described::Indirect { offset, .. } => Groups::Indirect { offset: *offset },
     }

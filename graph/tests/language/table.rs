@@ -303,7 +303,7 @@ impl ShaderInterfaces for Table {
 
 /// What a test puts a pipeline together with.
 pub(crate) const INPUTS: Inputs<'static> =
-    Inputs { set: &[], facts: Facts::UNKNOWN, facts_known: false, output_extent: [640, 360], dump: &[] };
+    Inputs { set: &[], facts: Facts::UNKNOWN, facts_known: false, output_extent: [640, 360], dump: &[], device: None };
 
 /// The text of a shipped pipeline.
 pub(crate) fn shipped(name: &str) -> String {

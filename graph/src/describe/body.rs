@@ -1,0 +1,171 @@
+//! One level of a file with its entries told apart: the pipeline's own, or a fragment's.
+
+use super::Diagnostic;
+use super::buffers::BufferFields;
+use super::fields::FromLeaf;
+use super::images::ImageFields;
+use super::known::{Known, Repeat};
+use super::leaf::{Leaf, Shape};
+use super::names::Names;
+use super::parameters::Parameter;
+use super::passes::PassFields;
+use super::pipeline::Name;
+use super::reader::Reader;
+use super::uses::UseFields;
+use crate::fields;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// What stands in `images`, `buffers` and `passes`; `None` where an entry couldn't be told apart.
+pub(super) struct Body<'t> {
+    pub(super) known: Known,
+    pub(super) images: Vec<Option<Entry<'t, ImageFields<'t>>>>,
+    pub(super) buffers: Vec<Option<Entry<'t, BufferFields<'t>>>>,
+    pub(super) items: Vec<Option<Entry<'t, Item<'t>>>>,
+}
+
+/// An entry, and how often it stands there.
+pub(super) struct Entry<'t, T> {
+    pub(super) repeat: Repeat<'t>,
+    pub(super) fields: T,
+}
+
+/// What stands in `passes`.
+pub(super) enum Item<'t> {
+    /// A pass.
+    Pass(Box<PassFields<'t>>),
+    /// A fragment is used.
+    Use(Box<UseFields<'t>>),
+    /// A place that extensions may name.
+    Anchor,
+}
+
+fields! {
+    struct AnchorFields<'src> {
+        anchor: Leaf<'src>,
+    }
+}
+
+/// The lists of one level.
+pub(super) struct Lists<'t> {
+    pub(super) images: Option<Leaf<'t>>,
+    pub(super) buffers: Option<Leaf<'t>>,
+    pub(super) passes: Option<Leaf<'t>>,
+}
+
+impl<'t> Body<'t> {
+    /// Tells the entries apart. `given` are the settings or parameters.
+    pub(super) fn read(
+        reader: &mut Reader,
+        given: Names,
+        parameters: Vec<Option<Parameter>>,
+        settings: bool,
+        lists: Lists<'t>,
+    ) -> Body<'t> {
+        let mut images = Names::new("image");
+        let image_entries: Vec<Option<ImageFields<'t>>> = entries(reader, lists.images, "`images`", "image", &mut images);
+        let mut buffers = Names::new("buffer");
+        let buffer_entries: Vec<Option<BufferFields<'t>>> =
+            entries(reader, lists.buffers, "`buffers`", "buffer", &mut buffers);
+        let image_entries = repeated(reader, image_entries, |fields| fields.repeat);
+        let buffer_entries = repeated(reader, buffer_entries, |fields| fields.repeat);
+        let known = Known {
+            given,
+            parameters,
+            settings,
+            images,
+            image_lists: lists_of(&image_entries),
+            buffers,
+            buffer_lists: lists_of(&buffer_entries),
+        };
+        known.differ(reader);
+        let items = items(reader, lists.passes);
+        let repeats = image_entries.iter().flatten().map(|entry| &entry.repeat);
+        let repeats = repeats.chain(buffer_entries.iter().flatten().map(|entry| &entry.repeat));
+        for repeat in repeats.chain(items.iter().flatten().map(|entry| &entry.repeat)) {
+            known.differs(reader, repeat);
+        }
+        Body { known, images: image_entries, buffers: buffer_entries, items }
+    }
+}
+
+fn repeated<'t, T>(
+    reader: &mut Reader,
+    entries: Vec<Option<T>>,
+    repeat: impl Fn(&T) -> Option<Leaf<'t>>,
+) -> Vec<Option<Entry<'t, T>>> {
+    let entry = |fields: T| Entry { repeat: Repeat::read(reader, repeat(&fields)), fields };
+    let mut entry = entry;
+    entries.into_iter().map(|fields| fields.map(&mut entry)).collect()
+}
+
+fn lists_of<T>(entries: &[Option<Entry<'_, T>>]) -> Vec<bool> {
+    entries.iter().map(|entry| entry.as_ref().is_some_and(|entry| entry.repeat.is_list())).collect()
+}
+
+/// Tells the fields of each entry of a list apart, and takes down the entries' names.
+pub(super) fn entries<'t, T: FromLeaf<'t>>(
+    reader: &mut Reader,
+    list: Option<Leaf<'t>>,
+    field: &str,
+    what: &'static str,
+    names: &mut Names,
+) -> Vec<Option<T>> {
+    let Some(list) = list else { return Vec::new() };
+    let Some(leaves) = reader.list(list, field) else {
+        // Whatever is looked for may be in the list that couldn't be read.
+        names.give(reader, None);
+        return Vec::new();
+    };
+    leaves.into_iter().map(|leaf| entry(reader, leaf, what, what, names)).collect()
+}
+
+fn entry<'t, T: FromLeaf<'t>>(
+    reader: &mut Reader,
+    leaf: Leaf<'t>,
+    what: &str,
+    shown: &str,
+    names: &mut Names,
+) -> Option<T> {
+    let name = leaf.field("name").and_then(Name::written);
+    let known = name.as_ref().map_or_else(|| format!("this {shown}"), |name| format!("{shown} `{}`", name.text));
+    names.give(reader, name);
+    if !matches!(leaf.shape(), Shape::Parentheses | Shape::Word(_, Some(_))) {
+        reader.expected(leaf, &format!("the {what} as `(name: \"…\", …)`"));
+        return None;
+    }
+    reader.read(leaf, &known)
+}
+
+/// Passes, uses of fragments, and anchors. Passes and uses have their names in common.
+fn items<'t>(reader: &mut Reader, list: Option<Leaf<'t>>) -> Vec<Option<Entry<'t, Item<'t>>>> {
+    let Some(leaves) = list.and_then(|list| reader.list(list, "`passes`")) else { return Vec::new() };
+    let mut names = Names::new("pass");
+    let mut anchors = HashMap::new();
+    let mut items = Vec::with_capacity(leaves.len());
+    for leaf in leaves {
+        let item = if leaf.field("anchor").is_some() {
+            anchor(reader, leaf, &mut anchors).map(|()| (None, Item::Anchor))
+        } else if leaf.field("use").is_some() {
+            let fields: Option<UseFields<'t>> = entry(reader, leaf, "use", "use", &mut names);
+            fields.map(|fields| (fields.repeat, Item::Use(Box::new(fields))))
+        } else {
+            let fields: Option<PassFields<'t>> = entry(reader, leaf, "pass", "pass", &mut names);
+            fields.map(|fields| (fields.repeat, Item::Pass(Box::new(fields))))
+        };
+        items.push(item.map(|(repeat, fields)| Entry { repeat: Repeat::read(reader, repeat), fields }));
+    }
+    items
+}
+
+fn anchor<'t>(reader: &mut Reader, leaf: Leaf<'t>, anchors: &mut HashMap<Arc<str>, Name>) -> Option<()> {
+    let fields: AnchorFields<'t> = reader.read(leaf, "an anchor")?;
+    let name = reader.name(fields.anchor, "an anchor")?;
+    if let Some(first) = anchors.get(&name.text) {
+        let twice = Diagnostic::new(name.span, format!("`{}` is the name of more than one anchor", name.text));
+        reader.report(twice.remark("again here").label(first.span, "first here"));
+        return None;
+    }
+    anchors.insert(name.text.clone(), name);
+    Some(())
+}

@@ -1,0 +1,121 @@
+//! A pipeline file that was read: what a user may choose, and all that is needed to put the rest together for a choice.
+
+use super::body::{Body, Lists, entries};
+use super::fragments::Fragments;
+use super::leaf::Leaf;
+use super::lower::Lowering;
+use super::names::Names;
+use super::parameters::Parameter;
+use super::pipeline::{Pipeline, Setting};
+use super::reader::Reader;
+use super::scope::{Given, Level};
+use super::settings::{self, SettingFields};
+use super::surroundings::Surroundings;
+use super::tree::Tree;
+use super::{Diagnostic, LANGUAGE_VERSION};
+use crate::expression::Value;
+use crate::facts::Facts;
+use crate::fields;
+
+fields! {
+    struct PipelineFields<'src> as "Pipeline" {
+        #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
+        version: Leaf<'src>,
+        settings: Option<Leaf<'src>>,
+        fragments: Option<Leaf<'src>>,
+        images: Leaf<'src>,
+        buffers: Option<Leaf<'src>>,
+        passes: Leaf<'src>,
+        outputs: Leaf<'src>,
+    }
+}
+
+/// A pipeline file that was read. Made by [`crate::describe::read`], once; [`crate::expand::expand`] puts it together as
+/// often as there are choices of settings, scenes, sizes and devices.
+#[derive(Debug, Clone)]
+pub struct Document {
+    /// What a user may choose, in file order.
+    pub settings: Vec<Setting>,
+    tree: Tree,
+}
+
+impl Document {
+    /// Reads a tree, and finds all that is wrong whatever the values. Mistakes are added to those that are known already.
+    pub(super) fn read(tree: Tree, errors: Vec<Diagnostic>) -> Result<Document, Vec<Diagnostic>> {
+        let mut reader = Reader { errors };
+        let settings = match settings(&mut reader, tree.root()) {
+            Some(settings) => settings,
+            None => return Err(reader.errors),
+        };
+        let values: Vec<Option<Value>> =
+            settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
+        let surroundings = Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], device: None };
+        lower(&mut reader, tree.root(), &settings, values, &surroundings, true);
+        match settings.into_iter().collect() {
+            Some(settings) if reader.errors.is_empty() => Ok(Document { settings, tree }),
+            _ => Err(reader.errors),
+        }
+    }
+
+    /// Whether what it comes to may depend on the device.
+    #[must_use]
+    pub fn asks_device(&self) -> bool {
+        self.tree.root().text().contains("device.")
+    }
+
+    /// Puts in the values of settings, in their order, and what the pipeline is made for.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, and expressions that have no value or none that is allowed.
+    pub fn lower(&self, values: &[Value], surroundings: &Surroundings<'_>) -> Result<Pipeline, Vec<Diagnostic>> {
+        let mut reader = Reader::default();
+        let settings: Vec<Option<Setting>> = self.settings.iter().cloned().map(Some).collect();
+        let values = values.iter().cloned().map(Some).collect();
+        match lower(&mut reader, self.tree.root(), &settings, values, surroundings, false) {
+            Some(pipeline) if reader.errors.is_empty() => Ok(pipeline),
+            _ => Err(super::in_order(reader.errors)),
+        }
+    }
+}
+
+/// The settings; `None` where one couldn't be read. `None` at all if the file is no pipeline of this version.
+fn settings(reader: &mut Reader, all: Leaf<'_>) -> Option<Vec<Option<Setting>>> {
+    if let Some(version) = all.field("version") {
+        let number = reader.integer(version)?;
+        if number != LANGUAGE_VERSION {
+            let message = format!("this file is written in version {number} of the language");
+            reader.errors.clear();
+            reader.wrong(version, message, &format!("this program reads version {LANGUAGE_VERSION}"));
+            return None;
+        }
+    }
+    let fields: PipelineFields<'_> = reader.read(all, "the pipeline")?;
+    let fields: Vec<Option<SettingFields<'_>>> =
+        entries(reader, fields.settings, "`settings`", "setting", &mut Names::new("setting"));
+    Some(fields.iter().map(|fields| fields.as_ref().and_then(|fields| settings::lower(reader, fields))).collect())
+}
+
+/// Puts in values; `None` if errors were reported. `lenient` if nothing is to be said about values.
+fn lower(
+    reader: &mut Reader,
+    all: Leaf<'_>,
+    settings: &[Option<Setting>],
+    values: Vec<Option<Value>>,
+    surroundings: &Surroundings<'_>,
+    lenient: bool,
+) -> Option<Pipeline> {
+    let fields: PipelineFields<'_> = reader.read(all, "the pipeline")?;
+    let mut names = Names::new("setting");
+    let mut silent = Reader::default();
+    let listed: Vec<Option<SettingFields<'_>>> =
+        entries(&mut silent, fields.settings, "`settings`", "setting", &mut names);
+    debug_assert_eq!(listed.len(), settings.len());
+    let parameters: Vec<Option<Parameter>> =
+        settings.iter().map(|setting| setting.as_ref().map(Parameter::from)).collect();
+    let fragments = Fragments::read(reader, fields.fragments);
+    let lists = Lists { images: Some(fields.images), buffers: fields.buffers, passes: Some(fields.passes) };
+    let body = Body::read(reader, names, parameters, true, lists);
+    let given = values.into_iter().map(|value| value.map(|value| Given { value, decided: Vec::new() })).collect();
+    let level = Level { given, ..Level::default() };
+    Lowering::new(surroundings, &fragments, lenient).whole(reader, &body, level, fields.outputs)
+}

@@ -1,0 +1,349 @@
+//! Values are put in: what a file declares becomes flat lists of images, buffers and passes.
+
+use super::body::{Body, Entry, Item};
+use super::fragments::Fragments;
+use super::known::Repeat;
+use super::leaf::Leaf;
+use super::pass::Pass;
+use super::pipeline::{Instance, Name, Pipeline};
+use super::properties;
+use super::reader::Reader;
+use super::resources::{Buffer, Image};
+use super::scope::{Block, Checked, Level, Properties, Scope};
+use super::surroundings::Surroundings;
+use super::{Diagnostic, buffers, circles, images, outputs, passes, previous, values};
+use crate::source::Span;
+use std::cell::Cell;
+use std::collections::HashSet;
+use std::sync::Arc;
+
+/// A pipeline has at most this many images, buffers, passes and uses of fragments, made and discarded ones together.
+pub(super) const MOST_THINGS: u32 = 1_000_000;
+
+/// What was lowered so far.
+pub(super) struct Lowering<'a, 't> {
+    pub(super) surroundings: &'a Surroundings<'a>,
+    pub(super) fragments: &'a Fragments<'t>,
+    pub(super) checked: Checked,
+    pub(super) forgave: Cell<bool>,
+    /// Whether what is lowered is off, so that what has no value is no mistake.
+    pub(super) lenient: bool,
+    pub(super) images: Vec<Option<Image>>,
+    pub(super) properties: Vec<Option<Properties>>,
+    pub(super) buffers: Vec<Option<Buffer>>,
+    pub(super) passes: Vec<Option<Pass>>,
+    pub(super) instances: Vec<Instance>,
+    /// Fragments that are being put in, by number, and where.
+    pub(super) path: Vec<(usize, Name)>,
+    /// Mistakes in fragments that were reported: place and message.
+    pub(super) seen: HashSet<(Span, String)>,
+    made: u32,
+    full: bool,
+    /// Whether something that was reported has no place in the lists.
+    broken: bool,
+}
+
+/// Where something is put in: what stands before its name, and the instance that it belongs to.
+#[derive(Clone)]
+pub(super) struct Place {
+    pub(super) prefix: Arc<str>,
+    pub(super) instance: Option<u32>,
+}
+
+/// How often something stands there.
+enum Count {
+    Known(u32),
+    /// It depends on images whose properties aren't known yet.
+    Later,
+    /// That was reported.
+    Failed,
+}
+
+impl<'a, 't> Lowering<'a, 't> {
+    pub(super) fn new(surroundings: &'a Surroundings<'a>, fragments: &'a Fragments<'t>, lenient: bool) -> Self {
+        Lowering {
+            surroundings,
+            fragments,
+            checked: Checked::default(),
+            forgave: Cell::new(false),
+            lenient,
+            images: Vec::new(),
+            properties: Vec::new(),
+            buffers: Vec::new(),
+            passes: Vec::new(),
+            instances: Vec::new(),
+            path: Vec::new(),
+            seen: HashSet::new(),
+            made: 0,
+            full: false,
+            broken: false,
+        }
+    }
+
+    /// The whole pipeline. `None` if errors were reported.
+    pub(super) fn whole(
+        mut self,
+        reader: &mut Reader,
+        body: &Body<'t>,
+        mut level: Level,
+        outputs: Leaf<'t>,
+    ) -> Option<Pipeline> {
+        let place = Place { prefix: "".into(), instance: None };
+        self.body(reader, body, &mut level, &place);
+        circles::find(&self.images, &self.buffers, &mut reader.errors);
+        previous::check(&self.images, &self.buffers, &self.passes, &mut reader.errors);
+        let outputs = outputs::lower(reader, &self.scope(body, &level, None), outputs);
+        let mut seen = HashSet::new();
+        reader.errors.retain(|error| error.labels.first().is_none_or(|at| seen.insert((at.span, error.message.clone()))));
+        if self.broken {
+            return None;
+        }
+        Some(Pipeline {
+            images: self.images.into_iter().collect::<Option<_>>()?,
+            buffers: self.buffers.into_iter().collect::<Option<_>>()?,
+            passes: self.passes.into_iter().collect::<Option<_>>()?,
+            outputs: outputs?,
+            instances: self.instances,
+        })
+    }
+
+    /// Everything at one level: images and buffers, then passes.
+    pub(super) fn body(&mut self, reader: &mut Reader, body: &Body<'t>, level: &mut Level, place: &Place) {
+        level.images = vec![Block::Below; body.images.len()];
+        level.buffers = vec![Block::Below; body.buffers.len()];
+        self.things(reader, body, level, place);
+        for entry in &body.items {
+            self.item(reader, body, level, place, entry.as_ref());
+        }
+    }
+
+    pub(super) fn scope<'s>(
+        &'s self,
+        body: &'s Body<'t>,
+        level: &'s Level,
+        index: Option<(&'s Name, u32)>,
+    ) -> Scope<'s> {
+        Scope {
+            known: &body.known,
+            level,
+            surroundings: self.surroundings,
+            properties: &self.properties,
+            index,
+            checked: &self.checked,
+            lenient: self.lenient,
+            forgave: &self.forgave,
+            early: false,
+        }
+    }
+
+    /// Numbers images and buffers, and lowers them. A number of repetitions that depends on images waits until those
+    /// above are lowered; what stands below isn't known to them then.
+    fn things(&mut self, reader: &mut Reader, body: &Body<'t>, level: &mut Level, place: &Place) {
+        let images = body.images.len();
+        let mut lowered = 0;
+        let [mut next_image, mut next_buffer] = [self.images.len(), self.buffers.len()];
+        for at in 0..images + body.buffers.len() {
+            let repeat = match at.checked_sub(images) {
+                None => body.images[at].as_ref().map(|entry| &entry.repeat),
+                Some(at) => body.buffers[at].as_ref().map(|entry| &entry.repeat),
+            };
+            let mut count = self.count(reader, body, level, repeat, true);
+            if let Count::Later = count {
+                self.lower_things(reader, body, level, place, lowered..at);
+                lowered = at;
+                count = self.count(reader, body, level, repeat, false);
+            }
+            let next = if at < images { &mut next_image } else { &mut next_buffer };
+            let block = match (count, u32::try_from(*next)) {
+                (Count::Known(count), Ok(first)) => {
+                    *next += count as usize;
+                    Block::At { first, count }
+                }
+                _ => Block::Failed,
+            };
+            match at.checked_sub(images) {
+                None => level.images[at] = block,
+                Some(at) => level.buffers[at] = block,
+            }
+        }
+        self.lower_things(reader, body, level, place, lowered..images + body.buffers.len());
+    }
+
+    fn lower_things(
+        &mut self,
+        reader: &mut Reader,
+        body: &Body<'t>,
+        level: &Level,
+        place: &Place,
+        range: std::ops::Range<usize>,
+    ) {
+        for at in range {
+            match at.checked_sub(body.images.len()) {
+                None => self.image(reader, body, level, place, at),
+                Some(at) => self.buffer(reader, body, level, place, at),
+            }
+        }
+    }
+
+    fn image(&mut self, reader: &mut Reader, body: &Body<'t>, level: &Level, place: &Place, at: usize) {
+        let Block::At { count, .. } = level.images[at] else {
+            self.broken = true;
+            return;
+        };
+        let mut right = true;
+        for number in 0..count {
+            let before = reader.errors.len();
+            let image = body.images[at].as_ref().filter(|_| right).and_then(|entry| {
+                let scope = self.scope(body, level, indexed(&entry.repeat, number));
+                images::lower(reader, &scope, &entry.fields)
+            });
+            let known = image.as_ref().map(|image| properties::of(image, &self.properties, self.surroundings.extent));
+            let known = match known {
+                Some(Err(wrong)) => {
+                    if !self.lenient {
+                        reader.report(wrong);
+                    }
+                    None
+                }
+                Some(Ok(known)) => Some(known),
+                None => None,
+            };
+            self.properties.push(known);
+            let list = body.known.image_lists[at];
+            self.images.push(image.map(|image| {
+                let name = full(place, &image.name, list.then_some(number));
+                Image { name, instance: place.instance, ..image }
+            }));
+            // What is wrong with one is wrong with all.
+            right = reader.errors.len() == before;
+        }
+    }
+
+    fn buffer(&mut self, reader: &mut Reader, body: &Body<'t>, level: &Level, place: &Place, at: usize) {
+        let Block::At { count, .. } = level.buffers[at] else {
+            self.broken = true;
+            return;
+        };
+        let mut right = true;
+        for number in 0..count {
+            let before = reader.errors.len();
+            let buffer = body.buffers[at].as_ref().filter(|_| right).and_then(|entry| {
+                let scope = self.scope(body, level, indexed(&entry.repeat, number));
+                buffers::lower(reader, &scope, &entry.fields)
+            });
+            let list = body.known.buffer_lists[at];
+            self.buffers.push(buffer.map(|buffer| {
+                let name = full(place, &buffer.name, list.then_some(number));
+                Buffer { name, instance: place.instance, ..buffer }
+            }));
+            right = reader.errors.len() == before;
+        }
+    }
+
+    /// Passes, or a fragment that is put in.
+    fn item(
+        &mut self,
+        reader: &mut Reader,
+        body: &Body<'t>,
+        level: &Level,
+        place: &Place,
+        entry: Option<&Entry<'t, Item<'t>>>,
+    ) {
+        let Some(entry) = entry else {
+            self.passes.push(None);
+            return;
+        };
+        if let Item::Anchor = entry.fields {
+            return;
+        }
+        let Count::Known(count) = self.count(reader, body, level, Some(&entry.repeat), false) else {
+            self.passes.push(None);
+            return;
+        };
+        for number in 0..count {
+            let before = reader.errors.len();
+            let index = indexed(&entry.repeat, number);
+            let number = entry.repeat.is_list().then_some(number);
+            match &entry.fields {
+                Item::Pass(fields) => {
+                    let pass = passes::lower(reader, &self.scope(body, level, index), fields);
+                    self.passes.push(pass.map(|pass| {
+                        let name = full(place, &pass.name, number);
+                        Pass { name, instance: place.instance, ..pass }
+                    }));
+                }
+                Item::Use(fields) => self.put_in(reader, body, level, place, (index, number), fields),
+                Item::Anchor => {}
+            }
+            if reader.errors.len() > before || self.full {
+                self.passes.push(None);
+                break;
+            }
+        }
+    }
+
+    /// How often something stands there; `early` puts off what depends on images.
+    fn count(
+        &mut self,
+        reader: &mut Reader,
+        body: &Body<'t>,
+        level: &Level,
+        repeat: Option<&Repeat<'t>>,
+        early: bool,
+    ) -> Count {
+        let (count, span) = match repeat {
+            None | Some(Repeat::Once) => (1, None),
+            Some(Repeat::Broken) => return Count::Failed,
+            Some(Repeat::Times { count, .. }) => {
+                let before = reader.errors.len();
+                let scope = Scope { early, ..self.scope(body, level, None) };
+                match values::whole(reader, &scope, *count, "number of repetitions", 0..=i64::from(MOST_THINGS)) {
+                    Some(number) => (number, Some(count.span())),
+                    None if early && reader.errors.len() == before => return Count::Later,
+                    None => return Count::Failed,
+                }
+            }
+        };
+        if self.makes(reader, count, span.unwrap_or(Span::NONE)) { Count::Known(count) } else { Count::Failed }
+    }
+
+    /// Whether there is room for so many more.
+    fn makes(&mut self, reader: &mut Reader, count: u32, span: Span) -> bool {
+        let made = self.made.saturating_add(count);
+        if made <= MOST_THINGS {
+            self.made = made;
+            return true;
+        }
+        if !self.full {
+            self.full = true;
+            let message = "this makes more than 1000000 images, buffers, passes and uses of fragments";
+            let used = self.path.last().map(|(_, name)| name.span);
+            let at = if span == Span::NONE { used.unwrap_or(span) } else { span };
+            reader.report(Diagnostic::new(at, message).help("repeat less, or let fragments use each other less often"));
+        }
+        false
+    }
+
+    pub(super) const fn is_full(&self) -> bool {
+        self.full
+    }
+}
+
+/// The index and its value, if something is repeated.
+fn indexed<'r>(repeat: &'r Repeat<'_>, number: u32) -> Option<(&'r Name, u32)> {
+    match repeat {
+        Repeat::Times { index, .. } => Some((index, number)),
+        Repeat::Once | Repeat::Broken => None,
+    }
+}
+
+/// The whole name: `glow.down[0]`.
+pub(super) fn full(place: &Place, name: &Name, number: Option<u32>) -> Name {
+    let prefix = &place.prefix;
+    let text = match number {
+        None if prefix.is_empty() => return name.clone(),
+        None => format!("{prefix}{}", name.text),
+        Some(number) => format!("{prefix}{}[{number}]", name.text),
+    };
+    Name { text: text.into(), span: name.span }
+}

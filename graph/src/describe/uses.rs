@@ -1,0 +1,149 @@
+//! `use`: a fragment is put in under a name of its own, with arguments for its parameters.
+
+use super::Diagnostic;
+use super::fragments::Fragment;
+use super::leaf::{Leaf, Shape};
+use super::parameters::{self, Parameter, ParameterKind};
+use super::pipeline::{Name, SettingKind};
+use super::reader::Reader;
+use super::scope::{Given, Scope};
+use crate::expression::{Outcome, Type, Value, Wanted};
+use crate::fields;
+use std::collections::HashMap;
+
+fields! {
+    pub(super) struct UseFields<'src> as "Use" {
+        pub(super) r#use: Leaf<'src>,
+        pub(super) name: Leaf<'src>,
+        pub(super) repeat: Option<Leaf<'src>>,
+        pub(super) with: Option<Leaf<'src>>,
+        pub(super) when: Option<Leaf<'src>>,
+        pub(super) otherwise: Option<Leaf<'src>>,
+    }
+}
+
+/// Values for the fragment's parameters, in their order; `None` where there is none, which was reported. Images and
+/// buffers of arguments come with the places where they are named.
+pub(super) fn arguments<'t>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    fields: &UseFields<'t>,
+    fragment: &Fragment<'_>,
+) -> Vec<Option<(Given, Option<Leaf<'t>>)>> {
+    let known = &fragment.body.known;
+    let called = fragment.name.as_ref().map_or("", |name| &*name.text);
+    let mut leaves: HashMap<usize, Leaf<'t>> = HashMap::new();
+    let entries = fields.with.and_then(|with| reader.map(with, "`with`")).into_iter().flatten();
+    for (key, value) in entries {
+        let Some(name) = reader.reference(key, "a parameter") else { continue };
+        let Some(at) = known.given.at(&name.text) else {
+            if known.given.complete() {
+                let unknown = format!("fragment `{called}` has no parameter named `{}`", name.text);
+                let help = reader.known(&name.text, known.given.in_order());
+                let help = help.or_else(|| Some(format!("fragment `{called}` has no parameters")));
+                reader.report(Diagnostic { help, ..Diagnostic::new(name.span, unknown) });
+            }
+            continue;
+        };
+        if leaves.insert(at, value).is_some() {
+            reader.report(Diagnostic::new(name.span, format!("`with` names `{}` twice", name.text)));
+        }
+    }
+    let mut missing = Vec::new();
+    let mut values = Vec::with_capacity(known.parameters.len());
+    for (at, parameter) in known.parameters.iter().enumerate() {
+        let Some(parameter) = parameter else {
+            values.push(None);
+            continue;
+        };
+        values.push(match leaves.get(&at) {
+            Some(leaf) => argument(reader, scope, *leaf, parameter).map(|given| (given, Some(*leaf))),
+            None => {
+                let default = parameter.default();
+                if default.is_none() {
+                    missing.push(parameter);
+                }
+                default.map(|value| (Given { value, decided: Vec::new() }, None))
+            }
+        });
+    }
+    if let Some(first) = missing.first() {
+        let names: Vec<String> = missing.iter().map(|parameter| format!("`{}`", parameter.name.text)).collect();
+        let what = if names.len() == 1 { "parameter" } else { "parameters" };
+        let message = format!("fragment `{called}` needs the {what} {}", names.join(", "));
+        let wrong = Diagnostic::new(fields.r#use.span(), message).label(first.name.span, "declared here, without default");
+        let example = if first.kind.ty() == Type::Image { "\"an_image\"" } else { "…" };
+        reader.report(wrong.help(format!("add `with: {{\"{}\": {example}}}`", first.name.text)));
+    }
+    values
+}
+
+fn argument(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>, parameter: &Parameter) -> Option<Given> {
+    let given = |outcome: Outcome| Given { value: outcome.value, decided: outcome.decided };
+    match &parameter.kind {
+        ParameterKind::Image => {
+            let image = scope.image(reader, leaf)?;
+            Some(Given { value: Value::Image(image.index), decided: Vec::new() })
+        }
+        ParameterKind::Buffer => {
+            let buffer = scope.buffer(reader, leaf)?;
+            Some(Given { value: Value::Buffer(buffer.index), decided: Vec::new() })
+        }
+        ParameterKind::Format { .. } => match leaf.shape() {
+            Shape::Text => scope.evaluate(reader, leaf, Wanted::FORMAT).map(given),
+            _ => {
+                let format = parameters::format(reader, leaf)?;
+                Some(Given { value: Value::Format(format), decided: Vec::new() })
+            }
+        },
+        ParameterKind::Value(kind) => {
+            let given = match leaf.shape() {
+                Shape::Text => scope.evaluate(reader, leaf, wanted(kind)).map(given)?,
+                _ => Given { value: plain(reader, leaf, kind)?, decided: Vec::new() },
+            };
+            allowed(reader, scope, leaf, parameter, kind, &given)?;
+            Some(given)
+        }
+    }
+}
+
+const fn wanted(kind: &SettingKind) -> Wanted<'static> {
+    match kind {
+        SettingKind::Bool { .. } => Wanted::BOOL,
+        SettingKind::OneOf { .. } | SettingKind::Integer { .. } => Wanted::INTEGER,
+        SettingKind::Number { .. } => Wanted::NUMBER,
+        SettingKind::Choice { .. } => Wanted { types: &[Type::Text], words: "a text in single quotes" },
+    }
+}
+
+/// A value that stands there by itself.
+fn plain(reader: &mut Reader, leaf: Leaf<'_>, kind: &SettingKind) -> Option<Value> {
+    match kind {
+        SettingKind::Bool { .. } => reader.truth(leaf).map(Value::Bool),
+        SettingKind::OneOf { .. } | SettingKind::Integer { .. } => reader.integer(leaf).map(Value::Integer),
+        SettingKind::Number { .. } => reader.number(leaf).map(Value::Number),
+        SettingKind::Choice { .. } => {
+            reader.expected(leaf, "a text in single quotes within quotes");
+            None
+        }
+    }
+}
+
+fn allowed(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'_>,
+    parameter: &Parameter,
+    kind: &SettingKind,
+    given: &Given,
+) -> Option<()> {
+    if kind.allows(&given.value) {
+        return Some(());
+    }
+    let because = super::scope::joined(&given.decided);
+    let Name { text, span } = &parameter.name;
+    let message = format!("parameter `{text}` doesn't allow `{}`", given.value);
+    let wrong = Diagnostic::new(leaf.span(), message).remark(because.as_deref().unwrap_or_default());
+    scope.fault(reader, leaf, wrong.label(*span, "declared here").help(format!("it is {}", kind.allowed())));
+    None
+}
