@@ -167,7 +167,10 @@ mod tests {
         assert_eq!(of(&SettingKind::Integer { default: 8, min: 0, max: 16, step: 1 }), ["8", "0", "9", "16"]);
         let widest = SettingKind::Integer { default: 0, min: i64::MIN, max: i64::MAX, step: 1 };
         assert_eq!(of(&widest), ["0", "-9223372036854775808", "-1", "9223372036854775807"]);
-        assert_eq!(of(&SettingKind::Number { default: 0.1, min: 0.0, max: 1e300, step: None }), ["0.1", "0.0", "1e300"]);
+        assert_eq!(
+            of(&SettingKind::Number { default: 0.1, min: 0.0, max: 1e300, step: None }),
+            ["0.1", "0.0", "1e300"]
+        );
         assert_eq!(of(&SettingKind::Number { default: 1.0, min: 1.0, max: 1.0, step: None }), ["1.0"]);
     }
 }

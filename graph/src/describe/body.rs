@@ -63,7 +63,8 @@ impl<'t> Body<'t> {
         lists: Lists<'t>,
     ) -> Body<'t> {
         let mut images = Names::new("image");
-        let image_entries: Vec<Option<ImageFields<'t>>> = entries(reader, lists.images, "`images`", "image", &mut images);
+        let image_entries: Vec<Option<ImageFields<'t>>> =
+            entries(reader, lists.images, "`images`", "image", &mut images);
         let mut buffers = Names::new("buffer");
         let buffer_entries: Vec<Option<BufferFields<'t>>> =
             entries(reader, lists.buffers, "`buffers`", "buffer", &mut buffers);

@@ -41,8 +41,7 @@ fn bytes<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opti
     let what = "size of a buffer in bytes";
     match leaf.shape() {
         Shape::Text | Shape::Number => {
-            let (bytes, because): Decided<u64> =
-                values::whole_because(reader, scope, leaf, what, 4..=LARGEST_BUFFER)?;
+            let (bytes, because): Decided<u64> = values::whole_because(reader, scope, leaf, what, 4..=LARGEST_BUFFER)?;
             if matches!(leaf.shape(), Shape::Number) && !bytes.is_multiple_of(4) {
                 let help = format!("the next is {}", bytes.next_multiple_of(4));
                 reader.wrong(leaf, format!("a buffer has a multiple of 4 bytes, found {bytes}"), &help);

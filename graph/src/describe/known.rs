@@ -90,7 +90,8 @@ impl Known {
         let lists = if self.settings { &lists[1..] } else { &lists };
         for (at, (names, what)) in lists.iter().enumerate() {
             for name in names.all() {
-                let before = lists[..at].iter().find_map(|(others, other)| Some((others.find_name(&name.text)?, other)));
+                let before =
+                    lists[..at].iter().find_map(|(others, other)| Some((others.find_name(&name.text)?, other)));
                 let Some((first, other)) = before else { continue };
                 let twice = format!("`{}` is the name of {other} and of {what}", name.text);
                 let this = |what: &str| format!("this {}", what.split_once(' ').map_or(what, |(_, noun)| noun));

@@ -107,11 +107,7 @@ fn within<'src, T: FromLeaf<'src> + Default>(
     }
 }
 
-fn initial<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Option<Leaf<'src>>,
-) -> Option<Option<Spanned<Fill>>> {
+fn initial<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Option<Leaf<'src>>) -> Option<Option<Spanned<Fill>>> {
     let Some(leaf) = leaf else { return Some(None) };
     let value = values::fill(reader, scope, leaf)?;
     Some(Some(leaf.spanned(value)))

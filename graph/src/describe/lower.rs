@@ -94,7 +94,9 @@ impl<'a, 't> Lowering<'a, 't> {
         previous::check(&self.images, &self.buffers, &self.passes, &mut reader.errors);
         let outputs = outputs::lower(reader, &self.scope(body, &level, None), outputs);
         let mut seen = HashSet::new();
-        reader.errors.retain(|error| error.labels.first().is_none_or(|at| seen.insert((at.span, error.message.clone()))));
+        reader
+            .errors
+            .retain(|error| error.labels.first().is_none_or(|at| seen.insert((at.span, error.message.clone()))));
         if self.broken {
             return None;
         }

@@ -112,12 +112,10 @@ pub use document::Document;
 pub(crate) use images::LARGEST_SIZE;
 pub use json::to_json;
 pub use pass::{
-    BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, Off, Param, Part, Pass, Sample, Selection, StandIn,
-    Storage, StorageAccess, Uniform, Work,
+    BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, Off, Param, Part, Pass, Sample, Selection,
+    StandIn, Storage, StorageAccess, Uniform, Work,
 };
-pub use pipeline::{
-    BufferRef, ImageRef, Instance, Name, Output, Pipeline, ResourceRef, Setting, SettingKind, Spanned,
-};
+pub use pipeline::{BufferRef, ImageRef, Instance, Name, Output, Pipeline, ResourceRef, Setting, SettingKind, Spanned};
 pub(crate) use properties::scaled;
 pub use render::{escape, render};
 pub use resources::{

@@ -51,7 +51,8 @@ fields! {
     }
 }
 
-const STAND_INS: &str = "write `Forward(from: \"image\", to: \"image\")`, `Clear(image: \"image\", value: 0)` or a list of these";
+const STAND_INS: &str =
+    "write `Forward(from: \"image\", to: \"image\")`, `Clear(image: \"image\", value: 0)` or a list of these";
 
 /// A pass, once its fields are told apart. What has no value because the pass is off is no mistake.
 pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &PassFields<'src>) -> Option<Pass> {
@@ -107,7 +108,12 @@ impl Pass {
 }
 
 /// What the pass does, with what.
-fn parts_of<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &PassFields<'src>, name: Option<&Name>) -> Option<Pass> {
+fn parts_of<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    fields: &PassFields<'src>,
+    name: Option<&Name>,
+) -> Option<Pass> {
     let what = name.map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
     let work = work::lower(reader, scope, fields, &what);
     let sample = optional(fields.sample, |leaf| bindings::samples(reader, scope, leaf));
@@ -148,7 +154,10 @@ pub(super) fn when<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src
 }
 
 /// A field that may be absent: `None` if it is there and wrong.
-pub(super) fn optional<'src, T>(leaf: Option<Leaf<'src>>, lower: impl FnOnce(Leaf<'src>) -> Option<T>) -> Option<Option<T>> {
+pub(super) fn optional<'src, T>(
+    leaf: Option<Leaf<'src>>,
+    lower: impl FnOnce(Leaf<'src>) -> Option<T>,
+) -> Option<Option<T>> {
     match leaf {
         Some(leaf) => lower(leaf).map(Some),
         None => Some(None),

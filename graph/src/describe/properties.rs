@@ -9,11 +9,7 @@ use super::{Diagnostic, LARGEST_SIZE, shown_number};
 const ROUNDING: f64 = 1e-6;
 
 /// Properties of an image that is lowered after those whose properties are `known`. `frame` is the size of the frame.
-pub(super) fn of(
-    image: &Image,
-    known: &[Option<Properties>],
-    frame: [u32; 2],
-) -> Result<Properties, Diagnostic> {
+pub(super) fn of(image: &Image, known: &[Option<Properties>], frame: [u32; 2]) -> Result<Properties, Diagnostic> {
     let followed = |of: &ImageRef| known.get(of.index.0 as usize).copied().flatten().unwrap_or_default();
     let extent = match &image.size.value {
         Size::Output => Some(frame),

@@ -1,5 +1,6 @@
 //! A fragment is put in: its images, buffers and passes, under the name of its use.
 
+use super::Diagnostic;
 use super::body::Body;
 use super::lower::{Lowering, Place, full};
 use super::parts;
@@ -9,7 +10,6 @@ use super::pipeline::{BufferRef, ImageRef, Instance, Name};
 use super::reader::Reader;
 use super::scope::{Given, Level, Scope};
 use super::uses::{self, UseFields};
-use super::Diagnostic;
 use crate::expression::Value;
 use crate::frame::Resource;
 use crate::source::Span;
@@ -45,7 +45,8 @@ impl<'t> Lowering<'_, 't> {
         let (fragments, is_lenient) = (self.fragments, lenient.lenient);
         let found = fragment.as_ref().and_then(|(at, _)| fragments.list.get(*at)?.as_ref());
         let given = found.map(|fragment| uses::arguments(reader, &lenient, fields, fragment));
-        let (Some(name), Some((at, _)), Some(found), Some(given), Some(off)) = (name, fragment, found, given, off) else {
+        let (Some(name), Some((at, _)), Some(found), Some(given), Some(off)) = (name, fragment, found, given, off)
+        else {
             self.passes.push(None);
             return;
         };
@@ -69,10 +70,8 @@ impl<'t> Lowering<'_, 't> {
         let whole = full(place, &name, number);
         let start = [self.images.len(), self.buffers.len(), self.passes.len(), self.instances.len()];
         let outer = std::mem::replace(&mut self.lenient, is_lenient);
-        let within = Place {
-            prefix: format!("{}.", whole.text).into(),
-            instance: u32::try_from(self.instances.len()).ok(),
-        };
+        let within =
+            Place { prefix: format!("{}.", whole.text).into(), instance: u32::try_from(self.instances.len()).ok() };
         self.instances.push(Instance { name: whole.text.clone(), span: name.span, within: place.instance });
         self.path.push((at, name.clone()));
         let inside = reader.errors.len();
@@ -119,11 +118,12 @@ impl<'t> Lowering<'_, 't> {
             written.extend(passes::written_buffers(pass).map(|buffer| Resource::Buffer(buffer.index)));
         }
         let parts = arguments.iter().filter(|(resource, _)| written.contains(resource));
-        parts.map(|(resource, span)| match resource {
-            Resource::Image(index) => Part::Image(ImagePart::whole(ImageRef { index: *index, span: *span })),
-            Resource::Buffer(index) => Part::Buffer(parts::whole_buffer(BufferRef { index: *index, span: *span })),
-        })
-        .collect()
+        parts
+            .map(|(resource, span)| match resource {
+                Resource::Image(index) => Part::Image(ImagePart::whole(ImageRef { index: *index, span: *span })),
+                Resource::Buffer(index) => Part::Buffer(parts::whole_buffer(BufferRef { index: *index, span: *span })),
+            })
+            .collect()
     }
 
     /// Whether a fragment may be put in here: not within itself, and not too deep.
@@ -133,7 +133,8 @@ impl<'t> Lowering<'_, 't> {
         }
         if let Some(first) = self.path.iter().position(|(outer, _)| *outer == at) {
             let called = |at: usize| {
-                let name = self.fragments.list.get(at).and_then(Option::as_ref).and_then(|fragment| fragment.name.as_ref());
+                let name =
+                    self.fragments.list.get(at).and_then(Option::as_ref).and_then(|fragment| fragment.name.as_ref());
                 format!("`{}`", name.map_or("", |name| &*name.text))
             };
             let circle: Vec<(usize, &Name)> =

@@ -46,9 +46,10 @@ impl Declarations for Scope<'_> {
         let thing = |names: &Names, lists: &[bool], id: u32, ty: Type, origin: Origin| {
             let at = names.at(name)?;
             let declared = names.find_name(name).map_or(Span::NONE, |name| name.span);
-            Some(found(number(at).and_then(|at| {
-                Some(Symbol { id: id | at, ty, list: *lists.get(at as usize)?, origin, declared })
-            })))
+            Some(found(
+                number(at)
+                    .and_then(|at| Some(Symbol { id: id | at, ty, list: *lists.get(at as usize)?, origin, declared })),
+            ))
         };
         if let Some(image) = thing(images, image_lists, IMAGE, Type::Image, Origin::Image) {
             return image;

@@ -1,12 +1,12 @@
 //! `color` and `depth`: what a pass draws into, and how.
 
-use super::{Diagnostic, Spanned};
 use super::leaf::{Leaf, Shape};
 use super::parts::{self, Selected};
 use super::pass::{Color, Depth};
 use super::reader::Reader;
 use super::scope::Scope;
 use super::values::{self, choice};
+use super::{Diagnostic, Spanned};
 use crate::fields;
 use crate::frame::{Blend, StencilState};
 use crate::vocabulary::{CompareOp, StencilOp};

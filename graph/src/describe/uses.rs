@@ -71,7 +71,8 @@ pub(super) fn arguments<'t>(
         let names: Vec<String> = missing.iter().map(|parameter| format!("`{}`", parameter.name.text)).collect();
         let what = if names.len() == 1 { "parameter" } else { "parameters" };
         let message = format!("fragment `{called}` needs the {what} {}", names.join(", "));
-        let wrong = Diagnostic::new(fields.r#use.span(), message).label(first.name.span, "declared here, without default");
+        let wrong =
+            Diagnostic::new(fields.r#use.span(), message).label(first.name.span, "declared here, without default");
         let example = if first.kind.ty() == Type::Image { "\"an_image\"" } else { "…" };
         reader.report(wrong.help(format!("add `with: {{\"{}\": {example}}}`", first.name.text)));
     }

@@ -126,10 +126,7 @@ fn extent(
     describe::scaled(image, base, by).map_err(|wrong| errors.push(wrong)).ok()
 }
 
-fn samples(
-    image: &describe::Image,
-    followed: Option<(u32, Option<Arc<str>>)>,
-) -> Option<(u32, Option<Arc<str>>)> {
+fn samples(image: &describe::Image, followed: Option<(u32, Option<Arc<str>>)>) -> Option<(u32, Option<Arc<str>>)> {
     match image.samples.value {
         Samples::Like(_) => followed,
         Samples::Count(count) => Some((count, image.samples_because.clone())),

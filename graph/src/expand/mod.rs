@@ -159,7 +159,9 @@ fn used_here(pipeline: &Pipeline, instance: Option<u32>, errors: &mut [Diagnosti
     let mut next = instance;
     while let Some(instance) = next.and_then(|at| pipeline.instances.get(at as usize)) {
         for error in errors.iter_mut() {
-            error.labels.push(describe::Label { span: instance.span, text: format!("used here as `{}`", instance.name) });
+            error
+                .labels
+                .push(describe::Label { span: instance.span, text: format!("used here as `{}`", instance.name) });
         }
         next = instance.within;
     }

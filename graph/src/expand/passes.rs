@@ -173,11 +173,7 @@ pub(super) fn stand_ins(
         };
         let name = &pass.name.text;
         let name = if number == 0 { name.to_string() } else { format!("{name} (otherwise {})", number + 1) };
-        Pass {
-            span: pass.name.span,
-            transfers: transfer.into_iter().collect(),
-            ..Pass::new(&name, work)
-        }
+        Pass { span: pass.name.span, transfers: transfer.into_iter().collect(), ..Pass::new(&name, work) }
     };
     pass.otherwise.iter().enumerate().map(stand_in).collect()
 }

@@ -27,11 +27,7 @@ impl<'s> Checked<'s> {
     }
 
     /// The interface of a pass's shader, if it has one. A shader that can't be had is reported where it is first named.
-    pub(super) fn interface(
-        &mut self,
-        pass: &describe::Pass,
-        errors: &mut Vec<Diagnostic>,
-    ) -> Option<ShaderInterface> {
+    pub(super) fn interface(&mut self, pass: &describe::Pass, errors: &mut Vec<Diagnostic>) -> Option<ShaderInterface> {
         let (shader, found) = match &pass.work {
             Work::Draw { shader, draw } => (shader, self.shaders.draw_shader(&shader.text, work::draw(draw))),
             Work::Dispatch { shader, .. } => (shader, self.shaders.compute_shader(&shader.text)),

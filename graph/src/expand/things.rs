@@ -128,15 +128,9 @@ fn followed(
 }
 
 /// The size of a buffer that follows no other.
-fn own(
-    images: &[Option<images::Resolved>],
-    buffer: &describe::Buffer,
-    errors: &mut Vec<Diagnostic>,
-) -> Option<u64> {
+fn own(images: &[Option<images::Resolved>], buffer: &describe::Buffer, errors: &mut Vec<Diagnostic>) -> Option<u64> {
     let (bytes, because) = match buffer.bytes.value {
-        Bytes::Count(bytes) => {
-            (bytes.checked_next_multiple_of(4), format!("{bytes} bytes"))
-        }
+        Bytes::Count(bytes) => (bytes.checked_next_multiple_of(4), format!("{bytes} bytes")),
         Bytes::Times(each, count) => {
             let because = buffer.bytes_because.as_ref().map(|because| format!(" ({because})")).unwrap_or_default();
             (each.checked_mul(count), format!("{each} bytes times {count}{because}"))

@@ -14,10 +14,7 @@ pub(super) fn draw(draw: &describe::Draw) -> Draw {
         describe::Draw::Objects(list) => Draw::Objects(*list),
         describe::Draw::Sky => Draw::Sky,
         describe::Draw::FullScreen => Draw::FullScreen,
-        describe::Draw::Vertices { count, instances } => Draw::Vertices {
-            count: *count,
-            instances: *instances,
-        },
+        describe::Draw::Vertices { count, instances } => Draw::Vertices { count: *count, instances: *instances },
         describe::Draw::Indirect(_) => Draw::Indirect,
     }
 }

@@ -5,7 +5,9 @@
 
 mod bad;
 mod docs;
+mod fragments;
 mod random;
+mod repeat;
 mod resources;
 mod shipped;
 mod table;

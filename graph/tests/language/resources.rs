@@ -1,6 +1,6 @@
 //! What a file says of images and buffers beyond formats and sizes: mip levels, layers, shapes, bytes, lifetimes, states.
 
-use crate::table::{INPUTS, frame, set};
+use crate::table::{INPUTS, frame, right, set};
 use framewright_graph::expand::Inputs;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Buffer, Frame, Image, Lifetime, Resource, Shape};
@@ -18,10 +18,6 @@ fn pipeline(settings: &str, images: &str, buffers: &str, outputs: &str) -> Strin
             outputs: ["screen", {outputs}],
         )"#
     )
-}
-
-fn right(text: &str, inputs: &Inputs<'_>) -> Frame {
-    frame(text, inputs).unwrap_or_else(|answer| panic!("{answer}"))
 }
 
 /// The image that is declared so, beside one of 64 × 48 with four mip levels and two layers.

@@ -324,3 +324,20 @@ pub(crate) fn frame(text: &str, inputs: &Inputs<'_>) -> Result<Frame, String> {
 pub(crate) fn set(values: &[(&str, &str)]) -> Vec<(String, String)> {
     values.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect()
 }
+
+/// The frame of a pipeline that is right.
+pub(crate) fn right(text: &str, inputs: &Inputs<'_>) -> Frame {
+    frame(text, inputs).unwrap_or_else(|answer| panic!("{answer}"))
+}
+
+/// What is said about a pipeline that is wrong.
+pub(crate) fn wrong(text: &str, inputs: &Inputs<'_>) -> String {
+    frame(text, inputs).expect_err("the pipeline is wrong")
+}
+
+/// All that a frame says, but for names and places.
+pub(crate) fn unnamed(frame: &Frame) -> String {
+    let all = format!("{:#?}", (&frame.images, &frame.buffers, &frame.passes, &frame.outputs));
+    let said = |line: &&str| !["name: ", "file: ", "start: ", "end: "].iter().any(|it| line.trim().starts_with(it));
+    all.lines().filter(said).collect::<Vec<_>>().join("\n")
+}

@@ -1,6 +1,6 @@
 //! What the words of the language come to in a frame.
 
-use crate::table::{INPUTS, frame, set};
+use crate::table::{INPUTS, frame, right, set};
 use framewright_graph::expand::{Facts, Inputs};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Frame, ImageIndex, ParamValue, Resource, Work};
@@ -17,10 +17,6 @@ fn pipeline(settings: &str, images: &str, passes: &str) -> String {
             outputs: ["screen"],
         )"#
     )
-}
-
-fn right(text: &str, inputs: &Inputs<'_>) -> Frame {
-    frame(text, inputs).unwrap_or_else(|answer| panic!("{answer}"))
 }
 
 /// The extent of an image of this size in a frame of 1000 × 30.

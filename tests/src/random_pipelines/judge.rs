@@ -192,7 +192,14 @@ impl Judge {
         let sources = Arc::new(sources);
         let refused = |mistakes: Vec<Diagnostic>| Fault::Refused(vec![describe::render(&sources, &mistakes)]);
         let described = read.map_err(refused)?;
-        let inputs = Inputs { set: &[], facts: Facts::UNKNOWN, facts_known: false, output_extent: [1, 1], dump: &[], device: None };
+        let inputs = Inputs {
+            set: &[],
+            facts: Facts::UNKNOWN,
+            facts_known: false,
+            output_extent: [1, 1],
+            dump: &[],
+            device: None,
+        };
         expand::expand(&described, sources.clone(), &inputs, &mut self.shaders).map_err(refused)
     }
 
