@@ -1,9 +1,9 @@
 //! What a file says of images and buffers beyond formats and sizes: mip levels, layers, shapes, bytes, lifetimes, states.
 
-use crate::table::{INPUTS, frame, right, set};
+use crate::table::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Buffer, Frame, Image, Lifetime, Resource, Shape};
+use framewright_graph::frame::{Buffer, Image, Lifetime, Resource, Shape};
 use framewright_graph::vocabulary::{Accesses, FillValue, Layout, Stages, State};
 
 /// A pipeline that shows one full-screen draw, with more images and buffers beside it.

@@ -1,9 +1,9 @@
 //! What the words of the language come to in a frame.
 
-use crate::table::{INPUTS, frame, right, set};
+use crate::table::{INPUTS, right, set};
 use framewright_graph::expand::{Facts, Inputs};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Frame, ImageIndex, ParamValue, Resource, Work};
+use framewright_graph::frame::{Blend, ImageIndex, ParamValue, Resource, Work};
 use framewright_graph::vocabulary::{CompareOp, Filter};
 
 /// A pipeline that shows one full-screen draw, with more settings, images and passes before it.
