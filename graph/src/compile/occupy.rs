@@ -55,8 +55,9 @@ impl Occupancy {
     pub(super) fn of(placed: &Placed, lifetimes: &[[u32; 2]]) -> Occupancy {
         let mut occupancy = Occupancy::default();
         let mut pieces = vec![[0; 2]; placed.placements.len()];
+        let by_first_step = placed.by_first_step(lifetimes);
         for heap in 0..placed.heaps.len() as u32 {
-            occupancy.heap(placed, lifetimes, heap, &mut pieces);
+            occupancy.heap(placed, &by_first_step, heap, &mut pieces);
         }
         occupancy
     }
@@ -71,23 +72,17 @@ impl Occupancy {
         })
     }
 
-    /// Follows who holds which bytes of a heap. `pieces`: for each store the first of the pieces that its ends cut the heap
+    /// Follows who holds which bytes of a heap. `by_first_step`: what has a place, in the order in which it begins. `pieces`: for each store the first of the pieces that its ends cut the heap
     /// into, and the first behind it.
-    fn heap(&mut self, placed: &Placed, lifetimes: &[[u32; 2]], heap: u32, pieces: &mut [[u32; 2]]) {
-        let most = placed.placements.len();
-        let mut members: Vec<(u32, StoreIndex)> = Vec::with_capacity(most);
-        let mut ends: Vec<(u64, StoreIndex, bool)> = Vec::with_capacity(2 * most);
+    fn heap(&mut self, placed: &Placed, by_first_step: &[StoreIndex], heap: u32, pieces: &mut [[u32; 2]]) {
+        let mut ends: Vec<(u64, StoreIndex, bool)> = Vec::with_capacity(2 * placed.placements.len());
         for (placement, store) in placed.placements.iter().zip(0_u32..) {
             if let Some(placement) = placement.as_ref().filter(|placement| placement.heap == heap) {
-                members.push((lifetimes[store as usize][0], store));
                 ends.push((placement.offset, store, false));
                 ends.push((placement.offset + placement.bytes, store, true));
             }
         }
-        if !members.is_sorted() {
-            members.sort_unstable();
-        }
-        ends.sort_unstable();
+        ends.sort_by_key(|(offset, ..)| *offset);
         self.ends.reserve(ends.len());
         self.taken.reserve(ends.len());
         let mut piece = 0;
@@ -102,7 +97,9 @@ impl Occupancy {
         let mut holders = vec![NEVER; piece as usize];
         let mut from_frame_before: Vec<(StoreIndex, u32)> = Vec::new();
         let mut known: Vec<StoreIndex> = Vec::new();
-        for (_, store) in &members {
+        let is_here =
+            |store: &&StoreIndex| placed.placements[**store as usize].as_ref().is_some_and(|it| it.heap == heap);
+        for store in by_first_step.iter().filter(is_here) {
             let [first, end] = pieces[*store as usize];
             known.clear();
             for piece in first..end {

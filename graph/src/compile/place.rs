@@ -2,10 +2,10 @@
 
 use super::Options;
 use super::model::{Adapted, Kind, StoreIndex};
-use super::pack::{self, Block, Packing};
+use super::pack::{Block, Measured, Packing};
 use super::synchronise::NEVER;
 use crate::describe::Diagnostic;
-use crate::device::{MemoryNeeds, MemoryProvider, Profile};
+use crate::device::{ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
 use crate::plan::{Heap, Placement, StepId};
 use crate::source::Span;
 use crate::vocabulary::Usage;
@@ -24,11 +24,43 @@ pub(super) struct Placed {
     pub(super) kept_bytes: u64,
 }
 
+impl Placed {
+    /// What has a place, in the order in which it begins; of what begins at one step in the order of the stores.
+    pub(super) fn by_first_step(&self, lifetimes: &[[u32; 2]]) -> Vec<StoreIndex> {
+        let placed =
+            self.placements.iter().zip(0_u32..).filter_map(|(placement, store)| placement.as_ref().map(|_| store));
+        let first = |store: &StoreIndex| lifetimes[*store as usize][0];
+        let mut order: Vec<StoreIndex> = Vec::with_capacity(self.placements.len());
+        order.extend(placed);
+        if order.is_sorted_by_key(first) {
+            return order;
+        }
+        // For each step the stores that begin there, as lists.
+        let mut heads = vec![NEVER; order.iter().map(first).max().map_or(0, |last| last as usize + 1)];
+        let mut next = vec![NEVER; self.placements.len()];
+        for store in order.iter().rev() {
+            next[*store as usize] = std::mem::replace(&mut heads[first(store) as usize], *store);
+        }
+        order.clear();
+        for head in heads {
+            let mut store = head;
+            while store != NEVER {
+                order.push(store);
+                store = next[store as usize];
+            }
+        }
+        order
+    }
+}
+
 /// A heap with what shares it.
 struct Members {
     /// Images don't share memory with buffers: rows of texels and bytes may need a distance (`bufferImageGranularity`).
     images: bool,
-    list: Vec<(StoreIndex, Block)>,
+    count: usize,
+    /// In the order of their first steps.
+    stores: Vec<StoreIndex>,
+    blocks: Vec<Block>,
 }
 
 /// `spans` are longer than lifetimes where steps of several queues run side by side.
@@ -49,7 +81,9 @@ pub(super) fn place(
     };
     let mut members: Vec<Members> = Vec::new();
     let (overlaps, spans) = (spans.is_some(), spans.unwrap_or(lifetimes));
-    for (((store, [first, last]), span), at) in adapted.stores.iter().zip(lifetimes).zip(spans).zip(0_u32..) {
+    // Images often follow others of their kind.
+    let mut last_needs: Option<(&ImageDescriptor, MemoryNeeds)> = None;
+    for (store, [first, last]) in adapted.stores.iter().zip(lifetimes) {
         if *first == NEVER && store.is_transient() {
             placed.placements.push(None);
             continue;
@@ -57,7 +91,12 @@ pub(super) fn place(
         let (needs, lazily) = match &store.kind {
             Kind::Image(image) => {
                 let transient = image.usage.contains(Usage::TRANSIENT_ATTACHMENT);
-                (memory.image(image), device.lazily_allocated_memory && transient)
+                let needs = match last_needs {
+                    Some((of, needs)) if of == image => needs,
+                    _ => memory.image(image),
+                };
+                last_needs = Some((image, needs));
+                (needs, device.lazily_allocated_memory && transient)
             }
             Kind::Buffer(buffer) => (memory.buffer(buffer), false),
         };
@@ -66,10 +105,7 @@ pub(super) fn place(
             placed.placements.push(None);
             continue;
         }
-        let most = adapted.stores.len() - at as usize;
-        let heap = choose_heap(&mut placed.heaps, &mut members, &needs, lazily, store.image().is_some(), most);
-        let block = Block { first: span[0], last: span[1], bytes: needs.bytes, alignment: needs.alignment };
-        members[heap].list.push((at, block));
+        let heap = choose_heap(&mut placed.heaps, &mut members, &needs, lazily, store.image().is_some());
         placed.transient_bytes = placed.transient_bytes.saturating_add(needs.bytes);
         placed.placements.push(Some(Placement {
             heap: heap as u32,
@@ -81,36 +117,42 @@ pub(super) fn place(
         }));
     }
     // Offsets and heights of whatever packing stay below this sum, so none of them overflows.
-    let blocks = members.iter().flat_map(|members| &members.list);
-    let padding = blocks.map(|(_, block)| block.alignment).fold(0, u64::saturating_add);
+    let placements = placed.placements.iter().flatten();
+    let padding = placements.map(|placement| placement.alignment).fold(0, u64::saturating_add);
     let most = placed.transient_bytes.saturating_add(padding).saturating_add(placed.kept_bytes);
     if most > i64::MAX as u64 {
         let message = "the frame's images and buffers take more memory than can be addressed".to_owned();
         return Err(vec![Diagnostic::new(Span::NONE, message).help("make them smaller or fewer")]);
     }
-    for (heap, members) in placed.heaps.iter_mut().zip(&mut members) {
-        let in_order = |(_, block): &(StoreIndex, Block)| block.first;
-        if !members.list.is_sorted_by_key(in_order) {
-            members.list.sort_by_key(in_order);
+    for Members { count, stores, blocks, .. } in &mut members {
+        (*stores, *blocks) = (Vec::with_capacity(*count), Vec::with_capacity(*count));
+    }
+    for store in placed.by_first_step(spans) {
+        if let Some(Placement { heap, bytes, alignment, .. }) = placed.placements[store as usize] {
+            let [first, last] = spans[store as usize];
+            let Members { stores, blocks, .. } = &mut members[heap as usize];
+            stores.push(store);
+            blocks.push(Block { first, last, bytes, alignment });
         }
-        let blocks: Vec<Block> = members.list.iter().map(|(_, block)| *block).collect();
-        let live_peak = pack::live_peak(&blocks);
-        let packing = if options.alias { pack::pack(&blocks, live_peak) } else { side_by_side(&blocks) };
+    }
+    for (heap, Members { stores, blocks, .. }) in placed.heaps.iter_mut().zip(&members) {
+        let measured = Measured::of(blocks);
+        let packing = if options.alias { measured.pack() } else { side_by_side(blocks) };
         heap.bytes = packing.height;
-        for ((store, _), offset) in members.list.iter().zip(packing.offsets) {
+        for (store, offset) in stores.iter().zip(packing.offsets) {
             if let Some(placement) = &mut placed.placements[*store as usize] {
                 placement.offset = offset;
             }
         }
-        placed.live_peak_bytes = live_peak;
+        placed.live_peak_bytes = measured.live_peak();
     }
     if members.len() > 1 || overlaps {
-        let alive = |(store, block): &(StoreIndex, Block)| {
+        let alive = |(store, block): (&StoreIndex, &Block)| {
             let [first, last] = lifetimes[*store as usize];
             Block { first, last, ..*block }
         };
-        let all: Vec<Block> = members.iter().flat_map(|members| &members.list).map(alive).collect();
-        placed.live_peak_bytes = pack::live_peak(&all);
+        let all = members.iter().flat_map(|Members { stores, blocks, .. }| stores.iter().zip(blocks).map(alive));
+        placed.live_peak_bytes = Measured::of(&all.collect::<Vec<Block>>()).live_peak();
     }
     Ok(placed)
 }
@@ -122,16 +164,16 @@ fn choose_heap(
     needs: &MemoryNeeds,
     lazily: bool,
     images: bool,
-    most: usize,
 ) -> usize {
     let fits = |(heap, members): (&Heap, &Members)| {
         members.images == images && heap.lazily_allocated == lazily && heap.type_bits & needs.type_bits != 0
     };
     let at = heaps.iter().zip(members.iter()).position(fits).unwrap_or_else(|| {
         heaps.push(Heap { bytes: 0, alignment: 1, type_bits: needs.type_bits, lazily_allocated: lazily });
-        members.push(Members { images, list: Vec::with_capacity(most) });
+        members.push(Members { images, count: 0, stores: Vec::new(), blocks: Vec::new() });
         heaps.len() - 1
     });
+    members[at].count += 1;
     heaps[at].type_bits &= needs.type_bits;
     heaps[at].alignment = heaps[at].alignment.max(needs.alignment);
     at

@@ -1,10 +1,12 @@
 //! What differs between two frames.
 
 use crate::frame::{
-    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, ParamValue, Pass, StencilState, Work,
+    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, ParamValue, Pass, Sampled, StencilState, Storage,
+    Work,
 };
 use crate::view::View;
 use crate::vocabulary::FillValue;
+use std::sync::Arc;
 
 /// How much two frames differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,6 +26,16 @@ use Difference::{None as Nothing, Sizes, Structure, Values};
 /// The difference that there is if two things are not the same.
 fn unless(same: bool, difference: Difference) -> Difference {
     if same { Nothing } else { difference }
+}
+
+/// Whether two names are the same: often they are one, since frames come from one another.
+fn same_name(old: &Arc<str>, new: &Arc<str>) -> bool {
+    Arc::ptr_eq(old, new) || old == new
+}
+
+/// Whether all members of two lists are the same.
+fn same_lists<T>(old: &[T], new: &[T], same: impl Fn(&T, &T) -> bool) -> bool {
+    old.len() == new.len() && old.iter().zip(new).all(|(old, new)| same(old, new))
 }
 
 /// The greatest of the differences between the members of two lists.
@@ -62,7 +74,7 @@ fn view(old: &View, new: &View) -> Difference {
 
 fn image(old: &Image, new: &Image) -> Difference {
     let Image { name, span, format, shape, extent, mips, layers, samples, lifetime } = new;
-    let same = old.name == *name
+    let same = same_name(&old.name, name)
         && old.span == *span
         && (old.format, old.shape, old.mips, old.layers, old.samples) == (*format, *shape, *mips, *layers, *samples)
         && same_lifetime(&old.lifetime, lifetime);
@@ -71,7 +83,7 @@ fn image(old: &Image, new: &Image) -> Difference {
 
 fn buffer(old: &Buffer, new: &Buffer) -> Difference {
     let Buffer { name, span, bytes, lifetime } = new;
-    let same = old.name == *name && old.span == *span && same_lifetime(&old.lifetime, lifetime);
+    let same = same_name(&old.name, name) && old.span == *span && same_lifetime(&old.lifetime, lifetime);
     if same { unless(old.bytes == *bytes, Sizes) } else { Structure }
 }
 
@@ -86,12 +98,12 @@ fn same_lifetime(old: &Lifetime, new: &Lifetime) -> bool {
 
 fn pass(old: &Pass, new: &Pass) -> Difference {
     let Pass { name, span, view, work, sampled, storage, color, depth, buffers, transfers, side_effect, params } = new;
-    let same = old.name == *name
+    let same = same_name(&old.name, name)
         && old.span == *span
         && old.view == *view
         && old.side_effect == *side_effect
-        && old.sampled == *sampled
-        && old.storage == *storage
+        && same_lists(&old.sampled, sampled, same_sampled)
+        && same_lists(&old.storage, storage, same_storage)
         && old.buffers == *buffers
         && old.transfers == *transfers;
     if !same {
@@ -102,14 +114,27 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         (Some(old), Some(new)) => depth_target(old, new),
         _ => Structure,
     };
-    let same_params = old.params.len() == params.len()
-        && old.params.iter().zip(params).all(|(old, new)| old.0 == new.0 && same_param(old.1, new.1));
+    let same_params = same_lists(&old.params, params, |old, new| same_name(&old.0, &new.0) && same_param(old.1, new.1));
     unless(same_params, Values).max(works(&old.work, work)).max(of_lists(&old.color, color, color_target)).max(depth)
+}
+
+fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
+    let Sampled { binding, image, range, frames_ago, span, per_sample, own_pixel, sampler, stages } = new;
+    (old.image, old.range, old.frames_ago, old.span) == (*image, *range, *frames_ago, *span)
+        && (old.per_sample, old.own_pixel, old.sampler, old.stages) == (*per_sample, *own_pixel, *sampler, *stages)
+        && same_name(&old.binding, binding)
+}
+
+fn same_storage(old: &Storage, new: &Storage) -> bool {
+    let Storage { binding, image, range, span, read, write, stages } = new;
+    (old.image, old.range, old.span) == (*image, *range, *span)
+        && (old.read, old.write, old.stages) == (*read, *write, *stages)
+        && same_name(&old.binding, binding)
 }
 
 fn works(old: &Work, new: &Work) -> Difference {
     match (old, new) {
-        (Work::Dispatch { shader: a, groups: old }, Work::Dispatch { shader: b, groups: new }) if a == b => {
+        (Work::Dispatch { shader: a, groups: old }, Work::Dispatch { shader: b, groups: new }) if same_name(a, b) => {
             match (old, new) {
                 (Groups::Count(_), Groups::Count(_)) | (Groups::Invocations(_), Groups::Invocations(_)) => {
                     unless(old == new, Values)

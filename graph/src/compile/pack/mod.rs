@@ -31,24 +31,38 @@ pub(super) struct Packing {
     pub(super) height: u64,
 }
 
-/// The largest total alive at one step: no packing is lower. At most `u64::MAX`.
-pub(super) fn live_peak(blocks: &[Block]) -> u64 {
-    peak(&dense(blocks)).bytes
+/// Blocks with the step at which the most is alive.
+pub(super) struct Measured<'b> {
+    blocks: Cow<'b, [Block]>,
+    peak: Peak,
 }
 
-/// The lowest packing found; `bound` is the blocks' [`live_peak`], at which the search ends.
-///
-/// Takes time in proportion to the blocks if they stand in the order of their first steps; else they are sorted. Offsets
-/// and the height end at `u64::MAX` if the bytes and alignments of all blocks together are more than that.
-pub(super) fn pack(blocks: &[Block], bound: u64) -> Packing {
-    let blocks = dense(blocks);
-    let peak = peak(&blocks);
-    let spread = sweep::sweep(&blocks, peak, Gaps::spread(bound.max(1)));
-    if spread.height <= bound {
-        return spread;
+impl Measured<'_> {
+    /// Takes time in proportion to the blocks, and to their steps if those are not many more.
+    pub(super) fn of(blocks: &[Block]) -> Measured<'_> {
+        let blocks = dense(blocks);
+        Measured { peak: peak(&blocks), blocks }
     }
-    let tight = sweep::sweep(&blocks, peak, Gaps::tight(bound.max(1)));
-    if tight.height <= bound { tight } else { search::search(&blocks, bound, tight) }
+
+    /// The largest total alive at one step: no packing is lower. At most `u64::MAX`.
+    pub(super) fn live_peak(&self) -> u64 {
+        self.peak.bytes
+    }
+
+    /// The lowest packing found; the search ends at the live peak.
+    ///
+    /// Takes time in proportion to the blocks if they stand in the order of their first steps; else they are sorted. Offsets
+    /// and the height end at `u64::MAX` if the bytes and alignments of all blocks together are more than that.
+    pub(super) fn pack(&self) -> Packing {
+        let Measured { blocks, peak } = self;
+        let bound = peak.bytes;
+        let spread = sweep::sweep(blocks, *peak, Gaps::spread(bound.max(1)));
+        if spread.height <= bound {
+            return spread;
+        }
+        let tight = sweep::sweep(blocks, *peak, Gaps::tight(bound.max(1)));
+        if tight.height <= bound { tight } else { search::search(blocks, bound, tight) }
+    }
 }
 
 /// The first of the steps at which the most is alive.
