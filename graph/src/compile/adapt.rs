@@ -11,12 +11,12 @@ mod stores;
 use super::Options;
 use super::cull::Live;
 use super::link::covers;
-use super::model::{Adapted, Negotiated, Op, OpKind, Reason, Start, StoreIndex, Use};
+use super::model::{Adapted, Negotiated, Op, OpKind, Start, StoreIndex, Use};
 use super::parts::{self, Grids};
 use crate::describe::Diagnostic;
 use crate::device::Profile;
 use crate::frame::{Draw, Frame, ImageIndex, Pass, Resource, Sampled, Work};
-use crate::plan::{Note, Stage};
+use crate::plan::{Inserted, Note, Stage};
 use crate::source::{Place, Span};
 use crate::vocabulary::{Aspects, Layout, ResolveMode, Subresources};
 use demote::Demotions;
@@ -220,8 +220,8 @@ impl Adapter<'_> {
         self.input.frame.sources.place(span)
     }
 
-    fn reason(&self, because: String, span: Span) -> Box<Reason> {
-        Box::new(Reason { because, at: self.place(span) })
+    fn reason(&self, because: String, span: Span) -> Box<Inserted> {
+        Box::new(Inserted { because, at: self.place(span) })
     }
 
     fn note(&mut self, subject: &Arc<str>, text: String, span: Span) {

@@ -189,7 +189,7 @@ fn resources(parts: &Parts<'_>) -> (Vec<Image>, Vec<Buffer>) {
             Declared::Buffer(buffer) => frame.buffers[buffer.0 as usize].span,
         };
         let cause = match &store.inserted {
-            Some(why) => Cause::Inserted { because: why.because.clone(), at: why.at.clone() },
+            Some(why) => Cause::Inserted(why.clone()),
             None => Cause::Written(frame.sources.place(span)),
         };
         let role = role(frame, parts.adapted, store, *states, placement.as_ref());
@@ -290,7 +290,7 @@ fn cause(parts: &Parts<'_>, op: &Op) -> Cause {
     match &op.kind {
         OpKind::Draw(pass) | OpKind::Pass(pass) => Cause::Written(place(*pass)),
         OpKind::ForwardDraw { why, .. } | OpKind::Resolve { why, .. } | OpKind::Copy(why) => {
-            Cause::Inserted { because: why.because.clone(), at: why.at.clone() }
+            Cause::Inserted(why.clone())
         }
     }
 }

@@ -3,8 +3,7 @@
 use super::parts::{Grid, Grids};
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{Frame, ImageIndex, Resource};
-use crate::plan::{Note, Subresources};
-use crate::source::Place;
+use crate::plan::{Inserted, Note, Subresources};
 use crate::vocabulary::{Accesses, FillValue, Filter, Layout, ResolveMode, Stages, State, Usage};
 use std::ops::Range;
 use std::sync::Arc;
@@ -19,20 +18,13 @@ pub(super) struct Store {
     /// Its name, if that isn't the one of what it was made for.
     pub(super) renamed: Option<Arc<str>>,
     /// Why it was inserted, if it was.
-    pub(super) inserted: Option<Box<Reason>>,
+    pub(super) inserted: Option<Box<Inserted>>,
     pub(super) kind: Kind,
     pub(super) home: Home,
     /// The state in which it is to be left, if one was asked for.
     pub(super) after: Option<State>,
     /// The first of its cells: what is tracked by itself.
     pub(super) first_cell: u32,
-}
-
-/// Why something was inserted.
-#[derive(Debug, Clone)]
-pub(super) struct Reason {
-    pub(super) because: String,
-    pub(super) at: Option<Place>,
 }
 
 /// Image or buffer.
@@ -167,17 +159,17 @@ pub(super) enum OpKind {
         /// Filter between texels of the source.
         filter: Filter,
         /// Why.
-        why: Box<Reason>,
+        why: Box<Inserted>,
     },
     /// An inserted resolve; its uses are source and target.
     Resolve {
         /// How samples become one value.
         mode: ResolveMode,
         /// Why.
-        why: Box<Reason>,
+        why: Box<Inserted>,
     },
     /// An inserted copy; its uses are source and target.
-    Copy(Box<Reason>),
+    Copy(Box<Inserted>),
 }
 
 impl OpKind {

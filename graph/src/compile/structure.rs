@@ -174,6 +174,8 @@ impl Structure {
         self.walked.cells = Vec::new();
         self.walked.lifetimes = Vec::new();
         self.scheduled.order = Vec::new();
+        self.walked.barriers.shrink_to_fit();
+        self.adapted.uses.shrink_to_fit();
         Ok(settled)
     }
 

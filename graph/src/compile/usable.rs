@@ -1,12 +1,13 @@
 //! After `purpose`: what images are made for, the device can do with their formats. What passes do with images was looked at
 //! before (`samples`); here it is resolves, copies and draws that the compiler inserts, and what comes and goes.
 
-use super::model::{Adapted, Home, OpKind, Reason, Role, Store, StoreIndex};
+use super::model::{Adapted, Home, OpKind, Role, Store, StoreIndex};
 use super::scope::{Scoped, Step, store_name};
 use crate::describe::Diagnostic;
 use crate::device::{ImageDescriptor, Profile};
 use crate::format::Format;
 use crate::frame::{Frame, Resource};
+use crate::plan::Inserted;
 use crate::source::Span;
 use crate::vocabulary::Usage;
 
@@ -72,7 +73,7 @@ fn refusal(
 
 /// What the compiler inserted that uses a store, or where it comes from and goes.
 fn why<'a>(adapted: &'a Adapted, store: &'a Store, at: StoreIndex) -> &'a str {
-    let inserted = |number: u32| -> Option<&Reason> {
+    let inserted = |number: u32| -> Option<&Inserted> {
         let (OpKind::Resolve { why, .. } | OpKind::ForwardDraw { why, .. } | OpKind::Copy(why)) =
             &adapted.ops[number as usize].kind
         else {

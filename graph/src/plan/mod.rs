@@ -409,13 +409,17 @@ pub enum Hazard {
 pub enum Cause {
     /// The pipeline says so, there (`None`: the frame was built in memory).
     Written(Option<Place>),
-    /// The compiler inserted it.
-    Inserted {
-        /// In the reader's words: "pass `tonemap` samples `color` and it has 4 samples".
-        because: String,
-        /// The place that made it necessary.
-        at: Option<Place>,
-    },
+    /// The compiler inserted it. Few things are: what all the others hold is kept small.
+    Inserted(Box<Inserted>),
+}
+
+/// Why the compiler inserted something.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Inserted {
+    /// In the reader's words: "pass `tonemap` samples `color` and it has 4 samples".
+    pub because: String,
+    /// The place that made it necessary.
+    pub at: Option<Place>,
 }
 
 /// A decision that no step shows.

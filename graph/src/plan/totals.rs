@@ -92,7 +92,7 @@ impl Totals {
     fn pass(&mut self, pass: &Pass) {
         match pass.cause {
             Cause::Written(_) => self.passes += 1,
-            Cause::Inserted { .. } => self.inserted_passes += 1,
+            Cause::Inserted(_) => self.inserted_passes += 1,
         }
     }
 }

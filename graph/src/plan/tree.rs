@@ -440,7 +440,7 @@ fn bytes(bytes: u64) -> String {
 fn cause(cause: &Cause) -> String {
     match cause {
         Cause::Written(at) => place(at),
-        Cause::Inserted { because, at } => format!(": {}{}", Shown(because), place(at)),
+        Cause::Inserted(why) => format!(": {}{}", Shown(&why.because), place(&why.at)),
     }
 }
 

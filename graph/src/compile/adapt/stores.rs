@@ -1,11 +1,11 @@
 //! Physical images and buffers: made when first touched, replaced when a version can't stay where it is.
 
 use super::{Adapter, copies_samples};
-use crate::compile::model::{Home, Kind, Reason, Store, StoreIndex, Use};
+use crate::compile::model::{Home, Kind, Store, StoreIndex, Use};
 use crate::describe::Diagnostic;
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
-use crate::plan::Sharing;
+use crate::plan::{Inserted, Sharing};
 use crate::source::Span;
 use crate::vocabulary::{Aspects, BufferUsage, FillValue, Usage};
 use std::collections::HashMap;
@@ -133,7 +133,7 @@ impl Adapter<'_> {
     }
 
     /// A further physical image for `image`, which holds no version yet.
-    pub(super) fn second(&mut self, image: ImageIndex, what: &str, why: Box<Reason>, samples: u32) -> StoreIndex {
+    pub(super) fn second(&mut self, image: ImageIndex, what: &str, why: Box<Inserted>, samples: u32) -> StoreIndex {
         let count = self.inserted_for.entry(image).or_insert(0);
         *count += 1;
         let name = &self.input.frame.images[image.0 as usize].name;
@@ -146,7 +146,7 @@ impl Adapter<'_> {
     }
 
     /// A further physical image for `image`, which takes its next version.
-    pub(super) fn replace(&mut self, image: ImageIndex, what: &str, why: Box<Reason>, samples: u32) -> StoreIndex {
+    pub(super) fn replace(&mut self, image: ImageIndex, what: &str, why: Box<Inserted>, samples: u32) -> StoreIndex {
         let store = self.second(image, what, why, samples);
         self.store_of[image.0 as usize] = Some(store);
         store
