@@ -113,7 +113,9 @@ impl Last {
         let (mut structure, substitute) = Structure::find_with_fallback(frame, device, options, true)?;
         let pending = structure.walked.barriers.clone();
         let settled = structure.settle(device, memory, options)?;
-        let plan = emit::emit(&Parts::new(substitute.as_ref().unwrap_or(frame), device, &structure, &settled));
+        let planned = substitute.as_ref().unwrap_or(frame);
+        let resources = emit::resources(planned, &structure, &settled);
+        let plan = emit::emit(&Parts::new(planned, device, &structure, &settled), resources);
         Ok(Last {
             frame: frame.clone(),
             device: device.clone(),

@@ -40,7 +40,6 @@ pub(super) struct Parts<'a> {
     adapted: &'a Adapted,
     scoped: &'a Scoped,
     retained: &'a Retained,
-    states: &'a [Option<States>],
     placed: &'a Placed,
     pending: &'a [Pending],
     /// The queues, if there are several.
@@ -61,7 +60,7 @@ impl<'a> Parts<'a> {
         structure: &'a Structure,
         settled: &'a Settled,
     ) -> Parts<'a> {
-        let Structure { grids, live, notes, adapted, scoped, retained, walked, states, .. } = structure;
+        let Structure { grids, live, notes, adapted, scoped, retained, walked, .. } = structure;
         Parts {
             frame,
             device,
@@ -71,7 +70,6 @@ impl<'a> Parts<'a> {
             adapted,
             scoped,
             retained,
-            states,
             placed: &settled.placed,
             pending: &walked.barriers,
             queues: walked.queues.as_deref(),
@@ -106,9 +104,12 @@ impl Subject {
     }
 }
 
-pub(super) fn emit(parts: &Parts<'_>) -> Plan {
+/// Images and buffers of the Plan.
+pub(super) type Resources = (Vec<Image>, Vec<Buffer>);
+
+/// Puts the steps to what [`resources`] made, which needs no places and states any more.
+pub(super) fn emit(parts: &Parts<'_>, (images, buffers): Resources) -> Plan {
     let steps = steps(parts);
-    let (images, buffers) = resources(parts);
     Plan {
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: parts.device.name.clone(), exact_memory: parts.exact_memory },
@@ -178,12 +179,12 @@ fn spread(parts: &Parts<'_>, queues: &Queues, steps: &mut [Step]) {
     }
 }
 
-fn resources(parts: &Parts<'_>) -> (Vec<Image>, Vec<Buffer>) {
-    let frame = parts.frame;
-    let (mut images, mut buffers) = (Vec::with_capacity(parts.adapted.stores.len()), Vec::new());
-    let stores = parts.adapted.stores.iter().zip(0_u32..).zip(parts.states).zip(&parts.placed.placements);
+pub(super) fn resources(frame: &Frame, structure: &Structure, settled: &Settled) -> Resources {
+    let Structure { adapted, states, .. } = structure;
+    let (mut images, mut buffers) = (Vec::with_capacity(adapted.stores.len()), Vec::new());
+    let stores = adapted.stores.iter().zip(0_u32..).zip(states).zip(&settled.placed.placements);
     for (((store, at), states), placement) in stores {
-        let name = store_name(frame, parts.adapted, at).clone();
+        let name = store_name(frame, adapted, at).clone();
         let span = match store.of {
             Declared::Image(image) => frame.images[image.0 as usize].span,
             Declared::Buffer(buffer) => frame.buffers[buffer.0 as usize].span,
@@ -192,7 +193,7 @@ fn resources(parts: &Parts<'_>) -> (Vec<Image>, Vec<Buffer>) {
             Some(why) => Cause::Inserted(why.clone()),
             None => Cause::Written(frame.sources.place(span)),
         };
-        let role = role(frame, parts.adapted, store, *states, placement.as_ref());
+        let role = role(frame, adapted, store, *states, placement.as_ref());
         match &store.kind {
             Kind::Image(image) => images.push(Image {
                 id: ImageId(store.id),

@@ -98,6 +98,10 @@ pub fn compile(
     options: &Options,
 ) -> Result<Plan, Vec<Diagnostic>> {
     let (mut structure, substitute) = Structure::find_with_fallback(frame, device, options, false)?;
-    let settled = structure.settle_for_good(device, memory, options)?;
-    Ok(emit::emit(&Parts::new(substitute.as_ref().unwrap_or(frame), device, &structure, &settled)))
+    let mut settled = structure.settle_for_good(device, memory, options)?;
+    let frame = substitute.as_ref().unwrap_or(frame);
+    let resources = emit::resources(frame, &structure, &settled);
+    // What only those took needn't lie beside the steps.
+    (structure.states, settled.placed.placements) = (Vec::new(), Vec::new());
+    Ok(emit::emit(&Parts::new(frame, device, &structure, &settled), resources))
 }
