@@ -3,12 +3,15 @@
 
 use super::mentions::Mentions;
 use super::space::Choice;
-use framewright_graph::describe::{Document, SettingKind};
+use framewright_graph::describe::{Document, SettingKind, last_step, nth_step};
 use framewright_graph::facts::{Fact, FactType, FactValue, Facts};
 use framewright_graph::source::Sources;
 
 /// Whole numbers up to this many are all tried.
 const MOST_INTEGERS: i128 = 16;
+
+/// Numbers with up to this many steps are all tried.
+const MOST_STEPS: f64 = 16.0;
 
 /// What an axis varies.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -119,11 +122,24 @@ fn values(kind: &SettingKind) -> Vec<String> {
             first(default.to_string(), some.iter().map(i128::to_string))
         }
         SettingKind::Number { default, min, max, step } => {
-            // The last that a step reaches; rounding apart it is `max`.
-            let greatest = step.map_or(*max, |step| min + ((max - min) / step + 1e-9).floor() * step);
             // Written so that it reads as the very same number.
-            let text = |number: &f64| format!("{number:?}");
-            first(text(default), [min, &greatest].into_iter().map(text))
+            let text = |number: f64| format!("{number:?}");
+            let others: Vec<f64> = match step.map(|step| (step, last_step(*min, *max, step))) {
+                None => vec![*min, *max],
+                Some((step, last)) => {
+                    // Rounding alone may set the default apart from the step that it is on.
+                    let own = ((default - min) / step).round();
+                    let steps: Vec<f64> = if last < MOST_STEPS {
+                        std::iter::successors(Some(0.0), |steps| Some(steps + 1.0))
+                            .take_while(|steps| *steps <= last)
+                            .collect()
+                    } else {
+                        vec![0.0, last]
+                    };
+                    steps.into_iter().filter(|steps| *steps != own).map(|steps| nth_step(*min, step, steps)).collect()
+                }
+            };
+            first(text(*default), others.into_iter().map(text))
         }
     }
 }
@@ -172,5 +188,18 @@ mod tests {
             ["0.1", "0.0", "1e300"]
         );
         assert_eq!(of(&SettingKind::Number { default: 1.0, min: 1.0, max: 1.0, step: None }), ["1.0"]);
+        let texts = ["low", "high"].map(std::sync::Arc::from).to_vec();
+        assert_eq!(of(&SettingKind::Choice { default: "high".into(), of: texts }), ["high", "low"]);
+    }
+
+    #[test]
+    fn of_numbers_with_few_steps_all_are_tried_each_once() {
+        assert_eq!(of(&SettingKind::Integer { default: 5, min: 1, max: 8, step: 2 }), ["5", "1", "3", "7"]);
+        let number = |default, max| of(&SettingKind::Number { default, min: 0.0, max, step: Some(0.1) });
+        // 3 · 0.1 is 0.30000000000000004, and 0.7 / 0.1 is 6.999999999999999.
+        assert_eq!(number(0.3, 0.5), ["0.3", "0.0", "0.1", "0.2", "0.4", "0.5"]);
+        assert_eq!(number(0.0, 0.75).last().map(String::as_str), Some("0.7"));
+        assert_eq!(number(0.0, 1.5).len(), 16);
+        assert_eq!(number(0.5, 1.6), ["0.5", "0.0", "1.6"]);
     }
 }

@@ -122,6 +122,7 @@ pub use resources::{
     Buffer, Bytes, Fill, Format, Image, Layers, Lifetime, Mips, Samples, Shape as ImageShape, Size, State, StateWord,
 };
 pub(crate) use settings::shown as shown_number;
+pub use settings::{last_step, nth as nth_step};
 pub use suggest::{help as suggestion, nearest};
 pub use surroundings::Surroundings;
 pub(crate) use work::MOST_GROUPS;

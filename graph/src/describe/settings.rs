@@ -78,6 +78,33 @@ impl SettingKind {
         }
     }
 
+    /// What it allows, for people who tried `value`: of numbers between two steps also the nearest that it allows.
+    #[must_use]
+    pub fn instead_of(&self, value: &Value) -> String {
+        let nearest = match (self, value) {
+            (SettingKind::Number { min, max, step: Some(step), .. }, Value::Number(value))
+                if (min..=max).contains(&value) =>
+            {
+                let below = ((value - min) / step).floor();
+                let above = Some(below + 1.0).filter(|above| *above <= last_step(*min, *max, *step));
+                Some([Some(below), above].map(|steps| steps.map(|steps| shown(nth(*min, *step, steps)))))
+            }
+            (SettingKind::Integer { min, max, step, .. }, Value::Integer(value)) if (min..=max).contains(&value) => {
+                let [least, step] = [min, step].map(|number| i128::from(*number));
+                let below = i128::from(*value) - (i128::from(*value) - least) % step;
+                let above = Some(below + step).filter(|above| *above <= i128::from(*max));
+                Some([Some(below), above].map(|number| number.map(|number| number.to_string())))
+            }
+            _ => None,
+        };
+        let nearest = match nearest.filter(|_| !self.allows(value)) {
+            Some([Some(below), Some(above)]) => format!("; the nearest are {below} and {above}"),
+            Some([Some(only), None] | [None, Some(only)]) => format!("; the nearest is {only}"),
+            Some([None, None]) | None => String::new(),
+        };
+        format!("it is {}{nearest}", self.allowed())
+    }
+
     /// The value without a choice.
     #[must_use]
     pub fn default(&self) -> Value {
@@ -126,6 +153,21 @@ fn on_step(distance: f64, step: f64) -> bool {
     (steps - steps.round()).abs() <= 1e-9 * steps.abs().max(1.0)
 }
 
+/// How many steps lie between `min` and the greatest value that they reach. A last one that rounding alone takes beyond
+/// `max` counts.
+#[must_use]
+pub fn last_step(min: f64, max: f64, step: f64) -> f64 {
+    ((max - min) / step * (1.0 + 1e-9)).floor()
+}
+
+/// The number `steps` steps above `min`, without the last digits, which rounding makes.
+#[must_use]
+pub fn nth(min: f64, step: f64, steps: f64) -> f64 {
+    let number = min + steps * step;
+    let short = format!("{number:.12e}").parse().unwrap_or(number);
+    if on_step(short - min, step) { short } else { number }
+}
+
 /// A number, as it is shown: whole ones without a fraction, very large and small ones with an exponent.
 pub(crate) fn shown(number: f64) -> String {
     let text = format!("{number:?}");
@@ -161,7 +203,9 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<SettingKind> {
             let step = step(reader, fields.step, |reader, leaf| reader.number(leaf), 0.0);
             let (default, min, max) = (default?, min?, max?);
             in_range(reader, &fields, default, min, max)?;
-            let kind = SettingKind::Number { default, min, max, step: step? };
+            let step = step?;
+            in_steps(reader, fields.step, step.is_none_or(|step| step <= max - min), (min, max))?;
+            let kind = SettingKind::Number { default, min, max, step };
             default_on_step(reader, fields.default, &kind)?;
             Some(kind)
         }
@@ -172,7 +216,10 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<SettingKind> {
             let step = step(reader, fields.step, |reader, leaf| reader.integer(leaf), 0);
             let (default, min, max) = (default?, min?, max?);
             in_range(reader, &fields, default, min, max)?;
-            let kind = SettingKind::Integer { default, min, max, step: step?.unwrap_or(1) };
+            let step = step?;
+            let range = i128::from(max) - i128::from(min);
+            in_steps(reader, fields.step, step.is_none_or(|step| i128::from(step) <= range), (min, max))?;
+            let kind = SettingKind::Integer { default, min, max, step: step.unwrap_or(1) };
             default_on_step(reader, fields.default, &kind)?;
             Some(kind)
         }
@@ -195,13 +242,27 @@ pub(super) fn step<'src, T: PartialOrd + std::fmt::Display>(
     Some(Some(step))
 }
 
+/// Reports a step that leads from the least value to none other that is allowed.
+fn in_steps<T: std::fmt::Display>(
+    reader: &mut Reader,
+    leaf: Option<Leaf<'_>>,
+    fits: bool,
+    (min, max): (T, T),
+) -> Option<()> {
+    if let Some(leaf) = leaf.filter(|_| !fits) {
+        reader.wrong(leaf, format!("this step is larger than the range from {min} to {max}"), "");
+        return None;
+    }
+    Some(())
+}
+
 /// Reports a default that lies between two steps.
 pub(super) fn default_on_step(reader: &mut Reader, leaf: Leaf<'_>, kind: &SettingKind) -> Option<()> {
     let default = kind.default();
     if kind.allows(&default) {
         return Some(());
     }
-    reader.wrong(leaf, format!("the default `{default}` lies between two steps"), &format!("it is {}", kind.allowed()));
+    reader.wrong(leaf, format!("the default `{default}` lies between two steps"), &kind.instead_of(&default));
     None
 }
 

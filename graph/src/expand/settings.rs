@@ -18,9 +18,9 @@ pub(super) fn choose(settings: &[Setting], set: &[(String, String)], errors: &mu
             continue;
         };
         let setting = &settings[*at];
-        match parse(&setting.kind, text).filter(|value| setting.kind.allows(value)) {
-            Some(value) => values[*at] = value,
-            None => errors.push(not_allowed(setting, text)),
+        match parse(&setting.kind, text) {
+            Some(value) if setting.kind.allows(&value) => values[*at] = value,
+            other => errors.push(not_allowed(setting, text, other.as_ref())),
         }
     }
     values
@@ -40,11 +40,15 @@ fn show(value: &Value) -> String {
     }
 }
 
-fn not_allowed(setting: &Setting, text: &str) -> Diagnostic {
+fn not_allowed(setting: &Setting, text: &str, value: Option<&Value>) -> Diagnostic {
     let name = &setting.name.text;
+    let help = match value {
+        Some(value) => setting.kind.instead_of(value),
+        None => format!("it is {}", setting.kind.allowed()),
+    };
     Diagnostic::new(setting.name.span, format!("setting `{name}` doesn't allow `{text}`"))
         .remark("declared here")
-        .help(format!("it is {}", setting.kind.allowed()))
+        .help(help)
 }
 
 fn parse(kind: &SettingKind, text: &str) -> Option<Value> {
