@@ -22,6 +22,34 @@ pub(crate) fn run(timing: &Timing) {
             println!("\nreading a file of {passes} passes, {} KiB: {figure} ms", text.len() / 1024);
         }
     }
+    for (passes, goal) in [(1_000, 20), (100_000, 2_000)] {
+        if timing.wants(&format!("putting in {passes}")) {
+            let text = put_in(passes);
+            let time = timing.least(|| {
+                let frame = frame(text.clone());
+                assert_eq!(frame.passes.len(), passes as usize + 1, "every pass is put in");
+                frame
+            });
+            let figure = beside(format!("{:.2}", microseconds(time) / 1000.0), Some(goal.to_string()));
+            println!("\nputting in {passes} passes of fragments, each with an expression or two: {figure} ms");
+        }
+    }
+}
+
+/// Chains of ten images, each as half as large as the one before it, as often as it takes.
+fn put_in(passes: u32) -> String {
+    format!(
+        "Pipeline(version: 1, fragments: [(name: \"chain\", parameters: [(name: \"source\", value: Image), \
+         (name: \"levels\", value: Integer(default: 10, min: 1, max: 16))], \
+         images: [(name: \"down\", repeat: (\"i\", \"levels\"), format: Like(\"source\"), \
+         size: Scaled(\"exp2(-(i + 1))\", \"source\"))], \
+         passes: [(name: \"shrink\", repeat: (\"i\", \"levels\"), draw: FullScreen(\"copy\"), \
+         sample: {{\"source\": \"if(i == 0, source, down[i - 1])\"}}, color: [\"down[i]\"])])], \
+         images: [(name: \"color\", format: Output, size: Output)], \
+         passes: [(name: \"first\", draw: FullScreen(\"plain\"), color: [\"color\"]), \
+         (use: \"chain\", name: \"chain\", repeat: (\"n\", {}), with: {{\"source\": \"color\"}})], outputs: [\"color\"])",
+        passes / 10
+    )
 }
 
 /// Each pass draws what the one before it drew.

@@ -2,6 +2,7 @@
 
 use super::body::{Body, Lists, entries};
 use super::fragments::Fragments;
+use super::includes::Included;
 use super::leaf::Leaf;
 use super::lower::Lowering;
 use super::names::Names;
@@ -21,6 +22,7 @@ fields! {
     struct PipelineFields<'src> as "Pipeline" {
         #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
         version: Leaf<'src>,
+        include: Option<Leaf<'src>>,
         settings: Option<Leaf<'src>>,
         fragments: Option<Leaf<'src>>,
         images: Leaf<'src>,
@@ -37,30 +39,35 @@ pub struct Document {
     /// What a user may choose, in file order.
     pub settings: Vec<Setting>,
     tree: Tree,
+    /// Files of fragments.
+    included: Vec<Tree>,
 }
 
 impl Document {
     /// Reads a tree, and finds all that is wrong whatever the values. Mistakes are added to those that are known already.
-    pub(super) fn read(tree: Tree, errors: Vec<Diagnostic>) -> Result<Document, Vec<Diagnostic>> {
+    pub(super) fn read(
+        tree: Tree,
+        errors: Vec<Diagnostic>,
+        mut included: Included<'_>,
+    ) -> Result<Document, Vec<Diagnostic>> {
         let mut reader = Reader { errors };
-        let settings = match settings(&mut reader, tree.root()) {
-            Some(settings) => settings,
-            None => return Err(reader.errors),
-        };
+        let Some((settings, include)) = settings(&mut reader, tree.root()) else { return Err(reader.errors) };
+        included.list(&mut reader, include);
+        let included = included.trees;
         let values: Vec<Option<Value>> =
             settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
         let surroundings = Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], device: None };
-        lower(&mut reader, tree.root(), &settings, values, &surroundings, true);
+        lower(&mut reader, (tree.root(), &included), &settings, values, &surroundings, true);
         match settings.into_iter().collect() {
-            Some(settings) if reader.errors.is_empty() => Ok(Document { settings, tree }),
-            _ => Err(reader.errors),
+            Some(settings) if reader.errors.is_empty() => Ok(Document { settings, tree, included }),
+            _ => Err(super::never_none(reader.errors)),
         }
     }
 
     /// Whether what it comes to may depend on the device.
     #[must_use]
     pub fn asks_device(&self) -> bool {
-        self.tree.root().text().contains("device.")
+        [&self.tree].into_iter().chain(&self.included).any(|tree| tree.root().text().contains("device."))
     }
 
     /// Puts in the values of settings, in their order, and what the pipeline is made for.
@@ -71,15 +78,16 @@ impl Document {
         let mut reader = Reader::default();
         let settings: Vec<Option<Setting>> = self.settings.iter().cloned().map(Some).collect();
         let values = values.iter().cloned().map(Some).collect();
-        match lower(&mut reader, self.tree.root(), &settings, values, surroundings, false) {
+        match lower(&mut reader, (self.tree.root(), &self.included), &settings, values, surroundings, false) {
             Some(pipeline) if reader.errors.is_empty() => Ok(pipeline),
-            _ => Err(super::in_order(reader.errors)),
+            _ => Err(super::in_order(super::never_none(reader.errors))),
         }
     }
 }
 
-/// The settings; `None` where one couldn't be read. `None` at all if the file is no pipeline of this version.
-fn settings(reader: &mut Reader, all: Leaf<'_>) -> Option<Vec<Option<Setting>>> {
+/// The settings, `None` where one couldn't be read, and what is included. `None` at all if the file is no pipeline of
+/// this version.
+fn settings<'t>(reader: &mut Reader, all: Leaf<'t>) -> Option<(Vec<Option<Setting>>, Option<Leaf<'t>>)> {
     if let Some(version) = all.field("version") {
         let number = reader.integer(version)?;
         if number != LANGUAGE_VERSION {
@@ -90,15 +98,16 @@ fn settings(reader: &mut Reader, all: Leaf<'_>) -> Option<Vec<Option<Setting>>> 
         }
     }
     let fields: PipelineFields<'_> = reader.read(all, "the pipeline")?;
-    let fields: Vec<Option<SettingFields<'_>>> =
+    let list: Vec<Option<SettingFields<'_>>> =
         entries(reader, fields.settings, "`settings`", "setting", &mut Names::new("setting"));
-    Some(fields.iter().map(|fields| fields.as_ref().and_then(|fields| settings::lower(reader, fields))).collect())
+    let lower = |fields: &Option<SettingFields<'_>>| fields.as_ref().and_then(|fields| settings::lower(reader, fields));
+    Some((list.iter().map(lower).collect(), fields.include))
 }
 
 /// Puts in values; `None` if errors were reported. `lenient` if nothing is to be said about values.
 fn lower(
     reader: &mut Reader,
-    all: Leaf<'_>,
+    (all, included): (Leaf<'_>, &[Tree]),
     settings: &[Option<Setting>],
     values: Vec<Option<Value>>,
     surroundings: &Surroundings<'_>,
@@ -112,7 +121,10 @@ fn lower(
     debug_assert_eq!(listed.len(), settings.len());
     let parameters: Vec<Option<Parameter>> =
         settings.iter().map(|setting| setting.as_ref().map(Parameter::from)).collect();
-    let fragments = Fragments::read(reader, fields.fragments);
+    let fragments = Fragments::read(
+        reader,
+        fields.fragments.into_iter().chain(included.iter().filter_map(|tree| tree.root().field("fragments"))),
+    );
     let lists = Lists { images: Some(fields.images), buffers: fields.buffers, passes: Some(fields.passes) };
     let body = Body::read(reader, names, parameters, true, lists);
     let given = values.into_iter().map(|value| value.map(|value| Given { value, decided: Vec::new() })).collect();

@@ -19,6 +19,16 @@ fields! {
     }
 }
 
+fields! {
+    pub(super) struct LibraryFields<'src> as "Fragments" {
+        #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
+        version: Leaf<'src>,
+        pub(super) include: Option<Leaf<'src>>,
+        #[expect(dead_code, reason = "read for each choice of settings")]
+        fragments: Leaf<'src>,
+    }
+}
+
 /// A fragment with its entries told apart.
 pub(super) struct Fragment<'t> {
     pub(super) name: Option<Name>,

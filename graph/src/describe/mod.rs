@@ -74,6 +74,7 @@ mod escapes;
 mod fields;
 mod fragments;
 mod images;
+mod includes;
 mod json;
 mod known;
 mod leaf;
@@ -110,6 +111,7 @@ pub(crate) use buffers::LARGEST_BUFFER;
 pub use diagnostic::{Diagnostic, Label};
 pub use document::Document;
 pub(crate) use images::LARGEST_SIZE;
+pub use includes::{Files, Found, NoFiles};
 pub use json::to_json;
 pub use pass::{
     BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, Off, Param, Part, Pass, Sample, Selection,
@@ -156,11 +158,25 @@ pub fn read_bytes(
     relative: &str,
     bytes: Vec<u8>,
 ) -> Result<Document, Vec<Diagnostic>> {
+    read_bytes_with(sources, &mut NoFiles, shown, relative, bytes)
+}
+
+/// Reads a pipeline file's bytes and the files that it includes, as [`read_bytes`] does.
+///
+/// # Errors
+/// What [`read_with`] reports, and bytes that are no text.
+pub fn read_bytes_with(
+    sources: &mut Sources,
+    files: &mut dyn Files,
+    shown: &str,
+    relative: &str,
+    bytes: Vec<u8>,
+) -> Result<Document, Vec<Diagnostic>> {
     if bytes.len() > LARGEST_FILE {
         return Err(vec![too_large(shown, bytes.len())]);
     }
     match String::from_utf8(bytes) {
-        Ok(text) => read(sources, shown, relative, text),
+        Ok(text) => read_with(sources, files, shown, relative, text),
         Err(error) => {
             let valid = error.utf8_error().valid_up_to();
             let mut bytes = error.into_bytes();
@@ -174,12 +190,26 @@ pub fn read_bytes(
     }
 }
 
-/// Reads a pipeline file's text, which is added to `sources`. `shown` is the path as the user named it; `relative` is
-/// the path from the pipeline's own folder, usually the file's name, which stands in Plans.
+/// Reads a pipeline file's text, which is added to `sources`, and which includes no other file. `shown` is the path as the
+/// user named it; `relative` is the path from the pipeline's own folder, usually the file's name, which stands in Plans.
 ///
 /// # Errors
-/// Everything that is wrong with the file by itself, in the order of the file.
+/// Everything that is wrong with the file whatever it is made for, in the order of the file.
 pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) -> Result<Document, Vec<Diagnostic>> {
+    read_with(sources, &mut NoFiles, shown, relative, text)
+}
+
+/// Reads a pipeline file's text and the files that it includes, as [`read`] does.
+///
+/// # Errors
+/// What [`read`] reports, and what is wrong with included files, file by file.
+pub fn read_with(
+    sources: &mut Sources,
+    files: &mut dyn Files,
+    shown: &str,
+    relative: &str,
+    text: String,
+) -> Result<Document, Vec<Diagnostic>> {
     if text.len() > LARGEST_FILE {
         return Err(vec![too_large(shown, text.len())]);
     }
@@ -190,11 +220,21 @@ pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) ->
         return Err(vec![error]);
     }
     let Some(tree) = Tree::read(file, text, &mut errors) else { return Err(in_order(errors)) };
-    Document::read(tree, errors).map_err(in_order)
+    let included = includes::Included::new(sources, files, relative);
+    Document::read(tree, errors, included).map_err(in_order)
 }
 
 fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    errors.sort_by_key(|error| error.labels.first().map_or(0, |label| label.span.start));
+    errors.sort_by_key(|error| error.labels.first().map_or((None, 0), |label| (label.span.file(), label.span.start)));
+    errors
+}
+
+/// What is to be said if something went wrong and nothing says what.
+fn never_none(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    if errors.is_empty() {
+        let message = "this pipeline can't be put together, and why was not found out: a mistake of framewright itself";
+        errors.push(Diagnostic { message: message.to_owned(), labels: Vec::new(), help: None });
+    }
     errors
 }
 

@@ -149,10 +149,7 @@ impl<'t> Lowering<'_, 't> {
             for (inner, name) in circle[..circle.len() - 1].iter().take(MOST_SHOWN) {
                 wrong = wrong.label(name.span, format!("{} is used here", called(*inner)));
             }
-            let key = (name.span, wrong.message.clone());
-            if self.seen.insert(key) {
-                reader.report(wrong.help("one of them must do without the others"));
-            }
+            reader.report(wrong.help("one of them must do without the others"));
             return false;
         }
         if self.path.len() >= MOST_NESTED {
@@ -168,8 +165,10 @@ impl<'t> Lowering<'_, 't> {
         let new: Vec<Diagnostic> = reader.errors.drain(start..).collect();
         for error in new {
             let known = error.labels.first().map(|label| (label.span, error.message.clone()));
-            let nested = error.labels.iter().any(|label| label.text.starts_with("used here as "));
-            if nested || known.is_none_or(|known| self.seen.insert(known)) {
+            let nested = error.labels.iter().filter(|label| label.text.starts_with("used here as ")).count();
+            if nested >= MOST_SHOWN && !self.path.is_empty() {
+                reader.errors.push(error);
+            } else if nested > 0 || known.is_none_or(|known| self.seen.insert(known)) {
                 reader.errors.push(error.label(name.span, format!("used here as `{}`", name.text)));
             }
         }

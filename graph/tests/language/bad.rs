@@ -1,7 +1,7 @@
 //! Every file under `bad/` is wrong, its name says how, and the whole answer stands beside it.
 
 use crate::table::{INPUTS, Table};
-use framewright_graph::describe;
+use framewright_graph::describe::{self, Files, Found};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::source::Sources;
 use std::path::{Path, PathBuf};
@@ -27,12 +27,22 @@ fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
     (set, dump, size)
 }
 
+/// Files beside the wrong ones.
+struct Folder;
+
+impl Files for Folder {
+    fn read(&mut self, _: &str, path: &str) -> Result<Found, String> {
+        let bytes = std::fs::read(folder().join(path)).map_err(|_| format!("there is no file `{path}`"))?;
+        Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes })
+    }
+}
+
 /// What is said about a file, in both forms.
 fn answer(name: &str, text: String) -> (String, serde_json::Value) {
     let (set, dump, output_extent) = asked(&text);
     let inputs = Inputs { set: &set, dump: &dump, output_extent, ..INPUTS };
     let mut sources = Sources::default();
-    let pipeline = describe::read(&mut sources, name, name, text);
+    let pipeline = describe::read_with(&mut sources, &mut Folder, name, name, text);
     let sources = Arc::new(sources);
     let frame = pipeline.and_then(|pipeline| expand(&pipeline, sources.clone(), &inputs, &mut Table));
     let errors = frame.expect_err(name);
@@ -56,6 +66,7 @@ fn every_bad_file_is_answered_as_it_stands_beside_it() {
     for path in files("ron") {
         let name = path.file_name().expect("a name").to_string_lossy().into_owned();
         let (shown, json) = answer(&name, std::fs::read_to_string(&path).expect("a text"));
+        assert!(shown.starts_with("error: ") && !shown.contains("a mistake of framewright itself"), "{name}\n{shown}");
         let visible = |c: char| c == '\n' || !c.is_control();
         assert!(shown.chars().all(visible), "{name} is shown with control characters");
         assert_eq!(

@@ -1,0 +1,145 @@
+//! `include`: files with fragments, each read once however often it is named.
+
+use super::fragments::LibraryFields;
+use super::leaf::Leaf;
+use super::reader::Reader;
+use super::tree::Tree;
+use super::{Diagnostic, LANGUAGE_VERSION, LARGEST_FILE};
+use crate::source::{Sources, Span};
+use std::collections::HashSet;
+use std::sync::Arc;
+
+/// A pipeline is made of at most this many files.
+const MOST_FILES: usize = 256;
+
+/// Where files come from that a pipeline names. Whoever implements it decides which may be read.
+pub trait Files {
+    /// Reads a file. `from` is the [`Found::relative`] of the file that names it, and `path` what stands there.
+    ///
+    /// # Errors
+    /// Why it can't be read, as a sentence without final stop. Not yet escaped.
+    fn read(&mut self, from: &str, path: &str) -> Result<Found, String>;
+}
+
+/// A file that was found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Found {
+    /// As it is shown in diagnostics.
+    pub shown: String,
+    /// The path from the pipeline's own folder: it stands in Plans, and the same path is the same file.
+    pub relative: String,
+    /// What it holds.
+    pub bytes: Vec<u8>,
+}
+
+/// No files: a pipeline that names any is wrong.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&mut self, _: &str, path: &str) -> Result<Found, String> {
+        Err(format!("`{path}` can't be read: this pipeline was given as a text by itself"))
+    }
+}
+
+/// What reads a pipeline's files.
+pub(super) struct Included<'a> {
+    sources: &'a mut Sources,
+    files: &'a mut dyn Files,
+    known: HashSet<String>,
+    /// Files that are being read, and where each is named.
+    path: Vec<(String, Span)>,
+    /// What was read, each file after those that it includes.
+    pub(super) trees: Vec<Tree>,
+}
+
+impl<'a> Included<'a> {
+    /// Nothing yet but the pipeline's own file.
+    pub(super) fn new(sources: &'a mut Sources, files: &'a mut dyn Files, relative: &str) -> Self {
+        let known = HashSet::from([relative.to_owned()]);
+        Included { sources, files, known, path: vec![(relative.to_owned(), Span::NONE)], trees: Vec::new() }
+    }
+
+    /// Reads the files that a list names, and those that they name.
+    pub(super) fn list(&mut self, reader: &mut Reader, list: Option<Leaf<'_>>) {
+        let Some(leaves) = list.and_then(|list| reader.list(list, "`include`")) else { return };
+        let named: Vec<(String, Span)> = leaves
+            .into_iter()
+            .filter_map(|leaf| reader.words(leaf, "the path of a file").map(|path| (path, leaf.span())))
+            .collect();
+        for (path, span) in named {
+            self.file(reader, &path, span);
+        }
+    }
+
+    fn file(&mut self, reader: &mut Reader, path: &str, span: Span) {
+        let from = self.path.last().map_or("", |(from, _)| from).to_owned();
+        let found = match self.files.read(&from, path) {
+            Ok(found) => found,
+            Err(why) => {
+                reader.report(Diagnostic::new(span, why));
+                return;
+            }
+        };
+        if let Some(first) = self.path.iter().position(|(outer, _)| *outer == found.relative) {
+            self.circle(reader, first, span);
+            return;
+        }
+        if !self.known.insert(found.relative.clone()) {
+            return;
+        }
+        if self.known.len() > MOST_FILES {
+            reader.report(Diagnostic::new(span, format!("a pipeline is made of at most {MOST_FILES} files")));
+            return;
+        }
+        let Some(tree) = self.tree(reader, found.shown, &found.relative, found.bytes, span) else { return };
+        if let Some(version) = tree.root().field("version") {
+            match reader.integer(version) {
+                Some(LANGUAGE_VERSION) => {}
+                Some(number) => {
+                    let message = format!("this file is written in version {number} of the language");
+                    reader.wrong(version, message, &format!("this program reads version {LANGUAGE_VERSION}"));
+                    return;
+                }
+                None => return,
+            }
+        }
+        let library: Option<LibraryFields<'_>> = reader.read(tree.root(), "a file of fragments");
+        let include = library.and_then(|library| library.include);
+        self.path.push((found.relative, span));
+        self.list(reader, include);
+        self.path.pop();
+        self.trees.push(tree);
+    }
+
+    fn tree(&mut self, reader: &mut Reader, shown: String, relative: &str, bytes: Vec<u8>, span: Span) -> Option<Tree> {
+        if bytes.len() > LARGEST_FILE {
+            let message = format!("`{shown}` has {} bytes; a file has at most {LARGEST_FILE}", bytes.len());
+            reader.report(Diagnostic::new(span, message));
+            return None;
+        }
+        let Ok(text) = String::from_utf8(bytes) else {
+            reader.report(Diagnostic::new(span, format!("`{shown}` is not a text file in UTF-8")));
+            return None;
+        };
+        let text: Arc<str> = text.into();
+        let file = self.sources.add(shown, relative, text.clone());
+        if let Some(error) = super::no_pipeline(file, &text) {
+            reader.report(error);
+            return None;
+        }
+        Tree::read(file, text, &mut reader.errors)
+    }
+
+    fn circle(&self, reader: &mut Reader, first: usize, span: Span) {
+        let circle = &self.path[first..];
+        let mut names: Vec<String> = circle.iter().map(|(path, _)| format!("`{path}`")).collect();
+        names.extend(names.first().cloned());
+        let message = format!("files include each other in a circle: {}", names.join(" → "));
+        let mut wrong = Diagnostic::new(span, message);
+        for (path, span) in &circle[1..] {
+            wrong = wrong.label(*span, format!("`{path}` is included here"));
+        }
+        reader.report(wrong.help("one of them must do without the others"));
+    }
+}
