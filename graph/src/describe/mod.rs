@@ -1,31 +1,42 @@
 //! What a file can say: one type per concept, names with source spans, diagnostics.
 //!
 //! ```text
-//! bytes ─► text ─► tree (lexer, syntax) ─► leaves with fields (leaf, fields, reader) ─► settings, images, passes ─► Pipeline
+//! bytes ─► text ─► tree (lexer, syntax) ─► Document (settings, included trees)
+//! Document, values, Surroundings ─► bodies (entries with fields) ─► lower (scope, put_in) ─► images, passes … ─► Pipeline
 //! ```
-//! Whatever can be judged by the file alone is judged here, and everything that is wrong is reported at once. What
-//! depends on chosen settings, the scene, the view and the shaders comes in [`crate::expand`].
+//! Trees are made once; lowering runs for each choice of settings, scene, view and device, and evaluates expressions on
+//! the way. Everything that is wrong is reported at once, and what is wrong whatever the values already when a file is
+//! read. What depends on shaders and on the order of passes comes in [`crate::expand`].
 //!
 //! # The language
 //! `docs/pipeline-format.md` tells what each field means; this is its grammar.
 //! ```text
-//! Pipeline(version: 1, settings: [SETTING…], images: [IMAGE…], buffers: [BUFFER…], passes: [PASS…], outputs: [OUTPUT…])
+//! Pipeline(version: 1, include: ["file"…], settings: [SETTING…], fragments: [FRAGMENT…], images: [IMAGE…],
+//!          buffers: [BUFFER…], passes: [ITEM…], outputs: [OUTPUT…])
+//! Fragments(version: 1, include: ["file"…], fragments: [FRAGMENT…])
 //!
 //! SETTING    (name: "…", value: KIND, about: "…")                  `about` may be left out
-//! KIND       Bool(default: true) | OneOf(default: 4, of: [1, 4])
-//!            | Number(default: 1.0, min: 0.0, max: 2.0) | Integer(default: 1, min: 0, max: 9)
+//! KIND       Bool(default: true) | OneOf(default: 4, of: [1, 4]) | OneOf(default: "low", of: ["low", "high"])
+//!            | Number(default: 1.0, min: 0.0, max: 2.0) | Integer(default: 1, min: 0, max: 9)    with `step: 1` too
+//!
+//! FRAGMENT   (name: "…", about: "…", parameters: [PARAMETER…], images: [IMAGE…], buffers: [BUFFER…], passes: [ITEM…])
+//! PARAMETER  (name: "…", value: TYPE, about: "…")
+//! TYPE       Image | Buffer | KIND | Format(default: R8_UNORM)      without `default`: it has to be given
+//! ITEM       PASS | USE | (anchor: "…")
+//! USE        (use: "fragment", name: "…", with: {"parameter": VALUE…}, repeat: REPEAT, when: …, otherwise: OTHERWISE)
+//! REPEAT     ("i", 8)                                              `i` counts from 0; may stand in IMAGE, BUFFER and PASS
 //!
 //! IMAGE      (name: "…", format: FORMAT, size: SIZE, samples: SAMPLES, mips: MIPS, layers: LAYERS, shape: SHAPE,
 //!             lifetime: LIFETIME)
-//! FORMAT     Color(hdr: true | "setting") | Depth | DepthStencil | Output | Like("image") | R8_UNORM and others of Vulkan
+//! FORMAT     Color(hdr: true) | Depth | DepthStencil | Output | Like("image") | R8_UNORM and others of Vulkan
 //! SIZE       Output | Scaled(FACTOR) | Scaled(FACTOR, "image") | Fixed(640, 480) | Like("image")
-//! FACTOR     0.5 | "setting"                                       of the frame or an image, rounded down, at least 1
-//! SAMPLES    4 | "setting" | Like("image")                         by default 1
-//! MIPS       4 | "setting" | Full | Like("image")                  by default 1
-//! LAYERS     4 | "setting" | Like("image")                         by default 1, of a cube 6
-//! SHAPE      D2 | D3(64 | "setting") | Cube                        by default D2; D3 takes the depth
+//! FACTOR     0.5                                                   of the frame or an image, rounded down, at least 1
+//! SAMPLES    4 | Like("image")                         by default 1
+//! MIPS       4 | Full | Like("image")                  by default 1
+//! LAYERS     4 | Like("image")                         by default 1, of a cube 6
+//! SHAPE      D2 | D3(64) | Cube                        by default D2; D3 takes the depth
 //! BUFFER     (name: "…", bytes: BYTES, lifetime: LIFETIME)
-//! BYTES      4096 | "setting" | Times(16, "setting") | PerTexel(4, "image") | Like("buffer")
+//! BYTES      4096 | Times(16, 9) | PerTexel(4, "image") | Like("buffer")
 //! LIFETIME   Transient | Persistent(initial: VALUE) | History(frames: 1, initial: VALUE)
 //!            | Imported(before: STATE, after: STATE) | Like("name")           `initial`, `frames`, `after` may be left out
 //! VALUE      0 | (0.0, 0) | (0.0, 0.0, 0.0, 1.0)                   every component or word | depth, stencil | colour
@@ -34,7 +45,8 @@
 //!
 //! PASS       (name: "…", WORK, sample: {"shader's name": SAMPLED…}, storage: {"shader's name": STORAGE…},
 //!             uniform: {"shader's name": BUFFERS…}, params: {"shader's name": PARAM…}, color: [COLOR…], depth: DEPTH,
-//!             side_effect: true, when: "CONDITION", otherwise: Forward(from: "image", to: "image"))
+//!             side_effect: true, when: "true", otherwise: OTHERWISE)
+//! OTHERWISE  Forward(from: "image", to: "image") | Clear(image: "image", value: VALUE) | [OTHERWISE…]
 //! WORK       draw: DRAW | dispatch: "shader", groups: GROUPS | copy: (from: PART, to: PART)
 //!            | blit: (from: PART, to: PART, filter: FILTER) | fill: (to: PART, value: VALUE)
 //!            | custom: "name", reads: [PART…], writes: [PART…]
@@ -43,7 +55,7 @@
 //!            | Vertices(COUNT, COUNT), shader: "…", vertex: BUFFERS, index: BUFFERS       vertices, instances
 //!            | Indirect(BUFFERS), shader: "…", vertex: BUFFERS, index: BUFFERS
 //! GROUPS     Count(COUNT, COUNT, COUNT) | Invocations(COUNT, COUNT, COUNT) | Texels(IMAGES) | Indirect(BUFFERS, OFFSET)
-//! COUNT      8 | "setting"
+//! COUNT      8
 //! PART       IMAGES | BUFFERS
 //! IMAGES     "image" | (image: "…", SELECTED)
 //! SELECTED   mip: 1, mips: 2 | Rest, layer: 1, layers: 2 | Rest, plane: Depth | Stencil, previous: 1
@@ -56,11 +68,12 @@
 //! COLOR      "image" | (image: "…", SELECTED, clear: (r, g, b, a), blend: Replace | Alpha | Premultiplied | Additive)
 //! DEPTH      "image" | (image: "…", SELECTED, clear: 0.0, test: GreaterOrEqual, write: true, stencil: STENCIL)
 //! STENCIL    (clear: 0, test: Always, reference: 0, pass: Keep)
-//! PARAM      1.0 | 1 | true | "setting"
+//! PARAM      1.0 | 1 | true
 //! OUTPUT     "name" | (image: "…", after: STATE) | (buffer: "…", after: STATE)
-//! CONDITION  names of settings and of facts that are true or false ([`crate::facts::Fact`]) with `!`, `&&` and `||`, the
-//!            last binding least
 //! ```
+//! Wherever a number, a truth, a format, an image or a buffer stands, an [expression](crate::expression) in quotes may
+//! stand; `when` always is one.
+//!
 //! Names that a file gives begin with a letter or `_` and go on with letters, digits and `_`, those of shaders and
 //! custom work with `-` too, at most 64 bytes.
 

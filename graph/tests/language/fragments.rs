@@ -1,9 +1,12 @@
 //! Fragments: images, buffers and passes that are put in under a name of their own, with arguments.
 
-use crate::table::{INPUTS, right, unnamed, wrong};
-use framewright_graph::expand::Inputs;
+use crate::table::{INPUTS, Table, right, unnamed, wrong};
+use framewright_graph::describe::{self, Files, Found};
+use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Frame, ImageIndex, ParamValue, Work};
+use framewright_graph::source::Sources;
+use std::sync::Arc;
 
 /// A pipeline that blooms by a fragment.
 const BLOOM: &str = r#"Pipeline(
@@ -181,4 +184,36 @@ fn fragments_that_multiply_end_at_the_limit() {
     let said = wrong(&text, &INPUTS);
     assert!(said.contains("this makes more than 1000000 images, buffers, passes and uses of fragments"), "{said}");
     assert_eq!(said.matches("error: ").count(), 1, "{said}");
+}
+
+/// Files by path; each is read once.
+struct Shelf {
+    files: Vec<(&'static str, String)>,
+    read: Vec<String>,
+}
+
+impl Files for Shelf {
+    fn read(&mut self, from: &str, path: &str) -> Result<Found, String> {
+        self.read.push(format!("{from} -> {path}"));
+        let (_, text) = self.files.iter().find(|(name, _)| *name == path).ok_or_else(|| format!("no `{path}`"))?;
+        Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes: text.clone().into_bytes() })
+    }
+}
+
+#[test]
+fn a_fragment_from_a_file_is_the_same_as_one_that_stands_in_the_pipeline() {
+    let start = BLOOM.find("    fragments: [").expect("it has fragments");
+    let end = BLOOM.find("    images: [\n        (name: \"color\"").expect("it has images");
+    let text = format!("{}include: [\"bloom.ron\", \"more.ron\"],{}", &BLOOM[..start], &BLOOM[end..]);
+    let library =
+        format!("Fragments(version: 1, include: [\"more.ron\"], {})", &BLOOM[start..end].trim().trim_end_matches(','));
+    let more = "Fragments(version: 1, fragments: [])".to_owned();
+    let mut shelf = Shelf { files: vec![("bloom.ron", library), ("more.ron", more)], read: Vec::new() };
+    let mut sources = Sources::default();
+    let document = describe::read_with(&mut sources, &mut shelf, "test.ron", "test.ron", text)
+        .unwrap_or_else(|errors| panic!("{}", describe::render(&sources, &errors)));
+    let frame = expand(&document, Arc::new(sources), &INPUTS, &mut Table).expect("it is right");
+    assert_eq!(unnamed(&frame), unnamed(&right(BLOOM, &INPUTS)));
+    assert_eq!(shelf.read, ["test.ron -> bloom.ron", "bloom.ron -> more.ron", "test.ron -> more.ron"]);
+    assert_eq!(&*frame.sources.place(frame.images[2].span).expect("a place").file, "bloom.ron");
 }
