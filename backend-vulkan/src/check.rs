@@ -70,7 +70,9 @@ fn checked_image(shared: &Shared, plan: &Plan, image: &Image, poison: bool) -> R
                 None => Ok(()),
             }
         }
-        Role::External { .. } if image.samples > 1 && plan.outputs.contains(&Resource::Image(image.id)) => {
+        Role::External { .. }
+            if image.samples > 1 && plan.outputs.iter().any(|it| it.resource == Resource::Image(image.id)) =>
+        {
             bad(format!("the output `{name}` has {} samples and can't be read", image.samples))
         }
         Role::External { before, after } if [before, after].iter().any(|it| it.layout == Layout::PresentSrcKhr) => {

@@ -20,8 +20,8 @@ impl Executor {
     /// [`Error::BadResource`] if there is no such output or no frame yet, [`Error::OutOfMemory`], [`Error::DeviceLost`].
     pub fn read(&mut self, output: usize) -> Result<Texels, Error> {
         let bad = |what: &str| Error::BadResource { what: format!("output {output} can't be read: {what}") };
-        match self.plan.outputs.get(output).ok_or_else(|| bad("the Plan has fewer"))? {
-            Resource::Image(image) => self.read_plane(*image, first_plane(self.plan.image(*image).format), 0),
+        match self.plan.outputs.get(output).ok_or_else(|| bad("the Plan has fewer"))?.resource {
+            Resource::Image(image) => self.read_plane(image, first_plane(self.plan.image(image).format), 0),
             Resource::Buffer(_) => Err(bad("it is a buffer")),
         }
     }
@@ -71,7 +71,9 @@ impl Executor {
     /// [`Error::BadResource`] if one of these isn't so.
     pub fn kept_image(&mut self, frame: u64, output: usize) -> Result<Texels, Error> {
         let bad = || Error::BadResource { what: format!("output {output} of frame {frame} is no image that was kept") };
-        let Some(Resource::Image(image)) = self.plan.outputs.get(output).copied() else { return Err(bad()) };
+        let Some(Resource::Image(image)) = self.plan.outputs.get(output).map(|it| it.resource) else {
+            return Err(bad());
+        };
         self.frames.wait(frame)?;
         let descriptor = self.prepared.physical.image(image, frame).descriptor;
         self.frames.kept(frame, output).ok_or_else(bad)?.texels(&descriptor)
@@ -84,7 +86,7 @@ impl Executor {
     pub fn kept_buffer(&mut self, frame: u64, output: usize) -> Result<Vec<u8>, Error> {
         let bad =
             || Error::BadResource { what: format!("output {output} of frame {frame} is no buffer that was kept") };
-        let Some(Resource::Buffer(_)) = self.plan.outputs.get(output) else { return Err(bad()) };
+        let Some(Resource::Buffer(_)) = self.plan.outputs.get(output).map(|it| it.resource) else { return Err(bad()) };
         self.frames.wait(frame)?;
         self.frames.kept(frame, output).ok_or_else(bad)?.bytes()
     }

@@ -6,7 +6,7 @@ use crate::readback::{Readback, first_plane};
 use crate::record::Frame;
 use crate::uses::Uses;
 use ash::vk;
-use framewright_graph::plan::{Plan, Resource, Role};
+use framewright_graph::plan::{Output, Plan, Resource, Role};
 use framewright_graph::vocabulary::State;
 use std::sync::Arc;
 
@@ -25,17 +25,18 @@ impl Keep {
     /// # Errors
     /// [`Error::BadPlan`] if one of them is transient or never touched.
     pub(crate) fn all(plan: &Plan, uses: &Uses) -> Result<Vec<Keep>, Error> {
-        let keep = |resource: &Resource| {
+        let keep = |output: &Output| {
+            let resource = output.resource;
             let role = match resource {
-                Resource::Image(image) => &plan.image(*image).role,
+                Resource::Image(image) => &plan.image(image).role,
                 Resource::Buffer(buffer) => &plan.buffers[buffer.0 as usize].role,
             };
             let bad = || Error::BadPlan { what: "an output is transient, or no step touches it".to_owned() };
             let (Role::Persistent { after: state, .. } | Role::External { after: state, .. }) = role else {
                 return Err(bad());
             };
-            let span = uses.of(*resource).ok_or_else(bad)?;
-            Ok(Keep { resource: *resource, state: *state, after: span.last })
+            let span = uses.of(resource).ok_or_else(bad)?;
+            Ok(Keep { resource, state: *state, after: span.last })
         };
         plan.outputs.iter().map(keep).collect()
     }

@@ -86,7 +86,12 @@ fn chain(long: bool) -> Frame {
             third,
             pass("last", "next", &[("source", 2)], 3),
         ],
-        outputs: vec![Output { resource: frame::Resource::Image(ImageIndex(3)), span: Span::NONE, after: None }],
+        outputs: vec![Output {
+            resource: frame::Resource::Image(ImageIndex(3)),
+            span: Span::NONE,
+            after: None,
+            encoding: None,
+        }],
         ..Frame::default()
     }
 }

@@ -7,6 +7,7 @@
 pub mod compile;
 pub mod describe;
 pub mod device;
+pub mod encoding;
 pub mod expand;
 pub mod expression;
 pub mod facts;

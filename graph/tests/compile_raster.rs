@@ -259,7 +259,7 @@ fn multisampled_depth_that_leaves_the_frame_is_its_sample_zero() {
     assert_eq!((plan.totals.resolves, plan.totals.folded_resolves, plan.totals.scopes), (2, 2, 1));
     let resolve = scopes(&plan)[0].depth.as_ref().and_then(|depth| depth.resolve.as_ref()).expect("a folded resolve");
     assert_eq!(resolve.mode, ResolveMode::SampleZero);
-    assert_eq!(plan.outputs[1], Resource::Image(resolve.image));
+    assert_eq!(plan.outputs[1].resource, Resource::Image(resolve.image));
 }
 
 #[test]
@@ -355,7 +355,7 @@ fn an_image_that_another_is_forwarded_to_may_have_been_used_before() {
     let plan = compiled(&raster.outputs(&[screen, second]));
     let names: Vec<&str> = plan.images.iter().map(|image| &*image.name).collect();
     assert_eq!(names, ["screen (2)", "second", "screen"]);
-    let Resource::Image(screen) = plan.outputs[0] else { panic!("it is an image") };
+    let Resource::Image(screen) = plan.outputs[0].resource else { panic!("it is an image") };
     assert_eq!(&*plan.image(screen).name, "screen");
 }
 

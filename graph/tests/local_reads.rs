@@ -140,7 +140,12 @@ fn what_was_read_locally_is_drawn_over_behind_a_barrier() {
     marks.color.truncate(1);
     marks.color[0].clear = None;
     frame.passes.insert(2, marks);
-    frame.outputs.push(Output { resource: Resource::Image(ImageIndex(0)), span: Span::NONE, after: None });
+    frame.outputs.push(Output {
+        resource: Resource::Image(ImageIndex(0)),
+        span: Span::NONE,
+        after: None,
+        encoding: None,
+    });
     let options = Options { demote: false, order: Order::File, ..Options::default() };
     let plan = compile(&frame, &device(true), &mut Estimated(&device(true)), &options).expect("the frame is legal");
     assert_eq!(verify(&plan), [], "{}", plan.tree());

@@ -79,7 +79,7 @@ impl Builder {
     }
 
     fn output(mut self, image: ImageIndex) -> Frame {
-        self.0.outputs.push(Output { resource: Resource::Image(image), span: Span::NONE, after: None });
+        self.0.outputs.push(Output { resource: Resource::Image(image), span: Span::NONE, after: None, encoding: None });
         self.0
     }
 }

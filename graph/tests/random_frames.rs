@@ -198,6 +198,7 @@ fn frame(passes: &[Vec<u8>], about: [bool; IMAGES.len()], outputs: &[u8]) -> Fra
                 resource: Resource::Image(ImageIndex(image as u32)),
                 span: Span::NONE,
                 after: None,
+                encoding: None,
             });
         }
     }

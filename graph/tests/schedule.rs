@@ -105,6 +105,7 @@ fn passes_that_do_not_depend_on_each_other_share_a_barrier_call() {
         resource: Resource::Image(ImageIndex(image)),
         span: Span::NONE,
         after: None,
+        encoding: None,
     });
     frame.outputs.extend(outputs);
     assert_eq!(compiled(&frame, Order::Default).totals.barrier_calls, 5);

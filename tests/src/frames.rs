@@ -85,7 +85,12 @@ impl Builder {
     /// The frame, made for these images.
     #[must_use]
     pub fn outputs(mut self, images: &[ImageIndex]) -> Frame {
-        let output = |image: &ImageIndex| Output { resource: Resource::Image(*image), span: Span::NONE, after: None };
+        let output = |image: &ImageIndex| Output {
+            resource: Resource::Image(*image),
+            span: Span::NONE,
+            after: None,
+            encoding: None,
+        };
         self.0.outputs = images.iter().map(output).collect();
         self.0
     }

@@ -59,7 +59,7 @@ fn frame(views: &[Option<&str>]) -> Frame {
             pass.depth = Some(DepthTarget { image, range, span, clear, test, write: clears, stencil: None });
             frame.passes.push(pass);
         }
-        frame.outputs.push(Output { resource: Resource::Image(first), span, after: None });
+        frame.outputs.push(Output { resource: Resource::Image(first), span, after: None, encoding: None });
     }
     frame
 }

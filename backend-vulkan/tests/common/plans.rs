@@ -45,7 +45,7 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
         buffers: Vec::new(),
         heaps: vec![Heap { bytes: 0, alignment: 1, type_bits: u32::MAX, lazily_allocated: false }],
         steps: Vec::new(),
-        outputs: vec![Resource::Image(SCREEN)],
+        outputs: vec![Resource::Image(SCREEN).into()],
         notes: Vec::new(),
         totals: Totals::default(),
     };

@@ -112,7 +112,12 @@ fn an_output_is_left_in_the_state_that_was_asked_for() {
     let mut small = Small::default();
     let shown = small.image("shown", Format::R32_UINT, [2, 2]);
     small.pass(draw("number", Draw::FullScreen).draws(shown, WHOLE, None));
-    small.frame.outputs.push(Output { resource: Resource::Image(shown), span: Span::NONE, after: Some(SAMPLED) });
+    small.frame.outputs.push(Output {
+        resource: Resource::Image(shown),
+        span: Span::NONE,
+        after: Some(SAMPLED),
+        encoding: None,
+    });
     everywhere(&small.frame, SHADERS, |executor| {
         for _ in 0..2 {
             frame(executor);

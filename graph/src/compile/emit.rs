@@ -2,6 +2,7 @@
 
 mod attachments;
 mod barriers;
+mod outputs;
 mod passes;
 mod revise;
 
@@ -117,7 +118,7 @@ pub(super) fn emit(parts: &Parts<'_>, (images, buffers): Resources) -> Plan {
         views: views(parts),
         images,
         buffers,
-        outputs: parts.adapted.outputs.iter().map(|store| resource(&parts.adapted.stores[*store as usize])).collect(),
+        outputs: outputs::outputs(parts),
         heaps: parts.placed.heaps.clone(),
         totals: with_bytes(parts, Totals::count(&steps)),
         steps,

@@ -1,11 +1,13 @@
 //! Format fallback: where the device can't use a format as the frame does, another one that holds at least as much.
 //!
 //! Only images that nobody outside of the frame sees, and whose texels no shader or program is told the layout of: neither
-//! imported ones nor outputs, no storage images, nothing that is copied to or from buffers or by custom passes.
+//! imported ones nor outputs, no storage images, nothing that is copied to or from buffers or by custom passes. An output
+//! that is encoded for HDR10 may have 16 bits instead of 10.
 
 use super::parts::Grids;
 use super::{cull, legal, link, samples};
 use crate::device::{FormatSupport, Profile};
+use crate::encoding::Encoding;
 use crate::format::Format::{self, *};
 use crate::frame::{Blend, Frame, Lifetime, Pass, Resource, Work};
 use crate::plan::{Note, Stage};
@@ -34,6 +36,11 @@ fn substitutes(format: Format) -> &'static [Format] {
     }
 }
 
+/// Formats that hold HDR10 as well as `format` does.
+fn hdr10_substitutes(format: Format) -> &'static [Format] {
+    if format == A2B10G10R10_UNORM_PACK32 { &[R16G16B16A16_UNORM] } else { &[] }
+}
+
 /// What the frame asks of an image's format.
 #[derive(Debug, Clone, Copy, Default)]
 struct Wanted {
@@ -42,6 +49,8 @@ struct Wanted {
     blend: bool,
     /// Whether somebody relies on the very format.
     fixed: bool,
+    /// Whether it leaves the frame as HDR10.
+    hdr10: bool,
 }
 
 impl Wanted {
@@ -81,7 +90,9 @@ pub(super) fn fall_back(frame: &Frame, device: &Profile) -> Option<(Frame, Vec<N
             return None;
         }
         let fits = |format: &&Format| !group.iter().any(|image| lacks(**format, image));
-        let other = *substitutes(format).iter().find(fits)?;
+        let hdr10 = group.iter().any(|image| wanted[*image].hdr10);
+        let substitutes = if hdr10 { hdr10_substitutes(format) } else { substitutes(format) };
+        let other = *substitutes.iter().find(fits)?;
         let missing = wanted[*first].missing(device.format(format)).join(", ");
         group.iter().for_each(|image| made[*image] = Some((other, missing.clone())));
     }
@@ -106,7 +117,10 @@ fn wanted<'f, P: Iterator<Item = &'f Pass>>(frame: &Frame, passes: impl Fn() -> 
         .collect();
     for output in &frame.outputs {
         if let Resource::Image(image) = output.resource {
-            wanted[image.0 as usize].fixed = true;
+            let wanted = &mut wanted[image.0 as usize];
+            // HDR10 has a second format, and the Plan says which it is.
+            wanted.hdr10 = output.encoding == Some(Encoding::Hdr10);
+            wanted.fixed |= !wanted.hdr10;
         }
     }
     for pass in passes() {
@@ -146,7 +160,7 @@ fn alike_in(frame: &Frame, pass: &Pass) -> Option<[u32; 2]> {
 fn note(frame: &Frame, image: usize, made: Format, why: &str) -> Note {
     let declared = &frame.images[image];
     let gains = match declared.format {
-        A2B10G10R10_UNORM_PACK32 => "; values outside of 0 to 1 are kept",
+        A2B10G10R10_UNORM_PACK32 if made != R16G16B16A16_UNORM => "; values outside of 0 to 1 are kept",
         B10G11R11_UFLOAT_PACK32 => "; it has an alpha, and negative values are kept",
         _ => "",
     };

@@ -5,7 +5,9 @@ mod transfers;
 
 use super::parts;
 use crate::describe::Diagnostic;
-use crate::frame::{Buffer, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Shape, Work};
+use crate::frame::{
+    Buffer, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Output, Pass, Resource, Shape, Work,
+};
 use crate::source::Span;
 use crate::states::{Subject, When};
 use crate::vocabulary::{Aspects, Stages, Subresources};
@@ -117,10 +119,31 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
             let message = format!("`{}` is an output and comes from a file: no pass makes it", subject.name);
             errors.push(Diagnostic::new(output.span, message));
         }
+        errors.extend(wrong_encoding(frame, output));
         // Samples are resolved on the way out.
         let subject = Subject { samples: 1, ..subject };
         errors.extend(output.after.and_then(|after| lifetimes::check_state(&after, output.span, subject, When::After)));
     }
+}
+
+/// What is wrong with an output's encoding: its format can't hold it.
+fn wrong_encoding(frame: &Frame, output: &Output) -> Option<Diagnostic> {
+    let encoding = output.encoding?;
+    let name = encoding.name();
+    let image = match output.resource {
+        Resource::Image(image) => &frame.images[image.0 as usize],
+        Resource::Buffer(buffer) => {
+            let message =
+                format!("`{}` is a buffer and has no encoding `{name}`", frame.buffers[buffer.0 as usize].name);
+            return Some(Diagnostic::new(output.span, message).help("leave `encoding` out"));
+        }
+    };
+    if encoding.fits(image.format) {
+        return None;
+    }
+    let message = format!("`{}` can't leave the frame as `{name}`: it is {}", image.name, image.format);
+    let help = format!("`{name}` takes {}", encoding.formats());
+    Some(Diagnostic::new(output.span, message).label(image.span, "declared here").help(help))
 }
 
 fn image_problem(image: &Image) -> Option<String> {

@@ -174,7 +174,7 @@ fn outputs(chosen: &Chosen<'_>, things: &Things, dump: &[String], errors: &mut V
     for output in &pipeline.outputs {
         let describe::ResourceRef { resource, span } = output.resource;
         let after = output.after.and_then(|after| things.left(chosen, resource, after, errors));
-        outputs.push(Output { resource, span, after });
+        outputs.push(Output { resource, span, after, encoding: None });
     }
     dumped(pipeline, dump, &mut outputs, errors);
     outputs
@@ -191,7 +191,7 @@ fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, error
         let Ok(index) = u32::try_from(index) else { continue };
         let resource = Resource::Image(ImageIndex(index));
         if outputs.iter().all(|output| output.resource != resource) {
-            outputs.push(Output { resource, span: Span::NONE, after: None });
+            outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None });
         }
     }
 }

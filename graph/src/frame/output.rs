@@ -1,6 +1,7 @@
 //! What leaves the frame.
 
 use super::Resource;
+use crate::encoding::Encoding;
 use crate::source::Span;
 use crate::vocabulary::State;
 
@@ -13,4 +14,6 @@ pub struct Output {
     pub span: Span,
     /// The state in which it is to be left; `None`: that of its last use, which the Plan says.
     pub after: Option<State>,
+    /// What its numbers mean, which its format must be able to hold; `None`: what the format says.
+    pub encoding: Option<Encoding>,
 }

@@ -89,8 +89,8 @@ impl Plan {
         for (index, buffer) in self.buffers.iter().enumerate() {
             self.check_resource("buffers", index, buffer.id.0, &buffer.role, &buffer.name)?;
         }
-        for resource in &self.outputs {
-            self.check_named(*resource, || "outputs".to_owned())?;
+        for output in &self.outputs {
+            self.check_named(output.resource, || "outputs".to_owned())?;
         }
         for (index, step) in self.steps.iter().enumerate() {
             self.check_step(index, step)?;

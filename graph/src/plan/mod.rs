@@ -39,11 +39,13 @@ use std::sync::Arc;
 mod json;
 pub(crate) mod names;
 mod outline;
+mod output;
 mod totals;
 mod tree;
 mod work;
 
 pub use json::PlanError;
+pub use output::Output;
 pub use totals::Totals;
 pub use work::{
     Access, Attachment, AttachmentResolve, Binding, BindingKind, BufferAccess, DepthState, Fill, Param, Pass,
@@ -104,8 +106,8 @@ pub struct Plan {
     pub heaps: Vec<Heap>,
     /// Steps in the order in which they are submitted.
     pub steps: Vec<Step>,
-    /// Images and buffers that leave the frame, in the pipeline's order. None of them is transient.
-    pub outputs: Vec<Resource>,
+    /// What leaves the frame, in the pipeline's order.
+    pub outputs: Vec<Output>,
     /// Decisions that no step shows: what was left out, lowered, not merged or not folded, and why.
     pub notes: Vec<Note>,
     /// Sums.

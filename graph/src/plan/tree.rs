@@ -4,9 +4,10 @@ use super::names::{Shown, vulkan};
 use super::outline::Node;
 use super::{
     Access, Attachment, BindingKind, Buffer, BufferAccess, Cause, Hazard, Image, ImageBarrier, ImageId, Initial,
-    MemoryBarrier, Note, Pass, Plan, Queue, RenderScope, Resource, Role, Side, Step, StepId, Subresources, Totals,
-    Transfer, View, Wait, Work,
+    MemoryBarrier, Note, Output, Pass, Plan, Queue, RenderScope, Resource, Role, Side, Step, StepId, Subresources,
+    Totals, Transfer, View, Wait, Work,
 };
+use crate::encoding::Encoding;
 use crate::frame::{Blend, BufferRole, Draw, DrawList, Groups, ParamValue, StencilState};
 use crate::source::Place;
 use crate::texture::ColorSpace;
@@ -29,7 +30,7 @@ pub(super) fn tree(plan: &Plan) -> String {
     if !plan.buffers.is_empty() {
         parts.push(Node::new("buffers", plan.buffers.iter().map(|it| buffer(plan, it)).collect()));
     }
-    parts.push(Node::new("outputs", plan.outputs.iter().filter_map(|id| output(plan, *id)).collect()));
+    parts.push(Node::new("outputs", plan.outputs.iter().filter_map(|it| output(plan, it)).collect()));
     if !plan.notes.is_empty() {
         parts.push(Node::new("notes", plan.notes.iter().map(note).collect()));
     }
@@ -367,7 +368,8 @@ fn image(plan: &Plan, image: &Image) -> Node {
     Node::leaf(text + &cause(&image.cause))
 }
 
-fn output(plan: &Plan, resource: Resource) -> Option<Node> {
+fn output(plan: &Plan, output: &Output) -> Option<Node> {
+    let resource = output.resource;
     let role = match resource {
         Resource::Image(id) => &plan.images.get(id.0 as usize)?.role,
         Resource::Buffer(id) => &plan.buffers.get(id.0 as usize)?.role,
@@ -375,8 +377,17 @@ fn output(plan: &Plan, resource: Resource) -> Option<Node> {
     let (Role::External { after, .. } | Role::Persistent { after, .. }) = role else { return None };
     let name = Shown(plan.resource_name(resource));
     let [layout, stages, accesses] = [vulkan(&after.layout), vulkan(&after.stages), vulkan(&after.accesses)];
+    let encoded = output.encoding.map_or_else(String::new, |encoding| {
+        let by = output.encoded.as_deref().unwrap_or("");
+        match encoding {
+            Encoding::Srgb => format!("; sRGB, encoded {}", Shown(by)),
+            Encoding::Hdr10 => format!("; HDR10, encoded {}", Shown(by)),
+            Encoding::Linear => "; linear light, not encoded".to_owned(),
+            Encoding::Unorm => "; shares from 0 to 1, not encoded".to_owned(),
+        }
+    });
     Some(Node::leaf(match resource {
-        Resource::Image(_) => format!("`{name}` in {layout}, last {accesses} in {stages}"),
+        Resource::Image(_) => format!("`{name}` in {layout}, last {accesses} in {stages}{encoded}"),
         Resource::Buffer(_) => format!("`{name}`, last {accesses} in {stages}"),
     }))
 }

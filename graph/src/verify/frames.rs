@@ -158,7 +158,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             }
         }
         for output in &self.plan.outputs {
-            let resource = match output {
+            let resource = match output.resource {
                 Resource::Image(image) => image.0,
                 Resource::Buffer(buffer) => self.plan.images.len() as u32 + buffer.0,
             };

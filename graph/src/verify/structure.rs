@@ -222,7 +222,7 @@ fn check_heaps(plan: &Plan, found: &mut Findings) {
 fn check_outputs(plan: &Plan, found: &mut Findings) {
     let mut listed = HashSet::new();
     for output in &plan.outputs {
-        let resource = match output {
+        let resource = match output.resource {
             Resource::Image(image) => image.0,
             Resource::Buffer(buffer) => plan.images.len() as u32 + buffer.0,
         };
@@ -231,6 +231,13 @@ fn check_outputs(plan: &Plan, found: &mut Findings) {
         }
         if !listed.insert(resource) {
             found.structure(None, Some(resource), "is listed as an output twice");
+        }
+        if let Some(encoding) = output.encoding {
+            let format = plan.images.get(resource as usize).map(|image| image.format);
+            if !format.is_some_and(|format| encoding.fits(format)) {
+                let what = format!("can't be encoded as {}: that takes {}", encoding.name(), encoding.formats());
+                found.structure(None, Some(resource), what);
+            }
         }
     }
 }

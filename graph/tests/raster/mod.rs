@@ -54,7 +54,7 @@ impl Raster {
     pub(crate) fn outputs(mut self, images: &[ImageIndex]) -> Frame {
         self.0.outputs = images
             .iter()
-            .map(|image| Output { resource: Resource::Image(*image), span: Span::NONE, after: None })
+            .map(|image| Output { resource: Resource::Image(*image), span: Span::NONE, after: None, encoding: None })
             .collect();
         self.0
     }

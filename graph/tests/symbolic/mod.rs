@@ -130,7 +130,7 @@ pub(crate) fn of_plan(plan: &Plan) -> Vec<u64> {
             plan::Work::Export => {}
         }
     }
-    plan.outputs.iter().map(|output| held[number(*output)]).collect()
+    plan.outputs.iter().map(|output| held[number(output.resource)]).collect()
 }
 
 fn side(side: &plan::Side) -> usize {

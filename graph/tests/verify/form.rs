@@ -32,7 +32,7 @@ fn every_mistake_of_form_is_said() {
         (|plan| plan.images[0].samples = 3, "`color`: has a sample count that is not"),
         (|plan| plan.images[2].usage = Usage::SAMPLED, "is used as COLOR_ATTACHMENT, which its usage leaves out"),
         (
-            |plan| plan.outputs.push(Resource::Image(framewright_graph::plan::ImageId(2))),
+            |plan| plan.outputs.push(Resource::Image(framewright_graph::plan::ImageId(2)).into()),
             "`color.resolved`: is listed as an output and is transient",
         ),
         (|plan| plan.heaps[0].bytes = 1024, "reaches beyond heap 0, which has 1024 bytes"),
@@ -221,7 +221,7 @@ fn a_plan_without_steps_is_refused() {
     let mut plan = multisampled();
     plan.images.retain(|image| matches!(image.role, Role::External { .. }));
     plan.images[0].id.0 = 0;
-    plan.outputs = vec![Resource::Image(plan.images[0].id)];
+    plan.outputs = vec![Resource::Image(plan.images[0].id).into()];
     plan.steps.clear();
     plan.notes.clear();
     let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();

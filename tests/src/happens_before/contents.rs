@@ -92,7 +92,7 @@ impl Follower<'_> {
     fn leave(&mut self, resource: Resource) {
         let plan = self.world.plan;
         let physical = self.world.physical(self.frame, resource);
-        let output = plan.outputs.contains(&resource);
+        let output = plan.outputs.iter().any(|output| output.resource == resource);
         let after = match role(plan, resource) {
             Role::External { after, .. } | Role::Persistent { after, .. } => after.layout,
             Role::Transient(_) => return,

@@ -428,7 +428,7 @@ impl Timeline {
     fn leave(&mut self, world: &World, frame: usize, resource: Resource) {
         let after = match role(world.plan, resource) {
             Role::External { after, .. } => *after,
-            Role::Persistent { after, .. } if world.plan.outputs.contains(&resource) => *after,
+            Role::Persistent { after, .. } if world.plan.outputs.iter().any(|it| it.resource == resource) => *after,
             _ => return,
         };
         let Some(queue) = Timeline::queue_of(world, resource, true) else { return };

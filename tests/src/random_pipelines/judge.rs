@@ -314,7 +314,7 @@ fn levels(mips: u32, format: Format) -> impl Iterator<Item = (u32, Plane)> {
 
 /// All bytes of an output.
 fn read(plan: &Plan, executor: &mut Executor, output: usize) -> Result<Vec<u8>, Error> {
-    match plan.outputs[output] {
+    match plan.outputs[output].resource {
         Resource::Image(id) => {
             let image = plan.image(id);
             let mut all = Vec::new();

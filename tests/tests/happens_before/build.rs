@@ -64,7 +64,7 @@ pub(crate) fn output(plan: &mut Plan, name: &str) -> ImageId {
     let before = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
     let after = State { stages: CS, accesses: W, layout: Layout::General };
     let id = image(plan, name, Role::External { before, after });
-    plan.outputs.push(Resource::Image(id));
+    plan.outputs.push(Resource::Image(id).into());
     id
 }
 

@@ -55,7 +55,12 @@ fn o3de_4832_and_unity_1494_samples_that_are_only_resolved_never_leave_their_sco
 #[test]
 fn filament_7448_depth_is_never_averaged() {
     let mut frame = forward(true);
-    frame.outputs.push(Output { resource: Resource::Image(ImageIndex(1)), span: Span::NONE, after: None });
+    frame.outputs.push(Output {
+        resource: Resource::Image(ImageIndex(1)),
+        span: Span::NONE,
+        after: None,
+        encoding: None,
+    });
     let plan = right(&frame, &Options::default());
     let of_depth = attachments(&plan).filter(|attachment| !attachment.range.aspects.contains(Aspects::COLOR));
     let modes: Vec<_> = of_depth.filter_map(|attachment| Some(attachment.resolve.as_ref()?.mode)).collect();

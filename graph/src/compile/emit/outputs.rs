@@ -1,0 +1,78 @@
+//! What leaves the frame, and where it gets its encoding.
+
+use super::{Parts, resource};
+use crate::encoding::Encoding;
+use crate::format::{Format, Numeric};
+use crate::frame::{Frame, ImageIndex, Pass, Resource as Declared, Work};
+use crate::plan::Output;
+
+/// The outputs in the frame's order.
+pub(super) fn outputs(parts: &Parts<'_>) -> Vec<Output> {
+    let frame = parts.frame;
+    let stores = parts.adapted.outputs.iter().map(|store| &parts.adapted.stores[*store as usize]);
+    let outputs = stores.zip(&frame.outputs).map(|(store, declared)| {
+        let format = store.image().map(|image| image.format);
+        let encoding = declared.encoding.or_else(|| format.and_then(Encoding::of));
+        let encoded = match (declared.resource, format, encoding) {
+            (Declared::Image(image), Some(format), Some(Encoding::Srgb | Encoding::Hdr10)) => {
+                Some(encoded(frame, image, format))
+            }
+            _ => None,
+        };
+        Output { resource: resource(store), encoding, encoded }
+    });
+    outputs.collect()
+}
+
+/// Where an image gets its encoding: by whatever writes it last.
+fn encoded(frame: &Frame, image: ImageIndex, format: Format) -> String {
+    let by_format = format.numeric() == Numeric::Srgb;
+    let (mut image, mut before) = (image, frame.passes.len());
+    // What is copied bit by bit was encoded earlier.
+    while let Some((at, pass)) = last_writer(frame, image, before) {
+        let name = &pass.name;
+        let from = match &pass.work {
+            Work::Copy => source(pass),
+            Work::Forward { from, .. } => Some(*from),
+            _ => None,
+        };
+        if let Some(from) =
+            from.filter(|from| frame.images[from.0 as usize].format == frame.images[image.0 as usize].format)
+        {
+            (image, before) = (from, at);
+            continue;
+        }
+        return match &pass.work {
+            Work::Copy => format!("before pass `{name}` copies it"),
+            Work::Custom { callback } => format!("by `{callback}`, which pass `{name}` calls"),
+            _ if by_format => format!("by the format, when `{name}` stores"),
+            Work::Draw { shader, .. } | Work::Dispatch { shader, .. } => {
+                format!("by shader `{shader}` of pass `{name}`")
+            }
+            Work::Fill { .. } => format!("in the value that pass `{name}` fills it with"),
+            Work::Blit { .. } | Work::Forward { .. } => format!("before pass `{name}` passes it on"),
+        };
+    }
+    format!("before the frame: no pass writes `{}`", frame.images[image.0 as usize].name)
+}
+
+/// The last pass before number `before` that writes `image`, with its number.
+fn last_writer(frame: &Frame, image: ImageIndex, before: usize) -> Option<(usize, &Pass)> {
+    let writes = |pass: &Pass| {
+        let forwarded = matches!(pass.work, Work::Forward { to, .. } if to == image);
+        let transferred = |used: &crate::frame::TransferUse| used.write && used.resource == Declared::Image(image);
+        forwarded
+            || pass.color.iter().any(|target| target.image == image)
+            || pass.storage.iter().any(|storage| storage.write && storage.image == image)
+            || pass.transfers.iter().any(transferred)
+    };
+    frame.passes[..before].iter().enumerate().rev().find(|(_, pass)| writes(pass))
+}
+
+/// The image that a copy reads.
+fn source(copy: &Pass) -> Option<ImageIndex> {
+    copy.transfers.iter().find(|used| !used.write).and_then(|used| match used.resource {
+        Declared::Image(image) => Some(image),
+        Declared::Buffer(_) => None,
+    })
+}
