@@ -109,7 +109,8 @@ pub(crate) struct Run {
     /// How many times the frame is drawn; GPU times are medians over them.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) frames: u32,
-    /// Picture to write: the pipeline's first output, without its alpha. Without this none is written.
+    /// Picture to write: the pipeline's first output, as a .png file without its alpha, or a floating-point one bit for bit
+    /// as an .exr file. Without this none is written.
     #[arg(short, long, value_name = "OUT.png", value_parser = picture)]
     pub(crate) output: Option<PathBuf>,
     /// Also write the last version of an image, resolved if it is multisampled; this may change the Plan. Repeatable.
@@ -304,8 +305,8 @@ mod tests {
     }
 
     #[test]
-    fn pictures_are_png() {
+    fn pictures_are_png_or_openexr() {
         let run = ["run", "a.ron", "--scene", "s.ron", "-o", "x.jpg"];
-        assert!(read(&run).expect_err("not a PNG").contains("must end in .png"));
+        assert!(read(&run).expect_err("neither").contains("must end in .png or .exr"));
     }
 }

@@ -1,7 +1,8 @@
 //! Everything that ends a command early, and the exit code that it ends with.
 
-use crate::text;
+use crate::{picture, text};
 use framewright_graph::describe::{self, Diagnostic};
+use framewright_graph::format::Format;
 use framewright_graph::source::Sources;
 use framewright_passes::scene::SceneError;
 use framewright_vulkan::Blame;
@@ -136,7 +137,18 @@ pub(crate) enum Error {
         /// The image.
         image: String,
         /// The encoder's words.
-        problem: image::ImageError,
+        problem: picture::Problem,
+    },
+    /// A picture that its kind of file can't hold.
+    #[error(
+        "`{}` is {format}, and OpenEXR files hold floating-point numbers: write it to a .png file",
+        text::escape(image)
+    )]
+    NotFloats {
+        /// The image.
+        image: String,
+        /// Its format.
+        format: Format,
     },
     /// The program can't start itself anew.
     #[error("framewright can't start itself anew under the current validation layer: {}\nhelp: set VK_LAYER_PATH to the layer's folder", text::escape(&.0.to_string()))]
@@ -239,6 +251,7 @@ impl Error {
             | Error::TooLarge { .. }
             | Error::NotText { .. }
             | Error::Picture { .. }
+            | Error::NotFloats { .. }
             | Error::Profile { .. }
             | Error::Violations { .. }
             | Error::NoPicture { .. }

@@ -6,18 +6,18 @@ use crate::planning::{self, Loaded, Planned, View};
 use crate::report::{Report, Setting, Validation};
 use crate::{files, interrupt, output, picture, progress, rows, text};
 use framewright_graph::frame::{Frame, Image, Lifetime, Resource};
-use framewright_graph::plan::Totals;
+use framewright_graph::plan::{self, Totals};
 use framewright_graph::vocabulary::Layout;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
-use framewright_vulkan::{Device, DeviceChoice, DeviceOptions, Executor, ExecutorOptions, FrameReport};
+use framewright_vulkan::{Device, DeviceChoice, DeviceOptions, Executor, ExecutorOptions, FrameReport, Texels};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// A picture that is ready to be written.
 struct Picture {
-    file: PathBuf,
-    png: Vec<u8>,
+    path: PathBuf,
+    contents: Vec<u8>,
 }
 
 /// Draws a scene.
@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
 
     let device = Device::open(&DeviceOptions { choice, validation: arguments.validate })?;
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
-    let planned = plan(arguments, &mut pipeline, &scene, &device)?;
+    let planned = planned(arguments, &mut pipeline, &scene, &device)?;
     for name in not_handed_in(&planned.frame) {
         text::say(&format!("note: nobody hands in `{}` here: all of it is 0", text::escape(name)));
     }
@@ -68,7 +68,7 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
     report.validation = canary.map(|canary| Validation::new(canary, &messages.list()));
 
     for picture in &pictures {
-        output::write(&picture.file, &picture.png)?;
+        output::write(&picture.path, &picture.contents)?;
     }
     if let Some(file) = &arguments.report {
         output::write(file, text::json(&report)?.as_bytes())?;
@@ -94,7 +94,7 @@ pub(crate) fn choice(device: Option<&OsStr>) -> Result<DeviceChoice, Error> {
 }
 
 /// Plans the frame for the device, and says what dumping changes.
-fn plan(arguments: &Run, pipeline: &mut Loaded, scene: &Scene, device: &Device) -> Result<Planned, Error> {
+fn planned(arguments: &Run, pipeline: &mut Loaded, scene: &Scene, device: &Device) -> Result<Planned, Error> {
     let dump: Vec<String> = arguments.dump.iter().map(|dump| dump.image.clone()).collect();
     let view = View { facts: Some(scene.facts()), size: arguments.size, dump: &dump };
     let options = arguments.planning.options();
@@ -169,15 +169,15 @@ fn draw(
     }
     progress.finish_and_clear();
     let mut pictures = Vec::new();
-    for (output, name, file) in wanted {
-        let texels = executor.read(output)?;
-        let [width, height, _] = texels.extent;
-        let png = picture::png(texels.format, width, height, &texels.bytes)
-            .map_err(|problem| Error::Picture { image: name.to_owned(), problem })?;
-        if let Some(loss) = picture::loses(texels.format) {
-            text::say(&format!("note: `{}` is {}: in its picture {loss}", text::escape(name), texels.format));
+    for Wanted { output, name, path, file } in wanted {
+        let Texels { format, extent: [width, height, _], bytes, .. } = executor.read(output)?;
+        let encoding = planned.plan.outputs.get(output).and_then(|output| output.encoding);
+        let picture = picture::Picture { format, encoding, extent: [width, height], bytes: &bytes };
+        let contents = file.write(&picture).map_err(|problem| Error::Picture { image: name.to_owned(), problem })?;
+        if let Some(loss) = file.loses(format) {
+            text::say(&format!("note: `{}` is {format}: in its picture {loss}", text::escape(name)));
         }
-        pictures.push(Picture { file: file.to_owned(), png });
+        pictures.push(Picture { path: path.to_owned(), contents });
     }
     if interrupt::asked() {
         return Err(Error::Interrupted { frames: arguments.frames, wanted: arguments.frames });
@@ -185,21 +185,45 @@ fn draw(
     Ok((frames, pictures))
 }
 
-/// Outputs that are written: their numbers, names and files.
-fn wanted<'a>(arguments: &'a Run, planned: &'a Planned) -> Result<Vec<(usize, &'a str, &'a Path)>, Error> {
-    let frame = &planned.frame;
+/// An output that is written.
+struct Wanted<'a> {
+    /// Its number.
+    output: usize,
+    /// Its image's name.
+    name: &'a str,
+    /// Where to.
+    path: &'a Path,
+    /// As what.
+    file: picture::File,
+}
+
+/// Outputs that are written.
+///
+/// # Errors
+/// If there is no image to write, or the kind of file can't hold it.
+fn wanted<'a>(arguments: &'a Run, planned: &'a Planned) -> Result<Vec<Wanted<'a>>, Error> {
+    let (frame, plan) = (&planned.frame, &planned.plan);
     let image = |output: usize| match frame.outputs.get(output)?.resource {
         Resource::Image(image) => frame.images.get(image.0 as usize).map(|image| &*image.name),
         Resource::Buffer(_) => None,
     };
+    let written = |output: usize, name: &'a str, path: &'a Path| {
+        let file = picture::File::of(path).unwrap_or(picture::File::Png);
+        match plan.outputs.get(output).map(|output| output.resource) {
+            Some(plan::Resource::Image(image)) if !file.holds(plan.image(image).format) => {
+                Err(Error::NotFloats { image: name.to_owned(), format: plan.image(image).format })
+            }
+            _ => Ok(Wanted { output, name, path, file }),
+        }
+    };
     let mut wanted = Vec::new();
-    if let Some(file) = &arguments.output {
+    if let Some(path) = &arguments.output {
         let name = image(0).ok_or_else(|| Error::NoPicture { output: output_name(frame) })?;
-        wanted.push((0, name, &**file));
+        wanted.push(written(0, name, path)?);
     }
     for dump in &arguments.dump {
         let output = (0..frame.outputs.len()).find_map(|at| Some((at, image(at).filter(|name| *name == dump.image)?)));
-        wanted.extend(output.map(|(at, name)| (at, name, &*dump.file)));
+        wanted.extend(output.map(|(at, name)| written(at, name, &dump.file)).transpose()?);
     }
     Ok(wanted)
 }

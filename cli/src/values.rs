@@ -1,5 +1,6 @@
 //! What single arguments of the command line can say.
 
+use crate::picture::File;
 use framewright_graph::compile::Order;
 use std::path::PathBuf;
 
@@ -108,9 +109,9 @@ pub(crate) fn dump(text: &str) -> Result<Dump, String> {
 /// What was expected, in words.
 pub(crate) fn picture(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    match path.extension() {
-        Some(extension) if extension.eq_ignore_ascii_case("png") => Ok(path),
-        _ => Err("pictures are written as PNG: the file's name must end in .png".to_owned()),
+    match File::of(&path) {
+        Some(_) => Ok(path),
+        None => Err("pictures are written as PNG or OpenEXR: the file's name must end in .png or .exr".to_owned()),
     }
 }
 

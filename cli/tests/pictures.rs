@@ -154,6 +154,22 @@ fn a_dump_is_a_picture_of_its_image_and_may_change_the_plan() {
 }
 
 #[test]
+fn floating_point_images_go_to_openexr_files_and_others_are_refused_before_anything_is_drawn() {
+    let place = Place::new();
+    let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &["--dump", "color=color.exr"]) else { return };
+    assert!(!outcome.exits(0).err.contains("in its picture"));
+    let picture = image::open(place.path("color.exr")).expect("a picture");
+    assert_eq!((picture.dimensions(), picture.color()), (SIZE.into(), image::ColorType::Rgba32F));
+    let picture = picture.into_rgb32f();
+    assert!(picture.iter().all(|light| light.is_finite()) && picture.iter().any(|light| *light > 1.0));
+    if let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &["-o", "screen.exr"]) {
+        let why = "`screen` is R8G8B8A8_SRGB, and OpenEXR files hold floating-point numbers: write it to a .png file";
+        outcome.exits(1).mentions(why);
+    }
+    assert_eq!(place.names(), ["color.exr"]);
+}
+
+#[test]
 fn the_report_holds_what_the_table_shows_and_more() {
     let place = Place::new();
     let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &["--report", "report.json"]) else { return };

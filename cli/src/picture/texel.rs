@@ -1,46 +1,15 @@
-//! Texels of any format as a PNG that people look at.
-//!
-//! Colour is shown as a display would show it: clamped to 0…1 and encoded with the sRGB curve, NaN as 0; bytes that are
-//! encoded already stay as they are. Alpha is left out, since what lies on a screen is opaque. Depth is shown like light,
-//! as a share of the image's own largest value: with reversed depth the nearest texel is white and infinitely far is black.
-//! Integers are greys or colours of their own value, at
-//! most 255. Images of fewer than three components are grey.
+//! What one texel of any format holds.
 
 use framewright_graph::format::{Format, Numeric};
-use image::error::{ImageError, ParameterError, ParameterErrorKind};
-use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
 
-/// The PNG of `texels`, rows from the top without padding, in the machine's byte order. Of depth-stencil formats they hold
-/// the depth alone.
-///
-/// # Errors
-/// If there are fewer than `width` × `height` texels (those of further layers and slices are left out), or the encoder
-/// fails.
-pub(crate) fn png(format: Format, width: u32, height: u32, texels: &[u8]) -> Result<Vec<u8>, ImageError> {
-    let grey = format.is_depth() || format.components() < 3;
-    let texel_bytes = if format == Format::D32_SFLOAT_S8_UINT { 4 } else { format.texel_bytes() };
-    let texel_bytes = usize::try_from(texel_bytes).unwrap_or(usize::MAX);
-    let channels = if grey { 1 } else { 3 };
-    let count = width as usize * height as usize;
-    let texels = texels.chunks_exact(texel_bytes).take(count);
-    let shown: Vec<u8> = if format.is_depth() {
-        let depths: Vec<f32> = texels.map(|texel| depth(format, texel)).collect();
-        let largest = depths.iter().copied().fold(0.0, f32::max);
-        depths.into_iter().map(|depth| encode(depth / largest)).collect()
-    } else {
-        texels.flat_map(|texel| shown(format, texel).into_iter().take(channels)).collect()
-    };
-    if shown.len() != count * channels {
-        return Err(ImageError::Parameter(ParameterError::from_kind(ParameterErrorKind::DimensionMismatch)));
-    }
-    let color = if grey { ExtendedColorType::L8 } else { ExtendedColorType::Rgb8 };
-    let mut file = Vec::new();
-    PngEncoder::new(&mut file).write_image(&shown, width, height, color)?;
-    Ok(file)
+/// Bytes of one texel as it is read back: of depth-stencil formats the depth alone.
+pub(super) fn bytes(format: Format) -> usize {
+    let bytes = if format == Format::D32_SFLOAT_S8_UINT { 4 } else { format.texel_bytes() };
+    usize::try_from(bytes).unwrap_or(usize::MAX)
 }
 
-/// Red, green and blue of one texel; a grey is in the first.
-fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
+/// Red, green and blue of one texel as a display shows them; a grey is in the first.
+pub(super) fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
     use Format as F;
     let half = |at: usize| half(u16::from_ne_bytes([texel[at], texel[at + 1]]));
     let word = |at: usize| u32::from_ne_bytes([texel[at], texel[at + 1], texel[at + 2], texel[at + 3]]);
@@ -64,12 +33,7 @@ fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
         F::R32_SFLOAT | F::R32G32_SFLOAT => [float(0), 0.0, 0.0].map(encode),
         F::R32G32B32A32_SFLOAT => [float(0), float(4), float(8)].map(encode),
         F::B10G11R11_UFLOAT_PACK32 => {
-            // Halves without sign, cut short: 6 and 5 bits of mantissa.
-            let cut = |shift: u32, count: u32| {
-                let value = (word(0) >> shift) & ((1 << count) - 1);
-                self::half(u16::try_from(value << (15 - count)).unwrap_or(u16::MAX))
-            };
-            [cut(0, 11), cut(11, 11), cut(22, 10)].map(encode)
+            [(0, 11), (11, 11), (22, 10)].map(|(shift, count)| encode(self::half(cut(word(0), shift, count))))
         }
         F::D16_UNORM | F::X8_D24_UNORM_PACK32 | F::D32_SFLOAT | F::D24_UNORM_S8_UINT | F::D32_SFLOAT_S8_UINT => {
             [encode(depth(format, texel)); 3]
@@ -77,8 +41,14 @@ fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
     }
 }
 
+/// The half that `count` bits of `word` from `shift` on are: one without a sign, cut short to 6 or 5 bits of mantissa.
+pub(super) fn cut(word: u32, shift: u32, count: u32) -> u16 {
+    let value = (word >> shift) & ((1 << count) - 1);
+    u16::try_from(value << (15 - count)).unwrap_or(u16::MAX)
+}
+
 /// The depth of one texel of a depth format.
-fn depth(format: Format, texel: &[u8]) -> f32 {
+pub(super) fn depth(format: Format, texel: &[u8]) -> f32 {
     match *texel {
         [a, b] => f32::from(u16::from_ne_bytes([a, b])) / 65535.0,
         [a, b, c, d] if format.numeric() == Numeric::Unorm => bits(u32::from_ne_bytes([a, b, c, d]), 0, 24),
@@ -94,8 +64,33 @@ fn bits(word: u32, shift: u32, count: u32) -> f32 {
     ((word >> shift) & most) as f32 / most as f32
 }
 
+/// Whether shares of colour are stored in more than 8 bits.
+pub(super) fn is_wide(format: Format) -> bool {
+    matches!(format, Format::A2B10G10R10_UNORM_PACK32 | Format::R16G16B16A16_UNORM)
+}
+
+/// Red, green and blue of one texel as they are stored, as shares of 65535; a grey is in the first. `None` of formats that
+/// don't hold shares from 0 to 1 of colour.
+pub(super) fn stored(format: Format, texel: &[u8]) -> Option<[u16; 3]> {
+    use Format as F;
+    let byte = |byte: u8| u16::from(byte) * 257;
+    let short = |at: usize| u16::from_ne_bytes([texel[at], texel[at + 1]]);
+    let ten = |shift: u32| {
+        let word = u32::from_ne_bytes([texel[0], texel[1], texel[2], texel[3]]);
+        u16::try_from((((word >> shift) & 1023) * 65535 + 511) / 1023).unwrap_or(u16::MAX)
+    };
+    Some(match format {
+        F::R8_UNORM | F::R8G8_UNORM => [byte(texel[0]), 0, 0],
+        F::R8G8B8A8_UNORM | F::R8G8B8A8_SRGB => [texel[0], texel[1], texel[2]].map(byte),
+        F::B8G8R8A8_UNORM | F::B8G8R8A8_SRGB => [texel[2], texel[1], texel[0]].map(byte),
+        F::A2B10G10R10_UNORM_PACK32 => [0, 10, 20].map(ten),
+        F::R16G16B16A16_UNORM => [0, 2, 4].map(short),
+        _ => return None,
+    })
+}
+
 /// A linear value 0…1 through the sRGB curve (IEC 61966-2-1), as a byte; NaN as 0.
-fn encode(linear: f32) -> u8 {
+pub(super) fn encode(linear: f32) -> u8 {
     let linear = if linear > 0.0 { f64::from(linear.min(1.0)) } else { 0.0 };
     let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0…255")]
@@ -116,17 +111,6 @@ fn half(bits: u16) -> f32 {
         31 if mantissa == 0.0 => f32::INFINITY,
         31 => f32::NAN,
         exponent => (1024.0 + mantissa) * 2.0_f32.powi(i32::from(exponent) - 25),
-    }
-}
-
-/// What a picture of the format doesn't show of the image's values, in words for the user.
-#[must_use]
-pub(crate) fn loses(format: Format) -> Option<&'static str> {
-    match format.numeric() {
-        _ if format.is_depth() => Some("the nearest texel is white"),
-        Numeric::Sfloat | Numeric::Ufloat => Some("values outside 0…1 are clamped"),
-        Numeric::Uint => Some("values above 255 are clamped"),
-        _ => None,
     }
 }
 
@@ -175,34 +159,9 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_depth_is_white_and_infinitely_far_is_black() {
-        let depths: Vec<u8> = [0.02_f32, 0.01, 0.0].iter().flat_map(|depth| depth.to_ne_bytes()).collect();
-        let file = png(Format::D32_SFLOAT, 3, 1, &depths).expect("a picture");
-        assert_eq!(image::load_from_memory(&file).expect("a PNG").into_luma8().into_raw(), [255, 188, 0]);
-        let nothing = png(Format::D32_SFLOAT, 1, 1, &[0; 4]).expect("a picture");
-        assert_eq!(image::load_from_memory(&nothing).expect("a PNG").into_luma8().into_raw(), [0]);
-    }
-
-    #[test]
     fn blue_and_red_stay_apart_whatever_their_order_in_memory() {
         assert_eq!(shown(Format::R8G8B8A8_SRGB, &[1, 2, 3, 4]), [1, 2, 3]);
         assert_eq!(shown(Format::B8G8R8A8_SRGB, &[1, 2, 3, 4]), [3, 2, 1]);
         assert_eq!(shown(Format::B8G8R8A8_UNORM, &[0, 0, 255, 0]), [255, 0, 0]);
-    }
-
-    #[test]
-    fn every_format_gives_a_picture_of_its_size() {
-        for format in Format::ALL {
-            let bytes = if *format == Format::D32_SFLOAT_S8_UINT { 4 } else { format.texel_bytes() };
-            let texels = vec![0x3f; usize::try_from(bytes * 6).expect("few")];
-            let file = png(*format, 3, 2, &texels).expect("a picture");
-            let picture = image::load_from_memory(&file).expect("a PNG");
-            assert_eq!((picture.width(), picture.height()), (3, 2), "{format}");
-        }
-    }
-
-    #[test]
-    fn too_few_texels_are_refused() {
-        assert!(png(Format::R8G8B8A8_SRGB, 2, 2, &[0; 12]).is_err());
     }
 }
