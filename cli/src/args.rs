@@ -162,7 +162,15 @@ pub(crate) struct Pipeline {
     /// Pipeline file; if there is none by that name, a shipped pipeline's name.
     #[arg(value_name = "PIPELINE")]
     pub(crate) file: PathBuf,
-    /// Give a setting a value. Repeatable; of several values for one setting the last counts.
+    /// Give settings the values that a preset of the pipeline has for them.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// Give settings the values that a settings file has for them. Repeatable; of several values for one setting the last
+    /// counts. They are stronger than presets; a preset that such a file names counts if `--preset` names none.
+    #[arg(long, value_name = "SETTINGS.ron")]
+    pub(crate) settings: Vec<PathBuf>,
+    /// Give a setting a value. Repeatable; of several values for one setting the last counts. Stronger than settings files
+    /// and presets.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<Assignment>,
 }

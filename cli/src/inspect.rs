@@ -12,12 +12,13 @@ use std::path::Path;
 /// # Errors
 /// If the pipeline, the scene or the profile is wrong, or the result can't be written.
 pub(crate) fn inspect(arguments: &Inspect) -> Result<Exit, Error> {
+    let settings = arguments.pipeline.settings.iter().map(|file| Some(("settings file", file.as_path())));
     let read = [
         Some(("pipeline", arguments.pipeline.file.as_path())),
         arguments.scene.as_deref().map(|file| ("scene", file)),
         arguments.device.as_ref().map(|file| ("device profile", Path::new(file))),
     ];
-    output::prepare(arguments.output.iter(), &read.into_iter().flatten().collect::<Vec<_>>())?;
+    output::prepare(arguments.output.iter(), &read.into_iter().chain(settings).flatten().collect::<Vec<_>>())?;
     let profile = profiles::choose(arguments.device.as_deref())?;
     let mut pipeline = planning::load(&arguments.pipeline)?;
     let facts = match &arguments.scene {

@@ -59,16 +59,37 @@ pub(crate) struct View<'a> {
 pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
     let PipelineFile { shown, name, folder, bytes } = files::pipeline(&arguments.file)?;
     let mut sources = Sources::default();
-    match describe::read_bytes(&mut sources, &shown, &name, bytes) {
-        Ok(pipeline) => Ok(Loaded {
-            pipeline,
-            sources: Arc::new(sources),
-            textures: TextureFiles::new(folder.clone().unwrap_or_default()),
-            shaders: library(folder),
-            set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
-        }),
-        Err(diagnostics) => Err(wrong(&sources, diagnostics)),
+    let mut pipeline =
+        describe::read_bytes(&mut sources, &shown, &name, bytes).map_err(|diagnostics| wrong(&sources, diagnostics))?;
+    choose(arguments, &mut pipeline, &mut sources)?;
+    Ok(Loaded {
+        pipeline,
+        sources: Arc::new(sources),
+        textures: TextureFiles::new(folder.clone().unwrap_or_default()),
+        shaders: library(folder),
+        set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
+    })
+}
+
+/// Applies settings files and a preset.
+fn choose(arguments: &args::Pipeline, pipeline: &mut Document, sources: &mut Sources) -> Result<(), Error> {
+    let mut files = Vec::with_capacity(arguments.settings.len());
+    let mut mistakes = Vec::new();
+    for path in &arguments.settings {
+        let text = files::text("settings file", path, describe::LARGEST_FILE)?;
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        match pipeline.read_settings(sources, &path.to_string_lossy(), &name, text) {
+            Ok(file) => files.push(file),
+            Err(diagnostics) => mistakes.extend(diagnostics),
+        }
     }
+    if !mistakes.is_empty() {
+        return Err(wrong(sources, mistakes));
+    }
+    pipeline.choose(arguments.preset.as_deref(), &files).map_err(|unknown| {
+        let (sources, diagnostics) = (sources.clone(), vec![unknown]);
+        Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, by_command_line: true }) }
+    })
 }
 
 impl Loaded {

@@ -27,7 +27,9 @@ struct Picture {
 pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
     let written =
         || arguments.output.iter().chain(arguments.dump.iter().map(|dump| &dump.file)).chain(&arguments.report);
-    output::prepare(written(), &[("pipeline", &arguments.pipeline.file), ("scene", &arguments.scene)])?;
+    let read = [("pipeline", arguments.pipeline.file.as_path()), ("scene", arguments.scene.as_path())];
+    let settings = arguments.pipeline.settings.iter().map(|file| ("settings file", file.as_path()));
+    output::prepare(written(), &read.into_iter().chain(settings).collect::<Vec<_>>())?;
     let choice = choice(arguments.device.as_deref())?;
     let mut pipeline = planning::load(&arguments.pipeline)?;
     let scene = files::scene(&arguments.scene)?;

@@ -1,6 +1,7 @@
 //! A pipeline file that was read: what a user may choose, and all that is needed to put the rest together for a choice.
 
 use super::body::{Body, Lists, entries};
+use super::choices::{self, InForce, Preset, SettingsFile};
 use super::fragments::Fragments;
 use super::includes::Included;
 use super::leaf::Leaf;
@@ -17,6 +18,7 @@ use super::{Diagnostic, LANGUAGE_VERSION};
 use crate::expression::Value;
 use crate::facts::Facts;
 use crate::fields;
+use crate::source::Sources;
 
 fields! {
     struct PipelineFields<'src> as "Pipeline" {
@@ -24,6 +26,7 @@ fields! {
         version: Leaf<'src>,
         include: Option<Leaf<'src>>,
         settings: Option<Leaf<'src>>,
+        presets: Option<Leaf<'src>>,
         fragments: Option<Leaf<'src>>,
         images: Leaf<'src>,
         buffers: Option<Leaf<'src>>,
@@ -38,6 +41,9 @@ fields! {
 pub struct Document {
     /// What a user may choose, in file order.
     pub settings: Vec<Setting>,
+    /// What a user may choose at once, in file order.
+    pub presets: Vec<Preset>,
+    in_force: Vec<InForce>,
     tree: Tree,
     /// Files of fragments.
     included: Vec<Tree>,
@@ -51,17 +57,62 @@ impl Document {
         mut included: Included<'_>,
     ) -> Result<Document, Vec<Diagnostic>> {
         let mut reader = Reader { errors };
-        let Some((settings, include)) = settings(&mut reader, tree.root()) else { return Err(reader.errors) };
+        let Some(Said { settings, presets, include }) = said(&mut reader, tree.root()) else {
+            return Err(reader.errors);
+        };
         included.list(&mut reader, include);
         let included = included.trees;
         let values: Vec<Option<Value>> =
             settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
         let surroundings = Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], device: None };
         lower(&mut reader, (tree.root(), &included), &settings, values, &surroundings, true);
-        match settings.into_iter().collect() {
-            Some(settings) if reader.errors.is_empty() => Ok(Document { settings, tree, included }),
+        let settings: Option<Vec<Setting>> = settings.into_iter().collect();
+        match (settings, presets.into_iter().collect()) {
+            (Some(settings), Some(presets)) if reader.errors.is_empty() => {
+                let in_force = choices::in_force(&settings, None, &[]);
+                Ok(Document { settings, presets, in_force, tree, included })
+            }
             _ => Err(super::never_none(reader.errors)),
         }
+    }
+
+    /// Reads a settings file's text, which is added to `sources`: those that this document was read into. `shown` and
+    /// `relative` are as in [`describe::read`](super::read).
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file by itself, and with it for this pipeline.
+    pub fn read_settings(
+        &self,
+        sources: &mut Sources,
+        shown: &str,
+        relative: &str,
+        text: String,
+    ) -> Result<SettingsFile, Vec<Diagnostic>> {
+        choices::read(sources, (shown, relative), text, &self.settings, &self.presets)
+    }
+
+    /// Applies a preset and settings files, in place of those that were applied before. One preset at most is in force:
+    /// `preset`, else that of the last file that names one. It is stronger than defaults; then come the values of the
+    /// files, of which later ones are stronger; strongest is [`Inputs::set`](crate::expand::Inputs::set).
+    ///
+    /// # Errors
+    /// If there is no preset of that name.
+    pub fn choose(&mut self, preset: Option<&str>, files: &[SettingsFile]) -> Result<(), Diagnostic> {
+        let preset = match preset {
+            Some(name) => {
+                let found = self.presets.iter().find(|preset| *preset.name.text == *name);
+                Some(found.ok_or_else(|| choices::unknown_preset(name, &self.presets))?)
+            }
+            None => files.iter().rev().find_map(|file| file.preset).and_then(|preset| self.presets.get(preset)),
+        };
+        self.in_force = choices::in_force(&self.settings, preset, files);
+        Ok(())
+    }
+
+    /// The value of every setting, in their order, as [`Document::choose`] left it; at first defaults.
+    #[must_use]
+    pub fn in_force(&self) -> &[InForce] {
+        &self.in_force
     }
 
     /// Whether what it comes to may depend on the device.
@@ -85,9 +136,15 @@ impl Document {
     }
 }
 
-/// The settings, `None` where one couldn't be read, and what is included. `None` at all if the file is no pipeline of
-/// this version.
-fn settings<'t>(reader: &mut Reader, all: Leaf<'t>) -> Option<(Vec<Option<Setting>>, Option<Leaf<'t>>)> {
+/// What is read of a file before all else; `None` where something couldn't be read.
+struct Said<'t> {
+    settings: Vec<Option<Setting>>,
+    presets: Vec<Option<Preset>>,
+    include: Option<Leaf<'t>>,
+}
+
+/// Settings, presets and what is included. `None` if the file is no pipeline of this version.
+fn said<'t>(reader: &mut Reader, all: Leaf<'t>) -> Option<Said<'t>> {
     if let Some(version) = all.field("version") {
         let number = reader.integer(version)?;
         if number != LANGUAGE_VERSION {
@@ -98,10 +155,12 @@ fn settings<'t>(reader: &mut Reader, all: Leaf<'t>) -> Option<(Vec<Option<Settin
         }
     }
     let fields: PipelineFields<'_> = reader.read(all, "the pipeline")?;
-    let list: Vec<Option<SettingFields<'_>>> =
+    let listed: Vec<Option<SettingFields<'_>>> =
         entries(reader, fields.settings, "`settings`", "setting", &mut Names::new("setting"));
     let lower = |fields: &Option<SettingFields<'_>>| fields.as_ref().and_then(|fields| settings::lower(reader, fields));
-    Some((list.iter().map(lower).collect(), fields.include))
+    let settings: Vec<Option<Setting>> = listed.iter().map(lower).collect();
+    let presets = choices::presets(reader, fields.presets, &settings);
+    Some(Said { settings, presets, include: fields.include })
 }
 
 /// Puts in values; `None` if errors were reported. `lenient` if nothing is to be said about values.

@@ -80,6 +80,7 @@
 mod bindings;
 mod body;
 mod buffers;
+mod choices;
 mod circles;
 mod diagnostic;
 mod document;
@@ -121,6 +122,7 @@ mod values;
 mod work;
 
 pub(crate) use buffers::LARGEST_BUFFER;
+pub use choices::{Choice, ChosenBy, InForce, Preset, SETTINGS_VERSION, SettingsFile};
 pub use diagnostic::{Diagnostic, Label};
 pub use document::Document;
 pub(crate) use images::LARGEST_SIZE;

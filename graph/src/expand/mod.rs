@@ -66,11 +66,11 @@ struct Chosen<'a> {
 #[must_use]
 pub fn check_inputs(document: &Document, inputs: &Inputs<'_>) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
-    let values = settings::choose(&document.settings, inputs.set, &mut errors);
+    let values = settings::choose(document, inputs.set, &mut errors);
     check_extent(inputs.output_extent, &mut errors);
     if errors.is_empty()
         && !inputs.dump.is_empty()
-        && let Ok(pipeline) = document.lower(&values, &surroundings(inputs))
+        && let Ok(pipeline) = document.lower(&settings::values(&values), &surroundings(inputs))
     {
         dumped(&pipeline, inputs.dump, &mut Vec::new(), &mut errors);
     }
@@ -101,13 +101,13 @@ pub fn expand(
     shaders: &mut dyn ShaderInterfaces,
 ) -> Result<Frame, Vec<Diagnostic>> {
     let mut errors = Vec::new();
-    let values = settings::choose(&document.settings, inputs.set, &mut errors);
+    let values = settings::choose(document, inputs.set, &mut errors);
     let before = errors.len();
     check_extent(inputs.output_extent, &mut errors);
     if errors.len() > before {
         return Err(errors);
     }
-    let pipeline = match document.lower(&values, &surroundings(inputs)) {
+    let pipeline = match document.lower(&settings::values(&values), &surroundings(inputs)) {
         Ok(pipeline) => pipeline,
         Err(mistakes) => {
             errors.extend(mistakes);

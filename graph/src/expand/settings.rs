@@ -1,14 +1,15 @@
-//! Values of settings: the user's choice where it is allowed, else the default.
+//! Values of settings: the user's choice where it is allowed, else what a file or a preset chose, else the default.
 
 use super::nowhere;
-use crate::describe::{Diagnostic, Setting, SettingKind, shown_number, suggestion};
+use crate::describe::{ChosenBy, Diagnostic, Document, InForce, Setting, SettingKind, shown_number, suggestion};
 use crate::expression::Value;
 use std::collections::HashMap;
 use std::sync::Arc;
 
 /// A value for every setting, in their order.
-pub(super) fn choose(settings: &[Setting], set: &[(String, String)], errors: &mut Vec<Diagnostic>) -> Vec<Value> {
-    let mut values: Vec<Value> = settings.iter().map(|setting| setting.kind.default()).collect();
+pub(super) fn choose(document: &Document, set: &[(String, String)], errors: &mut Vec<Diagnostic>) -> Vec<InForce> {
+    let settings = &document.settings;
+    let mut values = document.in_force().to_vec();
     let index: HashMap<&str, usize> = (0..).zip(settings).map(|(at, s)| (&*s.name.text, at)).collect();
     for (name, text) in set {
         let Some(at) = index.get(name.as_str()) else {
@@ -19,16 +20,21 @@ pub(super) fn choose(settings: &[Setting], set: &[(String, String)], errors: &mu
         };
         let setting = &settings[*at];
         match parse(&setting.kind, text) {
-            Some(value) if setting.kind.allows(&value) => values[*at] = value,
+            Some(value) if setting.kind.allows(&value) => values[*at] = InForce { value, by: ChosenBy::Set },
             other => errors.push(not_allowed(setting, text, other.as_ref())),
         }
     }
     values
 }
 
+/// The values alone.
+pub(super) fn values(chosen: &[InForce]) -> Vec<Value> {
+    chosen.iter().map(|chosen| chosen.value.clone()).collect()
+}
+
 /// Settings in force, as they are shown.
-pub(super) fn shown(settings: &[Setting], values: &[Value]) -> Vec<(Arc<str>, String)> {
-    settings.iter().zip(values).map(|(setting, value)| (setting.name.text.clone(), show(value))).collect()
+pub(super) fn shown(settings: &[Setting], values: &[InForce]) -> Vec<(Arc<str>, String)> {
+    settings.iter().zip(values).map(|(setting, chosen)| (setting.name.text.clone(), show(&chosen.value))).collect()
 }
 
 /// A value, as the command line has it.
