@@ -4,6 +4,7 @@
 //! new ones, and the difference in git shows them.
 
 mod bad;
+mod choices;
 mod docs;
 mod fragments;
 mod random;
