@@ -65,21 +65,26 @@ fn the_command_line_is_stronger_than_files_those_than_presets_and_those_than_def
 fn what_is_wrong_with_the_command_line_ends_with_2_and_with_a_file_with_1() {
     let place = place();
     let check = |words: &[&str]| place.run(&[&["check", "p.ron"], words].concat());
-    check(&["--preset", "lo"]).exits(2).says("error: there is no preset named `lo`\n  = help: did you mean `low`?");
+    check(&["--preset", "lo"]).exits(2).says("error: there is no preset named `lo`\n = help: did you mean `low`?");
     check(&["--preset", "low", "--preset", "small"]).exits(2).mentions("--preset");
     check(&["--settings", "nowhere.ron"]).exits(1).mentions("error: the settings file `nowhere.ron` can't be read: ");
     place.file("bytes.ron", b"\xff");
-    check(&["--settings", "bytes.ron"]).exits(1).says("error: the settings file `bytes.ron` is not text: byte 0 is not UTF-8");
+    check(&["--settings", "bytes.ron"])
+        .exits(1)
+        .says("error: the settings file `bytes.ron` is not text: byte 0 is not UTF-8");
 
     place.file("wrong.ron", "Settings(\n    version: 1,\n    set: {\"msaa\": 3},\n)\n");
-    let said = check(&["--settings", "wrong.ron", "--settings", "nothing_wrong.ron"]);
-    said.exits(1).mentions("nothing_wrong.ron");
+    place.file("other.ron", r#"Settings(version: 1, preset: "hi")"#);
+    let both = check(&["--settings", "wrong.ron", "--settings", "other.ron"]).exits(1);
+    both.mentions("doesn't allow `3`").mentions("error: there is no preset named `hi`\n --> other.ron:1:30\n");
     let said = check(&["--settings", "wrong.ron"]).exits(1);
     let said = said.mentions("error: setting `msaa` doesn't allow `3`\n").mentions(" wrong.ron:3:19\n");
     said.mentions(" p.ron:4:16\n").mentions("`msaa` is declared here").mentions("it is one of 1, 2, 4");
     let out = check(&["--settings", "wrong.ron", "--format", "json"]).exits(1).out;
     let answer: Value = serde_json::from_str(&out).expect("JSON");
-    let label = |at: usize| (answer["diagnostics"][0]["labels"][at]["file"].clone(), answer["diagnostics"][0]["labels"][at]["line"].clone());
+    let label = |at: usize| {
+        (answer["diagnostics"][0]["labels"][at]["file"].clone(), answer["diagnostics"][0]["labels"][at]["line"].clone())
+    };
     assert_eq!((label(0), label(1)), (("wrong.ron".into(), 3.into()), ("p.ron".into(), 4.into())));
 }
 
@@ -111,5 +116,8 @@ fn each_preset_is_among_all_variants_and_what_is_chosen_does_not_vary() {
     let values = serde_json::json!([{ "name": "msaa", "value": "2" }, { "name": "quality", "value": "high" }]);
     assert_eq!(chosen["chosen"], values);
     let out = place.run(&["check", "p.ron", "--all-variants"]).exits(1).out;
-    assert!(out.ends_with("p.ron: wrong in 1 of 13 variants: msaa (3) × scale (2) × quality (2), and 2 presets\n"), "{out}");
+    assert!(
+        out.ends_with("p.ron: wrong in 1 of 13 variants: msaa (3) × scale (2) × quality (2), and 2 presets\n"),
+        "{out}"
+    );
 }

@@ -3,7 +3,8 @@
 
 use super::mentions::Mentions;
 use super::space::Choice;
-use framewright_graph::describe::{Document, SettingKind, last_step, nth_step};
+use framewright_graph::describe::{ChosenBy, Document, Preset, SettingKind, last_step, nth_step};
+use framewright_graph::expression::Value;
 use framewright_graph::facts::{Fact, FactType, FactValue, Facts};
 use framewright_graph::source::Sources;
 
@@ -31,6 +32,14 @@ pub(crate) struct Axis {
     pub(crate) varied: Varied,
     /// Its values as the command line has them, each once; what is in force without a choice comes first.
     pub(crate) values: Vec<String>,
+    /// How many of them, from the first on, are combined with those of other axes. The rest stand in presets alone.
+    pub(crate) combined: usize,
+}
+
+impl Axis {
+    fn new(varied: Varied, values: Vec<String>) -> Axis {
+        Axis { varied, combined: values.len(), values }
+    }
 }
 
 /// Everything that varies: settings in the file's order, then facts; the device comes last, even if there is only one.
@@ -40,29 +49,68 @@ pub(crate) struct Axes {
     pub(crate) list: Vec<Axis>,
     /// Settings that the user chose, and that therefore don't vary.
     pub(crate) fixed: Vec<(String, String)>,
+    /// Presets with what they choose, on the first device. None if the user chose one.
+    pub(crate) presets: Vec<(String, Choice)>,
 }
 
 impl Axes {
-    /// What varies of a pipeline: whatever its files mention, except for what is `fixed`.
+    /// What varies of a pipeline: whatever its files mention, except for what presets, settings files or `set` choose.
     #[must_use]
-    pub(crate) fn of(pipeline: &Document, sources: &Sources, fixed: &[(String, String)], devices: &[String]) -> Axes {
+    pub(crate) fn of(pipeline: &Document, sources: &Sources, set: &[(String, String)], devices: &[String]) -> Axes {
         let mentions = Mentions::of(sources);
+        let fixed = fixed(pipeline, set);
         let is_fixed = |name: &str| fixed.iter().any(|(fixed, _)| fixed == name);
-        let settings = pipeline.settings.iter().filter_map(|setting| {
+        let settings = pipeline.settings.iter().enumerate().filter_map(|(at, setting)| {
             let name = &*setting.name.text;
-            // Its own declaration is one mention.
-            let varies = mentions.may_hold(name, 2) && !is_fixed(name);
-            varies.then(|| Axis { varied: Varied::Setting(name.to_owned()), values: values(&setting.kind) })
+            let in_presets = pipeline.presets.iter().flat_map(|preset| &preset.set);
+            let in_presets = in_presets.filter(|choice| choice.setting == at).count();
+            // Its own declaration is one mention, and presets alone bring nothing about.
+            let varies = mentions.may_hold(name, 2 + in_presets) && !is_fixed(name);
+            varies.then(|| Axis::new(Varied::Setting(name.to_owned()), values(&setting.kind)))
         });
-        let device = Axis { varied: Varied::Device, values: devices.to_vec() };
+        let device = Axis::new(Varied::Device, devices.to_vec());
         let list = settings.chain(facts(&mentions)).filter(|axis| axis.values.len() > 1).chain([device]).collect();
-        Axes { list, fixed: fixed.to_vec() }
+        let mut axes = Axes { list, fixed, presets: Vec::new() };
+        let one_is_chosen = pipeline.in_force().iter().any(|chosen| matches!(chosen.by, ChosenBy::Preset(_)));
+        if !one_is_chosen {
+            axes.presets = pipeline.presets.iter().map(|preset| axes.preset(pipeline, preset)).collect();
+        }
+        axes
     }
 
-    /// Numbers of values.
+    /// What a preset chooses. Values that no axis has yet are added; settings that don't vary stay as they are.
+    fn preset(&mut self, pipeline: &Document, preset: &Preset) -> (String, Choice) {
+        let mut choice = vec![0; self.list.len()];
+        for chosen in &preset.set {
+            let Some(setting) = pipeline.settings.get(chosen.setting) else { continue };
+            let own = |varied: &Varied| matches!(varied, Varied::Setting(name) if **name == *setting.name.text);
+            let Some(at) = self.list.iter().position(|axis| own(&axis.varied)) else { continue };
+            let values = &mut self.list[at].values;
+            let value = text(&chosen.value);
+            choice[at] = values.iter().position(|known| *known == value).unwrap_or_else(|| {
+                values.push(value);
+                values.len() - 1
+            });
+        }
+        (preset.name.text.to_string(), choice)
+    }
+
+    /// Presets on every device.
+    #[must_use]
+    pub(crate) fn variants_of_presets(&self) -> Vec<Choice> {
+        let devices = self.list.last().map_or(0, |axis| axis.values.len());
+        let on = |choice: &Choice, device: usize| {
+            let mut choice = choice.clone();
+            choice.last_mut().into_iter().for_each(|last| *last = device);
+            choice
+        };
+        self.presets.iter().flat_map(|(_, choice)| (0..devices).map(move |device| on(choice, device))).collect()
+    }
+
+    /// Numbers of values that are combined.
     #[must_use]
     pub(crate) fn sizes(&self) -> Vec<usize> {
-        self.list.iter().map(|axis| axis.values.len()).collect()
+        self.list.iter().map(|axis| axis.combined).collect()
     }
 
     /// What is in force in a variant, axis by axis.
@@ -99,6 +147,25 @@ impl Axes {
 #[must_use]
 pub(crate) fn device(choice: &Choice) -> usize {
     choice.last().copied().unwrap_or(0)
+}
+
+/// What the user chose: by preset and settings files, then by `set`, which is stronger.
+fn fixed(pipeline: &Document, set: &[(String, String)]) -> Vec<(String, String)> {
+    let chosen = pipeline.settings.iter().zip(pipeline.in_force()).filter_map(|(setting, chosen)| {
+        let name = &*setting.name.text;
+        let stays = chosen.by != ChosenBy::Default && set.iter().all(|(set, _)| set != name);
+        stays.then(|| (name.to_owned(), text(&chosen.value)))
+    });
+    chosen.chain(set.iter().cloned()).collect()
+}
+
+/// A value as the command line has it; numbers so that they read as the very same.
+fn text(value: &Value) -> String {
+    match value {
+        Value::Number(number) => format!("{number:?}"),
+        Value::Text(text) => text.to_string(),
+        other => other.to_string(),
+    }
 }
 
 /// Values of a setting that are tried, the default first.
@@ -161,7 +228,7 @@ fn facts(mentions: &Mentions<'_>) -> impl Iterator<Item = Axis> {
         let name = fact.name();
         mentions.may_hold(name.rsplit_once('.').map_or(name, |(_, last)| last), 1)
     };
-    let axis = |fact| Axis { varied: Varied::Fact(fact), values: vec!["true".to_owned(), "false".to_owned()] };
+    let axis = |fact| Axis::new(Varied::Fact(fact), vec!["true".to_owned(), "false".to_owned()]);
     Fact::ALL.into_iter().filter(|fact| fact.ty() == FactType::Bool).filter(mentioned).map(axis)
 }
 

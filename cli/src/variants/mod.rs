@@ -66,7 +66,8 @@ fn report(arguments: &Check) -> Result<Report, Error> {
     let (names, devices): (Vec<String>, _) = devices.into_iter().unzip();
     let axes = Axes::of(&pipeline, &sources, &set, &names);
     let sizes = axes.sizes();
-    let space = if arguments.pairwise { Space::pairwise(&sizes)? } else { Space::all(sizes)? };
+    let presets = axes.variants_of_presets();
+    let space = if arguments.pairwise { Space::pairwise(&sizes, presets)? } else { Space::all(sizes, presets)? };
     let subject =
         Subject { pipeline: &pipeline, sources: &sources, axes, devices, options: arguments.planning.options() };
     // Until here nothing is lost when the system ends the program.

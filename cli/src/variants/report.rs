@@ -22,10 +22,12 @@ pub(crate) struct Report {
     pub(crate) fine: bool,
     /// What is wrong whatever the variant; then none was checked.
     pub(crate) diagnostics: Value,
-    /// Settings that the command line chose.
+    /// Settings that the command line chose, itself or by a preset or settings files.
     pub(crate) chosen: Vec<Chosen>,
     /// What varies.
     pub(crate) axes: Vec<AxisTold>,
+    /// Presets that are among the variants, as they are on each device.
+    pub(crate) presets: Vec<String>,
     /// Whether `variants` are not all combinations, but enough for each pair of values.
     pub(crate) pairwise: bool,
     /// Variants to check.
@@ -115,6 +117,7 @@ impl Report {
             diagnostics: Value::Array(Vec::new()),
             chosen: set.map(|one| Chosen { name: one.name.clone(), value: one.value.clone() }).collect(),
             axes: Vec::new(),
+            presets: Vec::new(),
             pairwise: arguments.pairwise,
             variants: 0,
             checked: 0,
@@ -148,7 +151,9 @@ impl Report {
         let plans: Vec<PlanTold> = told.collect();
         Report {
             fine: failing == 0,
-            axes: axes.list.iter().map(|axis| axis_told(&axis.varied, &axis.values)).collect(),
+            chosen: axes.fixed.iter().cloned().map(|(name, value)| Chosen { name, value }).collect(),
+            axes: axes.list.iter().map(|axis| axis_told(&axis.varied, &axis.values[..axis.combined])).collect(),
+            presets: axes.presets.iter().map(|(name, _)| name.clone()).collect(),
             variants: space.len(),
             checked,
             interrupted: checked < space.len(),

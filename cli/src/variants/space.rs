@@ -2,6 +2,7 @@
 
 use super::cover;
 use crate::error::Error;
+use std::collections::HashSet;
 
 /// Variants that are checked at once; at two thousand a second minutes pass.
 pub(crate) const MOST_VARIANTS: usize = 1_000_000;
@@ -16,29 +17,33 @@ pub(crate) enum Space {
     All {
         /// Numbers of values.
         sizes: Vec<usize>,
+        /// What comes after them.
+        more: Vec<Choice>,
     },
     /// Some of them.
     Rows(Vec<Choice>),
 }
 
 impl Space {
-    /// Every combination of so many values.
+    /// Every combination of so many values, then `more`, as far as those are others.
     ///
     /// # Errors
     /// If there are too many.
-    pub(crate) fn all(sizes: Vec<usize>) -> Result<Space, Error> {
+    pub(crate) fn all(sizes: Vec<usize>, mut more: Vec<Choice>) -> Result<Space, Error> {
         let variants = sizes.iter().fold(1_u128, |all, size| all.saturating_mul(*size as u128));
         if variants > MOST_VARIANTS as u128 {
             return Err(Error::TooManyVariants { variants, most: MOST_VARIANTS });
         }
-        Ok(Space::All { sizes })
+        more.retain(|choice| choice.iter().zip(&sizes).any(|(value, size)| value >= size));
+        each_once(&mut more);
+        Ok(Space::All { sizes, more })
     }
 
-    /// Rows in which each pair of values of any two axes occurs.
+    /// Rows in which each pair of values of any two axes occurs, then `more`, as far as those are others.
     ///
     /// # Errors
     /// If there are too many pairs.
-    pub(crate) fn pairwise(sizes: &[usize]) -> Result<Space, Error> {
+    pub(crate) fn pairwise(sizes: &[usize], mut more: Vec<Choice>) -> Result<Space, Error> {
         let pairs = cover::pairs(sizes);
         if pairs > cover::MOST_PAIRS {
             return Err(Error::TooManyPairs { pairs, most: cover::MOST_PAIRS });
@@ -46,6 +51,9 @@ impl Space {
         let mut rows = cover::rows(sizes);
         // What differs only on the last axes stands together; the first row, all 0, stays the first.
         rows.sort_unstable();
+        more.retain(|choice| rows.binary_search(choice).is_err());
+        each_once(&mut more);
+        rows.append(&mut more);
         Ok(Space::Rows(rows))
     }
 
@@ -53,7 +61,7 @@ impl Space {
     #[must_use]
     pub(crate) fn len(&self) -> usize {
         match self {
-            Space::All { sizes } => sizes.iter().product(),
+            Space::All { sizes, more } => combinations(sizes) + more.len(),
             Space::Rows(rows) => rows.len(),
         }
     }
@@ -62,7 +70,10 @@ impl Space {
     #[must_use]
     pub(crate) fn choice(&self, number: usize) -> Choice {
         match self {
-            Space::All { sizes } => {
+            Space::All { sizes, more } => {
+                if let Some(one) = number.checked_sub(combinations(sizes)).and_then(|at| more.get(at)) {
+                    return one.clone();
+                }
                 let mut left = number;
                 let mut choice: Choice = sizes
                     .iter()
@@ -81,23 +92,49 @@ impl Space {
     }
 }
 
+fn combinations(sizes: &[usize]) -> usize {
+    sizes.iter().product()
+}
+
+/// Leaves out what stands there already.
+fn each_once(choices: &mut Vec<Choice>) {
+    let mut seen = HashSet::new();
+    choices.retain(|choice| seen.insert(choice.clone()));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn every_combination_stands_once_in_its_order() {
-        let space = Space::all(vec![2, 3]).expect("few");
+        let space = Space::all(vec![2, 3], Vec::new()).expect("few");
         let all: Vec<Choice> = (0..space.len()).map(|number| space.choice(number)).collect();
         assert_eq!(all, [[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [1, 2]]);
     }
 
     #[test]
+    fn what_else_is_asked_for_comes_last_and_nothing_comes_twice() {
+        let more = || vec![vec![1, 2], vec![2, 0], vec![0, 4], vec![2, 0]];
+        let all = |space: Space| (0..space.len()).map(|number| space.choice(number)).collect::<Vec<Choice>>();
+        let every = all(Space::all(vec![2, 3], more()).expect("few"));
+        assert_eq!((every.len(), &every[5..]), (8, &[vec![1, 2], vec![2, 0], vec![0, 4]][..]));
+        let pairs = all(Space::pairwise(&[2, 3], more()).expect("few"));
+        assert_eq!((pairs.len(), &pairs[6..]), (8, &[vec![2, 0], vec![0, 4]][..]));
+    }
+
+    #[test]
     fn too_many_combinations_or_pairs_are_refused() {
-        assert!(matches!(Space::all(vec![1000, 1000]), Ok(space) if space.len() == MOST_VARIANTS));
-        assert!(matches!(Space::all(vec![1000, 1001]), Err(Error::TooManyVariants { variants: 1_001_000, .. })));
+        assert!(matches!(Space::all(vec![1000, 1000], Vec::new()), Ok(space) if space.len() == MOST_VARIANTS));
+        assert!(matches!(
+            Space::all(vec![1000, 1001], Vec::new()),
+            Err(Error::TooManyVariants { variants: 1_001_000, .. })
+        ));
         let many = vec![usize::MAX; 9];
-        assert!(matches!(Space::all(many.clone()), Err(Error::TooManyVariants { variants: u128::MAX, .. })));
-        assert!(matches!(Space::pairwise(&many), Err(Error::TooManyPairs { .. })));
+        assert!(matches!(
+            Space::all(many.clone(), Vec::new()),
+            Err(Error::TooManyVariants { variants: u128::MAX, .. })
+        ));
+        assert!(matches!(Space::pairwise(&many, Vec::new()), Err(Error::TooManyPairs { .. })));
     }
 }

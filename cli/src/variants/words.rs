@@ -75,6 +75,10 @@ fn verdict(report: &Report) -> String {
         (false, true) => format!("every pair of values of {}", axes.join(", ")),
         (false, false) => axes.join(" × "),
     };
+    let of = match report.presets.len() {
+        0 => of,
+        presets => format!("{of}, and {}", text::count(presets, "preset", "presets")),
+    };
     let until = match report.interrupted {
         true => format!(" (interrupted: of {} in all)", report.variants),
         false => String::new(),
