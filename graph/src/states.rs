@@ -136,14 +136,6 @@ const OF_BUFFERS: Accesses = Accesses::INDIRECT_COMMAND_READ
     .union(Accesses::VERTEX_ATTRIBUTE_READ)
     .union(Accesses::UNIFORM_READ);
 
-/// Each of these accesses in each of these stages in which it happens.
-pub(crate) fn pairs(stages: Stages, accesses: Accesses) -> impl Iterator<Item = (Stages, Accesses)> {
-    let of = STAGES_OF.into_iter().filter(move |(access, _)| accesses.contains(*access) && *access != MEMORY);
-    let known = of.map(|(access, of)| (access, of | Stages::ALL_COMMANDS));
-    let any = (accesses & MEMORY).iter().map(|access| (access, Stages::all()));
-    known.chain(any).flat_map(move |(access, of)| (stages & of).iter().map(move |stage| (stage, access)))
-}
-
 /// In which stages accesses happen (Vulkan 1.3, table "Supported access types").
 const STAGES_OF: [(Accesses, Stages); 17] = [
     (Accesses::INDIRECT_COMMAND_READ, Stages::DRAW_INDIRECT),

@@ -2,10 +2,9 @@
 //!
 //! An image barrier's memory scope covers its own image alone, so the write of a previous occupant must be named by a
 //! memory barrier. Such a barrier covers *all* memory: one serves every later hand-over of such writes whose image
-//! barrier comes after it, be it through others in between. So do the memory barriers that buffers take.
+//! barrier comes after it, be it through others in between.
 
 use super::batch::Batched;
-use super::logical_order::{and_earlier, and_later};
 use super::model::StoreIndex;
 use super::queues::{QUEUES, Queues};
 use super::synchronise::Pending;
@@ -27,7 +26,7 @@ pub(super) struct HandOver {
 }
 
 /// A memory barrier for hand-overs.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct MemoryScopes {
     pub(super) src_stages: Stages,
     pub(super) src_accesses: Accesses,
@@ -49,31 +48,6 @@ impl Source {
     fn covers(self, other: Source) -> bool {
         self.stages.contains(other.stages) && self.accesses.contains(other.accesses)
     }
-}
-
-/// A memory barrier, as far as it serves.
-#[derive(Debug, Clone, Copy)]
-struct Memory {
-    source: Source,
-    dst_stages: Stages,
-}
-
-impl From<&MemoryScopes> for Memory {
-    fn from(scopes: &MemoryScopes) -> Memory {
-        let source = Source { stages: scopes.src_stages, accesses: scopes.src_accesses };
-        Memory { source, dst_stages: scopes.dst_stages }
-    }
-}
-
-/// The memory barrier that the buffers among some barriers of a step share.
-fn of_buffers<'p>(barriers: impl Iterator<Item = &'p Pending>) -> Option<Memory> {
-    let makes_available = |it: &&Pending| it.is_of_buffer() && !it.src_accesses.is_empty();
-    barriers.filter(makes_available).fold(None, |shared, barrier| {
-        let source = Source { stages: barrier.src_stages, accesses: barrier.src_accesses };
-        let Memory { source: known, dst_stages } = shared.unwrap_or(Memory { source, dst_stages: barrier.dst_stages });
-        let source = Source { stages: known.stages | source.stages, accesses: known.accesses | source.accesses };
-        Some(Memory { source, dst_stages: dst_stages | barrier.dst_stages })
-    })
 }
 
 /// A memory barrier that was passed on the way through the frame.
@@ -117,14 +91,10 @@ pub(super) fn memory_barriers(
     for time in 0..2 * steps {
         let (step, second_frame) = (time % steps, time >= steps);
         let here = of_step(&due, step as u32, |due| due.at);
-        let others = || of_step(batched, step as u32, |it| it.at).iter().map(|it| &pending[it.barrier as usize]);
-        let buffers = of_buffers(others());
-        // The call's availability operations all come before its layout changes.
-        let is_done = |due: &Due| done(&passed, due) || buffers.is_some_and(|memory| memory.source.covers(due.source));
-        let now: Vec<&Due> = here.iter().filter(|due| due.this_frame != second_frame && !is_done(due)).collect();
+        let now: Vec<&Due> = here.iter().filter(|due| due.this_frame != second_frame && !done(&passed, due)).collect();
         add(&mut barriers[step], &now);
-        let memory = barriers[step].as_ref().map(Memory::from);
-        pass(&mut passed, time, memory.into_iter().chain(buffers), others());
+        let images = of_step(batched, step as u32, |it| it.at).iter().map(|it| &pending[it.barrier as usize]);
+        pass(&mut passed, time, barriers[step].as_ref(), images);
     }
     (0..).zip(barriers).filter_map(|(step, barrier)| Some((step, barrier?))).collect()
 }
@@ -195,20 +165,43 @@ fn add(barrier: &mut Option<MemoryScopes>, due: &[&Due]) {
 fn pass<'p>(
     passed: &mut Vec<Passed>,
     time: usize,
-    memory: impl Iterator<Item = Memory> + Clone,
-    others: impl Iterator<Item = &'p Pending>,
+    memory: Option<&MemoryScopes>,
+    images: impl Iterator<Item = &'p Pending>,
 ) {
-    let memory_scopes = memory.clone().map(|it| (it.source.stages, it.dst_stages));
-    let scopes: Vec<(Stages, Stages)> = others.map(|it| (it.src_stages, it.dst_stages)).chain(memory_scopes).collect();
+    let memory_scopes = memory.map(|it| (it.src_stages, it.dst_stages));
+    let scopes: Vec<(Stages, Stages)> = images.map(|it| (it.src_stages, it.dst_stages)).chain(memory_scopes).collect();
     for barrier in passed.iter_mut() {
         let follows = |(src, _): &&(Stages, Stages)| and_earlier(*src).intersects(barrier.reach);
         let next = scopes.iter().filter(follows).fold(barrier.reach, |reach, (_, dst)| reach | and_later(*dst));
         barrier.reach = next;
     }
-    for Memory { source, dst_stages } in memory {
-        // Distinct sources are few: of equal ones the latest serves whatever an earlier one could, once it reaches as far.
-        let reach = and_later(dst_stages);
-        passed.retain(|barrier| !(source.covers(barrier.source) && reach.contains(barrier.reach)));
-        passed.push(Passed { source, time, reach });
-    }
+    let Some(memory) = memory else { return };
+    let source = Source { stages: memory.src_stages, accesses: memory.src_accesses };
+    // Distinct sources are few: of equal ones the latest serves whatever an earlier one could, once it reaches as far.
+    let reach = and_later(memory.dst_stages);
+    passed.retain(|barrier| !(source.covers(barrier.source) && reach.contains(barrier.reach)));
+    passed.push(Passed { source, time, reach });
+}
+
+/// The stages of the graphics pipeline in logical order.
+const PIPELINE: [Stages; 7] = [
+    Stages::DRAW_INDIRECT,
+    Stages::VERTEX_INPUT,
+    Stages::VERTEX_SHADER,
+    Stages::EARLY_FRAGMENT_TESTS,
+    Stages::FRAGMENT_SHADER,
+    Stages::LATE_FRAGMENT_TESTS,
+    Stages::COLOR_ATTACHMENT_OUTPUT,
+];
+
+/// With the logically earlier stages, which a barrier's first scope includes.
+fn and_earlier(stages: Stages) -> Stages {
+    let last = PIPELINE.iter().rposition(|stage| stages.contains(*stage));
+    PIPELINE[..last.map_or(0, |last| last + 1)].iter().fold(stages, |all, stage| all | *stage)
+}
+
+/// With the logically later stages, which a barrier's second scope includes.
+fn and_later(stages: Stages) -> Stages {
+    let first = PIPELINE.iter().position(|stage| stages.contains(*stage)).unwrap_or(PIPELINE.len());
+    PIPELINE[first..].iter().fold(stages, |all, stage| all | *stage)
 }

@@ -3,7 +3,7 @@
 //! ```text
 //! legal ─► parts ─► link ─► cull ─► samples ─► adapt ─► schedule ─► scope ─► retain ─► queues
 //!       ─► synchronise ─► outlive ─► purpose ─► usable ─► place ─► occupy ─► take_over ─► batch
-//!       ─► prune ─► hand_over ─► emit
+//!       ─► hand_over ─► emit
 //! ```
 //!
 //! `place` stands between the halves of `synchronise`: how long something lives and what it is made for is known once all
@@ -28,14 +28,12 @@ mod hand_over;
 mod last_uses;
 mod legal;
 mod link;
-mod logical_order;
 mod model;
 mod occupy;
 mod outlive;
 mod pack;
 mod parts;
 mod place;
-mod prune;
 mod purpose;
 mod queues;
 mod retain;

@@ -64,13 +64,6 @@ pub(super) fn last_of_cycle(adapted: &Adapted, first: StoreIndex) -> StoreIndex 
     (first..).find(|store| !becomes_next(store)).unwrap_or(first)
 }
 
-/// The stores that a store was in earlier frames, each with how many frames ago, the last one first; at the end itself.
-pub(super) fn earlier(adapted: &Adapted, store: StoreIndex) -> impl Iterator<Item = (u32, StoreIndex)> {
-    let first = (0..=store).rev().take_while(|first| last_of_cycle(adapted, *first) >= store).last().unwrap_or(store);
-    let last = last_of_cycle(adapted, first);
-    (1..).zip((first..store).rev().chain((store..=last).rev()))
-}
-
 /// The cells of a store.
 pub(super) fn cells(grids: &Grids, store: &Store) -> Range<u32> {
     store.first_cell..store.first_cell + store.grid(grids).map_or(1, |grid| grid.len())

@@ -12,7 +12,7 @@ use super::retain::{self, Retained};
 use super::schedule::{self, Scheduled};
 use super::scope::{self, Scoped, Step};
 use super::synchronise::{self, Pending, Walked};
-use super::{Options, Order, adapt, formats, legal, link, prune, purpose, queues, samples, take_over, usable};
+use super::{Options, Order, adapt, formats, legal, link, purpose, queues, samples, take_over, usable};
 use crate::describe::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
@@ -212,36 +212,22 @@ impl Structure {
     /// Runs the stages behind `occupy`.
     fn synchronise(&mut self, occupancy: &Occupancy) -> (Vec<Batched>, Vec<(u32, MemoryScopes)>) {
         let Structure { grids, adapted, scoped, walked, states, export, .. } = self;
-        let mut taken = take_over::take_over(grids, adapted, states, occupancy, walked);
-        taken.from_frame_before.sort_unstable();
+        let hand_overs = take_over::take_over(grids, adapted, states, occupancy, walked);
         let (pending, queues) = (&walked.barriers, &walked.queues);
-        let steps = *export as usize + 1;
-        let (batched, memory_barriers) = match queues {
-            None => {
-                let prune = |memory: &[(u32, MemoryScopes)], batched: &[Batched]| {
-                    prune::prune(adapted, walked, &taken, memory, batched)
-                };
-                let hand_over =
-                    |batched: &[Batched]| hand_over::memory_barriers(&taken.hand_overs, pending, batched, steps);
-                let batched = batch::batch(pending);
-                let batched = prune(&[], &batched).unwrap_or(batched);
-                let memory = hand_over(&batched);
-                // They serve buffers too, unless it is those that keep them from being more.
-                let fewer = if memory.is_empty() { None } else { prune(&memory, &batched) };
-                let fewer = fewer.filter(|fewer| hand_over(fewer) == memory);
-                (fewer.unwrap_or(batched), memory)
-            }
-            Some(queues) => {
-                let batched = batch::batch_on(queues, pending);
-                let memory = hand_over::memory_barriers_on(queues, &taken.hand_overs, pending, &batched, steps);
-                (batched, memory)
-            }
+        let batched = match queues {
+            None => batch::batch(pending),
+            Some(queues) => batch::batch_on(queues, pending),
         };
         scoped.steps.truncate(*export as usize);
         let waits = queues.as_ref().is_some_and(|queues| !queues.waits(*export).is_empty());
         if batched.last().is_some_and(|last| last.at == *export) || *export == 0 || waits {
             scoped.steps.push(Step::Export);
         }
+        let steps = scoped.steps.len();
+        let memory_barriers = match queues {
+            None => hand_over::memory_barriers(&hand_overs, pending, &batched, steps),
+            Some(queues) => hand_over::memory_barriers_on(queues, &hand_overs, pending, &batched, steps),
+        };
         (batched, memory_barriers)
     }
 }

@@ -74,24 +74,6 @@ pub(super) struct Pending {
     pub(super) hazard: Hazard,
     /// Whether it keeps what was there before the frame.
     pub(super) keeps: bool,
-    /// Whether the image is in the new layout anyway, so that all it brings is order; of buffers always.
-    pub(super) in_layout: bool,
-    /// Whether it stands before a write that reads nothing but what earlier reads saw in the same way.
-    pub(super) is_shown: bool,
-}
-
-impl Pending {
-    /// Whether it is one of a buffer, which has no layout.
-    pub(super) fn is_of_buffer(&self) -> bool {
-        self.new_layout == Layout::Undefined
-    }
-
-    /// Whether it stands before a write that reads nothing but what was read before, in these stages by these accesses.
-    pub(super) fn reads_on(&self, stages: Stages, accesses: Accesses) -> bool {
-        let (reads, writes) = (self.dst_accesses.difference(Accesses::WRITES), self.dst_accesses.writes());
-        let same = stages.contains(self.dst_stages) && accesses.contains(reads);
-        same && accesses.writes().is_empty() && !writes.is_empty()
-    }
 }
 
 /// The state after the walk.
@@ -363,10 +345,7 @@ fn apply(walked: &mut Walked, need: &Need, step: u32, lasts: bool) {
         new_layout: need.layout,
         hazard: Hazard::FirstUse,
         keeps: need.keeps,
-        in_layout: cell.layout == need.layout,
-        is_shown: false,
     };
-    pending.is_shown = pending.reads_on(cell.stages, cell.accesses);
     if !cell.is_touched() {
         cell.first_barrier = barrier;
     } else {

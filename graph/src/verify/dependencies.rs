@@ -2,8 +2,7 @@
 //!
 //! - A read needs the last write made visible to its own stage and access.
 //! - A write needs the same of the last write: Vulkan asks for a memory dependency between two writes, and its second
-//!   scope must name the second write. If there were reads since then, it must have waited for those instead: that takes no
-//!   memory dependency, and what they saw is available.
+//!   scope must name the second write. Reads since then must have been waited for; that takes no memory dependency.
 //! - A layout change is a write. It needs the last write available, and reads waited for; it is then available itself and
 //!   visible to the second scope of its barrier.
 //!
@@ -52,16 +51,12 @@ pub(super) fn before_access<const Q: usize>(
     stages: StageSet,
     pairs: PairSet,
 ) -> Option<Gap> {
-    let writes = pairs.writes();
-    // A layout changes before the step's own accesses.
-    let since = cell.write.time + u32::from(!cell.write.pairs.is_empty());
-    let was_read = || cell.reads.iter().any(|read| read.time >= since);
-    let shown = if writes.is_empty() || !was_read() { pairs } else { pairs.reads() };
     if cell.write.exists()
-        && let Some(gap) = after_write(&cell.write, clocks, queue, stages, shown)
+        && let Some(gap) = after_write(&cell.write, clocks, queue, stages, pairs)
     {
         return Some(gap);
     }
+    let writes = pairs.writes();
     if writes.is_empty() {
         return None;
     }

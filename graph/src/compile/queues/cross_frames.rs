@@ -4,7 +4,7 @@ use super::{QUEUES, Queues, Seen};
 use crate::compile::hand_over::HandOver;
 use crate::compile::last_uses::LastUses;
 use crate::compile::model::{Adapted, CellIndex, Kind, StoreIndex};
-use crate::compile::outlive::{States, cells, earlier, last_of_cycle, of_all_planes};
+use crate::compile::outlive::{States, cells, last_of_cycle, of_all_planes};
 use crate::compile::parts::Grids;
 use crate::compile::synchronise::{NEVER, Pending, Walked};
 use crate::vocabulary::{Accesses, Layout, Stages, State};
@@ -105,9 +105,17 @@ fn before(
     store: StoreIndex,
     part: u32,
 ) -> (u32, [Seen; QUEUES]) {
-    let cells = earlier(adapted, store).map(|(ago, from)| (ago, adapted.stores[from as usize].first_cell + part));
-    let mut touched = cells.filter(|(_, cell)| known[*cell as usize].is_touched());
-    touched.next().map_or((1, [Seen::default(); QUEUES]), |(ago, cell)| (ago, queues.track(cell).by))
+    let first = (0..=store).rev().take_while(|first| last_of_cycle(adapted, *first) >= store).last().unwrap_or(store);
+    let last = last_of_cycle(adapted, first);
+    let mut from = store;
+    for frames_ago in 1..=last - first + 1 {
+        from = if from == first { last } else { from - 1 };
+        let cell = adapted.stores[from as usize].first_cell + part;
+        if known[cell as usize].is_touched() {
+            return (frames_ago, queues.track(cell).by);
+        }
+    }
+    (1, [Seen::default(); QUEUES])
 }
 
 /// How the queues used a cell last.

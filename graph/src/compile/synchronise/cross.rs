@@ -128,8 +128,6 @@ impl Crossing<'_> {
                 new_layout: need.layout,
                 hazard: hazard(cell, first, writes, hands_over),
                 keeps: need.keeps,
-                in_layout: cell.layout == need.layout && !hands_over,
-                is_shown: false,
             });
             if first {
                 cell.first_barrier = number;
@@ -166,8 +164,6 @@ fn join(walked: &mut Walked, queues: &mut Queues, need: &Need, step: u32, queue:
                 new_layout: need.layout,
                 hazard: Hazard::ReadAfterWrite,
                 keeps: true,
-                in_layout: true,
-                is_shown: false,
             });
         }
         *seen = Seen { stages: need.stages, accesses: need.accesses, until: step + 1, barrier };

@@ -76,11 +76,7 @@ fn every_removed_wait_is_caught() {
 
 #[test]
 fn every_weakened_wait_is_caught() {
-    let harmless = [(
-        "two queues: wait 0 of step 0 without stages",
-        "a wait holds up the whole step, and the step writes what the other queue read, which takes no more than that",
-    )];
-    catch_all(with_a_weaker_wait, &harmless);
+    catch_all(with_a_weaker_wait, &[]);
 }
 
 #[test]
