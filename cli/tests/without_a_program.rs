@@ -21,17 +21,17 @@ fn a_custom_pass_is_planned_and_not_run() {
     let run = ["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "16x16", "-o", "a.png"];
     for (passes, said) in [
         (
-            "(name: \"mine\", custom: \"overlay\", color: [(image: \"screen\", clear: (0.0, 0.0, 0.0, 1.0))])",
-            "error: a scene doesn't draw `overlay`, which pass `mine` asks for",
+            "(name: \"mine\", custom: \"panel\", color: [(image: \"screen\", clear: (0.0, 0.0, 0.0, 1.0))])",
+            "error: a scene doesn't draw `panel`, which pass `mine` asks for",
         ),
         (
-            "(name: \"mine\", custom: \"overlay\", writes: [\"screen\"])",
-            "error: nobody records `overlay`, which the custom pass `mine` asks for",
+            "(name: \"mine\", custom: \"panel\", writes: [\"screen\"])",
+            "error: nobody records `panel`, which the custom pass `mine` asks for",
         ),
     ] {
         pipeline(&place, "", "", passes);
         let tree = place.run(&["inspect", "p.ron"]).exits(0).out;
-        assert!(tree.contains("overlay"), "{tree}");
+        assert!(tree.contains("panel"), "{tree}");
         place.run_with(&variables, &run).exits(1).mentions(said);
         assert_eq!(place.names(), ["p.ron"]);
     }
