@@ -215,8 +215,8 @@ impl Structure {
         let hand_overs = take_over::take_over(grids, adapted, states, occupancy, walked);
         let (pending, queues) = (&walked.barriers, &walked.queues);
         let batched = match queues {
-            None => batch::batch(pending),
-            Some(queues) => batch::batch_on(queues, pending),
+            None => batch::batch(&adapted.stores, pending),
+            Some(queues) => batch::batch_on(queues, &adapted.stores, pending),
         };
         scoped.steps.truncate(*export as usize);
         let waits = queues.as_ref().is_some_and(|queues| !queues.waits(*export).is_empty());
