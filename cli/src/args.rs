@@ -1,7 +1,7 @@
 //! The command line: what can be said, and what each word means.
 
 use crate::text;
-use crate::values::{Assignment, DEFAULT_SIZE, Dump, Size, assignment, dump, order, picture};
+use crate::values::{Assignment, DEFAULT_SIZE, Dump, OutputFile, Size, assignment, dump, order, output_file};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use framewright_graph::compile::{Options, Order};
 use std::ffi::OsString;
@@ -109,10 +109,10 @@ pub(crate) struct Run {
     /// How many times the frame is drawn; GPU times are medians over them.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) frames: u32,
-    /// Picture to write: the pipeline's first output, as a .png file without its alpha, or a floating-point one bit for bit
-    /// as an .exr file. Without this none is written.
-    #[arg(short, long, value_name = "OUT.png", value_parser = picture)]
-    pub(crate) output: Option<PathBuf>,
+    /// Picture to write: the pipeline's first output, or the one that is named, as a .png file without its alpha, or a
+    /// floating-point one bit for bit as an .exr file. Repeatable. Without this none is written.
+    #[arg(short, long, value_name = "[OUTPUT=]FILE.png", value_parser = output_file)]
+    pub(crate) output: Vec<OutputFile>,
     /// Also write the last version of an image, resolved if it is multisampled; this may change the Plan. Repeatable.
     #[arg(long, value_name = "IMAGE=FILE.png", value_parser = dump)]
     pub(crate) dump: Vec<Dump>,
@@ -128,6 +128,14 @@ pub(crate) struct Run {
     /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
     #[arg(long, value_name = "NAME|INDEX")]
     pub(crate) device: Option<OsString>,
+}
+
+impl Run {
+    /// Files that are written.
+    pub(crate) fn written(&self) -> impl Iterator<Item = &PathBuf> + Clone {
+        let outputs = self.output.iter().map(|output| &output.file);
+        outputs.chain(self.dump.iter().map(|dump| &dump.file)).chain(&self.report)
+    }
 }
 
 /// `framewright facts`.
@@ -252,8 +260,7 @@ fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
         if let Some(image) = twice(run.dump.iter().map(|dump| &dump.image)) {
             return conflict(format!("the image `{}` is dumped twice", text::escape(image)));
         }
-        let files = run.output.iter().chain(run.dump.iter().map(|dump| &dump.file)).chain(&run.report);
-        if let Some(file) = twice(files) {
+        if let Some(file) = twice(run.written()) {
             return conflict(format!("`{}` would be written twice", text::path(file)));
         }
     }

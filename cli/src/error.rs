@@ -176,6 +176,16 @@ pub(crate) enum Error {
         /// The output.
         output: String,
     },
+    /// A picture was asked for of something that doesn't leave the frame.
+    #[error("{}", no_output(name, outputs, *image))]
+    NoOutput {
+        /// What was asked for.
+        name: String,
+        /// The pipeline's outputs.
+        outputs: Vec<String>,
+        /// Whether an image has the name.
+        image: bool,
+    },
     /// A profile that has no text form.
     #[error("the profile has no text form: {}", text::escape(.0))]
     Unwritable(String),
@@ -279,12 +289,20 @@ impl Error {
             | Error::TooManyPairs { .. }
             | Error::UnknownProfile { .. }
             | Error::ProfileIsNoDevice { .. }
+            | Error::NoOutput { .. }
             | Error::ReadAndWritten { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
             Error::Interrupted { .. } => Exit::Interrupted,
             Error::Write { .. } | Error::Print(_) | Error::Restart(_) => Exit::Environment,
         }
     }
+}
+
+fn no_output(name: &str, outputs: &[String], image: bool) -> String {
+    let (name, outputs) = (text::escape(name), text::escape(&outputs.join("`, `")));
+    let help =
+        if image { format!("`--dump {name}=FILE.png` writes any image") } else { format!("there are `{outputs}`") };
+    format!("the pipeline has no output named `{name}`\nhelp: {help}")
 }
 
 /// What to do about a file, if it is one, that can't be written.

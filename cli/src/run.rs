@@ -4,9 +4,11 @@ use crate::args::Run;
 use crate::error::{Error, Exit};
 use crate::planning::{self, Loaded, Planned, View};
 use crate::report::{Report, Setting, Validation};
+use crate::values::OutputFile;
 use crate::{files, interrupt, output, picture, progress, rows, text};
 use framewright_graph::frame::{Frame, Image, Lifetime, Resource};
 use framewright_graph::plan::{self, Totals};
+use framewright_graph::source::Span;
 use framewright_graph::vocabulary::Layout;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
@@ -25,11 +27,9 @@ struct Picture {
 /// # Errors
 /// If a file is wrong, the device or the layer is missing, or something can't be written.
 pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
-    let written =
-        || arguments.output.iter().chain(arguments.dump.iter().map(|dump| &dump.file)).chain(&arguments.report);
     let read = [("pipeline", arguments.pipeline.file.as_path()), ("scene", arguments.scene.as_path())];
     let settings = arguments.pipeline.settings.iter().map(|file| ("settings file", file.as_path()));
-    output::prepare(written(), &read.into_iter().chain(settings).collect::<Vec<_>>())?;
+    output::prepare(arguments.written(), &read.into_iter().chain(settings).collect::<Vec<_>>())?;
     let choice = choice(arguments.device.as_deref())?;
     let mut pipeline = planning::load(&arguments.pipeline)?;
     let scene = files::scene(&arguments.scene)?;
@@ -39,10 +39,11 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
     let device = Device::open(&DeviceOptions { choice, validation: arguments.validate })?;
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
     let planned = planned(arguments, &mut pipeline, &scene, &device)?;
+    let wanted = wanted(arguments, &planned)?;
     for name in not_handed_in(&planned.frame) {
         text::say(&format!("note: nobody hands in `{}` here: all of it is 0", text::escape(name)));
     }
-    let (frames, pictures) = draw(arguments, &planned, &mut pipeline, &scene, &device)?;
+    let (frames, pictures) = draw(arguments, &planned, wanted, &mut pipeline, &scene, &device)?;
     let mut report = Report {
         format_version: 2,
         pipeline: shown(&arguments.pipeline.file),
@@ -62,7 +63,7 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
         passes: rows::rows(&planned.plan, &frames),
         notes: planned.plan.notes.clone(),
         validation: None,
-        files: written().map(|file| shown(file)).collect(),
+        files: arguments.written().map(|file| shown(file)).collect(),
     };
     // The layer may have something to say about the device's end too.
     let messages = device.messages();
@@ -150,11 +151,11 @@ fn difference(before: &Totals, after: &Totals) -> String {
 fn draw(
     arguments: &Run,
     planned: &Planned,
+    wanted: Vec<Wanted<'_>>,
     pipeline: &mut Loaded,
     scene: &Scene,
     device: &Device,
 ) -> Result<(Vec<FrameReport>, Vec<Picture>), Error> {
-    let wanted = wanted(arguments, planned)?;
     let size = [arguments.size.width, arguments.size.height];
     let mut source = SceneDrawSource::with_views(device, scene, size, &planned.plan.views)?;
     let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
@@ -219,9 +220,13 @@ fn wanted<'a>(arguments: &'a Run, planned: &'a Planned) -> Result<Vec<Wanted<'a>
         }
     };
     let mut wanted = Vec::new();
-    if let Some(path) = &arguments.output {
-        let name = image(0).ok_or_else(|| Error::NoPicture { output: output_name(frame) })?;
-        wanted.push(written(0, name, path)?);
+    for OutputFile { output, file } in &arguments.output {
+        let at = match output {
+            Some(name) => named_output(frame, name).ok_or_else(|| no_output(frame, name))?,
+            None => 0,
+        };
+        let name = image(at).ok_or_else(|| Error::NoPicture { output: output_name(frame, at) })?;
+        wanted.push(written(at, name, file)?);
     }
     for dump in &arguments.dump {
         let output = (0..frame.outputs.len()).find_map(|at| Some((at, image(at).filter(|name| *name == dump.image)?)));
@@ -230,14 +235,32 @@ fn wanted<'a>(arguments: &'a Run, planned: &'a Planned) -> Result<Vec<Wanted<'a>
     Ok(wanted)
 }
 
-/// The name of the first output.
-fn output_name(frame: &Frame) -> String {
-    let name = match frame.outputs.first().map(|output| output.resource) {
+/// The name of an output.
+fn output_name(frame: &Frame, output: usize) -> String {
+    let name = match frame.outputs.get(output).map(|output| output.resource) {
         Some(Resource::Image(image)) => frame.images.get(image.0 as usize).map(|image| &image.name),
         Some(Resource::Buffer(buffer)) => frame.buffers.get(buffer.0 as usize).map(|buffer| &buffer.name),
         None => None,
     };
     name.map_or_else(String::new, ToString::to_string)
+}
+
+/// Numbers of the outputs that the pipeline names; dumped images stand in no file.
+fn declared(frame: &Frame) -> impl Iterator<Item = usize> {
+    (0..frame.outputs.len()).filter(|at| frame.outputs[*at].span != Span::NONE)
+}
+
+/// The number of the output of that name, if the pipeline has it.
+fn named_output(frame: &Frame, name: &str) -> Option<usize> {
+    declared(frame).find(|at| output_name(frame, *at) == name)
+}
+
+fn no_output(frame: &Frame, name: &str) -> Error {
+    Error::NoOutput {
+        name: name.to_owned(),
+        outputs: declared(frame).map(|at| output_name(frame, at)).collect(),
+        image: frame.images.iter().any(|image| *image.name == *name),
+    }
 }
 
 fn shown(path: &Path) -> String {

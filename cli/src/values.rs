@@ -37,6 +37,15 @@ pub(crate) struct Dump {
     pub(crate) file: PathBuf,
 }
 
+/// `FILE.png` or `NAME=FILE.png`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct OutputFile {
+    /// The name of one of the pipeline's outputs; `None`: the first.
+    pub(crate) output: Option<String>,
+    /// The file.
+    pub(crate) file: PathBuf,
+}
+
 impl std::fmt::Display for Size {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}x{}", self.width, self.height)
@@ -103,6 +112,19 @@ pub(crate) fn dump(text: &str) -> Result<Dump, String> {
     }
 }
 
+/// Reads `FILE.png` or `NAME=FILE.png`. What has a `/` before its first `=` is no name: `./a=b.png` is a file.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn output_file(text: &str) -> Result<OutputFile, String> {
+    match text.split_once('=') {
+        Some((name, file)) if !name.is_empty() && !name.contains('/') => {
+            Ok(OutputFile { output: Some(name.to_owned()), file: picture(file)? })
+        }
+        _ => Ok(OutputFile { output: None, file: picture(text)? }),
+    }
+}
+
 /// Reads the name of a picture's file.
 ///
 /// # Errors
@@ -144,6 +166,16 @@ mod tests {
             assert_eq!(order(wrong), Err("the seed is a whole number, such as random:7".to_owned()), "{wrong}");
         }
         assert_eq!(order("random:18446744073709551616"), Err("the seed must be 0 to 18446744073709551615".to_owned()));
+    }
+
+    #[test]
+    fn an_output_is_named_before_its_file_and_a_path_is_no_name() {
+        let read = |text: &str| output_file(text).map(|read| (read.output, read.file));
+        assert_eq!(read("a.png"), Ok((None, "a.png".into())));
+        assert_eq!(read("depth=a.exr"), Ok((Some("depth".to_owned()), "a.exr".into())));
+        assert_eq!(read("glow.down[0]=b/a=c.png"), Ok((Some("glow.down[0]".to_owned()), "b/a=c.png".into())));
+        assert_eq!(read("./a=b.png"), Ok((None, "./a=b.png".into())));
+        assert!(read("depth=").is_err() && read("depth=a.jpg").is_err() && read("a").is_err());
     }
 
     #[test]

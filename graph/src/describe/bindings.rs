@@ -1,6 +1,5 @@
 //! `sample`, `storage`, `uniform` and `params`: what a pass gives to its shader, by the shader's own names.
 
-use super::Diagnostic;
 use super::leaf::{Leaf, Shape};
 use super::parts::{self, Selected};
 use super::pass::{Face, Param, Part, Sample, Storage, StorageAccess, Uniform};
@@ -8,8 +7,9 @@ use super::pipeline::Name;
 use super::reader::Reader;
 use super::scope::Scope;
 use super::values;
+use super::{Diagnostic, Spanned};
 use crate::fields;
-use crate::vocabulary::Filter;
+use crate::vocabulary::{AddressMode, Filter};
 use std::collections::HashMap;
 
 fields! {
@@ -22,6 +22,8 @@ fields! {
         plane: Option<Leaf<'src>>,
         previous: Option<Leaf<'src>>,
         filter: Option<Leaf<'src>>,
+        mip_filter: Option<Leaf<'src>>,
+        address: Option<Leaf<'src>>,
         own_pixel: Option<Leaf<'src>>,
     }
 }
@@ -44,32 +46,64 @@ const IMAGES: &str = "a sampled image is `\"image\"`, `Samples(\"image\")`, `Res
 /// Filters, by name.
 pub(super) const FILTERS: [(&str, Filter); 2] = [("Nearest", Filter::Nearest), ("Linear", Filter::Linear)];
 
+const ADDRESSES: [(&str, AddressMode); 3] =
+    [("Clamp", AddressMode::ClampToEdge), ("Repeat", AddressMode::Repeat), ("Mirror", AddressMode::MirroredRepeat)];
+
 const ACCESSES: [(&str, StorageAccess); 3] =
     [("Read", StorageAccess::Read), ("Write", StorageAccess::Write), ("ReadWrite", StorageAccess::ReadWrite)];
 
 /// Images by the shader's names.
 pub(super) fn samples<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Sample>> {
     entries(reader, leaf, "`sample`", "a sampled image", |reader, binding, value| {
-        let (name, selected, filter, own_pixel) = match value.shape() {
-            Shape::Parentheses => {
-                let fields: SampleFields<'_> = reader.read(value, "a sampled image")?;
-                let SampleFields { image, mip, mips, layer, layers, plane, previous, filter, own_pixel } = fields;
-                (image, Selected { mip, mips, layer, layers, plane, previous }, filter, own_pixel)
-            }
-            _ => (value, Selected::default(), None, None),
+        let fields = match value.shape() {
+            Shape::Parentheses => reader.read(value, "a sampled image")?,
+            _ => SampleFields::plain(value),
         };
-        let image = face(reader, name).map(|(name, face)| (parts::image_part(reader, scope, name, selected), face));
-        let filter = match filter {
-            Some(leaf) => values::choice(reader, leaf, "a filter", &FILTERS).map(|filter| Some(leaf.spanned(filter))),
-            None => Some(None),
-        };
+        let SampleFields { image, mip, mips, layer, layers, plane, previous, filter, mip_filter, address, own_pixel } =
+            fields;
+        let selected = Selected { mip, mips, layer, layers, plane, previous };
+        let image = face(reader, image).map(|(name, face)| (parts::image_part(reader, scope, name, selected), face));
+        let filter = chosen(reader, filter, "a filter", &FILTERS);
+        let mip_filter = chosen(reader, mip_filter, "a filter", &FILTERS);
+        let address = chosen(reader, address, "an address mode", &ADDRESSES);
         let own_pixel = match own_pixel {
             Some(leaf) => values::truth(reader, scope, leaf).map(|own| Some(leaf.spanned(own))),
             None => Some(None),
         };
         let (part, face) = image?;
-        Some(Sample { binding: binding?, part: part?, face, filter: filter?, own_pixel: own_pixel? })
+        let (binding, part, own_pixel) = (binding?, part?, own_pixel?);
+        Some(Sample { binding, part, face, filter: filter?, mip_filter: mip_filter?, address: address?, own_pixel })
     })
+}
+
+impl<'src> SampleFields<'src> {
+    /// What an image's plain name says.
+    const fn plain(image: Leaf<'src>) -> SampleFields<'src> {
+        SampleFields {
+            image,
+            mip: None,
+            mips: None,
+            layer: None,
+            layers: None,
+            plane: None,
+            previous: None,
+            filter: None,
+            mip_filter: None,
+            address: None,
+            own_pixel: None,
+        }
+    }
+}
+
+/// One of several words, if it is there: `None` if it is none of them.
+fn chosen<T: Copy>(
+    reader: &mut Reader,
+    leaf: Option<Leaf<'_>>,
+    what: &str,
+    choices: &[(&'static str, T)],
+) -> Option<Option<Spanned<T>>> {
+    let Some(leaf) = leaf else { return Some(None) };
+    values::choice(reader, leaf, what, choices).map(|value| Some(leaf.spanned(value)))
 }
 
 /// An image's name, and which of its faces is meant.
@@ -93,10 +127,7 @@ pub(super) fn storage<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'
         let StorageFields { image, buffer, mip, layer, layers, previous, access } = fields;
         let selected = Selected { mip, layer, layers, previous, ..Selected::default() };
         let part = parts::one_of(reader, scope, value, image, buffer, selected);
-        let access = match access {
-            Some(leaf) => values::choice(reader, leaf, "an access", &ACCESSES).map(|access| Some(leaf.spanned(access))),
-            None => Some(None),
-        };
+        let access = chosen(reader, access, "an access", &ACCESSES);
         let (part, access) = (part?, access?);
         if let (Some(previous), Some(access)) = (part.previous(), access)
             && access.value != StorageAccess::Read

@@ -60,8 +60,10 @@
 //! IMAGES     "image" | (image: "…", SELECTED)
 //! SELECTED   mip: 1, mips: 2 | Rest, layer: 1, layers: 2 | Rest, plane: Depth | Stencil, previous: 1
 //! BUFFERS    "buffer" | (buffer: "…", previous: 1)
-//! SAMPLED    FACE | (image: FACE, SELECTED, filter: FILTER, own_pixel: true)
+//! SAMPLED    FACE | (image: FACE, SELECTED, filter: FILTER, mip_filter: FILTER, address: ADDRESS, own_pixel: true)
 //! FILTER     Nearest | Linear                                      by default Linear for colour, else Nearest
+//!                                                                  between mip levels by default Nearest
+//! ADDRESS    Clamp | Repeat | Mirror                               beyond the edges, by default Clamp
 //! FACE       "image" | Samples("image") | Resolved("image")        the plain name: as the shader declares it
 //! STORAGE    PART | (image: "…", SELECTED, access: ACCESS) | (buffer: "…", previous: 1, access: ACCESS)
 //! ACCESS     Read | Write | ReadWrite                              by default as the shader declares it
@@ -69,7 +71,8 @@
 //! DEPTH      "image" | (image: "…", SELECTED, clear: 0.0, test: GreaterOrEqual, write: true, stencil: STENCIL)
 //! STENCIL    (clear: 0, test: Always, reference: 0, pass: Keep)
 //! PARAM      1.0 | 1 | true
-//! OUTPUT     "name" | (image: "…", after: STATE) | (buffer: "…", after: STATE)
+//! OUTPUT     "name" | (image: "…", after: STATE, encoding: ENCODING) | (buffer: "…", after: STATE)
+//! ENCODING   Srgb | Unorm | Linear | Hdr10                         by default what the format says
 //! ```
 //! Wherever a number, a truth, a format, an image or a buffer stands, an [expression](crate::expression) in quotes may
 //! stand; `when` always is one.

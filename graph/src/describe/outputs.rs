@@ -4,7 +4,8 @@ use super::leaf::{Leaf, Shape};
 use super::pipeline::{Output, ResourceRef};
 use super::reader::Reader;
 use super::scope::Scope;
-use super::{Diagnostic, lifetimes};
+use super::{Diagnostic, lifetimes, values};
+use crate::encoding::Encoding;
 use crate::fields;
 use crate::frame::Resource;
 use std::collections::HashMap;
@@ -14,8 +15,17 @@ fields! {
         image: Option<Leaf<'src>>,
         buffer: Option<Leaf<'src>>,
         after: Option<Leaf<'src>>,
+        encoding: Option<Leaf<'src>>,
     }
 }
+
+/// What the numbers of an output mean, by name.
+const ENCODINGS: [(&str, Encoding); 4] = [
+    (Encoding::Srgb.name(), Encoding::Srgb),
+    (Encoding::Unorm.name(), Encoding::Unorm),
+    (Encoding::Linear.name(), Encoding::Linear),
+    (Encoding::Hdr10.name(), Encoding::Hdr10),
+];
 
 /// The images and buffers that leave the frame, each once.
 pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, list: Leaf<'src>) -> Option<Vec<Output>> {
@@ -39,7 +49,7 @@ pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, list: Leaf<'sr
 
 fn output<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Output> {
     let Shape::Parentheses = leaf.shape() else {
-        return Some(Output { resource: scope.resource(reader, leaf)?, after: None });
+        return Some(Output { resource: scope.resource(reader, leaf)?, after: None, encoding: None });
     };
     let fields: OutputFields<'_> = reader.read(leaf, "an output")?;
     let (resource, of) = match (fields.image, fields.buffer) {
@@ -64,5 +74,15 @@ fn output<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opt
         Some(after) => lifetimes::state(reader, after, of).map(Some),
         None => Some(None),
     };
-    Some(Output { resource: resource?, after: after? })
+    let encoding = match (fields.encoding, of) {
+        (Some(leaf), lifetimes::Of::Image) => {
+            values::choice(reader, leaf, "an encoding", &ENCODINGS).map(|encoding| Some(leaf.spanned(encoding)))
+        }
+        (Some(leaf), lifetimes::Of::Buffer) => {
+            reader.wrong(leaf, "the bytes of a buffer have no encoding", "leave `encoding` out");
+            None
+        }
+        (None, _) => Some(None),
+    };
+    Some(Output { resource: resource?, after: after?, encoding: encoding? })
 }

@@ -4,7 +4,7 @@ use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, Spanned};
 use super::resources::Fill;
 use crate::frame::{Blend, DrawList, ParamValue, StencilState};
 use crate::source::Span;
-use crate::vocabulary::{Aspects, CompareOp, Filter};
+use crate::vocabulary::{AddressMode, Aspects, CompareOp, Filter};
 use std::sync::Arc;
 
 /// A pass.
@@ -190,8 +190,12 @@ pub struct Sample {
     pub part: ImagePart,
     /// Which of its faces.
     pub face: Face,
-    /// Filter, if the file chooses one.
+    /// Filter between texels, if the file chooses one.
     pub filter: Option<Spanned<Filter>>,
+    /// Filter between mip levels, if the file chooses one.
+    pub mip_filter: Option<Spanned<Filter>>,
+    /// What lies beyond its edges, if the file chooses that.
+    pub address: Option<Spanned<AddressMode>>,
     /// Whether each fragment reads only the texel at its own position, if the file says so.
     pub own_pixel: Option<Spanned<bool>>,
 }

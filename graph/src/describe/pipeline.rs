@@ -2,6 +2,7 @@
 
 use super::pass::Pass;
 use super::resources::{Buffer, Image, State};
+use crate::encoding::Encoding;
 use crate::frame::{BufferIndex, ImageIndex, Resource};
 use crate::source::Span;
 use std::sync::Arc;
@@ -41,6 +42,8 @@ pub struct Output {
     pub resource: ResourceRef,
     /// The state in which it is to be left, if the file asks for one.
     pub after: Option<Spanned<State>>,
+    /// What its numbers mean, if the file says it.
+    pub encoding: Option<Spanned<Encoding>>,
 }
 
 /// A value and where it was written.

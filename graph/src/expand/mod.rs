@@ -31,6 +31,7 @@ pub use crate::facts::Facts;
 
 use crate::describe::{self, Diagnostic, Document, LARGEST_SIZE, Pipeline, Surroundings, suggestion};
 use crate::device::Profile;
+use crate::encoding::Encoding;
 use crate::frame::{Frame, ImageIndex, Output, Resource, SwitchedOff};
 use crate::interface::ShaderInterfaces;
 use crate::source::{Sources, Span};
@@ -174,10 +175,31 @@ fn outputs(chosen: &Chosen<'_>, things: &Things, dump: &[String], errors: &mut V
     for output in &pipeline.outputs {
         let describe::ResourceRef { resource, span } = output.resource;
         let after = output.after.and_then(|after| things.left(chosen, resource, after, errors));
-        outputs.push(Output { resource, span, after, encoding: None });
+        let encoding = output.encoding.filter(|encoding| encoded(chosen, things, resource, *encoding, errors));
+        outputs.push(Output { resource, span, after, encoding: encoding.map(|encoding| encoding.value) });
     }
     dumped(pipeline, dump, &mut outputs, errors);
     outputs
+}
+
+/// Whether an output's format can hold its encoding.
+fn encoded(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    of: Resource,
+    encoding: describe::Spanned<Encoding>,
+    errors: &mut Vec<Diagnostic>,
+) -> bool {
+    let Resource::Image(index) = of else { return false };
+    let Some(format) = things.image(index).map(|image| image.image.format) else { return false };
+    let fits = encoding.value.fits(format);
+    if !fits {
+        let (image, word) = (chosen.image(index), encoding.value.name());
+        let message = format!("`{}` can't leave the frame as `{word}`: it is {format}", image.name.text);
+        let wrong = Diagnostic::new(encoding.span, message).label(image.format.span, "its format");
+        errors.push(wrong.help(format!("`{word}` takes {}", encoding.value.formats())));
+    }
+    fits
 }
 
 /// Adds images that are dumped.

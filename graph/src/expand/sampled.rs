@@ -72,9 +72,19 @@ pub(super) fn lower(
         span: sample.part.image.span,
         per_sample,
         own_pixel: sample.own_pixel.map_or(input, |own| own.value),
-        sampler: Sampler::new(sample.filter.map_or(default, |filter| filter.value)),
+        sampler: sampler(sample, default),
         stages: storage::stages(interface, name, raster),
     })
+}
+
+/// What the file chooses, else a sampler that ends at the image's edges and takes the nearest mip level.
+fn sampler(sample: &describe::Sample, filter: Filter) -> Sampler {
+    let Sampler { filter, mips, address } = Sampler::new(sample.filter.map_or(filter, |filter| filter.value));
+    Sampler {
+        filter,
+        mips: sample.mip_filter.map_or(mips, |mips| mips.value),
+        address: sample.address.map_or(address, |address| address.value),
+    }
 }
 
 /// Reports what doesn't fit the shader's declarations. Returns names that were probably meant by misspelt ones.
@@ -113,7 +123,8 @@ pub(super) fn check<'i>(
         if errors.len() == before {
             check.component(errors);
             check.samples(errors);
-            check.filter(errors);
+            check.filters(errors);
+            check.address(errors);
             check.own_pixel(things, lowered, declared.input, sampled.own_pixel, errors);
         }
     }
@@ -196,8 +207,7 @@ impl Check<'_> {
     }
 
     /// What is filtered can be.
-    fn filter(&self, errors: &mut Vec<Diagnostic>) {
-        let Some(filter) = self.sample.filter.filter(|filter| filter.value == Filter::Linear) else { return };
+    fn filters(&self, errors: &mut Vec<Diagnostic>) {
         let (image, shader) = (&self.image.image, self.shader);
         let why = match () {
             () if image.format.is_integer() => format!("`{}` holds integers ({})", image.name, image.format),
@@ -205,7 +215,19 @@ impl Check<'_> {
             () if self.shape.multisampled => format!("shader `{shader}` reads single samples of it"),
             () => return,
         };
-        errors.push(Diagnostic::new(filter.span, format!("a linear filter can't be used: {why}")));
+        for filter in [self.sample.filter, self.sample.mip_filter].into_iter().flatten() {
+            if filter.value == Filter::Linear {
+                errors.push(Diagnostic::new(filter.span, format!("a linear filter can't be used: {why}")));
+            }
+        }
+    }
+
+    /// Only what is looked up between texels has something beyond its edges.
+    fn address(&self, errors: &mut Vec<Diagnostic>) {
+        let Some(address) = self.sample.address.filter(|_| self.shape.multisampled) else { return };
+        let why = format!("shader `{}` reads single samples of it, each by its number", self.shader);
+        let message = format!("nothing lies beyond the edges of `{}`: {why}", self.image.image.name);
+        errors.push(Diagnostic::new(address.span, message).help("leave `address` out"));
     }
 
     /// A fragment can read its own texel only of an image that lies under the pass's targets.

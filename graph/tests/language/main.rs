@@ -6,10 +6,12 @@
 mod bad;
 mod choices;
 mod docs;
+mod encodings;
 mod fragments;
 mod random;
 mod repeat;
 mod resources;
+mod samplers;
 mod shipped;
 mod table;
 mod whole;
