@@ -14,7 +14,7 @@ use crate::shaders::{CompiledShader, ShaderLibrary};
 use crate::standing::Turns;
 use ash::vk;
 use framewright_graph::frame::{BufferRole, Draw, Groups};
-use framewright_graph::interface::{DrawInterface, PASS_SET, ShaderInterfaces, ShaderProblem};
+use framewright_graph::interface::{DrawInterface, PASS_SET, ShaderInterfaces, ShaderProblem, Variant};
 use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
 use framewright_graph::vocabulary::Accesses;
 use std::sync::Arc;
@@ -68,6 +68,16 @@ fn indirect(plan: &Plan, pass: &plan::Pass, offset: u64, bytes: u64) -> Result<B
     Ok(buffer)
 }
 
+/// How the Plan has the shader of a pass compiled.
+fn variant(pass: &plan::Pass) -> Variant {
+    let bindings = pass.accesses.iter().filter_map(|access| access.binding.as_ref());
+    let local = bindings.clone().filter(|binding| binding.kind == BindingKind::InputAttachment);
+    Variant {
+        textures: bindings.filter_map(|it| Some((it.name.clone(), it.texture?))).collect(),
+        local: local.map(|binding| binding.name.clone()).collect(),
+    }
+}
+
 /// The objects of a dispatch.
 pub(crate) fn compute(
     shared: &Arc<Shared>,
@@ -77,8 +87,9 @@ pub(crate) fn compute(
     shaders: &mut ShaderLibrary,
 ) -> Result<Compute, Error> {
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
-    let shader =
-        shaders.compute(&pass.shader).map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
+    let shader = shaders
+        .compute(&pass.shader, &variant(pass))
+        .map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
     let nothing = DrawInterface::default();
     check_limits(shared, &shader.interface, &nothing).map_err(mismatch)?;
     check_supplied(&shader.interface, &nothing).map_err(mismatch)?;
@@ -139,13 +150,7 @@ pub(crate) fn drawn(
         indices,
         indirect,
     };
-    let local: Vec<&str> = pass
-        .accesses
-        .iter()
-        .filter_map(|it| it.binding.as_ref().filter(|binding| binding.kind == BindingKind::InputAttachment))
-        .map(|binding| &*binding.name)
-        .collect();
-    let shader = match shaders.compiled(&pass.shader, draw, &local) {
+    let shader = match shaders.compiled(&pass.shader, draw, &variant(pass)) {
         Err(ShaderProblem::Missing { .. }) if draw == Draw::Custom => {
             let template = SetTemplate::empty(shared)?;
             return Ok(nothing(template));

@@ -57,6 +57,7 @@ fn pass(name: &str, shader: &str, sampled: &[(&str, u32)], target: u32) -> Pass 
         frames_ago: 0,
         span: Span::NONE,
         per_sample: false,
+        texture: None,
         own_pixel: false,
         sampler: Sampler::new(Filter::Nearest),
         stages: Stages::FRAGMENT_SHADER,

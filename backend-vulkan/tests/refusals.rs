@@ -127,7 +127,11 @@ fn a_filter_that_a_format_does_not_have_is_refused() {
         if let Work::Render(scope) = &mut plan.steps[1].work {
             let pass = &mut scope.passes[0];
             let range = Subresources::all(format, 1, 1);
-            let binding = Some(Binding { name: "source".into(), kind: BindingKind::Sampled(Sampler::new(filter)) });
+            let binding = Some(Binding {
+                name: "source".into(),
+                kind: BindingKind::Sampled(Sampler::new(filter)),
+                texture: None,
+            });
             pass.accesses[1] = Access { image: depth, range, binding, ..pass.accesses[1].clone() };
         }
         add_up(&mut plan);

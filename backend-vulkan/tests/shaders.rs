@@ -4,6 +4,7 @@ use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::interface::{
     BindingKind, Component, Dimension, DrawInterface, ImageShape, ShaderInterface, ShaderInterfaces, ShaderProblem,
+    Variant,
 };
 use framewright_graph::vocabulary::Stages;
 use framewright_vulkan::ShaderLibrary;
@@ -31,7 +32,7 @@ fn drawn(draw: Draw, files: &[(&str, &str)]) -> Result<ShaderInterface, ShaderPr
     for (name, text) in files {
         fs::write(folder.path().join(name), text).expect("a file");
     }
-    library(folder.path()).draw_shader("test", draw)
+    library(folder.path()).draw_shader("test", draw, &Variant::default())
 }
 
 fn reflected(fragment: &str) -> ShaderInterface {
@@ -45,7 +46,7 @@ fn messages(files: &[(&str, &str)]) -> Vec<String> {
         fs::write(folder.path().join(name), text).expect("a file");
     }
     let shown = format!("{}/", folder.path().display());
-    match library(folder.path()).draw_shader("test", Draw::FullScreen) {
+    match library(folder.path()).draw_shader("test", Draw::FullScreen, &Variant::default()) {
         Err(ShaderProblem::DoesNotCompile { messages }) => {
             messages.iter().map(|message| message.replace(&shown, "")).collect()
         }
@@ -287,14 +288,14 @@ fn an_include_can_not_leave_its_folder() {
     let absolute = outer.path().join("secret.glsl").display().to_string();
     for name in ["../secret.glsl", "./../secret.glsl", &absolute, "..\\secret.glsl"] {
         fs::write(folder.join("test.frag"), format!("#version 460\n#include \"{name}\"\n{WHITE} }}")).expect("a file");
-        match library(&folder).draw_shader("test", Draw::FullScreen) {
+        match library(&folder).draw_shader("test", Draw::FullScreen, &Variant::default()) {
             Err(ShaderProblem::DoesNotCompile { messages }) => {
                 assert!(messages[0].contains(&format!("`{name}` is no shader file name")), "{messages:?}");
             }
             other => panic!("{other:?}"),
         }
     }
-    match library(&folder).draw_shader("../secret", Draw::FullScreen) {
+    match library(&folder).draw_shader("../secret", Draw::FullScreen, &Variant::default()) {
         Err(ShaderProblem::Unsupported { what }) => assert!(what.contains("no shader file name"), "{what}"),
         other => panic!("{other:?}"),
     }
@@ -311,11 +312,11 @@ fn a_file_that_includes_itself_is_an_error() {
 fn a_missing_shader_says_where_it_was_looked_for_and_what_there_is() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("own.frag"), "").expect("a file");
-    let problem = library(folder.path()).draw_shader("wanted", Draw::FullScreen);
+    let problem = library(folder.path()).draw_shader("wanted", Draw::FullScreen, &Variant::default());
     let looked_in = vec![folder.path().display().to_string(), "the shipped shaders".to_owned()];
     let known = vec!["own".to_owned(), "plain".to_owned()];
     assert_eq!(problem, Err(ShaderProblem::Missing { looked_in, known }));
-    let no_vertex_shader = library(folder.path()).draw_shader("plain", Draw::Sky);
+    let no_vertex_shader = library(folder.path()).draw_shader("plain", Draw::Sky, &Variant::default());
     let what = "no vertex shader: neither `plain.vert` nor `sky.vert` was found".to_owned();
     assert_eq!(no_vertex_shader, Err(ShaderProblem::Unsupported { what }));
 }
@@ -324,7 +325,7 @@ fn a_missing_shader_says_where_it_was_looked_for_and_what_there_is() {
 fn a_shader_on_disk_comes_before_a_shipped_one() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("plain.frag"), "no GLSL").expect("a file");
-    let problem = library(folder.path()).draw_shader("plain", Draw::FullScreen);
+    let problem = library(folder.path()).draw_shader("plain", Draw::FullScreen, &Variant::default());
     assert!(matches!(problem, Err(ShaderProblem::DoesNotCompile { .. })), "{problem:?}");
 }
 
@@ -337,7 +338,7 @@ fn files_that_are_no_text_are_refused() {
     fs::write(path("huge.frag"), vec![b'\n'; (1 << 20) + 1]).expect("a file");
     fs::create_dir(path("folder.frag")).expect("a folder");
     let mut library = library(folder.path());
-    let mut what = |name: &str| match library.draw_shader(name, Draw::FullScreen) {
+    let mut what = |name: &str| match library.draw_shader(name, Draw::FullScreen, &Variant::default()) {
         Err(ShaderProblem::Unsupported { what }) => what.rsplit('/').next().unwrap_or("").to_owned(),
         other => panic!("{other:?}"),
     };
@@ -421,7 +422,7 @@ fn a_vertex_shader_that_writes_an_image_is_refused() {
 fn computed(text: &str) -> Result<ShaderInterface, ShaderProblem> {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("test.comp"), format!("#version 460\n{text}")).expect("a file");
-    library(folder.path()).compute_shader("test")
+    library(folder.path()).compute_shader("test", &Variant::default())
 }
 
 #[test]

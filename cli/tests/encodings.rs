@@ -72,6 +72,7 @@ fn drawn(frame: &mut Frame, shader: &str, format: Format, from: Option<ImageInde
         frames_ago: 0,
         span: Span::NONE,
         per_sample: false,
+        texture: None,
         own_pixel: false,
         sampler: Sampler::new(Filter::Nearest),
         stages: Stages::FRAGMENT_SHADER,

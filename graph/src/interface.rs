@@ -1,8 +1,13 @@
 //! What a shader uses, as data: read off its SPIR-V by a backend, needed by `check` without any device.
 
+mod shape;
+
+pub use shape::{Component, Dimension, ImageShape};
+
 use crate::format::Format;
 use crate::frame::Draw;
 use crate::vocabulary::Stages;
+use std::sync::Arc;
 
 /// Everything that a shader (all its stages together) uses.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -42,6 +47,8 @@ pub struct Binding {
     pub name: String,
     /// Kind and shape.
     pub kind: BindingKind,
+    /// Whether the shader leaves to the pass as what it is declared: `uniform TEXTURE_NAME NAME`.
+    pub adapts: bool,
     /// Stages that use it.
     pub stages: Stages,
 }
@@ -81,53 +88,6 @@ pub enum BindingKind {
     /// Anything else (separate samplers, texel buffers, storage images of formats that no image of a pipeline has, …), in
     /// words: not supported.
     Other(String),
-}
-
-/// The shape of an image in a shader.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ImageShape {
-    /// Dimension.
-    pub dimension: Dimension,
-    /// Whether it is an array of layers.
-    pub arrayed: bool,
-    /// Whether single samples are read.
-    pub multisampled: bool,
-    /// What a component is.
-    pub component: Component,
-}
-
-/// Image dimension.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Dimension {
-    /// One.
-    D1,
-    /// Two.
-    D2,
-    /// Three.
-    D3,
-    /// Six square faces.
-    Cube,
-    /// A texel buffer.
-    Buffer,
-}
-
-/// What a component is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Component {
-    /// Floating point (UNORM and SRGB formats too).
-    Float,
-    /// Signed integer.
-    Int,
-    /// Unsigned integer.
-    Uint,
-}
-
-impl Component {
-    /// What a component of `format` is to a shader.
-    #[must_use]
-    pub const fn of(format: Format) -> Component {
-        if format.is_integer() { Component::Uint } else { Component::Float }
-    }
 }
 
 /// A uniform block.
@@ -196,34 +156,31 @@ pub enum ShaderProblem {
     },
 }
 
+/// How a shader is compiled for a pass: what the macros stand for that depend on what the pass gives it.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Hash)]
+pub struct Variant {
+    /// What the macro `TEXTURE_NAME` stands for, by the shader's names for what the pass samples: GLSL's type of such an image.
+    /// Names that are missing here are two-dimensional images of floating point, so that what is wrong with a pass can be
+    /// told from its shader.
+    pub textures: Vec<(Arc<str>, ImageShape)>,
+    /// The shader's names for what is read from the pass's own rendering scope, as devices with local reads let it: the
+    /// macro `LOCAL_READ_NAME` is defined.
+    pub local: Vec<Arc<str>>,
+}
+
 /// Where shader interfaces come from: a compiler and reflection over files on disk, or a table in a test.
 pub trait ShaderInterfaces {
-    /// The interface of the shader `name` when it draws `draw`.
+    /// The interface of the shader `name` when it draws `draw`, compiled as `variant` says.
     ///
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
-    fn draw_shader(&mut self, name: &str, draw: Draw) -> Result<ShaderInterface, ShaderProblem>;
+    fn draw_shader(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<ShaderInterface, ShaderProblem>;
 
-    /// The interface of the shader `name` when it draws `draw` and reads what goes by the names `local` at its own position
-    /// from its own rendering scope, as devices with local reads let it; `None` if that isn't known here.
+    /// The interface of the compute shader `name`, compiled as `variant` says.
     ///
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
-    fn local_draw_shader(
-        &mut self,
-        name: &str,
-        draw: Draw,
-        local: &[&str],
-    ) -> Result<Option<ShaderInterface>, ShaderProblem> {
-        let _ = (name, draw, local);
-        Ok(None)
-    }
-
-    /// The interface of the compute shader `name`.
-    ///
-    /// # Errors
-    /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
-    fn compute_shader(&mut self, name: &str) -> Result<ShaderInterface, ShaderProblem>;
+    fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem>;
 
     /// What whoever draws `draw` brings along.
     fn brought_along(&self, draw: Draw) -> DrawInterface;

@@ -92,6 +92,7 @@ fn sampled(image: ImageIndex, stages: Stages) -> Sampled {
         frames_ago: 0,
         span: Span::NONE,
         per_sample: false,
+        texture: None,
         own_pixel: false,
         sampler: Sampler::new(Filter::Nearest),
         stages,

@@ -138,6 +138,7 @@ impl Maker {
                 frames_ago: 0,
                 span: Span::NONE,
                 per_sample,
+                texture: None,
                 own_pixel: false,
                 sampler: Sampler::new(Filter::Nearest),
                 stages,

@@ -38,6 +38,7 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "include/scene.glsl",
     "include/snow.glsl",
     "include/surface.glsl",
+    "include/texture.glsl",
     "include/tone_mapping.glsl",
     "lit.frag",
     "lit_masked.frag",

@@ -140,6 +140,7 @@ impl Added<'_> {
             frames_ago: 0,
             span: Span::NONE,
             per_sample: false,
+            texture: None,
             own_pixel: false,
             sampler: Sampler::new(Filter::Nearest),
             stages: if compute { Stages::COMPUTE_SHADER } else { Stages::FRAGMENT_SHADER },

@@ -1,7 +1,9 @@
 //! Claims about every shipped shader, as the shader library sees it. No device is needed.
 
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::interface::{BindingKind, Dimension, PASS_SET, ShaderInterface, ShaderInterfaces, SuppliedKind};
+use framewright_graph::interface::{
+    BindingKind, Dimension, PASS_SET, ShaderInterface, ShaderInterfaces, SuppliedKind, Variant,
+};
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::ShaderLibrary;
@@ -50,7 +52,7 @@ fn library() -> ShaderLibrary {
 }
 
 fn reflected(name: &str, draw: Draw) -> Result<ShaderInterface, Box<dyn Error>> {
-    library().draw_shader(name, draw).map_err(|problem| format!("{name}: {problem:?}").into())
+    library().draw_shader(name, draw, &Variant::default()).map_err(|problem| format!("{name}: {problem:?}").into())
 }
 
 /// Names of the images that a shader samples for its pass, and of its parameters.
@@ -84,7 +86,8 @@ fn the_tables_here_name_every_shipped_fragment_and_compute_shader() {
 fn every_shipped_shader_compiles_and_finds_what_its_draw_brings_along() -> Result<(), Box<dyn Error>> {
     let mut library = library();
     for &(name, draw) in DRAWN {
-        let shader = library.draw_shader(name, draw).map_err(|problem| format!("{name}: {problem:?}"))?;
+        let shader =
+            library.draw_shader(name, draw, &Variant::default()).map_err(|problem| format!("{name}: {problem:?}"))?;
         let brought = interface(draw);
         for binding in shader.bindings.iter().filter(|binding| binding.set != PASS_SET) {
             let kind = match &binding.kind {
@@ -112,7 +115,8 @@ fn every_shipped_shader_compiles_and_finds_what_its_draw_brings_along() -> Resul
 fn every_shipped_compute_shader_compiles_and_takes_nothing_but_what_is_its_passs_own() -> Result<(), Box<dyn Error>> {
     let mut library = library();
     for &(name, size) in DISPATCHED {
-        let shader = library.compute_shader(name).map_err(|problem| format!("{name}: {problem:?}"))?;
+        let shader =
+            library.compute_shader(name, &Variant::default()).map_err(|problem| format!("{name}: {problem:?}"))?;
         assert_eq!(shader.workgroup_size, Some(size), "{name}");
         assert!(shader.bindings.iter().all(|binding| binding.set == PASS_SET), "{name}");
     }

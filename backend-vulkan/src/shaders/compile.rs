@@ -25,7 +25,7 @@ pub(super) enum Stage {
 
 /// Compiles one stage: GLSL 4.60 to SPIR-V for Vulkan 1.3.
 ///
-/// `defined` are macros without value. Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs.
+/// `macros` are names with what they stand for. Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs.
 ///
 /// # Errors
 /// The compiler's messages, each with the file and line that it is about.
@@ -34,7 +34,7 @@ pub(super) fn compile(
     stage: Stage,
     source: &Found,
     files: &ShaderFiles,
-    defined: &[String],
+    macros: &[(String, String)],
 ) -> Result<Vec<u32>, Vec<String>> {
     let included = Cell::new(0);
     let mut options = CompileOptions::new().map_err(|error| vec![error.to_string()])?;
@@ -45,8 +45,8 @@ pub(super) fn compile(
     options.set_target_spirv(if stage == Stage::Compute { SpirvVersion::V1_5 } else { SpirvVersion::V1_6 });
     options.set_optimization_level(OptimizationLevel::Zero);
     options.set_suppress_warnings();
-    for name in defined {
-        options.add_macro_definition(name, None);
+    for (name, value) in macros {
+        options.add_macro_definition(name, Some(value));
     }
     options.set_include_callback(|requested, _, _, depth| {
         included.set(included.get() + 1);

@@ -1,10 +1,12 @@
 //! Shaders by name, for a kind of draw.
 
 use super::compile::{Stage, compile};
-use super::files::ShaderFiles;
+use super::files::{Found, ShaderFiles};
 use super::reflect::{StageInterface, reflect};
 use framewright_graph::frame::Draw;
-use framewright_graph::interface::{DrawInterface, ShaderInterface, ShaderInterfaces, ShaderProblem};
+use framewright_graph::interface::{
+    BindingKind, DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
+};
 use shaderc::Compiler;
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -40,19 +42,33 @@ pub struct CompiledCompute {
 /// The shader `NAME` of a draw is `NAME.frag` with `NAME.vert`, or without one with the vertex shader of its kind of
 /// draw: `objects.vert`, `sky.vert`, `full_screen.vert` (custom draws too) or `vertices.vert` (indirect draws too). The
 /// compute shader `NAME` is `NAME.comp`. Every file is looked for in the folders in their order, then among the shipped
-/// texts; so is every `#include "x.glsl"`, whose name is never relative to the including file. Where a pass reads the
-/// image `NAME` locally, as an input attachment of its own rendering scope, its fragment stage is compiled with the macro
-/// `LOCAL_READ_NAME` and must declare it `subpassInput` then, and `sampler2D` otherwise. What was once compiled is kept for
-/// the library's lifetime: changes on disk need a new library.
+/// texts; so is every `#include "x.glsl"`, whose name is never relative to the including file.
+///
+/// A [`Variant`] says how a pass has them compiled. The macro `TEXTURE_NAME` stands for the type of the image that the pass
+/// gives as `NAME`, in the stages that are the shader's own and whose own file mentions it. Where a pass reads the image
+/// `NAME` locally, as an input attachment of its own rendering scope, its fragment stage is compiled with the macro
+/// `LOCAL_READ_NAME` and must declare it `subpassInput` then. What was once read or compiled is kept for the library's
+/// lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
     files: ShaderFiles,
     draws: fn(Draw) -> DrawInterface,
     compiler: Option<Compiler>,
+    sources: HashMap<String, Result<Option<Arc<Source>>, ShaderProblem>>,
     stages: HashMap<StageKey, StageResult>,
 }
 
+/// A stage's own file.
+struct Source {
+    found: Found,
+    /// What `NAME` stands for in the macros `TEXTURE_NAME` that it mentions, each once.
+    adapting: Vec<String>,
+}
+
 /// A stage by its file and macros.
-type StageKey = (String, Stage, Vec<String>);
+type StageKey = (String, Stage, Macros);
+
+/// Macros and what they stand for.
+type Macros = Vec<(String, String)>;
 
 /// A stage, `None` if it has no file.
 type StageResult = Result<Option<Arc<CompiledStage>>, ShaderProblem>;
@@ -72,26 +88,31 @@ impl ShaderLibrary {
         shipped: &'static [(&'static str, &'static str)],
         draws: fn(Draw) -> DrawInterface,
     ) -> ShaderLibrary {
-        ShaderLibrary { files: ShaderFiles { folders, shipped }, draws, compiler: None, stages: HashMap::new() }
+        let files = ShaderFiles { folders, shipped };
+        ShaderLibrary { files, draws, compiler: None, sources: HashMap::new(), stages: HashMap::new() }
     }
 
-    /// The shader `name` when it draws `draw` and reads the images `local` locally.
+    /// The shader `name` when it draws `draw`, compiled as `variant` says.
     ///
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
-    pub fn compiled(&mut self, name: &str, draw: Draw, local: &[&str]) -> Result<CompiledShader, ShaderProblem> {
-        let defined = local.iter().map(|image| format!("LOCAL_READ_{image}")).collect();
-        let Some(fragment) = self.stage(format!("{name}.frag"), Stage::Fragment, defined)? else {
+    pub fn compiled(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<CompiledShader, ShaderProblem> {
+        let Some(fragment) = self.stage(format!("{name}.frag"), Stage::Fragment, variant)? else {
             return Err(self.missing(".frag"));
         };
-        let vertex = match self.stage(format!("{name}.vert"), Stage::Vertex, Vec::new())? {
-            Some(own) => own,
-            None => self.stage(vertex_shader_of(draw).to_owned(), Stage::Vertex, Vec::new())?.ok_or_else(|| {
-                ShaderProblem::Unsupported {
-                    what: format!("no vertex shader: neither `{name}.vert` nor `{}` was found", vertex_shader_of(draw)),
-                }
-            })?,
-        };
+        let own = Variant { local: Vec::new(), ..variant.clone() };
+        let vertex =
+            match self.stage(format!("{name}.vert"), Stage::Vertex, &own)? {
+                Some(own) => own,
+                None => self.stage(vertex_shader_of(draw).to_owned(), Stage::Vertex, &Variant::default())?.ok_or_else(
+                    || ShaderProblem::Unsupported {
+                        what: format!(
+                            "no vertex shader: neither `{name}.vert` nor `{}` was found",
+                            vertex_shader_of(draw)
+                        ),
+                    },
+                )?,
+            };
         let interface = join(&vertex, &fragment).map_err(|what| ShaderProblem::Unsupported { what })?;
         Ok(CompiledShader {
             vertex: vertex.spirv.clone(),
@@ -101,42 +122,60 @@ impl ShaderLibrary {
         })
     }
 
-    /// The compute shader `name`.
+    /// The compute shader `name`, compiled as `variant` says.
     ///
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
-    pub fn compute(&mut self, name: &str) -> Result<CompiledCompute, ShaderProblem> {
-        let stage = self.stage(format!("{name}.comp"), Stage::Compute, Vec::new())?;
+    pub fn compute(&mut self, name: &str, variant: &Variant) -> Result<CompiledCompute, ShaderProblem> {
+        let stage = self.stage(format!("{name}.comp"), Stage::Compute, variant)?;
         let stage = stage.ok_or_else(|| self.missing(".comp"))?;
         Ok(CompiledCompute { compute: stage.spirv.clone(), interface: stage.reflected.interface.clone() })
     }
 
-    /// One stage by its file name and macros; `None` if there is no such file.
-    fn stage(&mut self, file: String, stage: Stage, defined: Vec<String>) -> StageResult {
-        let key = (file, stage, defined);
+    /// One stage by its file name; `None` if there is no such file.
+    fn stage(&mut self, file: String, stage: Stage, variant: &Variant) -> StageResult {
+        let Some(source) = self.source(&file)? else { return Ok(None) };
+        let key = (file, stage, macros(&source.adapting, variant));
         if let Some(known) = self.stages.get(&key) {
             return known.clone();
         }
-        let result = self.compile_stage(&key);
+        let result = self.compile_stage(&source, stage, &key.2);
         self.stages.insert(key, result.clone());
         result
     }
 
-    fn compile_stage(&mut self, (file, stage, defined): &StageKey) -> StageResult {
-        let stage = *stage;
-        let found = self.files.find(file).map_err(|what| ShaderProblem::Unsupported { what })?;
-        let Some(source) = found else { return Ok(None) };
+    fn source(&mut self, file: &str) -> Result<Option<Arc<Source>>, ShaderProblem> {
+        if let Some(known) = self.sources.get(file) {
+            return known.clone();
+        }
+        let found = self.files.find(file).map_err(|what| ShaderProblem::Unsupported { what });
+        let source = found.map(|found| {
+            found.map(|found| {
+                let adapting = adapting(&found.text);
+                Arc::new(Source { found, adapting })
+            })
+        });
+        self.sources.insert(file.to_owned(), source.clone());
+        source
+    }
+
+    fn compile_stage(&mut self, source: &Source, stage: Stage, macros: &Macros) -> StageResult {
+        let Source { found, adapting } = source;
         let compiler = match &mut self.compiler {
             Some(compiler) => compiler,
             none => none.insert(Compiler::new().map_err(|error| ShaderProblem::Unsupported {
                 what: format!("the shader compiler doesn't start: {error}"),
             })?),
         };
-        let spirv = compile(compiler, stage, &source, &self.files, defined)
+        let spirv = compile(compiler, stage, found, &self.files, macros)
             .map_err(|messages| ShaderProblem::DoesNotCompile { messages })?;
-        let reflected = reflect(stage, &spirv)
-            .map_err(|what| ShaderProblem::Unsupported { what: format!("{}: {what}", source.shown) })?;
-        Ok(Some(Arc::new(CompiledStage { file: source.shown, spirv: spirv.into(), reflected })))
+        let mut reflected = reflect(stage, &spirv)
+            .map_err(|what| ShaderProblem::Unsupported { what: format!("{}: {what}", found.shown) })?;
+        for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
+            let sampled = matches!(binding.kind, BindingKind::SampledImage(_));
+            binding.adapts = sampled && adapting.contains(&binding.name);
+        }
+        Ok(Some(Arc::new(CompiledStage { file: found.shown.clone(), spirv: spirv.into(), reflected })))
     }
 
     fn missing(&self, ending: &str) -> ShaderProblem {
@@ -145,26 +184,40 @@ impl ShaderLibrary {
 }
 
 impl ShaderInterfaces for ShaderLibrary {
-    fn draw_shader(&mut self, name: &str, draw: Draw) -> Result<ShaderInterface, ShaderProblem> {
-        self.compiled(name, draw, &[]).map(|shader| shader.interface)
+    fn draw_shader(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
+        self.compiled(name, draw, variant).map(|shader| shader.interface)
     }
 
-    fn local_draw_shader(
-        &mut self,
-        name: &str,
-        draw: Draw,
-        local: &[&str],
-    ) -> Result<Option<ShaderInterface>, ShaderProblem> {
-        self.compiled(name, draw, local).map(|shader| Some(shader.interface))
-    }
-
-    fn compute_shader(&mut self, name: &str) -> Result<ShaderInterface, ShaderProblem> {
-        self.compute(name).map(|shader| shader.interface)
+    fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
+        self.compute(name, variant).map(|shader| shader.interface)
     }
 
     fn brought_along(&self, draw: Draw) -> DrawInterface {
         (self.draws)(draw)
     }
+}
+
+/// What the macros that depend on a pass stand for in a stage whose file mentions `TEXTURE_NAME` for each of `adapting`.
+fn macros(adapting: &[String], variant: &Variant) -> Macros {
+    let textures = adapting.iter().map(|name| {
+        let given = variant.textures.iter().find(|(given, _)| **given == **name);
+        let texture = given.map_or_else(|| "sampler2D".to_owned(), |(_, texture)| texture.to_string());
+        (format!("{TEXTURE}{name}"), texture)
+    });
+    let local = variant.local.iter().map(|name| (format!("LOCAL_READ_{name}"), String::new()));
+    textures.chain(local).collect()
+}
+
+/// Macros of this beginning stand for the types of what a pass samples.
+const TEXTURE: &str = "TEXTURE_";
+
+/// The names that a GLSL text mentions behind [`TEXTURE`], each once, in order.
+fn adapting(text: &str) -> Vec<String> {
+    let words = text.split(|letter: char| letter != '_' && !letter.is_ascii_alphanumeric());
+    let mut names: Vec<String> = words.filter_map(|word| word.strip_prefix(TEXTURE)).map(str::to_owned).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
 }
 
 /// The vertex shader of a kind of draw, for shaders without one of their own.
@@ -197,7 +250,10 @@ fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterf
     for binding in &vertex.reflected.interface.bindings {
         match joined.bindings.iter_mut().find(|it| (it.set, it.binding) == (binding.set, binding.binding)) {
             None => joined.bindings.push(binding.clone()),
-            Some(same) if same.name == binding.name && same.kind == binding.kind => same.stages |= binding.stages,
+            Some(same) if same.name == binding.name && same.kind == binding.kind => {
+                same.stages |= binding.stages;
+                same.adapts &= binding.adapts;
+            }
             Some(other) => {
                 return Err(format!(
                     "{} declares `{}` at set {}, binding {}, where {} declares `{}`, or the same in another form",

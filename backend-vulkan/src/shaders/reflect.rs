@@ -199,7 +199,7 @@ fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) -> Result<V
         }
         let own = module.name(variable);
         let name = if own.is_empty() { ty.result_id.map_or("", |ty| module.name(ty)) } else { own };
-        bindings.push(Binding { set, binding, name: name.to_owned(), kind, stages });
+        bindings.push(Binding { set, binding, name: name.to_owned(), kind, adapts: false, stages });
     }
     bindings.sort_by_key(|it| (it.set, it.binding));
     if let Some(far) = bindings.iter().find(|it| it.binding >= BINDINGS) {

@@ -74,7 +74,11 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
     plan.steps.push(render(barriers, 4, color, vec![drawn]));
 
     let mut shown = pass("show", second, Draw::FullScreen, SCREEN);
-    let binding = Some(Binding { name: "source".into(), kind: BindingKind::Sampled(Sampler::new(Filter::Nearest)) });
+    let binding = Some(Binding {
+        name: "source".into(),
+        kind: BindingKind::Sampled(Sampler::new(Filter::Nearest)),
+        texture: None,
+    });
     shown.accesses.push(Access { binding, ..access(RESOLVED, SAMPLED) });
     shown.params.push(Param { name: "invert".into(), value: ParamValue::Bool(true) });
     let barriers = vec![

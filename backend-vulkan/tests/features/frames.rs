@@ -211,6 +211,7 @@ fn sampled(pass: &Pass, binding: &str, image: ImageIndex, range: Subresources) -
         frames_ago: 0,
         span: Span::NONE,
         per_sample: false,
+        texture: None,
         own_pixel: false,
         sampler: Sampler::new(Filter::Nearest),
         stages: stages(pass),

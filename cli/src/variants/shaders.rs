@@ -1,7 +1,7 @@
 //! Shader interfaces that several threads ask for: each shader is compiled and reflected once.
 
 use framewright_graph::frame::Draw;
-use framewright_graph::interface::{DrawInterface, ShaderInterface, ShaderInterfaces, ShaderProblem};
+use framewright_graph::interface::{DrawInterface, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant};
 use framewright_vulkan::ShaderLibrary;
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -9,8 +9,8 @@ use std::sync::{Mutex, PoisonError};
 /// What one thread knows of a library that it shares.
 pub(crate) struct Shared<'a> {
     library: &'a Mutex<ShaderLibrary>,
-    /// By name, then by what is drawn; `None`: a compute shader.
-    known: HashMap<String, Vec<(Option<Draw>, Found)>>,
+    /// By name, then by what is drawn (`None`: a compute shader) and how it is compiled.
+    known: HashMap<String, Vec<(Option<Draw>, Variant, Found)>>,
 }
 
 type Found = Result<ShaderInterface, ShaderProblem>;
@@ -22,28 +22,28 @@ impl<'a> Shared<'a> {
         Shared { library, known: HashMap::new() }
     }
 
-    fn find(&mut self, name: &str, draw: Option<Draw>) -> Found {
-        let known = self.known.get(name).and_then(|all| all.iter().find(|(other, _)| *other == draw));
-        if let Some((_, found)) = known {
+    fn find(&mut self, name: &str, draw: Option<Draw>, variant: &Variant) -> Found {
+        let same = |(other, compiled, _): &&(Option<Draw>, Variant, Found)| *other == draw && compiled == variant;
+        if let Some((.., found)) = self.known.get(name).and_then(|all| all.iter().find(same)) {
             return found.clone();
         }
         let mut library = self.library.lock().unwrap_or_else(PoisonError::into_inner);
         let found = match draw {
-            Some(draw) => library.draw_shader(name, draw),
-            None => library.compute_shader(name),
+            Some(draw) => library.draw_shader(name, draw, variant),
+            None => library.compute_shader(name, variant),
         };
-        self.known.entry(name.to_owned()).or_default().push((draw, found.clone()));
+        self.known.entry(name.to_owned()).or_default().push((draw, variant.clone(), found.clone()));
         found
     }
 }
 
 impl ShaderInterfaces for Shared<'_> {
-    fn draw_shader(&mut self, name: &str, draw: Draw) -> Result<ShaderInterface, ShaderProblem> {
-        self.find(name, Some(draw))
+    fn draw_shader(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
+        self.find(name, Some(draw), variant)
     }
 
-    fn compute_shader(&mut self, name: &str) -> Result<ShaderInterface, ShaderProblem> {
-        self.find(name, None)
+    fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
+        self.find(name, None, variant)
     }
 
     fn brought_along(&self, draw: Draw) -> DrawInterface {

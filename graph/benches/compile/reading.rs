@@ -7,7 +7,7 @@ use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::frame::{Draw, Frame};
 use framewright_graph::interface::{
     Binding, BindingKind, Component, Dimension, DrawInterface, FragmentOutput, ImageShape, ShaderInterface,
-    ShaderInterfaces, ShaderProblem,
+    ShaderInterfaces, ShaderProblem, Variant,
 };
 use framewright_graph::source::Sources;
 use framewright_graph::vocabulary::Stages;
@@ -84,7 +84,7 @@ fn frame(text: String) -> Frame {
 struct FullScreen;
 
 impl ShaderInterfaces for FullScreen {
-    fn draw_shader(&mut self, name: &str, _: Draw) -> Result<ShaderInterface, ShaderProblem> {
+    fn draw_shader(&mut self, name: &str, _: Draw, _: &Variant) -> Result<ShaderInterface, ShaderProblem> {
         let component = Component::Float;
         let shape = ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: false, component };
         let source = Binding {
@@ -92,6 +92,7 @@ impl ShaderInterfaces for FullScreen {
             binding: 0,
             name: "source".to_owned(),
             kind: BindingKind::SampledImage(shape),
+            adapts: false,
             stages: Stages::FRAGMENT_SHADER,
         };
         let output = FragmentOutput { location: 0, name: "color".to_owned(), component, components: 4 };
@@ -99,7 +100,7 @@ impl ShaderInterfaces for FullScreen {
         Ok(ShaderInterface { bindings, outputs: vec![output], ..ShaderInterface::default() })
     }
 
-    fn compute_shader(&mut self, _: &str) -> Result<ShaderInterface, ShaderProblem> {
+    fn compute_shader(&mut self, _: &str, _: &Variant) -> Result<ShaderInterface, ShaderProblem> {
         Err(ShaderProblem::Unsupported { what: "no pass of the bench dispatches".to_owned() })
     }
 

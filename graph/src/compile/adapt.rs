@@ -237,18 +237,19 @@ impl Adapter<'_> {
         }
         let before = self.current(sampled.image);
         let count = self.samples(before);
-        if sampled.per_sample {
-            if count == 1 {
-                let message =
-                    format!("`{}` reads single samples of `{}`, which has one sample", pass.name, declared.name);
-                let help = format!(
-                    "sample it as `sampler2D` where its sample count is 1 ({} were asked for)",
-                    declared.samples
-                );
-                self.errors.push(Diagnostic::new(sampled.span, message).help(help));
-                return None;
-            }
+        if sampled.per_sample && count > 1 {
             return Some(self.version_before(number, pass, sampled, before));
+        }
+        // A shader that adapts does without samples.
+        if sampled.per_sample && sampled.texture.is_none() {
+            let message = format!("`{}` reads single samples of `{}`, which has one sample", pass.name, declared.name);
+            let help = format!(
+                "declare it `TEXTURE_{0} {0}` in the shader, which fits any number of samples, or sample it as `sampler2D` \
+                 where its sample count is 1 ({1} were asked for)",
+                sampled.binding, declared.samples
+            );
+            self.errors.push(Diagnostic::new(sampled.span, message).help(help));
+            return None;
         }
         if count > 1 {
             let because = format!("`{}` samples `{}` and it has {count} samples", pass.name, declared.name);

@@ -4,15 +4,15 @@ use super::shader::Checked;
 use super::things::Things;
 use crate::describe::{self, Diagnostic};
 use crate::frame::Pass;
-use crate::interface::{BindingKind, PASS_SET, ShaderInterface};
+use crate::interface::{BindingKind, PASS_SET, ShaderInterface, Variant};
 
 /// Reports what a pass reads at its own position and its shader can't, where it is compiled for local reads. `interface`: the
-/// shader as it is compiled without; what is wrong with that was reported.
+/// shader as it is compiled without, as `variant`; what is wrong with that was reported.
 pub(super) fn check(
     things: &Things,
     pass: &describe::Pass,
     lowered: &Pass,
-    interface: &ShaderInterface,
+    (interface, variant): (&ShaderInterface, &Variant),
     shaders: &mut Checked<'_>,
     errors: &mut Vec<Diagnostic>,
 ) {
@@ -31,8 +31,9 @@ pub(super) fn check(
     if own.is_empty() {
         return;
     }
-    let names: Vec<&str> = own.iter().map(|sample| &*sample.binding.text).collect();
-    let Some(local) = shaders.local_interface(pass, &names, errors) else { return };
+    let local = own.iter().map(|sample| sample.binding.text.clone()).collect();
+    let variant = Variant { local, ..variant.clone() };
+    let Some(local) = shaders.interface(pass, &variant, errors) else { return };
     let shader = pass.shader().map_or("", |shader| &*shader.text);
     for sample in own {
         let name = &sample.binding.text;

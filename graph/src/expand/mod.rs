@@ -23,6 +23,7 @@ mod targets;
 mod things;
 mod touches;
 mod transfers;
+mod variant;
 mod waits;
 mod work;
 mod written;

@@ -2,7 +2,9 @@
 
 use super::shader::Checked;
 use super::things::Things;
-use super::{Chosen, fills, local, params, parts, sampled, shader, storage, supplied, targets, transfers, work};
+use super::{
+    Chosen, fills, local, params, parts, sampled, shader, storage, supplied, targets, transfers, variant, work,
+};
 use crate::describe::{self, Diagnostic, StandIn, Work as Described};
 use crate::frame::{BufferRole, BufferUse, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
 use crate::interface::ShaderInterface;
@@ -17,7 +19,8 @@ pub(super) fn lower(
     shaders: &mut Checked<'_>,
     errors: &mut Vec<Diagnostic>,
 ) -> Pass {
-    let interface = shaders.interface(pass, errors);
+    let variant = variant::of(chosen, things, pass);
+    let interface = shaders.interface(pass, &variant, errors);
     let mut lowered = draft(chosen, things, pass, interface.as_ref(), errors);
     work::check(chosen, things, pass, &lowered, interface.as_ref(), errors);
     if let Some(interface) = &interface {
@@ -25,7 +28,8 @@ pub(super) fn lower(
         let before = errors.len();
         let mut misspelt = sampled::check(chosen, things, pass, &lowered, interface, errors);
         if errors.len() == before {
-            local::check(things, pass, &lowered, interface, shaders, errors);
+            variant::check_single_sampled(pass, &lowered, &variant, shaders, errors);
+            local::check(things, pass, &lowered, (interface, &variant), shaders, errors);
         }
         misspelt.extend(storage::check(chosen, things, pass, &lowered, interface, errors));
         shader::missing(pass, interface, &misspelt, errors);

@@ -14,6 +14,8 @@ use crate::vocabulary::{Aspects, Filter, Sampler, Subresources};
 #[derive(Clone, Copy)]
 struct Declared {
     shape: ImageShape,
+    /// Whether the declaration is what the pass makes it.
+    adapts: bool,
     /// Whether it is read at the fragment's own position only, by its declaration.
     input: bool,
 }
@@ -23,10 +25,10 @@ fn declared(interface: &ShaderInterface, name: &str) -> Option<Declared> {
     let mut all = interface.bindings.iter();
     let binding = all.find(|binding| binding.set == PASS_SET && binding.name == name)?;
     match binding.kind {
-        BindingKind::SampledImage(shape) => Some(Declared { shape, input: false }),
+        BindingKind::SampledImage(shape) => Some(Declared { shape, adapts: binding.adapts, input: false }),
         BindingKind::InputAttachment { multisampled, component } => {
             let shape = ImageShape { dimension: Dimension::D2, arrayed: false, multisampled, component };
-            Some(Declared { shape, input: true })
+            Some(Declared { shape, adapts: false, input: true })
         }
         _ => None,
     }
@@ -64,6 +66,7 @@ pub(super) fn lower(
     let per_sample = shape.map_or(sample.face == Face::Samples, |shape| shape.multisampled);
     let exact = image.format.is_depth() || image.format.is_integer() || per_sample || input;
     let default = if exact { Filter::Nearest } else { Filter::Linear };
+    let texture = declared.filter(|known| known.adapts).map(|known| known.shape);
     Some(Sampled {
         binding: name.clone(),
         image: sample.part.image.index,
@@ -71,14 +74,19 @@ pub(super) fn lower(
         frames_ago: sample.part.previous.map_or(0, |previous| previous.value),
         span: sample.part.image.span,
         per_sample,
+        texture,
         own_pixel: sample.own_pixel.map_or(input, |own| own.value),
-        sampler: sampler(sample, default),
+        sampler: sampler(sample, texture, default),
         stages: storage::stages(interface, name, raster),
     })
 }
 
 /// What the file chooses, else a sampler that ends at the image's edges and takes the nearest mip level.
-fn sampler(sample: &describe::Sample, filter: Filter) -> Sampler {
+fn sampler(sample: &describe::Sample, texture: Option<ImageShape>, filter: Filter) -> Sampler {
+    // Where a shader that adapts reads single samples there is nothing between them.
+    if texture.is_some_and(|texture| texture.multisampled) {
+        return Sampler::new(Filter::Nearest);
+    }
     let Sampler { filter, mips, address } = Sampler::new(sample.filter.map_or(filter, |filter| filter.value));
     Sampler {
         filter,
@@ -117,7 +125,7 @@ pub(super) fn check<'i>(
             continue;
         }
         let cells = parts::cells(&image.image, &sampled.range);
-        let check = Check { chosen, pass, sample, shader, image, cells, shape: declared.shape };
+        let check = Check { chosen, pass, sample, shader, image, cells, declared };
         let before = errors.len();
         check.dimension(errors);
         if errors.len() == before {
@@ -125,7 +133,7 @@ pub(super) fn check<'i>(
             check.samples(errors);
             check.filters(errors);
             check.address(errors);
-            check.own_pixel(things, lowered, declared.input, sampled.own_pixel, errors);
+            check.own_pixel(things, lowered, sampled.own_pixel, errors);
         }
     }
     misspelt
@@ -139,7 +147,7 @@ struct Check<'a> {
     image: &'a Resolved,
     /// The part that is given.
     cells: Cells,
-    shape: ImageShape,
+    declared: Declared,
 }
 
 impl Check<'_> {
@@ -149,12 +157,15 @@ impl Check<'_> {
         let layers = self.cells.layers.len();
         let span = parts::place(&self.sample.part);
         let shape = self.chosen.image(self.sample.part.image.index).shape.span;
-        if dimension(self.shader, name, self.shape, image, span, shape, errors) {
+        if dimension(self.shader, name, self.declared.shape, image, span, shape, errors) {
             return;
         }
-        if let Some(message) = layers_fit(self.shape, layers) {
-            let message =
-                format!("shader `{}` declares `{name}` as {}, {message}", self.shader, shape_words(self.shape));
+        if let Some(message) = layers_fit(self.declared.shape, layers) {
+            let message = format!(
+                "shader `{}` declares `{name}` as {}, {message}",
+                self.shader,
+                shape_words(self.declared.shape)
+            );
             let help = format!("say which: `(image: \"{}\", layer: 0)`", image.name);
             let wrong = Diagnostic::new(span, message);
             errors.push(if layers > 1 { wrong.help(help) } else { wrong });
@@ -166,8 +177,8 @@ impl Check<'_> {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
         let stencil = self.cells.planes == Aspects::STENCIL;
         let holds = if stencil { Component::Uint } else { Component::of(image.format) };
-        if self.shape.component != holds {
-            let (wanted, held) = (component_words(self.shape.component), component_words(holds));
+        if self.declared.shape.component != holds {
+            let (wanted, held) = (component_words(self.declared.shape.component), component_words(holds));
             let shader = self.shader;
             let message = format!(
                 "shader `{shader}` reads {wanted} from `{name}`, but `{}` holds {held} ({})",
@@ -181,9 +192,12 @@ impl Check<'_> {
     /// Single samples are read where there are several, and where the pass gives them.
     fn samples(&self, errors: &mut Vec<Diagnostic>) {
         let (name, image_name, shader) = (&self.sample.binding.text, &self.image.image.name, self.shader);
+        let multisampled = self.declared.shape.multisampled;
         let contradicts = match self.sample.face {
-            Face::Samples if !self.shape.multisampled => Some(("single samples", "one value a texel", "sampler2D")),
-            Face::Resolved if self.shape.multisampled => Some(("one value a texel", "single samples", "sampler2DMS")),
+            Face::Samples if !multisampled && !self.declared.adapts => {
+                Some(("single samples", "one value a texel", "sampler2D"))
+            }
+            Face::Resolved if multisampled => Some(("one value a texel", "single samples", "sampler2DMS")),
             _ => None,
         };
         let span = self.sample.part.image.span;
@@ -195,12 +209,14 @@ impl Check<'_> {
             let help =
                 format!("`{name}` is a `{declaration}` in the shader; the plain name `\"{image_name}\"` fits either");
             errors.push(Diagnostic::new(span, message).help(help));
-        } else if self.shape.multisampled && self.image.image.samples == 1 {
+        } else if multisampled && self.image.image.samples == 1 {
             let message = format!(
                 "shader `{shader}` reads single samples of `{name}`, but `{image_name}` has {}",
                 self.image.samples_words()
             );
-            let fewer = "declare it `sampler2D` in the shader, or give the image more samples";
+            let fewer = format!(
+                "declare it `sampler2D`, or `TEXTURE_{name}`, which fits any number of samples; or give the image more"
+            );
             let declared = self.chosen.image(self.sample.part.image.index).samples.span;
             errors.push(Diagnostic::new(span, message).label(declared, "its samples").help(fewer));
         }
@@ -208,11 +224,11 @@ impl Check<'_> {
 
     /// What is filtered can be.
     fn filters(&self, errors: &mut Vec<Diagnostic>) {
-        let (image, shader) = (&self.image.image, self.shader);
+        let (image, shader, multisampled) = (&self.image.image, self.shader, self.declared.shape.multisampled);
         let why = match () {
             () if image.format.is_integer() => format!("`{}` holds integers ({})", image.name, image.format),
             () if self.cells.planes == Aspects::STENCIL => format!("the stencil of `{}` holds integers", image.name),
-            () if self.shape.multisampled => format!("shader `{shader}` reads single samples of it"),
+            () if multisampled && !self.declared.adapts => format!("shader `{shader}` reads single samples of it"),
             () => return,
         };
         for filter in [self.sample.filter, self.sample.mip_filter].into_iter().flatten() {
@@ -224,16 +240,17 @@ impl Check<'_> {
 
     /// Only what is looked up between texels has something beyond its edges.
     fn address(&self, errors: &mut Vec<Diagnostic>) {
-        let Some(address) = self.sample.address.filter(|_| self.shape.multisampled) else { return };
+        let single_samples = self.declared.shape.multisampled && !self.declared.adapts;
+        let Some(address) = self.sample.address.filter(|_| single_samples) else { return };
         let why = format!("shader `{}` reads single samples of it, each by its number", self.shader);
         let message = format!("nothing lies beyond the edges of `{}`: {why}", self.image.image.name);
         errors.push(Diagnostic::new(address.span, message).help("leave `address` out"));
     }
 
     /// A fragment can read its own texel only of an image that lies under the pass's targets.
-    fn own_pixel(&self, things: &Things, lowered: &Pass, input: bool, own_pixel: bool, errors: &mut Vec<Diagnostic>) {
+    fn own_pixel(&self, things: &Things, lowered: &Pass, own_pixel: bool, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
-        if input && !own_pixel {
+        if self.declared.input && !own_pixel {
             let message = format!("shader `{}` reads `{name}` at the fragment's own position only", self.shader);
             let span = self.sample.own_pixel.map_or(self.sample.binding.span, |own| own.span);
             errors.push(Diagnostic::new(span, message).help("`own_pixel` is true then; it may be left out"));

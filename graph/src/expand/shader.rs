@@ -5,7 +5,7 @@ use crate::describe::{self, Diagnostic, Name, Work, suggestion};
 use crate::frame::Draw;
 use crate::interface::{
     BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterface, ShaderInterfaces,
-    ShaderProblem,
+    ShaderProblem, Variant,
 };
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -26,27 +26,20 @@ impl<'s> Checked<'s> {
         Checked { shaders, seen: HashSet::new(), reported: Vec::new() }
     }
 
-    /// The interface of a pass's shader, if it has one. A shader that can't be had is reported where it is first named.
-    pub(super) fn interface(&mut self, pass: &describe::Pass, errors: &mut Vec<Diagnostic>) -> Option<ShaderInterface> {
+    /// The interface of a pass's shader, compiled as `variant` says, if it has one. A shader that can't be had is reported
+    /// where it is first named.
+    pub(super) fn interface(
+        &mut self,
+        pass: &describe::Pass,
+        variant: &Variant,
+        errors: &mut Vec<Diagnostic>,
+    ) -> Option<ShaderInterface> {
         let (shader, found) = match &pass.work {
-            Work::Draw { shader, draw } => (shader, self.shaders.draw_shader(&shader.text, work::draw(draw))),
-            Work::Dispatch { shader, .. } => (shader, self.shaders.compute_shader(&shader.text)),
+            Work::Draw { shader, draw } => (shader, self.shaders.draw_shader(&shader.text, work::draw(draw), variant)),
+            Work::Dispatch { shader, .. } => (shader, self.shaders.compute_shader(&shader.text, variant)),
             Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => return None,
         };
         self.known(shader, found, errors)
-    }
-
-    /// The interface of a draw's shader where it reads these names at its own position from its own rendering scope, if that
-    /// is known.
-    pub(super) fn local_interface(
-        &mut self,
-        pass: &describe::Pass,
-        local: &[&str],
-        errors: &mut Vec<Diagnostic>,
-    ) -> Option<ShaderInterface> {
-        let Work::Draw { shader, draw } = &pass.work else { return None };
-        let found = self.shaders.local_draw_shader(&shader.text, work::draw(draw), local);
-        self.known(shader, found, errors)?
     }
 
     /// What was found of a shader; a problem is reported once.

@@ -2,6 +2,7 @@
 
 use super::{BufferIndex, ImageIndex, Resource};
 use crate::format::Format;
+use crate::interface::ImageShape;
 use crate::source::Span;
 use crate::vocabulary::{Aspects, CompareOp, Sampler, Stages, StencilOp, Subresources};
 use serde::{Deserialize, Serialize};
@@ -23,6 +24,9 @@ pub struct Sampled {
     pub span: Span,
     /// Whether the shader reads single samples (the face `Samples`); else it wants one value a texel (`Resolved`).
     pub per_sample: bool,
+    /// As what the shader declares it, if the shader leaves that to the pass; single samples only if they are read. Where the
+    /// image comes to have one sample, it is declared without samples.
+    pub texture: Option<ImageShape>,
     /// Whether each fragment reads only the texel at its own position: then, where the device has local reads, the pass
     /// can share the rendering scope of the one that drew it.
     pub own_pixel: bool,

@@ -183,7 +183,10 @@ impl Tree<'_> {
     fn binding(self, access: &Access) -> Option<Node> {
         let binding = access.binding.as_ref()?;
         let kind = match binding.kind {
-            BindingKind::Sampled(sampler) => format!("sampled, {}", words_of(&sampler)),
+            BindingKind::Sampled(sampler) => {
+                let declared = binding.texture.map_or_else(String::new, |texture| format!(" as {texture}"));
+                format!("sampled{declared}, {}", words_of(&sampler))
+            }
             BindingKind::Storage => "storage".to_owned(),
             BindingKind::InputAttachment => "read at its own position".to_owned(),
         };

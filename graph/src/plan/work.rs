@@ -2,6 +2,7 @@
 
 use super::{BufferId, Cause, ImageId, Resource, Subresources, ViewId};
 use crate::frame::{Blend, BufferRole, Draw, Groups, ParamValue, StencilState};
+use crate::interface::ImageShape;
 use crate::vocabulary::{
     Accesses, CompareOp, FillValue, Filter, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
 };
@@ -147,6 +148,8 @@ pub struct Binding {
     pub name: Arc<str>,
     /// How it is bound.
     pub kind: BindingKind,
+    /// As what the shader is compiled to declare it (the macro `TEXTURE_NAME`); `None` where its own declaration stands.
+    pub texture: Option<ImageShape>,
 }
 
 /// How an image is bound to a shader.

@@ -4,10 +4,11 @@ use super::barriers::{check_scope, planes, possible};
 use super::structure::is_of_file;
 use super::touches::{ATTACHMENT, attachments};
 use super::work::{Check, is_read_only, is_written};
-use crate::frame::{Blend, BufferRole, Draw, Groups};
+use crate::frame::{Blend, BufferRole, Draw, Groups, Shape};
+use crate::interface::{Component, Dimension, ImageShape};
 use crate::plan::names::{Shown, vulkan};
 use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Pass, RenderScope};
-use crate::vocabulary::{Accesses, CompareOp, Layout, Stages, StencilOp};
+use crate::vocabulary::{Accesses, Aspects, CompareOp, Layout, Stages, StencilOp};
 
 const STORAGE: Accesses = Accesses::SHADER_STORAGE_READ.union(Accesses::SHADER_STORAGE_WRITE);
 const SHADER: Accesses = STORAGE.union(Accesses::SHADER_SAMPLED_READ).union(Accesses::INPUT_ATTACHMENT_READ);
@@ -187,6 +188,28 @@ impl<'p> Check<'_, 'p> {
         let linear = matches!(binding.kind, BindingKind::Sampled(sampler) if sampler.is_linear());
         let integer = self.plan.image(access.image).format.is_integer();
         self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
+        let declared = binding.texture.is_none_or(|texture| self.is_declared(access, texture));
+        self.demand(declared, access.image, "isn't what its shader is compiled to declare");
+    }
+
+    /// Whether the part of an image that is sampled can be declared so.
+    fn is_declared(&self, access: &Access, texture: ImageShape) -> bool {
+        let image = self.plan.image(access.image);
+        let shape = match texture.dimension {
+            Dimension::D2 => image.shape != Shape::D3 && (texture.arrayed || access.range.layers == 1),
+            Dimension::D3 => image.shape == Shape::D3 && !texture.arrayed,
+            Dimension::Cube => {
+                let cubes = access.range.layers / 6;
+                image.shape == Shape::Cube && access.range.layers % 6 == 0 && (texture.arrayed || cubes == 1)
+            }
+            Dimension::D1 | Dimension::Buffer => false,
+        };
+        let whole = image.format.is_integer() || access.range.aspects == Aspects::STENCIL;
+        let sampled = access.accesses.contains(Accesses::SHADER_SAMPLED_READ);
+        sampled
+            && shape
+            && texture.multisampled == (image.samples > 1)
+            && (texture.component == Component::Uint) == whole
     }
 
     fn buffers(&mut self, pass: &Pass, stages: Stages) {

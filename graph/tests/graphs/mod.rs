@@ -70,6 +70,7 @@ impl Builder {
             frames_ago: 0,
             span: Span::NONE,
             per_sample: false,
+            texture: None,
             own_pixel: false,
             sampler: Sampler::new(Filter::Nearest),
             stages,

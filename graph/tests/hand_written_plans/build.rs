@@ -101,13 +101,16 @@ pub(crate) fn access(image: &Image, (stages, accesses, layout): State) -> Access
 
 /// A storage image by its shader's name.
 pub(crate) fn storage(name: &str, image: &Image, state: State) -> Access {
-    Access { binding: Some(Binding { name: name.into(), kind: BindingKind::Storage }), ..access(image, state) }
+    Access {
+        binding: Some(Binding { name: name.into(), kind: BindingKind::Storage, texture: None }),
+        ..access(image, state)
+    }
 }
 
 /// A sampled image by its shader's name.
 pub(crate) fn sampled(name: &str, image: &Image, state: State) -> Access {
     let kind = BindingKind::Sampled(Sampler::new(Filter::Nearest));
-    Access { binding: Some(Binding { name: name.into(), kind }), ..access(image, state) }
+    Access { binding: Some(Binding { name: name.into(), kind, texture: None }), ..access(image, state) }
 }
 
 pub(crate) fn attachment(image: &Image, layout: Layout, load: LoadOp, store: StoreOp, because: &str) -> Attachment {

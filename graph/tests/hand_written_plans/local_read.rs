@@ -22,7 +22,8 @@ pub(crate) fn plan() -> Plan {
     let blend = [Blend::Replace, Blend::Replace];
     let geometry = draw("geometry", 10, objects, &blend, None, vec![access(&albedo, drawn)]);
     let kind = BindingKind::InputAttachment;
-    let input = Access { binding: Some(Binding { name: "albedo".into(), kind }), ..access(&albedo, own) };
+    let input =
+        Access { binding: Some(Binding { name: "albedo".into(), kind, texture: None }), ..access(&albedo, own) };
     let lighting = Pass {
         local_barrier: true,
         merged: Some("it reads `albedo` at its own position".to_owned()),

@@ -14,6 +14,7 @@ mod resources;
 mod samplers;
 mod shipped;
 mod table;
+mod texture_declarations;
 mod whole;
 mod words;
 mod works;

@@ -6,7 +6,7 @@ use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, DrawList, Frame};
 use framewright_graph::interface::{
     Attribute, Binding, BindingKind, Block, Component, Dimension, DrawInterface, FragmentOutput, ImageShape, Member,
-    ShaderInterface, ShaderInterfaces, ShaderProblem, Supplied, SuppliedKind, VertexInput,
+    ShaderInterface, ShaderInterfaces, ShaderProblem, Supplied, SuppliedKind, Variant, VertexInput,
 };
 use framewright_graph::source::Sources;
 use framewright_graph::vocabulary::Stages;
@@ -18,7 +18,15 @@ pub(crate) struct Table;
 fn texture(name: &str, binding: u32, multisampled: bool, component: Component) -> Binding {
     let shape = ImageShape { dimension: Dimension::D2, arrayed: false, multisampled, component };
     let kind = BindingKind::SampledImage(shape);
-    Binding { set: 0, binding, name: name.to_owned(), kind, stages: Stages::FRAGMENT_SHADER }
+    Binding { set: 0, binding, name: name.to_owned(), kind, adapts: false, stages: Stages::FRAGMENT_SHADER }
+}
+
+/// A sampled image that is declared as the pass has it.
+fn adapting(name: &str, variant: &Variant) -> Binding {
+    let flat = texture(name, 0, false, Component::Float);
+    let given = variant.textures.iter().find(|(given, _)| **given == *name);
+    let kind = given.map_or(flat.kind, |(_, shape)| BindingKind::SampledImage(*shape));
+    Binding { kind, adapts: true, ..flat }
 }
 
 fn params(members: &[(&str, &str)]) -> Binding {
@@ -29,7 +37,7 @@ fn params(members: &[(&str, &str)]) -> Binding {
     });
     let block = Block { bytes: 16, members: members.collect() };
     let kind = BindingKind::UniformBlock(block);
-    Binding { set: 0, binding: 9, name: "params".to_owned(), kind, stages: Stages::FRAGMENT_SHADER }
+    Binding { set: 0, binding: 9, name: "params".to_owned(), kind, adapts: false, stages: Stages::FRAGMENT_SHADER }
 }
 
 fn outputs(count: u32, component: Component, components: u32) -> Vec<FragmentOutput> {
@@ -49,6 +57,7 @@ fn lit(discards: bool) -> ShaderInterface {
         binding,
         name: name.to_owned(),
         kind,
+        adapts: false,
         stages: Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER,
     };
     let view = frame(0, "view", BindingKind::UniformBlock(Block::default()));
@@ -66,14 +75,14 @@ fn lit(discards: bool) -> ShaderInterface {
 
 fn block(name: &str, binding: u32, readable: bool, writable: bool, stages: Stages) -> Binding {
     let kind = BindingKind::StorageBlock { readable, writable };
-    Binding { set: 0, binding, name: name.to_owned(), kind, stages }
+    Binding { set: 0, binding, name: name.to_owned(), kind, adapts: false, stages }
 }
 
 fn storage_image(name: &str, dimension: Dimension, format: Option<Format>, readable: bool) -> Binding {
     let component = format.map_or(Component::Float, Component::of);
     let shape = ImageShape { dimension, arrayed: false, multisampled: false, component };
     let kind = BindingKind::StorageImage { shape, format, readable, writable: true };
-    Binding { set: 0, binding: 5, name: name.to_owned(), kind, stages: Stages::COMPUTE_SHADER }
+    Binding { set: 0, binding: 5, name: name.to_owned(), kind, adapts: false, stages: Stages::COMPUTE_SHADER }
 }
 
 /// The binding as another stage sees it.
@@ -94,7 +103,7 @@ fn compute(size: [u32; 3], bindings: Vec<Binding>) -> ShaderInterface {
 
 fn uniform_block(name: &str, bytes: u32) -> Binding {
     let kind = BindingKind::UniformBlock(Block { bytes, members: Vec::new() });
-    Binding { set: 0, binding: 7, name: name.to_owned(), kind, stages: Stages::COMPUTE_SHADER }
+    Binding { set: 0, binding: 7, name: name.to_owned(), kind, adapts: false, stages: Stages::COMPUTE_SHADER }
 }
 
 /// Compute shaders out of the table.
@@ -150,11 +159,19 @@ fn compute_shader(name: &str) -> Option<ShaderInterface> {
 
 const NAMES: &[&str] = &["blur", "downsample", "lit", "lit_masked", "reinhard", "sky", "soft_focus", "tone_map"];
 
+/// What is read from the pass's own rendering scope is declared so.
+fn read_locally(mut shader: ShaderInterface, variant: &Variant) -> ShaderInterface {
+    for binding in shader.bindings.iter_mut().filter(|it| variant.local.iter().any(|local| **local == *it.name)) {
+        binding.kind = BindingKind::InputAttachment { multisampled: false, component: Component::Float };
+    }
+    shader
+}
+
 impl ShaderInterfaces for Table {
-    fn draw_shader(&mut self, name: &str, draw: Draw) -> Result<ShaderInterface, ShaderProblem> {
+    fn draw_shader(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
         let float = Component::Float;
         let source = || texture("source", 0, false, float);
-        Ok(match name {
+        let shader = match name {
             "lit" => lit(false),
             "lit_masked" => lit(true),
             "sky" | "plain" => full_screen(vec![]),
@@ -168,7 +185,7 @@ impl ShaderInterfaces for Table {
             "deferred_lighting" => {
                 let frame = |binding, name: &str, kind| {
                     let stages = Stages::FRAGMENT_SHADER;
-                    Binding { set: 1, binding, name: name.to_owned(), kind, stages }
+                    Binding { set: 1, binding, name: name.to_owned(), kind, adapts: false, stages }
                 };
                 full_screen(vec![
                     texture("base_color", 0, false, float),
@@ -212,6 +229,7 @@ impl ShaderInterfaces for Table {
                 texture("soft", 1, false, float),
                 params(&[("strength", "float")]),
             ]),
+            "any_texture" => full_screen(vec![adapting("source", variant)]),
             "custom_resolve" => full_screen(vec![texture("source", 0, true, float)]),
             "count" => full_screen(vec![texture("source", 0, false, Component::Uint)]),
             "typed" => full_screen(vec![params(&[("a", "float"), ("b", "uint"), ("c", "int"), ("d", "vec4")])]),
@@ -243,6 +261,7 @@ impl ShaderInterfaces for Table {
                 binding: 0,
                 name: "tiles".to_owned(),
                 kind: BindingKind::StorageBlock { readable: true, writable: true },
+                adapts: false,
                 stages: Stages::FRAGMENT_SHADER,
             }]),
             "misplaced" => {
@@ -265,10 +284,11 @@ impl ShaderInterfaces for Table {
                 let _ = draw;
                 return Err(ShaderProblem::Missing { looked_in, known });
             }
-        })
+        };
+        Ok(read_locally(shader, variant))
     }
 
-    fn compute_shader(&mut self, name: &str) -> Result<ShaderInterface, ShaderProblem> {
+    fn compute_shader(&mut self, name: &str, _: &Variant) -> Result<ShaderInterface, ShaderProblem> {
         compute_shader(name).ok_or_else(|| ShaderProblem::Missing {
             looked_in: vec!["shaders".to_owned()],
             known: ["histogram", "simulate"].map(str::to_owned).to_vec(),

@@ -124,6 +124,7 @@ impl Added<'_> {
             frames_ago: 0,
             span: Span::NONE,
             per_sample,
+            texture: None,
             own_pixel: false,
             sampler: Sampler::new(filter),
             stages: Stages::FRAGMENT_SHADER,

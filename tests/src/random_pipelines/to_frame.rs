@@ -213,6 +213,7 @@ fn sampled(pipeline: &Pipeline, binding: &str, part: Part, stages: Stages) -> fr
         frames_ago: 0,
         span: Span::NONE,
         per_sample: false,
+        texture: None,
         own_pixel: false,
         sampler: Sampler::new(Filter::Nearest),
         stages,

@@ -85,7 +85,7 @@ pub(crate) fn access(image: ImageId, accesses: Accesses) -> Access {
         _ => (Layout::General, BindingKind::Storage),
     };
     let range = Subresources::all(FORMAT, 1, 1);
-    let binding = Some(Binding { name: format!("i{}", image.0).into(), kind });
+    let binding = Some(Binding { name: format!("i{}", image.0).into(), kind, texture: None });
     Access { image, range, stages: CS, accesses, layout, binding }
 }
 

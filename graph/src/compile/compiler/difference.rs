@@ -119,9 +119,10 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
 }
 
 fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
-    let Sampled { binding, image, range, frames_ago, span, per_sample, own_pixel, sampler, stages } = new;
+    let Sampled { binding, image, range, frames_ago, span, per_sample, texture, own_pixel, sampler, stages } = new;
     (old.image, old.range, old.frames_ago, old.span) == (*image, *range, *frames_ago, *span)
         && (old.per_sample, old.own_pixel, old.sampler, old.stages) == (*per_sample, *own_pixel, *sampler, *stages)
+        && old.texture == *texture
         && same_name(&old.binding, binding)
 }
 

@@ -3,6 +3,7 @@
 use super::{Parts, cause, frame_work};
 use crate::compile::model::{Kind, Op, OpKind, Role, Use};
 use crate::frame::{Blend, DepthTarget, Draw, Groups, Pass as FramePass, Work as FrameWork};
+use crate::interface::ImageShape;
 use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
     Transfer, ViewId, Work,
@@ -100,7 +101,8 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     };
     let (name, cause) = (declared.name.clone(), cause(parts, op));
     if let OpKind::ForwardDraw { filter, .. } = op.kind {
-        let binding = || Some(Binding { name: COPY_SOURCE.into(), kind: BindingKind::Sampled(Sampler::new(filter)) });
+        let kind = BindingKind::Sampled(Sampler::new(filter));
+        let binding = || Some(Binding { name: COPY_SOURCE.into(), kind, texture: None });
         let accesses =
             uses.iter().map(|used| access(parts, used, (used.role == Role::Sampled).then(binding).flatten()));
         return Pass {
@@ -124,7 +126,7 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     planned.accesses = Vec::with_capacity(uses.len());
     for used in uses {
         if parts.subjects[used.store as usize].is_image {
-            planned.accesses.push(access(parts, used, binding(used, declared)));
+            planned.accesses.push(access(parts, used, binding(parts, used, declared)));
         } else {
             planned.buffers.push(buffer_access(parts, used, declared));
         }
@@ -176,20 +178,25 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
     }
 }
 
-fn binding(used: &Use, declared: &FramePass) -> Option<Binding> {
+fn binding(parts: &Parts<'_>, used: &Use, declared: &FramePass) -> Option<Binding> {
     let entry = used.entry as usize;
+    let bound = |name: &Arc<str>, kind| Some(Binding { name: name.clone(), kind, texture: None });
     match used.role {
         Role::Sampled => {
             let sampled = &declared.sampled[entry];
-            Some(Binding { name: sampled.binding.clone(), kind: BindingKind::Sampled(sampled.sampler) })
+            let texture = sampled.texture.map(|texture| adapted(parts, used, texture));
+            Some(Binding { texture, ..bound(&sampled.binding, BindingKind::Sampled(sampled.sampler))? })
         }
-        Role::Input => {
-            let name = declared.sampled[entry].binding.clone();
-            Some(Binding { name, kind: BindingKind::InputAttachment })
-        }
-        Role::Storage => Some(Binding { name: declared.storage[entry].binding.clone(), kind: BindingKind::Storage }),
+        Role::Input => bound(&declared.sampled[entry].binding, BindingKind::InputAttachment),
+        Role::Storage => bound(&declared.storage[entry].binding, BindingKind::Storage),
         Role::Color | Role::Depth | Role::Stencil | Role::Buffer | Role::Source | Role::Target => None,
     }
+}
+
+/// As what a shader that adapts declares an image: without samples where there is but one.
+fn adapted(parts: &Parts<'_>, used: &Use, texture: ImageShape) -> ImageShape {
+    let samples = parts.adapted.stores[used.store as usize].image().map_or(1, |image| image.samples);
+    ImageShape { multisampled: texture.multisampled && samples > 1, ..texture }
 }
 
 /// One access of a pass; load, store and resolve operations are the scope's.

@@ -1,0 +1,49 @@
+//! How a pass's shader is compiled: its declarations of what it samples may follow what the pass gives.
+
+use super::Chosen;
+use super::parts::{self, Cells};
+use super::shader::Checked;
+use super::things::Things;
+use crate::describe::{self, Diagnostic, Face};
+use crate::frame::{Image, Pass};
+use crate::interface::{Component, ImageShape, Variant};
+use crate::vocabulary::Aspects;
+
+/// The variant of its shader that a pass needs. What isn't known is left out: mistakes are reported elsewhere.
+pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) -> Variant {
+    let texture = |sample: &describe::Sample| {
+        let image = &things.image(sample.part.image.index)?.image;
+        let range = parts::range(chosen, things, &sample.part, &mut Vec::new());
+        Some((sample.binding.text.clone(), texture(image, &parts::cells(image, &range), sample.face)))
+    };
+    Variant { textures: pass.sample.iter().filter_map(texture).collect(), local: Vec::new() }
+}
+
+/// As what a shader that leaves it to the pass declares a part of an image.
+fn texture(image: &Image, cells: &Cells, face: Face) -> ImageShape {
+    let stencil = cells.planes == Aspects::STENCIL;
+    let component = if stencil { Component::Uint } else { Component::of(image.format) };
+    let single_samples = match face {
+        Face::Samples => true,
+        // Depth has no resolved face yet.
+        Face::Plain => image.format.is_depth(),
+        Face::Resolved => false,
+    };
+    let layers = cells.layers.end.saturating_sub(cells.layers.start);
+    ImageShape::of(image.shape, layers, single_samples && image.samples > 1, component)
+}
+
+/// Reports a shader that adapts to single samples, and is wrong where the device leaves its images one sample.
+pub(super) fn check_single_sampled(
+    pass: &describe::Pass,
+    lowered: &Pass,
+    variant: &Variant,
+    shaders: &mut Checked<'_>,
+    errors: &mut Vec<Diagnostic>,
+) {
+    if lowered.sampled.iter().any(|sampled| sampled.texture.is_some_and(|texture| texture.multisampled)) {
+        let mut single = variant.clone();
+        single.textures.iter_mut().for_each(|(_, texture)| texture.multisampled = false);
+        shaders.interface(pass, &single, errors);
+    }
+}
