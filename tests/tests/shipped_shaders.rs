@@ -145,7 +145,7 @@ fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Resu
         ("encode_hdr10", &["source"], &["reference_white"]),
         ("expose", &["source"], &["white_point"]),
         ("gauss", &["source"], &["direction_x", "direction_y", "radius"]),
-        ("overlay", &["shown"], &["scale", "offset_x", "offset_y", "gain", "farthest"]),
+        ("overlay", &["shown"], &["scale", "offset_x", "offset_y", "gain", "farthest", "layer"]),
         ("reinhard", &["source"], &[]),
         ("soft_focus", &["sharp", "soft"], &["strength"]),
         ("tone_map", &["source"], &["exposure", "white_point"]),

@@ -101,18 +101,10 @@ impl ShaderLibrary {
             return Err(self.missing(".frag"));
         };
         let own = Variant { local: Vec::new(), ..variant.clone() };
-        let vertex =
-            match self.stage(format!("{name}.vert"), Stage::Vertex, &own)? {
-                Some(own) => own,
-                None => self.stage(vertex_shader_of(draw).to_owned(), Stage::Vertex, &Variant::default())?.ok_or_else(
-                    || ShaderProblem::Unsupported {
-                        what: format!(
-                            "no vertex shader: neither `{name}.vert` nor `{}` was found",
-                            vertex_shader_of(draw)
-                        ),
-                    },
-                )?,
-            };
+        let vertex = match self.stage(format!("{name}.vert"), Stage::Vertex, &own)? {
+            Some(own) => own,
+            None => self.usual_vertex_stage(name, draw)?,
+        };
         let interface = join(&vertex, &fragment).map_err(|what| ShaderProblem::Unsupported { what })?;
         Ok(CompiledShader {
             vertex: vertex.spirv.clone(),
@@ -130,6 +122,14 @@ impl ShaderLibrary {
         let stage = self.stage(format!("{name}.comp"), Stage::Compute, variant)?;
         let stage = stage.ok_or_else(|| self.missing(".comp"))?;
         Ok(CompiledCompute { compute: stage.spirv.clone(), interface: stage.reflected.interface.clone() })
+    }
+
+    /// The vertex stage of a kind of draw, for the shader `name`, which has none of its own.
+    fn usual_vertex_stage(&mut self, name: &str, draw: Draw) -> Result<Arc<CompiledStage>, ShaderProblem> {
+        let file = vertex_shader_of(draw);
+        let what = || format!("no vertex shader: neither `{name}.vert` nor `{file}` was found");
+        let stage = self.stage(file.to_owned(), Stage::Vertex, &Variant::default())?;
+        stage.ok_or_else(|| ShaderProblem::Unsupported { what: what() })
     }
 
     /// One stage by its file name; `None` if there is no such file.

@@ -189,7 +189,7 @@ impl<'p> Check<'_, 'p> {
         let integer = self.plan.image(access.image).format.is_integer();
         self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
         let declared = binding.texture.is_none_or(|texture| self.is_declared(access, texture));
-        self.demand(declared, access.image, "isn't what its shader is compiled to declare");
+        self.demand(declared, access.image, "isn't as its shader is made to declare it");
     }
 
     /// Whether the part of an image that is sampled can be declared so.
@@ -200,7 +200,7 @@ impl<'p> Check<'_, 'p> {
             Dimension::D3 => image.shape == Shape::D3 && !texture.arrayed,
             Dimension::Cube => {
                 let cubes = access.range.layers / 6;
-                image.shape == Shape::Cube && access.range.layers % 6 == 0 && (texture.arrayed || cubes == 1)
+                image.shape == Shape::Cube && access.range.layers.is_multiple_of(6) && (texture.arrayed || cubes == 1)
             }
             Dimension::D1 | Dimension::Buffer => false,
         };

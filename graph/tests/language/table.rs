@@ -224,6 +224,14 @@ impl ShaderInterfaces for Table {
             ]),
             "downsample" | "reinhard" => full_screen(vec![source()]),
             "blur" => full_screen(vec![source(), params(&[("direction_x", "float"), ("direction_y", "float")])]),
+            "gauss" => full_screen(vec![
+                source(),
+                params(&[("direction_x", "float"), ("direction_y", "float"), ("radius", "float")]),
+            ]),
+            "overlay" => {
+                let floats = ["scale", "offset_x", "offset_y", "gain", "farthest"].map(|name| (name, "float"));
+                full_screen(vec![adapting("shown", variant), params(&[&floats[..], &[("layer", "int")]].concat())])
+            }
             "soft_focus" => full_screen(vec![
                 texture("sharp", 0, false, float),
                 texture("soft", 1, false, float),

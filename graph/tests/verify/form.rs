@@ -2,7 +2,8 @@
 
 use crate::hand_written_plans;
 use framewright_graph::format::Format;
-use framewright_graph::frame::Blend;
+use framewright_graph::frame::{Blend, Shape};
+use framewright_graph::interface::{Component, Dimension, ImageShape};
 use framewright_graph::plan::{Plan, PlanError, RenderScope, Resource, Role, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Accesses, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage};
@@ -19,6 +20,14 @@ fn scope(plan: &mut Plan, step: usize) -> &mut RenderScope {
         Work::Render(scope) => scope,
         other => panic!("step {step} is no scope: {other:?}"),
     }
+}
+
+/// Has the shader of the second scope compiled for another image than the flat one that it samples.
+fn declare(plan: &mut Plan, change: fn(&mut ImageShape)) {
+    let mut texture = ImageShape::of(Shape::D2, 1, false, Component::Float);
+    change(&mut texture);
+    let binding = scope(plan, 1).passes[0].accesses[0].binding.as_mut().expect("it is sampled");
+    binding.texture = Some(texture);
 }
 
 #[test]
@@ -51,6 +60,18 @@ fn every_mistake_of_form_is_said() {
         (|plan| scope(plan, 0).passes[0].accesses.clear(), "doesn't list its COLOR_ATTACHMENT_WRITE"),
         (|plan| scope(plan, 0).passes[0].draw = None, "is in a rendering scope and draws nothing"),
         (|plan| scope(plan, 1).passes[0].accesses[0].binding = None, "is accessed by a shader without such a binding"),
+        (
+            |plan| declare(plan, |texture| texture.multisampled = true),
+            "`color.resolved`: isn't as its shader is made to declare it",
+        ),
+        (
+            |plan| declare(plan, |texture| texture.dimension = Dimension::Cube),
+            "isn't as its shader is made to declare it",
+        ),
+        (
+            |plan| declare(plan, |texture| texture.component = Component::Uint),
+            "isn't as its shader is made to declare it",
+        ),
         (
             |plan| {
                 let sampled = scope(plan, 1).passes[0].accesses[0].binding.clone();
