@@ -4,13 +4,14 @@
 //! `framewright_vulkan::DrawSource` in place of [`SceneDrawSource`]: something that records the draws of its objects when
 //! it is asked for them.
 
+use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_graph::{compile, describe, expand, verify};
 use framewright_passes::draw::{self, SceneDrawSource};
 use framewright_passes::{scene, shipped};
 use framewright_vulkan::{Device, DeviceOptions, Executor, ExecutorOptions, ShaderLibrary};
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 const EXTENT: [u32; 2] = [640, 360];
@@ -26,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pipeline = describe::read(&mut sources, &file.to_string_lossy(), "forward.ron", text)
         .map_err(|mistakes| describe::render(&sources, &mistakes))?;
     let sources = Arc::new(sources);
-    let mut shaders = ShaderLibrary::new(vec![PathBuf::from("shaders")], shipped::SHADERS, draw::interface);
+    let mut shaders = ShaderLibrary::new(vec![Root::new("shaders".into())], shipped::SHADERS, draw::interface);
     let inputs = expand::Inputs {
         set: &[("msaa".to_owned(), "4".to_owned())],
         facts: scene.facts(),

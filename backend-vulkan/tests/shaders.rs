@@ -6,6 +6,7 @@ use framewright_graph::interface::{
     BindingKind, Component, Dimension, DrawInterface, ImageShape, ShaderInterface, ShaderInterfaces, ShaderProblem,
     Variant,
 };
+use framewright_graph::root::Root;
 use framewright_graph::vocabulary::Stages;
 use framewright_vulkan::ShaderLibrary;
 use std::fs;
@@ -18,7 +19,7 @@ const SHIPPED: &[(&str, &str)] = &[
 ];
 
 fn library(folder: &Path) -> ShaderLibrary {
-    ShaderLibrary::new(vec![folder.to_owned()], SHIPPED, |_| DrawInterface::default())
+    ShaderLibrary::new(vec![Root::new(folder.to_owned())], SHIPPED, |_| DrawInterface::default())
 }
 
 /// The interface of a full-screen shader with this fragment stage (a version line comes first).

@@ -181,6 +181,13 @@ pub(crate) struct Pipeline {
     /// and presets.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<Assignment>,
+    /// Folder that holds all files which the pipeline names, and the pipeline; by default the one that the pipeline lies
+    /// in. Files outside of it are not read.
+    #[arg(long, value_name = "DIR", conflicts_with = "allow_outside")]
+    pub(crate) root: Option<PathBuf>,
+    /// Read files that the pipeline names wherever they lie. For files that you trust.
+    #[arg(long)]
+    pub(crate) allow_outside: bool,
 }
 
 /// How a Plan is made. None of this may change a picture.

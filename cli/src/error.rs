@@ -74,6 +74,18 @@ pub(crate) enum Error {
         /// The first byte that isn't, from 0.
         at: usize,
     },
+    /// The pipeline lies outside the folder that `--root` names.
+    #[error(
+        "`{}` lies outside of `{}`, which `--root` names: name a folder that the pipeline lies in",
+        text::path(pipeline),
+        text::path(root)
+    )]
+    OutsideRoot {
+        /// The pipeline.
+        pipeline: PathBuf,
+        /// The folder.
+        root: PathBuf,
+    },
     /// The pipeline is wrong, or what the command line asks of it.
     #[error("{}", describe::render(&wrong.sources, &wrong.diagnostics))]
     Wrong {
@@ -287,6 +299,7 @@ impl Error {
             },
             Error::TooManyVariants { .. }
             | Error::TooManyPairs { .. }
+            | Error::OutsideRoot { .. }
             | Error::UnknownProfile { .. }
             | Error::ProfileIsNoDevice { .. }
             | Error::NoOutput { .. }

@@ -1,14 +1,14 @@
 //! Files that are read: the user's own from disk, else those that the binary carries.
 
 use crate::error::Error;
-use crate::shipped::{self, Example};
-use crate::text;
-use framewright_graph::describe::LARGEST_FILE;
+use crate::{args, shipped, text};
+use framewright_graph::describe::{LARGEST_FILE, Shipped};
+use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_passes::scene::{self, Scene, SceneError};
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A pipeline file, not yet read as RON.
 #[derive(Debug)]
@@ -17,8 +17,8 @@ pub(crate) struct PipelineFile {
     pub(crate) shown: String,
     /// Name without its folder.
     pub(crate) name: String,
-    /// The folder that it lies in; `None`: the binary carries it.
-    pub(crate) folder: Option<PathBuf>,
+    /// Where the files come from that it names; `None`: the binary carries it, and them.
+    pub(crate) root: Option<Root>,
     /// What it holds.
     pub(crate) bytes: Vec<u8>,
 }
@@ -26,30 +26,45 @@ pub(crate) struct PipelineFile {
 /// Reads a pipeline file; where there is none, a shipped one of that name, and says so.
 ///
 /// # Errors
-/// If there is neither, or it can't be read.
-pub(crate) fn pipeline(path: &Path) -> Result<PipelineFile, Error> {
+/// If there is neither, it can't be read, or it lies outside the folder that `--root` names.
+pub(crate) fn pipeline(arguments: &args::Pipeline) -> Result<PipelineFile, Error> {
     const WHAT: &str = "pipeline";
+    let path = &arguments.file;
     match bytes(WHAT, path, LARGEST_FILE) {
         Ok(bytes) => Ok(PipelineFile {
             shown: path.to_string_lossy().into_owned(),
             name: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
-            folder: Some(match path.parent() {
-                Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
-                _ => PathBuf::from("."),
-            }),
+            root: Some(root(arguments)?),
             bytes,
         }),
         Err(Error::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
-            let example = carried(WHAT, path, shipped::PIPELINES)?;
+            let (file, text) = carried(WHAT, path, shipped::PIPELINES)?;
             Ok(PipelineFile {
-                shown: example.file.to_owned(),
-                name: example.file.to_owned(),
-                folder: None,
-                bytes: example.text.as_bytes().to_vec(),
+                shown: file.to_owned(),
+                name: file.to_owned(),
+                root: None,
+                bytes: text.as_bytes().to_vec(),
             })
         }
         Err(error) => Err(error),
     }
+}
+
+/// Where a pipeline's files come from: the folder that it lies in, or what the user says.
+fn root(arguments: &args::Pipeline) -> Result<Root, Error> {
+    let own = Root::new(arguments.file.parent().unwrap_or(Path::new("")).to_owned());
+    if arguments.allow_outside {
+        return Ok(own.allow_outside());
+    }
+    let Some(chosen) = &arguments.root else { return Ok(own) };
+    let real = |folder: &Path| {
+        let problem = |source| Error::Read { what: "folder", path: folder.to_owned(), source };
+        std::fs::canonicalize(folder).map_err(problem)
+    };
+    if !real(own.folder())?.starts_with(real(chosen)?) {
+        return Err(Error::OutsideRoot { pipeline: arguments.file.clone(), root: chosen.clone() });
+    }
+    Ok(own.within(chosen.clone()))
 }
 
 /// Reads a scene; where there is no such file, a shipped one of that name, and says so. Says too what the file holds that
@@ -60,9 +75,9 @@ pub(crate) fn pipeline(path: &Path) -> Result<PipelineFile, Error> {
 pub(crate) fn scene(path: &Path) -> Result<Scene, Error> {
     let scene = match path.try_exists() {
         Ok(false) => {
-            let example = carried("scene", path, shipped::SCENES)?;
+            let (file, text) = carried("scene", path, shipped::SCENES)?;
             let mut sources = Sources::default();
-            scene::text::read(&mut sources, example.file, example.file, example.text.to_owned())
+            scene::text::read(&mut sources, file, file, text.to_owned())
                 .map_err(|mistakes| SceneError::Text { sources, mistakes })
         }
         _ => scene::load(path),
@@ -96,14 +111,10 @@ fn bytes(what: &'static str, path: &Path, limit: usize) -> Result<Vec<u8>, Error
     Ok(bytes)
 }
 
-/// The shipped file that `path` asks for.
-fn carried(what: &'static str, path: &Path, examples: &'static [Example]) -> Result<&'static Example, Error> {
-    let missing = || Error::Missing {
-        what,
-        path: path.to_owned(),
-        shipped: examples.iter().map(|example| example.name).collect(),
-    };
-    let example = examples.iter().find(|example| example.is_called(path)).ok_or_else(missing)?;
+/// File name and text of the shipped file that `path` asks for.
+fn carried(what: &'static str, path: &Path, files: Shipped) -> Result<(&'static str, &'static str), Error> {
+    let missing = || Error::Missing { what, path: path.to_owned(), shipped: shipped::names(files).collect() };
+    let found = shipped::find(files, path).ok_or_else(missing)?;
     text::say(&format!("note: there is no file `{}` here; this is the shipped {what} of that name", text::path(path)));
-    Ok(example)
+    Ok(found)
 }

@@ -1,19 +1,21 @@
 //! From a pipeline file to its verified Plan: the part that `check`, `inspect` and `run` share.
 
-use crate::args;
 use crate::error::{Error, Wrong};
 use crate::files::{self, PipelineFile};
 use crate::values::Size;
+use crate::{args, shipped};
 use framewright_graph::compile::{self, Options};
-use framewright_graph::describe::{self, Diagnostic, Document};
+use framewright_graph::describe::{self, Diagnostic, Document, PipelineFiles};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Facts, Inputs};
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Plan;
+use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_graph::verify;
+use framewright_passes::draw;
+use framewright_passes::shipped::SHADERS;
 use framewright_passes::texture_files::TextureFiles;
-use framewright_passes::{draw, shipped};
 use framewright_vulkan::ShaderLibrary;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -57,16 +59,20 @@ pub(crate) struct View<'a> {
 /// # Errors
 /// If it can't be read or is wrong in itself.
 pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
-    let PipelineFile { shown, name, folder, bytes } = files::pipeline(&arguments.file)?;
+    let PipelineFile { shown, name, root, bytes } = files::pipeline(arguments)?;
     let mut sources = Sources::default();
-    let mut pipeline =
-        describe::read_bytes(&mut sources, &shown, &name, bytes).map_err(|diagnostics| wrong(&sources, diagnostics))?;
+    let mut named = match &root {
+        Some(root) => PipelineFiles::beside(root.clone(), &name, shipped::PIPELINES),
+        None => PipelineFiles::shipped(shipped::PIPELINES),
+    };
+    let mut pipeline = describe::read_bytes_with(&mut sources, &mut named, &shown, &name, bytes)
+        .map_err(|diagnostics| wrong(&sources, diagnostics))?;
     choose(arguments, &mut pipeline, &mut sources)?;
     Ok(Loaded {
         pipeline,
         sources: Arc::new(sources),
-        textures: TextureFiles::new(folder.clone().unwrap_or_default()),
-        shaders: library(folder),
+        textures: TextureFiles::new(root.clone().unwrap_or_else(|| Root::new(PathBuf::default()))),
+        shaders: ShaderLibrary::new(root.into_iter().collect(), SHADERS, draw::interface),
         set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
     })
 }
@@ -161,10 +167,6 @@ fn inputs<'a>(set: &'a [(String, String)], view: View<'a>) -> Inputs<'a> {
         dump: view.dump,
         device: None,
     }
-}
-
-fn library(folder: Option<PathBuf>) -> ShaderLibrary {
-    ShaderLibrary::new(folder.into_iter().collect(), shipped::SHADERS, draw::interface)
 }
 
 fn wrong(sources: &Sources, diagnostics: Vec<Diagnostic>) -> Error {

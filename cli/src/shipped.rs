@@ -1,58 +1,74 @@
 //! The example pipelines and scenes that the binary carries.
 
+use framewright_graph::describe::Shipped;
 use std::path::Path;
 
-/// A file that the binary carries.
-#[derive(Debug)]
-pub(crate) struct Example {
-    /// Name by which it is asked for.
-    pub(crate) name: &'static str,
-    /// Name with its ending.
-    pub(crate) file: &'static str,
-    /// What it holds.
-    pub(crate) text: &'static str,
-}
-
-impl Example {
-    /// Whether `path` asks for it: by name or file name, in no folder.
-    #[must_use]
-    pub(crate) fn is_called(&self, path: &Path) -> bool {
-        path == Path::new(self.name) || path == Path::new(self.file)
-    }
-}
-
 macro_rules! carried {
-    ($folder:literal: $($name:literal),* $(,)?) => {
-        &[$(Example {
-            name: $name,
-            file: concat!($name, ".ron"),
-            text: include_str!(concat!("../../examples/", $folder, "/", $name, ".ron")),
-        },)*]
+    ($folder:literal: $($file:literal),* $(,)?) => {
+        &[$(($file, include_str!(concat!("../../examples/", $folder, "/", $file)))),*]
     };
 }
 
-/// The pipelines in `examples/pipelines`.
-pub(crate) const PIPELINES: &[Example] =
-    carried!("pipelines": "auto_exposure", "deferred", "forward", "snow", "soft_focus");
+/// The files in `examples/pipelines`: pipelines, and in folders what they are made of.
+pub(crate) const PIPELINES: Shipped = carried!(
+    "pipelines":
+    "auto_exposure.ron",
+    "deferred.ron",
+    "forward.ron",
+    "library/bloom.ron",
+    "snow.ron",
+    "soft_focus.ron",
+);
 
 /// The scenes in `examples/scenes`.
-pub(crate) const SCENES: &[Example] = carried!("scenes": "spheres_and_cubes");
+pub(crate) const SCENES: Shipped = carried!("scenes": "spheres_and_cubes.ron");
+
+/// Names by which shipped files are asked for: of those in no folder, without their ending.
+pub(crate) fn names(files: Shipped) -> impl Iterator<Item = &'static str> {
+    files.iter().filter_map(|(file, _)| name(file))
+}
+
+/// File name and text of the shipped file that `path` asks for: by name or file name, in no folder.
+pub(crate) fn find(files: Shipped, path: &Path) -> Option<(&'static str, &'static str)> {
+    let called = |file: &str| name(file).is_some_and(|name| path == Path::new(name) || path == Path::new(file));
+    files.iter().find(|(file, _)| called(file)).copied()
+}
+
+fn name(file: &str) -> Option<&str> {
+    file.strip_suffix(".ron").filter(|name| !name.contains('/'))
+}
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
+    fn files(folder: &Path, before: &str) -> BTreeSet<String> {
+        let mut found = BTreeSet::new();
+        for entry in std::fs::read_dir(folder).expect("the folder is there") {
+            let entry = entry.expect("readable");
+            let name = format!("{before}{}", entry.file_name().into_string().expect("a plain name"));
+            match entry.path().is_dir() {
+                true => found.extend(files(&entry.path(), &format!("{name}/"))),
+                false => drop(found.insert(name)),
+            }
+        }
+        found.retain(|name| name.ends_with(".ron"));
+        found
+    }
+
     #[test]
     fn every_example_in_the_repository_is_carried() {
         for (folder, carried) in [("pipelines", PIPELINES), ("scenes", SCENES)] {
             let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples").join(folder);
-            let there: BTreeSet<_> = std::fs::read_dir(path)
-                .expect("the folder is there")
-                .map(|entry| entry.expect("readable").file_name().into_string().expect("a plain name"))
-                .filter(|name| name.ends_with(".ron"))
-                .collect();
-            assert_eq!(there, carried.iter().map(|example| example.file.to_owned()).collect());
+            assert_eq!(files(&path, ""), carried.iter().map(|(file, _)| (*file).to_owned()).collect());
         }
+    }
+
+    #[test]
+    fn what_pipelines_are_made_of_is_not_asked_for_by_name() {
+        assert!(find(PIPELINES, Path::new("forward")).is_some() && find(PIPELINES, Path::new("forward.ron")).is_some());
+        assert!(find(PIPELINES, Path::new("library/bloom.ron")).is_none());
+        assert!(names(PIPELINES).all(|name| !name.contains('/')) && names(PIPELINES).any(|name| name == "forward"));
     }
 }

@@ -15,6 +15,7 @@ pub mod format;
 pub mod frame;
 pub mod interface;
 pub mod plan;
+pub mod root;
 pub mod source;
 mod states;
 pub mod texture;

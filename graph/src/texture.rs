@@ -48,7 +48,7 @@ pub enum TextureProblem {
         reason: String,
     },
     /// The path leads out of the folder.
-    #[error("leads out of the folder of the pipeline's files: use a relative path without `..`")]
+    #[error("leads out of the folder of the pipeline's files")]
     Outside,
     /// It is no picture of a kind that can be read, or damaged.
     #[error("is no picture that can be read: {reason}")]

@@ -7,10 +7,11 @@
 mod table;
 
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::{self, Document, SettingKind};
+use framewright_graph::describe::{self, Document, PipelineFiles, SettingKind};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::frame::Frame;
+use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
 use std::collections::BTreeSet;
@@ -31,7 +32,8 @@ fn folder() -> PathBuf {
 fn pipelines() -> BTreeSet<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/pipelines");
     let files = std::fs::read_dir(folder).expect("pipelines are shipped");
-    files.map(|file| file.expect("the folder can be listed").file_name().to_string_lossy().into_owned()).collect()
+    let names = files.map(|file| file.expect("the folder can be listed").file_name().to_string_lossy().into_owned());
+    names.filter(|name| name.ends_with(".ron")).collect()
 }
 
 /// Every value but the default of a setting of few values; the ends of one of many.
@@ -60,9 +62,17 @@ fn variants(file: &str, pipeline: &Document) -> Vec<Variant> {
     variants
 }
 
-fn expanded(file: &str, inputs: &Inputs<'_>) -> Frame {
+/// A shipped pipeline with the files that it names.
+fn document(file: &str) -> (Document, Sources) {
+    let root = Root::new(Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/pipelines"));
     let mut sources = Sources::default();
-    let pipeline = describe::read(&mut sources, file, file, shipped(file)).expect("a shipped pipeline is right");
+    let mut files = PipelineFiles::beside(root, file, &[]);
+    let pipeline = describe::read_with(&mut sources, &mut files, file, file, shipped(file));
+    (pipeline.expect("a shipped pipeline is right"), sources)
+}
+
+fn expanded(file: &str, inputs: &Inputs<'_>) -> Frame {
+    let (pipeline, sources) = document(file);
     let sources = Arc::new(sources);
     expand(&pipeline, sources.clone(), inputs, &mut Table)
         .unwrap_or_else(|errors| panic!("{}", describe::render(&sources, &errors)))
@@ -70,8 +80,7 @@ fn expanded(file: &str, inputs: &Inputs<'_>) -> Frame {
 
 fn all() -> Vec<(String, Variant)> {
     let each = |file: String| {
-        let mut sources = Sources::default();
-        let pipeline = describe::read(&mut sources, &file, &file, shipped(&file)).expect("a shipped pipeline is right");
+        let (pipeline, _) = document(&file);
         variants(&file, &pipeline).into_iter().map(move |variant| (file.clone(), variant))
     };
     pipelines().into_iter().flat_map(each).collect()

@@ -1,6 +1,7 @@
 //! Textures from picture files: PNG, JPEG, Radiance HDR, OpenEXR.
 
 use framewright_graph::format::{Format, Numeric};
+use framewright_graph::root::{NoFile, Root};
 use framewright_graph::texture::{
     ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
 };
@@ -19,14 +20,14 @@ pub const MOST_BYTES: u64 = 1 << 30;
 /// Bytes that a decoder may take beside the file's own: what the largest picture takes with four 32-bit components.
 const MOST_DECODED: u64 = MOST_TEXELS * 16 + (64 << 20);
 
-/// Textures from the files of a folder.
+/// Textures from files.
 ///
 /// What the bytes of a file are counts, not its name. PNG of 8 bits and JPEG become `R8G8B8A8_SRGB` or `R8G8B8A8_UNORM`, PNG
 /// of 16 bits `R16G16B16A16_UNORM`, HDR and EXR `R16G16B16A16_SFLOAT`; a frame may say `R32G32B32A32_SFLOAT` or any other
 /// format of colour, of which the picture fills as many components as there are.
 #[derive(Debug, Clone)]
 pub struct TextureFiles {
-    root: PathBuf,
+    root: Root,
 }
 
 /// A picture's values by texel: red, green, blue, alpha.
@@ -39,32 +40,23 @@ enum Texels {
 type Decoder = Box<dyn ImageDecoder>;
 
 impl TextureFiles {
-    /// Those of the folder `root` and of folders in it.
+    /// Those that `root` lets be read.
     #[must_use]
-    pub fn new(root: PathBuf) -> TextureFiles {
+    pub fn new(root: Root) -> TextureFiles {
         TextureFiles { root }
     }
 
-    /// The file behind a path: it can't lead out of the folder, by no link either.
+    /// The file behind a path.
     fn locate(&self, path: &str) -> Result<PathBuf, TextureProblem> {
-        let inside = !path.contains(['\\', '\0', ':']) && path.split('/').all(|part| !matches!(part, "" | "." | ".."));
-        if !inside {
-            return Err(TextureProblem::Outside);
-        }
-        let unreadable = |error: std::io::Error| TextureProblem::Unreadable { reason: error.to_string() };
-        let root = if self.root.as_os_str().is_empty() { PathBuf::from(".") } else { self.root.clone() };
-        let root = root.canonicalize().map_err(unreadable)?;
-        let found = root.join(path).canonicalize().map_err(unreadable)?;
-        if !found.starts_with(&root) {
-            return Err(TextureProblem::Outside);
-        }
-        let metadata = fs::metadata(&found).map_err(unreadable)?;
-        if !metadata.is_file() {
-            return Err(TextureProblem::Unreadable { reason: "not a regular file".to_owned() });
-        }
-        if metadata.len() > MOST_BYTES {
-            let reason = format!("it has {} bytes, more than the {MOST_BYTES} of a texture", metadata.len());
-            return Err(TextureProblem::Unreadable { reason });
+        let unreadable = |reason: String| TextureProblem::Unreadable { reason };
+        let found = self.root.locate(path).map_err(|problem| match problem {
+            NoFile::Outside { .. } => TextureProblem::Outside,
+            NoFile::Unreadable { reason } => unreadable(reason),
+            other => unreadable(format!("it {other}")),
+        })?;
+        let bytes = fs::metadata(&found).map_err(|error| unreadable(error.to_string()))?.len();
+        if bytes > MOST_BYTES {
+            return Err(unreadable(format!("it has {bytes} bytes, more than the {MOST_BYTES} of a texture")));
         }
         Ok(found)
     }

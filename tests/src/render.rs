@@ -1,9 +1,10 @@
 //! A pipeline file and a scene become pictures: the whole way, on a real driver under the validation layer.
 
 use framewright_graph::compile::{self, Options};
-use framewright_graph::describe::{self, Diagnostic};
+use framewright_graph::describe::{self, Diagnostic, PipelineFiles};
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::plan::Plan;
+use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
 use framewright_passes::draw::{SceneDrawSource, interface};
@@ -70,7 +71,8 @@ pub fn plan(
 ) -> Result<Plan, Box<dyn Error>> {
     let mut sources = Sources::default();
     let text = std::fs::read_to_string(in_repository(setup.pipeline))?;
-    let pipeline = describe::read(&mut sources, setup.pipeline, setup.pipeline, text);
+    let mut named = PipelineFiles::beside(Root::new(in_repository("")), setup.pipeline, &[]);
+    let pipeline = describe::read_with(&mut sources, &mut named, setup.pipeline, setup.pipeline, text);
     let sources = Arc::new(sources);
     let rendered = |mistakes: Vec<Diagnostic>| describe::render(&sources, &mistakes);
     let pipeline = pipeline.map_err(rendered)?;
@@ -94,7 +96,7 @@ pub fn draw(
     options: &Options,
     frames: u32,
 ) -> Result<(Plan, Executor), Box<dyn Error>> {
-    let mut shaders = ShaderLibrary::new(vec![in_repository("tests/shaders")], SHADERS, interface);
+    let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
     let plan = plan(device, setup, &mut shaders, options)?;
     let mut draws = SceneDrawSource::new(device, setup.scene, setup.extent)?;
     let how = ExecutorOptions { poison: options.poison, ..ExecutorOptions::default() };

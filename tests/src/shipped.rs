@@ -1,9 +1,10 @@
 //! The shipped pipelines as frames, in every combination of their discrete settings.
 
 use crate::render::in_repository;
-use framewright_graph::describe::{self, Document, SettingKind};
+use framewright_graph::describe::{self, Document, PipelineFiles, SettingKind};
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::frame::Frame;
+use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
@@ -54,7 +55,9 @@ pub fn frames(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
         let name = file.file_name().expect("a file has a name").to_string_lossy().into_owned();
         let text = std::fs::read_to_string(file).expect("a shipped pipeline is text");
         let mut sources = Sources::default();
-        let pipeline = describe::read(&mut sources, &name, &name, text).expect("a shipped pipeline is right");
+        let mut named = PipelineFiles::beside(Root::new(in_repository("examples/pipelines")), &name, &[]);
+        let pipeline = describe::read_with(&mut sources, &mut named, &name, &name, text);
+        let pipeline = pipeline.expect("a shipped pipeline is right");
         let sources = Arc::new(sources);
         let opaque = Facts { has_alpha_clip: false, has_cross_fade: false, has_transparent: false, ..Facts::UNKNOWN };
         for (set, facts) in combinations(&pipeline).iter().flat_map(|set| [(set, Facts::UNKNOWN), (set, opaque)]) {

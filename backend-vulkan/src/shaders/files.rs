@@ -1,15 +1,15 @@
 //! Where shader sources are found: folders on disk first, then the texts that are shipped with the program.
 
+use framewright_graph::root::{NoFile, Root};
 use std::fs;
-use std::path::PathBuf;
 
 /// Larger files are no shaders.
-const MAX_SOURCE_BYTES: u64 = 1 << 20;
+const MAX_SOURCE_BYTES: usize = 1 << 20;
 
 /// Where shaders and what they include are looked for, in this order.
 pub(super) struct ShaderFiles {
     /// Folders on disk.
-    pub(super) folders: Vec<PathBuf>,
+    pub(super) roots: Vec<Root>,
     /// File name and text.
     pub(super) shipped: &'static [(&'static str, &'static str)],
 }
@@ -33,20 +33,16 @@ impl ShaderFiles {
                 "`{name}` is no shader file name: plain names and subfolders with `/` only, no `..`, no `\\`"
             ));
         }
-        for folder in &self.folders {
-            let path = folder.join(name);
-            let Ok(metadata) = fs::metadata(&path) else { continue };
-            let shown = path.display().to_string();
-            if !metadata.is_file() {
-                return Err(format!("{shown} is not a regular file"));
-            }
-            if metadata.len() > MAX_SOURCE_BYTES {
-                return Err(format!(
-                    "{shown} has {} bytes, more than the {MAX_SOURCE_BYTES} of a shader",
-                    metadata.len()
-                ));
-            }
-            let bytes = fs::read(&path).map_err(|error| format!("{shown} can't be read: {error}"))?;
+        for root in &self.roots {
+            let shown = root.folder().join(name).display().to_string();
+            let bytes = match root.locate(name).and_then(|found| root.read(&found, MAX_SOURCE_BYTES)) {
+                Ok(bytes) => bytes,
+                Err(NoFile::Missing) => continue,
+                Err(NoFile::TooLarge { bytes, limit }) => {
+                    return Err(format!("{shown} has {bytes} bytes, more than the {limit} of a shader"));
+                }
+                Err(other) => return Err(format!("{shown} {other}")),
+            };
             let text = String::from_utf8(bytes).map_err(|_| format!("{shown} is not UTF-8 text"))?;
             if text.contains('\0') {
                 return Err(format!("{shown} contains a zero byte"));
@@ -59,19 +55,13 @@ impl ShaderFiles {
 
     /// The places that [`ShaderFiles::find`] looks in, for messages.
     pub(super) fn places(&self) -> Vec<String> {
-        let folders = self.folders.iter().map(|folder| {
-            let shown = folder.display().to_string();
-            if shown.is_empty() { ".".to_owned() } else { shown }
-        });
+        let folders = self.roots.iter().map(|root| root.folder().display().to_string());
         folders.chain((!self.shipped.is_empty()).then(|| "the shipped shaders".to_owned())).collect()
     }
 
     /// Names of everything that has a file ending in `ending`, sorted.
     pub(super) fn known_shaders(&self, ending: &str) -> Vec<String> {
-        let on_disk = self.folders.iter().filter_map(|folder| {
-            let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.clone() };
-            fs::read_dir(folder).ok()
-        });
+        let on_disk = self.roots.iter().filter_map(|root| fs::read_dir(root.folder()).ok());
         let on_disk = on_disk.flatten().flatten().filter_map(|entry| entry.file_name().into_string().ok());
         let shipped = self.shipped.iter().map(|(name, _)| (*name).to_owned());
         let mut names: Vec<String> =

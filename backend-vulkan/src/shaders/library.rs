@@ -7,9 +7,9 @@ use framewright_graph::frame::Draw;
 use framewright_graph::interface::{
     BindingKind, DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
 };
+use framewright_graph::root::Root;
 use shaderc::Compiler;
 use std::collections::HashMap;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// SPIR-V of one stage, with the entry point `main`.
@@ -81,14 +81,15 @@ struct CompiledStage {
 }
 
 impl ShaderLibrary {
-    /// A library over `folders`, then `shipped` (file name, GLSL text). `draws` says what each kind of draw brings along.
+    /// A library over the folders `roots`, then `shipped` (file name, GLSL text). `draws` says what each kind of draw brings
+    /// along.
     #[must_use]
     pub fn new(
-        folders: Vec<PathBuf>,
+        roots: Vec<Root>,
         shipped: &'static [(&'static str, &'static str)],
         draws: fn(Draw) -> DrawInterface,
     ) -> ShaderLibrary {
-        let files = ShaderFiles { folders, shipped };
+        let files = ShaderFiles { roots, shipped };
         ShaderLibrary { files, draws, compiler: None, sources: HashMap::new(), stages: HashMap::new() }
     }
 

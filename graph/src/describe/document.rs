@@ -7,6 +7,7 @@ use super::includes::Included;
 use super::leaf::Leaf;
 use super::lower::Lowering;
 use super::names::Names;
+use super::origins::Origins;
 use super::parameters::Parameter;
 use super::pipeline::{Pipeline, Setting};
 use super::reader::Reader;
@@ -47,6 +48,7 @@ pub struct Document {
     tree: Tree,
     /// Files of fragments.
     included: Vec<Tree>,
+    origins: Origins,
 }
 
 impl Document {
@@ -61,7 +63,7 @@ impl Document {
             return Err(reader.errors);
         };
         included.list(&mut reader, include);
-        let included = included.trees;
+        let Included { trees: included, origins, .. } = included;
         let values: Vec<Option<Value>> =
             settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
         let surroundings = Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], device: None };
@@ -70,9 +72,12 @@ impl Document {
         match (settings, presets.into_iter().collect()) {
             (Some(settings), Some(presets)) if reader.errors.is_empty() => {
                 let in_force = choices::in_force(&settings, None, &[]);
-                Ok(Document { settings, presets, in_force, tree, included })
+                Ok(Document { settings, presets, in_force, tree, included, origins })
             }
-            _ => Err(super::never_none(reader.errors)),
+            _ => {
+                origins.tell(&mut reader.errors);
+                Err(super::never_none(reader.errors))
+            }
         }
     }
 
@@ -131,8 +136,16 @@ impl Document {
         let values = values.iter().cloned().map(Some).collect();
         match lower(&mut reader, (self.tree.root(), &self.included), &settings, values, surroundings, false) {
             Some(pipeline) if reader.errors.is_empty() => Ok(pipeline),
-            _ => Err(super::in_order(super::never_none(reader.errors))),
+            _ => {
+                self.tell_origins(&mut reader.errors);
+                Err(super::in_order(super::never_none(reader.errors)))
+            }
         }
+    }
+
+    /// Adds to mistakes in files that others brought in where they did.
+    pub(crate) fn tell_origins(&self, errors: &mut [Diagnostic]) {
+        self.origins.tell(errors);
     }
 }
 

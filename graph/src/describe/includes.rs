@@ -2,6 +2,7 @@
 
 use super::fragments::LibraryFields;
 use super::leaf::Leaf;
+use super::origins::Origins;
 use super::reader::Reader;
 use super::tree::Tree;
 use super::{Diagnostic, LANGUAGE_VERSION, LARGEST_FILE};
@@ -17,8 +18,23 @@ pub trait Files {
     /// Reads a file. `from` is the [`Found::relative`] of the file that names it, and `path` what stands there.
     ///
     /// # Errors
-    /// Why it can't be read, as a sentence without final stop. Not yet escaped.
-    fn read(&mut self, from: &str, path: &str) -> Result<Found, String>;
+    /// Why it can't be read.
+    fn read(&mut self, from: &str, path: &str) -> Result<Found, Unread>;
+}
+
+/// Why a file can't be read. Not yet escaped.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unread {
+    /// A sentence without final stop.
+    pub why: String,
+    /// What to do.
+    pub help: Option<String>,
+}
+
+impl From<String> for Unread {
+    fn from(why: String) -> Unread {
+        Unread { why, help: None }
+    }
 }
 
 /// A file that was found.
@@ -37,8 +53,8 @@ pub struct Found {
 pub struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&mut self, _: &str, path: &str) -> Result<Found, String> {
-        Err(format!("`{path}` can't be read: this pipeline was given as a text by itself"))
+    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
+        Err(format!("`{path}` can't be read: this pipeline was given as a text by itself").into())
     }
 }
 
@@ -51,13 +67,16 @@ pub(super) struct Included<'a> {
     path: Vec<(String, Span)>,
     /// What was read, each file after those that it includes.
     pub(super) trees: Vec<Tree>,
+    /// Where each file is included.
+    pub(super) origins: Origins,
 }
 
 impl<'a> Included<'a> {
     /// Nothing yet but the pipeline's own file.
     pub(super) fn new(sources: &'a mut Sources, files: &'a mut dyn Files, relative: &str) -> Self {
         let known = HashSet::from([relative.to_owned()]);
-        Included { sources, files, known, path: vec![(relative.to_owned(), Span::NONE)], trees: Vec::new() }
+        let path = vec![(relative.to_owned(), Span::NONE)];
+        Included { sources, files, known, path, trees: Vec::new(), origins: Origins::default() }
     }
 
     /// Reads the files that a list names, and those that they name.
@@ -76,8 +95,8 @@ impl<'a> Included<'a> {
         let from = self.path.last().map_or("", |(from, _)| from).to_owned();
         let found = match self.files.read(&from, path) {
             Ok(found) => found,
-            Err(why) => {
-                reader.report(Diagnostic::new(span, why));
+            Err(Unread { why, help }) => {
+                reader.report(Diagnostic { help, ..Diagnostic::new(span, why) });
                 return;
             }
         };
@@ -118,12 +137,17 @@ impl<'a> Included<'a> {
             reader.report(Diagnostic::new(span, message));
             return None;
         }
-        let Ok(text) = String::from_utf8(bytes) else {
-            reader.report(Diagnostic::new(span, format!("`{shown}` is not a text file in UTF-8")));
-            return None;
+        let text = match String::from_utf8(bytes) {
+            Ok(text) => text,
+            Err(error) => {
+                let message = format!("`{shown}` is not a text file: {}", super::odd_byte(&error));
+                reader.report(Diagnostic::new(span, message));
+                return None;
+            }
         };
         let text: Arc<str> = text.into();
         let file = self.sources.add(shown, relative, text.clone());
+        self.origins.add(file, span, "included here");
         if let Some(error) = super::no_pipeline(file, &text) {
             reader.report(error);
             return None;

@@ -100,12 +100,14 @@ mod lifetimes;
 mod lower;
 mod names;
 mod numbers;
+mod origins;
 mod outputs;
 mod parameters;
 mod parts;
 mod pass;
 mod passes;
 mod pipeline;
+mod pipeline_files;
 mod previous;
 mod properties;
 mod put_in;
@@ -129,13 +131,14 @@ pub use choices::{Choice, ChosenBy, InForce, Preset, SETTINGS_VERSION, SettingsF
 pub use diagnostic::{Diagnostic, Label};
 pub use document::Document;
 pub(crate) use images::LARGEST_SIZE;
-pub use includes::{Files, Found, NoFiles};
+pub use includes::{Files, Found, NoFiles, Unread};
 pub use json::to_json;
 pub use pass::{
     BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, Off, Param, Part, Pass, Sample, Selection,
     StandIn, Storage, StorageAccess, Uniform, Work,
 };
 pub use pipeline::{BufferRef, ImageRef, Instance, Name, Output, Pipeline, ResourceRef, Setting, SettingKind, Spanned};
+pub use pipeline_files::{PipelineFiles, Shipped};
 pub(crate) use properties::scaled;
 pub use render::{escape, render};
 pub use resources::{
@@ -196,13 +199,12 @@ pub fn read_bytes_with(
     match String::from_utf8(bytes) {
         Ok(text) => read_with(sources, files, shown, relative, text),
         Err(error) => {
+            let message = format!("this is not a text file: {}", odd_byte(&error));
             let valid = error.utf8_error().valid_up_to();
             let mut bytes = error.into_bytes();
-            let odd = bytes.get(valid).copied().unwrap_or_default();
             bytes.truncate(valid);
             let file = sources.add(shown, relative, String::from_utf8_lossy(&bytes).into_owned());
             let at = u32::try_from(valid).unwrap_or(u32::MAX);
-            let message = format!("this is not a text file: byte {valid} is 0x{odd:02X}, which is not UTF-8");
             Err(vec![Diagnostic::new(Span::new(file, at, at), message).help("a pipeline is RON text in UTF-8")])
         }
     }
@@ -242,7 +244,8 @@ pub fn read_with(
     Document::read(tree, errors, included).map_err(in_order)
 }
 
-fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
+/// The first mistakes first: file by file.
+pub(crate) fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
     errors.sort_by_key(|error| error.labels.first().map_or((None, 0), |label| (label.span.file(), label.span.start)));
     errors
 }
@@ -254,6 +257,12 @@ fn never_none(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
         errors.push(Diagnostic { message: message.to_owned(), labels: Vec::new(), help: None });
     }
     errors
+}
+
+/// Which byte shows that this is no text.
+fn odd_byte(error: &std::string::FromUtf8Error) -> String {
+    let at = error.utf8_error().valid_up_to();
+    format!("byte {at} is 0x{:02X}, which is not UTF-8", error.as_bytes().get(at).copied().unwrap_or_default())
 }
 
 fn too_large(shown: &str, bytes: usize) -> Diagnostic {

@@ -150,8 +150,8 @@ pub fn expand(
             Ok(Frame { sources, settings, views: Vec::new(), images, buffers, passes, outputs, switched_off })
         }
         _ => {
-            errors.sort_by_key(|error| error.labels.first().map_or(0, |label| label.span.start));
-            Err(errors)
+            document.tell_origins(&mut errors);
+            Err(describe::in_order(errors))
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Every file under `bad/` is wrong, its name says how, and the whole answer stands beside it.
 
 use crate::table::{INPUTS, Table};
-use framewright_graph::describe::{self, Files, Found};
+use framewright_graph::describe::{self, Files, Found, Unread};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::source::Sources;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
 struct Folder;
 
 impl Files for Folder {
-    fn read(&mut self, _: &str, path: &str) -> Result<Found, String> {
+    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
         let bytes = std::fs::read(folder().join(path)).map_err(|_| format!("there is no file `{path}`"))?;
         Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes })
     }

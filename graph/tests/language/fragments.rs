@@ -1,7 +1,7 @@
 //! Fragments: images, buffers and passes that are put in under a name of their own, with arguments.
 
 use crate::table::{INPUTS, Table, right, unnamed, wrong};
-use framewright_graph::describe::{self, Files, Found};
+use framewright_graph::describe::{self, Files, Found, Unread};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Frame, ImageIndex, ParamValue, Work};
@@ -193,7 +193,7 @@ struct Shelf {
 }
 
 impl Files for Shelf {
-    fn read(&mut self, from: &str, path: &str) -> Result<Found, String> {
+    fn read(&mut self, from: &str, path: &str) -> Result<Found, Unread> {
         self.read.push(format!("{from} -> {path}"));
         let (_, text) = self.files.iter().find(|(name, _)| *name == path).ok_or_else(|| format!("no `{path}`"))?;
         Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes: text.clone().into_bytes() })

@@ -11,6 +11,7 @@ use framewright_graph::expand::{self, Facts, Inputs};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{self, Frame};
 use framewright_graph::plan::{Plan, Resource};
+use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
 use framewright_passes::draw::interface;
@@ -144,7 +145,7 @@ impl Judge {
         let device = Device::open(&DeviceOptions { choice: DeviceChoice::Default, validation: true })?;
         device.canary()?;
         let folder = tempfile::tempdir()?;
-        let shaders = ShaderLibrary::new(vec![folder.path().to_owned()], SHADERS, interface);
+        let shaders = ShaderLibrary::new(vec![Root::new(folder.path().to_owned())], SHADERS, interface);
         Ok(Judge {
             profile: device.profile(),
             device,

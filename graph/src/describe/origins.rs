@@ -1,0 +1,44 @@
+//! Which line brought a file in: a mistake in one that was included shows both places.
+
+use super::{Diagnostic, Label};
+use crate::source::Span;
+
+/// A longer way to a file is not shown whole.
+const MOST_SHOWN: usize = 10;
+
+/// Files that others name, by number, and where.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Origins(Vec<(u32, Origin)>);
+
+/// Where a file is named, and what happens there.
+#[derive(Debug, Clone, Copy)]
+struct Origin {
+    span: Span,
+    words: &'static str,
+}
+
+impl Origins {
+    /// The file numbered `file` is named at `span`; `words` say what for: "included here".
+    pub(super) fn add(&mut self, file: u32, span: Span, words: &'static str) {
+        self.0.push((file, Origin { span, words }));
+    }
+
+    fn of(&self, file: usize) -> Option<Origin> {
+        self.0.iter().find(|(named, _)| *named as usize == file).map(|(_, origin)| *origin)
+    }
+
+    /// Adds to each mistake how its file came in, as far as it doesn't show that already.
+    pub(super) fn tell(&self, errors: &mut [Diagnostic]) {
+        for error in errors {
+            let mut file = error.labels.first().and_then(|label| label.span.file());
+            for _ in 0..MOST_SHOWN {
+                let Some(origin) = file.and_then(|file| self.of(file)) else { break };
+                file = origin.span.file();
+                if error.labels.iter().any(|label| label.span.file() == file) {
+                    break;
+                }
+                error.labels.push(Label { span: origin.span, text: origin.words.to_owned() });
+            }
+        }
+    }
+}

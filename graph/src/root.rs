@@ -1,0 +1,207 @@
+//! The folder that a pipeline's files lie in, and the way to them: by default never out of it, by no link either.
+//!
+//! The only place of this library that reads from disk.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Component, Path, PathBuf};
+
+/// Where files are read from that a pipeline names: shaders, pictures, other pipelines and fragments. Paths are counted
+/// from one folder, and must not leave another, which is the same unless [`Root::within`] says so.
+///
+/// What a path leads to is found out before it is opened; nothing is promised where somebody changes links in between.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Root {
+    folder: PathBuf,
+    within: PathBuf,
+    outside: bool,
+}
+
+/// Why a file isn't read: the end of a sentence that began with its path. Text from outside is not yet escaped.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum NoFile {
+    /// There is none.
+    #[error("is not there")]
+    Missing,
+    /// It is written in a way that no path is.
+    #[error("is no path of a file: names are divided by `/`, without `\\` and `:`")]
+    NoPath,
+    /// It lies outside the folder that mustn't be left.
+    #[error("leads out of `{}`", within.display())]
+    Outside {
+        /// That folder.
+        within: PathBuf,
+    },
+    /// It is a folder, a device or a pipe.
+    #[error("is not a regular file")]
+    NotRegular,
+    /// It is too large.
+    #[error("has {bytes} bytes, more than the {limit} that are allowed")]
+    TooLarge {
+        /// How many it has.
+        bytes: u64,
+        /// How many it may have.
+        limit: u64,
+    },
+    /// The system doesn't let it be read.
+    #[error("can't be read: {reason}")]
+    Unreadable {
+        /// The system's words.
+        reason: String,
+    },
+}
+
+impl From<io::Error> for NoFile {
+    fn from(error: io::Error) -> NoFile {
+        match error.kind() {
+            io::ErrorKind::NotFound => NoFile::Missing,
+            _ => NoFile::Unreadable { reason: error.to_string() },
+        }
+    }
+}
+
+impl From<PathBuf> for Root {
+    fn from(folder: PathBuf) -> Root {
+        Root::new(folder)
+    }
+}
+
+impl Root {
+    /// Files in `folder` and in folders within it. An empty path is the working directory.
+    #[must_use]
+    pub fn new(folder: PathBuf) -> Root {
+        let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+        Root { within: folder.clone(), folder, outside: false }
+    }
+
+    /// Paths are still counted from the same folder, but may lead to anywhere in `within`.
+    #[must_use]
+    pub fn within(self, within: PathBuf) -> Root {
+        Root { within, ..self }
+    }
+
+    /// Files may lie anywhere, and paths may be absolute.
+    #[must_use]
+    pub fn allow_outside(self) -> Root {
+        Root { outside: true, ..self }
+    }
+
+    /// The folder that paths are counted from, as it was given.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Where `path` leads to, links followed: a regular file.
+    ///
+    /// # Errors
+    /// [`NoFile`] says why it is not to be read.
+    pub fn locate(&self, path: &str) -> Result<PathBuf, NoFile> {
+        if !is_path(path) {
+            return Err(NoFile::NoPath);
+        }
+        let outside = || NoFile::Outside { within: self.within.clone() };
+        let within = self.within.canonicalize()?;
+        let stays = |path: &Path| self.outside || path.starts_with(&within);
+        let named = normal(&self.folder.canonicalize()?.join(path));
+        if Path::new(path).is_absolute() && !self.outside || !stays(&named) {
+            return Err(outside());
+        }
+        let found = named.canonicalize()?;
+        if !stays(&found) {
+            return Err(outside());
+        }
+        if fs::metadata(&found)?.is_file() { Ok(found) } else { Err(NoFile::NotRegular) }
+    }
+
+    /// What stands in the file that [`locate`](Root::locate) found: at most `limit` bytes.
+    ///
+    /// # Errors
+    /// [`NoFile`] says why it is not to be read.
+    pub fn read(&self, found: &Path, limit: usize) -> Result<Vec<u8>, NoFile> {
+        let (file, limit) = (File::open(found)?, limit as u64);
+        let bytes = file.metadata()?.len();
+        if bytes > limit {
+            return Err(NoFile::TooLarge { bytes, limit });
+        }
+        let mut contents = Vec::new();
+        // It may have grown since.
+        file.take(limit).read_to_end(&mut contents)?;
+        Ok(contents)
+    }
+
+    /// The path of a file that the user names, counted from the folder, as it stands in Plans.
+    ///
+    /// # Errors
+    /// [`NoFile`] if there is none.
+    pub fn relative(&self, file: &Path) -> Result<String, NoFile> {
+        let (folder, file) = (self.folder.canonicalize()?, file.canonicalize()?);
+        let shared = folder.components().zip(file.components()).take_while(|(one, other)| one == other).count();
+        let up = folder.components().skip(shared).map(|_| "..".to_owned());
+        let down = file.components().skip(shared).map(|part| part.as_os_str().to_string_lossy().into_owned());
+        Ok(up.chain(down).collect::<Vec<_>>().join("/"))
+    }
+}
+
+/// The path that `path` is where it stands in the file `from`: both counted from the same folder, in the shortest form.
+/// An absolute path stays what it is.
+#[must_use]
+pub fn beside(from: &str, path: &str) -> String {
+    if path.starts_with('/') {
+        return path.to_owned();
+    }
+    let folder = from.rfind('/').map_or("", |end| &from[..end]);
+    let (start, folder) = if from.starts_with('/') { ("/", &folder[folder.len().min(1)..]) } else { ("", folder) };
+    let mut parts: Vec<&str> = Vec::new();
+    for part in folder.split('/').filter(|part| !part.is_empty()).chain(path.split('/')) {
+        match part {
+            "." => {}
+            ".." if parts.last().is_some_and(|last| *last != "..") => drop(parts.pop()),
+            ".." if !start.is_empty() => {}
+            part => parts.push(part),
+        }
+    }
+    format!("{start}{}", parts.join("/"))
+}
+
+/// Whether a text is written as a path of a file.
+fn is_path(path: &str) -> bool {
+    let relative = path.strip_prefix('/').unwrap_or(path);
+    !path.contains(['\\', '\0', ':']) && relative.split('/').all(|part| !part.is_empty())
+}
+
+/// The path without `.` and `..`, links not asked.
+fn normal(path: &Path) -> PathBuf {
+    let mut normal = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::CurDir => {}
+            Component::ParentDir => drop(normal.pop()),
+            component => normal.push(component),
+        }
+    }
+    normal
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_is_counted_from_the_folder_of_the_file_that_names_it() {
+        for (from, path, expected) in [
+            ("p.ron", "a.ron", "a.ron"),
+            ("p.ron", "library/a.ron", "library/a.ron"),
+            ("library/p.ron", "a.ron", "library/a.ron"),
+            ("library/p.ron", "./../b/./a.ron", "b/a.ron"),
+            ("library/p.ron", "../../a.ron", "../a.ron"),
+            ("../p.ron", "../a.ron", "../../a.ron"),
+            ("p.ron", "/a.ron", "/a.ron"),
+            ("/x/p.ron", "a.ron", "/x/a.ron"),
+            ("/p.ron", "a.ron", "/a.ron"),
+            ("/x/p.ron", "../../../a.ron", "/a.ron"),
+        ] {
+            assert_eq!(beside(from, path), expected, "`{path}` in `{from}`");
+        }
+    }
+}
