@@ -5,13 +5,14 @@ use crate::files::{self, PipelineFile};
 use crate::values::Size;
 use crate::{args, shipped};
 use framewright_graph::compile::{self, Options};
-use framewright_graph::describe::{self, Diagnostic, Document, PipelineFiles};
+use framewright_graph::describe::{self, Diagnostic, Document, Files, Found, PipelineFiles, Unread};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Facts, Inputs};
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Plan;
 use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
+use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem, Textures};
 use framewright_graph::verify;
 use framewright_passes::draw;
 use framewright_passes::shipped::SHADERS;
@@ -54,6 +55,22 @@ pub(crate) struct View<'a> {
     pub(crate) dump: &'a [String],
 }
 
+/// What a pipeline names: files of its language, and pictures.
+struct Named {
+    files: PipelineFiles,
+    textures: TextureFiles,
+}
+
+impl Files for Named {
+    fn read(&mut self, from: &str, path: &str) -> Result<Found, Unread> {
+        self.files.read(from, path)
+    }
+
+    fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        self.textures.info(file)
+    }
+}
+
 /// Reads a pipeline file.
 ///
 /// # Errors
@@ -61,17 +78,19 @@ pub(crate) struct View<'a> {
 pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
     let PipelineFile { shown, name, root, bytes } = files::pipeline(arguments)?;
     let mut sources = Sources::default();
-    let mut named = match &root {
+    let files = match &root {
         Some(root) => PipelineFiles::beside(root.clone(), &name, shipped::PIPELINES),
         None => PipelineFiles::shipped(shipped::PIPELINES),
     };
+    let textures = TextureFiles::new(root.clone().unwrap_or_else(|| Root::new(PathBuf::default())));
+    let mut named = Named { files, textures };
     let mut pipeline = describe::read_bytes_with(&mut sources, &mut named, &shown, &name, bytes)
         .map_err(|diagnostics| wrong(&sources, diagnostics))?;
     choose(arguments, &mut pipeline, &mut sources)?;
     Ok(Loaded {
         pipeline,
         sources: Arc::new(sources),
-        textures: TextureFiles::new(root.clone().unwrap_or_else(|| Root::new(PathBuf::default()))),
+        textures: named.textures,
         shaders: ShaderLibrary::new(root.into_iter().collect(), SHADERS, draw::interface),
         set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
     })

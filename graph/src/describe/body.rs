@@ -11,15 +11,16 @@ use super::parameters::Parameter;
 use super::passes::PassFields;
 use super::pipeline::Name;
 use super::reader::Reader;
+use super::textures::TextureFields;
 use super::uses::UseFields;
 use crate::fields;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What stands in `images`, `buffers` and `passes`; `None` where an entry couldn't be told apart.
+/// What stands in `textures`, `images`, `buffers` and `passes`; `None` where an entry couldn't be told apart.
 pub(super) struct Body<'t> {
     pub(super) known: Known,
-    pub(super) images: Vec<Option<Entry<'t, ImageFields<'t>>>>,
+    pub(super) images: Vec<Option<Entry<'t, AnyImage<'t>>>>,
     pub(super) buffers: Vec<Option<Entry<'t, BufferFields<'t>>>>,
     pub(super) items: Vec<Option<Entry<'t, Item<'t>>>>,
 }
@@ -28,6 +29,14 @@ pub(super) struct Body<'t> {
 pub(super) struct Entry<'t, T> {
     pub(super) repeat: Repeat<'t>,
     pub(super) fields: T,
+}
+
+/// What stands in `textures` and `images`.
+pub(super) enum AnyImage<'t> {
+    /// An image that passes make.
+    Made(ImageFields<'t>),
+    /// An image whose texels come from a file.
+    Texture(TextureFields<'t>),
 }
 
 /// What stands in `passes`.
@@ -48,6 +57,7 @@ fields! {
 
 /// The lists of one level.
 pub(super) struct Lists<'t> {
+    pub(super) textures: Option<Leaf<'t>>,
     pub(super) images: Option<Leaf<'t>>,
     pub(super) buffers: Option<Leaf<'t>>,
     pub(super) passes: Option<Leaf<'t>>,
@@ -63,12 +73,21 @@ impl<'t> Body<'t> {
         lists: Lists<'t>,
     ) -> Body<'t> {
         let mut images = Names::new("image");
+        let textures: Vec<Option<TextureFields<'t>>> =
+            entries(reader, lists.textures, "`textures`", "texture", &mut images);
         let image_entries: Vec<Option<ImageFields<'t>>> =
             entries(reader, lists.images, "`images`", "image", &mut images);
         let mut buffers = Names::new("buffer");
         let buffer_entries: Vec<Option<BufferFields<'t>>> =
             entries(reader, lists.buffers, "`buffers`", "buffer", &mut buffers);
-        let image_entries = repeated(reader, image_entries, |fields| fields.repeat);
+        // Textures come first: images may ask for their sizes.
+        let texture = |fields| Entry { repeat: Repeat::Once, fields: AnyImage::Texture(fields) };
+        let textures = textures.into_iter().map(|fields| fields.map(texture));
+        let made = repeated(reader, image_entries, |fields| fields.repeat);
+        let made = made
+            .into_iter()
+            .map(|entry| entry.map(|Entry { repeat, fields }| Entry { repeat, fields: AnyImage::Made(fields) }));
+        let image_entries: Vec<_> = textures.chain(made).collect();
         let buffer_entries = repeated(reader, buffer_entries, |fields| fields.repeat);
         let known = Known {
             given,

@@ -64,8 +64,8 @@ pub(super) fn find(images: &[Option<Image>], buffers: &[Option<Buffer>], errors:
     };
     along(&all, "sizes", bytes, errors);
     let lifetime = |at: usize| {
-        let of_image = images.get(at).and_then(Option::as_ref).map(|image| image.lifetime.value);
-        match of_image.or_else(|| buffer(at).map(|buffer| buffer.lifetime.value))? {
+        let of_image = images.get(at).and_then(Option::as_ref).map(|image| &image.lifetime.value);
+        match of_image.or_else(|| buffer(at).map(|buffer| &buffer.lifetime.value))? {
             Lifetime::Like(of) => Some((all.index(of.resource), of.span)),
             _ => None,
         }

@@ -14,6 +14,7 @@ use super::reader::Reader;
 use super::scope::{Given, Level};
 use super::settings::{self, SettingFields};
 use super::surroundings::Surroundings;
+use super::textures::Pictures;
 use super::tree::Tree;
 use super::{Diagnostic, LANGUAGE_VERSION};
 use crate::expression::Value;
@@ -29,6 +30,7 @@ fields! {
         settings: Option<Leaf<'src>>,
         presets: Option<Leaf<'src>>,
         fragments: Option<Leaf<'src>>,
+        textures: Option<Leaf<'src>>,
         images: Leaf<'src>,
         buffers: Option<Leaf<'src>>,
         passes: Leaf<'src>,
@@ -49,6 +51,8 @@ pub struct Document {
     /// Files of fragments.
     included: Vec<Tree>,
     origins: Origins,
+    /// The pictures that textures name.
+    pictures: Pictures,
 }
 
 impl Document {
@@ -59,20 +63,23 @@ impl Document {
         mut included: Included<'_>,
     ) -> Result<Document, Vec<Diagnostic>> {
         let mut reader = Reader { errors };
-        let Some(Said { settings, presets, include }) = said(&mut reader, tree.root()) else {
+        let Some(Said { settings, presets, include, textures }) = said(&mut reader, tree.root()) else {
             return Err(reader.errors);
         };
         included.list(&mut reader, include);
-        let Included { trees: included, origins, .. } = included;
+        included.pictures(&mut reader, textures);
+        included.pictures_of_fragments(&mut reader, tree.root());
+        let Included { trees: included, pictures, origins, .. } = included;
         let values: Vec<Option<Value>> =
             settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
         let surroundings = Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], device: None };
-        lower(&mut reader, (tree.root(), &included), &settings, values, &surroundings, true);
+        let files = Read { all: tree.root(), included: &included, pictures: &pictures };
+        lower(&mut reader, files, &settings, values, &surroundings, true);
         let settings: Option<Vec<Setting>> = settings.into_iter().collect();
         match (settings, presets.into_iter().collect()) {
             (Some(settings), Some(presets)) if reader.errors.is_empty() => {
                 let in_force = choices::in_force(&settings, None, &[]);
-                Ok(Document { settings, presets, in_force, tree, included, origins })
+                Ok(Document { settings, presets, in_force, tree, included, origins, pictures })
             }
             _ => {
                 origins.tell(&mut reader.errors);
@@ -134,7 +141,8 @@ impl Document {
         let mut reader = Reader::default();
         let settings: Vec<Option<Setting>> = self.settings.iter().cloned().map(Some).collect();
         let values = values.iter().cloned().map(Some).collect();
-        match lower(&mut reader, (self.tree.root(), &self.included), &settings, values, surroundings, false) {
+        let files = Read { all: self.tree.root(), included: &self.included, pictures: &self.pictures };
+        match lower(&mut reader, files, &settings, values, surroundings, false) {
             Some(pipeline) if reader.errors.is_empty() => Ok(pipeline),
             _ => {
                 self.tell_origins(&mut reader.errors);
@@ -154,6 +162,18 @@ struct Said<'t> {
     settings: Vec<Option<Setting>>,
     presets: Vec<Option<Preset>>,
     include: Option<Leaf<'t>>,
+    textures: Option<Leaf<'t>>,
+}
+
+/// All that was read of files.
+#[derive(Clone, Copy)]
+struct Read<'t> {
+    /// The pipeline's own.
+    all: Leaf<'t>,
+    /// Files of fragments.
+    included: &'t [Tree],
+    /// What textures name.
+    pictures: &'t Pictures,
 }
 
 /// Settings, presets and what is included. `None` if the file is no pipeline of this version.
@@ -173,13 +193,13 @@ fn said<'t>(reader: &mut Reader, all: Leaf<'t>) -> Option<Said<'t>> {
     let lower = |fields: &Option<SettingFields<'_>>| fields.as_ref().and_then(|fields| settings::lower(reader, fields));
     let settings: Vec<Option<Setting>> = listed.iter().map(lower).collect();
     let presets = choices::presets(reader, fields.presets, &settings);
-    Some(Said { settings, presets, include: fields.include })
+    Some(Said { settings, presets, include: fields.include, textures: fields.textures })
 }
 
 /// Puts in values; `None` if errors were reported. `lenient` if nothing is to be said about values.
 fn lower(
     reader: &mut Reader,
-    (all, included): (Leaf<'_>, &[Tree]),
+    Read { all, included, pictures }: Read<'_>,
     settings: &[Option<Setting>],
     values: Vec<Option<Value>>,
     surroundings: &Surroundings<'_>,
@@ -197,9 +217,10 @@ fn lower(
         reader,
         fields.fragments.into_iter().chain(included.iter().filter_map(|tree| tree.root().field("fragments"))),
     );
-    let lists = Lists { images: Some(fields.images), buffers: fields.buffers, passes: Some(fields.passes) };
+    let PipelineFields { textures, images, buffers, passes, .. } = fields;
+    let lists = Lists { textures, images: Some(images), buffers, passes: Some(passes) };
     let body = Body::read(reader, names, parameters, true, lists);
     let given = values.into_iter().map(|value| value.map(|value| Given { value, decided: Vec::new() })).collect();
     let level = Level { given, ..Level::default() };
-    Lowering::new(surroundings, &fragments, lenient).whole(reader, &body, level, fields.outputs)
+    Lowering::new(surroundings, &fragments, pictures, lenient).whole(reader, &body, level, fields.outputs)
 }

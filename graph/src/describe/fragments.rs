@@ -13,6 +13,7 @@ fields! {
         name: Leaf<'src>,
         about: Option<Leaf<'src>>,
         parameters: Option<Leaf<'src>>,
+        textures: Option<Leaf<'src>>,
         images: Option<Leaf<'src>>,
         buffers: Option<Leaf<'src>>,
         passes: Leaf<'src>,
@@ -65,6 +66,7 @@ fn fragment<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> Fragment<'t
         entries(reader, fields.parameters, "`parameters`", "parameter", &mut names);
     let lower = |fields: Option<ParameterFields<'t>>| fields.and_then(|fields| parameters::lower(reader, &fields));
     let parameters: Vec<Option<Parameter>> = given.into_iter().map(lower).collect();
-    let lists = Lists { images: fields.images, buffers: fields.buffers, passes: Some(fields.passes) };
+    let FragmentFields { textures, images, buffers, passes, .. } = *fields;
+    let lists = Lists { textures, images, buffers, passes: Some(passes) };
     Fragment { name, body: Body::read(reader, names, parameters, false, lists) }
 }

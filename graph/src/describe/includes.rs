@@ -4,9 +4,11 @@ use super::fragments::LibraryFields;
 use super::leaf::Leaf;
 use super::origins::Origins;
 use super::reader::Reader;
+use super::textures::{self, Pictures};
 use super::tree::Tree;
 use super::{Diagnostic, LANGUAGE_VERSION, LARGEST_FILE};
 use crate::source::{Sources, Span};
+use crate::texture::{TextureFile, TextureInfo, TextureProblem};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -20,6 +22,15 @@ pub trait Files {
     /// # Errors
     /// Why it can't be read.
     fn read(&mut self, from: &str, path: &str) -> Result<Found, Unread>;
+
+    /// Looks at a picture's file: its path is counted from the pipeline's own folder.
+    ///
+    /// # Errors
+    /// [`TextureProblem`] says why it holds no texture.
+    fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        let _ = file;
+        Err(TextureProblem::NotProvided)
+    }
 }
 
 /// Why a file can't be read. Not yet escaped.
@@ -69,6 +80,8 @@ pub(super) struct Included<'a> {
     pub(super) trees: Vec<Tree>,
     /// Where each file is included.
     pub(super) origins: Origins,
+    /// The pictures that textures name.
+    pub(super) pictures: Pictures,
 }
 
 impl<'a> Included<'a> {
@@ -76,7 +89,13 @@ impl<'a> Included<'a> {
     pub(super) fn new(sources: &'a mut Sources, files: &'a mut dyn Files, relative: &str) -> Self {
         let known = HashSet::from([relative.to_owned()]);
         let path = vec![(relative.to_owned(), Span::NONE)];
-        Included { sources, files, known, path, trees: Vec::new(), origins: Origins::default() }
+        let (trees, origins, pictures) = (Vec::new(), Origins::default(), Pictures::new());
+        Included { sources, files, known, path, trees, origins, pictures }
+    }
+
+    /// Looks at the pictures that a list of textures names.
+    pub(super) fn pictures(&mut self, reader: &mut Reader, textures: Option<Leaf<'_>>) {
+        textures::look(reader, self.sources, self.files, textures, &mut self.pictures);
     }
 
     /// Reads the files that a list names, and those that they name.
@@ -128,7 +147,16 @@ impl<'a> Included<'a> {
         self.path.push((found.relative, span));
         self.list(reader, include);
         self.path.pop();
+        self.pictures_of_fragments(reader, tree.root());
         self.trees.push(tree);
+    }
+
+    /// Looks at the pictures that the fragments of a file name.
+    pub(super) fn pictures_of_fragments(&mut self, reader: &mut Reader, all: Leaf<'_>) {
+        let fragments = all.field("fragments").and_then(Leaf::values);
+        for textures in fragments.into_iter().flatten().filter_map(|fragment| fragment.field("textures")) {
+            self.pictures(reader, Some(textures));
+        }
     }
 
     fn tree(&mut self, reader: &mut Reader, shown: String, relative: &str, bytes: Vec<u8>, span: Span) -> Option<Tree> {

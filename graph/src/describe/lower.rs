@@ -1,6 +1,6 @@
 //! Values are put in: what a file declares becomes flat lists of images, buffers and passes.
 
-use super::body::{Body, Entry, Item};
+use super::body::{AnyImage, Body, Entry, Item};
 use super::fragments::Fragments;
 use super::known::Repeat;
 use super::leaf::Leaf;
@@ -11,6 +11,7 @@ use super::reader::Reader;
 use super::resources::{Buffer, Image};
 use super::scope::{Block, Checked, Level, Properties, Scope};
 use super::surroundings::Surroundings;
+use super::textures::{self, Pictures};
 use super::{Diagnostic, buffers, circles, images, outputs, passes, previous, values};
 use crate::source::Span;
 use std::cell::Cell;
@@ -24,6 +25,7 @@ pub(super) const MOST_THINGS: u32 = 1_000_000;
 pub(super) struct Lowering<'a, 't> {
     pub(super) surroundings: &'a Surroundings<'a>,
     pub(super) fragments: &'a Fragments<'t>,
+    pub(super) pictures: &'a Pictures,
     pub(super) checked: Checked,
     pub(super) forgave: Cell<bool>,
     /// Whether what is lowered is off, so that what has no value is no mistake.
@@ -60,10 +62,16 @@ enum Count {
 }
 
 impl<'a, 't> Lowering<'a, 't> {
-    pub(super) fn new(surroundings: &'a Surroundings<'a>, fragments: &'a Fragments<'t>, lenient: bool) -> Self {
+    pub(super) fn new(
+        surroundings: &'a Surroundings<'a>,
+        fragments: &'a Fragments<'t>,
+        pictures: &'a Pictures,
+        lenient: bool,
+    ) -> Self {
         Lowering {
             surroundings,
             fragments,
+            pictures,
             checked: Checked::default(),
             forgave: Cell::new(false),
             lenient,
@@ -197,7 +205,10 @@ impl<'a, 't> Lowering<'a, 't> {
             let before = reader.errors.len();
             let image = body.images[at].as_ref().filter(|_| right).and_then(|entry| {
                 let scope = self.scope(body, level, indexed(&entry.repeat, number));
-                images::lower(reader, &scope, &entry.fields)
+                match &entry.fields {
+                    AnyImage::Made(fields) => images::lower(reader, &scope, fields),
+                    AnyImage::Texture(fields) => textures::lower(reader, &scope, self.pictures, fields),
+                }
             });
             let known = image.as_ref().map(|image| properties::of(image, &self.properties, self.surroundings.extent));
             let known = match known {

@@ -11,21 +11,24 @@
 //! # The language
 //! `docs/pipeline-format.md` tells what each field means; this is its grammar.
 //! ```text
-//! Pipeline(version: 1, include: ["file"…], settings: [SETTING…], fragments: [FRAGMENT…], images: [IMAGE…],
-//!          buffers: [BUFFER…], passes: [ITEM…], outputs: [OUTPUT…])
+//! Pipeline(version: 1, include: ["file"…], settings: [SETTING…], fragments: [FRAGMENT…], textures: [TEXTURE…],
+//!          images: [IMAGE…], buffers: [BUFFER…], passes: [ITEM…], outputs: [OUTPUT…])
 //! Fragments(version: 1, include: ["file"…], fragments: [FRAGMENT…])
 //!
 //! SETTING    (name: "…", value: KIND, about: "…")                  `about` may be left out
 //! KIND       Bool(default: true) | OneOf(default: 4, of: [1, 4]) | OneOf(default: "low", of: ["low", "high"])
 //!            | Number(default: 1.0, min: 0.0, max: 2.0) | Integer(default: 1, min: 0, max: 9)    with `step: 1` too
 //!
-//! FRAGMENT   (name: "…", about: "…", parameters: [PARAMETER…], images: [IMAGE…], buffers: [BUFFER…], passes: [ITEM…])
+//! FRAGMENT   (name: "…", about: "…", parameters: [PARAMETER…], textures: [TEXTURE…], images: [IMAGE…],
+//!             buffers: [BUFFER…], passes: [ITEM…])
 //! PARAMETER  (name: "…", value: TYPE, about: "…")
 //! TYPE       Image | Buffer | KIND | Format(default: R8_UNORM)      without `default`: it has to be given
 //! ITEM       PASS | USE | (anchor: "…")
 //! USE        (use: "fragment", name: "…", with: {"parameter": VALUE…}, repeat: REPEAT, when: …, otherwise: OTHERWISE)
 //! REPEAT     ("i", 8)                                              `i` counts from 0; may stand in IMAGE, BUFFER and PASS
 //!
+//! TEXTURE    (name: "…", file: "…", color_space: Srgb | Linear, format: R8_UNORM, shape: D2 | D3)
+//!                                       by default Srgb, a format that holds what the file does, D2; D3 takes a strip
 //! IMAGE      (name: "…", format: FORMAT, size: SIZE, samples: SAMPLES, mips: MIPS, layers: LAYERS, shape: SHAPE,
 //!             lifetime: LIFETIME)
 //! FORMAT     Color(hdr: true) | Depth | DepthStencil | Output | Like("image") | R8_UNORM and others of Vulkan
@@ -121,6 +124,7 @@ mod suggest;
 mod surroundings;
 mod syntax;
 mod targets;
+mod textures;
 mod tree;
 mod uses;
 mod values;

@@ -66,7 +66,7 @@ fn kept(
     let mut kept = lifetime;
     // A circle would be longer than everything together; it is reported elsewhere.
     for _ in 0..images.len() + buffers.len() {
-        let Lifetime::Like(other) = kept.value else { break };
+        let Lifetime::Like(other) = &kept.value else { break };
         let Some((_, next)) = declared(images, buffers, other.resource) else { return };
         kept = next;
     }
@@ -81,6 +81,12 @@ fn kept(
         Lifetime::Transient => format!("`{text}` is transient: nothing is left of it after a frame"),
         Lifetime::Persistent { .. } => format!("`{text}` is persistent: it is one image or buffer for all frames"),
         Lifetime::Imported { .. } => format!("`{text}` is imported: only the program knows what it held"),
+        Lifetime::File(_) => {
+            let wrong =
+                Diagnostic::new(previous.span, format!("`{text}` comes from a file: it is the same in all frames"));
+            errors.push(wrong.remark("read here").label(kept.span, "its file").help("leave `previous` out"));
+            return;
+        }
     };
     let remark = match kept.value {
         Lifetime::Transient => "declared here, without a lifetime that outlives the frame",
@@ -99,11 +105,11 @@ fn declared<'a>(
     images: &'a [Option<Image>],
     buffers: &'a [Option<Buffer>],
     of: Resource,
-) -> Option<(&'a Name, Spanned<Lifetime>)> {
+) -> Option<(&'a Name, &'a Spanned<Lifetime>)> {
     match of {
-        Resource::Image(index) => images.get(index.0 as usize)?.as_ref().map(|image| (&image.name, image.lifetime)),
+        Resource::Image(index) => images.get(index.0 as usize)?.as_ref().map(|image| (&image.name, &image.lifetime)),
         Resource::Buffer(index) => {
-            buffers.get(index.0 as usize)?.as_ref().map(|buffer| (&buffer.name, buffer.lifetime))
+            buffers.get(index.0 as usize)?.as_ref().map(|buffer| (&buffer.name, &buffer.lifetime))
         }
     }
 }

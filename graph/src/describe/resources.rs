@@ -2,6 +2,7 @@
 
 use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, Spanned};
 use crate::format;
+use crate::texture::TextureFile;
 use crate::vocabulary;
 use std::sync::Arc;
 
@@ -141,7 +142,7 @@ pub enum Bytes {
 }
 
 /// How long the contents of an image or buffer live.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Lifetime {
     /// Within the frame.
     Transient,
@@ -164,6 +165,8 @@ pub enum Lifetime {
         /// In which state it is to be left, if the file asks for one.
         after: Option<Spanned<State>>,
     },
+    /// They come from a file: a texture's.
+    File(Arc<TextureFile>),
     /// As long as those of another image or buffer.
     Like(ResourceRef),
 }

@@ -211,6 +211,10 @@ fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, error
             errors.push(Diagnostic { help, ..nowhere(format!("there is no image named `{name}` to dump")) });
             continue;
         };
+        if let describe::Lifetime::File(file) = &pipeline.images[index].lifetime.value {
+            errors.push(nowhere(format!("`{name}` can't be dumped: no pass makes it, it comes from `{}`", file.path)));
+            continue;
+        }
         let Ok(index) = u32::try_from(index) else { continue };
         let resource = Resource::Image(ImageIndex(index));
         if outputs.iter().all(|output| output.resource != resource) {

@@ -8,6 +8,7 @@ use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
 use crate::source::Span;
 use crate::states::{Subject, When};
 use crate::vocabulary::State;
+use std::sync::Arc;
 
 /// Everything that passes name; `None` where a mistake was reported.
 pub(super) struct Things {
@@ -24,7 +25,7 @@ impl Things {
                 let (format, samples) = (Some(resolved.image.format), resolved.image.samples);
                 let subject = Subject { name: &described.name.text, format, samples };
                 let before = errors.len();
-                match lifetime(chosen, described.lifetime, subject, errors) {
+                match lifetime(chosen, &described.lifetime, subject, errors) {
                     Some(lifetime) => resolved.image.lifetime = lifetime,
                     None => *image = None,
                 }
@@ -37,7 +38,7 @@ impl Things {
             let before = errors.len();
             let bytes = followed(chosen, &images, &mut sizes, at, errors);
             let subject = Subject { name: &buffer.name.text, format: None, samples: 1 };
-            let lifetime = lifetime(chosen, buffer.lifetime, subject, errors);
+            let lifetime = lifetime(chosen, &buffer.lifetime, subject, errors);
             super::used_here(chosen.pipeline, buffer.instance, &mut errors[before..]);
             let (name, span) = (buffer.name.text.clone(), buffer.name.span);
             Some(Buffer { name, span, bytes: bytes?, lifetime: lifetime? })
@@ -154,17 +155,17 @@ fn own(images: &[Option<images::Resolved>], buffer: &describe::Buffer, errors: &
 
 fn lifetime(
     chosen: &Chosen<'_>,
-    described: Spanned<Described>,
+    described: &Spanned<Described>,
     of: Subject<'_>,
     errors: &mut Vec<Diagnostic>,
 ) -> Option<Lifetime> {
     let mut value = described;
     // A circle would be longer than everything together; reading a pipeline has ruled it out.
     for _ in 0..chosen.pipeline.images.len() + chosen.pipeline.buffers.len() {
-        let Described::Like(other) = value.value else { break };
+        let Described::Like(other) = &value.value else { break };
         value = match other.resource {
-            Resource::Image(index) => chosen.pipeline.images[index.0 as usize].lifetime,
-            Resource::Buffer(index) => chosen.pipeline.buffers[index.0 as usize].lifetime,
+            Resource::Image(index) => &chosen.pipeline.images[index.0 as usize].lifetime,
+            Resource::Buffer(index) => &chosen.pipeline.buffers[index.0 as usize].lifetime,
         };
     }
     // What is wrong with a followed lifetime is shown at the one that follows, too: there it may mean something else.
@@ -180,20 +181,28 @@ fn lifetime(
             }
         }
     };
-    Some(match value.value {
+    Some(match &value.value {
         Described::Transient | Described::Like(_) => Lifetime::Transient,
-        Described::Persistent { initial: fill } => Lifetime::Persistent { initial: initial(fill, errors)? },
-        Described::History { frames, initial: fill } => Lifetime::History { frames, initial: initial(fill, errors)? },
+        Described::Persistent { initial: fill } => Lifetime::Persistent { initial: initial(*fill, errors)? },
+        Described::History { frames, initial: fill } => {
+            Lifetime::History { frames: *frames, initial: initial(*fill, errors)? }
+        }
         Described::Imported { before, after } => {
             let state = |state: Spanned<describe::State>, when, errors: &mut Vec<Diagnostic>| {
                 states::lower(Spanned { span: here(state.span), ..state }, of, when, errors)
             };
-            let before = state(before, When::Before, errors);
+            let before = state(*before, When::Before, errors);
             let after = match after {
-                Some(after) => state(after, When::After, errors).map(Some),
+                Some(after) => state(*after, When::After, errors).map(Some),
                 None => Some(None),
             };
             Lifetime::Imported { before: before?, after: after? }
+        }
+        Described::File(file) if value.span == described.span => Lifetime::File(Arc::clone(file)),
+        Described::File(_) => {
+            let message = format!("`{}` can't live like a texture: its contents come from no file", of.name);
+            errors.push(Diagnostic::new(described.span, message).label(value.span, "the texture's file"));
+            return None;
         }
     })
 }

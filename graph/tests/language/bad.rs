@@ -1,9 +1,10 @@
 //! Every file under `bad/` is wrong, its name says how, and the whole answer stands beside it.
 
-use crate::table::{INPUTS, Table};
+use crate::table::{INPUTS, Pictures, Table};
 use framewright_graph::describe::{self, Files, Found, Unread};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::source::Sources;
+use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -34,6 +35,10 @@ impl Files for Folder {
     fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
         let bytes = std::fs::read(folder().join(path)).map_err(|_| format!("there is no file `{path}`"))?;
         Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes })
+    }
+
+    fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        Pictures::info(file)
     }
 }
 

@@ -15,6 +15,7 @@ mod samplers;
 mod shipped;
 mod table;
 mod texture_declarations;
+mod textures;
 mod whole;
 mod words;
 mod works;

@@ -1,6 +1,6 @@
 //! What the tests of the language share: shader interfaces out of a table, and the way from a file to a frame.
 
-use framewright_graph::describe::{self, Diagnostic};
+use framewright_graph::describe::{self, Diagnostic, Files, Found, NoFiles, Unread};
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, DrawList, Frame};
@@ -9,6 +9,7 @@ use framewright_graph::interface::{
     ShaderInterface, ShaderInterfaces, ShaderProblem, Supplied, SuppliedKind, Variant, VertexInput,
 };
 use framewright_graph::source::Sources;
+use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
 use framewright_graph::vocabulary::Stages;
 use std::sync::Arc;
 
@@ -342,10 +343,39 @@ pub(crate) fn shipped(name: &str) -> String {
 /// Expands a pipeline's text; if it fails, with the mistakes as they are shown.
 pub(crate) fn frame(text: &str, inputs: &Inputs<'_>) -> Result<Frame, String> {
     let mut sources = Sources::default();
-    let pipeline = describe::read(&mut sources, "test.ron", "test.ron", text.to_owned());
+    let pipeline = describe::read_with(&mut sources, &mut Pictures, "test.ron", "test.ron", text.to_owned());
     let sources = Arc::new(sources);
     let expanded = pipeline.and_then(|pipeline| expand(&pipeline, sources.clone(), inputs, &mut Table));
     expanded.map_err(|errors: Vec<Diagnostic>| describe::render(&sources, &errors))
+}
+
+/// Pictures out of a table.
+pub(crate) struct Pictures;
+
+impl Pictures {
+    /// What the file holds, if it is one of the table.
+    pub(crate) fn info(file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        let (extent, format) = match &*file.path {
+            "grain.png" | "looks/grain.png" => ([64, 32], Format::R8G8B8A8_UNORM),
+            "photo.png" => ([800, 600], Format::R8G8B8A8_SRGB),
+            "strip.png" => ([256, 16], Format::R16G16B16A16_UNORM),
+            "damaged.png" => return Err(TextureProblem::Damaged { reason: "unexpected end of file".to_owned() }),
+            _ => {
+                return Err(TextureProblem::Unreadable { reason: "No such file or directory (os error 2)".to_owned() });
+            }
+        };
+        Ok(TextureInfo { extent, format })
+    }
+}
+
+impl Files for Pictures {
+    fn read(&mut self, from: &str, path: &str) -> Result<Found, Unread> {
+        NoFiles.read(from, path)
+    }
+
+    fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        Pictures::info(file)
+    }
 }
 
 /// `--set` values.

@@ -1,0 +1,139 @@
+//! `textures`: images whose texels come from picture files.
+
+use super::Diagnostic;
+use super::includes::Files;
+use super::leaf::Leaf;
+use super::pipeline::{Name, Spanned};
+use super::reader::Reader;
+use super::resources::{Format, Image, Layers, Lifetime, Mips, Samples, Shape, Size};
+use super::scope::Scope;
+use super::{leaf, parameters, values};
+use crate::fields;
+use crate::frame;
+use crate::root::beside;
+use crate::source::{Sources, Span};
+use crate::texture::{ColorSpace, TextureFile, TextureInfo, format_problem};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+fields! {
+    pub(super) struct TextureFields<'src> as "Texture" {
+        name: Leaf<'src>,
+        file: Leaf<'src>,
+        color_space: Option<Leaf<'src>>,
+        format: Option<Leaf<'src>>,
+        shape: Option<Leaf<'src>>,
+    }
+}
+
+const COLOR_SPACES: [(&str, ColorSpace); 2] = [("Srgb", ColorSpace::Srgb), ("Linear", ColorSpace::Linear)];
+
+const SHAPES: [(&str, frame::Shape); 2] = [("D2", frame::Shape::D2), ("D3", frame::Shape::D3)];
+
+/// What was found behind the paths of pictures, by where they stand; `None` where a mistake was reported.
+pub(super) type Pictures = HashMap<Span, Option<Picture>>;
+
+/// A picture's file.
+#[derive(Debug, Clone)]
+pub(super) struct Picture {
+    file: Arc<TextureFile>,
+    info: TextureInfo,
+}
+
+/// Looks at the files that a list of textures names. What is wrong with the list itself is reported when it is lowered.
+pub(super) fn look(
+    reader: &mut Reader,
+    sources: &Sources,
+    files: &mut dyn Files,
+    list: Option<Leaf<'_>>,
+    pictures: &mut Pictures,
+) {
+    let mut silent = Reader::default();
+    let entries = list.and_then(|list| silent.list(list, "`textures`")).unwrap_or_default();
+    for entry in entries {
+        let Some(fields) = silent.read::<TextureFields<'_>>(entry, "a texture") else { continue };
+        let Some(path) = silent.words(fields.file, "the path of a file") else { continue };
+        let Some(color_space) = color_space(&mut silent, fields.color_space) else { continue };
+        let span = fields.file.span();
+        let from = span.file().and_then(|file| sources.file(file)).map_or("", |file| &*file.relative);
+        let file = TextureFile { path: beside(from, &path).into(), color_space };
+        let picture = match files.picture(&file) {
+            Ok(info) => Some(Picture { file: Arc::new(file), info }),
+            Err(problem) => {
+                reader.report(Diagnostic::new(span, format!("`{path}` {problem}")));
+                None
+            }
+        };
+        pictures.insert(span, picture);
+    }
+}
+
+/// A texture, once its fields are told apart.
+pub(super) fn lower<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    pictures: &Pictures,
+    fields: &TextureFields<'src>,
+) -> Option<Image> {
+    let name = reader.name(fields.name, "a texture");
+    let path = reader.words(fields.file, "the path of a file");
+    let color_space = color_space(reader, fields.color_space);
+    let shape = match fields.shape {
+        Some(leaf) => values::choice(reader, leaf, "the shape of a texture", &SHAPES),
+        None => Some(frame::Shape::D2),
+    };
+    let format = match fields.format.map(|leaf| (leaf, leaf.shape())) {
+        Some((leaf, leaf::Shape::Text)) => values::format(reader, scope, leaf).map(|format| Some(leaf.spanned(format))),
+        Some((leaf, _)) => parameters::format(reader, leaf).map(|format| Some(leaf.spanned(format))),
+        None => Some(None),
+    };
+    let (name, path, _, shape, format) = (name?, path?, color_space?, shape?, format?);
+    let Picture { file, info } = pictures.get(&fields.file.span())?.as_ref()?;
+    if let Some(Spanned { value, span }) = format
+        && let Some(why) = format_problem(file, value)
+    {
+        reader.report(Diagnostic::new(span, format!("texture `{}` can't be {value}: {why}", name.text)));
+        return None;
+    }
+    let extent = match info.image_extent(shape) {
+        Ok(extent) => extent,
+        Err(problem) => {
+            let at = fields.shape.map_or(fields.file.span(), Leaf::span);
+            reader.report(Diagnostic::new(at, format!("`{path}` {problem}")).label(fields.file.span(), "this file"));
+            return None;
+        }
+    };
+    Some(image(name, file, format.map_or(info.format, |format| format.value), extent, shape, fields))
+}
+
+fn image(
+    name: Name,
+    file: &Arc<TextureFile>,
+    format: crate::format::Format,
+    [width, height, depth]: [u32; 3],
+    shape: frame::Shape,
+    fields: &TextureFields<'_>,
+) -> Image {
+    let (from, span) = (fields.file, name.span);
+    let shape = if shape == frame::Shape::D3 { Shape::D3(depth) } else { Shape::D2 };
+    Image {
+        name,
+        format: fields.format.unwrap_or(from).spanned(Format::Named(format)),
+        size: from.spanned(Size::Fixed([width, height])),
+        size_because: None,
+        samples: Spanned { value: Samples::Count(1), span },
+        samples_because: None,
+        mips: Spanned { value: Mips::Count(1), span },
+        layers: Spanned { value: Layers::Default, span },
+        shape: fields.shape.unwrap_or(from).spanned(shape),
+        lifetime: from.spanned(Lifetime::File(Arc::clone(file))),
+        instance: None,
+    }
+}
+
+fn color_space(reader: &mut Reader, leaf: Option<Leaf<'_>>) -> Option<ColorSpace> {
+    match leaf {
+        Some(leaf) => values::choice(reader, leaf, "a colour space", &COLOR_SPACES),
+        None => Some(ColorSpace::default()),
+    }
+}
