@@ -159,8 +159,8 @@ fn textures_that_are_missing_damaged_or_outside_are_found_with_their_place_witho
     std::fs::remove_file(place.path("pictures/table.png")).expect("removed");
     let answer = place.run(&["check", "textures.ron"]).exits(1);
     let answer = answer.mentions("error: `pictures/deep.png` is no picture that can be read: ");
-    let answer = answer.mentions("--> textures.ron:6:34").mentions("error: `pictures/table.png` can't be read: ");
-    answer.mentions("--> textures.ron:7:30");
+    let answer = answer.mentions("--> textures.ron:6:35").mentions("error: `pictures/table.png` can't be read: ");
+    answer.mentions("--> textures.ron:7:31");
     let outside = PIPELINE.replace("pictures/deep.png", "../deep.png").replace("pictures/table.png", "/table.png");
     place.file("textures.ron", outside);
     let answer = place.run(&["check", "textures.ron"]).exits(1);

@@ -49,6 +49,16 @@ pub(super) enum Item<'t> {
     Anchor,
 }
 
+impl<'t> AnyImage<'t> {
+    /// The view that it names.
+    pub(super) const fn view(&self) -> Option<Leaf<'t>> {
+        match self {
+            AnyImage::Made(fields) => fields.view,
+            AnyImage::Texture(_) => None,
+        }
+    }
+}
+
 fields! {
     struct AnchorFields<'src> {
         anchor: Leaf<'src>,

@@ -15,6 +15,7 @@ pub(crate) const LARGEST_BUFFER: i64 = 1 << 40;
 fields! {
     pub(super) struct BufferFields<'src> as "Buffer" {
         name: Leaf<'src>,
+        pub(super) view: Option<Leaf<'src>>,
         pub(super) repeat: Option<Leaf<'src>>,
         bytes: Leaf<'src>,
         lifetime: Option<Leaf<'src>>,

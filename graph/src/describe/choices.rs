@@ -107,7 +107,7 @@ pub(super) fn presets(
 }
 
 /// `{"setting": value, …}`
-fn set(reader: &mut Reader, leaf: Leaf<'_>, settings: &[Option<Setting>]) -> Option<Vec<Choice>> {
+pub(super) fn set(reader: &mut Reader, leaf: Leaf<'_>, settings: &[Option<Setting>]) -> Option<Vec<Choice>> {
     let before = reader.errors.len();
     let mut chosen = Vec::new();
     let mut seen: HashMap<Arc<str>, Span> = HashMap::new();

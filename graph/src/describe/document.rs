@@ -21,6 +21,7 @@ use crate::expression::Value;
 use crate::facts::Facts;
 use crate::fields;
 use crate::source::Sources;
+use crate::view::Allowances;
 
 fields! {
     struct PipelineFields<'src> as "Pipeline" {
@@ -29,6 +30,7 @@ fields! {
         include: Option<Leaf<'src>>,
         settings: Option<Leaf<'src>>,
         presets: Option<Leaf<'src>>,
+        views: Option<Leaf<'src>>,
         fragments: Option<Leaf<'src>>,
         textures: Option<Leaf<'src>>,
         images: Leaf<'src>,
@@ -72,7 +74,8 @@ impl Document {
         let Included { trees: included, pictures, origins, .. } = included;
         let values: Vec<Option<Value>> =
             settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
-        let surroundings = Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], device: None };
+        let surroundings =
+            Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], allows: Allowances::default(), device: None };
         let files = Read { all: tree.root(), included: &included, pictures: &pictures };
         lower(&mut reader, files, &settings, values, &surroundings, true);
         let settings: Option<Vec<Setting>> = settings.into_iter().collect();
@@ -196,6 +199,13 @@ fn said<'t>(reader: &mut Reader, all: Leaf<'t>) -> Option<Said<'t>> {
     Some(Said { settings, presets, include: fields.include, textures: fields.textures })
 }
 
+/// What belongs to a whole pipeline alone.
+pub(super) struct Whole<'s, 't> {
+    pub(super) settings: &'s [Option<Setting>],
+    pub(super) views: Option<Leaf<'t>>,
+    pub(super) outputs: Leaf<'t>,
+}
+
 /// Puts in values; `None` if errors were reported. `lenient` if nothing is to be said about values.
 fn lower(
     reader: &mut Reader,
@@ -217,10 +227,15 @@ fn lower(
         reader,
         fields.fragments.into_iter().chain(included.iter().filter_map(|tree| tree.root().field("fragments"))),
     );
-    let PipelineFields { textures, images, buffers, passes, .. } = fields;
+    let PipelineFields { textures, images, buffers, passes, views, outputs, .. } = fields;
     let lists = Lists { textures, images: Some(images), buffers, passes: Some(passes) };
     let body = Body::read(reader, names, parameters, true, lists);
     let given = values.into_iter().map(|value| value.map(|value| Given { value, decided: Vec::new() })).collect();
     let level = Level { given, ..Level::default() };
-    Lowering::new(surroundings, &fragments, pictures, lenient).whole(reader, &body, level, fields.outputs)
+    Lowering::new(surroundings, &fragments, pictures, lenient).whole(
+        reader,
+        &body,
+        level,
+        Whole { settings, views, outputs },
+    )
 }

@@ -10,6 +10,7 @@ use super::{Diagnostic, Spanned, lifetimes, values};
 use crate::expression::{Value, Wanted};
 use crate::fields;
 use crate::format;
+use crate::view::ViewIndex;
 use std::sync::Arc;
 
 /// Largest width and height that a file may ask for.
@@ -27,6 +28,7 @@ pub(crate) const SAMPLE_COUNTS: [i64; 5] = [1, 2, 4, 8, 16];
 fields! {
     pub(super) struct ImageFields<'src> as "Image" {
         name: Leaf<'src>,
+        pub(super) view: Option<Leaf<'src>>,
         pub(super) repeat: Option<Leaf<'src>>,
         format: Leaf<'src>,
         size: Leaf<'src>,
@@ -77,6 +79,7 @@ pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &Image
         layers: layers?,
         shape: shape?,
         lifetime: lifetime?,
+        view: ViewIndex::default(),
         instance: None,
     })
 }
@@ -164,7 +167,7 @@ fn size<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Optio
     }
 }
 
-fn extent<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<u32> {
+pub(super) fn extent<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<u32> {
     if let Shape::Text = leaf.shape() {
         return values::whole(reader, scope, leaf, "size", 1..=i64::from(LARGEST_SIZE));
     }
@@ -178,7 +181,7 @@ fn extent<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opt
     }
 }
 
-fn scale<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<f64>> {
+pub(super) fn scale<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<f64>> {
     if let Shape::Text = leaf.shape()
         && scope.known.settings
         && let Quoted::Given(parameter, _) = scope.quoted(reader, leaf, SettingKind::is_number, "a number")?

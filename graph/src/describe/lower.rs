@@ -1,9 +1,9 @@
 //! Values are put in: what a file declares becomes flat lists of images, buffers and passes.
 
 use super::body::{AnyImage, Body, Entry, Item};
+use super::document::Whole;
 use super::fragments::Fragments;
 use super::known::Repeat;
-use super::leaf::Leaf;
 use super::pass::Pass;
 use super::pipeline::{Instance, Name, Pipeline};
 use super::properties;
@@ -12,8 +12,10 @@ use super::resources::{Buffer, Image};
 use super::scope::{Block, Checked, Level, Properties, Scope};
 use super::surroundings::Surroundings;
 use super::textures::{self, Pictures};
+use super::views::Views;
 use super::{Diagnostic, buffers, circles, images, outputs, passes, previous, values};
 use crate::source::Span;
+use crate::view::ViewIndex;
 use std::cell::Cell;
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -26,6 +28,7 @@ pub(super) struct Lowering<'a, 't> {
     pub(super) surroundings: &'a Surroundings<'a>,
     pub(super) fragments: &'a Fragments<'t>,
     pub(super) pictures: &'a Pictures,
+    pub(super) views: Views<'a>,
     pub(super) checked: Checked,
     pub(super) forgave: Cell<bool>,
     /// Whether what is lowered is off, so that what has no value is no mistake.
@@ -45,10 +48,11 @@ pub(super) struct Lowering<'a, 't> {
     broken: bool,
 }
 
-/// Where something is put in: what stands before its name, and the instance that it belongs to.
+/// Where something is put in: what stands before its name, the view that it is for, and the instance that it belongs to.
 #[derive(Clone)]
 pub(super) struct Place {
     pub(super) prefix: Arc<str>,
+    pub(super) view: ViewIndex,
     pub(super) instance: Option<u32>,
 }
 
@@ -72,6 +76,7 @@ impl<'a, 't> Lowering<'a, 't> {
             surroundings,
             fragments,
             pictures,
+            views: Views::none(),
             checked: Checked::default(),
             forgave: Cell::new(false),
             lenient,
@@ -94,13 +99,19 @@ impl<'a, 't> Lowering<'a, 't> {
         reader: &mut Reader,
         body: &Body<'t>,
         mut level: Level,
-        outputs: Leaf<'t>,
+        Whole { settings, views, outputs }: Whole<'_, 't>,
     ) -> Option<Pipeline> {
-        let place = Place { prefix: "".into(), instance: None };
+        let place = Place { prefix: "".into(), view: ViewIndex::default(), instance: None };
+        if let Some(views) = views {
+            level.images = vec![Block::Below; body.images.len()];
+            level.buffers = vec![Block::Below; body.buffers.len()];
+            let scope = self.scope(body, &level, ViewIndex::default(), None);
+            self.views = Views::read(reader, &scope, self.surroundings, settings, views);
+        }
         self.body(reader, body, &mut level, &place);
         circles::find(&self.images, &self.buffers, &mut reader.errors);
         previous::check(&self.images, &self.buffers, &self.passes, &mut reader.errors);
-        let outputs = outputs::lower(reader, &self.scope(body, &level, None), outputs);
+        let outputs = outputs::lower(reader, &self.scope(body, &level, ViewIndex::default(), None), outputs);
         let mut seen = HashSet::new();
         reader
             .errors
@@ -109,6 +120,7 @@ impl<'a, 't> Lowering<'a, 't> {
             return None;
         }
         Some(Pipeline {
+            views: self.views.into_list()?,
             images: self.images.into_iter().collect::<Option<_>>()?,
             buffers: self.buffers.into_iter().collect::<Option<_>>()?,
             passes: self.passes.into_iter().collect::<Option<_>>()?,
@@ -131,12 +143,15 @@ impl<'a, 't> Lowering<'a, 't> {
         &'s self,
         body: &'s Body<'t>,
         level: &'s Level,
+        view: ViewIndex,
         index: Option<(&'s Name, u32)>,
     ) -> Scope<'s> {
+        let seen = self.views.seen(view);
         Scope {
             known: &body.known,
             level,
-            surroundings: self.surroundings,
+            given: seen.filter(|_| body.known.settings).map_or(&level.given, |seen| &seen.given),
+            surroundings: seen.map_or(self.surroundings, |seen| &seen.surroundings),
             properties: &self.properties,
             index,
             checked: &self.checked,
@@ -153,15 +168,17 @@ impl<'a, 't> Lowering<'a, 't> {
         let mut lowered = 0;
         let [mut next_image, mut next_buffer] = [self.images.len(), self.buffers.len()];
         for at in 0..images + body.buffers.len() {
-            let repeat = match at.checked_sub(images) {
-                None => body.images[at].as_ref().map(|entry| &entry.repeat),
-                Some(at) => body.buffers[at].as_ref().map(|entry| &entry.repeat),
-            };
-            let mut count = self.count(reader, body, level, repeat, true);
+            let (repeat, view) = match at.checked_sub(images) {
+                None => body.images[at].as_ref().map(|entry| (&entry.repeat, entry.fields.view())),
+                Some(at) => body.buffers[at].as_ref().map(|entry| (&entry.repeat, entry.fields.view)),
+            }
+            .unzip();
+            let view = self.view(reader, body, place, view.flatten()).unwrap_or_default();
+            let mut count = self.count(reader, body, level, view, repeat, true);
             if let Count::Later = count {
                 self.lower_things(reader, body, level, place, lowered..at);
                 lowered = at;
-                count = self.count(reader, body, level, repeat, false);
+                count = self.count(reader, body, level, view, repeat, false);
             }
             let next = if at < images { &mut next_image } else { &mut next_buffer };
             let block = match (count, u32::try_from(*next)) {
@@ -200,17 +217,20 @@ impl<'a, 't> Lowering<'a, 't> {
             self.broken = true;
             return;
         };
-        let mut right = true;
+        let view = body.images[at].as_ref().and_then(|entry| entry.fields.view());
+        let view = self.view(reader, body, place, view);
+        let mut right = view.is_some();
+        let view = view.unwrap_or_default();
         for number in 0..count {
             let before = reader.errors.len();
             let image = body.images[at].as_ref().filter(|_| right).and_then(|entry| {
-                let scope = self.scope(body, level, indexed(&entry.repeat, number));
+                let scope = self.scope(body, level, view, indexed(&entry.repeat, number));
                 match &entry.fields {
                     AnyImage::Made(fields) => images::lower(reader, &scope, fields),
                     AnyImage::Texture(fields) => textures::lower(reader, &scope, self.pictures, fields),
                 }
             });
-            let known = image.as_ref().map(|image| properties::of(image, &self.properties, self.surroundings.extent));
+            let known = image.as_ref().map(|image| properties::of(image, &self.properties, self.extent(view)));
             let known = match known {
                 Some(Err(wrong)) => {
                     if !self.lenient {
@@ -225,7 +245,9 @@ impl<'a, 't> Lowering<'a, 't> {
             let list = body.known.image_lists[at];
             self.images.push(image.map(|image| {
                 let name = full(place, &image.name, list.then_some(number));
-                Image { name, instance: place.instance, ..image }
+                let because = |because: Option<Arc<str>>| because.map(|because| self.views.within(view, because));
+                let (size_because, samples_because) = (because(image.size_because), because(image.samples_because));
+                Image { name, size_because, samples_because, view, instance: place.instance, ..image }
             }));
             // What is wrong with one is wrong with all.
             right = reader.errors.len() == before;
@@ -237,11 +259,14 @@ impl<'a, 't> Lowering<'a, 't> {
             self.broken = true;
             return;
         };
-        let mut right = true;
+        let view = body.buffers[at].as_ref().and_then(|entry| entry.fields.view);
+        let view = self.view(reader, body, place, view);
+        let mut right = view.is_some();
+        let view = view.unwrap_or_default();
         for number in 0..count {
             let before = reader.errors.len();
             let buffer = body.buffers[at].as_ref().filter(|_| right).and_then(|entry| {
-                let scope = self.scope(body, level, indexed(&entry.repeat, number));
+                let scope = self.scope(body, level, view, indexed(&entry.repeat, number));
                 buffers::lower(reader, &scope, &entry.fields)
             });
             let list = body.known.buffer_lists[at];
@@ -266,10 +291,17 @@ impl<'a, 't> Lowering<'a, 't> {
             self.passes.push(None);
             return;
         };
-        if let Item::Anchor = entry.fields {
+        let view = match &entry.fields {
+            Item::Pass(fields) => fields.view,
+            Item::Use(fields) => fields.view,
+            Item::Anchor => return,
+        };
+        let Some(view) = self.view(reader, body, place, view) else {
+            self.passes.push(None);
             return;
-        }
-        let Count::Known(count) = self.count(reader, body, level, Some(&entry.repeat), false) else {
+        };
+        let place = &Place { view, ..place.clone() };
+        let Count::Known(count) = self.count(reader, body, level, view, Some(&entry.repeat), false) else {
             self.passes.push(None);
             return;
         };
@@ -279,10 +311,11 @@ impl<'a, 't> Lowering<'a, 't> {
             let number = entry.repeat.is_list().then_some(number);
             match &entry.fields {
                 Item::Pass(fields) => {
-                    let pass = passes::lower(reader, &self.scope(body, level, index), fields);
+                    let pass = passes::lower(reader, &self.scope(body, level, view, index), fields);
                     self.passes.push(pass.map(|pass| {
                         let name = full(place, &pass.name, number);
-                        Pass { name, instance: place.instance, ..pass }
+                        let off = self.off_within(view, pass.off);
+                        Pass { name, off, view, instance: place.instance, ..pass }
                     }));
                 }
                 Item::Use(fields) => self.put_in(reader, body, level, place, (index, number), fields),
@@ -301,6 +334,7 @@ impl<'a, 't> Lowering<'a, 't> {
         reader: &mut Reader,
         body: &Body<'t>,
         level: &Level,
+        view: ViewIndex,
         repeat: Option<&Repeat<'t>>,
         early: bool,
     ) -> Count {
@@ -309,7 +343,7 @@ impl<'a, 't> Lowering<'a, 't> {
             Some(Repeat::Broken) => return Count::Failed,
             Some(Repeat::Times { count, .. }) => {
                 let before = reader.errors.len();
-                let scope = Scope { early, ..self.scope(body, level, None) };
+                let scope = Scope { early, ..self.scope(body, level, view, None) };
                 match values::whole(reader, &scope, *count, "number of repetitions", 0..=i64::from(MOST_THINGS)) {
                     Some(number) => (number, Some(count.span())),
                     None if early && reader.errors.len() == before => return Count::Later,

@@ -11,34 +11,38 @@
 //! # The language
 //! `docs/pipeline-format.md` tells what each field means; this is its grammar.
 //! ```text
-//! Pipeline(version: 1, include: ["file"…], settings: [SETTING…], fragments: [FRAGMENT…], textures: [TEXTURE…],
-//!          images: [IMAGE…], buffers: [BUFFER…], passes: [ITEM…], outputs: [OUTPUT…])
+//! Pipeline(version: 1, include: ["file"…], settings: [SETTING…], views: [VIEW…], fragments: [FRAGMENT…],
+//!          textures: [TEXTURE…], images: [IMAGE…], buffers: [BUFFER…], passes: [ITEM…], outputs: [OUTPUT…])
 //! Fragments(version: 1, include: ["file"…], fragments: [FRAGMENT…])
 //!
 //! SETTING    (name: "…", value: KIND, about: "…")                  `about` may be left out
 //! KIND       Bool(default: true) | OneOf(default: 4, of: [1, 4]) | OneOf(default: "low", of: ["low", "high"])
 //!            | Number(default: 1.0, min: 0.0, max: 2.0) | Integer(default: 1, min: 0, max: 9)    with `step: 1` too
 //!
+//! VIEW       (name: "…", about: "…", size: Output | Scaled(0.5) | Fixed(640, 360), camera: "…", allows_msaa: true,
+//!             allows_hdr: true, allows_scale: true, set: {"setting": value…})     all but the name may be left out
+//!
 //! FRAGMENT   (name: "…", about: "…", parameters: [PARAMETER…], textures: [TEXTURE…], images: [IMAGE…],
 //!             buffers: [BUFFER…], passes: [ITEM…])
 //! PARAMETER  (name: "…", value: TYPE, about: "…")
 //! TYPE       Image | Buffer | KIND | Format(default: R8_UNORM)      without `default`: it has to be given
 //! ITEM       PASS | USE | (anchor: "…")
-//! USE        (use: "fragment", name: "…", with: {"parameter": VALUE…}, repeat: REPEAT, when: …, otherwise: OTHERWISE)
+//! USE        (use: "fragment", name: "…", view: "…", with: {"parameter": VALUE…}, repeat: REPEAT, when: …,
+//!             otherwise: OTHERWISE)
 //! REPEAT     ("i", 8)                                              `i` counts from 0; may stand in IMAGE, BUFFER and PASS
 //!
 //! TEXTURE    (name: "…", file: "…", color_space: Srgb | Linear, format: R8_UNORM, shape: D2 | D3)
 //!                                       by default Srgb, a format that holds what the file does, D2; D3 takes a strip
-//! IMAGE      (name: "…", format: FORMAT, size: SIZE, samples: SAMPLES, mips: MIPS, layers: LAYERS, shape: SHAPE,
+//! IMAGE      (name: "…", view: "…", format: FORMAT, size: SIZE, samples: SAMPLES, mips: MIPS, layers: LAYERS, shape: SHAPE,
 //!             lifetime: LIFETIME)
 //! FORMAT     Color(hdr: true) | Depth | DepthStencil | Output | Like("image") | R8_UNORM and others of Vulkan
 //! SIZE       Output | Scaled(FACTOR) | Scaled(FACTOR, "image") | Fixed(640, 480) | Like("image")
-//! FACTOR     0.5                                                   of the frame or an image, rounded down, at least 1
+//! FACTOR     0.5                                                   of the view or an image, rounded down, at least 1
 //! SAMPLES    4 | Like("image")                         by default 1
 //! MIPS       4 | Full | Like("image")                  by default 1
 //! LAYERS     4 | Like("image")                         by default 1, of a cube 6
 //! SHAPE      D2 | D3(64) | Cube                        by default D2; D3 takes the depth
-//! BUFFER     (name: "…", bytes: BYTES, lifetime: LIFETIME)
+//! BUFFER     (name: "…", view: "…", bytes: BYTES, lifetime: LIFETIME)
 //! BYTES      4096 | Times(16, 9) | PerTexel(4, "image") | Like("buffer")
 //! LIFETIME   Transient | Persistent(initial: VALUE) | History(frames: 1, initial: VALUE)
 //!            | Imported(before: STATE, after: STATE) | Like("name")           `initial`, `frames`, `after` may be left out
@@ -46,7 +50,7 @@
 //! STATE      Undefined | ColorAttachment | DepthAttachment | Sampled | Storage | Uniform | Vertex | Index | Indirect
 //!            | TransferSource | TransferTarget | Present | Host | (stages: [STAGE…], accesses: [ACCESS…], layout: LAYOUT)
 //!
-//! PASS       (name: "…", WORK, sample: {"shader's name": SAMPLED…}, storage: {"shader's name": STORAGE…},
+//! PASS       (name: "…", view: "…", WORK, sample: {"shader's name": SAMPLED…}, storage: {"shader's name": STORAGE…},
 //!             uniform: {"shader's name": BUFFERS…}, params: {"shader's name": PARAM…}, color: [COLOR…], depth: DEPTH,
 //!             side_effect: true, when: "true", otherwise: OTHERWISE)
 //! OTHERWISE  Forward(from: "image", to: "image") | Clear(image: "image", value: VALUE) | [OTHERWISE…]
@@ -128,6 +132,7 @@ mod textures;
 mod tree;
 mod uses;
 mod values;
+mod views;
 mod work;
 
 pub(crate) use buffers::LARGEST_BUFFER;
@@ -152,6 +157,7 @@ pub(crate) use settings::shown as shown_number;
 pub use settings::{last_step, nth as nth_step};
 pub use suggest::{help as suggestion, nearest};
 pub use surroundings::Surroundings;
+pub use views::View;
 pub(crate) use work::MOST_GROUPS;
 
 /// What readers of RON files are made of: pipelines here, scenes elsewhere.

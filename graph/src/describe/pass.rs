@@ -4,6 +4,7 @@ use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, Spanned};
 use super::resources::Fill;
 use crate::frame::{Blend, DrawList, ParamValue, StencilState};
 use crate::source::Span;
+use crate::view::ViewIndex;
 use crate::vocabulary::{AddressMode, Aspects, CompareOp, Filter};
 use std::sync::Arc;
 
@@ -36,6 +37,8 @@ pub struct Pass {
     pub side_effect: bool,
     /// What its targets take instead when it is off.
     pub otherwise: Vec<StandIn>,
+    /// The view that it draws for.
+    pub view: ViewIndex,
     /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).
     pub instance: Option<u32>,
 }

@@ -7,11 +7,13 @@ use super::reader::Reader;
 use super::scope::Scope;
 use super::{Diagnostic, bindings, parts, targets, values, work};
 use crate::fields;
+use crate::view::ViewIndex;
 use std::collections::HashMap;
 
 fields! {
     pub(super) struct PassFields<'src> as "Pass" {
         pub(super) name: Leaf<'src>,
+        pub(super) view: Option<Leaf<'src>>,
         pub(super) repeat: Option<Leaf<'src>>,
         pub(super) draw: Option<Leaf<'src>>,
         pub(super) dispatch: Option<Leaf<'src>>,
@@ -102,6 +104,7 @@ impl Pass {
             params: Vec::new(),
             side_effect: false,
             otherwise: Vec::new(),
+            view: ViewIndex::default(),
             instance: None,
         }
     }

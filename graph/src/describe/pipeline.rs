@@ -2,6 +2,7 @@
 
 use super::pass::Pass;
 use super::resources::{Buffer, Image, State};
+use super::views::View;
 use crate::encoding::Encoding;
 use crate::frame::{BufferIndex, ImageIndex, Resource};
 use crate::source::Span;
@@ -12,6 +13,9 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Pipeline {
+    /// Views, the main one first; none: one that has the frame's size. A [`ViewIndex`](crate::view::ViewIndex) is an index
+    /// into this list.
+    pub views: Vec<View>,
     /// Images; an [`ImageIndex`] is an index into this list.
     pub images: Vec<Image>,
     /// Buffers; a [`BufferIndex`] is an index into this list.

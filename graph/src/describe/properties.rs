@@ -44,14 +44,20 @@ pub(super) fn of(image: &Image, known: &[Option<Properties>], frame: [u32; 2]) -
 /// # Errors
 /// If that is more than an image may have.
 pub(crate) fn scaled(image: &Image, base: [u32; 2], factor: f64) -> Result<[u32; 2], Diagnostic> {
-    let scaled = base.map(|extent| (f64::from(extent) * factor + ROUNDING).floor().max(1.0));
-    if scaled.iter().any(|extent| *extent > f64::from(LARGEST_SIZE)) {
+    times(base, factor).map_err(|[width, height]| {
         let name = &image.name.text;
-        let [width, height] = scaled.map(shown_number);
         let message = format!("image `{name}` would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
         let because = image.size_because.as_ref().map_or_else(|| shown_number(factor), ToString::to_string);
         let remark = format!("{because} times {}×{}", base[0], base[1]);
-        return Err(Diagnostic::new(image.size.span, message).remark(remark));
+        Diagnostic::new(image.size.span, message).remark(remark)
+    })
+}
+
+/// `base` times a factor, rounded down, at least 1; or what that would be, as it is shown, if it is too much.
+pub(super) fn times(base: [u32; 2], factor: f64) -> Result<[u32; 2], [String; 2]> {
+    let scaled = base.map(|extent| (f64::from(extent) * factor + ROUNDING).floor().max(1.0));
+    if scaled.iter().any(|extent| *extent > f64::from(LARGEST_SIZE)) {
+        return Err(scaled.map(shown_number));
     }
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 16384, as checked above")]
     Ok(scaled.map(|extent| extent as u32))

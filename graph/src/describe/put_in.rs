@@ -33,11 +33,12 @@ impl<'t> Lowering<'_, 't> {
         fields: &UseFields<'t>,
     ) {
         let before = reader.errors.len();
-        let scope = self.scope(body, level, index);
+        let scope = self.scope(body, level, place.view, index);
         let name = reader.name(fields.name, "a use");
         let fragment = reader.reference(fields.r#use, "a fragment");
         let fragment = fragment.and_then(|name| Some((self.fragments.names.find(reader, &name)?, name)));
         let off = optional(fields.when, |leaf| passes::when(reader, &scope, leaf)).map(Option::flatten);
+        let off = off.map(|off| self.off_within(place.view, off));
         let is_off = matches!(off, Some(Some(_)));
         let strict = Scope { lenient: scope.lenient || !is_off, ..scope };
         let otherwise = optional(fields.otherwise, |leaf| passes::stand_ins(reader, &strict, leaf));
@@ -70,8 +71,8 @@ impl<'t> Lowering<'_, 't> {
         let whole = full(place, &name, number);
         let start = [self.images.len(), self.buffers.len(), self.passes.len(), self.instances.len()];
         let outer = std::mem::replace(&mut self.lenient, is_lenient);
-        let within =
-            Place { prefix: format!("{}.", whole.text).into(), instance: u32::try_from(self.instances.len()).ok() };
+        let instance = u32::try_from(self.instances.len()).ok();
+        let within = Place { prefix: format!("{}.", whole.text).into(), view: place.view, instance };
         self.instances.push(Instance { name: whole.text.clone(), span: name.span, within: place.instance });
         self.path.push((at, name.clone()));
         let inside = reader.errors.len();
@@ -95,7 +96,7 @@ impl<'t> Lowering<'_, 't> {
         };
         let is_on = off.is_none();
         let work = Work::Custom { callback: name.clone(), reads: Vec::new(), writes: written };
-        let pass = Pass { off, work, otherwise, instance: place.instance, ..Pass::idle(whole) };
+        let pass = Pass { off, work, otherwise, view: place.view, instance: place.instance, ..Pass::idle(whole) };
         if let Some(leaf) = fields.otherwise {
             passes::stand_ins_make_sense(reader, fields.when.is_some(), leaf, &pass);
         }

@@ -3,6 +3,7 @@
 use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, Spanned};
 use crate::format;
 use crate::texture::TextureFile;
+use crate::view::ViewIndex;
 use crate::vocabulary;
 use std::sync::Arc;
 
@@ -29,6 +30,8 @@ pub struct Image {
     pub shape: Spanned<Shape>,
     /// How long its contents live.
     pub lifetime: Spanned<Lifetime>,
+    /// The view whose size `Output` and plain factors mean.
+    pub view: ViewIndex,
     /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).
     pub instance: Option<u32>,
 }
@@ -56,13 +59,13 @@ pub enum Format {
 /// Width and height of an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Size {
-    /// The frame's.
+    /// That of the image's view.
     Output,
-    /// The frame's or another image's, times a factor greater than 0; rounded down, at least 1.
+    /// That of the image's view or of another image, times a factor greater than 0; rounded down, at least 1.
     Scaled {
         /// The factor.
         by: f64,
-        /// Of which image; `None`: of the frame.
+        /// Of which image; `None`: of the view.
         of: Option<ImageRef>,
     },
     /// So many texels, 1 to 16384 each.

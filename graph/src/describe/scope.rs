@@ -60,6 +60,8 @@ pub(super) struct Properties {
 pub(super) struct Scope<'a> {
     pub(super) known: &'a Known,
     pub(super) level: &'a Level,
+    /// Settings as the view at hand has them, or parameters; `None` where one has no value, which was reported.
+    pub(super) given: &'a [Option<Given>],
     pub(super) surroundings: &'a Surroundings<'a>,
     /// Of the images that were lowered so far; `None` where a mistake was reported.
     pub(super) properties: &'a [Option<Properties>],
@@ -181,7 +183,7 @@ impl<'a> Scope<'a> {
             reader.report(Diagnostic::new(name.span, message).label(parameter.name.span, "declared here"));
             return None;
         }
-        self.level.given.get(at)?.as_ref().map(|given| Quoted::Given(parameter, given))
+        self.given.get(at)?.as_ref().map(|given| Quoted::Given(parameter, given))
     }
 
     /// What decided the value of a setting or parameter: "msaa = 4".

@@ -111,7 +111,7 @@ impl Values for Scope<'_> {
     fn value(&self, id: u32) -> Result<Value, Missing> {
         let (kind, at) = split(id);
         match kind {
-            GIVEN => match self.level.given.get(at) {
+            GIVEN => match self.given.get(at) {
                 Some(Some(given)) => Ok(given.value.clone()),
                 _ => Err(Missing::Reported),
             },
@@ -151,7 +151,7 @@ impl Values for Scope<'_> {
 
     fn decided_by(&self, id: u32) -> &[Decision] {
         match split(id) {
-            (GIVEN, at) => self.level.given.get(at).and_then(Option::as_ref).map_or(&[], |given| &given.decided),
+            (GIVEN, at) => self.given.get(at).and_then(Option::as_ref).map_or(&[], |given| &given.decided),
             _ => &[],
         }
     }

@@ -4,14 +4,17 @@ use crate::device::Profile;
 use crate::expression::{Origin, Type, Value};
 use crate::facts::{Fact, FactType, FactValue, Facts};
 use crate::format::Format;
+use crate::view::Allowances;
 
 /// What a pipeline is made for, besides the values of its settings.
 #[derive(Debug, Clone, Copy)]
 pub struct Surroundings<'a> {
     /// What is known about the scene.
     pub facts: Facts,
-    /// Width and height of the frame, in texels.
+    /// Width and height of the frame, or of the view at hand, in texels.
     pub extent: [u32; 2],
+    /// What may be spent on it.
+    pub allows: Allowances,
     /// The device; `None`: one that can do just what Vulkan 1.3 demands of every device.
     pub device: Option<&'a Profile>,
 }
@@ -109,7 +112,9 @@ impl Surroundings<'_> {
             Known::View(View::Width) => Value::Integer(self.extent[0].into()),
             Known::View(View::Height) => Value::Integer(self.extent[1].into()),
             Known::View(View::Eyes) => Value::Integer(1),
-            Known::View(View::AllowsMsaa | View::AllowsHdr | View::AllowsScale) => Value::Bool(true),
+            Known::View(View::AllowsMsaa) => Value::Bool(self.allows.msaa),
+            Known::View(View::AllowsHdr) => Value::Bool(self.allows.hdr),
+            Known::View(View::AllowsScale) => Value::Bool(self.allows.scale),
             Known::Device(device) => self.of_device(device),
         })
     }

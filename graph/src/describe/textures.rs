@@ -13,6 +13,7 @@ use crate::frame;
 use crate::root::beside;
 use crate::source::{Sources, Span};
 use crate::texture::{ColorSpace, TextureFile, TextureInfo, format_problem};
+use crate::view::ViewIndex;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -127,6 +128,7 @@ fn image(
         layers: Spanned { value: Layers::Default, span },
         shape: fields.shape.unwrap_or(from).spanned(shape),
         lifetime: from.spanned(Lifetime::File(Arc::clone(file))),
+        view: ViewIndex::default(),
         instance: None,
     }
 }

@@ -15,6 +15,7 @@ fields! {
     pub(super) struct UseFields<'src> as "Use" {
         pub(super) r#use: Leaf<'src>,
         pub(super) name: Leaf<'src>,
+        pub(super) view: Option<Leaf<'src>>,
         pub(super) repeat: Option<Leaf<'src>>,
         pub(super) with: Option<Leaf<'src>>,
         pub(super) when: Option<Leaf<'src>>,

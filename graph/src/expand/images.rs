@@ -14,7 +14,7 @@ pub(super) struct Resolved {
 }
 
 /// Every image of the pipeline; `None` where a mistake was reported.
-pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Diagnostic>) -> Vec<Option<Resolved>> {
+pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<Option<Resolved>> {
     let images = &chosen.pipeline.images;
     let formats = follow(
         images,
@@ -30,7 +30,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Di
             Size::Like(of) | Size::Scaled { of: Some(of), .. } => Some(of),
             _ => None,
         },
-        |image, followed| extent(image, output, followed, errors),
+        |image, followed| extent(image, chosen.extent(image.view), followed, errors),
     );
     let samples = follow(
         images,
@@ -112,17 +112,17 @@ fn format(image: &describe::Image, followed: Option<Format>) -> Option<Format> {
 
 fn extent(
     image: &describe::Image,
-    output: [u32; 2],
+    view: [u32; 2],
     followed: Option<[u32; 2]>,
     errors: &mut Vec<Diagnostic>,
 ) -> Option<[u32; 2]> {
     let (by, of) = match image.size.value {
-        Size::Output => return Some(output),
+        Size::Output => return Some(view),
         Size::Fixed(extent) => return Some(extent),
         Size::Like(_) => return followed,
         Size::Scaled { by, of } => (by, of),
     };
-    let base = if of.is_some() { followed? } else { output };
+    let base = if of.is_some() { followed? } else { view };
     describe::scaled(image, base, by).map_err(|wrong| errors.push(wrong)).ok()
 }
 

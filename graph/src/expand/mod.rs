@@ -36,6 +36,7 @@ use crate::encoding::Encoding;
 use crate::frame::{Frame, ImageIndex, Output, Resource, SwitchedOff};
 use crate::interface::ShaderInterfaces;
 use crate::source::{Sources, Span};
+use crate::view::{Allowances, View, ViewIndex};
 use std::sync::Arc;
 use things::Things;
 
@@ -60,6 +61,8 @@ pub struct Inputs<'a> {
 /// What expansion asks everywhere.
 struct Chosen<'a> {
     pipeline: &'a Pipeline,
+    /// Width and height of the frame.
+    extent: [u32; 2],
 }
 
 /// What is wrong with `inputs` themselves: settings that the pipeline doesn't have or values that they don't allow, a size
@@ -81,7 +84,7 @@ pub fn check_inputs(document: &Document, inputs: &Inputs<'_>) -> Vec<Diagnostic>
 
 fn surroundings<'a>(inputs: &Inputs<'a>) -> Surroundings<'a> {
     let facts = if inputs.facts_known { inputs.facts } else { Facts::UNKNOWN };
-    Surroundings { facts, extent: inputs.output_extent, device: inputs.device }
+    Surroundings { facts, extent: inputs.output_extent, allows: Allowances::default(), device: inputs.device }
 }
 
 fn check_extent(extent: [u32; 2], errors: &mut Vec<Diagnostic>) {
@@ -116,8 +119,8 @@ pub fn expand(
             return Err(errors);
         }
     };
-    let chosen = Chosen { pipeline: &pipeline };
-    let things = Things::resolve(&chosen, inputs.output_extent, &mut errors);
+    let chosen = Chosen { pipeline: &pipeline, extent: inputs.output_extent };
+    let things = Things::resolve(&chosen, &mut errors);
 
     let mut checked = shader::Checked::new(shaders);
     let mut states = Vec::with_capacity(pipeline.passes.len());
@@ -147,13 +150,20 @@ pub fn expand(
         (Some(images), Some(buffers)) if errors.is_empty() => {
             let settings = settings::shown(&document.settings, &values);
             let passes = states.into_iter().flat_map(order::State::into_passes).collect();
-            Ok(Frame { sources, settings, views: Vec::new(), images, buffers, passes, outputs, switched_off })
+            let views = pipeline.views.iter().map(view).collect();
+            Ok(Frame { sources, settings, views, images, buffers, passes, outputs, switched_off })
         }
         _ => {
             document.tell_origins(&mut errors);
             Err(describe::in_order(errors))
         }
     }
+}
+
+fn view(described: &describe::View) -> View {
+    let describe::View { name, extent, camera, allows } = described;
+    let camera = camera.as_ref().map(|camera| camera.text.clone());
+    View { name: name.text.clone(), span: name.span, extent: *extent, camera, allows: *allows }
 }
 
 /// Says of mistakes in a fragment where it was used.
@@ -229,6 +239,11 @@ fn nowhere(message: String) -> Diagnostic {
 }
 
 impl<'a> Chosen<'a> {
+    /// Width and height of a view.
+    fn extent(&self, view: ViewIndex) -> [u32; 2] {
+        self.pipeline.views.get(view.0 as usize).map_or(self.extent, |view| view.extent)
+    }
+
     fn image(&self, index: ImageIndex) -> &'a describe::Image {
         &self.pipeline.images[index.0 as usize]
     }

@@ -52,6 +52,7 @@ pub(super) fn draft(
     let raster = !pass.color.is_empty() || pass.depth.is_some();
     let mut lowered = Pass::new(&pass.name.text, work::lower(chosen, things, pass, interface));
     lowered.span = pass.name.span;
+    lowered.view = pass.view;
     lowered.side_effect = pass.side_effect;
     for sample in &pass.sample {
         let range = parts::range(chosen, things, &sample.part, errors);
@@ -177,7 +178,8 @@ pub(super) fn stand_ins(
         };
         let name = &pass.name.text;
         let name = if number == 0 { name.to_string() } else { format!("{name} (otherwise {})", number + 1) };
-        Pass { span: pass.name.span, transfers: transfer.into_iter().collect(), ..Pass::new(&name, work) }
+        let (span, view) = (pass.name.span, pass.view);
+        Pass { span, view, transfers: transfer.into_iter().collect(), ..Pass::new(&name, work) }
     };
     pass.otherwise.iter().enumerate().map(stand_in).collect()
 }

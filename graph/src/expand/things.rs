@@ -18,8 +18,8 @@ pub(super) struct Things {
 
 impl Things {
     /// Resolves all of them.
-    pub(super) fn resolve(chosen: &Chosen<'_>, output: [u32; 2], errors: &mut Vec<Diagnostic>) -> Things {
-        let mut images = images::resolve(chosen, output, errors);
+    pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Things {
+        let mut images = images::resolve(chosen, errors);
         for (image, described) in images.iter_mut().zip(&chosen.pipeline.images) {
             if let Some(resolved) = image {
                 let (format, samples) = (Some(resolved.image.format), resolved.image.samples);

@@ -13,7 +13,7 @@ fn examples() -> Vec<String> {
 #[test]
 fn every_example_of_the_documentation_is_right() {
     let examples = examples();
-    assert_eq!(examples.len(), 9);
+    assert_eq!(examples.len(), 10);
     for example in examples {
         let text = if example.starts_with("Pipeline") {
             example

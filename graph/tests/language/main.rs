@@ -16,6 +16,7 @@ mod shipped;
 mod table;
 mod texture_declarations;
 mod textures;
+mod views;
 mod whole;
 mod words;
 mod works;

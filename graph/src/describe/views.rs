@@ -1,0 +1,230 @@
+//! `views`: from where, how large and with what the parts of a frame are drawn.
+
+use super::body::Body;
+use super::choices::{self, Choice};
+use super::leaf::Leaf;
+use super::lower::{Lowering, Place};
+use super::names::Names;
+use super::pass::Off;
+use super::pipeline::{Name, Setting};
+use super::reader::Reader;
+use super::scope::{Given, Scope};
+use super::surroundings::Surroundings;
+use super::{Diagnostic, LARGEST_SIZE, body, images, properties, shown_number, values};
+use crate::fields;
+use crate::view::{Allowances, ViewIndex};
+use std::sync::Arc;
+
+fields! {
+    struct ViewFields<'src> as "View" {
+        name: Leaf<'src>,
+        about: Option<Leaf<'src>>,
+        size: Option<Leaf<'src>>,
+        camera: Option<Leaf<'src>>,
+        allows_msaa: Option<Leaf<'src>>,
+        allows_hdr: Option<Leaf<'src>>,
+        allows_scale: Option<Leaf<'src>>,
+        set: Option<Leaf<'src>>,
+    }
+}
+
+const SIZES: &str = "the size of a view is `Output`, `Scaled(0.5)` or `Fixed(640, 360)`";
+
+/// A view of the frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct View {
+    /// Unique name.
+    pub name: Name,
+    /// Width and height in texels.
+    pub extent: [u32; 2],
+    /// The scene's camera of that name; `None`: the scene's own.
+    pub camera: Option<Name>,
+    /// What may be spent on it.
+    pub allows: Allowances,
+}
+
+/// What expressions see that stand in a view.
+pub(super) struct Seen<'a> {
+    pub(super) surroundings: Surroundings<'a>,
+    /// Values of settings.
+    pub(super) given: Vec<Option<Given>>,
+}
+
+/// The views of a pipeline, the main one first; none if the file names none.
+pub(super) struct Views<'a> {
+    names: Names,
+    /// `None` where one couldn't be read.
+    list: Vec<Option<(View, Seen<'a>)>>,
+}
+
+impl<'a> Views<'a> {
+    /// No views: all is drawn for one that has the frame's size.
+    pub(super) fn none() -> Views<'a> {
+        Views { names: Names::new("view"), list: Vec::new() }
+    }
+
+    /// Reads a list of views. `scope` is the frame's, `settings` are those that views may set.
+    pub(super) fn read(
+        reader: &mut Reader,
+        scope: &Scope<'_>,
+        surroundings: &Surroundings<'a>,
+        settings: &[Option<Setting>],
+        list: Leaf<'_>,
+    ) -> Views<'a> {
+        let mut names = Names::new("view");
+        let fields: Vec<Option<ViewFields<'_>>> = body::entries(reader, Some(list), "`views`", "view", &mut names);
+        if fields.is_empty() && reader.errors.is_empty() {
+            reader.wrong(list, "a frame without views shows nothing", "leave `views` out: there is one then");
+        }
+        let mut views = Vec::with_capacity(fields.len());
+        for (number, fields) in fields.into_iter().enumerate() {
+            views.push(fields.and_then(|fields| view(reader, scope, surroundings, settings, number == 0, &fields)));
+        }
+        Views { names, list: views }
+    }
+
+    /// The view that `leaf` names.
+    pub(super) fn find(&self, reader: &mut Reader, leaf: Leaf<'_>) -> Option<ViewIndex> {
+        let name = reader.reference(leaf, "a view")?;
+        if self.list.is_empty() && self.names.complete() {
+            let unknown = Diagnostic::new(name.span, format!("there is no view named `{}`", name.text));
+            reader.report(unknown.help(format!(
+                "list the views of the frame, the main one first: `views: [(name: \"main\"), (name: \"{}\")]`",
+                name.text
+            )));
+            return None;
+        }
+        self.names.find(reader, &name).and_then(|at| u32::try_from(at).ok()).map(ViewIndex)
+    }
+
+    /// What expressions see within a view; `None`: what they see of the frame.
+    pub(super) fn seen(&self, view: ViewIndex) -> Option<&Seen<'a>> {
+        self.list.get(view.0 as usize)?.as_ref().map(|(_, seen)| seen)
+    }
+
+    /// `because` of something within a view: of the main one as it is, else with the view's name.
+    pub(super) fn within(&self, view: ViewIndex, because: Arc<str>) -> Arc<str> {
+        match self.list.get(view.0 as usize) {
+            Some(Some((View { name, .. }, _))) if view != ViewIndex::default() => {
+                format!("{because} in view `{}`", name.text).into()
+            }
+            _ => because,
+        }
+    }
+
+    /// All of them. `None` if one couldn't be read.
+    pub(super) fn into_list(self) -> Option<Vec<View>> {
+        self.list.into_iter().map(|view| view.map(|(view, _)| view)).collect()
+    }
+}
+
+impl<'t> Lowering<'_, 't> {
+    /// The view that an entry names, else the one that everything here is for.
+    pub(super) fn view(
+        &self,
+        reader: &mut Reader,
+        body: &Body<'t>,
+        place: &Place,
+        leaf: Option<Leaf<'t>>,
+    ) -> Option<ViewIndex> {
+        match leaf {
+            None => Some(place.view),
+            Some(leaf) if body.known.settings => self.views.find(reader, leaf),
+            Some(leaf) => {
+                let help = "leave it out; the use of the fragment may have a `view`";
+                reader.wrong(leaf, "all that a fragment makes is for the view of its use", help);
+                None
+            }
+        }
+    }
+
+    /// Width and height of a view.
+    pub(super) fn extent(&self, view: ViewIndex) -> [u32; 2] {
+        self.views.seen(view).map_or(self.surroundings.extent, |seen| seen.surroundings.extent)
+    }
+
+    /// Why something is off, and in which view.
+    pub(super) fn off_within(&self, view: ViewIndex, off: Option<Off>) -> Option<Off> {
+        off.map(|Off { span, because }| Off { span, because: self.views.within(view, because.into()).to_string() })
+    }
+}
+
+fn view<'a>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    surroundings: &Surroundings<'a>,
+    settings: &[Option<Setting>],
+    main: bool,
+    fields: &ViewFields<'_>,
+) -> Option<(View, Seen<'a>)> {
+    let name = reader.name(fields.name, "a view");
+    if let Some(about) = fields.about {
+        reader.words(about, "a description");
+    }
+    let extent = match fields.size {
+        Some(leaf) if main => {
+            reader.wrong(leaf, "the first view has the size of the frame", "leave `size` out; `--size` chooses it");
+            None
+        }
+        Some(leaf) => size(reader, scope, leaf),
+        None => Some(surroundings.extent),
+    };
+    let camera = match fields.camera {
+        Some(leaf) => reader.reference(leaf, "a camera").map(Some),
+        None => Some(None),
+    };
+    let mut allowed = |leaf: Option<Leaf<'_>>, frame: bool| match leaf {
+        Some(leaf) => values::truth(reader, scope, leaf),
+        None => Some(frame),
+    };
+    let all = surroundings.allows;
+    let (msaa, hdr) = (allowed(fields.allows_msaa, all.msaa), allowed(fields.allows_hdr, all.hdr));
+    let scale = allowed(fields.allows_scale, all.scale);
+    let set = fields.set.map_or_else(|| Some(Vec::new()), |leaf| choices::set(reader, leaf, settings));
+    let view = View {
+        name: name?,
+        extent: extent?,
+        camera: camera?,
+        allows: Allowances { msaa: msaa?, hdr: hdr?, scale: scale? },
+    };
+    let surroundings = Surroundings { extent: view.extent, allows: view.allows, ..*surroundings };
+    let mut given = scope.given.to_vec();
+    for Choice { setting, value, .. } in set? {
+        if let Some(given) = given.get_mut(setting) {
+            *given = Some(Given { value, decided: Vec::new() });
+        }
+    }
+    Some((view, Seen { surroundings, given }))
+}
+
+fn size(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<[u32; 2]> {
+    let (word, rest) = reader.word(leaf, "the size of a view", &["Output", "Scaled", "Fixed"], SIZES)?;
+    let frame = scope.surroundings.extent;
+    match word {
+        "Output" => reader.bare(word, rest).map(|()| frame),
+        "Fixed" => {
+            let [width, height]: [Leaf<'_>; 2] = reader.inside(leaf, rest, "Fixed(width, height)")?;
+            let (width, height) = (images::extent(reader, scope, width), images::extent(reader, scope, height));
+            Some([width?, height?])
+        }
+        _ => {
+            let [by]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Scaled(0.5)")?;
+            let (factor, because) = images::scale(reader, scope, by)?;
+            match properties::times(frame, factor) {
+                Ok(extent) => Some(extent),
+                // No frame is known yet, or none of this.
+                Err(_) if scope.lenient => {
+                    scope.forgave.set(true);
+                    None
+                }
+                Err([width, height]) => {
+                    let message = format!("the view would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
+                    let because = because.map_or_else(|| shown_number(factor), |because| because.to_string());
+                    let wrong = Diagnostic::new(by.span(), message);
+                    reader.report(wrong.remark(format!("{because} times {}×{}", frame[0], frame[1])));
+                    None
+                }
+            }
+        }
+    }
+}
