@@ -16,6 +16,10 @@ pub(crate) const PIPELINES: Shipped = carried!(
     "deferred.ron",
     "forward.ron",
     "library/bloom.ron",
+    "library/blur.ron",
+    "library/overlay.ron",
+    "library/tone_mapping.ron",
+    "post.ron",
     "snow.ron",
     "soft_focus.ron",
 );

@@ -10,7 +10,7 @@ use support::{Outcome, Place, Vulkan};
 const SIZE: [u32; 2] = [160, 90];
 
 /// All shipped pipelines.
-const PIPELINES: [&str; 5] = ["auto_exposure", "deferred", "forward", "snow", "soft_focus"];
+const PIPELINES: [&str; 6] = ["auto_exposure", "deferred", "forward", "post", "snow", "soft_focus"];
 
 /// Draws the shipped scene through a shipped pipeline; `None` where the driver or layer is missing.
 fn draw(place: &Place, vulkan: Vulkan, pipeline: &str, more: &[&str]) -> Option<Outcome> {

@@ -24,6 +24,8 @@ fn one_shader_draws_the_same_of_every_kind_of_image_on_both_drivers_and_the_laye
                 &[
                     "run",
                     "textures.ron",
+                    "--scene",
+                    "spheres_and_cubes",
                     "--size",
                     "32x24",
                     "--set",

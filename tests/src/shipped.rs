@@ -1,4 +1,4 @@
-//! The shipped pipelines as frames, in every combination of their discrete settings.
+//! The shipped pipelines as frames, in every combination of their discrete settings, as long as those are few.
 
 use crate::render::in_repository;
 use framewright_graph::describe::{self, Document, PipelineFiles, SettingKind};
@@ -30,7 +30,17 @@ fn values(kind: &SettingKind) -> Vec<String> {
     }
 }
 
+/// Of a pipeline whose settings have more combinations those are taken that leave all settings but one at their defaults.
+const MOST_COMBINATIONS: usize = 40;
+
 fn combinations(pipeline: &Document) -> Vec<Vec<(String, String)>> {
+    let each = |setting: &describe::Setting| {
+        let name = setting.name.text.to_string();
+        values(&setting.kind).into_iter().map(move |value| vec![(name.clone(), value)])
+    };
+    if pipeline.settings.iter().map(|setting| values(&setting.kind).len()).product::<usize>() > MOST_COMBINATIONS {
+        return std::iter::once(Vec::new()).chain(pipeline.settings.iter().flat_map(each)).collect();
+    }
     pipeline.settings.iter().fold(vec![Vec::new()], |combinations, setting| {
         let with = |chosen: &Vec<(String, String)>, value: String| {
             [&chosen[..], &[(setting.name.text.to_string(), value)]].concat()

@@ -1,4 +1,4 @@
-//! Plans of the shipped pipelines, in every combination of their discrete settings, without any device.
+//! Plans of the shipped pipelines, in the combinations of their discrete settings, without any device.
 
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe;

@@ -8,6 +8,7 @@ mod choices;
 mod docs;
 mod encodings;
 mod fragments;
+mod library;
 mod random;
 mod repeat;
 mod resources;

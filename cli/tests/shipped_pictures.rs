@@ -1,0 +1,63 @@
+//! The pictures in `docs/pictures` are what the shipped pipelines draw.
+
+mod support;
+
+use image::RgbImage;
+use std::collections::BTreeSet;
+use std::path::Path;
+use support::{Place, Vulkan, repository};
+
+/// How a changed picture is accepted.
+const ACCEPT: &str =
+    "FRAMEWRIGHT_UPDATE=1 cargo test --package framewright --test shipped_pictures; git diff docs/pictures";
+
+/// The scene that all of them draw, in so many frames: what persists has settled, and snow is falling.
+const HOW: [&str; 6] = ["--scene", "spheres_and_cubes", "--size", "320x180", "--frames", "4"];
+
+/// Names of the files of a folder that end so, without that.
+fn names(folder: &str, ending: &str) -> BTreeSet<String> {
+    let files = std::fs::read_dir(repository(folder)).expect("the folder is there");
+    let names = files.map(|file| file.expect("listed").file_name().to_string_lossy().into_owned());
+    names.filter_map(|name| name.strip_suffix(ending).map(str::to_owned)).collect()
+}
+
+fn picture(path: &Path) -> RgbImage {
+    image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).into_rgb8()
+}
+
+/// Pixels of which a channel is further apart than so many 8-bit steps.
+fn apart(ours: &RgbImage, theirs: &RgbImage, steps: u8) -> usize {
+    let far =
+        |(a, b): (&image::Rgb<u8>, &image::Rgb<u8>)| (0..3).any(|channel| a[channel].abs_diff(b[channel]) > steps);
+    ours.pixels().zip(theirs.pixels()).filter(|pair| far(*pair)).count()
+}
+
+/// A processor with other vector instructions rounds otherwise: an edge may fall on the other side of a pixel's middle.
+#[test]
+fn each_shipped_pipeline_draws_the_picture_that_is_shown_of_it() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    for pipeline in names("examples/pipelines", ".ron") {
+        let file = format!("{pipeline}.png");
+        place.run_with(&variables, &[&["run", &*pipeline, "-o", &*file][..], &HOW].concat()).exits(0);
+        let shown = repository("docs/pictures").join(&file);
+        if std::env::var_os("FRAMEWRIGHT_UPDATE").is_some() {
+            std::fs::copy(place.path(&file), &shown).expect("copied");
+            continue;
+        }
+        let (drawn, shown) = (picture(&place.path(&file)), picture(&shown));
+        assert_eq!(drawn.dimensions(), shown.dimensions(), "{pipeline}; accept: {ACCEPT}");
+        let [slightly, clearly] = [2, 24].map(|steps| apart(&drawn, &shown, steps));
+        let all = drawn.pixels().len();
+        assert!(
+            slightly * 100 <= all && clearly * 1000 <= all,
+            "{pipeline}: of {all} pixels {slightly} are further apart than 2/255, {clearly} further than 24/255; \
+             accept: {ACCEPT}"
+        );
+    }
+}
+
+#[test]
+fn no_picture_is_left_over_from_a_pipeline_that_is_gone() {
+    assert_eq!(names("docs/pictures", ".png"), names("examples/pipelines", ".ron"));
+}

@@ -1,0 +1,105 @@
+//! The shipped library of fragments: what its fragments come to for images of any size.
+
+use crate::table::{INPUTS, Table};
+use framewright_graph::compile::{Options, compile};
+use framewright_graph::describe::{self, PipelineFiles};
+use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::expand::{Inputs, expand};
+use framewright_graph::frame::Frame;
+use framewright_graph::root::Root;
+use framewright_graph::source::Sources;
+use framewright_graph::verify::verify;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A frame that puts `uses` between a picture of the size `extent` and the screen, made into a Plan on every shipped device.
+fn frame(extent: [u32; 2], include: &str, uses: &str) -> Frame {
+    let text = format!(
+        "Pipeline(version: 1, include: [\"library/{include}.ron\"],
+        images: [(name: \"color\", format: Color(hdr: true), size: Output), (name: \"screen\", format: Like(\"color\"), size: Output)],
+        passes: [(name: \"draw\", draw: FullScreen(\"plain\"), color: [\"color\"]), {uses}], outputs: [\"screen\"])"
+    );
+    let root = Root::new(Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/pipelines"));
+    let mut sources = Sources::default();
+    let mut files = PipelineFiles::beside(root, "test.ron", &[]);
+    let document = describe::read_with(&mut sources, &mut files, "test.ron", "test.ron", text);
+    let sources = Arc::new(sources);
+    let inputs = Inputs { output_extent: extent, ..INPUTS };
+    let frame = document.and_then(|document| expand(&document, sources.clone(), &inputs, &mut Table));
+    let frame = frame.unwrap_or_else(|wrong| panic!("{}", describe::render(&sources, &wrong)));
+    for (name, text) in SHIPPED_PROFILES {
+        let device = Profile::from_ron(text).expect("shipped profiles are read");
+        let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default());
+        let plan = plan.unwrap_or_else(|wrong| panic!("{extent:?} on {name}: {wrong:?}"));
+        assert_eq!(verify(&plan), [], "{extent:?} on {name}");
+    }
+    frame
+}
+
+fn passes(frame: &Frame, within: &str) -> usize {
+    frame.passes.iter().filter(|pass| pass.name.contains(within)).count()
+}
+
+#[test]
+fn bloom_halves_an_image_as_often_as_is_asked_for_and_no_further_than_to_one_texel() {
+    let cases = [
+        ([1, 1], 1),
+        ([2, 1], 1),
+        ([3, 5], 1),
+        ([4, 400], 2),
+        ([64, 63], 5),
+        ([64, 64], 6),
+        ([640, 360], 8),
+        ([4096, 4096], 12),
+    ];
+    for (extent, most) in cases {
+        for levels in [1, 2, 12] {
+            let uses = format!(
+                "(use: \"bloom\", name: \"glow\", with: {{\"source\": \"color\", \"target\": \"screen\", \"levels\": {levels}}})"
+            );
+            let frame = frame(extent, "bloom", &uses);
+            let expected = levels.min(most);
+            assert_eq!(passes(&frame, ".shrink["), expected, "{extent:?}, {levels}");
+            assert_eq!(passes(&frame, ".grow["), expected - 1, "{extent:?}, {levels}");
+            let smallest = frame.images.iter().rfind(|image| image.name.contains(".down[")).expect("there is one");
+            let expected = extent.map(|side| (side >> expected).max(1));
+            assert_eq!(smallest.extent[..2], expected, "{extent:?}, {levels}");
+        }
+    }
+}
+
+#[test]
+fn a_blur_is_two_passes_as_often_as_it_is_repeated() {
+    for times in [1, 2, 5, 64] {
+        let uses = format!(
+            "(use: \"blur\", name: \"soften\", with: {{\"source\": \"color\", \"target\": \"screen\", \"times\": {times}}})"
+        );
+        let frame = frame([33, 7], "blur", &uses);
+        assert_eq!((passes(&frame, ".rows"), passes(&frame, ".columns")), (times, times));
+        assert_eq!(frame.passes.last().map(|pass| pass.color[0].image.0), Some(1), "the last one draws the target");
+    }
+}
+
+#[test]
+fn tone_mapping_has_a_curve_for_each_operator() {
+    for (operator, expected) in [("clip", 1.0), ("reinhard", 1e30), ("white_point", 4.0)] {
+        let uses = format!(
+            "(use: \"tone_mapping\", name: \"show\", with: {{\"source\": \"color\", \"target\": \"screen\", \"white_point\": 4.0, \
+             \"operator\": \"'{operator}'\"}})"
+        );
+        let frame = frame([8, 8], "tone_mapping", &uses);
+        let params = &frame.passes.last().expect("it maps").params;
+        let white_point = params.iter().find(|(name, _)| &**name == "white_point").map(|(_, value)| *value);
+        assert_eq!(white_point, Some(framewright_graph::frame::ParamValue::Number(expected)), "{operator}");
+    }
+}
+
+#[test]
+fn an_overlay_shows_any_image_over_what_was_drawn() {
+    let uses =
+        "(use: \"overlay\", name: \"look\", with: {\"shown\": \"color\", \"target\": \"screen\", \"left\": 0.5})";
+    let first = "(name: \"copy\", copy: (from: \"color\", to: \"screen\")), ";
+    let frame = frame([8, 8], "overlay", &format!("{first}{uses}"));
+    let pass = frame.passes.last().expect("it draws");
+    assert_eq!(pass.sampled[0].texture.map(|texture| texture.to_string()).as_deref(), Some("sampler2D"));
+}
