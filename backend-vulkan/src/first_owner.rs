@@ -148,6 +148,7 @@ mod tests {
             format_version: framewright_graph::plan::FORMAT_VERSION,
             device: DeviceUsed { name: String::new(), exact_memory: true },
             settings: Vec::new(),
+            changes: Vec::new(),
             views: Vec::new(),
             images: vec![image],
             buffers: Vec::new(),

@@ -181,6 +181,9 @@ pub(crate) struct Pipeline {
     /// and presets.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<Assignment>,
+    /// Apply an extension to the pipeline, after those that it names itself. Repeatable; later ones see what earlier ones did.
+    #[arg(long, value_name = "EXTENSION.ron")]
+    pub(crate) extend: Vec<PathBuf>,
     /// Folder that holds all files which the pipeline names, and the pipeline; by default the one that the pipeline lies
     /// in. Files outside of it are not read.
     #[arg(long, value_name = "DIR", conflicts_with = "allow_outside")]

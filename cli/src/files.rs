@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::{args, shipped, text};
-use framewright_graph::describe::{LARGEST_FILE, Shipped};
+use framewright_graph::describe::{Found, LARGEST_FILE, SHIPPED, Shipped};
 use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_passes::scene::{self, Scene, SceneError};
@@ -34,25 +34,25 @@ pub(crate) fn pipeline(arguments: &args::Pipeline) -> Result<PipelineFile, Error
         Ok(bytes) => Ok(PipelineFile {
             shown: path.to_string_lossy().into_owned(),
             name: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
-            root: Some(root(arguments)?),
+            root: Some(limited(arguments, Root::new(path.parent().unwrap_or(Path::new("")).to_owned()))?),
             bytes,
         }),
         Err(Error::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
             let (file, text) = carried(WHAT, path, shipped::PIPELINES)?;
-            Ok(PipelineFile {
-                shown: file.to_owned(),
-                name: file.to_owned(),
-                root: None,
-                bytes: text.as_bytes().to_vec(),
-            })
+            let (shown, bytes) = (file.to_owned(), text.as_bytes().to_vec());
+            if arguments.extend.is_empty() {
+                return Ok(PipelineFile { name: shown.clone(), shown, root: None, bytes });
+            }
+            // Extensions of the user's own bring files of their own: the working directory takes the place of the folder.
+            let name = format!("{SHIPPED}{file}");
+            Ok(PipelineFile { shown, name, root: Some(limited(arguments, Root::new(".".into()))?), bytes })
         }
         Err(error) => Err(error),
     }
 }
 
-/// Where a pipeline's files come from: the folder that it lies in, or what the user says.
-fn root(arguments: &args::Pipeline) -> Result<Root, Error> {
-    let own = Root::new(arguments.file.parent().unwrap_or(Path::new("")).to_owned());
+/// Where a pipeline's files come from: its own folder, or what the user says.
+fn limited(arguments: &args::Pipeline, own: Root) -> Result<Root, Error> {
     if arguments.allow_outside {
         return Ok(own.allow_outside());
     }
@@ -65,6 +65,29 @@ fn root(arguments: &args::Pipeline) -> Result<Root, Error> {
         return Err(Error::OutsideRoot { pipeline: arguments.file.clone(), root: chosen.clone() });
     }
     Ok(own.within(chosen.clone()))
+}
+
+/// Reads an extension that the user names; where there is no such file, the shipped one of that path. Files that it names
+/// are counted from it: so its path is counted from the pipeline's folder, the one of `root`.
+///
+/// # Errors
+/// If there is neither, or it can't be read.
+pub(crate) fn extension(path: &Path, root: Option<&Root>) -> Result<Found, Error> {
+    const WHAT: &str = "extension";
+    let shown = path.to_string_lossy().into_owned();
+    match bytes(WHAT, path, LARGEST_FILE) {
+        Ok(bytes) => {
+            let relative = root.and_then(|root| root.relative(path).ok()).unwrap_or_else(|| shown.clone());
+            Ok(Found { shown, relative, bytes })
+        }
+        Err(Error::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
+            let carried = shipped::PIPELINES.iter().find(|(file, _)| Path::new(file) == path);
+            let (file, text) = carried.ok_or(Error::Read { what: WHAT, path: path.to_owned(), source })?;
+            let relative = format!("{SHIPPED}{file}");
+            Ok(Found { shown: relative.clone(), relative, bytes: text.as_bytes().to_vec() })
+        }
+        Err(error) => Err(error),
+    }
 }
 
 /// Reads a scene; where there is no such file, a shipped one of that name, and says so. Says too what the file holds that

@@ -84,7 +84,10 @@ pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
     };
     let textures = TextureFiles::new(root.clone().unwrap_or_else(|| Root::new(PathBuf::default())));
     let mut named = Named { files, textures };
-    let mut pipeline = describe::read_bytes_with(&mut sources, &mut named, &shown, &name, bytes)
+    let extensions = arguments.extend.iter().map(|path| files::extension(path, root.as_ref()));
+    let extensions = extensions.collect::<Result<Vec<Found>, Error>>()?;
+    let own = Found { shown, relative: name, bytes };
+    let mut pipeline = describe::read_extended(&mut sources, &mut named, own, extensions)
         .map_err(|diagnostics| wrong(&sources, diagnostics))?;
     choose(arguments, &mut pipeline, &mut sources)?;
     Ok(Loaded {

@@ -4,6 +4,7 @@
 //! pipeline.ron ─► describe ─► expand ─► compile ─► Plan ─► verify
 //! ```
 
+pub mod change;
 pub mod compile;
 pub mod describe;
 pub mod device;

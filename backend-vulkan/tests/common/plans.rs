@@ -40,6 +40,7 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: device.profile().name, exact_memory: true },
         settings: Vec::new(),
+        changes: Vec::new(),
         views: Vec::new(),
         images: Vec::new(),
         buffers: Vec::new(),

@@ -11,8 +11,20 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 /// A hash of all of a Plan but what it is named for: the texts of settings and the device's name.
 #[must_use]
 pub(super) fn of(plan: &Plan) -> u64 {
-    let Plan { format_version: _, device, settings: _, views, images, buffers, heaps, steps, outputs, notes, totals } =
-        plan;
+    let Plan {
+        format_version: _,
+        device,
+        settings: _,
+        changes: _,
+        views,
+        images,
+        buffers,
+        heaps,
+        steps,
+        outputs,
+        notes,
+        totals,
+    } = plan;
     let DeviceUsed { name: _, exact_memory } = device;
     let mut hashing = Hashing(DefaultHasher::new());
     // A Plan of which a part can't be written is known by the parts before it.

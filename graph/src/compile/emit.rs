@@ -23,7 +23,7 @@ use super::synchronise::Pending;
 use crate::device::Profile;
 use crate::frame::{Frame, Lifetime, Resource as Declared, Work as FrameWork};
 use crate::plan::{
-    Buffer, BufferId, Cause, DeviceUsed, FORMAT_VERSION, Image, ImageId, Initial, Note, Placement, Plan, Queue,
+    Buffer, BufferId, Cause, Change, DeviceUsed, FORMAT_VERSION, Image, ImageId, Initial, Note, Placement, Plan, Queue,
     Resource, Role, SettingUsed, Stage, Step, Subresources, Totals, View, Work,
 };
 use crate::source::Place;
@@ -115,6 +115,7 @@ pub(super) fn emit(parts: &Parts<'_>, (images, buffers): Resources) -> Plan {
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: parts.device.name.clone(), exact_memory: parts.exact_memory },
         settings: settings(parts),
+        changes: changes(parts),
         views: views(parts),
         images,
         buffers,
@@ -129,6 +130,11 @@ pub(super) fn emit(parts: &Parts<'_>, (images, buffers): Resources) -> Plan {
 fn settings(parts: &Parts<'_>) -> Vec<SettingUsed> {
     let settings = parts.frame.settings.iter();
     settings.map(|(name, value)| SettingUsed { name: name.clone(), value: value.clone() }).collect()
+}
+
+fn changes(parts: &Parts<'_>) -> Vec<Change> {
+    let Frame { sources, changes, .. } = parts.frame;
+    changes.iter().map(|change| Change { action: change.action.clone(), at: sources.place(change.span) }).collect()
 }
 
 /// Sums with the bytes that only `place` knows.

@@ -1,10 +1,13 @@
 //! A pipeline file that was read: what a user may choose, and all that is needed to put the rest together for a choice.
 
+use super::Diagnostic;
 use super::body::{Body, Lists, entries};
 use super::choices::{self, InForce, Preset, SettingsFile};
+use super::extend::{Account, Composed};
 use super::fragments::Fragments;
-use super::includes::Included;
+use super::includes::{self, Wanted};
 use super::leaf::Leaf;
+use super::loader::{self, Loader};
 use super::lower::Lowering;
 use super::names::Names;
 use super::origins::Origins;
@@ -16,7 +19,7 @@ use super::settings::{self, SettingFields};
 use super::surroundings::Surroundings;
 use super::textures::Pictures;
 use super::tree::Tree;
-use super::{Diagnostic, LANGUAGE_VERSION};
+use crate::change::Change;
 use crate::expression::Value;
 use crate::facts::Facts;
 use crate::fields;
@@ -24,19 +27,22 @@ use crate::source::Sources;
 use crate::view::Allowances;
 
 fields! {
-    struct PipelineFields<'src> as "Pipeline" {
+    pub(super) struct PipelineFields<'src> as "Pipeline" {
         #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
         version: Leaf<'src>,
-        include: Option<Leaf<'src>>,
-        settings: Option<Leaf<'src>>,
-        presets: Option<Leaf<'src>>,
-        views: Option<Leaf<'src>>,
-        fragments: Option<Leaf<'src>>,
-        textures: Option<Leaf<'src>>,
-        images: Leaf<'src>,
-        buffers: Option<Leaf<'src>>,
-        passes: Leaf<'src>,
-        outputs: Leaf<'src>,
+        #[expect(dead_code, reason = "followed before the others are read")]
+        extensions: Option<Leaf<'src>>,
+        pub(super) include: Option<Leaf<'src>>,
+        pub(super) settings: Option<Leaf<'src>>,
+        pub(super) presets: Option<Leaf<'src>>,
+        pub(super) views: Option<Leaf<'src>>,
+        pub(super) fragments: Option<Leaf<'src>>,
+        pub(super) textures: Option<Leaf<'src>>,
+        pub(super) images: Leaf<'src>,
+        pub(super) buffers: Option<Leaf<'src>>,
+        pub(super) passes: Leaf<'src>,
+        pub(super) outputs: Leaf<'src>,
+        pub(super) changes: Option<Leaf<'src>>,
     }
 }
 
@@ -55,36 +61,43 @@ pub struct Document {
     origins: Origins,
     /// The pictures that textures name.
     pictures: Pictures,
+    account: Account,
 }
 
 impl Document {
-    /// Reads a tree, and finds all that is wrong whatever the values. Mistakes are added to those that are known already.
+    /// Finds all that is wrong with what was put together, whatever the values. `relative` is the path of the pipeline's
+    /// own file. Mistakes come beside those that `reader` has already.
     pub(super) fn read(
-        tree: Tree,
-        errors: Vec<Diagnostic>,
-        mut included: Included<'_>,
+        mut reader: Reader,
+        loader: &mut Loader<'_>,
+        relative: &str,
+        Composed { tree, mut wanted, account }: Composed,
     ) -> Result<Document, Vec<Diagnostic>> {
-        let mut reader = Reader { errors };
-        let Some(Said { settings, presets, include, textures }) = said(&mut reader, tree.root()) else {
-            return Err(reader.errors);
-        };
-        included.list(&mut reader, include);
-        included.pictures(&mut reader, textures);
-        included.pictures_of_fragments(&mut reader, tree.root());
-        let Included { trees: included, pictures, origins, .. } = included;
-        let values: Vec<Option<Value>> =
-            settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
-        let surroundings =
-            Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], allows: Allowances::default(), device: None };
-        let files = Read { all: tree.root(), included: &included, pictures: &pictures };
-        lower(&mut reader, files, &settings, values, &surroundings, true);
-        let settings: Option<Vec<Setting>> = settings.into_iter().collect();
-        match (settings, presets.into_iter().collect()) {
-            (Some(settings), Some(presets)) if reader.errors.is_empty() => {
+        let mut document = None;
+        if let Some(Said { settings, presets, include, textures }) = said(&mut reader, tree.root()) {
+            let paths = loader::paths(&mut reader, include, "`include`");
+            wanted.push(Wanted { from: relative.to_owned(), paths });
+            let included = includes::read(&mut reader, loader, wanted);
+            loader.look(&mut reader, textures);
+            loader.look_in_fragments(&mut reader, tree.root());
+            let values: Vec<Option<Value>> =
+                settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
+            let allows = Allowances::default();
+            let surroundings = Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], allows, device: None };
+            let files = Read { all: tree.root(), included: &included, pictures: &loader.pictures };
+            lower(&mut reader, files, &settings, values, &surroundings, true);
+            let settings: Option<Vec<Setting>> = settings.into_iter().collect();
+            document = settings.zip(presets.into_iter().collect()).map(|both| (both, included));
+        }
+        let origins = std::mem::take(&mut loader.origins);
+        let pictures = std::mem::take(&mut loader.pictures);
+        match document {
+            Some(((settings, presets), included)) if reader.errors.is_empty() => {
                 let in_force = choices::in_force(&settings, None, &[]);
-                Ok(Document { settings, presets, in_force, tree, included, origins, pictures })
+                Ok(Document { settings, presets, in_force, tree, included, origins, pictures, account })
             }
             _ => {
+                account.tell(&tree, &mut reader.errors);
                 origins.tell(&mut reader.errors);
                 Err(super::never_none(reader.errors))
             }
@@ -133,7 +146,7 @@ impl Document {
     /// Whether what it comes to may depend on the device.
     #[must_use]
     pub fn asks_device(&self) -> bool {
-        [&self.tree].into_iter().chain(&self.included).any(|tree| tree.root().text().contains("device."))
+        [&self.tree].into_iter().chain(&self.included).any(|tree| tree.mentions("device."))
     }
 
     /// Puts in the values of settings, in their order, and what the pipeline is made for.
@@ -146,7 +159,10 @@ impl Document {
         let values = values.iter().cloned().map(Some).collect();
         let files = Read { all: self.tree.root(), included: &self.included, pictures: &self.pictures };
         match lower(&mut reader, files, &settings, values, surroundings, false) {
-            Some(pipeline) if reader.errors.is_empty() => Ok(pipeline),
+            Some(pipeline) if reader.errors.is_empty() => {
+                let removed = self.account.removed_passes().collect();
+                Ok(Pipeline { removed, ..pipeline })
+            }
             _ => {
                 self.tell_origins(&mut reader.errors);
                 Err(super::in_order(super::never_none(reader.errors)))
@@ -154,8 +170,15 @@ impl Document {
         }
     }
 
-    /// Adds to mistakes in files that others brought in where they did.
+    /// What files did to the pipeline that they extend, in the order in which they did it.
+    #[must_use]
+    pub fn changes(&self) -> &[Change] {
+        &self.account.changes
+    }
+
+    /// Adds the other place to mistakes in what was changed, and to those in files that others brought in.
     pub(crate) fn tell_origins(&self, errors: &mut [Diagnostic]) {
+        self.account.tell(&self.tree, errors);
         self.origins.tell(errors);
     }
 }
@@ -179,17 +202,8 @@ struct Read<'t> {
     pictures: &'t Pictures,
 }
 
-/// Settings, presets and what is included. `None` if the file is no pipeline of this version.
+/// Settings, presets and what is included. `None` if the file is no pipeline.
 fn said<'t>(reader: &mut Reader, all: Leaf<'t>) -> Option<Said<'t>> {
-    if let Some(version) = all.field("version") {
-        let number = reader.integer(version)?;
-        if number != LANGUAGE_VERSION {
-            let message = format!("this file is written in version {number} of the language");
-            reader.errors.clear();
-            reader.wrong(version, message, &format!("this program reads version {LANGUAGE_VERSION}"));
-            return None;
-        }
-    }
     let fields: PipelineFields<'_> = reader.read(all, "the pipeline")?;
     let listed: Vec<Option<SettingFields<'_>>> =
         entries(reader, fields.settings, "`settings`", "setting", &mut Names::new("setting"));

@@ -1,7 +1,7 @@
 //! Values of a file's tree, read one by one so that one mistake doesn't hide the next.
 
 use super::pipeline::Spanned;
-use super::tree::{Kind, Node, Tree};
+use super::tree::{Kind, Node, Text, Tree};
 use super::{escapes, numbers};
 use crate::source::Span;
 use std::borrow::Cow;
@@ -72,6 +72,26 @@ impl<'t> Leaf<'t> {
         self.tree.nodes[self.node as usize]
     }
 
+    /// The text that it stands in.
+    pub(super) fn home(self) -> &'t Text {
+        &self.tree.texts[self.node().text as usize]
+    }
+
+    /// The number of its node.
+    pub(super) const fn at(self) -> u32 {
+        self.node
+    }
+
+    /// Itself and all that is in it, in the order of nodes.
+    pub(super) fn nodes(self) -> &'t [Node] {
+        &self.tree.nodes[self.node as usize..self.node().after as usize]
+    }
+
+    /// The texts without escapes that are in it.
+    pub(super) fn texts(self) -> impl Iterator<Item = &'t str> {
+        (self.node..self.node().after).filter_map(move |node| Leaf::new(self.tree, node).plain())
+    }
+
     /// What it looks like.
     #[must_use]
     pub fn shape(self) -> Shape<'t> {
@@ -100,14 +120,14 @@ impl<'t> Leaf<'t> {
     #[must_use]
     pub fn text(self) -> &'t str {
         let Node { start, end, .. } = self.node();
-        &self.tree.text[start as usize..end as usize]
+        &self.home().text[start as usize..end as usize]
     }
 
     /// Where it stands.
     #[must_use]
     pub fn span(self) -> Span {
         let Node { start, end, .. } = self.node();
-        Span::new(self.tree.file, start, end)
+        Span::new(self.home().file, start, end)
     }
 
     /// Where it begins: its first character.
@@ -124,7 +144,7 @@ impl<'t> Leaf<'t> {
         let before = (part.as_ptr() as usize).saturating_sub(self.text().as_ptr() as usize);
         let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX).min(node.end);
         let start = node.start as usize + before;
-        Span::new(self.tree.file, offset(start), offset(start + part.len()))
+        Span::new(self.home().file, offset(start), offset(start + part.len()))
     }
 
     /// A value with its place.

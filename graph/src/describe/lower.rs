@@ -126,6 +126,7 @@ impl<'a, 't> Lowering<'a, 't> {
             passes: self.passes.into_iter().collect::<Option<_>>()?,
             outputs: outputs?,
             instances: self.instances,
+            removed: Vec::new(),
         })
     }
 

@@ -11,13 +11,26 @@
 //! # The language
 //! `docs/pipeline-format.md` tells what each field means; this is its grammar.
 //! ```text
-//! Pipeline(version: 1, include: ["file"…], settings: [SETTING…], views: [VIEW…], fragments: [FRAGMENT…],
-//!          textures: [TEXTURE…], images: [IMAGE…], buffers: [BUFFER…], passes: [ITEM…], outputs: [OUTPUT…])
+//! Pipeline(version: 1, include: ["file"…], extensions: ["file"…], settings: [SETTING…], presets: [PRESET…],
+//!          views: [VIEW…], fragments: [FRAGMENT…], textures: [TEXTURE…], images: [IMAGE…], buffers: [BUFFER…],
+//!          passes: [ITEM…], outputs: [OUTPUT…], changes: [CHANGE…])
+//! Pipeline(version: 1, extends: "file", …)                            all of the above but `passes`, added to what there is
 //! Fragments(version: 1, include: ["file"…], fragments: [FRAGMENT…])
+//! Extension(version: 1, about: "…", include: ["file"…], settings: [SETTING…], presets: [PRESET…], views: [VIEW…],
+//!           fragments: [FRAGMENT…], textures: [TEXTURE…], images: [IMAGE…], buffers: [BUFFER…], changes: [CHANGE…])
+//!
+//! CHANGE     Set(THING, to: (field: value…), without: ["field"…])    `to` or `without` may be left out
+//!            | Remove(THING) | Remove(output: "name")
+//!            | Insert(PLACE, passes: [ITEM…]) | Insert(outputs: [OUTPUT…])
+//! THING      pass: "name" | image: "name" | buffer: "name" | texture: "name" | setting: "name" | preset: "name"
+//!            | view: "name"
+//! PLACE      before: "pass" | after: "pass" | at: "anchor" | at: Start | at: End
 //!
 //! SETTING    (name: "…", value: KIND, about: "…")                  `about` may be left out
 //! KIND       Bool(default: true) | OneOf(default: 4, of: [1, 4]) | OneOf(default: "low", of: ["low", "high"])
 //!            | Number(default: 1.0, min: 0.0, max: 2.0) | Integer(default: 1, min: 0, max: 9)    with `step: 1` too
+//!
+//! PRESET     (name: "…", about: "…", set: {"setting": value…})     `about` may be left out
 //!
 //! VIEW       (name: "…", about: "…", size: Output | Scaled(0.5) | Fixed(640, 360), camera: "…", allows_msaa: true,
 //!             allows_hdr: true, allows_scale: true, set: {"setting": value…})     all but the name may be left out
@@ -95,6 +108,7 @@ mod circles;
 mod diagnostic;
 mod document;
 mod escapes;
+mod extend;
 mod fields;
 mod fragments;
 mod images;
@@ -104,6 +118,7 @@ mod known;
 mod leaf;
 mod lexer;
 mod lifetimes;
+mod loader;
 mod lower;
 mod names;
 mod numbers;
@@ -146,8 +161,10 @@ pub use pass::{
     BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, Off, Param, Part, Pass, Sample, Selection,
     StandIn, Storage, StorageAccess, Uniform, Work,
 };
-pub use pipeline::{BufferRef, ImageRef, Instance, Name, Output, Pipeline, ResourceRef, Setting, SettingKind, Spanned};
-pub use pipeline_files::{PipelineFiles, Shipped};
+pub use pipeline::{
+    BufferRef, ImageRef, Instance, Name, Output, Pipeline, RemovedPass, ResourceRef, Setting, SettingKind, Spanned,
+};
+pub use pipeline_files::{PipelineFiles, SHIPPED, Shipped};
 pub(crate) use properties::scaled;
 pub use render::{escape, render};
 pub use resources::{
@@ -170,6 +187,9 @@ pub mod text {
 }
 
 use crate::source::{Sources, Span};
+use extend::Layer;
+use loader::Loader;
+use reader::Reader;
 use std::sync::Arc;
 use tree::Tree;
 
@@ -192,7 +212,7 @@ pub fn read_bytes(
     read_bytes_with(sources, &mut NoFiles, shown, relative, bytes)
 }
 
-/// Reads a pipeline file's bytes and the files that it includes, as [`read_bytes`] does.
+/// Reads a pipeline file's bytes and the files that it names, as [`read_bytes`] does.
 ///
 /// # Errors
 /// What [`read_with`] reports, and bytes that are no text.
@@ -203,17 +223,33 @@ pub fn read_bytes_with(
     relative: &str,
     bytes: Vec<u8>,
 ) -> Result<Document, Vec<Diagnostic>> {
+    let pipeline = Found { shown: shown.to_owned(), relative: relative.to_owned(), bytes };
+    read_extended(sources, files, pipeline, Vec::new())
+}
+
+/// Reads a pipeline file's bytes and the files that it names, as [`read_bytes_with`] does, and applies extensions to it,
+/// one after the other.
+///
+/// # Errors
+/// What [`read_bytes_with`] reports, and what is wrong with the extensions by themselves, and with them for this pipeline.
+pub fn read_extended(
+    sources: &mut Sources,
+    files: &mut dyn Files,
+    pipeline: Found,
+    extensions: Vec<Found>,
+) -> Result<Document, Vec<Diagnostic>> {
+    let Found { shown, relative, bytes } = pipeline;
     if bytes.len() > LARGEST_FILE {
-        return Err(vec![too_large(shown, bytes.len())]);
+        return Err(vec![too_large(&shown, bytes.len())]);
     }
     match String::from_utf8(bytes) {
-        Ok(text) => read_with(sources, files, shown, relative, text),
+        Ok(text) => read_all(sources, files, (&shown, &relative, text), extensions),
         Err(error) => {
             let message = format!("this is not a text file: {}", odd_byte(&error));
             let valid = error.utf8_error().valid_up_to();
             let mut bytes = error.into_bytes();
             bytes.truncate(valid);
-            let file = sources.add(shown, relative, String::from_utf8_lossy(&bytes).into_owned());
+            let file = sources.add(shown, &relative, String::from_utf8_lossy(&bytes).into_owned());
             let at = u32::try_from(valid).unwrap_or(u32::MAX);
             Err(vec![Diagnostic::new(Span::new(file, at, at), message).help("a pipeline is RON text in UTF-8")])
         }
@@ -243,15 +279,33 @@ pub fn read_with(
     if text.len() > LARGEST_FILE {
         return Err(vec![too_large(shown, text.len())]);
     }
+    read_all(sources, files, (shown, relative, text), Vec::new())
+}
+
+fn read_all(
+    sources: &mut Sources,
+    files: &mut dyn Files,
+    (shown, relative, text): (&str, &str, String),
+    extensions: Vec<Found>,
+) -> Result<Document, Vec<Diagnostic>> {
     let text: Arc<str> = text.into();
     let file = sources.add(shown, relative, text.clone());
-    let mut errors = Vec::new();
     if let Some(error) = no_pipeline(file, &text) {
         return Err(vec![error]);
     }
-    let Some(tree) = Tree::read(file, text, &mut errors) else { return Err(in_order(errors)) };
-    let included = includes::Included::new(sources, files, relative);
-    Document::read(tree, errors, included).map_err(in_order)
+    let mut reader = Reader::default();
+    let Some(tree) = Tree::read(file, text, &mut reader.errors) else { return Err(in_order(reader.errors)) };
+    if !loader::version(&mut reader, tree.root()) {
+        // Of a later version's words nothing is known.
+        return Err(reader.errors.pop().into_iter().collect());
+    }
+    let mut loader = Loader::new(sources, files);
+    let composed = extend::read(&mut reader, &mut loader, Layer::pipeline(tree, relative), extensions);
+    let Some(composed) = composed else {
+        loader.origins.tell(&mut reader.errors);
+        return Err(in_order(never_none(reader.errors)));
+    };
+    Document::read(reader, &mut loader, relative, composed).map_err(in_order)
 }
 
 /// The first mistakes first: file by file.

@@ -20,7 +20,9 @@ struct Origin {
 impl Origins {
     /// The file numbered `file` is named at `span`; `words` say what for: "included here".
     pub(super) fn add(&mut self, file: u32, span: Span, words: &'static str) {
-        self.0.push((file, Origin { span, words }));
+        if span.file().is_some() {
+            self.0.push((file, Origin { span, words }));
+        }
     }
 
     fn of(&self, file: usize) -> Option<Origin> {

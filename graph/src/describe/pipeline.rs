@@ -26,6 +26,19 @@ pub struct Pipeline {
     pub outputs: Vec<Output>,
     /// Fragments that were put in, each before those within it.
     pub instances: Vec<Instance>,
+    /// Passes that a file removed from a pipeline that it extends.
+    pub removed: Vec<RemovedPass>,
+}
+
+/// A pass that is no longer there: whoever misses what it wrote is told so.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RemovedPass {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Where it is removed.
+    pub span: Span,
+    /// Texts in it: names of images and buffers, among others.
+    pub texts: Vec<Arc<str>>,
 }
 
 /// A fragment that was put in.

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// What stands before the path of a shipped file, where it isn't a shipped pipeline that names it.
-const SHIPPED: &str = "shipped:";
+pub const SHIPPED: &str = "shipped:";
 
 /// Path and text of files that are shipped with the program.
 pub type Shipped = &'static [(&'static str, &'static str)];

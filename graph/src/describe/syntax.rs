@@ -150,7 +150,7 @@ impl Parser<'_, '_> {
 
     fn open(&mut self, kind: Kind, start: usize) -> usize {
         let start = place(start);
-        self.nodes.push(Node { start, end: start, after: 0, kind });
+        self.nodes.push(Node { start, end: start, after: 0, text: 0, kind });
         self.nodes.len() - 1
     }
 
@@ -199,7 +199,7 @@ impl Parser<'_, '_> {
 
     fn word(&mut self, start: usize, end: usize) {
         let after = place(self.nodes.len() + 1);
-        self.nodes.push(Node { start: place(start), end: place(end), after, kind: Kind::Word });
+        self.nodes.push(Node { start: place(start), end: place(end), after, text: 0, kind: Kind::Word });
     }
 
     /// `(…)`: fields if it begins with a word that is no value by itself.

@@ -1,19 +1,29 @@
 //! A file's text as a tree: what stands in which brackets, and where.
 //!
 //! One pass over the text makes it (`syntax`); everything else reads it through [`Leaf`]s. It keeps no copies of the
-//! text: a node is a kind and a range of bytes.
+//! text: a node is a kind and a range of bytes. Where a pipeline extends another, the trees of their files become one
+//! (`extend`), whose nodes still stand where they were written.
 
 use super::leaf::Leaf;
 use super::{Diagnostic, syntax};
+use crate::source::Span;
 use std::sync::Arc;
 
-/// The values of one file. Owns what it needs, so it outlives the reading.
+/// The values of one file, or of several that were put together. Owns what it needs, so it outlives the reading.
 #[derive(Debug, Clone)]
 pub struct Tree {
+    /// Where the texts of nodes stand.
+    pub(super) texts: Vec<Text>,
+    /// After each node come its children, then whatever follows it.
+    pub(super) nodes: Vec<Node>,
+}
+
+/// A file's text.
+#[derive(Debug, Clone)]
+pub(super) struct Text {
+    /// The file's number in [`Sources`](crate::source::Sources).
     pub(super) file: u32,
     pub(super) text: Arc<str>,
-    /// In the order of the text: after each node come its children, then whatever follows it.
-    pub(super) nodes: Vec<Node>,
 }
 
 /// A value, a word or a broken place.
@@ -23,6 +33,8 @@ pub(super) struct Node {
     pub(super) end: u32,
     /// The node after this one and all that is in it.
     pub(super) after: u32,
+    /// The text that it stands in: an index into [`Tree::texts`].
+    pub(super) text: u16,
     pub(super) kind: Kind,
 }
 
@@ -60,7 +72,19 @@ impl Tree {
     /// left no doubt about how the text goes on, the tree holds the rest, so that other mistakes can be found too.
     pub fn read(file: u32, text: Arc<str>, errors: &mut Vec<Diagnostic>) -> Option<Tree> {
         let nodes = syntax::nodes(file, &text, errors)?;
-        Some(Tree { file, text, nodes })
+        Some(Tree { texts: vec![Text { file, text }], nodes })
+    }
+
+    /// Whether one of its texts holds `words`.
+    pub(super) fn mentions(&self, words: &str) -> bool {
+        self.texts.iter().any(|text| text.text.contains(words))
+    }
+
+    /// What stands there, if it is in one of its texts.
+    pub(super) fn text_at(&self, span: Span) -> &str {
+        let here = |text: &&Text| span.file() == Some(text.file as usize);
+        let text = self.texts.iter().find(here).map_or("", |text| &text.text);
+        text.get(span.start as usize..span.end as usize).unwrap_or("")
     }
 
     /// The file's one value.

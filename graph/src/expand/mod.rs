@@ -150,8 +150,9 @@ pub fn expand(
         (Some(images), Some(buffers)) if errors.is_empty() => {
             let settings = settings::shown(&document.settings, &values);
             let passes = states.into_iter().flat_map(order::State::into_passes).collect();
+            let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
-            Ok(Frame { sources, settings, views, images, buffers, passes, outputs, switched_off })
+            Ok(Frame { sources, settings, changes, views, images, buffers, passes, outputs, switched_off })
         }
         _ => {
             document.tell_origins(&mut errors);

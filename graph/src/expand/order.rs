@@ -216,7 +216,8 @@ impl Check<'_> {
             wrong.help("`before: Undefined` says that there is nothing to read: say in which state it really is")
         } else {
             let message = format!("{reader} needs {what}, but no pass writes it");
-            Diagnostic::new(span, message).remark("needed here").label(declared.span, "declared here")
+            let wrong = Diagnostic::new(span, message).remark("needed here").label(declared.span, "declared here");
+            self.removed(wrong, name)
         };
         self.errors.push(diagnostic);
     }
@@ -236,6 +237,7 @@ impl Check<'_> {
         }
         let below = &self.chosen.pipeline.passes[writer.position].name.text;
         let wrong = wrong.label(writer.span, "first written here, further below");
+        let wrong = self.removed(wrong, &self.chosen.name(of).text);
         if let Some(Lifetime::History { .. }) = self.things.lifetime(of) {
             let name = &self.chosen.name(of).text;
             let kind = if matches!(of, Resource::Image(_)) { "image" } else { "buffer" };
@@ -244,6 +246,15 @@ impl Check<'_> {
             ));
         }
         wrong.help(format!("move pass `{below}` up: the order of passes gives them their meaning"))
+    }
+
+    /// Shows where passes were removed that may have written what is missing.
+    fn removed(&self, wrong: Diagnostic, name: &str) -> Diagnostic {
+        let removed = &self.chosen.pipeline.removed;
+        let named = removed.iter().filter(|pass| pass.texts.iter().any(|text| **text == *name));
+        named.fold(wrong, |wrong, pass| {
+            wrong.label(pass.span, format!("pass `{}`, which uses `{name}`, is removed here", pass.name))
+        })
     }
 
     /// Demands that a target holds something that a draw can be added to.
@@ -261,7 +272,8 @@ impl Check<'_> {
             }
             None => clear,
         };
-        let mut diagnostic = Diagnostic::new(write.span, message).help(format!("clear it: `{clear}`"));
+        let diagnostic = Diagnostic::new(write.span, message).help(format!("clear it: `{clear}`"));
+        let mut diagnostic = self.removed(diagnostic, name);
         if let Some((writer, because)) = self.off_before(write.resource, position) {
             let off = &self.chosen.pipeline.passes[writer.position].name.text;
             diagnostic =

@@ -3,6 +3,7 @@
 //! This is what [`crate::compile`] reads. It still says only *what*: no barrier, layout, load or store operation, resolve
 //! or alias. It is plain data, so an embedding program may also build it without any file.
 
+use crate::change::Change;
 use crate::source::{Sources, Span};
 use crate::view::View;
 use std::sync::Arc;
@@ -41,6 +42,8 @@ pub struct Frame {
     pub sources: Arc<Sources>,
     /// The settings in force, by name, as they are shown.
     pub settings: Vec<(Arc<str>, String)>,
+    /// What files did to the pipeline that they extend, in the order in which they did it.
+    pub changes: Vec<Change>,
     /// The views, the main one first. None: one that is the scene's default camera's.
     pub views: Vec<View>,
     /// The images that passes name.

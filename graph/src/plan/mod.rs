@@ -26,6 +26,7 @@
 //! one that stands for one frame further back, and the oldest becomes the newest again. What the host writes or reads itself
 //! (parameters, object data, outputs) is not the Plan's: whoever executes it keeps one copy for each frame in flight.
 
+use crate::change::Action;
 use crate::format::Format;
 use crate::frame::Shape;
 use crate::source::Place;
@@ -36,6 +37,7 @@ use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State,
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
+mod changes;
 mod json;
 pub(crate) mod names;
 mod outline;
@@ -53,7 +55,7 @@ pub use work::{
 };
 
 /// The version of the JSON form that this library writes and reads.
-pub const FORMAT_VERSION: u32 = 3;
+pub const FORMAT_VERSION: u32 = 4;
 
 /// Index of an image in [`Plan::images`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -95,6 +97,8 @@ pub struct Plan {
     pub device: DeviceUsed,
     /// Settings in force.
     pub settings: Vec<SettingUsed>,
+    /// What files did to the pipeline that they extend, in the order in which they did it.
+    pub changes: Vec<Change>,
     /// The views that passes draw for, the main one first; empty if the frame names none. A [`ViewId`] is an index into this
     /// list.
     pub views: Vec<View>,
@@ -132,6 +136,16 @@ pub struct SettingUsed {
     pub name: Arc<str>,
     /// Value, as it is shown.
     pub value: String,
+}
+
+/// Something that a file did to the pipeline that it extends.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Change {
+    /// What.
+    pub action: Action,
+    /// Where it says so.
+    pub at: Option<Place>,
 }
 
 /// A view: from where, and how large, passes draw.

@@ -1,5 +1,6 @@
 //! The tree form of a Plan, for people: what runs, in order, with what was inserted at its place and why.
 
+use super::changes;
 use super::names::{Shown, vulkan};
 use super::outline::Node;
 use super::{
@@ -21,6 +22,9 @@ pub(super) fn tree(plan: &Plan) -> String {
     if !plan.settings.is_empty() {
         let settings = plan.settings.iter().map(|used| format!("{} = {}", Shown(&used.name), Shown(&used.value)));
         parts.push(Node::leaf(format!("settings: {}", settings.collect::<Vec<_>>().join(", "))));
+    }
+    if !plan.changes.is_empty() {
+        parts.push(Node::new("changes", plan.changes.iter().map(|it| Node::leaf(changes::words(it))).collect()));
     }
     if !plan.views.is_empty() {
         parts.push(Node::new("views", plan.views.iter().map(view).collect()));

@@ -261,6 +261,7 @@ pub(crate) fn plan(images: Vec<Image>, heap_bytes: u64, steps: Vec<Step>) -> Pla
     let mut plan = Plan {
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: "made up".to_owned(), exact_memory: false },
+        changes: Vec::new(),
         views: Vec::new(),
         settings: vec![SettingUsed { name: "msaa".into(), value: "4".to_owned() }],
         images,

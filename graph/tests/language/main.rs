@@ -7,6 +7,7 @@ mod bad;
 mod choices;
 mod docs;
 mod encodings;
+mod extend;
 mod fragments;
 mod library;
 mod random;

@@ -22,6 +22,7 @@ pub(crate) fn empty() -> Plan {
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: "built by hand".to_owned(), exact_memory: true },
         settings: Vec::new(),
+        changes: Vec::new(),
         views: Vec::new(),
         images: Vec::new(),
         buffers: Vec::new(),

@@ -54,9 +54,9 @@ fn of_lists<T>(old: &[T], new: &[T], of: impl Fn(&T, &T) -> Difference) -> Diffe
 }
 
 pub(super) fn between(old: &Frame, new: &Frame) -> Difference {
-    let Frame { sources, settings, views, images, buffers, passes, outputs, switched_off } = new;
-    let same = old.sources == *sources && old.outputs == *outputs && old.switched_off == *switched_off;
-    if !same {
+    let Frame { sources, settings, changes, views, images, buffers, passes, outputs, switched_off } = new;
+    let same = old.sources == *sources && old.changes == *changes && old.outputs == *outputs;
+    if !same || old.switched_off != *switched_off {
         return Structure;
     }
     unless(old.settings == *settings, Values)

@@ -1,0 +1,128 @@
+//! The texts of files that others name.
+
+use super::leaf::Leaf;
+use super::origins::Origins;
+use super::reader::Reader;
+use super::textures::{self, Pictures};
+use super::tree::Tree;
+use super::{Diagnostic, Files, Found, LANGUAGE_VERSION, LARGEST_FILE, Unread};
+use crate::source::{Sources, Span};
+use std::sync::Arc;
+
+/// A pipeline is made of at most this many files.
+const MOST_FILES: usize = 256;
+
+/// Reads files, and keeps where each was named.
+pub(super) struct Loader<'a> {
+    sources: &'a mut Sources,
+    files: &'a mut dyn Files,
+    read: usize,
+    pub(super) origins: Origins,
+    /// The pictures that textures name.
+    pub(super) pictures: Pictures,
+}
+
+impl<'a> Loader<'a> {
+    /// One that has read the pipeline's own file.
+    pub(super) fn new(sources: &'a mut Sources, files: &'a mut dyn Files) -> Self {
+        Loader { sources, files, read: 1, origins: Origins::default(), pictures: Pictures::new() }
+    }
+
+    /// The file that the file `from` names `path`, at `span`.
+    pub(super) fn find(&mut self, reader: &mut Reader, from: &str, path: &str, span: Span) -> Option<Found> {
+        let found = self.files.read(from, path);
+        found.map_err(|Unread { why, help }| reader.report(Diagnostic { help, ..Diagnostic::new(span, why) })).ok()
+    }
+
+    /// The text of a file that was named at `span`; `words` say what for: "included here".
+    pub(super) fn tree(&mut self, reader: &mut Reader, found: Found, span: Span, words: &'static str) -> Option<Tree> {
+        let Found { shown, relative, bytes } = found;
+        if self.read == MOST_FILES {
+            reader.report(Diagnostic::new(span, format!("a pipeline is made of at most {MOST_FILES} files")));
+            return None;
+        }
+        self.read += 1;
+        if bytes.len() > LARGEST_FILE {
+            let message = format!("`{shown}` has {} bytes; a file has at most {LARGEST_FILE}", bytes.len());
+            reader.report(Diagnostic::new(span, message));
+            return None;
+        }
+        let text = match String::from_utf8(bytes) {
+            Ok(text) => text,
+            Err(error) => {
+                let message = format!("`{shown}` is not a text file: {}", super::odd_byte(&error));
+                reader.report(Diagnostic::new(span, message));
+                return None;
+            }
+        };
+        let text: Arc<str> = text.into();
+        let file = self.sources.add(shown, &relative, text.clone());
+        self.origins.add(file, span, words);
+        if let Some(error) = super::no_pipeline(file, &text) {
+            reader.report(error);
+            return None;
+        }
+        Tree::read(file, text, &mut reader.errors)
+    }
+}
+
+impl Loader<'_> {
+    /// Looks at the pictures that a list of textures names.
+    pub(super) fn look(&mut self, reader: &mut Reader, textures: Option<Leaf<'_>>) {
+        textures::look(reader, self.sources, self.files, textures, &mut self.pictures);
+    }
+
+    /// Looks at the pictures that the fragments of a file name.
+    pub(super) fn look_in_fragments(&mut self, reader: &mut Reader, all: Leaf<'_>) {
+        let fragments = all.field("fragments").and_then(Leaf::values);
+        for textures in fragments.into_iter().flatten().filter_map(|fragment| fragment.field("textures")) {
+            self.look(reader, Some(textures));
+        }
+    }
+}
+
+/// The paths that a list names, and where.
+pub(super) fn paths(reader: &mut Reader, list: Option<Leaf<'_>>, field: &str) -> Vec<(String, Span)> {
+    let Some(leaves) = list.and_then(|list| reader.list(list, field)) else { return Vec::new() };
+    leaves.into_iter().filter_map(|leaf| path(reader, leaf)).collect()
+}
+
+/// The path that stands there, and where.
+pub(super) fn path(reader: &mut Reader, leaf: Leaf<'_>) -> Option<(String, Span)> {
+    reader.words(leaf, "the path of a file").map(|path| (path, leaf.span()))
+}
+
+/// Whether a file is written in the version of the language that this library reads. That it isn't is reported, and
+/// nothing else.
+pub(super) fn version(reader: &mut Reader, all: Leaf<'_>) -> bool {
+    let Some(version) = all.field("version") else { return true };
+    match reader.integer(version) {
+        Some(LANGUAGE_VERSION) => true,
+        Some(number) => {
+            let message = format!("this file is written in version {number} of the language");
+            reader.wrong(version, message, &format!("this program reads version {LANGUAGE_VERSION}"));
+            false
+        }
+        None => false,
+    }
+}
+
+/// Reports files that name each other in a circle: those of `path` from number `first` on, each with the place that
+/// names it, and then at `span` the first again. `verb` says what they do to each other, `named` what is done to one.
+pub(super) fn circle(
+    reader: &mut Reader,
+    path: &[(String, Span)],
+    first: usize,
+    span: Span,
+    (verb, named): (&str, &str),
+) {
+    let circle = &path[first..];
+    let mut names: Vec<String> = circle.iter().map(|(path, _)| format!("`{path}`")).collect();
+    names.extend(names.first().cloned());
+    let message = format!("files {verb} each other in a circle: {}", names.join(" → "));
+    let mut wrong = Diagnostic::new(span, message);
+    for (path, span) in &circle[1..] {
+        wrong = wrong.label(*span, format!("`{path}` is {named} here"));
+    }
+    reader.report(wrong.help("one of them must do without the others"));
+}

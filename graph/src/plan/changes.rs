@@ -1,0 +1,55 @@
+//! Changes of a pipeline in words.
+
+use super::Change;
+use super::names::Shown;
+use crate::change::{Action, Where};
+use std::sync::Arc;
+
+/// What was done, and where it is said.
+pub(super) fn words(change: &Change) -> String {
+    let words = match &change.action {
+        Action::Extends { file } => format!("extends `{}`", Shown(file)),
+        Action::Extension { file } => format!("applies `{}`", Shown(file)),
+        Action::Add { of, names } => format!("adds {} {}", counted(of.word(), names), listed(names)),
+        Action::Set { of, name, fields, without } => {
+            let set = (!fields.is_empty()).then(|| format!("sets {}", listed(fields)));
+            let taken = (!without.is_empty()).then(|| format!("takes away {}", listed(without)));
+            let done: Vec<String> = set.into_iter().chain(taken).collect();
+            format!("{} of {} `{}`", done.join(" and "), of.word(), Shown(name))
+        }
+        Action::Remove { of, name } => format!("removes {} `{}`", of.word(), Shown(name)),
+        Action::Insert { place, names } => {
+            let place = match place {
+                Where::Start => "before all others".to_owned(),
+                Where::Before(name) => format!("before `{}`", Shown(name)),
+                Where::After(name) => format!("after `{}`", Shown(name)),
+                Where::At(name) => format!("at the anchor `{}`", Shown(name)),
+                Where::End => "after all others".to_owned(),
+            };
+            format!("inserts {} {place}", listed(names))
+        }
+        Action::Outputs { names } => format!("gives {} out in place of all others", listed(names)),
+    };
+    match &change.at {
+        Some(place) => format!("{words} ({}:{})", Shown(&place.file), place.line),
+        None => words,
+    }
+}
+
+fn counted(word: &str, names: &[Arc<str>]) -> String {
+    match (names, word) {
+        ([_], _) => word.to_owned(),
+        (_, "pass") => "passes".to_owned(),
+        _ => format!("{word}s"),
+    }
+}
+
+/// "`a`, `b` and `c`".
+fn listed(names: &[Arc<str>]) -> String {
+    let mut shown: Vec<String> = names.iter().map(|name| format!("`{}`", Shown(name))).collect();
+    match shown.pop() {
+        None => "nothing".to_owned(),
+        Some(only) if shown.is_empty() => only,
+        Some(last) => format!("{} and {last}", shown.join(", ")),
+    }
+}
