@@ -21,6 +21,7 @@ pub(crate) fn inspect(arguments: &Inspect) -> Result<Exit, Error> {
     output::prepare(arguments.output.iter(), &read.into_iter().chain(settings).flatten().collect::<Vec<_>>())?;
     let profile = profiles::choose(arguments.device.as_deref())?;
     let mut pipeline = planning::load(&arguments.pipeline)?;
+    pipeline.spare(arguments.output.iter())?;
     let facts = match &arguments.scene {
         Some(path) => Some(files::scene(path)?.facts()),
         None => None,

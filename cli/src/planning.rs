@@ -3,7 +3,7 @@
 use crate::error::{Error, Wrong};
 use crate::files::{self, PipelineFile};
 use crate::values::Size;
-use crate::{args, shipped};
+use crate::{args, output, shipped};
 use framewright_graph::compile::{self, Options};
 use framewright_graph::describe::{self, Diagnostic, Document, Files, Found, PipelineFiles, Unread};
 use framewright_graph::device::{MemoryProvider, Profile};
@@ -18,7 +18,7 @@ use framewright_passes::draw;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::texture_files::TextureFiles;
 use framewright_vulkan::ShaderLibrary;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A pipeline that was read, and where its shaders come from.
@@ -121,6 +121,16 @@ fn choose(arguments: &args::Pipeline, pipeline: &mut Document, sources: &mut Sou
 }
 
 impl Loaded {
+    /// Makes sure that nothing is written over a file that the pipeline was read from, by whatever name.
+    ///
+    /// # Errors
+    /// Those of [`output::prepare`].
+    pub(crate) fn spare<'a>(&self, written: impl Iterator<Item = &'a PathBuf>) -> Result<(), Error> {
+        let files = (0..).map_while(|file| self.sources.file(file));
+        let read: Vec<(&str, &Path)> = files.map(|file| ("pipeline", Path::new(&file.shown))).collect();
+        output::prepare(written, &read)
+    }
+
     /// Puts in settings, facts and sizes, compiles for a device, and has the result verified.
     ///
     /// # Errors

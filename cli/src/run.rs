@@ -32,6 +32,7 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
     output::prepare(arguments.written(), &read.into_iter().chain(settings).collect::<Vec<_>>())?;
     let choice = choice(arguments.device.as_deref())?;
     let mut pipeline = planning::load(&arguments.pipeline)?;
+    pipeline.spare(arguments.written())?;
     let scene = files::scene(&arguments.scene)?;
     // Only now: until here nothing is lost when the system ends the program, and a named pipe may keep it waiting forever.
     interrupt::watch();

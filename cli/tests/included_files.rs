@@ -109,6 +109,17 @@ fn nothing_outside_the_folder_of_the_pipeline_is_read() {
     check(&place, &[]).exits(1).mentions("leads out of `inside`");
 }
 
+#[test]
+fn no_file_that_the_pipeline_is_made_of_is_written_over() {
+    let place = place("deep/fill.ron");
+    place.file("inside/deep/fill.ron", FILL);
+    place
+        .run(&["inspect", "inside/p.ron", "-o", "inside/../inside/deep/fill.ron"])
+        .exits(2)
+        .mentions("is the pipeline itself, which would be lost");
+    assert_eq!(std::fs::read_to_string(place.path("inside/deep/fill.ron")).expect("it is there"), FILL);
+}
+
 #[cfg(unix)]
 #[test]
 fn no_link_leads_outside() {

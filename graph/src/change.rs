@@ -97,6 +97,22 @@ impl Kind {
             Kind::Output => "output",
         }
     }
+
+    /// What several are called.
+    #[must_use]
+    pub const fn plural(self) -> &'static str {
+        match self {
+            Kind::Setting => "settings",
+            Kind::Preset => "presets",
+            Kind::View => "views",
+            Kind::Fragment => "fragments",
+            Kind::Texture => "textures",
+            Kind::Image => "images",
+            Kind::Buffer => "buffers",
+            Kind::Pass => "passes",
+            Kind::Output => "outputs",
+        }
+    }
 }
 
 /// Where passes are inserted.

@@ -10,7 +10,9 @@ pub(super) fn words(change: &Change) -> String {
     let words = match &change.action {
         Action::Extends { file } => format!("extends `{}`", Shown(file)),
         Action::Extension { file } => format!("applies `{}`", Shown(file)),
-        Action::Add { of, names } => format!("adds {} {}", counted(of.word(), names), listed(names)),
+        Action::Add { of, names } => {
+            format!("adds {} {}", if names.len() == 1 { of.word() } else { of.plural() }, listed(names))
+        }
         Action::Set { of, name, fields, without } => {
             let set = (!fields.is_empty()).then(|| format!("sets {}", listed(fields)));
             let taken = (!without.is_empty()).then(|| format!("takes away {}", listed(without)));
@@ -33,14 +35,6 @@ pub(super) fn words(change: &Change) -> String {
     match &change.at {
         Some(place) => format!("{words} ({}:{})", Shown(&place.file), place.line),
         None => words,
-    }
-}
-
-fn counted(word: &str, names: &[Arc<str>]) -> String {
-    match (names, word) {
-        ([_], _) => word.to_owned(),
-        (_, "pass") => "passes".to_owned(),
-        _ => format!("{word}s"),
     }
 }
 

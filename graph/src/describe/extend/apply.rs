@@ -311,7 +311,7 @@ impl<'t> Change<'_, 't> {
                 "changes don't reach into a use: give it other arguments by `Set(pass: \"{outer}\", to: (with: {{…}}))`"
             )),
             Some(outer) => Some(format!("changes are of all that is repeated: `{outer}`")),
-            None => suggest::help(text, names).or_else(|| Some(format!("this pipeline has no {word}s"))),
+            None => suggest::help(text, names).or_else(|| Some(format!("this pipeline has no {}", kind.plural()))),
         };
         self.reader.report(Diagnostic { help, ..unknown });
     }
