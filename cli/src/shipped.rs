@@ -14,7 +14,9 @@ pub(crate) const PIPELINES: Shipped = carried!(
     "pipelines":
     "auto_exposure.ron",
     "deferred.ron",
+    "deferred_mobile.ron",
     "forward.ron",
+    "forward_overlay.ron",
     "library/bloom.ron",
     "library/blur.ron",
     "library/overlay.ron",

@@ -10,7 +10,8 @@ use support::{Outcome, Place, Vulkan};
 const SIZE: [u32; 2] = [160, 90];
 
 /// All shipped pipelines.
-const PIPELINES: [&str; 6] = ["auto_exposure", "deferred", "forward", "post", "snow", "soft_focus"];
+const PIPELINES: [&str; 8] =
+    ["auto_exposure", "deferred", "deferred_mobile", "forward", "forward_overlay", "post", "snow", "soft_focus"];
 
 /// Draws the shipped scene through a shipped pipeline; `None` where the driver or layer is missing.
 fn draw(place: &Place, vulkan: Vulkan, pipeline: &str, more: &[&str]) -> Option<Outcome> {
@@ -78,7 +79,7 @@ fn no_way_to_make_a_plan_changes_a_pixel() {
 }
 
 fn silent(vulkan: Vulkan, pipeline: &str, sees_attachments: bool) {
-    let sets = if pipeline == "deferred" { ["bloom=0.08", "bloom=1"] } else { ["msaa=4", "msaa=1"] };
+    let sets = if pipeline.starts_with("deferred") { ["bloom=0.08", "bloom=1"] } else { ["msaa=4", "msaa=1"] };
     for set in sets {
         let place = Place::new();
         let more = ["--validate", "--report", "report.json", "-o", "a.png", "--frames", "3", "--set", set];
