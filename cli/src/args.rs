@@ -37,6 +37,10 @@ pub(crate) enum Command {
     Run(Run),
     /// Print what the conditions of a pipeline may ask of a scene, and what decided each answer. Needs no GPU.
     Facts(Facts),
+    /// Write a pipeline to begin with.
+    New(New),
+    /// Print the language of pipeline files as a JSON Schema (draft 2020-12), or a file as the JSON that the schema describes.
+    Schema(Schema),
     /// List the Vulkan devices of this machine, or save the profile of one.
     Devices(Devices),
 }
@@ -147,6 +151,22 @@ pub(crate) struct Facts {
     /// Answer for programs.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// `framewright new`.
+#[derive(Debug, Args)]
+pub(crate) struct New {
+    /// Name of the pipeline: letters, digits, `_` and `-`. The file is NAME.ron, and there must be none yet.
+    #[arg(value_name = "NAME")]
+    pub(crate) name: PathBuf,
+}
+
+/// `framewright schema`.
+#[derive(Debug, Args)]
+pub(crate) struct Schema {
+    /// File to print as JSON: a pipeline, a file of fragments or a settings file.
+    #[arg(value_name = "FILE")]
+    pub(crate) file: Option<PathBuf>,
 }
 
 /// `framewright devices`.

@@ -229,6 +229,21 @@ pub(crate) enum Error {
         /// Which file, by its later name.
         path: PathBuf,
     },
+    /// A file that is to be new is there already.
+    #[error("there is a file `{}` already: choose another name, or move it away", text::path(path))]
+    There {
+        /// Which file.
+        path: PathBuf,
+    },
+    /// A name that no pipeline may have.
+    #[error(
+        "`{}` can't be the name of a pipeline: names are letters, digits, `_` and `-`, begin with a letter or `_`, and have at most 64 bytes",
+        text::path(path)
+    )]
+    NoName {
+        /// What was given.
+        path: PathBuf,
+    },
     /// Standard output can't be written.
     #[error("standard output can't be written: {}{}", text::escape(&.0.to_string()), mend(.0, None))]
     Print(io::Error),
@@ -304,6 +319,8 @@ impl Error {
             | Error::ProfileIsNoDevice { .. }
             | Error::NoOutput { .. }
             | Error::ReadAndWritten { .. }
+            | Error::There { .. }
+            | Error::NoName { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
             Error::Interrupted { .. } => Exit::Interrupted,
             Error::Write { .. } | Error::Print(_) | Error::Restart(_) => Exit::Environment,

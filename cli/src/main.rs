@@ -10,6 +10,7 @@ mod files;
 mod inspect;
 mod interrupt;
 mod layer;
+mod new;
 mod notes;
 mod output;
 mod picture;
@@ -19,6 +20,7 @@ mod progress;
 mod report;
 mod rows;
 mod run;
+mod schema;
 mod shipped;
 mod text;
 mod values;
@@ -45,6 +47,8 @@ fn main() -> ExitCode {
         Command::Inspect(arguments) => inspect::inspect(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Facts(arguments) => facts::facts(arguments),
+        Command::New(arguments) => new::new(arguments),
+        Command::Schema(arguments) => schema::schema(arguments),
         Command::Devices(arguments) => devices::devices(arguments),
     };
     match result {

@@ -72,6 +72,25 @@ pub(crate) fn write(path: &Path, contents: &[u8]) -> Result<(), Error> {
     }
 }
 
+/// Writes `contents` to a new file, whole or not at all.
+///
+/// # Errors
+/// [`Error::There`] if there is anything of that name, [`Error::Write`] with what stands in the way.
+pub(crate) fn write_new(path: &Path, contents: &[u8]) -> Result<(), Error> {
+    let problem = |source: io::Error| match source.kind() {
+        io::ErrorKind::AlreadyExists => Error::There { path: path.to_owned() },
+        _ => Error::Write { path: path.to_owned(), source },
+    };
+    if fs::symlink_metadata(path).is_ok() {
+        return Err(Error::There { path: path.to_owned() });
+    }
+    let mut beside = temporary(path).map_err(problem)?;
+    let file = beside.as_file_mut();
+    file.write_all(contents).and_then(|()| file.sync_data()).map_err(problem)?;
+    beside.persist_noclobber(path).map_err(|error| problem(error.error))?;
+    Ok(())
+}
+
 /// What a path leads to.
 enum Target {
     /// A file, or nothing yet.

@@ -12,7 +12,9 @@ fn the_readme_shows_what_the_command_prints() {
     let path = repository("README.md");
     let readme = std::fs::read_to_string(&path).expect("the README is there");
     let place = Place::new();
-    place.file("first.ron", block(&readme, "ron"));
+    place.run(&["new", "first"]).exits(0);
+    let written = std::fs::read_to_string(place.path("first.ron")).expect("a text");
+    assert_eq!(block(&readme, "ron"), written, "the README shows what `framewright new first` writes");
 
     let mut renewed = String::new();
     let mut rest = readme.as_str();

@@ -82,7 +82,7 @@ fn a_mistake_is_traced_to_the_least_that_brings_it_about() {
     assert_eq!((&failure["variants"], &failure["each_is_needed"]), (&4.into(), &true.into()));
     let cause = &failure["breaks_with"];
     assert_eq!(pairs(&cause["settings"]), ["msaa=8", "hdr=false"]);
-    assert_eq!(cause["facts_that_do_not_hold"], serde_json::json!(["scene.has_transparent"]));
+    assert_eq!(cause["facts"], serde_json::json!([{ "name": "scene.has_transparent", "value": "false" }]));
     assert_eq!(cause["device"], Value::Null);
     assert_eq!(failure["diagnostic"]["line"], 18);
 
@@ -264,4 +264,17 @@ fn catches_interrupts(process: u32) -> bool {
     let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).expect("Linux says so");
     // Bit n - 1 stands for signal n; SIGINT is 2.
     u64::from_str_radix(caught.trim(), 16).expect("hexadecimal") & 0b10 != 0
+}
+
+#[test]
+fn a_mistake_beyond_a_number_of_lights_is_found() {
+    let place = Place::new();
+    let text = TREACHEROUS
+        .replace("!hdr && !scene.has_transparent", "!hdr && scene.point_lights >= 12 && scene.point_lights < 20");
+    place.file("p.ron", text);
+    let answer = json(&place, &["p.ron"], 1);
+    let cause = &answer["failures"][0]["breaks_with"];
+    assert_eq!(cause["facts"], serde_json::json!([{ "name": "scene.point_lights", "value": "12" }]));
+    let axis = answer["axes"].as_array().and_then(|axes| axes.iter().find(|axis| axis["name"] == "scene.point_lights"));
+    assert_eq!(axis.expect("it varies")["values"], serde_json::json!(["64", "0", "11", "12", "13", "19", "20", "21"]));
 }

@@ -1,11 +1,12 @@
-//! What varies: settings, facts of the scene, devices. All that is known here of kinds of settings and facts stands in
-//! [`values`] and [`facts`].
+//! What varies: settings, facts of the scene, devices. All that is known here of kinds of settings stands in [`values`], and of
+//! facts in [`facts`].
 
+use super::facts;
 use super::mentions::Mentions;
 use super::space::Choice;
 use framewright_graph::describe::{ChosenBy, Document, Preset, SettingKind, last_step, nth_step};
 use framewright_graph::expression::Value;
-use framewright_graph::facts::{Fact, FactType, FactValue, Facts};
+use framewright_graph::facts::{Fact, Facts};
 use framewright_graph::source::Sources;
 
 /// Whole numbers up to this many are all tried.
@@ -37,7 +38,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    fn new(varied: Varied, values: Vec<String>) -> Axis {
+    pub(super) fn new(varied: Varied, values: Vec<String>) -> Axis {
         Axis { varied, combined: values.len(), values }
     }
 }
@@ -69,7 +70,8 @@ impl Axes {
             varies.then(|| Axis::new(Varied::Setting(name.to_owned()), values(&setting.kind)))
         });
         let device = Axis::new(Varied::Device, devices.to_vec());
-        let list = settings.chain(facts(&mentions)).filter(|axis| axis.values.len() > 1).chain([device]).collect();
+        let list =
+            settings.chain(facts::axes(&mentions)).filter(|axis| axis.values.len() > 1).chain([device]).collect();
         let mut axes = Axes { list, fixed, presets: Vec::new() };
         let one_is_chosen = pipeline.in_force().iter().any(|chosen| matches!(chosen.by, ChosenBy::Preset(_)));
         if !one_is_chosen {
@@ -136,9 +138,9 @@ impl Axes {
     /// Facts of a variant; those that don't vary are as if there were no scene.
     #[must_use]
     pub(crate) fn facts(&self, choice: &[usize]) -> Facts {
-        self.chosen(choice).fold(Facts::UNKNOWN, |facts, (varied, value)| match varied {
-            Varied::Fact(fact) => facts.with(*fact, FactValue::Bool(value == "true")),
-            Varied::Setting(_) | Varied::Device => facts,
+        self.chosen(choice).fold(Facts::UNKNOWN, |known, (varied, value)| match varied {
+            Varied::Fact(fact) => known.with(*fact, facts::value(*fact, value)),
+            Varied::Setting(_) | Varied::Device => known,
         })
     }
 }
@@ -220,16 +222,6 @@ fn first(default: String, others: impl Iterator<Item = String>) -> Vec<String> {
         }
     }
     values
-}
-
-/// Facts that are true or false and mentioned; without a scene all of them hold.
-fn facts(mentions: &Mentions<'_>) -> impl Iterator<Item = Axis> {
-    let mentioned = |fact: &Fact| {
-        let name = fact.name();
-        mentions.may_hold(name.rsplit_once('.').map_or(name, |(_, last)| last), 1)
-    };
-    let axis = |fact| Axis::new(Varied::Fact(fact), vec!["true".to_owned(), "false".to_owned()]);
-    Fact::ALL.into_iter().filter(|fact| fact.ty() == FactType::Bool).filter(mentioned).map(axis)
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@ use std::collections::HashMap;
 #[derive(Debug, Default)]
 pub(crate) struct Mentions<'a> {
     pieces: HashMap<&'a str, usize>,
+    /// Strings with numbers in them.
+    numbers: Vec<&'a str>,
     /// Whether a string is not read as it is written, and may hold any name.
     hidden: bool,
 }
@@ -30,6 +32,12 @@ impl<'a> Mentions<'a> {
     #[must_use]
     pub(crate) fn may_hold(&self, name: &str, times: usize) -> bool {
         self.hidden || name.split('-').all(|piece| self.pieces.get(piece).is_some_and(|found| *found >= times))
+    }
+
+    /// The numbers that stand in strings with `name`.
+    pub(crate) fn numbers_beside(&self, name: &str) -> impl Iterator<Item = f64> {
+        let with_it = self.numbers.iter().filter(move |text| words(text).any(|word| word == name));
+        with_it.flat_map(|text| numbers(text))
     }
 
     fn text(&mut self, text: &'a str) {
@@ -77,9 +85,39 @@ impl<'a> Mentions<'a> {
     }
 
     fn words(&mut self, text: &'a str) {
-        let pieces = text.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|piece| !piece.is_empty());
-        pieces.for_each(|piece| *self.pieces.entry(piece).or_default() += 1);
+        words(text).for_each(|piece| *self.pieces.entry(piece).or_default() += 1);
+        if text.contains(|c: char| c.is_ascii_digit()) {
+            self.numbers.push(text);
+        }
     }
+}
+
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|piece| !piece.is_empty())
+}
+
+/// Numbers of an expression: `12`, `0.5`, `1e-3`. Digits within names are none.
+fn numbers(text: &str) -> impl Iterator<Item = f64> {
+    let mut rest = text;
+    std::iter::from_fn(move || {
+        loop {
+            let at = rest.find(|c: char| c.is_alphanumeric() || c == '_')?;
+            rest = &rest[at..];
+            let mut exponent = false;
+            let end = rest.find(|c: char| {
+                let sign = matches!(c, '+' | '-') && exponent;
+                exponent = matches!(c, 'e' | 'E') && rest.starts_with(|c: char| c.is_ascii_digit());
+                !(c.is_alphanumeric() || matches!(c, '_' | '.') || sign)
+            });
+            let (word, after) = rest.split_at(end.unwrap_or(rest.len()));
+            rest = after;
+            if let Ok(number) = word.parse::<f64>()
+                && word.starts_with(|c: char| c.is_ascii_digit())
+            {
+                return Some(number);
+            }
+        }
+    })
 }
 
 /// What follows a comment, which may hold others.
@@ -142,6 +180,15 @@ mod tests {
         assert!(found(text, "a", 3) && !found(text, "a", 4));
         assert!(found(text, "a-b", 1) && !found(text, "a-b", 2) && found(text, "has_sky", 1));
         assert!(!found(text, "a-c", 1));
+    }
+
+    #[test]
+    fn numbers_of_expressions_are_found_and_those_in_names_are_not() {
+        let all: Vec<f64> = numbers("a2 > 12 && b_3(0.5, -1e-3) + scene.x4 - 7e2 % 5").collect();
+        assert_eq!(all, [12.0, 0.5, 0.001, 700.0, 5.0]);
+        let mut sources = Sources::default();
+        sources.add("a.ron", "a.ron", "\"x > 1\" 2 \"y > 3\" \"4 < x\"".to_owned());
+        assert_eq!(Mentions::of(&sources).numbers_beside("x").collect::<Vec<_>>(), [1.0, 4.0]);
     }
 
     #[test]

@@ -7,6 +7,7 @@
 mod axes;
 mod causes;
 mod cover;
+mod facts;
 mod identity;
 mod judge;
 mod mentions;

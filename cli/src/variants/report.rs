@@ -48,7 +48,7 @@ pub(crate) struct Report {
     pub(crate) plans: Vec<PlanTold>,
 }
 
-/// A setting with a value.
+/// A setting or fact with a value.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct Chosen {
     pub(crate) name: String,
@@ -70,8 +70,8 @@ pub(crate) struct AxisTold {
 pub(crate) struct Variant {
     /// Settings that don't have their defaults, but for those that the command line chose.
     pub(crate) settings: Vec<Chosen>,
-    /// Facts that don't hold; without a scene all of them do.
-    pub(crate) facts_that_do_not_hold: Vec<String>,
+    /// Facts that are not as they are without a scene.
+    pub(crate) facts: Vec<Chosen>,
     /// The device, if it isn't the first.
     pub(crate) device: Option<String>,
 }
@@ -168,13 +168,12 @@ impl Report {
 
 impl Variant {
     fn of(axes: &Axes, choice: &Choice) -> Variant {
-        let mut variant = Variant { settings: Vec::new(), facts_that_do_not_hold: Vec::new(), device: None };
+        let mut variant = Variant { settings: Vec::new(), facts: Vec::new(), device: None };
         for (varied, value) in axes.departures(choice) {
+            let chosen = |name: &str| Chosen { name: name.to_owned(), value: value.to_owned() };
             match varied {
-                Varied::Setting(name) => {
-                    variant.settings.push(Chosen { name: name.clone(), value: value.to_owned() });
-                }
-                Varied::Fact(fact) => variant.facts_that_do_not_hold.push(fact.name().to_owned()),
+                Varied::Setting(name) => variant.settings.push(chosen(name)),
+                Varied::Fact(fact) => variant.facts.push(chosen(fact.name())),
                 Varied::Device => variant.device = Some(value.to_owned()),
             }
         }

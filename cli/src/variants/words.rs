@@ -44,8 +44,11 @@ fn with(variant: &Variant) -> String {
         variant.settings.iter().map(|one| format!("--set {}={}", text::escape(&one.name), text::escape(&one.value)));
     let device = variant.device.iter().map(|name| format!("--device {}", text::escape(name)));
     let words: Vec<String> = set.chain(device).collect();
-    let facts: Vec<String> =
-        variant.facts_that_do_not_hold.iter().map(|name| format!("{} = false", text::escape(name))).collect();
+    let facts: Vec<String> = variant
+        .facts
+        .iter()
+        .map(|fact| format!("{} = {}", text::escape(&fact.name), text::escape(&fact.value)))
+        .collect();
     let words = if words.is_empty() { "the defaults".to_owned() } else { words.join(" ") };
     match facts.is_empty() {
         true => format!("with {words}"),

@@ -1,5 +1,6 @@
 //! `sample`, `storage`, `uniform` and `params`: what a pass gives to its shader, by the shader's own names.
 
+use super::forms::{Described, Form, Takes, Word, Words, names};
 use super::leaf::{Leaf, Shape};
 use super::parts::{self, Selected};
 use super::pass::{Face, Param, Part, Sample, Storage, StorageAccess, Uniform};
@@ -13,35 +14,95 @@ use crate::vocabulary::{AddressMode, Filter};
 use std::collections::HashMap;
 
 fields! {
+    /// A sampled image: what a shader samples under a name of its own.
+    /// ```ron
+    /// (image: Resolved("image"), mip: 1, filter: Nearest)
+    /// ```
     struct SampleFields<'src> {
-        image: Leaf<'src>,
-        mip: Option<Leaf<'src>>,
-        mips: Option<Leaf<'src>>,
-        layer: Option<Leaf<'src>>,
-        layers: Option<Leaf<'src>>,
-        plane: Option<Leaf<'src>>,
-        previous: Option<Leaf<'src>>,
-        filter: Option<Leaf<'src>>,
-        mip_filter: Option<Leaf<'src>>,
-        address: Option<Leaf<'src>>,
-        own_pixel: Option<Leaf<'src>>,
+        /// The image, or a face of it.
+        image: Leaf<'src> => FACE,
+        /// The first mip level, from 0.
+        mip: Option<Leaf<'src>> => parts::FIRST,
+        /// How many mip levels; one if `mip` stands alone, all if neither stands there.
+        mips: Option<Leaf<'src>> => parts::COUNT,
+        /// The first layer, from 0.
+        layer: Option<Leaf<'src>> => parts::FIRST,
+        /// How many layers; one if `layer` stands alone, all if neither stands there.
+        layers: Option<Leaf<'src>> => parts::COUNT,
+        /// Depth or stencil; what the shader's declaration asks for if left out.
+        plane: Option<Leaf<'src>> => parts::PLANE,
+        /// Of how many frames before this one; only of what has history.
+        previous: Option<Leaf<'src>> => parts::PREVIOUS,
+        /// Between texels: the nearest, or a weighted mean of those around; `Linear` for colour and else `Nearest` if left out.
+        filter: Option<Leaf<'src>> => FILTER,
+        /// Between mip levels: the nearest, or a weighted mean of two; `Nearest` if left out.
+        mip_filter: Option<Leaf<'src>> => FILTER,
+        /// Beyond the edges: the texels at the edge, the image again, or the image mirrored, again and again; `Clamp` if left
+        /// out.
+        address: Option<Leaf<'src>> => Form::Choice("an address mode", || names(&ADDRESSES)),
+        /// A promise that each fragment reads only the texel at its own position.
+        own_pixel: Option<Leaf<'src>> => Form::Truth,
     }
 }
+
+/// Sampled images, by the shader's names.
+pub(super) const SAMPLE: Form =
+    Form::Map("shader's name", &Form::Either(&[FACE, Form::Fields(SampleFields::<'static>::table)]));
+
+/// An image or a face of it.
+const FACE: Form = Form::Words(&FACES);
+
+static FACES: Words = Words {
+    name: "Face",
+    what: "a face of an image",
+    or: &[parts::WHOLE_IMAGE],
+    all: &[
+        Word::new(
+            "Samples",
+            &[Takes::Values(&[parts::WHOLE_IMAGE])],
+            &["Samples(\"image\")"],
+            "Each sample by itself.",
+        ),
+        Word::new("Resolved", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Resolved(\"image\")"], "One value a texel."),
+    ],
+};
+
+/// How texels are mixed.
+pub(super) const FILTER: Form = Form::Choice("a filter", || names(&FILTERS));
+
+/// Storage images and buffers, by the shader's names.
+pub(super) const STORAGE: Form =
+    Form::Map("shader's name", &Form::Either(&[parts::WHOLE_RESOURCE, Form::Fields(StorageFields::<'static>::table)]));
+
+/// Uniform blocks, by the shader's names.
+pub(super) const UNIFORM: Form = Form::Map("shader's name", &parts::BUFFER);
+
+/// Parameters, by the shader's names.
+pub(super) const PARAMS: Form = Form::Map("shader's name", &Form::Either(&[Form::Number, Form::Truth]));
 
 fields! {
+    /// A storage image or buffer: what a shader reads and writes under a name of its own.
+    /// ```ron
+    /// (buffer: "buffer", access: ReadWrite)
+    /// ```
     struct StorageFields<'src> {
-        image: Option<Leaf<'src>>,
-        buffer: Option<Leaf<'src>>,
-        mip: Option<Leaf<'src>>,
-        layer: Option<Leaf<'src>>,
-        layers: Option<Leaf<'src>>,
-        previous: Option<Leaf<'src>>,
-        access: Option<Leaf<'src>>,
+        /// Which image.
+        image: Option<Leaf<'src>> => parts::WHOLE_IMAGE,
+        /// Or which buffer.
+        buffer: Option<Leaf<'src>> => parts::WHOLE_BUFFER,
+        /// The mip level, from 0; it must be named if there are several.
+        mip: Option<Leaf<'src>> => parts::FIRST,
+        /// The first layer, from 0.
+        layer: Option<Leaf<'src>> => parts::FIRST,
+        /// How many layers; one if `layer` stands alone, all if neither stands there.
+        layers: Option<Leaf<'src>> => parts::COUNT,
+        /// Of how many frames before this one; only of buffers with history, and only read.
+        previous: Option<Leaf<'src>> => parts::PREVIOUS,
+        /// What is done with it; what the shader's declaration says if left out. `Write` promises that all of it is written
+        /// and nothing of it read before: `ReadWrite` is for atomics, and for writes here and there.
+        access: Option<Leaf<'src>> => Form::Choice("an access", || names(&ACCESSES)),
     }
 }
-
-const IMAGES: &str = "a sampled image is `\"image\"`, `Samples(\"image\")`, `Resolved(\"image\")` or \
-                      `(image: \"image\", mip: 0, filter: Nearest)`";
 
 /// Filters, by name.
 pub(super) const FILTERS: [(&str, Filter); 2] = [("Nearest", Filter::Nearest), ("Linear", Filter::Linear)];
@@ -111,7 +172,7 @@ fn face<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(Leaf<'src>, Face
     if let Shape::Text = leaf.shape() {
         return Some((leaf, Face::Plain));
     }
-    let (word, rest) = reader.word(leaf, "a face of an image", &["Samples", "Resolved"], IMAGES)?;
+    let (word, rest) = reader.one_of(leaf, &FACES)?;
     let [inner]: [Leaf<'_>; 1] = reader.inside(leaf, rest, &format!("{word}(\"image\")"))?;
     Some((inner, if word == "Samples" { Face::Samples } else { Face::Resolved }))
 }

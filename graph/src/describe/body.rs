@@ -3,6 +3,7 @@
 use super::Diagnostic;
 use super::buffers::BufferFields;
 use super::fields::FromLeaf;
+use super::forms::{Described, Form, Plain};
 use super::images::ImageFields;
 use super::known::{Known, Repeat};
 use super::leaf::{Leaf, Shape};
@@ -60,10 +61,28 @@ impl<'t> AnyImage<'t> {
 }
 
 fields! {
+    /// An anchor: a place among passes with a name. It does nothing.
+    /// ```ron
+    /// (anchor: "after_lighting")
+    /// ```
     struct AnchorFields<'src> {
-        anchor: Leaf<'src>,
+        /// Its name.
+        anchor: Leaf<'src> => Form::Plain(Plain::Name),
     }
 }
+
+/// The images of one level.
+pub(super) const IMAGES: Form = Form::List(&Form::Fields(ImageFields::<'static>::table));
+
+/// The buffers of one level.
+pub(super) const BUFFERS: Form = Form::List(&Form::Fields(BufferFields::<'static>::table));
+
+/// The passes of one level.
+pub(super) const ITEMS: Form = Form::List(&Form::Either(&[
+    Form::Fields(PassFields::<'static>::table),
+    Form::Fields(UseFields::<'static>::table),
+    Form::Fields(AnchorFields::<'static>::table),
+]));
 
 /// The lists of one level.
 pub(super) struct Lists<'t> {

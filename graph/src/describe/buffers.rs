@@ -1,29 +1,64 @@
 //! `buffers`: how many bytes, and how long their contents live.
 
+use super::forms::{Form, Plain, Takes, Word, Words};
+use super::known::REPEAT;
 use super::leaf::{Leaf, Shape};
 use super::pipeline::SettingKind;
 use super::reader::Reader;
 use super::resources::{Buffer, Bytes, Lifetime};
 use super::scope::{Quoted, Scope};
 use super::values::Decided;
-use super::{Diagnostic, Spanned, lifetimes, values};
+use super::{Diagnostic, Spanned, lifetimes, parts, values, views};
 use crate::fields;
 
 /// Most bytes that a buffer may have: 1 TiB.
 pub(crate) const LARGEST_BUFFER: i64 = 1 << 40;
 
 fields! {
+    /// A buffer: bytes that passes write and read.
+    /// ```ron
+    /// (name: "particles", bytes: Times(32, "setting"), lifetime: History)
+    /// ```
     pub(super) struct BufferFields<'src> as "Buffer" {
-        name: Leaf<'src>,
-        pub(super) view: Option<Leaf<'src>>,
-        pub(super) repeat: Option<Leaf<'src>>,
-        bytes: Leaf<'src>,
-        lifetime: Option<Leaf<'src>>,
+        /// Its name, unique among images and buffers.
+        name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// The view whose values of settings it takes; the first if left out.
+        pub(super) view: Option<Leaf<'src>> => views::NAME,
+        /// How often it stands there.
+        pub(super) repeat: Option<Leaf<'src>> => REPEAT,
+        /// How many bytes it has, a multiple of 4.
+        bytes: Leaf<'src> => Form::Words(&BYTES),
+        /// How long its contents live; `Transient` if left out.
+        lifetime: Option<Leaf<'src>> => lifetimes::LIFETIME,
     }
 }
 
-const SIZES: &str = "a buffer's size is a number, an expression in quotes, `Times(16, \"setting\")`, \
-                     `PerTexel(4, \"image\")` or `Like(\"buffer\")`";
+static BYTES: Words = Words {
+    name: "Bytes",
+    what: "a buffer's size",
+    or: &[Form::Whole(4, LARGEST_BUFFER)],
+    all: &[
+        Word::new(
+            "Times",
+            &[Takes::Values(&[Form::Whole(1, LARGEST_BUFFER), Form::Whole(1, LARGEST_BUFFER)])],
+            &["Times(16, \"setting\")"],
+            "So many bytes for each of so many things; rounded up to a multiple of 4.",
+        ),
+        Word::new(
+            "PerTexel",
+            &[Takes::Values(&[Form::Whole(1, LARGEST_BUFFER), parts::WHOLE_IMAGE])],
+            &["PerTexel(4, \"image\")"],
+            "So many bytes for each texel of an image's first mip level, layers and depth included; rounded up to a \
+                    multiple of 4.",
+        ),
+        Word::new(
+            "Like",
+            &[Takes::Values(&[parts::WHOLE_BUFFER])],
+            &["Like(\"buffer\")"],
+            "As many as another buffer has.",
+        ),
+    ],
+};
 
 /// A buffer, once its fields are told apart.
 pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &BufferFields<'src>) -> Option<Buffer> {
@@ -51,7 +86,7 @@ fn bytes<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opti
             Some((Bytes::Count(bytes), because))
         }
         _ => {
-            let (word, rest) = reader.word(leaf, "a buffer's size", &["Times", "PerTexel", "Like"], SIZES)?;
+            let (word, rest) = reader.one_of(leaf, &BYTES)?;
             if word == "Like" {
                 let [other]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Like(\"buffer\")")?;
                 return scope.buffer(reader, other).map(|other| (Bytes::Like(other), None));

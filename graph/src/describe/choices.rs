@@ -1,12 +1,14 @@
 //! Values of settings that are chosen together: presets of a pipeline, and settings files.
 
 use super::body::entries;
+use super::document::VERSION;
+use super::forms::{Form, Plain};
 use super::leaf::Leaf;
 use super::names::Names;
 use super::pipeline::{Name, Setting, SettingKind};
 use super::reader::Reader;
 use super::tree::Tree;
-use super::{Diagnostic, LARGEST_FILE, suggest};
+use super::{Diagnostic, LARGEST_FILE, settings, suggest};
 use crate::expression::Value;
 use crate::fields;
 use crate::source::{Sources, Span};
@@ -70,19 +72,36 @@ pub enum ChosenBy {
 }
 
 fields! {
-    struct PresetFields<'src> as "Preset" {
-        name: Leaf<'src>,
-        about: Option<Leaf<'src>>,
-        set: Leaf<'src>,
+    /// A preset: values of several settings under one name.
+    /// ```ron
+    /// (name: "low", about: "for phones", set: {"msaa": 1, "bloom": false})
+    /// ```
+    pub(super) struct PresetFields<'src> as "Preset" {
+        /// Its name, as in `--preset NAME`.
+        name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// A description for people.
+        about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// What it chooses; other settings keep what they have.
+        set: Leaf<'src> => SET,
     }
 }
 
+/// Values of settings, by their names.
+pub(super) const SET: Form = Form::Map("setting", &settings::VALUE);
+
 fields! {
-    struct SettingsFields<'src> as "Settings" {
+    /// A settings file: what one user chooses of a pipeline.
+    /// ```ron
+    /// Settings(version: 1, preset: "low", set: {"msaa": 2})
+    /// ```
+    pub(super) struct SettingsFields<'src> as "Settings" {
+        /// The version of settings files: 1.
         #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
-        version: Leaf<'src>,
-        preset: Option<Leaf<'src>>,
-        set: Option<Leaf<'src>>,
+        version: Leaf<'src> => VERSION,
+        /// The preset that it begins with.
+        preset: Option<Leaf<'src>> => Form::Plain(Plain::Name),
+        /// What it chooses besides.
+        set: Option<Leaf<'src>> => SET,
     }
 }
 

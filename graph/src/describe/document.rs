@@ -1,10 +1,10 @@
 //! A pipeline file that was read: what a user may choose, and all that is needed to put the rest together for a choice.
 
-use super::Diagnostic;
-use super::body::{Body, Lists, entries};
-use super::choices::{self, InForce, Preset, SettingsFile};
-use super::extend::{Account, Composed};
-use super::fragments::Fragments;
+use super::body::{self, Body, Lists, entries};
+use super::choices::{self, InForce, Preset, PresetFields, SettingsFile};
+use super::extend::{Account, CHANGES, Composed};
+use super::forms::{Described, Form, Plain};
+use super::fragments::{FRAGMENTS, Fragments};
 use super::includes::{self, Wanted};
 use super::leaf::Leaf;
 use super::loader::{self, Loader};
@@ -19,6 +19,7 @@ use super::settings::{self, SettingFields};
 use super::surroundings::Surroundings;
 use super::textures::Pictures;
 use super::tree::Tree;
+use super::{Diagnostic, outputs, textures, views};
 use crate::change::Change;
 use crate::expression::Value;
 use crate::facts::Facts;
@@ -27,24 +28,58 @@ use crate::source::Sources;
 use crate::view::Allowances;
 
 fields! {
+    /// A pipeline: what a frame is made of.
+    /// ```ron
+    /// Pipeline(
+    ///     version: 1,
+    ///     images: [(name: "screen", format: Output, size: Output)],
+    ///     passes: [(name: "show", draw: FullScreen("plain"), color: ["screen"])],
+    ///     outputs: ["screen"],
+    /// )
+    /// ```
     pub(super) struct PipelineFields<'src> as "Pipeline" {
+        /// The version of the language: 1.
         #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
-        version: Leaf<'src>,
+        version: Leaf<'src> => VERSION,
+        /// Files of extensions, which are applied in their order.
         #[expect(dead_code, reason = "followed before the others are read")]
-        extensions: Option<Leaf<'src>>,
-        pub(super) include: Option<Leaf<'src>>,
-        pub(super) settings: Option<Leaf<'src>>,
-        pub(super) presets: Option<Leaf<'src>>,
-        pub(super) views: Option<Leaf<'src>>,
-        pub(super) fragments: Option<Leaf<'src>>,
-        pub(super) textures: Option<Leaf<'src>>,
-        pub(super) images: Leaf<'src>,
-        pub(super) buffers: Option<Leaf<'src>>,
-        pub(super) passes: Leaf<'src>,
-        pub(super) outputs: Leaf<'src>,
-        pub(super) changes: Option<Leaf<'src>>,
+        extensions: Option<Leaf<'src>> => INCLUDE,
+        /// Files with fragments, each read once however often it is named.
+        pub(super) include: Option<Leaf<'src>> => INCLUDE,
+        /// What a user may choose.
+        pub(super) settings: Option<Leaf<'src>> => SETTINGS,
+        /// Values of several settings under one name.
+        pub(super) presets: Option<Leaf<'src>> => PRESETS,
+        /// What the frame shows, from where and how large, the main view first; one view of the frame's size if left out.
+        pub(super) views: Option<Leaf<'src>> => views::VIEWS,
+        /// What is written once and used often.
+        pub(super) fragments: Option<Leaf<'src>> => FRAGMENTS,
+        /// Images that come from files.
+        pub(super) textures: Option<Leaf<'src>> => textures::TEXTURES,
+        /// Images that passes make.
+        pub(super) images: Leaf<'src> => body::IMAGES,
+        /// The buffers.
+        pub(super) buffers: Option<Leaf<'src>> => body::BUFFERS,
+        /// The passes. Their order gives them their meaning: each reads what those above it wrote.
+        pub(super) passes: Leaf<'src> => body::ITEMS,
+        /// The images and buffers that leave the frame.
+        pub(super) outputs: Leaf<'src> => outputs::OUTPUTS,
+        /// What is changed of all that, after the extensions.
+        pub(super) changes: Option<Leaf<'src>> => CHANGES,
     }
 }
+
+/// The settings of a pipeline.
+pub(super) const SETTINGS: Form = Form::List(&Form::Fields(SettingFields::<'static>::table));
+
+/// The presets of a pipeline.
+pub(super) const PRESETS: Form = Form::List(&Form::Fields(PresetFields::<'static>::table));
+
+/// The version of a file.
+pub(super) const VERSION: Form = Form::Plain(Plain::Whole);
+
+/// Files that are named.
+pub(super) const INCLUDE: Form = Form::List(&Form::Plain(Plain::Text));
 
 /// A pipeline file that was read. Made by [`crate::describe::read`], once; [`crate::expand::expand`] puts it together as
 /// often as there are choices of settings, scenes, sizes and devices.
@@ -220,14 +255,14 @@ pub(super) struct Whole<'s, 't> {
     pub(super) outputs: Leaf<'t>,
 }
 
-/// Puts in values; `None` if errors were reported. `lenient` if nothing is to be said about values.
+/// Puts in values; `None` if errors were reported. `reading` if nothing is to be said about values.
 fn lower(
     reader: &mut Reader,
     Read { all, included, pictures }: Read<'_>,
     settings: &[Option<Setting>],
     values: Vec<Option<Value>>,
     surroundings: &Surroundings<'_>,
-    lenient: bool,
+    reading: bool,
 ) -> Option<Pipeline> {
     let fields: PipelineFields<'_> = reader.read(all, "the pipeline")?;
     let mut names = Names::new("setting");
@@ -246,10 +281,10 @@ fn lower(
     let body = Body::read(reader, names, parameters, true, lists);
     let given = values.into_iter().map(|value| value.map(|value| Given { value, decided: Vec::new() })).collect();
     let level = Level { given, ..Level::default() };
-    Lowering::new(surroundings, &fragments, pictures, lenient).whole(
-        reader,
-        &body,
-        level,
-        Whole { settings, views, outputs },
-    )
+    let lowering = if reading {
+        Lowering::reading(surroundings, &fragments, pictures)
+    } else {
+        Lowering::new(surroundings, &fragments, pictures, false)
+    };
+    lowering.whole(reader, &body, level, Whole { settings, views, outputs })
 }

@@ -1,5 +1,6 @@
 //! Values that have a fixed form: `(name: …, …)` with known fields, and `(…, …)` of a known length.
 
+use super::forms::Table;
 use super::leaf::{Leaf, Shape};
 use super::{Diagnostic, suggest};
 
@@ -39,28 +40,44 @@ impl<'t> Field<'t> for Option<Leaf<'t>> {
     }
 }
 
-/// The fields that a struct knows.
-#[derive(Debug, Clone, Copy)]
-pub struct Known<'k> {
-    /// The word that may stand before its parentheses, if any.
-    pub word: Option<&'static str>,
-    /// Names, and whether each has to be there.
-    pub fields: &'k [(&'static str, bool)],
-}
-
 /// Makes a [`FromLeaf`] of a struct whose fields are [`Leaf`]s, or `Option<Leaf>`s where they may be left out. The word
-/// behind `as` may stand before the parentheses.
+/// behind `as` may stand before the parentheses. What stands behind `=>` is the [`Form`](crate::describe::forms::Form) of the field's
+/// value; with the documentation it becomes the struct's [`Table`](crate::describe::forms::Table).
 #[macro_export]
 macro_rules! fields {
     (
-        $(#[$about:meta])*
+        $(#[doc = $about:literal])*
+        $(#[derive($($derive:path),*)])?
         $visible:vis struct $struct:ident<$t:lifetime> $(as $word:literal)? {
-            $($(#[$note:meta])* $field_visible:vis $field:ident: $type:ty,)*
+            $(
+                $(#[doc = $note:literal])*
+                $(#[expect($($expect:tt)*)])?
+                $field_visible:vis $field:ident: $type:ty $(=> $form:expr)?,
+            )*
         }
     ) => {
-        $(#[$about])*
+        $(#[doc = $about])*
+        $(#[derive($($derive),*)])?
         $visible struct $struct<$t> {
-            $($(#[$note])* $field_visible $field: $type,)*
+            $($(#[doc = $note])* $(#[expect($($expect)*)])? $field_visible $field: $type,)*
+        }
+
+        impl<$t> $crate::describe::text::Described for $struct<$t> {
+            const TABLE: $crate::describe::text::Table = {
+                use $crate::describe::text::{Field, Form, Leaf, Row, Table};
+                let word: &[&'static str] = &[$($word)?];
+                Table {
+                    name: stringify!($struct),
+                    word: word.first().copied(),
+                    about: &[$($about),*],
+                    rows: &[$(Row {
+                        name: $crate::describe::text::plain_name(stringify!($field)),
+                        needed: <$type as Field<$t>>::REQUIRED,
+                        about: &[$($note),*],
+                        form: [$($form,)? Form::Anything][0],
+                    }),*],
+                }
+            };
         }
 
         impl<$t> $crate::describe::text::FromLeaf<$t> for $struct<$t> {
@@ -69,12 +86,9 @@ macro_rules! fields {
                 what: &str,
                 errors: &mut ::std::vec::Vec<$crate::describe::Diagnostic>,
             ) -> ::std::option::Option<Self> {
-                use $crate::describe::text::{Field, Known, Leaf, slots};
-                let word: &[&'static str] = &[$($word)?];
-                let fields = [$(($crate::describe::text::plain_name(stringify!($field)), <$type as Field<$t>>::REQUIRED)),*];
+                use $crate::describe::text::{Described, Field, Leaf, slots};
                 let mut found: [Option<Leaf<$t>>; [$(stringify!($field)),*].len()] = [None; [$(stringify!($field)),*].len()];
-                let known = Known { word: word.first().copied(), fields: &fields };
-                slots(leaf, what, known, &mut found, errors)?;
+                slots(leaf, what, &<Self as Described>::TABLE, &mut found, errors)?;
                 let mut found = found.into_iter();
                 Some($struct { $($field: Field::of(found.next().flatten())?),* })
             }
@@ -84,15 +98,18 @@ macro_rules! fields {
 
 /// The name of a field whose name is a word of Rust's: `r#use` is `use`.
 #[must_use]
-pub fn plain_name(name: &'static str) -> &'static str {
-    name.strip_prefix("r#").unwrap_or(name)
+pub const fn plain_name(name: &'static str) -> &'static str {
+    match name.as_bytes() {
+        [b'r', b'#', ..] => name.split_at(2).1,
+        _ => name,
+    }
 }
 
 /// Sorts the fields of `leaf` into the places of those that are known.
 pub fn slots<'t>(
     leaf: Leaf<'t>,
     what: &str,
-    known: Known<'_>,
+    known: &Table,
     found: &mut [Option<Leaf<'t>>],
     errors: &mut Vec<Diagnostic>,
 ) -> Option<()> {
@@ -131,8 +148,8 @@ pub fn slots<'t>(
         return None;
     };
     sort(fields, what, known, found, errors)?;
-    let missing = known.fields.iter().zip(&*found).filter(|((_, required), found)| *required && found.is_none());
-    let mut missing: Vec<String> = missing.map(|((name, _), _)| format!("`{name}`")).collect();
+    let missing = known.rows.iter().zip(&*found).filter(|(row, found)| row.needed && found.is_none());
+    let mut missing: Vec<String> = missing.map(|(row, _)| format!("`{}`", row.name)).collect();
     let last = match missing.pop() {
         None => return Some(()),
         Some(only) if missing.is_empty() => format!("field {only}"),
@@ -142,7 +159,7 @@ pub fn slots<'t>(
     None
 }
 
-fn written(error: Diagnostic, what: &str, known: Known<'_>) -> Diagnostic {
+fn written(error: Diagnostic, what: &str, known: &Table) -> Diagnostic {
     match known.word {
         Some(_) => error,
         None => error.help(format!("{what} is written `(field: value, …)`")),
@@ -153,18 +170,18 @@ fn written(error: Diagnostic, what: &str, known: Known<'_>) -> Diagnostic {
 fn sort<'t>(
     fields: impl Iterator<Item = (Leaf<'t>, Leaf<'t>)>,
     what: &str,
-    known: Known<'_>,
+    known: &Table,
     found: &mut [Option<Leaf<'t>>],
     errors: &mut Vec<Diagnostic>,
 ) -> Option<()> {
     let mut right = true;
     for (name, value) in fields {
         let text = name.text();
-        let place = known.fields.iter().position(|(field, _)| *field == text);
+        let place = known.rows.iter().position(|row| row.name == text);
         let error = match place.and_then(|place| found.get_mut(place)) {
             _ if name.is_broken() => None,
             None => {
-                let help = suggest::help(text, known.fields.iter().map(|(field, _)| *field));
+                let help = suggest::help(text, known.rows.iter().map(|row| row.name));
                 let unknown = Diagnostic::new(name.span(), format!("{what} has no field `{text}`"));
                 Some(Diagnostic { help, ..unknown })
             }

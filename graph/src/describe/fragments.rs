@@ -1,32 +1,61 @@
 //! `fragments`: images, buffers and passes that belong together, made for whoever uses them.
 
-use super::body::{Body, Lists, entries};
+use super::body::{self, Body, Lists, entries};
+use super::document::{INCLUDE, VERSION};
+use super::forms::{Described, Form, Plain};
 use super::leaf::Leaf;
 use super::names::Names;
 use super::parameters::{self, Parameter, ParameterFields};
 use super::pipeline::Name;
 use super::reader::Reader;
+use super::textures;
 use crate::fields;
 
 fields! {
+    /// A fragment: images, buffers and passes that belong together.
+    /// ```ron
+    /// (name: "halve", about: "half as large",
+    ///     parameters: [(name: "source", value: Image), (name: "target", value: Image)],
+    ///     passes: [(name: "shrink", draw: FullScreen("downsample"), sample: {"source": "source"}, color: ["target"])])
+    /// ```
     struct FragmentFields<'src> as "Fragment" {
-        name: Leaf<'src>,
-        about: Option<Leaf<'src>>,
-        parameters: Option<Leaf<'src>>,
-        textures: Option<Leaf<'src>>,
-        images: Option<Leaf<'src>>,
-        buffers: Option<Leaf<'src>>,
-        passes: Leaf<'src>,
+        /// Its name, by which it is used.
+        name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// A description for people.
+        about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// What whoever uses it gives it.
+        parameters: Option<Leaf<'src>> => Form::List(&Form::Fields(ParameterFields::<'static>::table)),
+        /// As those of a pipeline.
+        textures: Option<Leaf<'src>> => textures::TEXTURES,
+        /// As those of a pipeline.
+        images: Option<Leaf<'src>> => body::IMAGES,
+        /// As those of a pipeline.
+        buffers: Option<Leaf<'src>> => body::BUFFERS,
+        /// As those of a pipeline; other fragments may be used, not in a circle.
+        passes: Leaf<'src> => body::ITEMS,
     }
 }
 
+/// A list of fragments.
+pub(super) const FRAGMENTS: Form = Form::List(&Form::Fields(FragmentFields::<'static>::table));
+
 fields! {
+    /// A file of fragments: what several pipelines have in common.
+    /// ```ron
+    /// Fragments(version: 1, fragments: [
+    ///     (name: "wipe", parameters: [(name: "target", value: Image)],
+    ///         passes: [(name: "wipe", fill: (to: "target", value: 0))]),
+    /// ])
+    /// ```
     pub(super) struct LibraryFields<'src> as "Fragments" {
+        /// The version of the language: 1.
         #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
-        version: Leaf<'src>,
-        pub(super) include: Option<Leaf<'src>>,
+        version: Leaf<'src> => VERSION,
+        /// Files with further fragments.
+        pub(super) include: Option<Leaf<'src>> => INCLUDE,
+        /// The fragments.
         #[expect(dead_code, reason = "read for each choice of settings")]
-        fragments: Leaf<'src>,
+        fragments: Leaf<'src> => FRAGMENTS,
     }
 }
 

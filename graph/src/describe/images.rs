@@ -1,12 +1,14 @@
 //! `images`: format, size, samples, mip levels, layers, shape and lifetime, most its own or another image's.
 
+use super::forms::{Described, Form, Plain, Takes, Word, Words};
+use super::known::REPEAT;
 use super::leaf::{Leaf, Shape};
 use super::pipeline::{ImageRef, Name, SettingKind};
 use super::reader::Reader;
 use super::resources::{Format, Image, Layers, Lifetime, Mips, Samples, Shape as ImageShape, Size};
 use super::scope::{Quoted, Scope, joined};
 use super::values::Decided;
-use super::{Diagnostic, Spanned, lifetimes, values};
+use super::{Diagnostic, Spanned, lifetimes, parameters, parts, values, views};
 use crate::expression::{Value, Wanted};
 use crate::fields;
 use crate::format;
@@ -26,30 +28,128 @@ const MOST_MIPS: i64 = 15;
 pub(crate) const SAMPLE_COUNTS: [i64; 5] = [1, 2, 4, 8, 16];
 
 fields! {
+    /// An image: texels that passes draw into, write and read.
+    /// ```ron
+    /// (name: "sky_light", format: R16G16B16A16_SFLOAT, size: Fixed(128, 128), mips: Full, shape: Cube, lifetime: Persistent)
+    /// ```
     pub(super) struct ImageFields<'src> as "Image" {
-        name: Leaf<'src>,
-        pub(super) view: Option<Leaf<'src>>,
-        pub(super) repeat: Option<Leaf<'src>>,
-        format: Leaf<'src>,
-        size: Leaf<'src>,
-        samples: Option<Leaf<'src>>,
-        mips: Option<Leaf<'src>>,
-        layers: Option<Leaf<'src>>,
-        shape: Option<Leaf<'src>>,
-        lifetime: Option<Leaf<'src>>,
+        /// Its name, unique among images and buffers.
+        name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// The view that it is for; the first if left out.
+        pub(super) view: Option<Leaf<'src>> => views::NAME,
+        /// How often it stands there.
+        pub(super) repeat: Option<Leaf<'src>> => REPEAT,
+        /// What a texel holds.
+        format: Leaf<'src> => Form::Words(&FORMATS),
+        /// Width and height.
+        size: Leaf<'src> => Form::Words(&SIZES),
+        /// Samples a texel; 1 if left out.
+        samples: Option<Leaf<'src>> => Form::Words(&SAMPLES),
+        /// Mip levels; 1 if left out.
+        mips: Option<Leaf<'src>> => Form::Words(&MIPS),
+        /// Array layers; 1 if left out, of a cube 6.
+        layers: Option<Leaf<'src>> => Form::Words(&LAYERS),
+        /// Flat, deep or a cube; `D2` if left out.
+        shape: Option<Leaf<'src>> => Form::Words(&SHAPES),
+        /// How long its contents live; `Transient` if left out.
+        lifetime: Option<Leaf<'src>> => lifetimes::LIFETIME,
     }
 }
 
 fields! {
-    struct ColorFields<'src> {
-        hdr: Option<Leaf<'src>>,
+    /// A colour format.
+    struct ColorFormatFields<'src> {
+        /// Whether values above 1 are kept; not if left out.
+        hdr: Option<Leaf<'src>> => Form::Truth,
     }
 }
 
-const FORMATS: &str = "a format is `Color(hdr: …)`, `Depth`, `DepthStencil`, `Output`, `Like(\"image\")` or one of Vulkan's, such as `R16G16B16A16_SFLOAT`";
-const SIZES: &str =
-    "a size is `Output`, `Scaled(0.5)`, `Scaled(0.5, \"image\")`, `Fixed(640, 480)` or `Like(\"image\")`";
-const COUNTS: &str = "sample counts are 1, 2, 4, 8, 16, an expression in quotes, or `Like(\"image\")`";
+static FORMATS: Words = Words {
+    name: "Format",
+    what: "a format",
+    or: &[parameters::FORMAT, Form::Expression("a format")],
+    all: &[
+        Word::new(
+            "Color",
+            &[Takes::Nothing, Takes::Fields(ColorFormatFields::<'static>::table)],
+            &["Color(hdr: true)"],
+            "Colour: `R16G16B16A16_SFLOAT` with high dynamic range, else `R8G8B8A8_SRGB`.",
+        ),
+        Word::alone("Depth", "Depth: `D32_SFLOAT`."),
+        Word::alone("DepthStencil", "Depth and stencil: `D32_SFLOAT_S8_UINT`."),
+        Word::alone("Output", "What leaves the frame: `R8G8B8A8_SRGB`."),
+        Word::new("Like", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Like(\"image\")"], "That of another image."),
+    ],
+};
+
+static SIZES: Words = Words {
+    name: "Size",
+    what: "a size",
+    or: &[],
+    all: &[
+        Word::alone("Output", "The view's; without views the frame's."),
+        Word::new(
+            "Scaled",
+            &[Takes::Values(&[Form::Number]), Takes::Values(&[Form::Number, parts::WHOLE_IMAGE])],
+            &["Scaled(0.5)", "Scaled(0.5, \"image\")"],
+            "The view's or another image's, times a number above 0; rounded down, at least 1.",
+        ),
+        Word::new("Fixed", &[Takes::Values(&[EXTENT, EXTENT])], &["Fixed(640, 480)"], "So many texels wide and high."),
+        Word::new("Like", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Like(\"image\")"], "That of another image."),
+    ],
+};
+
+pub(super) const EXTENT: Form = Form::Whole(1, LARGEST_SIZE as i64);
+
+static SAMPLES: Words = Words {
+    name: "Samples",
+    what: "a sample count",
+    or: &[Form::Listed(&SAMPLE_COUNTS), Form::Expression("a whole number")],
+    all: &[Word::new(
+        "Like",
+        &[Takes::Values(&[parts::WHOLE_IMAGE])],
+        &["Like(\"image\")"],
+        "As many as another image has.",
+    )],
+};
+
+static MIPS: Words = Words {
+    name: "Mips",
+    what: "a number of mip levels",
+    or: &[Form::Whole(1, MOST_MIPS)],
+    all: &[
+        Word::alone("Full", "Down to a single texel."),
+        Word::new(
+            "Like",
+            &[Takes::Values(&[parts::WHOLE_IMAGE])],
+            &["Like(\"image\")"],
+            "As many as another image has.",
+        ),
+    ],
+};
+
+static LAYERS: Words = Words {
+    name: "Layers",
+    what: "a number of layers",
+    or: &[Form::Whole(1, MOST_LAYERS)],
+    all: &[Word::new(
+        "Like",
+        &[Takes::Values(&[parts::WHOLE_IMAGE])],
+        &["Like(\"image\")"],
+        "As many as another image has.",
+    )],
+};
+
+static SHAPES: Words = Words {
+    name: "Shape",
+    what: "a shape",
+    or: &[],
+    all: &[
+        Word::alone("D2", "Two-dimensional, or an array of such layers."),
+        Word::new("D3", &[Takes::Values(&[EXTENT])], &["D3(64)"], "Three-dimensional, so many texels deep."),
+        Word::alone("Cube", "Six square layers that may be sampled as a cube, or several times six."),
+    ],
+};
 
 /// An image, once its fields are told apart.
 pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &ImageFields<'src>) -> Option<Image> {
@@ -105,10 +205,6 @@ fn like<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>, rest: Op
 }
 
 fn format<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Format> {
-    let known: Vec<&str> = ["Color", "Depth", "DepthStencil", "Output", "Like"]
-        .into_iter()
-        .chain(format::Format::ALL.iter().map(|f| f.name()))
-        .collect();
     if let Shape::Text = leaf.shape() {
         if let Some(word @ ("Depth" | "DepthStencil" | "Output")) = leaf.plain() {
             reader.wrong(leaf, format!("`{word}` is no format of Vulkan's"), "it stands without quotes");
@@ -116,11 +212,14 @@ fn format<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opt
         }
         return values::format(reader, scope, leaf).map(Format::Named);
     }
-    let (word, rest) = reader.word(leaf, "a format", &known, FORMATS)?;
+    let (word, rest) = match leaf.shape() {
+        Shape::Word(word, rest) if format::Format::from_name(word).is_some() => (word, rest),
+        _ => reader.one_of(leaf, &FORMATS)?,
+    };
     match word {
         "Color" => {
             let hdr = match rest {
-                Some(_) => reader.inside::<ColorFields<'_>>(leaf, rest, "Color(hdr: …)")?.hdr,
+                Some(_) => reader.inside::<ColorFormatFields<'_>>(leaf, rest, "Color(hdr: …)")?.hdr,
                 None => None,
             };
             match hdr {
@@ -140,7 +239,7 @@ fn format<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opt
 }
 
 fn size<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<Size>> {
-    let (word, rest) = reader.word(leaf, "a size", &["Output", "Scaled", "Fixed", "Like"], SIZES)?;
+    let (word, rest) = reader.one_of(leaf, &SIZES)?;
     match word {
         "Output" => reader.bare(word, rest).map(|()| (Size::Output, None)),
         "Like" => like(reader, scope, leaf, rest).map(|of| (Size::Like(of), None)),
@@ -213,7 +312,11 @@ fn samples<'src>(
                 if scope.known.settings
                     && let Some(odd) = parameter.one_of().iter().find(|count| !SAMPLE_COUNTS.contains(count))
                 {
-                    reader.wrong(leaf, format!("this setting allows {odd}, which is no sample count"), COUNTS);
+                    reader.wrong(
+                        leaf,
+                        format!("this setting allows {odd}, which is no sample count"),
+                        &SAMPLES.forms(),
+                    );
                     return None;
                 }
                 let Value::Integer(count) = given.value else { return None };
@@ -228,13 +331,13 @@ fn samples<'src>(
         Shape::Number => {
             let count = reader.integer(leaf)?;
             if !SAMPLE_COUNTS.contains(&count) {
-                reader.wrong(leaf, format!("{count} is no sample count"), COUNTS);
+                reader.wrong(leaf, format!("{count} is no sample count"), &SAMPLES.forms());
                 return None;
             }
             (count, None)
         }
         _ => {
-            let (_, rest) = reader.word(leaf, "a sample count", &["Like"], COUNTS)?;
+            let (_, rest) = reader.one_of(leaf, &SAMPLES)?;
             return like(reader, scope, leaf, rest).map(|of| (Samples::Like(of), None));
         }
     };
@@ -250,11 +353,10 @@ fn samples<'src>(
 }
 
 fn mips<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Mips> {
-    let forms = "mip levels are a number, an expression in quotes, `Full` or `Like(\"image\")`";
     if let Shape::Text | Shape::Number = leaf.shape() {
         return values::whole(reader, scope, leaf, "number of mip levels", 1..=MOST_MIPS).map(Mips::Count);
     }
-    let (word, rest) = reader.word(leaf, "a number of mip levels", &["Full", "Like"], forms)?;
+    let (word, rest) = reader.one_of(leaf, &MIPS)?;
     match word {
         "Full" => reader.bare(word, rest).map(|()| Mips::Full),
         _ => like(reader, scope, leaf, rest).map(Mips::Like),
@@ -262,17 +364,15 @@ fn mips<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Optio
 }
 
 fn layers<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Layers> {
-    let forms = "layers are a number, an expression in quotes or `Like(\"image\")`";
     if let Shape::Text | Shape::Number = leaf.shape() {
         return values::whole(reader, scope, leaf, "number of layers", 1..=MOST_LAYERS).map(Layers::Count);
     }
-    let (_, rest) = reader.word(leaf, "a number of layers", &["Like"], forms)?;
+    let (_, rest) = reader.one_of(leaf, &LAYERS)?;
     like(reader, scope, leaf, rest).map(Layers::Like)
 }
 
 fn shape<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<ImageShape> {
-    let forms = "a shape is `D2`, `D3(depth)` or `Cube`";
-    let (word, rest) = reader.word(leaf, "a shape", &["D2", "D3", "Cube"], forms)?;
+    let (word, rest) = reader.one_of(leaf, &SHAPES)?;
     match word {
         "D2" => reader.bare(word, rest).map(|()| ImageShape::D2),
         "Cube" => reader.bare(word, rest).map(|()| ImageShape::Cube),

@@ -2,12 +2,17 @@
 //! whatever the values, so that expressions are checked once.
 
 use super::Diagnostic;
+use super::forms::{Form, Plain};
 use super::leaf::Leaf;
 use super::names::Names;
 use super::parameters::{Parameter, ParameterKind};
 use super::pipeline::Name;
 use super::reader::Reader;
 use crate::expression::Type;
+
+/// How `repeat` is written.
+pub(super) const REPEAT: Form =
+    Form::Tuple(&[Form::Plain(Plain::Name), Form::Whole(0, super::lower::MOST_THINGS as i64)]);
 
 /// How often something stands there.
 #[derive(Debug, Clone)]

@@ -1,48 +1,126 @@
 //! How long contents live, and in which state they come in and go out.
 
 use super::fields::FromLeaf;
+use super::forms::{Described, Form, Takes, Word, Words, names};
 use super::leaf::{Leaf, Shape};
 use super::parts::MOST_FRAMES;
 use super::reader::Reader;
 use super::resources::{Fill, Lifetime, State, StateWord};
 use super::scope::Scope;
-use super::{Spanned, values};
+use super::{Spanned, parts, values};
 use crate::fields;
 use crate::vocabulary::{self, Accesses, Layout, Stages};
 use bitflags::Flags;
 
 fields! {
+    /// What outlives the frame.
     #[derive(Default)]
     struct PersistentFields<'src> {
-        initial: Option<Leaf<'src>>,
+        /// What the first frame finds, as in [a fill](#fills); zero if left out.
+        initial: Option<Leaf<'src>> => values::FILL,
     }
 }
 
 fields! {
+    /// What earlier frames left.
     #[derive(Default)]
     struct HistoryFields<'src> {
-        frames: Option<Leaf<'src>>,
-        initial: Option<Leaf<'src>>,
+        /// How many frames back it can be read; 1 if left out.
+        frames: Option<Leaf<'src>> => Form::Whole(1, MOST_FRAMES),
+        /// What stands for frames before the first, as in [a fill](#fills); zero if left out.
+        initial: Option<Leaf<'src>> => values::FILL,
     }
 }
 
 fields! {
+    /// What the program hands in.
     struct ImportedFields<'src> {
-        before: Leaf<'src>,
-        after: Option<Leaf<'src>>,
+        /// The state in which it is handed in.
+        before: Leaf<'src> => STATE,
+        /// The state in which it is given back; that of its last use if left out.
+        after: Option<Leaf<'src>> => STATE,
     }
 }
 
 fields! {
+    /// A state in Vulkan's words: the last or next use of what comes from outside of the frame or leaves it.
+    /// ```ron
+    /// (stages: [COPY], accesses: [TRANSFER_WRITE], layout: TRANSFER_DST_OPTIMAL)
+    /// ```
     struct StateFields<'src> {
-        stages: Leaf<'src>,
-        accesses: Leaf<'src>,
-        layout: Option<Leaf<'src>>,
+        /// Pipeline stages: `VK_PIPELINE_STAGE_2_…`.
+        stages: Leaf<'src> => Form::List(&Form::Choice("a Vulkan stage", flag_names::<Stages>)),
+        /// Accesses: `VK_ACCESS_2_…`.
+        accesses: Leaf<'src> => Form::List(&Form::Choice("a Vulkan access", flag_names::<Accesses>)),
+        /// The layout of an image, `VK_IMAGE_LAYOUT_…`; a buffer has none.
+        layout: Option<Leaf<'src>> => Form::Choice("an image layout", || names(&LAYOUTS)),
     }
 }
 
-const LIFETIMES: &str = "a lifetime is `Transient`, `Persistent(initial: …)`, `History(frames: 1, initial: …)`, \
-                         `Imported(before: …, after: …)` or `Like(\"name\")`";
+/// What `lifetime` takes.
+pub(super) const LIFETIME: Form = Form::Words(&LIFETIMES);
+
+static LIFETIMES: Words = Words {
+    name: "Lifetime",
+    what: "a lifetime",
+    or: &[],
+    all: &[
+        Word::alone("Transient", "Within the frame."),
+        Word::new(
+            "Persistent",
+            &[Takes::Nothing, Takes::Fields(PersistentFields::<'static>::table)],
+            &["Persistent", "Persistent(initial: 1.0)"],
+            "One image or buffer for all frames: a read before the first write finds what the frame before left.",
+        ),
+        Word::new(
+            "History",
+            &[Takes::Nothing, Takes::Fields(HistoryFields::<'static>::table)],
+            &["History", "History(frames: 2, initial: 0)"],
+            "Each frame writes it anew; `previous: 1` reads what the frame before left.",
+        ),
+        Word::new(
+            "Imported",
+            &[Takes::Fields(ImportedFields::<'static>::table)],
+            &["Imported(before: Undefined, after: Sampled)"],
+            "The program hands it in for each frame, and gets it back.",
+        ),
+        Word::new(
+            "Like",
+            &[Takes::Values(&[parts::WHOLE_RESOURCE])],
+            &["Like(\"name\")"],
+            "That of another image or buffer.",
+        ),
+    ],
+};
+
+/// A state, by purpose or in Vulkan's words.
+pub(super) const STATE: Form = Form::Words(&STATES);
+
+static STATES: Words = Words {
+    name: "State",
+    what: "a state",
+    or: &[Form::Fields(StateFields::<'static>::table)],
+    all: &[
+        Word::alone("Undefined", "An image without contents."),
+        Word::alone("ColorAttachment", "An image that is drawn into as colour."),
+        Word::alone("DepthAttachment", "An image that is drawn into as depth or stencil."),
+        Word::alone("Sampled", "An image that shaders sample."),
+        Word::alone("Storage", "Read and written by shaders."),
+        Word::alone("Uniform", "A buffer that is read as a uniform block."),
+        Word::alone("Vertex", "A buffer of vertices."),
+        Word::alone("Index", "A buffer of indices."),
+        Word::alone("Indirect", "A buffer that holds counts of draws or dispatches."),
+        Word::alone("TransferSource", "Copied or scaled from."),
+        Word::alone("TransferTarget", "Copied, scaled or filled into."),
+        Word::alone("Present", "An image that is shown in a window."),
+        Word::alone("Host", "A buffer that the program writes before the frame, or reads afterwards."),
+    ],
+};
+
+/// Vulkan's words for flags.
+fn flag_names<F: Flags>() -> Vec<&'static str> {
+    F::FLAGS.iter().filter(|flag| !flag.is_unnamed()).map(|flag| flag.name()).collect()
+}
 
 /// Which of the two a state belongs to.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -60,8 +138,7 @@ pub(super) fn lower<'src>(
     leaf: Leaf<'src>,
     of: Of,
 ) -> Option<Spanned<Lifetime>> {
-    let words = ["Transient", "Persistent", "History", "Imported", "Like"];
-    let (word, rest) = reader.word(leaf, "a lifetime", &words, LIFETIMES)?;
+    let (word, rest) = reader.one_of(leaf, &LIFETIMES)?;
     let lifetime = match word {
         "Transient" => reader.bare(word, rest).map(|()| Lifetime::Transient)?,
         "Persistent" => {

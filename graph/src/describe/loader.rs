@@ -37,11 +37,14 @@ impl<'a> Loader<'a> {
     /// The text of a file that was named at `span`; `words` say what for: "included here".
     pub(super) fn tree(&mut self, reader: &mut Reader, found: Found, span: Span, words: &'static str) -> Option<Tree> {
         let Found { shown, relative, bytes } = found;
-        if self.read == MOST_FILES {
-            reader.report(Diagnostic::new(span, format!("a pipeline is made of at most {MOST_FILES} files")));
+        self.read += 1;
+        if self.read > MOST_FILES {
+            // One answer stands for all that follow.
+            if self.read == MOST_FILES + 1 {
+                reader.report(Diagnostic::new(span, format!("a pipeline is made of at most {MOST_FILES} files")));
+            }
             return None;
         }
-        self.read += 1;
         if bytes.len() > LARGEST_FILE {
             let message = format!("`{shown}` has {} bytes; a file has at most {LARGEST_FILE}", bytes.len());
             reader.report(Diagnostic::new(span, message));

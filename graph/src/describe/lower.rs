@@ -42,6 +42,13 @@ pub(super) struct Lowering<'a, 't> {
     pub(super) path: Vec<(usize, Name)>,
     /// Mistakes in fragments that were reported: place and message.
     pub(super) seen: HashSet<(Span, String)>,
+    /// Fragments that were put in, by number.
+    pub(super) used: HashSet<usize>,
+    /// Whether the file is only read, for no values in particular: what is repeated never, or nobody knows how often, is
+    /// looked at once.
+    reading: bool,
+    /// Whether what is lowered is thrown away.
+    pub(super) trying: bool,
     made: u32,
     full: bool,
     /// Whether something that was reported has no place in the lists.
@@ -87,10 +94,22 @@ impl<'a, 't> Lowering<'a, 't> {
             instances: Vec::new(),
             path: Vec::new(),
             seen: HashSet::new(),
+            used: HashSet::new(),
+            reading: false,
+            trying: false,
             made: 0,
             full: false,
             broken: false,
         }
+    }
+
+    /// One that finds what is wrong with a file whatever the values; what it makes is worth nothing.
+    pub(super) fn reading(
+        surroundings: &'a Surroundings<'a>,
+        fragments: &'a Fragments<'t>,
+        pictures: &'a Pictures,
+    ) -> Self {
+        Lowering { reading: true, ..Lowering::new(surroundings, fragments, pictures, true) }
     }
 
     /// The whole pipeline. `None` if errors were reported.
@@ -112,6 +131,9 @@ impl<'a, 't> Lowering<'a, 't> {
         circles::find(&self.images, &self.buffers, &mut reader.errors);
         previous::check(&self.images, &self.buffers, &self.passes, &mut reader.errors);
         let outputs = outputs::lower(reader, &self.scope(body, &level, ViewIndex::default(), None), outputs);
+        if self.reading {
+            self.unused(reader);
+        }
         let mut seen = HashSet::new();
         reader
             .errors
@@ -345,9 +367,12 @@ impl<'a, 't> Lowering<'a, 't> {
             Some(Repeat::Times { count, .. }) => {
                 let before = reader.errors.len();
                 let scope = Scope { early, ..self.scope(body, level, view, None) };
-                match values::whole(reader, &scope, *count, "number of repetitions", 0..=i64::from(MOST_THINGS)) {
-                    Some(number) => (number, Some(count.span())),
-                    None if early && reader.errors.len() == before => return Count::Later,
+                match values::whole::<u32>(reader, &scope, *count, "number of repetitions", 0..=i64::from(MOST_THINGS))
+                {
+                    Some(number) => (number.max(u32::from(self.reading)), Some(count.span())),
+                    None if reader.errors.len() > before => return Count::Failed,
+                    None if early => return Count::Later,
+                    None if self.reading => (1, Some(count.span())),
                     None => return Count::Failed,
                 }
             }
@@ -362,8 +387,8 @@ impl<'a, 't> Lowering<'a, 't> {
             self.made = made;
             return true;
         }
-        if !self.full {
-            self.full = true;
+        let known = std::mem::replace(&mut self.full, true);
+        if !known && !self.trying {
             let message = "this makes more than 1000000 images, buffers, passes and uses of fragments";
             let used = self.path.last().map(|(_, name)| name.span);
             let at = if span == Span::NONE { used.unwrap_or(span) } else { span };

@@ -9,96 +9,7 @@
 //! read. What depends on shaders and on the order of passes comes in [`crate::expand`].
 //!
 //! # The language
-//! `docs/pipeline-format.md` tells what each field means; this is its grammar.
-//! ```text
-//! Pipeline(version: 1, include: ["file"…], extensions: ["file"…], settings: [SETTING…], presets: [PRESET…],
-//!          views: [VIEW…], fragments: [FRAGMENT…], textures: [TEXTURE…], images: [IMAGE…], buffers: [BUFFER…],
-//!          passes: [ITEM…], outputs: [OUTPUT…], changes: [CHANGE…])
-//! Pipeline(version: 1, extends: "file", …)                            all of the above but `passes`, added to what there is
-//! Fragments(version: 1, include: ["file"…], fragments: [FRAGMENT…])
-//! Extension(version: 1, about: "…", include: ["file"…], settings: [SETTING…], presets: [PRESET…], views: [VIEW…],
-//!           fragments: [FRAGMENT…], textures: [TEXTURE…], images: [IMAGE…], buffers: [BUFFER…], changes: [CHANGE…])
-//!
-//! CHANGE     Set(THING, to: (field: value…), without: ["field"…])    `to` or `without` may be left out
-//!            | Remove(THING) | Remove(output: "name")
-//!            | Insert(PLACE, passes: [ITEM…]) | Insert(outputs: [OUTPUT…])
-//! THING      pass: "name" | image: "name" | buffer: "name" | texture: "name" | setting: "name" | preset: "name"
-//!            | view: "name"
-//! PLACE      before: "pass" | after: "pass" | at: "anchor" | at: Start | at: End
-//!
-//! SETTING    (name: "…", value: KIND, about: "…")                  `about` may be left out
-//! KIND       Bool(default: true) | OneOf(default: 4, of: [1, 4]) | OneOf(default: "low", of: ["low", "high"])
-//!            | Number(default: 1.0, min: 0.0, max: 2.0) | Integer(default: 1, min: 0, max: 9)    with `step: 1` too
-//!
-//! PRESET     (name: "…", about: "…", set: {"setting": value…})     `about` may be left out
-//!
-//! VIEW       (name: "…", about: "…", size: Output | Scaled(0.5) | Fixed(640, 360), camera: "…", allows_msaa: true,
-//!             allows_hdr: true, allows_scale: true, set: {"setting": value…})     all but the name may be left out
-//!
-//! FRAGMENT   (name: "…", about: "…", parameters: [PARAMETER…], textures: [TEXTURE…], images: [IMAGE…],
-//!             buffers: [BUFFER…], passes: [ITEM…])
-//! PARAMETER  (name: "…", value: TYPE, about: "…")
-//! TYPE       Image | Buffer | KIND | Format(default: R8_UNORM)      without `default`: it has to be given
-//! ITEM       PASS | USE | (anchor: "…")
-//! USE        (use: "fragment", name: "…", view: "…", with: {"parameter": VALUE…}, repeat: REPEAT, when: …,
-//!             otherwise: OTHERWISE)
-//! REPEAT     ("i", 8)                                              `i` counts from 0; may stand in IMAGE, BUFFER and PASS
-//!
-//! TEXTURE    (name: "…", file: "…", color_space: Srgb | Linear, format: R8_UNORM, shape: D2 | D3)
-//!                                       by default Srgb, a format that holds what the file does, D2; D3 takes a strip
-//! IMAGE      (name: "…", view: "…", format: FORMAT, size: SIZE, samples: SAMPLES, mips: MIPS, layers: LAYERS, shape: SHAPE,
-//!             lifetime: LIFETIME)
-//! FORMAT     Color(hdr: true) | Depth | DepthStencil | Output | Like("image") | R8_UNORM and others of Vulkan
-//! SIZE       Output | Scaled(FACTOR) | Scaled(FACTOR, "image") | Fixed(640, 480) | Like("image")
-//! FACTOR     0.5                                                   of the view or an image, rounded down, at least 1
-//! SAMPLES    4 | Like("image")                         by default 1
-//! MIPS       4 | Full | Like("image")                  by default 1
-//! LAYERS     4 | Like("image")                         by default 1, of a cube 6
-//! SHAPE      D2 | D3(64) | Cube                        by default D2; D3 takes the depth
-//! BUFFER     (name: "…", view: "…", bytes: BYTES, lifetime: LIFETIME)
-//! BYTES      4096 | Times(16, 9) | PerTexel(4, "image") | Like("buffer")
-//! LIFETIME   Transient | Persistent(initial: VALUE) | History(frames: 1, initial: VALUE)
-//!            | Imported(before: STATE, after: STATE) | Like("name")           `initial`, `frames`, `after` may be left out
-//! VALUE      0 | (0.0, 0) | (0.0, 0.0, 0.0, 1.0)                   every component or word | depth, stencil | colour
-//! STATE      Undefined | ColorAttachment | DepthAttachment | Sampled | Storage | Uniform | Vertex | Index | Indirect
-//!            | TransferSource | TransferTarget | Present | Host | (stages: [STAGE…], accesses: [ACCESS…], layout: LAYOUT)
-//!
-//! PASS       (name: "…", view: "…", WORK, sample: {"shader's name": SAMPLED…}, storage: {"shader's name": STORAGE…},
-//!             uniform: {"shader's name": BUFFERS…}, params: {"shader's name": PARAM…}, color: [COLOR…], depth: DEPTH,
-//!             side_effect: true, when: "true", otherwise: OTHERWISE)
-//! OTHERWISE  Forward(from: "image", to: "image") | Clear(image: "image", value: VALUE) | [OTHERWISE…]
-//! WORK       draw: DRAW | dispatch: "shader", groups: GROUPS | copy: (from: PART, to: PART)
-//!            | blit: (from: PART, to: PART, filter: FILTER) | fill: (to: PART, value: VALUE)
-//!            | custom: "name", reads: [PART…], writes: [PART…]
-//! DRAW       Objects(Opaque | Masked | Transparent), shader: "…" | FullScreen("shader")
-//!            | Sky                                                 without `shader`: "sky"
-//!            | Vertices(COUNT, COUNT), shader: "…", vertex: BUFFERS, index: BUFFERS       vertices, instances
-//!            | Indirect(BUFFERS), shader: "…", vertex: BUFFERS, index: BUFFERS
-//! GROUPS     Count(COUNT, COUNT, COUNT) | Invocations(COUNT, COUNT, COUNT) | Texels(IMAGES) | Indirect(BUFFERS, OFFSET)
-//! COUNT      8
-//! PART       IMAGES | BUFFERS
-//! IMAGES     "image" | (image: "…", SELECTED)
-//! SELECTED   mip: 1, mips: 2 | Rest, layer: 1, layers: 2 | Rest, plane: Depth | Stencil, previous: 1
-//! BUFFERS    "buffer" | (buffer: "…", previous: 1)
-//! SAMPLED    FACE | (image: FACE, SELECTED, filter: FILTER, mip_filter: FILTER, address: ADDRESS, own_pixel: true)
-//! FILTER     Nearest | Linear                                      by default Linear for colour, else Nearest
-//!                                                                  between mip levels by default Nearest
-//! ADDRESS    Clamp | Repeat | Mirror                               beyond the edges, by default Clamp
-//! FACE       "image" | Samples("image") | Resolved("image")        the plain name: as the shader declares it
-//! STORAGE    PART | (image: "…", SELECTED, access: ACCESS) | (buffer: "…", previous: 1, access: ACCESS)
-//! ACCESS     Read | Write | ReadWrite                              by default as the shader declares it
-//! COLOR      "image" | (image: "…", SELECTED, clear: (r, g, b, a), blend: Replace | Alpha | Premultiplied | Additive)
-//! DEPTH      "image" | (image: "…", SELECTED, clear: 0.0, test: GreaterOrEqual, write: true, stencil: STENCIL)
-//! STENCIL    (clear: 0, test: Always, reference: 0, pass: Keep)
-//! PARAM      1.0 | 1 | true
-//! OUTPUT     "name" | (image: "…", after: STATE, encoding: ENCODING) | (buffer: "…", after: STATE)
-//! ENCODING   Srgb | Unorm | Linear | Hdr10                         by default what the format says
-//! ```
-//! Wherever a number, a truth, a format, an image or a buffer stands, an [expression](crate::expression) in quotes may
-//! stand; `when` always is one.
-//!
-//! Names that a file gives begin with a letter or `_` and go on with letters, digits and `_`, those of shaders and
-//! custom work with `-` too, at most 64 bytes.
+//! `docs/language.md` describes it. That page and the JSON Schema are made of the tables beside the readers: [`forms`].
 
 mod bindings;
 mod body;
@@ -110,6 +21,7 @@ mod document;
 mod escapes;
 mod extend;
 mod fields;
+pub mod forms;
 mod fragments;
 mod images;
 mod includes;
@@ -145,6 +57,7 @@ mod syntax;
 mod targets;
 mod textures;
 mod tree;
+mod unused;
 mod uses;
 mod values;
 mod views;
@@ -173,13 +86,14 @@ pub use resources::{
 pub(crate) use settings::shown as shown_number;
 pub use settings::{last_step, nth as nth_step};
 pub use suggest::{help as suggestion, nearest};
-pub use surroundings::Surroundings;
+pub use surroundings::{Surroundings, names_of};
 pub use views::View;
 pub(crate) use work::MOST_GROUPS;
 
 /// What readers of RON files are made of: pipelines here, scenes elsewhere.
 pub mod text {
-    pub use super::fields::{Field, FromLeaf, Known, plain_name, slots};
+    pub use super::fields::{Field, FromLeaf, plain_name, slots};
+    pub use super::forms::{Described, Form, Row, Table};
     pub use super::leaf::{Leaf, Number, Shape};
     pub use super::names::Names;
     pub use super::reader::Reader;
@@ -308,7 +222,7 @@ fn read_all(
     Document::read(reader, &mut loader, relative, composed).map_err(in_order)
 }
 
-/// The first mistakes first: file by file.
+/// The first mistakes first: file by file as they were read, in each from top to bottom.
 pub(crate) fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
     errors.sort_by_key(|error| error.labels.first().map_or((None, 0), |label| (label.span.file(), label.span.start)));
     errors

@@ -1,23 +1,37 @@
 //! `outputs`: what leaves the frame, and in which state.
 
+use super::forms::{Described, Form, names};
 use super::leaf::{Leaf, Shape};
 use super::pipeline::{Output, ResourceRef};
 use super::reader::Reader;
 use super::scope::Scope;
-use super::{Diagnostic, lifetimes, values};
+use super::{Diagnostic, lifetimes, parts, values};
 use crate::encoding::Encoding;
 use crate::fields;
 use crate::frame::Resource;
 use std::collections::HashMap;
 
 fields! {
+    /// An output: an image or buffer that leaves the frame.
+    /// ```ron
+    /// (image: "image", after: Present)
+    /// ```
     struct OutputFields<'src> {
-        image: Option<Leaf<'src>>,
-        buffer: Option<Leaf<'src>>,
-        after: Option<Leaf<'src>>,
-        encoding: Option<Leaf<'src>>,
+        /// Which image.
+        image: Option<Leaf<'src>> => parts::WHOLE_IMAGE,
+        /// Or which buffer.
+        buffer: Option<Leaf<'src>> => parts::WHOLE_BUFFER,
+        /// The state in which it is left; that of its last use if left out.
+        after: Option<Leaf<'src>> => lifetimes::STATE,
+        /// What an image's numbers mean to whoever shows them or writes them to a file; what the format says, as far as it does,
+        /// if left out. What the format can't hold is refused.
+        encoding: Option<Leaf<'src>> => Form::Choice("an encoding", || names(&ENCODINGS)),
     }
 }
+
+/// What leaves the frame.
+pub(super) const OUTPUTS: Form =
+    Form::List(&Form::Either(&[parts::WHOLE_RESOURCE, Form::Fields(OutputFields::<'static>::table)]));
 
 /// What the numbers of an output mean, by name.
 const ENCODINGS: [(&str, Encoding); 4] = [

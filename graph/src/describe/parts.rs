@@ -1,5 +1,6 @@
 //! Parts of images and buffers, as passes name them: mip levels, layers, planes, earlier frames.
 
+use super::forms::{Described, Form, Table, Word, Words, names};
 use super::leaf::{Leaf, Shape};
 use super::pass::{BufferPart, ImagePart, Part, Selection};
 use super::pipeline::{BufferRef, ImageRef};
@@ -17,17 +18,73 @@ pub(super) const MOST_FRAMES: i64 = 64;
 const MOST_PARTS: i64 = 65535;
 
 fields! {
+    /// A part: some of an image, or a buffer.
+    /// ```ron
+    /// (image: "image", mip: 1, layer: 0, layers: Rest)
+    /// ```
     struct PartFields<'src> {
-        image: Option<Leaf<'src>>,
-        buffer: Option<Leaf<'src>>,
-        mip: Option<Leaf<'src>>,
-        mips: Option<Leaf<'src>>,
-        layer: Option<Leaf<'src>>,
-        layers: Option<Leaf<'src>>,
-        plane: Option<Leaf<'src>>,
-        previous: Option<Leaf<'src>>,
+        /// Which image.
+        image: Option<Leaf<'src>> => WHOLE_IMAGE,
+        /// Or which buffer.
+        buffer: Option<Leaf<'src>> => WHOLE_BUFFER,
+        /// The first mip level, from 0.
+        mip: Option<Leaf<'src>> => FIRST,
+        /// How many mip levels; one if `mip` stands alone, all if neither stands there.
+        mips: Option<Leaf<'src>> => COUNT,
+        /// The first layer, from 0.
+        layer: Option<Leaf<'src>> => FIRST,
+        /// How many layers; one if `layer` stands alone, all if neither stands there.
+        layers: Option<Leaf<'src>> => COUNT,
+        /// Depth or stencil; all that the image has if left out.
+        plane: Option<Leaf<'src>> => PLANE,
+        /// Of how many frames before this one; only of what has history, and only read.
+        previous: Option<Leaf<'src>> => PREVIOUS,
     }
 }
+
+/// The name of an image.
+pub(super) const WHOLE_IMAGE: Form = Form::Reference("an image");
+
+/// The name of a buffer.
+pub(super) const WHOLE_BUFFER: Form = Form::Reference("a buffer");
+
+/// The name of an image or buffer.
+pub(super) const WHOLE_RESOURCE: Form = Form::Reference("an image or buffer");
+
+/// An image or a part of it.
+pub(super) const IMAGE: Form = Form::Either(&[WHOLE_IMAGE, PART]);
+
+/// A buffer, of this frame or an earlier one.
+pub(super) const BUFFER: Form = Form::Either(&[WHOLE_BUFFER, PART]);
+
+/// An image, a part of one, or a buffer.
+pub(super) const ANY: Form = Form::Either(&[WHOLE_RESOURCE, PART]);
+
+const PART: Form = Form::Fields(part);
+
+/// The fields of a part.
+pub(super) fn part() -> Table {
+    PartFields::table()
+}
+
+/// The first mip level or layer.
+pub(super) const FIRST: Form = Form::Whole(0, MOST_PARTS);
+
+/// How many mip levels or layers.
+pub(super) const COUNT: Form = Form::Words(&COUNTS);
+
+static COUNTS: Words = Words {
+    name: "Count",
+    what: "a number of mip levels or layers",
+    or: &[Form::Whole(1, MOST_PARTS)],
+    all: &[Word::alone("Rest", "All from the first on.")],
+};
+
+/// Depth or stencil.
+pub(super) const PLANE: Form = Form::Choice("a plane", || names(&PLANES));
+
+/// How many frames to look back.
+pub(super) const PREVIOUS: Form = Form::Whole(1, MOST_FRAMES);
 
 /// What is said about a part besides the image's name.
 #[derive(Clone, Copy, Default)]

@@ -1,60 +1,122 @@
 //! `passes`: what each does, when, and what stands in for it when it is off.
 
+use super::forms::{Described, Form, Plain, Takes, Word, Words};
+use super::known::REPEAT;
 use super::leaf::{Leaf, Shape};
 use super::pass::{Color, Depth, Forward, Off, Part, Pass, StandIn, Work};
 use super::pipeline::{BufferRef, ImageRef, Name};
 use super::reader::Reader;
 use super::scope::Scope;
-use super::{Diagnostic, bindings, parts, targets, values, work};
+use super::{Diagnostic, bindings, parts, targets, values, views, work};
 use crate::fields;
 use crate::view::ViewIndex;
 use std::collections::HashMap;
 
 fields! {
+    /// A pass: one thing that is done.
+    /// ```ron
+    /// (name: "glass", when: "scene.has_transparent", draw: Objects(Transparent), shader: "lit",
+    ///     color: [(image: "image", blend: Premultiplied)], depth: (image: "depth", write: false))
+    /// ```
     pub(super) struct PassFields<'src> as "Pass" {
-        pub(super) name: Leaf<'src>,
-        pub(super) view: Option<Leaf<'src>>,
-        pub(super) repeat: Option<Leaf<'src>>,
-        pub(super) draw: Option<Leaf<'src>>,
-        pub(super) dispatch: Option<Leaf<'src>>,
-        pub(super) copy: Option<Leaf<'src>>,
-        pub(super) blit: Option<Leaf<'src>>,
-        pub(super) fill: Option<Leaf<'src>>,
-        pub(super) custom: Option<Leaf<'src>>,
-        pub(super) shader: Option<Leaf<'src>>,
-        pub(super) groups: Option<Leaf<'src>>,
-        pub(super) sample: Option<Leaf<'src>>,
-        pub(super) storage: Option<Leaf<'src>>,
-        pub(super) uniform: Option<Leaf<'src>>,
-        pub(super) vertex: Option<Leaf<'src>>,
-        pub(super) index: Option<Leaf<'src>>,
-        pub(super) color: Option<Leaf<'src>>,
-        pub(super) depth: Option<Leaf<'src>>,
-        pub(super) reads: Option<Leaf<'src>>,
-        pub(super) writes: Option<Leaf<'src>>,
-        pub(super) params: Option<Leaf<'src>>,
-        pub(super) side_effect: Option<Leaf<'src>>,
-        when: Option<Leaf<'src>>,
-        otherwise: Option<Leaf<'src>>,
+        /// Its name, unique among passes and uses.
+        pub(super) name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// The view that it draws for; the first if left out.
+        pub(super) view: Option<Leaf<'src>> => views::NAME,
+        /// How often it stands there.
+        pub(super) repeat: Option<Leaf<'src>> => REPEAT,
+        /// It draws.
+        pub(super) draw: Option<Leaf<'src>> => work::DRAW,
+        /// It runs a compute shader, `NAME.comp`.
+        pub(super) dispatch: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
+        /// It copies bits as they are: texels to texels, bytes to bytes, or rows of texels without gaps to or from a buffer.
+        pub(super) copy: Option<Leaf<'src>> => work::COPY,
+        /// It copies an image and scales it.
+        pub(super) blit: Option<Leaf<'src>> => work::BLIT,
+        /// It sets an image or buffer to a value.
+        pub(super) fill: Option<Leaf<'src>> => work::FILL,
+        /// It does what the embedding program records under this name: with `color` or `depth` within a rendering scope,
+        /// else outside.
+        pub(super) custom: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
+        /// The shader of what it draws.
+        pub(super) shader: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
+        /// How many workgroups its compute shader runs in.
+        pub(super) groups: Option<Leaf<'src>> => work::WORKGROUPS,
+        /// Images that its shaders sample, by the shader's names.
+        pub(super) sample: Option<Leaf<'src>> => bindings::SAMPLE,
+        /// Images and buffers that its shaders read and write by themselves, by the shader's names.
+        pub(super) storage: Option<Leaf<'src>> => bindings::STORAGE,
+        /// Buffers that its shaders read as uniform blocks, by the shader's names.
+        pub(super) uniform: Option<Leaf<'src>> => bindings::UNIFORM,
+        /// The buffer of the vertices of `Vertices` and `Indirect`.
+        pub(super) vertex: Option<Leaf<'src>> => parts::BUFFER,
+        /// The buffer of their indices, 32 bits each.
+        pub(super) index: Option<Leaf<'src>> => parts::BUFFER,
+        /// What it draws colour into, by location.
+        pub(super) color: Option<Leaf<'src>> => targets::COLOR,
+        /// What it draws depth and stencil into.
+        pub(super) depth: Option<Leaf<'src>> => targets::DEPTH,
+        /// What it reads by transfer.
+        pub(super) reads: Option<Leaf<'src>> => work::TRANSFERRED,
+        /// What it writes by transfer, all of it.
+        pub(super) writes: Option<Leaf<'src>> => work::TRANSFERRED,
+        /// Values for the members of the shader's block `params`, by name.
+        pub(super) params: Option<Leaf<'src>> => bindings::PARAMS,
+        /// `true`: it is kept although nothing in the frame needs it.
+        pub(super) side_effect: Option<Leaf<'src>> => Form::Truth,
+        /// A condition: if it is false, the pass is off, and nothing that it says needs a value.
+        when: Option<Leaf<'src>> => CONDITION,
+        /// What images that it would write take when it is off.
+        otherwise: Option<Leaf<'src>> => OTHERWISE,
     }
 }
 
+/// What `when` takes.
+pub(super) const CONDITION: Form = Form::Expression("a condition");
+
+/// What `otherwise` takes.
+pub(super) const OTHERWISE: Form = Form::Either(&[Form::Words(&STAND_INS), Form::List(&Form::Words(&STAND_INS))]);
+
+/// What targets take when a pass is off.
+static STAND_INS: Words = Words {
+    name: "StandIn",
+    what: "a stand-in",
+    or: &[],
+    all: &[
+        Word::new(
+            "Forward",
+            &[Takes::Fields(ForwardFields::<'static>::table)],
+            &["Forward(from: \"image\", to: \"image\")"],
+            "One image gets what another holds.",
+        ),
+        Word::new(
+            "Clear",
+            &[Takes::Fields(ClearFields::<'static>::table)],
+            &["Clear(image: \"image\", value: 0)"],
+            "An image gets a value.",
+        ),
+    ],
+};
+
 fields! {
+    /// An image that stands for another.
     struct ForwardFields<'src> {
-        from: Leaf<'src>,
-        to: Leaf<'src>,
+        /// The image that is taken.
+        from: Leaf<'src> => parts::WHOLE_IMAGE,
+        /// The image that gets it, which the pass would write.
+        to: Leaf<'src> => parts::WHOLE_IMAGE,
     }
 }
 
 fields! {
+    /// A value that stands for an image.
     struct ClearFields<'src> {
-        image: Leaf<'src>,
-        value: Leaf<'src>,
+        /// The image, which the pass would write.
+        image: Leaf<'src> => parts::WHOLE_IMAGE,
+        /// What it gets, as in [a fill](#fills).
+        value: Leaf<'src> => values::FILL,
     }
 }
-
-const STAND_INS: &str =
-    "write `Forward(from: \"image\", to: \"image\")`, `Clear(image: \"image\", value: 0)` or a list of these";
 
 /// A pass, once its fields are told apart. What has no value because the pass is off is no mistake.
 pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &PassFields<'src>) -> Option<Pass> {
@@ -178,7 +240,7 @@ pub(super) fn stand_ins<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf
 }
 
 fn stand_in<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<StandIn> {
-    let (word, rest) = reader.word(leaf, "a stand-in", &["Forward", "Clear"], STAND_INS)?;
+    let (word, rest) = reader.one_of(leaf, &STAND_INS)?;
     if word == "Clear" {
         let fields: ClearFields<'_> = reader.inside(leaf, rest, "Clear(image: \"image\", value: 0)")?;
         let (to, value) = (scope.image(reader, fields.image), values::fill(reader, scope, fields.value));

@@ -1,6 +1,7 @@
 //! Reads single values, and turns what goes wrong into mistakes with their place.
 
 use super::fields::FromLeaf;
+use super::forms::Words;
 use super::leaf::{Leaf, Number, Shape};
 use super::pipeline::Name;
 use super::{Diagnostic, suggest};
@@ -134,6 +135,20 @@ impl Reader {
         let help = near.map_or_else(|| forms.to_owned(), |near| format!("did you mean `{near}`?"));
         self.wrong_part(leaf, word, format!("`{word}` is not {what}"), &help);
         None
+    }
+
+    /// One of the words of a table, and what stands in its parentheses.
+    pub(super) fn one_of<'t>(
+        &mut self,
+        leaf: Leaf<'t>,
+        words: &'static Words,
+    ) -> Option<(&'static str, Option<Leaf<'t>>)> {
+        if let Shape::Word(word, rest) = leaf.shape()
+            && let Some(known) = words.find(word)
+        {
+            return Some((known.word, rest));
+        }
+        self.word(leaf, words.what, &words.known(), &words.forms())
     }
 
     /// A word that stands alone; `Word()` is accepted too.

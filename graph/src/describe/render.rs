@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 /// At most this many mistakes are shown; the rest are counted.
-const MOST_SHOWN: usize = 100;
+const MOST_SHOWN: usize = 20;
 
 /// Labels further apart than this many bytes are shown apart; the text of a longer line is not shown.
 const LARGEST_WINDOW: usize = 8192;
@@ -53,8 +53,8 @@ pub(super) fn escape_lines(text: &str) -> String {
     text.lines().map(escape).collect::<Vec<_>>().join("\n")
 }
 
-/// Renders mistakes as text: `error: …`, `file:line:column`, the offending text underlined, what to do. Ends with a
-/// line break unless there is nothing to say.
+/// Renders mistakes as text: `error: …`, `file:line:column`, the offending text underlined, what to do. The first 20 are
+/// shown, and the others counted. Ends with a line break unless there is nothing to say.
 #[must_use]
 pub fn render(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
     let mut text = String::new();

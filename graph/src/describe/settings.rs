@@ -1,5 +1,6 @@
 //! `settings`: what a user may choose.
 
+use super::forms::{Described, Form, Plain, Takes, Word, Words};
 use super::leaf::{Leaf, Shape};
 use super::pipeline::{Setting, SettingKind};
 use super::reader::Reader;
@@ -9,37 +10,105 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 fields! {
+    /// A setting: what a user may choose.
+    /// ```ron
+    /// (name: "msaa", value: OneOf(default: 4, of: [1, 2, 4, 8]), about: "samples of colour and depth")
+    /// ```
     pub(super) struct SettingFields<'src> as "Setting" {
-        name: Leaf<'src>,
-        value: Leaf<'src>,
-        about: Option<Leaf<'src>>,
+        /// Its name, as in `--set NAME=VALUE` and in expressions.
+        name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// What it may be, and what it is without a choice.
+        value: Leaf<'src> => Form::Words(&KINDS),
+        /// A description for people.
+        about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
     }
 }
 
+/// A value that a user chooses.
+pub(super) const VALUE: Form =
+    Form::Either(&[Form::Plain(Plain::Truth), Form::Plain(Plain::Number), Form::Plain(Plain::Text)]);
+
+/// What a setting may be.
+static KINDS: Words = Words {
+    name: "SettingValue",
+    what: "a setting's value",
+    or: &[],
+    all: &[
+        Word::new(
+            "Bool",
+            &[Takes::Fields(BoolFields::<'static>::table)],
+            &["Bool(default: true)"],
+            "`true` or `false`.",
+        ),
+        Word::new(
+            "OneOf",
+            &[Takes::Fields(OneOfFields::<'static>::table)],
+            &["OneOf(default: 4, of: [1, 2, 4])", "OneOf(default: \"low\", of: [\"low\", \"high\"])"],
+            "One of several whole numbers, or of several texts.",
+        ),
+        Word::new(
+            "Number",
+            &[Takes::Fields(NumberFields::<'static>::table)],
+            &["Number(default: 1.0, min: 0.0, max: 2.0)"],
+            "A number.",
+        ),
+        Word::new(
+            "Integer",
+            &[Takes::Fields(IntegerFields::<'static>::table)],
+            &["Integer(default: 1, min: 0, max: 9)"],
+            "A whole number.",
+        ),
+    ],
+};
+
 fields! {
+    /// A choice between true and false.
     struct BoolFields<'src> {
-        default: Leaf<'src>,
+        /// The value without a choice.
+        default: Leaf<'src> => Form::Plain(Plain::Truth),
     }
 }
 
 fields! {
+    /// A choice from a list.
     struct OneOfFields<'src> {
-        default: Leaf<'src>,
-        of: Leaf<'src>,
+        /// The value without a choice.
+        default: Leaf<'src> => LISTED,
+        /// All that it may be, each once.
+        of: Leaf<'src> => Form::List(&LISTED),
+    }
+}
+
+/// What a list of values holds.
+pub(super) const LISTED: Form = Form::Either(&[Form::Plain(Plain::Whole), Form::Plain(Plain::Text)]);
+
+fields! {
+    /// A choice from a range of numbers.
+    struct NumberFields<'src> {
+        /// The value without a choice.
+        default: Leaf<'src> => Form::Plain(Plain::Number),
+        /// The least value.
+        min: Leaf<'src> => Form::Plain(Plain::Number),
+        /// The greatest.
+        max: Leaf<'src> => Form::Plain(Plain::Number),
+        /// How far values lie apart, from `min` on; any distance if left out.
+        step: Option<Leaf<'src>> => Form::Plain(Plain::Number),
     }
 }
 
 fields! {
-    struct RangeFields<'src> {
-        default: Leaf<'src>,
-        min: Leaf<'src>,
-        max: Leaf<'src>,
-        step: Option<Leaf<'src>>,
+    /// A choice from a range of whole numbers.
+    struct IntegerFields<'src> {
+        /// The value without a choice.
+        default: Leaf<'src> => Form::Plain(Plain::Whole),
+        /// The least value.
+        min: Leaf<'src> => Form::Plain(Plain::Whole),
+        /// The greatest.
+        max: Leaf<'src> => Form::Plain(Plain::Whole),
+        /// How far values lie apart, from `min` on; 1 if left out.
+        step: Option<Leaf<'src>> => Form::Plain(Plain::Whole),
     }
 }
-
-const FORMS: &str = "a setting's value is `Bool(default: …)`, `OneOf(default: …, of: […])`, \
-                     `Number(default: …, min: …, max: …)` or `Integer(default: …, min: …, max: …)`";
 
 impl SettingKind {
     /// What it is called in messages.
@@ -186,7 +255,7 @@ pub(super) fn lower<'src>(reader: &mut Reader, fields: &SettingFields<'src>) -> 
 }
 
 fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<SettingKind> {
-    let (word, rest) = reader.word(leaf, "a setting's value", &["Bool", "OneOf", "Number", "Integer"], FORMS)?;
+    let (word, rest) = reader.one_of(leaf, &KINDS)?;
     match word {
         "Bool" => {
             let fields: BoolFields<'_> = reader.inside(leaf, rest, "Bool(default: …)")?;
@@ -197,12 +266,12 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<SettingKind> {
             one_of(reader, &fields)
         }
         "Number" => {
-            let fields: RangeFields<'_> = reader.inside(leaf, rest, "Number(default: …, min: …, max: …)")?;
+            let fields: NumberFields<'_> = reader.inside(leaf, rest, "Number(default: …, min: …, max: …)")?;
             let (default, min, max) =
                 (reader.number(fields.default), reader.number(fields.min), reader.number(fields.max));
             let step = step(reader, fields.step, |reader, leaf| reader.number(leaf), 0.0);
             let (default, min, max) = (default?, min?, max?);
-            in_range(reader, &fields, default, min, max)?;
+            in_range(reader, [fields.default, fields.min], (default, min, max))?;
             let step = step?;
             in_steps(reader, fields.step, step.is_none_or(|step| step <= max - min), (min, max))?;
             let kind = SettingKind::Number { default, min, max, step };
@@ -210,12 +279,12 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<SettingKind> {
             Some(kind)
         }
         _ => {
-            let fields: RangeFields<'_> = reader.inside(leaf, rest, "Integer(default: …, min: …, max: …)")?;
+            let fields: IntegerFields<'_> = reader.inside(leaf, rest, "Integer(default: …, min: …, max: …)")?;
             let (default, min, max) =
                 (reader.integer(fields.default), reader.integer(fields.min), reader.integer(fields.max));
             let step = step(reader, fields.step, |reader, leaf| reader.integer(leaf), 0);
             let (default, min, max) = (default?, min?, max?);
-            in_range(reader, &fields, default, min, max)?;
+            in_range(reader, [fields.default, fields.min], (default, min, max))?;
             let step = step?;
             let range = i128::from(max) - i128::from(min);
             in_steps(reader, fields.step, step.is_none_or(|step| i128::from(step) <= range), (min, max))?;
@@ -309,19 +378,17 @@ pub(super) fn listed<'src, T: Ord + Clone + std::fmt::Display>(
     complete.then_some((chosen, of))
 }
 
-fn in_range<'src, T: PartialOrd + std::fmt::Display>(
+fn in_range<T: PartialOrd + std::fmt::Display>(
     reader: &mut Reader,
-    fields: &RangeFields<'src>,
-    default: T,
-    min: T,
-    max: T,
+    [leaf, least]: [Leaf<'_>; 2],
+    (default, min, max): (T, T, T),
 ) -> Option<()> {
     if min > max {
-        reader.wrong(fields.min, format!("`min` ({min}) is greater than `max` ({max})"), "");
+        reader.wrong(least, format!("`min` ({min}) is greater than `max` ({max})"), "");
         return None;
     }
     if default < min || default > max {
-        reader.wrong(fields.default, format!("the default `{default}` lies outside {min} to {max}"), "");
+        reader.wrong(leaf, format!("the default `{default}` lies outside {min} to {max}"), "");
         return None;
     }
     Some(())

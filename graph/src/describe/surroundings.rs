@@ -51,24 +51,29 @@ enum Device {
     TransferQueue,
 }
 
-const VIEW: [(&str, View, Type); 6] = [
-    ("view.width", View::Width, Type::Integer),
-    ("view.height", View::Height, Type::Integer),
-    ("view.eyes", View::Eyes, Type::Integer),
-    ("view.allows_msaa", View::AllowsMsaa, Type::Bool),
-    ("view.allows_hdr", View::AllowsHdr, Type::Bool),
-    ("view.allows_scale", View::AllowsScale, Type::Bool),
+const VIEW: [(&str, View, Type, &str); 6] = [
+    ("view.width", View::Width, Type::Integer, "width of the view in texels"),
+    ("view.height", View::Height, Type::Integer, "height of the view in texels"),
+    ("view.eyes", View::Eyes, Type::Integer, "how many eyes see it: 1"),
+    ("view.allows_msaa", View::AllowsMsaa, Type::Bool, "whether it allows several samples"),
+    ("view.allows_hdr", View::AllowsHdr, Type::Bool, "whether it allows high dynamic range"),
+    ("view.allows_scale", View::AllowsScale, Type::Bool, "whether it allows another size than its own"),
 ];
 
-const DEVICE: [(&str, Device, Type); 8] = [
-    ("device.max_samples", Device::MaxSamples, Type::Integer),
-    ("device.max_size", Device::MaxSize, Type::Integer),
-    ("device.max_layers", Device::MaxLayers, Type::Integer),
-    ("device.max_color_targets", Device::MaxColorTargets, Type::Integer),
-    ("device.local_read", Device::LocalRead, Type::Bool),
-    ("device.lazily_allocated_memory", Device::LazilyAllocatedMemory, Type::Bool),
-    ("device.compute_queue", Device::ComputeQueue, Type::Bool),
-    ("device.transfer_queue", Device::TransferQueue, Type::Bool),
+const DEVICE: [(&str, Device, Type, &str); 8] = [
+    ("device.max_samples", Device::MaxSamples, Type::Integer, "most samples that colour and depth both can have"),
+    ("device.max_size", Device::MaxSize, Type::Integer, "most texels of width and height"),
+    ("device.max_layers", Device::MaxLayers, Type::Integer, "most layers of an image"),
+    ("device.max_color_targets", Device::MaxColorTargets, Type::Integer, "most colour targets of a pass"),
+    ("device.local_read", Device::LocalRead, Type::Bool, "whether a pass can read what its own rendering scope draws"),
+    (
+        "device.lazily_allocated_memory",
+        Device::LazilyAllocatedMemory,
+        Type::Bool,
+        "whether images that never leave their scope take no memory",
+    ),
+    ("device.compute_queue", Device::ComputeQueue, Type::Bool, "whether it has a queue for compute alone"),
+    ("device.transfer_queue", Device::TransferQueue, Type::Bool, "whether it has a queue for transfer alone"),
 ];
 
 /// All of them, by number.
@@ -81,9 +86,21 @@ fn all() -> impl Iterator<Item = (&'static str, Known, Type, Origin)> {
         };
         (fact.name(), Known::Fact(fact), ty, Origin::Fact)
     });
-    let view = VIEW.into_iter().map(|(name, view, ty)| (name, Known::View(view), ty, Origin::View));
-    let device = DEVICE.into_iter().map(|(name, device, ty)| (name, Known::Device(device), ty, Origin::Device));
+    let view = VIEW.into_iter().map(|(name, view, ty, _)| (name, Known::View(view), ty, Origin::View));
+    let device = DEVICE.into_iter().map(|(name, device, ty, _)| (name, Known::Device(device), ty, Origin::Device));
     facts.chain(view).chain(device)
+}
+
+/// Every name that begins with `prefix`: "scene", "view" or "device", with its type and what it says.
+pub fn names_of(prefix: &str) -> impl Iterator<Item = (&'static str, Type, &'static str)> {
+    let about = |name: &str| {
+        let facts = Fact::ALL.into_iter().map(|fact| (fact.name(), fact.about()));
+        let view = VIEW.into_iter().map(|(name, _, _, about)| (name, about));
+        let device = DEVICE.into_iter().map(|(name, _, _, about)| (name, about));
+        facts.chain(view).chain(device).find(|(known, _)| *known == name).map_or("", |(_, about)| about)
+    };
+    let of_it = move |name: &str| name.split_once('.').is_some_and(|(first, _)| first == prefix);
+    all().filter(move |(name, ..)| of_it(name)).map(move |(name, _, ty, _)| (name, ty, about(name)))
 }
 
 /// Every such name.

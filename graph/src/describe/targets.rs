@@ -1,5 +1,6 @@
 //! `color` and `depth`: what a pass draws into, and how.
 
+use super::forms::{Described, Form, names};
 use super::leaf::{Leaf, Shape};
 use super::parts::{self, Selected};
 use super::pass::{Color, Depth};
@@ -12,37 +13,77 @@ use crate::frame::{Blend, StencilState};
 use crate::vocabulary::{CompareOp, StencilOp};
 
 fields! {
-    struct ColorFields<'src> {
-        image: Leaf<'src>,
-        mip: Option<Leaf<'src>>,
-        layer: Option<Leaf<'src>>,
-        layers: Option<Leaf<'src>>,
-        clear: Option<Leaf<'src>>,
-        blend: Option<Leaf<'src>>,
+    /// A colour target: what a pass draws colour into.
+    /// ```ron
+    /// (image: "image", mip: 0, clear: (0.0, 0.0, 0.0, 1.0))
+    /// ```
+    struct ColorTargetFields<'src> {
+        /// Which image.
+        image: Leaf<'src> => parts::WHOLE_IMAGE,
+        /// The mip level, from 0; it must be named if there are several.
+        mip: Option<Leaf<'src>> => parts::FIRST,
+        /// The first layer, from 0.
+        layer: Option<Leaf<'src>> => parts::FIRST,
+        /// How many layers; one if `layer` stands alone, all if neither stands there.
+        layers: Option<Leaf<'src>> => parts::COUNT,
+        /// What it is cleared to first: red, green, blue and alpha, in linear values.
+        clear: Option<Leaf<'src>> => values::COLOR,
+        /// How new colour meets old; `Replace` if left out.
+        blend: Option<Leaf<'src>> => Form::Choice("a blend", || names(&BLENDS)),
     }
 }
 
 fields! {
-    struct DepthFields<'src> {
-        image: Leaf<'src>,
-        mip: Option<Leaf<'src>>,
-        layer: Option<Leaf<'src>>,
-        layers: Option<Leaf<'src>>,
-        clear: Option<Leaf<'src>>,
-        test: Option<Leaf<'src>>,
-        write: Option<Leaf<'src>>,
-        stencil: Option<Leaf<'src>>,
+    /// A depth target: what a pass draws depth and stencil into.
+    /// ```ron
+    /// (image: "depth", clear: 0.0, stencil: (clear: 0, reference: 1, pass: Replace))
+    /// ```
+    struct DepthTargetFields<'src> {
+        /// Which image.
+        image: Leaf<'src> => parts::WHOLE_IMAGE,
+        /// The mip level, from 0; it must be named if there are several.
+        mip: Option<Leaf<'src>> => parts::FIRST,
+        /// The first layer, from 0.
+        layer: Option<Leaf<'src>> => parts::FIRST,
+        /// How many layers; one if `layer` stands alone, all if neither stands there.
+        layers: Option<Leaf<'src>> => parts::COUNT,
+        /// What it is cleared to first, 0 to 1. Depth is reversed: 0 is infinitely far, 1 is nearest.
+        clear: Option<Leaf<'src>> => Form::Number,
+        /// Which fragments pass; `GreaterOrEqual` if left out.
+        test: Option<Leaf<'src>> => TEST,
+        /// Whether those that pass write their depth; they do if it is left out.
+        write: Option<Leaf<'src>> => Form::Truth,
+        /// What happens to stencil; nothing if left out.
+        stencil: Option<Leaf<'src>> => Form::Fields(StencilFields::<'static>::table),
     }
 }
 
 fields! {
+    /// A stencil state: what a pass does to stencil.
+    /// ```ron
+    /// (test: Equal, reference: 1)
+    /// ```
     struct StencilFields<'src> {
-        clear: Option<Leaf<'src>>,
-        test: Option<Leaf<'src>>,
-        reference: Option<Leaf<'src>>,
-        pass: Option<Leaf<'src>>,
+        /// What it is cleared to first.
+        clear: Option<Leaf<'src>> => BYTE,
+        /// Which fragments pass; `Always` if left out.
+        test: Option<Leaf<'src>> => TEST,
+        /// What they are compared with, and what `Replace` writes; 0 if left out.
+        reference: Option<Leaf<'src>> => BYTE,
+        /// What those that pass do; `Keep` if left out.
+        pass: Option<Leaf<'src>> => Form::Choice("a stencil operation", || names(&OPERATIONS)),
     }
 }
+
+/// What `color` takes.
+pub(super) const COLOR: Form =
+    Form::List(&Form::Either(&[parts::WHOLE_IMAGE, Form::Fields(ColorTargetFields::<'static>::table)]));
+
+/// What `depth` takes.
+pub(super) const DEPTH: Form = Form::Either(&[parts::WHOLE_IMAGE, Form::Fields(DepthTargetFields::<'static>::table)]);
+
+const TEST: Form = Form::Choice("a comparison", || names(&TESTS));
+const BYTE: Form = Form::Whole(0, 255);
 
 const BLENDS: [(&str, Blend); 4] = [
     ("Replace", Blend::Replace),
@@ -83,7 +124,7 @@ fn color_target<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) 
     match leaf.shape() {
         Shape::Text => Some(Color { part: parts::image(reader, scope, leaf)?, clear: None, blend: replace }),
         Shape::Parentheses => {
-            let fields: ColorFields<'_> = reader.read(leaf, "a colour target")?;
+            let fields: ColorTargetFields<'_> = reader.read(leaf, "a colour target")?;
             let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
             let part =
                 parts::image_part(reader, scope, fields.image, Selected { mip, layer, layers, ..Selected::default() });
@@ -114,7 +155,7 @@ pub(super) fn depth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'sr
             Some(Depth { part, clear: None, test, write, stencil: None })
         }
         Shape::Parentheses => {
-            let fields: DepthFields<'_> = reader.read(leaf, "a depth target")?;
+            let fields: DepthTargetFields<'_> = reader.read(leaf, "a depth target")?;
             let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
             let part =
                 parts::image_part(reader, scope, fields.image, Selected { mip, layer, layers, ..Selected::default() });

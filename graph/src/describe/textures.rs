@@ -1,6 +1,7 @@
 //! `textures`: images whose texels come from picture files.
 
 use super::Diagnostic;
+use super::forms::{Described, Form, Plain, names};
 use super::includes::Files;
 use super::leaf::Leaf;
 use super::pipeline::{Name, Spanned};
@@ -18,14 +19,30 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 fields! {
+    /// A texture: an image whose texels come from a file. Passes sample it, and do nothing else with it.
+    ///
+    /// ```ron
+    /// (name: "grain", file: "grain.png", color_space: Linear)
+    /// ```
     pub(super) struct TextureFields<'src> as "Texture" {
-        name: Leaf<'src>,
-        file: Leaf<'src>,
-        color_space: Option<Leaf<'src>>,
-        format: Option<Leaf<'src>>,
-        shape: Option<Leaf<'src>>,
+        /// Its name, unique among images and buffers.
+        name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// Its path, counted from the file in which it stands; parts are divided by `/`.
+        file: Leaf<'src> => Form::Plain(Plain::Text),
+        /// `Srgb`: red, green and blue are encoded with the sRGB curve, as pictures for people are; `Linear`: all values are as
+        /// they are, as in tables, noise and light. `Srgb` if left out; HDR and EXR files are linear.
+        color_space: Option<Leaf<'src>> => Form::Choice("a colour space", || names(&COLOR_SPACES)),
+        /// The format, if not the one that holds what the file does: `R8G8B8A8_SRGB` or `_UNORM` of 8 bits,
+        /// `R16G16B16A16_UNORM` of 16, `R16G16B16A16_SFLOAT` of floating point.
+        format: Option<Leaf<'src>> => Form::Either(&[parameters::FORMAT, Form::Expression("a format")]),
+        /// `D3`: the picture is a strip of N squares of N × N texels, one for each slice from left to right; a colour table has
+        /// red to the right, green downwards, and blue from square to square. `D2` if left out.
+        shape: Option<Leaf<'src>> => Form::Choice("the shape of a texture", || names(&SHAPES)),
     }
 }
+
+/// The textures of one level.
+pub(super) const TEXTURES: Form = Form::List(&Form::Fields(TextureFields::<'static>::table));
 
 const COLOR_SPACES: [(&str, ColorSpace); 2] = [("Srgb", ColorSpace::Srgb), ("Linear", ColorSpace::Linear)];
 

@@ -1,27 +1,50 @@
 //! `use`: a fragment is put in under a name of its own, with arguments for its parameters.
 
 use super::Diagnostic;
+use super::forms::{Form, Plain};
 use super::fragments::Fragment;
+use super::known::REPEAT;
 use super::leaf::{Leaf, Shape};
 use super::parameters::{self, Parameter, ParameterKind};
+use super::passes::{CONDITION, OTHERWISE};
 use super::pipeline::{Name, SettingKind};
 use super::reader::Reader;
 use super::scope::{Given, Scope};
+use super::views;
 use crate::expression::{Outcome, Type, Value, Wanted};
 use crate::fields;
 use std::collections::HashMap;
 
 fields! {
+    /// A use: it puts a fragment in.
+    /// ```ron
+    /// (use: "halve", name: "half", with: {"source": "image", "target": "target"}, when: "bloom")
+    /// ```
     pub(super) struct UseFields<'src> as "Use" {
-        pub(super) r#use: Leaf<'src>,
-        pub(super) name: Leaf<'src>,
-        pub(super) view: Option<Leaf<'src>>,
-        pub(super) repeat: Option<Leaf<'src>>,
-        pub(super) with: Option<Leaf<'src>>,
-        pub(super) when: Option<Leaf<'src>>,
-        pub(super) otherwise: Option<Leaf<'src>>,
+        /// The fragment's name.
+        pub(super) r#use: Leaf<'src> => Form::Plain(Plain::Name),
+        /// Its own name: what it puts in is named `NAME.…`, in Plans too.
+        pub(super) name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// The view that all it puts in is for; the first if left out.
+        pub(super) view: Option<Leaf<'src>> => views::NAME,
+        /// How often it stands there.
+        pub(super) repeat: Option<Leaf<'src>> => REPEAT,
+        /// Values for the fragment's parameters, by their names.
+        pub(super) with: Option<Leaf<'src>> => Form::Map("parameter", &ARGUMENT),
+        /// A condition: if it is false, nothing is put in.
+        pub(super) when: Option<Leaf<'src>> => CONDITION,
+        /// What images that it would write take if nothing is put in.
+        pub(super) otherwise: Option<Leaf<'src>> => OTHERWISE,
     }
 }
+
+/// A value for a parameter.
+const ARGUMENT: Form = Form::Either(&[
+    Form::Plain(Plain::Truth),
+    Form::Plain(Plain::Number),
+    parameters::FORMAT,
+    Form::Expression("an image, a buffer, or an expression"),
+]);
 
 /// Values for the fragment's parameters, in their order; `None` where there is none, which was reported. Images and
 /// buffers of arguments come with the places where they are named.

@@ -2,6 +2,7 @@
 //! there by itself or as an expression in quotes.
 
 use super::Diagnostic;
+use super::forms::Form;
 use super::leaf::{Leaf, Number, Shape};
 use super::parameters::ParameterKind;
 use super::pipeline::SettingKind;
@@ -213,6 +214,12 @@ pub(super) fn choice<'src, T: Copy>(
     reader.bare(word, rest)?;
     choices.iter().find(|(choice, _)| *choice == word).map(|(_, value)| *value)
 }
+
+/// What an image or buffer is filled with: every component or word, depth and stencil, or a colour.
+pub(super) const FILL: Form = Form::Either(&[Form::Number, Form::Tuple(&[Form::Number, Form::Number]), COLOR]);
+
+/// Red, green, blue and alpha.
+pub(super) const COLOR: Form = Form::Tuple(&[Form::Number, Form::Number, Form::Number, Form::Number]);
 
 const FILLS: &str = "a value is a number, `(depth, stencil)` or `(red, green, blue, alpha)`";
 

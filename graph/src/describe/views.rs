@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::choices::{self, Choice};
+use super::forms::{Described, Form, Plain, Takes, Word, Words};
 use super::leaf::Leaf;
 use super::lower::{Lowering, Place};
 use super::names::Names;
@@ -16,19 +17,57 @@ use crate::view::{Allowances, ViewIndex};
 use std::sync::Arc;
 
 fields! {
+    /// A view: what is seen from one place, at a size and with values of settings of its own.
+    ///
+    /// ```ron
+    /// (name: "preview", size: Scaled(0.25), camera: "top", allows_msaa: false, set: {"bloom": false})
+    /// ```
     struct ViewFields<'src> as "View" {
-        name: Leaf<'src>,
-        about: Option<Leaf<'src>>,
-        size: Option<Leaf<'src>>,
-        camera: Option<Leaf<'src>>,
-        allows_msaa: Option<Leaf<'src>>,
-        allows_hdr: Option<Leaf<'src>>,
-        allows_scale: Option<Leaf<'src>>,
-        set: Option<Leaf<'src>>,
+        /// Its name, by which images, buffers, passes and uses say that they are for it.
+        name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// A description for people.
+        about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Width and height; `Output` if left out, and always of the first.
+        size: Option<Leaf<'src>> => Form::Words(&SIZES),
+        /// The scene's camera of that name; the scene's own if left out.
+        camera: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// What conditions see as `view.allows_msaa`; true if left out.
+        allows_msaa: Option<Leaf<'src>> => Form::Truth,
+        /// What conditions see as `view.allows_hdr`; true if left out.
+        allows_hdr: Option<Leaf<'src>> => Form::Truth,
+        /// What conditions see as `view.allows_scale`; true if left out.
+        allows_scale: Option<Leaf<'src>> => Form::Truth,
+        /// Values of settings that hold within it, whatever the user chooses.
+        set: Option<Leaf<'src>> => choices::SET,
     }
 }
 
-const SIZES: &str = "the size of a view is `Output`, `Scaled(0.5)` or `Fixed(640, 360)`";
+/// The views of a pipeline.
+pub(super) const VIEWS: Form = Form::List(&Form::Fields(ViewFields::<'static>::table));
+
+/// The name of a view.
+pub(super) const NAME: Form = Form::Plain(Plain::Name);
+
+static SIZES: Words = Words {
+    name: "ViewSize",
+    what: "the size of a view",
+    or: &[],
+    all: &[
+        Word::alone("Output", "The frame's."),
+        Word::new(
+            "Scaled",
+            &[Takes::Values(&[Form::Number])],
+            &["Scaled(0.5)"],
+            "The frame's, times a number above 0; rounded down, at least 1.",
+        ),
+        Word::new(
+            "Fixed",
+            &[Takes::Values(&[images::EXTENT, images::EXTENT])],
+            &["Fixed(640, 360)"],
+            "So many pixels.",
+        ),
+    ],
+};
 
 /// A view of the frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -198,7 +237,7 @@ fn view<'a>(
 }
 
 fn size(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<[u32; 2]> {
-    let (word, rest) = reader.word(leaf, "the size of a view", &["Output", "Scaled", "Fixed"], SIZES)?;
+    let (word, rest) = reader.one_of(leaf, &SIZES)?;
     let frame = scope.surroundings.extent;
     match word {
         "Output" => reader.bare(word, rest).map(|()| frame),

@@ -1,6 +1,7 @@
 //! What a pass does: `draw`, `dispatch`, `copy`, `blit`, `fill` or `custom`, exactly one of them.
 
-use super::bindings::FILTERS;
+use super::bindings::{self, FILTERS};
+use super::forms::{Described, Form, Plain, Takes, Word, Words, names};
 use super::leaf::{Leaf, Shape};
 use super::parts;
 use super::pass::{Draw, Groups, Part, Work};
@@ -13,32 +14,155 @@ use crate::fields;
 use crate::frame::DrawList;
 
 fields! {
+    /// A copy: bits as they are.
+    /// ```ron
+    /// (from: "image", to: "target")
+    /// ```
     struct CopyFields<'src> {
-        from: Leaf<'src>,
-        to: Leaf<'src>,
+        /// What is copied.
+        from: Leaf<'src> => parts::ANY,
+        /// To where.
+        to: Leaf<'src> => parts::ANY,
     }
 }
 
+/// What `copy` takes.
+pub(super) const COPY: Form = Form::Fields(CopyFields::<'static>::table);
+
 fields! {
+    /// A blit: an image is copied and scaled.
+    /// ```ron
+    /// (from: (image: "image", mip: 0), to: (image: "image", mip: 1), filter: Linear)
+    /// ```
     struct BlitFields<'src> {
-        from: Leaf<'src>,
-        to: Leaf<'src>,
-        filter: Option<Leaf<'src>>,
+        /// What is copied: one mip level.
+        from: Leaf<'src> => parts::IMAGE,
+        /// To where: one mip level.
+        to: Leaf<'src> => parts::IMAGE,
+        /// How texels are mixed; `Linear` for colour and else `Nearest` if left out.
+        filter: Option<Leaf<'src>> => bindings::FILTER,
     }
 }
+
+/// What `blit` takes.
+pub(super) const BLIT: Form = Form::Fields(BlitFields::<'static>::table);
 
 fields! {
+    /// A fill: an image or buffer is set to a value.
+    /// ```ron
+    /// (to: "buffer", value: 0)
+    /// ```
     struct FillFields<'src> {
-        to: Leaf<'src>,
-        value: Leaf<'src>,
+        /// What is set.
+        to: Leaf<'src> => parts::ANY,
+        /// To what: a number for every component or word, depth and stencil, or red, green, blue and alpha.
+        value: Leaf<'src> => values::FILL,
     }
 }
 
-const DRAWS: &str = "a draw is `Objects(Opaque)`, `Objects(Masked)`, `Objects(Transparent)`, `Sky`, \
-                     `FullScreen(\"shader\")`, `Vertices(count, instances)` or `Indirect(\"buffer\")`";
+/// What `fill` takes.
+pub(super) const FILL: Form = Form::Fields(FillFields::<'static>::table);
 
-const GROUPS: &str =
-    "groups are `Count(8, 8, 1)`, `Invocations(1000, 1, 1)`, `Texels(\"image\")` or `Indirect(\"buffer\")`";
+/// What `reads` and `writes` take.
+pub(super) const TRANSFERRED: Form = Form::Either(&[parts::WHOLE_RESOURCE, Form::List(&parts::ANY)]);
+
+/// What `draw` takes.
+pub(super) const DRAW: Form = Form::Words(&DRAWS);
+
+static DRAWS: Words = Words {
+    name: "Draw",
+    what: "a draw",
+    or: &[],
+    all: &[
+        Word::new(
+            "Objects",
+            &[Takes::Values(&[Form::Choice("a draw list", || names(&LISTS))])],
+            &["Objects(Opaque)", "Objects(Masked)", "Objects(Transparent)"],
+            "The scene's opaque objects, those that alpha cuts holes into, or those that let light through.",
+        ),
+        Word::alone("Sky", "The scene's sky, by the shader `sky` unless `shader` names another."),
+        Word::new(
+            "FullScreen",
+            &[Takes::Values(&[Form::Plain(Plain::Outside)])],
+            &["FullScreen(\"shader\")"],
+            "Every pixel, by this shader.",
+        ),
+        Word::new(
+            "Vertices",
+            &[Takes::Values(&[MANY]), Takes::Values(&[MANY, MANY])],
+            &["Vertices(3, 100)"],
+            "So many vertices, or indices, of triangles, so many times; once if one number stands there.",
+        ),
+        Word::new(
+            "Indirect",
+            &[Takes::Values(&[parts::BUFFER])],
+            &["Indirect(\"buffer\")"],
+            "As many as a buffer says: a `VkDrawIndirectCommand`, with `index` a `VkDrawIndexedIndirectCommand`.",
+        ),
+    ],
+};
+
+const LISTS: [(&str, DrawList); 3] =
+    [("Opaque", DrawList::Opaque), ("Masked", DrawList::Masked), ("Transparent", DrawList::Transparent)];
+
+/// Counts of vertices, instances and invocations.
+const MANY: Form = Form::Whole(1, u32::MAX as i64);
+
+/// What `groups` takes.
+pub(super) const WORKGROUPS: Form = Form::Words(&GROUPS);
+
+static GROUPS: Words = Words {
+    name: "Groups",
+    what: "a number of workgroups",
+    or: &[],
+    all: &[
+        Word::new(
+            "Count",
+            &[Takes::Values(&[GROUP]), Takes::Values(&[GROUP, GROUP]), Takes::Values(&[GROUP, GROUP, GROUP])],
+            &["Count(8, 8, 1)"],
+            "So many in x, y and z; numbers that are left out are 1.",
+        ),
+        Word::new(
+            "Invocations",
+            &[Takes::Values(&[MANY]), Takes::Values(&[MANY, MANY]), Takes::Values(&[MANY, MANY, MANY])],
+            &["Invocations(1000, 1, 1)"],
+            "As many as cover so many invocations in x, y and z, by the shader's own workgroup size.",
+        ),
+        Word::new(
+            "Texels",
+            &[Takes::Values(&[parts::IMAGE]), Takes::Fields(parts::part)],
+            &["Texels(\"image\")"],
+            "As many as cover one invocation for each texel of an image or a part of it, layers or depth in z.",
+        ),
+        Word::new(
+            "Indirect",
+            &[
+                Takes::Values(&[parts::BUFFER]),
+                Takes::Values(&[parts::BUFFER, Form::Whole(0, super::buffers::LARGEST_BUFFER)]),
+            ],
+            &["Indirect(\"buffer\")"],
+            "As many as a buffer says, from this byte on: a `VkDispatchIndirectCommand`.",
+        ),
+    ],
+};
+
+const GROUP: Form = Form::Whole(1, MOST_GROUPS);
+
+/// Fields of a pass that have a meaning beside some kinds of work alone.
+pub(super) const GOES_WITH: [(&str, &[&str]); 12] = [
+    ("shader", &["draw"]),
+    ("groups", &["dispatch"]),
+    ("sample", &["draw", "dispatch", "custom"]),
+    ("storage", &["draw", "dispatch", "custom"]),
+    ("uniform", &["draw", "dispatch", "custom"]),
+    ("params", &["draw", "dispatch", "custom"]),
+    ("vertex", &["draw"]),
+    ("index", &["draw"]),
+    ("color", &["draw", "custom"]),
+    ("depth", &["draw", "custom"]),
+    ("reads", &["custom"]),
+    ("writes", &["custom"]),
+];
 
 /// Every device allows so many workgroups in x, y and z.
 pub(crate) const MOST_GROUPS: i64 = 65535;
@@ -114,21 +238,21 @@ pub(super) fn lower<'src>(
 /// Reports fields that have no meaning beside what the pass does.
 fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: &str, word: &str) {
     let reads_something = fields.sample.is_some() || fields.uniform.is_some();
-    let all = [
-        ("shader", fields.shader, &["draw"][..]),
-        ("groups", fields.groups, &["dispatch"]),
-        ("sample", fields.sample, &["draw", "dispatch", "custom"]),
-        ("storage", fields.storage, &["draw", "dispatch", "custom"]),
-        ("uniform", fields.uniform, &["draw", "dispatch", "custom"]),
-        ("params", fields.params, &["draw", "dispatch", "custom"]),
-        ("vertex", fields.vertex, &["draw"]),
-        ("index", fields.index, &["draw"]),
-        ("color", fields.color, &["draw", "custom"]),
-        ("depth", fields.depth, &["draw", "custom"]),
-        ("reads", fields.reads, &["custom"]),
-        ("writes", fields.writes, &["custom"]),
+    let values = [
+        fields.shader,
+        fields.groups,
+        fields.sample,
+        fields.storage,
+        fields.uniform,
+        fields.params,
+        fields.vertex,
+        fields.index,
+        fields.color,
+        fields.depth,
+        fields.reads,
+        fields.writes,
     ];
-    for (field, leaf, words) in all {
+    for ((field, words), leaf) in GOES_WITH.into_iter().zip(values) {
         let Some(leaf) = leaf.filter(|_| !words.contains(&word)) else { continue };
         let fitting: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
         let message = format!("{what} has `{field}`, which means nothing beside `{word}`");
@@ -154,8 +278,7 @@ fn draw_work<'src>(
     leaf: Leaf<'src>,
     what: &str,
 ) -> Option<Work> {
-    let words = ["Objects", "Sky", "FullScreen", "Vertices", "Indirect"];
-    let (word, rest) = reader.word(leaf, "a draw", &words, DRAWS)?;
+    let (word, rest) = reader.one_of(leaf, &DRAWS)?;
     if !matches!(word, "Vertices" | "Indirect") {
         for (field, foreign) in [("vertex", fields.vertex), ("index", fields.index)] {
             let Some(foreign) = foreign else { continue };
@@ -213,13 +336,7 @@ fn draw_work<'src>(
 /// One of the scene's draw lists.
 fn list<'src>(reader: &mut Reader, leaf: Leaf<'src>, rest: Option<Leaf<'src>>) -> Option<DrawList> {
     let [list]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Objects(Opaque)")?;
-    let (list, rest) = reader.word(list, "a draw list", &["Opaque", "Masked", "Transparent"], DRAWS)?;
-    reader.bare(list, rest)?;
-    Some(match list {
-        "Opaque" => DrawList::Opaque,
-        "Masked" => DrawList::Masked,
-        _ => DrawList::Transparent,
-    })
+    values::choice(reader, list, "a draw list", &LISTS)
 }
 
 /// A compute shader and how often it runs.
@@ -232,7 +349,7 @@ fn dispatch_work<'src>(
 ) -> Option<Work> {
     let shader = reader.outside_name(leaf, "a shader");
     let Some(leaf) = fields.groups else {
-        reader.wrong(leaf, format!("{what} doesn't say how many workgroups run"), GROUPS);
+        reader.wrong(leaf, format!("{what} doesn't say how many workgroups run"), &GROUPS.forms());
         return None;
     };
     let groups = groups(reader, scope, leaf);
@@ -240,8 +357,7 @@ fn dispatch_work<'src>(
 }
 
 fn groups<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Groups> {
-    let words = ["Count", "Invocations", "Texels", "Indirect"];
-    let (word, rest) = reader.word(leaf, "a number of workgroups", &words, GROUPS)?;
+    let (word, rest) = reader.one_of(leaf, &GROUPS)?;
     match word {
         "Count" => three(reader, scope, leaf, rest, "number of workgroups", MOST_GROUPS).map(Groups::Count),
         "Invocations" => {

@@ -8,6 +8,7 @@
 mod fills;
 mod images;
 mod local;
+mod once;
 mod order;
 mod params;
 mod parts;
@@ -120,7 +121,9 @@ pub fn expand(
         }
     };
     let chosen = Chosen { pipeline: &pipeline, extent: inputs.output_extent };
+    let mut said = once::Said::default();
     let things = Things::resolve(&chosen, &mut errors);
+    said.each_once(&mut errors, 0);
 
     let mut checked = shader::Checked::new(shaders);
     let mut states = Vec::with_capacity(pipeline.passes.len());
@@ -139,10 +142,13 @@ pub fn expand(
             }
             None => order::State::On(passes::lower(&chosen, &things, pass, &mut checked, &mut errors)),
         });
+        said.once(&mut errors, before);
         used_here(&pipeline, pass.instance, &mut errors[before..]);
     }
     let outputs = outputs(&chosen, &things, inputs.dump, &mut errors);
+    let before = errors.len();
     order::check(&chosen, &things, &states, &outputs, &mut errors);
+    said.each_once(&mut errors, before);
 
     let Things { images, buffers } = things;
     let images = images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>();

@@ -20,14 +20,8 @@
 //! ```
 //! from the loosest to the tightest, those of one line from left to right. The rest is parentheses, `true`, `false`,
 //! numbers (`12`, `0.5`, `1e-3`), texts in single quotes (`'high'`, without escapes), names (`levels`, `view.width`;
-//! also [formats](crate::format::Format) by Vulkan's names, unless something declared has that name) and calls:
-//! ```text
-//! if(condition, a, b)         evaluates only the one that it chooses; both have one type
-//! min(a, b, …)  max(a, b, …)  clamp(x, low, high)  abs(x)          whole for whole numbers
-//! floor(x)  ceil(x)  round(x)                                       whole; halves are rounded away from 0
-//! sqrt(x)  exp2(x)  log2(x)  pow(a, b)                              numbers
-//! width(image)  height(image)  mips(image)  layers(image)  samples(image)     whole
-//! ```
+//! also [formats](crate::format::Format) by Vulkan's names, unless something declared has that name) and calls of [`functions`].
+//!
 //! # Types
 //! [`Type`] lists them. A whole number becomes a number where one is needed, never the other way round. `/` always gives
 //! a number: `floor(a / b)` divides whole numbers. The remainder `a % b` is never negative.
@@ -53,6 +47,7 @@ mod types;
 
 pub use environment::{Decision, Declarations, Found, Missing, Origin, Property, Symbol, Values};
 pub use evaluate::{Failed, Outcome};
+pub use functions::functions;
 pub use types::{Type, Value, Wanted};
 
 use crate::describe::Diagnostic;

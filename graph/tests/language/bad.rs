@@ -1,12 +1,15 @@
 //! Every file under `bad/` is wrong, its name says how, and the whole answer stands beside it.
 
 use crate::table::{INPUTS, Pictures, Table};
-use framewright_graph::describe::{self, Files, Found, Unread};
+use framewright_graph::describe::{self, Diagnostic, Files, Found, Unread};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::source::Sources;
 use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// Mistakes that are shown before the others are counted.
+const MOST_SHOWN: usize = 20;
 
 /// What a file's first lines ask for: `//! set NAME=VALUE`, `//! dump IMAGE`, `//! size WxH`.
 fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
@@ -42,8 +45,8 @@ impl Files for Folder {
     }
 }
 
-/// What is said about a file, in both forms.
-fn answer(name: &str, text: String) -> (String, serde_json::Value) {
+/// What is wrong with a file.
+pub(crate) fn mistakes(name: &str, text: String) -> (Arc<Sources>, Vec<Diagnostic>) {
     let (set, dump, output_extent) = asked(&text);
     let inputs = Inputs { set: &set, dump: &dump, output_extent, ..INPUTS };
     let mut sources = Sources::default();
@@ -51,14 +54,22 @@ fn answer(name: &str, text: String) -> (String, serde_json::Value) {
     let sources = Arc::new(sources);
     let frame = pipeline.and_then(|pipeline| expand(&pipeline, sources.clone(), &inputs, &mut Table));
     let errors = frame.expect_err(name);
-    (describe::render(&sources, &errors), describe::to_json(&sources, &errors))
+    (sources, errors)
+}
+
+/// What is said about a file, in both forms.
+fn answer(name: &str, text: String) -> (String, serde_json::Value) {
+    let (sources, errors) = mistakes(name, text);
+    // All are pinned, so none is left to be counted.
+    let shown: Vec<String> = errors.chunks(MOST_SHOWN).map(|some| describe::render(&sources, some)).collect();
+    (shown.join("\n"), describe::to_json(&sources, &errors))
 }
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/language/bad")
 }
 
-fn files(extension: &str) -> Vec<PathBuf> {
+pub(crate) fn files(extension: &str) -> Vec<PathBuf> {
     let entries = folder().read_dir().expect("the folder of bad files");
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
     files.retain(|path| path.extension().is_some_and(|found| found == extension));
@@ -74,11 +85,8 @@ fn every_bad_file_is_answered_as_it_stands_beside_it() {
         assert!(shown.starts_with("error: ") && !shown.contains("a mistake of framewright itself"), "{name}\n{shown}");
         let visible = |c: char| c == '\n' || !c.is_control();
         assert!(shown.chars().all(visible), "{name} is shown with control characters");
-        assert_eq!(
-            json.as_array().map(Vec::len),
-            Some(shown.lines().filter(|line| line.starts_with("error: ")).count()),
-            "{name}: one block each"
-        );
+        let blocks = shown.lines().filter(|line| line.starts_with("error: ")).count();
+        assert_eq!(json.as_array().map(Vec::len), Some(blocks), "{name}: one block each");
         insta::with_settings!({
             snapshot_path => folder(), prepend_module_to_snapshot => false, omit_expression => true,
         }, { insta::assert_snapshot!(name.trim_end_matches(".ron"), shown) });

@@ -2,11 +2,11 @@
 //! is wrong, its name says how, and the whole answer stands beside it.
 
 use crate::table::{INPUTS, Table, set};
-use framewright_graph::describe::{self, ChosenBy, Document, SettingsFile};
+use framewright_graph::describe::{self, ChosenBy, Diagnostic, Document, SettingsFile};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::expression::Value;
 use framewright_graph::source::Sources;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 const PIPELINE: &str = r#"Pipeline(
@@ -127,21 +127,33 @@ fn a_preset_that_is_not_there_is_said_with_one_that_is_near() {
     assert_eq!(unknown.help.as_deref(), Some("there are `low`, `high`, `plain`"));
 }
 
-#[test]
-fn every_bad_settings_file_is_answered_as_it_stands_beside_it() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/language/bad_settings");
-    let paths = folder.read_dir().expect("the folder of bad files").map(|entry| entry.expect("an entry").path());
+/// Every file under `bad_settings/`: its name, the texts, and what is wrong with it.
+pub(crate) fn bad_files() -> Vec<(String, Sources, Vec<Diagnostic>)> {
+    let paths = folder().read_dir().expect("the folder of bad files").map(|entry| entry.expect("an entry").path());
     let mut paths: Vec<_> = paths.filter(|path| path.extension().is_some_and(|found| found == "ron")).collect();
     paths.sort();
-    assert!(paths.len() >= 9);
-    for path in paths {
+    let answer = |path: &PathBuf| {
         let name = path.file_name().expect("a name").to_string_lossy().into_owned();
         let (mut sources, document) = document();
-        let text = std::fs::read_to_string(&path).expect("a text");
+        let text = std::fs::read_to_string(path).expect("a text");
         let errors = document.read_settings(&mut sources, &name, &name, text).expect_err(&name);
+        (name, sources, errors)
+    };
+    paths.iter().map(answer).collect()
+}
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/language/bad_settings")
+}
+
+#[test]
+fn every_bad_settings_file_is_answered_as_it_stands_beside_it() {
+    let files = bad_files();
+    assert!(files.len() >= 9);
+    for (name, sources, errors) in files {
         let shown = describe::render(&sources, &errors);
         insta::with_settings!({
-            snapshot_path => &folder, prepend_module_to_snapshot => false, omit_expression => true,
+            snapshot_path => folder(), prepend_module_to_snapshot => false, omit_expression => true,
         }, { insta::assert_snapshot!(name.trim_end_matches(".ron"), shown) });
     }
 }

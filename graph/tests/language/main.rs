@@ -4,12 +4,13 @@
 //! new ones, and the difference in git shows them.
 
 mod bad;
+mod bombs;
 mod choices;
-mod docs;
 mod encodings;
 mod extend;
 mod fragments;
 mod library;
+mod misuse;
 mod random;
 mod repeat;
 mod resources;

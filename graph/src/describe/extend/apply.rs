@@ -1,9 +1,11 @@
 //! `changes`: what a file sets, removes and inserts.
 
+use super::super::forms::{Described, Form, Plain, Takes, Word, Words};
 use super::super::leaf::{Leaf, Shape};
 use super::super::pipeline::Name;
 use super::super::reader::Reader;
 use super::super::{Diagnostic, suggest};
+use super::super::{body, outputs};
 use super::account::{Account, Changed, Removed};
 use super::draft::{self, Draft};
 use super::entry::Entry;
@@ -13,47 +15,99 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 fields! {
-    /// Gives fields of one thing other values.
+    /// A change of one thing: its fields get other values.
     struct SetFields<'src> {
-        pass: Option<Leaf<'src>>,
-        image: Option<Leaf<'src>>,
-        buffer: Option<Leaf<'src>>,
-        texture: Option<Leaf<'src>>,
-        setting: Option<Leaf<'src>>,
-        preset: Option<Leaf<'src>>,
-        view: Option<Leaf<'src>>,
-        to: Option<Leaf<'src>>,
-        without: Option<Leaf<'src>>,
+        /// A pass or use.
+        pass: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or an image.
+        image: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or a buffer.
+        buffer: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or a texture.
+        texture: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or a setting.
+        setting: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or a preset.
+        preset: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or a view.
+        view: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Fields with their new values, as the thing has them.
+        to: Option<Leaf<'src>> => Form::Open("fields of the thing"),
+        /// Names of fields that are left out.
+        without: Option<Leaf<'src>> => Form::List(&Form::Plain(Plain::Text)),
     }
 }
 
 fields! {
-    /// Removes one thing.
+    /// A removal of one thing.
     struct RemoveFields<'src> {
-        pass: Option<Leaf<'src>>,
-        image: Option<Leaf<'src>>,
-        buffer: Option<Leaf<'src>>,
-        texture: Option<Leaf<'src>>,
-        setting: Option<Leaf<'src>>,
-        preset: Option<Leaf<'src>>,
-        view: Option<Leaf<'src>>,
-        output: Option<Leaf<'src>>,
+        /// A pass or use.
+        pass: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or an image.
+        image: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or a buffer.
+        buffer: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or a texture.
+        texture: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or a setting.
+        setting: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or a preset.
+        preset: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or a view.
+        view: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or an output.
+        output: Option<Leaf<'src>> => Form::Plain(Plain::Text),
     }
 }
 
 fields! {
-    /// Inserts passes at one place, or outputs.
+    /// An insertion of passes at one place, or of outputs at the end.
     struct InsertFields<'src> {
-        before: Option<Leaf<'src>>,
-        after: Option<Leaf<'src>>,
-        at: Option<Leaf<'src>>,
-        passes: Option<Leaf<'src>>,
-        outputs: Option<Leaf<'src>>,
+        /// Before this pass.
+        before: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or after this pass.
+        after: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Or at this anchor, `Start` or `End`.
+        at: Option<Leaf<'src>> => Form::Either(&[
+            Form::Plain(Plain::Text),
+            Form::Choice("a place", || vec!["Start", "End"]),
+        ]),
+        /// The passes.
+        passes: Option<Leaf<'src>> => body::ITEMS,
+        /// Or the outputs.
+        outputs: Option<Leaf<'src>> => outputs::OUTPUTS,
     }
 }
 
-const FORMS: &str = "a change is `Set(pass: \"name\", to: (…))`, `Remove(pass: \"name\")` or \
-                     `Insert(before: \"name\", passes: […])`";
+/// What `changes` takes.
+pub(in crate::describe) const CHANGES: Form = Form::List(&Form::Words(&KINDS));
+
+static KINDS: Words = Words {
+    name: "Change",
+    what: "a change",
+    or: &[],
+    all: &[
+        Word::new(
+            "Set",
+            &[Takes::Fields(SetFields::<'static>::table)],
+            &["Set(pass: \"second\", to: (side_effect: true))"],
+            "Fields of one thing get other values.",
+        ),
+        Word::new(
+            "Remove",
+            &[Takes::Fields(RemoveFields::<'static>::table)],
+            &["Remove(pass: \"second\")"],
+            "One thing is removed. What others still use can't be.",
+        ),
+        Word::new(
+            "Insert",
+            &[Takes::Fields(InsertFields::<'static>::table)],
+            &["Insert(before: \"second\", passes: [])"],
+            "Passes are inserted; those at one place stand in the order in which they are inserted.",
+        ),
+    ],
+};
+
 const SET: &str = "Set(pass: \"name\", to: (…))";
 const REMOVE: &str = "Remove(pass: \"name\")";
 const INSERT: &str = "Insert(before: \"name\", passes: […])";
@@ -64,7 +118,7 @@ const OF_VALUES: [&str; 5] = ["default", "min", "max", "step", "of"];
 /// Applies a list of changes, one after the other.
 pub(super) fn changes<'t>(reader: &mut Reader, draft: &mut Draft<'t>, list: Leaf<'t>, account: &mut Account) {
     for leaf in reader.list(list, "`changes`").into_iter().flatten() {
-        let Some((word, rest)) = reader.word(leaf, "a change", &["Set", "Remove", "Insert"], FORMS) else { continue };
+        let Some((word, rest)) = reader.one_of(leaf, &KINDS) else { continue };
         let mut change = Change { reader, draft, account, leaf };
         match word {
             "Set" => change.set(rest),

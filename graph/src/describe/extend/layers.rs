@@ -1,53 +1,90 @@
 //! The files that a pipeline is put together of, in the order in which they apply.
 
-use super::super::document::PipelineFields;
+use super::super::document::{INCLUDE, PRESETS, PipelineFields, SETTINGS, VERSION};
+use super::super::forms::Plain;
+use super::super::fragments::FRAGMENTS;
 use super::super::leaf::{Leaf, Shape};
 use super::super::loader::{self, Loader};
 use super::super::reader::Reader;
 use super::super::tree::Tree;
 use super::super::{Diagnostic, Found};
+use super::super::{body, outputs, textures, views};
+use super::apply::CHANGES;
 use crate::change::Action;
 use crate::fields;
 use crate::source::Span;
 
 fields! {
-    /// A pipeline that begins with what another says.
-    struct ExtendingFields<'src> as "Pipeline" {
+    /// A pipeline that extends another: it begins with what that says.
+    ///
+    /// ```ron
+    /// Pipeline(version: 1, extends: "base.ron", changes: [Remove(pass: "second")])
+    /// ```
+    pub(in crate::describe) struct ExtendingFields<'src> as "Pipeline" {
+        /// The version of the language: 1.
         #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
-        version: Leaf<'src>,
+        version: Leaf<'src> => VERSION,
+        /// The file of the pipeline that it begins with.
         #[expect(dead_code, reason = "followed before the others are read")]
-        extends: Leaf<'src>,
+        extends: Leaf<'src> => Form::Plain(Plain::Text),
+        /// Files of extensions, which are applied in their order.
         #[expect(dead_code, reason = "followed before the others are read")]
-        extensions: Option<Leaf<'src>>,
-        include: Option<Leaf<'src>>,
-        settings: Option<Leaf<'src>>,
-        presets: Option<Leaf<'src>>,
-        views: Option<Leaf<'src>>,
-        fragments: Option<Leaf<'src>>,
-        textures: Option<Leaf<'src>>,
-        images: Option<Leaf<'src>>,
-        buffers: Option<Leaf<'src>>,
-        passes: Option<Leaf<'src>>,
-        outputs: Option<Leaf<'src>>,
-        changes: Option<Leaf<'src>>,
+        extensions: Option<Leaf<'src>> => INCLUDE,
+        /// Files with fragments.
+        include: Option<Leaf<'src>> => INCLUDE,
+        /// Settings that are added.
+        settings: Option<Leaf<'src>> => SETTINGS,
+        /// Presets that are added.
+        presets: Option<Leaf<'src>> => PRESETS,
+        /// Views that are added.
+        views: Option<Leaf<'src>> => views::VIEWS,
+        /// Fragments that are added.
+        fragments: Option<Leaf<'src>> => FRAGMENTS,
+        /// Textures that are added.
+        textures: Option<Leaf<'src>> => textures::TEXTURES,
+        /// Images that are added.
+        images: Option<Leaf<'src>> => body::IMAGES,
+        /// Buffers that are added.
+        buffers: Option<Leaf<'src>> => body::BUFFERS,
+        /// None: passes are inserted by `changes`.
+        passes: Option<Leaf<'src>> => body::ITEMS,
+        /// Outputs in place of those that there are.
+        outputs: Option<Leaf<'src>> => outputs::OUTPUTS,
+        /// What is changed of all that.
+        changes: Option<Leaf<'src>> => CHANGES,
     }
 }
 
 fields! {
-    /// What may be added to pipelines.
-    struct ExtensionFields<'src> as "Extension" {
+    /// An extension: what may be added to pipelines.
+    ///
+    /// ```ron
+    /// Extension(version: 1, about: "without the second pass", changes: [Remove(pass: "second")])
+    /// ```
+    pub(in crate::describe) struct ExtensionFields<'src> as "Extension" {
+        /// The version of the language: 1.
         #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
-        version: Leaf<'src>,
-        about: Option<Leaf<'src>>,
-        include: Option<Leaf<'src>>,
-        settings: Option<Leaf<'src>>,
-        presets: Option<Leaf<'src>>,
-        views: Option<Leaf<'src>>,
-        fragments: Option<Leaf<'src>>,
-        textures: Option<Leaf<'src>>,
-        images: Option<Leaf<'src>>,
-        buffers: Option<Leaf<'src>>,
-        changes: Option<Leaf<'src>>,
+        version: Leaf<'src> => VERSION,
+        /// A description for people.
+        about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Files with fragments.
+        include: Option<Leaf<'src>> => INCLUDE,
+        /// Settings that are added.
+        settings: Option<Leaf<'src>> => SETTINGS,
+        /// Presets that are added.
+        presets: Option<Leaf<'src>> => PRESETS,
+        /// Views that are added.
+        views: Option<Leaf<'src>> => views::VIEWS,
+        /// Fragments that are added.
+        fragments: Option<Leaf<'src>> => FRAGMENTS,
+        /// Textures that are added.
+        textures: Option<Leaf<'src>> => textures::TEXTURES,
+        /// Images that are added.
+        images: Option<Leaf<'src>> => body::IMAGES,
+        /// Buffers that are added.
+        buffers: Option<Leaf<'src>> => body::BUFFERS,
+        /// What is changed.
+        changes: Option<Leaf<'src>> => CHANGES,
     }
 }
 

@@ -17,7 +17,8 @@ mod layers;
 mod order;
 
 pub(super) use account::Account;
-pub(super) use layers::Layer;
+pub(super) use apply::CHANGES;
+pub(super) use layers::{ExtendingFields, ExtensionFields, Layer};
 
 use super::Found;
 use super::includes::Wanted;

@@ -1,0 +1,36 @@
+//! `framewright schema`: the language as a JSON Schema, and files as the JSON that it describes.
+
+use crate::args::Schema;
+use crate::error::{Error, Exit, Wrong};
+use crate::{files, text};
+use framewright_graph::describe::LARGEST_FILE;
+use framewright_graph::describe::forms;
+use framewright_graph::describe::text::Tree;
+use framewright_graph::source::Sources;
+
+/// Prints the schema, or a file as JSON.
+///
+/// # Errors
+/// If the file can't be read, is no RON, or holds what JSON can't.
+pub(crate) fn schema(arguments: &Schema) -> Result<Exit, Error> {
+    let shown = match &arguments.file {
+        None => forms::schema(),
+        Some(path) => {
+            let text = files::text("file", path, LARGEST_FILE)?;
+            let shown = path.to_string_lossy();
+            let mut sources = Sources::default();
+            let number = sources.add(shown.clone(), &shown, text.clone());
+            let mut diagnostics = Vec::new();
+            let tree = Tree::read(number, text.into(), &mut diagnostics).filter(|_| diagnostics.is_empty());
+            let wrong =
+                |diagnostics| Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, by_command_line: false }) };
+            match tree.map(|tree| forms::convert(tree.root())) {
+                Some(Ok(value)) => value,
+                Some(Err(diagnostics)) => return Err(wrong(diagnostics)),
+                None => return Err(wrong(diagnostics)),
+            }
+        }
+    };
+    text::print(&text::json(&shown)?).map_err(Error::Print)?;
+    Ok(Exit::Fine)
+}

@@ -1,0 +1,58 @@
+//! Fragments that nobody uses are checked too: what is wrong with them whatever they are given is said before anybody
+//! uses them.
+
+use super::lower::{Lowering, Place};
+use super::parameters::{Parameter, ParameterKind};
+use super::pipeline::{Name, SettingKind};
+use super::reader::Reader;
+use super::scope::{Given, Level};
+use super::{circles, previous};
+use crate::expression::Value;
+use crate::format::Format;
+use crate::frame::{BufferIndex, ImageIndex};
+use crate::source::Span;
+use crate::view::ViewIndex;
+
+impl Lowering<'_, '_> {
+    /// Lowers the bodies of fragments that were never put in. Values of which nothing is known stand for what they would
+    /// be given, so that only what is wrong with any is reported.
+    pub(super) fn unused(&mut self, reader: &mut Reader) {
+        self.trying = true;
+        let fragments = self.fragments;
+        for (at, fragment) in fragments.list.iter().enumerate() {
+            let Some(fragment) = fragment.as_ref().filter(|_| !self.used.contains(&at) && !self.is_full()) else {
+                continue;
+            };
+            (self.images, self.properties, self.buffers) = (vec![None], vec![None], vec![None]);
+            (self.passes, self.instances) = (Vec::new(), Vec::new());
+            let unnamed = || Name { text: "".into(), span: Span::NONE };
+            self.used.insert(at);
+            self.path.push((at, fragment.name.clone().unwrap_or_else(unnamed)));
+            let given =
+                fragment.body.known.parameters.iter().map(|parameter| parameter.as_ref().map(stand_in)).collect();
+            let place = Place { prefix: "".into(), instance: None, view: ViewIndex::default() };
+            self.body(reader, &fragment.body, &mut Level { given, ..Level::default() }, &place);
+            self.path.pop();
+            circles::find(&self.images, &self.buffers, &mut reader.errors);
+            previous::check(&self.images, &self.buffers, &self.passes, &mut reader.errors);
+        }
+    }
+}
+
+/// A value that a parameter allows: its default, else a small one. The image and the buffer are those that nothing is known
+/// of.
+fn stand_in(parameter: &Parameter) -> Given {
+    let value = match &parameter.kind {
+        ParameterKind::Image => Value::Image(ImageIndex(0)),
+        ParameterKind::Buffer => Value::Buffer(BufferIndex(0)),
+        ParameterKind::Format { default } => Value::Format(default.unwrap_or(Format::R8G8B8A8_UNORM)),
+        ParameterKind::Value(SettingKind::Integer { min, max, .. }) if parameter.required => {
+            Value::Integer(1.clamp(*min, *max))
+        }
+        ParameterKind::Value(SettingKind::Number { min, max, .. }) if parameter.required => {
+            Value::Number(1.0_f64.clamp(*min, *max))
+        }
+        ParameterKind::Value(kind) => kind.default(),
+    };
+    Given { value, decided: Vec::new() }
+}

@@ -1,0 +1,45 @@
+//! What is repeated, or comes with a fragment that is used several times, is written once: so each mistake in it is said
+//! once.
+
+use crate::describe::Diagnostic;
+use crate::source::Span;
+use std::collections::HashMap;
+
+/// What was said already, by place and wording, and of which of all that come of one declaration.
+#[derive(Default)]
+pub(super) struct Said {
+    by: HashMap<(Span, String), u32>,
+    next: u32,
+}
+
+impl Said {
+    /// Leaves out of the mistakes of one image, buffer or pass, which stand in `errors` from `start` on, those that another
+    /// of the same declaration has: they have the same place and the same words but for names and numbers.
+    pub(super) fn once(&mut self, errors: &mut Vec<Diagnostic>, start: usize) {
+        if errors.len() == start {
+            return;
+        }
+        self.next += 1;
+        let new: Vec<Diagnostic> = errors.drain(start..).collect();
+        errors.extend(new.into_iter().filter(|error| {
+            let Some(at) = error.labels.first() else { return true };
+            *self.by.entry((at.span, wording(&error.message))).or_insert(self.next) == self.next
+        }));
+    }
+
+    /// The same of mistakes of which each is of another image, buffer or pass.
+    pub(super) fn each_once(&mut self, errors: &mut Vec<Diagnostic>, start: usize) {
+        let new: Vec<Diagnostic> = errors.drain(start..).collect();
+        for error in new {
+            let at = errors.len();
+            errors.push(error);
+            self.once(errors, at);
+        }
+    }
+}
+
+/// A message without what stands in backticks, and without digits.
+fn wording(message: &str) -> String {
+    let outside = message.split('`').step_by(2);
+    outside.flat_map(str::chars).filter(|c| !c.is_ascii_digit()).collect()
+}

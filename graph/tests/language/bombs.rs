@@ -1,0 +1,144 @@
+//! Small files that would make a great deal: each ends at a limit that its answer names, soon and in bounded memory.
+
+use crate::table::{INPUTS, frame};
+use framewright_graph::describe::{self, Files, Found, Unread};
+use framewright_graph::source::Sources;
+use std::fmt::Write as _;
+
+/// The first lines of what is said about a file, and how much memory reading it took at most, in bytes.
+fn answer(files: &mut dyn Files, text: &str) -> (String, u64) {
+    let mut shown = String::new();
+    let measured = allocation_counter::measure(|| {
+        let mut sources = Sources::default();
+        let errors = describe::read_with(&mut sources, files, "bomb.ron", "bomb.ron", text.to_owned());
+        shown = describe::render(&sources, &errors.expect_err("a bad file"));
+    });
+    (shown, measured.bytes_max)
+}
+
+/// What is said about a file that names no other.
+fn alone(text: &str) -> (String, u64) {
+    answer(&mut describe::NoFiles, text)
+}
+
+/// A pipeline with these fragments, which uses the one called `f0`, or doesn't.
+fn pipeline(fragments: &str, uses: &str) -> String {
+    format!(
+        r#"Pipeline(version: 1, fragments: [{fragments}], images: [(name: "screen", format: Output, size: Output)],
+        passes: [(name: "show", draw: FullScreen("plain"), color: ["screen"]), {uses}], outputs: ["screen"])"#
+    )
+}
+
+/// Fragments each of which does something twice to the next, `depth` of them.
+fn doubling(depth: usize) -> String {
+    (0..depth).fold(String::new(), |mut text, at| {
+        let next = at + 1;
+        let twice = format!("(use: \"f{next}\", name: \"a\"), (use: \"f{next}\", name: \"b\")");
+        let inside = if next == depth { "(anchor: \"end\")" } else { &twice };
+        write!(text, "(name: \"f{at}\", passes: [{inside}]),").expect("memory");
+        text
+    })
+}
+
+#[test]
+fn fragments_that_double_each_other_end_at_a_million() {
+    let (shown, memory) = alone(&pipeline(&doubling(31), r#"(use: "f0", name: "bomb")"#));
+    assert!(
+        shown.contains("error: this makes more than 1000000 images, buffers, passes and uses of fragments"),
+        "{shown}"
+    );
+    assert_eq!(shown.matches("error: ").count(), 1, "{shown}");
+    assert!(memory < 400 << 20, "reading took {memory} bytes");
+}
+
+#[test]
+fn images_that_multiply_end_at_a_million() {
+    let tens = |at: usize| {
+        let next = format!("(use: \"f{}\", name: \"n\", repeat: (\"i\", 10))", at + 1);
+        let inside = if at == 9 { "" } else { &next };
+        format!(
+            "(name: \"f{at}\", images: [(name: \"x\", repeat: (\"i\", 10), format: Depth, size: Output)], passes: [{inside}]),"
+        )
+    };
+    let fragments: String = (0..10).map(tens).collect();
+    let (shown, memory) = alone(&pipeline(&fragments, r#"(use: "f0", name: "bomb")"#));
+    assert!(shown.contains("this makes more than 1000000 images"), "{shown}");
+    assert!(memory < 1 << 30, "reading took {memory} bytes");
+}
+
+#[test]
+fn a_bomb_that_nobody_uses_does_no_harm() {
+    let text = pipeline(&doubling(31), "");
+    let measured = allocation_counter::measure(|| {
+        frame(&text, &INPUTS).unwrap_or_else(|answer| panic!("{answer}"));
+    });
+    assert!(measured.bytes_max < 400 << 20, "it took {} bytes", measured.bytes_max);
+}
+
+#[test]
+fn ten_thousand_fragments_in_each_other_are_too_deep() {
+    let chain: String = (0..10_000)
+        .map(|at| format!("(name: \"f{at}\", passes: [(use: \"f{}\", name: \"n\")]),", (at + 1).min(9_999)))
+        .collect();
+    let (shown, _) = alone(&pipeline(&chain, r#"(use: "f0", name: "deep")"#));
+    assert!(shown.contains("error: uses of fragments stand at most 32 deep in each other"), "{shown}");
+    assert!(shown.contains("error: fragments use each other in a circle: `f9999` → `f9999`"), "{shown}");
+}
+
+#[test]
+fn ten_thousand_brackets_in_an_expression_are_too_many() {
+    let when = |expression: &str| {
+        alone(&pipeline("", &format!("(name: \"p\", when: \"{expression}\", draw: Sky, color: [\"screen\"])"))).0
+    };
+    let long = "this expression has 10000 bytes; 4096 are allowed";
+    for (text, answer) in [
+        ("(".repeat(10_000), long),
+        ("!".repeat(10_000), long),
+        ("-".repeat(10_000), long),
+        (format!("{}true{}", "(".repeat(65), ")".repeat(65)), "nested more than 64 deep"),
+        (format!("{}true", "!".repeat(4_000)), "nested more than 64 deep"),
+    ] {
+        let shown = when(&text);
+        assert!(shown.contains(answer), "{shown}");
+        assert_eq!(shown.matches("error: ").count(), 1, "{shown}");
+    }
+}
+
+/// Each file includes two others.
+struct Endless(usize);
+
+impl Files for Endless {
+    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
+        self.0 += 1;
+        let at: usize = path.trim_end_matches(".ron").parse().map_err(|_| format!("what is `{path}`?"))?;
+        let text =
+            format!("Fragments(version: 1, include: [\"{}.ron\", \"{}.ron\"], fragments: [])", at + 1, at + 1000);
+        Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes: text.into_bytes() })
+    }
+}
+
+#[test]
+fn files_without_end_are_too_many() {
+    let text = pipeline("", "").replacen("version: 1,", "version: 1, include: [\"1.ron\"],", 1);
+    let mut files = Endless(0);
+    let (shown, memory) = answer(&mut files, &text);
+    assert!(shown.contains("error: a pipeline is made of at most 256 files"), "{shown}");
+    assert_eq!(shown.matches("error: ").count(), 1, "{shown}");
+    assert!(files.0 < 1_000, "{} files were read", files.0);
+    assert!(memory < 16 << 20, "reading took {memory} bytes");
+}
+
+#[test]
+fn a_hundred_thousand_passes_are_put_in_in_bounded_memory() {
+    let fragments = r#"(name: "f0", parameters: [(name: "target", value: Image)], passes: [
+        (name: "draw", repeat: ("i", 10), draw: FullScreen("plain"), color: ["target"])])"#;
+    let uses = r#"(use: "f0", name: "many", repeat: ("i", 10000), with: {"target": "screen"})"#;
+    let text = pipeline(fragments, uses);
+    let mut passes = 0;
+    let measured = allocation_counter::measure(|| {
+        passes = frame(&text, &INPUTS).unwrap_or_else(|answer| panic!("{answer}")).passes.len();
+    });
+    assert_eq!(passes, 100_001);
+    let each = measured.bytes_max / 100_001;
+    assert!(each < 4096, "{each} bytes for each pass at the peak");
+}
