@@ -125,9 +125,12 @@ impl Root {
             return Err(NoFile::TooLarge { bytes, limit });
         }
         let mut contents = Vec::new();
-        // It may have grown since.
-        file.take(limit).read_to_end(&mut contents)?;
-        Ok(contents)
+        // It may have grown since, and some systems' own files tell no size.
+        file.take(limit.saturating_add(1)).read_to_end(&mut contents)?;
+        match contents.len() as u64 {
+            bytes if bytes > limit => Err(NoFile::TooLarge { bytes, limit }),
+            _ => Ok(contents),
+        }
     }
 
     /// The path of a file that the user names, counted from the folder, as it stands in Plans.

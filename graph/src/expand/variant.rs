@@ -29,8 +29,7 @@ fn texture(image: &Image, cells: &Cells, face: Face) -> ImageShape {
         Face::Plain => image.format.is_depth(),
         Face::Resolved => false,
     };
-    let layers = cells.layers.end.saturating_sub(cells.layers.start);
-    ImageShape::of(image.shape, layers, single_samples && image.samples > 1, component)
+    ImageShape::of(image.shape, cells.layers.clone(), single_samples && image.samples > 1, component)
 }
 
 /// Reports a shader that adapts to single samples, and is wrong where the device leaves its images one sample.

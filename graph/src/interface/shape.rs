@@ -4,6 +4,7 @@ use crate::format::Format;
 use crate::frame::Shape;
 use serde::{Deserialize, Serialize};
 use std::fmt::{self, Display, Formatter};
+use std::ops::Range;
 
 /// The shape of an image in a shader. Its text, in the JSON form of a Plan too, is GLSL's type of such an image that is
 /// sampled: `sampler2D`, `usampler2DArray`, `sampler2DMS`.
@@ -55,14 +56,15 @@ impl Component {
 }
 
 impl ImageShape {
-    /// How a shader best declares so many layers of an image of the shape `shape`: as an array if there are several, as cubes
-    /// if they are whole ones.
+    /// How a shader best declares `layers` of an image of the shape `shape`, each counted from 0: as an array if there are
+    /// several, as cubes if they are whole ones.
     #[must_use]
-    pub const fn of(shape: Shape, layers: u32, multisampled: bool, component: Component) -> ImageShape {
+    pub fn of(shape: Shape, layers: Range<u32>, multisampled: bool, component: Component) -> ImageShape {
+        let whole_cubes = layers.start.is_multiple_of(6) && layers.len().is_multiple_of(6);
         let (dimension, arrayed) = match shape {
             Shape::D3 => (Dimension::D3, false),
-            Shape::Cube if layers.is_multiple_of(6) => (Dimension::Cube, layers > 6),
-            Shape::D2 | Shape::Cube => (Dimension::D2, layers > 1),
+            Shape::Cube if whole_cubes => (Dimension::Cube, layers.len() > 6),
+            Shape::D2 | Shape::Cube => (Dimension::D2, layers.len() > 1),
         };
         ImageShape { dimension, arrayed, multisampled, component }
     }
@@ -134,7 +136,7 @@ mod tests {
     #[test]
     fn the_words_are_those_of_glsl() {
         let float =
-            |shape, layers, multisampled| ImageShape::of(shape, layers, multisampled, Component::Float).to_string();
+            |shape, layers, multisampled| ImageShape::of(shape, 0..layers, multisampled, Component::Float).to_string();
         assert_eq!(float(Shape::D2, 1, false), "sampler2D");
         assert_eq!(float(Shape::D2, 6, false), "sampler2DArray");
         assert_eq!(float(Shape::D2, 1, true), "sampler2DMS");
@@ -143,6 +145,13 @@ mod tests {
         assert_eq!(float(Shape::Cube, 6, false), "samplerCube");
         assert_eq!(float(Shape::Cube, 12, false), "samplerCubeArray");
         assert_eq!(float(Shape::Cube, 1, false), "sampler2D");
-        assert_eq!(ImageShape::of(Shape::D2, 2, false, Component::Uint).to_string(), "usampler2DArray");
+        assert_eq!(ImageShape::of(Shape::D2, 0..2, false, Component::Uint).to_string(), "usampler2DArray");
+    }
+
+    #[test]
+    fn six_layers_of_two_cubes_are_no_cube() {
+        let part = |layers| ImageShape::of(Shape::Cube, layers, false, Component::Float).to_string();
+        assert_eq!(part(6..12), "samplerCube");
+        assert_eq!(part(3..9), "sampler2DArray");
     }
 }

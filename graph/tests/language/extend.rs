@@ -13,8 +13,8 @@ use std::sync::Arc;
 
 const BASE: &str = r#"Pipeline(
     version: 1,
-    settings: [(name: "strength", value: Number(default: 0.5, min: 0.0, max: 1.0), about: "of the softness")],
-    presets: [(name: "soft", set: {"strength": 1.0})],
+    settings: [(name: "strength", value: Number(default: 0.5, min: 0.0, max: 1.0), about: "of the softness"), (name: "haze", value: Bool(default: false))],
+    presets: [(name: "soft", set: {"strength": 1.0, "haze": true})],
     images: [
         (name: "color", format: Color(hdr: true), size: Output, samples: 4),
         (name: "small", format: Like("color"), size: Scaled(0.5)),
@@ -115,6 +115,22 @@ fn fields_are_set_and_taken_away_and_maps_are_merged_by_key() {
     assert_eq!(document.settings[0].about.as_deref(), Some("other words"));
     assert_eq!(document.settings[0].kind.allowed(), "a number from 0 to 1");
     assert_eq!(document.presets[0].set[0].value.to_string(), "0.875");
+    assert_eq!(document.presets[0].set.len(), 1, "`without` took the whole map away");
+}
+
+#[test]
+fn a_word_that_is_wrong_in_the_base_stays_wrong_where_the_entry_is_changed() {
+    let base = BASE.replace(r#"(name: "sky", draw"#, r#"Layer(name: "sky", draw"#);
+    let changes = extending(r#"changes: [Set(pass: "sky", to: (side_effect: true))]"#);
+    for text in [extending(""), changes] {
+        let own = Found { shown: "test.ron".to_owned(), relative: "test.ron".to_owned(), bytes: text.into_bytes() };
+        let mut sources = Sources::default();
+        let mut shelf = Shelf(vec![("base.ron", base.clone())]);
+        let errors = describe::read_extended(&mut sources, &mut shelf, own, Vec::new());
+        let said = describe::render(&sources, &errors.expect_err("a pass is no layer"));
+        assert!(said.contains("expected `Pass(…)`, found `Layer`"), "{said}");
+        assert!(said.contains("base.ron:11:9"), "{said}");
+    }
 }
 
 #[test]
@@ -188,7 +204,7 @@ fn what_an_extension_brings_is_as_if_it_stood_in_the_pipeline() {
     let text = BASE.replace("version: 1,", "version: 1, extensions: [\"extension.ron\"],");
     let frame = frame_of(&text, &[("extension.ron", extension), ("lib.ron", lib)], &[]);
     assert_eq!(passes(&frame), ["sky", "first.fill", "second.copy"]);
-    assert_eq!((frame.outputs.len(), frame.buffers.len(), frame.settings.len()), (2, 1, 1));
+    assert_eq!((frame.outputs.len(), frame.buffers.len(), frame.settings.len()), (2, 1, 2));
     let place = frame.sources.place(frame.passes[2].span).expect("a place");
     assert_eq!(&*place.file, "lib.ron");
 

@@ -24,7 +24,7 @@ fn scope(plan: &mut Plan, step: usize) -> &mut RenderScope {
 
 /// Has the shader of the second scope compiled for another image than the flat one that it samples.
 fn declare(plan: &mut Plan, change: fn(&mut ImageShape)) {
-    let mut texture = ImageShape::of(Shape::D2, 1, false, Component::Float);
+    let mut texture = ImageShape::of(Shape::D2, 0..1, false, Component::Float);
     change(&mut texture);
     let binding = scope(plan, 1).passes[0].accesses[0].binding.as_mut().expect("it is sampled");
     binding.texture = Some(texture);

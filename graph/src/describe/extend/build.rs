@@ -1,6 +1,6 @@
 //! One tree of all that several files say.
 
-use super::super::leaf::Leaf;
+use super::super::leaf::{Leaf, Shape};
 use super::super::tree::{Kind as NodeKind, Node, Text, Tree};
 use super::draft::Draft;
 use super::entry::{Entry, Value};
@@ -111,6 +111,12 @@ impl Builder {
 
     fn entry(&mut self, entry: &Entry<'_>) {
         let Some(fields) = &entry.fields else { return self.copy(entry.leaf) };
+        // A word before the parentheses is a mistake that is still to be found.
+        let named = matches!(entry.leaf.shape(), Shape::Word(_, Some(_))).then(|| {
+            let named = self.open(NodeKind::Named, entry.leaf);
+            self.first_word(entry.leaf);
+            named
+        });
         let node = self.open(NodeKind::Fields, entry.leaf);
         for (name, value) in fields {
             self.copy(*name);
@@ -132,6 +138,9 @@ impl Builder {
             }
         }
         self.close(node);
+        if let Some(named) = named {
+            self.close(named);
+        }
     }
 
     /// The word before the parentheses of `leaf`.
