@@ -31,6 +31,8 @@ pub(crate) struct Loaded {
     pub(crate) shaders: ShaderLibrary,
     /// Pictures beside the pipeline file.
     pub(crate) textures: TextureFiles,
+    /// Those that it names.
+    pictures: Vec<PathBuf>,
     /// Settings that the user chose, and their values, of which the last counts.
     pub(crate) set: Vec<(String, String)>,
 }
@@ -59,6 +61,9 @@ pub(crate) struct View<'a> {
 struct Named {
     files: PipelineFiles,
     textures: TextureFiles,
+    root: Root,
+    /// The pictures that were looked at.
+    pictures: Vec<PathBuf>,
 }
 
 impl Files for Named {
@@ -67,6 +72,7 @@ impl Files for Named {
     }
 
     fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        self.pictures.extend(self.root.locate(&file.path));
         self.textures.info(file)
     }
 }
@@ -82,8 +88,9 @@ pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
         Some(root) => PipelineFiles::beside(root.clone(), &name, shipped::PIPELINES),
         None => PipelineFiles::shipped(shipped::PIPELINES),
     };
-    let textures = TextureFiles::new(root.clone().unwrap_or_else(|| Root::new(PathBuf::default())));
-    let mut named = Named { files, textures };
+    let folder = root.clone().unwrap_or_else(|| Root::new(PathBuf::default()));
+    let textures = TextureFiles::new(folder.clone());
+    let mut named = Named { files, textures, root: folder, pictures: Vec::new() };
     let extensions = arguments.extend.iter().map(|path| files::extension(path, root.as_ref()));
     let extensions = extensions.collect::<Result<Vec<Found>, Error>>()?;
     let own = Found { shown, relative: name, bytes };
@@ -94,6 +101,7 @@ pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
         pipeline,
         sources: Arc::new(sources),
         textures: named.textures,
+        pictures: named.pictures,
         shaders: ShaderLibrary::new(root.into_iter().collect(), SHADERS, draw::interface),
         set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
     })
@@ -121,14 +129,16 @@ fn choose(arguments: &args::Pipeline, pipeline: &mut Document, sources: &mut Sou
 }
 
 impl Loaded {
-    /// Makes sure that nothing is written over a file that the pipeline was read from, by whatever name.
+    /// Makes sure that nothing is written over a file that the pipeline was read from, or a picture that it names, by whatever
+    /// name.
     ///
     /// # Errors
     /// Those of [`output::prepare`].
     pub(crate) fn spare<'a>(&self, written: impl Iterator<Item = &'a PathBuf>) -> Result<(), Error> {
         let files = (0..).map_while(|file| self.sources.file(file));
-        let read: Vec<(&str, &Path)> = files.map(|file| ("pipeline", Path::new(&file.shown))).collect();
-        output::prepare(written, &read)
+        let pipeline = files.map(|file| ("pipeline", Path::new(&file.shown)));
+        let pictures = self.pictures.iter().map(|file| ("texture", file.as_path()));
+        output::prepare(written, &pipeline.chain(pictures).collect::<Vec<_>>())
     }
 
     /// Puts in settings, facts and sizes, compiles for a device, and has the result verified.

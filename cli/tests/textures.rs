@@ -192,3 +192,16 @@ fn a_texture_that_was_changed_after_the_check_is_no_crash() {
     let Some(outcome) = run(&place, Vulkan::LAVAPIPE) else { return };
     outcome.exits(1).mentions("pictures/tile.png");
 }
+
+#[test]
+fn no_texture_is_written_over() {
+    let place = place();
+    let before = std::fs::read(place.path("pictures/tile.png")).expect("read");
+    for answer in [
+        place.run(&["inspect", "textures.ron", "-o", "pictures/tile.png"]),
+        place.run(&["run", "textures.ron", "--scene", "spheres_and_cubes", "-o", "pictures/tile.png"]),
+    ] {
+        answer.exits(2).mentions("`pictures/tile.png` is the texture itself, which would be lost");
+    }
+    assert_eq!(std::fs::read(place.path("pictures/tile.png")).expect("read"), before);
+}
