@@ -28,6 +28,8 @@ pub(crate) fn inspect(arguments: &Inspect) -> Result<Exit, Error> {
     };
     let view = View { facts, size: arguments.size, dump: &[] };
     let plan = pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan;
+    // Now its shaders are known.
+    pipeline.spare(arguments.output.iter())?;
     let shown = match arguments.format {
         PlanFormat::Tree => text::escape_lines(&plan.tree()) + "\n",
         PlanFormat::Json => text::json_text(&plan.to_json()?),

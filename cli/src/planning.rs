@@ -129,8 +129,8 @@ fn choose(arguments: &args::Pipeline, pipeline: &mut Document, sources: &mut Sou
 }
 
 impl Loaded {
-    /// Makes sure that nothing is written over a file that the pipeline was read from, or a picture that it names, by whatever
-    /// name.
+    /// Makes sure that nothing is written over a file that the pipeline was read from, a picture that it names, or a shader
+    /// that was read by now, by whatever name.
     ///
     /// # Errors
     /// Those of [`output::prepare`].
@@ -138,7 +138,9 @@ impl Loaded {
         let files = (0..).map_while(|file| self.sources.file(file));
         let pipeline = files.map(|file| ("pipeline", Path::new(&file.shown)));
         let pictures = self.pictures.iter().map(|file| ("texture", file.as_path()));
-        output::prepare(written, &pipeline.chain(pictures).collect::<Vec<_>>())
+        let shaders = self.shaders.files_read();
+        let shaders = shaders.iter().map(|file| ("shader", file.as_path()));
+        output::prepare(written, &pipeline.chain(pictures).chain(shaders).collect::<Vec<_>>())
     }
 
     /// Puts in settings, facts and sizes, compiles for a device, and has the result verified.

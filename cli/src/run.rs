@@ -40,6 +40,8 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
     let device = Device::open(&DeviceOptions { choice, validation: arguments.validate })?;
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
     let planned = planned(arguments, &mut pipeline, &scene, &device)?;
+    // Now its shaders are known.
+    pipeline.spare(arguments.written())?;
     let wanted = wanted(arguments, &planned)?;
     for name in not_handed_in(&planned.frame) {
         text::say(&format!("note: nobody hands in `{}` here: all of it is 0", text::escape(name)));

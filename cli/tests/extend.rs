@@ -79,7 +79,9 @@ fn extensions_of_the_user_are_applied_to_any_pipeline_one_after_the_other() {
         let tree = plan(&[pipeline, "--extend", "debug.ron"]);
         assert!(tree.contains("applies `debug.ron` (debug.ron:1)"), "{tree}");
         assert!(tree.contains("`darken` draws the full screen with shader `copy` (debug.ron:7)"), "{tree}");
-        assert!(!tree.contains("└─ `screen` in"), "{tree}");
+        let (_, outputs) = tree.split_once("├─ outputs").expect("a branch of outputs");
+        let (outputs, _) = outputs.split_once("\n├─ ").expect("branches after it");
+        assert!(outputs.contains("`dark` in") && !outputs.contains("`screen` in"), "{outputs}");
     }
     // One that names files is counted from its own folder, and may lie anywhere.
     std::fs::create_dir(place.path("more")).expect("a folder");

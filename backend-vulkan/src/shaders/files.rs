@@ -1,7 +1,10 @@
 //! Where shader sources are found: folders on disk first, then the texts that are shipped with the program.
 
 use framewright_graph::root::{NoFile, Root};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::fs;
+use std::path::PathBuf;
 
 /// Larger files are no shaders.
 const MAX_SOURCE_BYTES: usize = 1 << 20;
@@ -12,6 +15,8 @@ pub(super) struct ShaderFiles {
     pub(super) roots: Vec<Root>,
     /// File name and text.
     pub(super) shipped: &'static [(&'static str, &'static str)],
+    /// The files on disk that were read so far, links followed.
+    pub(super) read: RefCell<BTreeSet<PathBuf>>,
 }
 
 /// A source text.
@@ -35,7 +40,9 @@ impl ShaderFiles {
         }
         for root in &self.roots {
             let shown = root.folder().join(name).display().to_string();
-            let bytes = match root.locate(name).and_then(|found| root.read(&found, MAX_SOURCE_BYTES)) {
+            let located = root.locate(name);
+            self.read.borrow_mut().extend(located.clone());
+            let bytes = match located.and_then(|found| root.read(&found, MAX_SOURCE_BYTES)) {
                 Ok(bytes) => bytes,
                 Err(NoFile::Missing) => continue,
                 Err(NoFile::TooLarge { bytes, limit }) => {

@@ -9,7 +9,9 @@ use framewright_graph::interface::{
 };
 use framewright_graph::root::Root;
 use shaderc::Compiler;
+use std::cell::RefCell;
 use std::collections::HashMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// SPIR-V of one stage, with the entry point `main`.
@@ -89,8 +91,14 @@ impl ShaderLibrary {
         shipped: &'static [(&'static str, &'static str)],
         draws: fn(Draw) -> DrawInterface,
     ) -> ShaderLibrary {
-        let files = ShaderFiles { roots, shipped };
+        let files = ShaderFiles { roots, shipped, read: RefCell::default() };
         ShaderLibrary { files, draws, compiler: None, sources: HashMap::new(), stages: HashMap::new() }
+    }
+
+    /// The files on disk that were read so far, those that shaders include among them; links are followed.
+    #[must_use]
+    pub fn files_read(&self) -> Vec<PathBuf> {
+        self.files.read.borrow().iter().cloned().collect()
     }
 
     /// The shader `name` when it draws `draw`, compiled as `variant` says.
@@ -212,13 +220,31 @@ fn macros(adapting: &[String], variant: &Variant) -> Macros {
 /// Macros of this beginning stand for the types of what a pass samples.
 const TEXTURE: &str = "TEXTURE_";
 
-/// The names that a GLSL text mentions behind [`TEXTURE`], each once, in order.
+/// The names that a GLSL text mentions behind [`TEXTURE`] outside comments, each once, in order.
 fn adapting(text: &str) -> Vec<String> {
+    let text = without_comments(text);
     let words = text.split(|letter: char| letter != '_' && !letter.is_ascii_alphanumeric());
     let mut names: Vec<String> = words.filter_map(|word| word.strip_prefix(TEXTURE)).map(str::to_owned).collect();
     names.sort_unstable();
     names.dedup();
     names
+}
+
+/// A GLSL text with a blank in place of each comment.
+fn without_comments(text: &str) -> String {
+    let mut kept = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(start) = rest.find("//").into_iter().chain(rest.find("/*")).min() {
+        let (before, comment) = rest.split_at(start);
+        kept.extend([before, " "]);
+        let (_, comment) = comment.split_at(2);
+        let end = match rest[start..].starts_with("//") {
+            true => comment.find('\n'),
+            false => comment.find("*/").map(|end| end + 2),
+        };
+        rest = end.map_or("", |end| &comment[end..]);
+    }
+    kept + rest
 }
 
 /// The vertex shader of a kind of draw, for shaders without one of their own.
@@ -265,4 +291,16 @@ fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterf
     }
     joined.bindings.sort_by_key(|it| (it.set, it.binding));
     Ok(joined)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::adapting;
+
+    #[test]
+    fn a_macro_that_only_a_comment_mentions_adapts_nothing() {
+        let text = "// TEXTURE_a\nuniform TEXTURE_b b; /* TEXTURE_c\nTEXTURE_d */ uniform TEXTURE_e/**/e; // TEXTURE_f";
+        assert_eq!(adapting(text), ["b", "e"]);
+        assert_eq!(adapting("uniform TEXTURE_b b; /* TEXTURE_c"), ["b"]);
+    }
 }

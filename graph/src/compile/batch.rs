@@ -28,13 +28,13 @@ pub(super) fn batch(stores: &[Store], pending: &[Pending]) -> Vec<Batched> {
         if barrier.step == NEVER {
             continue;
         }
-        if first || earliest(number, barrier) > call {
+        if first || earliest(barrier) > call {
             call = barrier.step;
             first = false;
         }
         batched.push(Batched { at: call, barrier: number });
     }
-    gather_buffers(stores, pending, &mut batched, |_| 0, earliest);
+    gather_buffers(stores, pending, &mut batched, |_| 0, |_, barrier| earliest(barrier));
     batched
 }
 
@@ -42,7 +42,7 @@ pub(super) fn batch(stores: &[Store], pending: &[Pending]) -> Vec<Batched> {
 pub(super) fn batch_on(queues: &Queues, stores: &[Store], pending: &[Pending]) -> Vec<Batched> {
     let earliest = |number, barrier: &Pending| match queues.is_held(number) {
         true => barrier.step,
-        false => earliest(number, barrier),
+        false => earliest(barrier),
     };
     let mut batched = Vec::with_capacity(pending.len());
     let mut calls = [None; QUEUES];
@@ -58,7 +58,7 @@ pub(super) fn batch_on(queues: &Queues, stores: &[Store], pending: &[Pending]) -
 }
 
 /// The first step that a barrier may stand before.
-fn earliest(_: u32, barrier: &Pending) -> u32 {
+fn earliest(barrier: &Pending) -> u32 {
     barrier.after.wrapping_add(1)
 }
 

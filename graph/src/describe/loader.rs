@@ -7,17 +7,25 @@ use super::textures::{self, Pictures};
 use super::tree::Tree;
 use super::{Diagnostic, Files, Found, LANGUAGE_VERSION, LARGEST_FILE, Unread};
 use crate::source::{Sources, Span};
+use crate::texture::{TextureFile, TextureInfo, TextureProblem};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// A pipeline is made of at most this many files.
 const MOST_FILES: usize = 256;
+
+/// Its files name each other at most this often: each time one is read, to see which one it is.
+const MOST_NAMED: usize = 1024;
 
 /// Reads files, and keeps where each was named.
 pub(super) struct Loader<'a> {
     sources: &'a mut Sources,
     files: &'a mut dyn Files,
     read: usize,
+    named: usize,
     pub(super) origins: Origins,
+    /// What was found out about pictures, each of which is opened once.
+    looked: HashMap<TextureFile, Result<TextureInfo, TextureProblem>>,
     /// The pictures that textures name.
     pub(super) pictures: Pictures,
 }
@@ -25,11 +33,21 @@ pub(super) struct Loader<'a> {
 impl<'a> Loader<'a> {
     /// One that has read the pipeline's own file.
     pub(super) fn new(sources: &'a mut Sources, files: &'a mut dyn Files) -> Self {
-        Loader { sources, files, read: 1, origins: Origins::default(), pictures: Pictures::new() }
+        let (origins, looked, pictures) = (Origins::default(), HashMap::new(), Pictures::new());
+        Loader { sources, files, read: 1, named: 0, origins, looked, pictures }
     }
 
     /// The file that the file `from` names `path`, at `span`.
     pub(super) fn find(&mut self, reader: &mut Reader, from: &str, path: &str, span: Span) -> Option<Found> {
+        self.named += 1;
+        if self.named > MOST_NAMED {
+            // One answer stands for all that follow.
+            if self.named == MOST_NAMED + 1 {
+                let message = format!("the files of a pipeline name others at most {MOST_NAMED} times");
+                reader.report(Diagnostic::new(span, message).help("each file has to be named only once"));
+            }
+            return None;
+        }
         let found = self.files.read(from, path);
         found.map_err(|Unread { why, help }| reader.report(Diagnostic { help, ..Diagnostic::new(span, why) })).ok()
     }
@@ -72,7 +90,12 @@ impl<'a> Loader<'a> {
 impl Loader<'_> {
     /// Looks at the pictures that a list of textures names.
     pub(super) fn look(&mut self, reader: &mut Reader, textures: Option<Leaf<'_>>) {
-        textures::look(reader, self.sources, self.files, textures, &mut self.pictures);
+        let Loader { sources, files, looked, pictures, .. } = self;
+        let info = |file: &TextureFile| match looked.get(file) {
+            Some(known) => known.clone(),
+            None => looked.entry(file.clone()).insert_entry(files.picture(file)).get().clone(),
+        };
+        textures::look(reader, sources, info, textures, pictures);
     }
 
     /// Looks at the pictures that the fragments of a file name.

@@ -2,7 +2,6 @@
 
 use super::Diagnostic;
 use super::forms::{Described, Form, Plain, names};
-use super::includes::Files;
 use super::leaf::Leaf;
 use super::pipeline::{Name, Spanned};
 use super::reader::Reader;
@@ -13,7 +12,7 @@ use crate::fields;
 use crate::frame;
 use crate::root::beside;
 use crate::source::{Sources, Span};
-use crate::texture::{ColorSpace, TextureFile, TextureInfo, format_problem};
+use crate::texture::{ColorSpace, TextureFile, TextureInfo, TextureProblem, format_problem};
 use crate::view::ViewIndex;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -58,11 +57,11 @@ pub(super) struct Picture {
     info: TextureInfo,
 }
 
-/// Looks at the files that a list of textures names. What is wrong with the list itself is reported when it is lowered.
+/// Looks at the files that a list of textures names, by what `info` tells of them. What is wrong with the list itself is reported when it is lowered.
 pub(super) fn look(
     reader: &mut Reader,
     sources: &Sources,
-    files: &mut dyn Files,
+    mut info: impl FnMut(&TextureFile) -> Result<TextureInfo, TextureProblem>,
     list: Option<Leaf<'_>>,
     pictures: &mut Pictures,
 ) {
@@ -75,7 +74,7 @@ pub(super) fn look(
         let span = fields.file.span();
         let from = span.file().and_then(|file| sources.file(file)).map_or("", |file| &*file.relative);
         let file = TextureFile { path: beside(from, &path).into(), color_space };
-        let picture = match files.picture(&file) {
+        let picture = match info(&file) {
             Ok(info) => Some(Picture { file: Arc::new(file), info }),
             Err(problem) => {
                 reader.report(Diagnostic::new(span, format!("`{path}` {problem}")));

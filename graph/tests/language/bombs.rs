@@ -142,3 +142,24 @@ fn a_hundred_thousand_passes_are_put_in_in_bounded_memory() {
     let each = measured.bytes_max / 100_001;
     assert!(each < 4096, "{each} bytes for each pass at the peak");
 }
+
+/// Files that all hold no fragment, and how often one was read.
+struct Counted(u32);
+
+impl Files for Counted {
+    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
+        self.0 += 1;
+        let bytes = b"Fragments(version: 1, fragments: [])".to_vec();
+        Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes })
+    }
+}
+
+#[test]
+fn a_file_that_is_named_again_and_again_is_read_a_thousand_times_at_most() {
+    let mut files = Counted(0);
+    let again = r#""lib.ron","#.repeat(20_000);
+    let (shown, _) =
+        answer(&mut files, &pipeline("", "").replace("version: 1,", &format!("version: 1, include: [{again}],")));
+    assert!(shown.contains("error: the files of a pipeline name others at most 1024 times"), "{}", &shown[..400]);
+    assert_eq!(files.0, 1024);
+}

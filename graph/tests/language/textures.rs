@@ -100,3 +100,30 @@ fn a_fragment_brings_its_textures_which_lie_beside_the_file_that_it_stands_in() 
     let frame = expand(&document.expect("it is read"), Arc::new(sources), &INPUTS, &mut Table).expect("a frame");
     assert_eq!((&*frame.images[1].name, file(&frame.images[1]).0), ("film.grain", "looks/grain.png"));
 }
+
+/// Pictures, and how often one was looked at.
+struct Counted(u32);
+
+impl Files for Counted {
+    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
+        Err(format!("no `{path}`").into())
+    }
+
+    fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        self.0 += 1;
+        Pictures::info(file)
+    }
+}
+
+#[test]
+fn a_picture_that_many_textures_name_is_looked_at_once() {
+    let textures: String = (0..1000).map(|at| format!(r#"(name: "t{at}", file: "photo.png"),"#)).collect();
+    let text = format!(
+        r#"Pipeline(version: 1, textures: [{textures}], images: [(name: "screen", format: Output, size: Output)],
+            passes: [(name: "show", draw: FullScreen("plain"), color: ["screen"])], outputs: ["screen"])"#
+    );
+    let mut files = Counted(0);
+    let document = describe::read_with(&mut Sources::default(), &mut files, "test.ron", "test.ron", text);
+    assert!(document.is_ok());
+    assert_eq!(files.0, 1);
+}

@@ -318,13 +318,12 @@ impl<'t> Change<'_, 't> {
 
     fn anchor(&mut self, leaf: Leaf<'t>) -> Option<Arc<str>> {
         let name = self.reader.reference(leaf, "an anchor")?;
-        let anchors = self.draft.passes.anchors();
-        if anchors.contains(&&*name.text) {
+        if self.draft.passes.has_anchor(&name.text) {
             return Some(name.text);
         }
         let help = match self.draft.passes.find(&name.text) {
             Some(_) => format!("that is a pass: write `before: \"{0}\"` or `after: \"{0}\"`", name.text),
-            None => suggest::help(&name.text, anchors)
+            None => suggest::help(&name.text, self.draft.passes.anchors())
                 .unwrap_or_else(|| "this pipeline has no anchors: name a pass, by `before` or `after`".to_owned()),
         };
         let unknown = Diagnostic::new(name.span, format!("there is no anchor named `{}`", name.text));

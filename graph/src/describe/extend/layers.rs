@@ -118,7 +118,7 @@ pub(super) struct Turn {
 }
 
 /// What a file says; every list may be absent.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Said<'t> {
     pub(super) include: Option<Leaf<'t>>,
     pub(super) settings: Option<Leaf<'t>>,
@@ -178,95 +178,35 @@ impl Layer {
 
     /// Tells its lists apart.
     pub(super) fn said(&self, reader: &mut Reader) -> Option<Said<'_>> {
+        // The lists of those names, and no others.
+        macro_rules! common {
+            ($all:ident: $($list:ident)*) => { Said { $($list: $all.$list,)* ..Said::default() } };
+        }
         let root = self.tree.root();
-        match self.role {
+        Some(match self.role {
             Role::Whole => {
                 let all: PipelineFields<'_> = reader.read(root, "the pipeline")?;
-                let PipelineFields { include, settings, presets, views, fragments, textures, buffers, changes, .. } =
-                    all;
                 let [images, passes, outputs] = [all.images, all.passes, all.outputs].map(Some);
-                Some(Said {
-                    include,
-                    settings,
-                    presets,
-                    views,
-                    fragments,
-                    textures,
-                    images,
-                    buffers,
-                    passes,
-                    outputs,
-                    changes,
-                })
+                let common = common!(all: include settings presets views fragments textures buffers changes);
+                Said { images, passes, outputs, ..common }
             }
             Role::Extending => {
                 let all: ExtendingFields<'_> = reader.read(root, "the pipeline")?;
-                let ExtendingFields {
-                    include,
-                    settings,
-                    presets,
-                    views,
-                    fragments,
-                    textures,
-                    images,
-                    buffers,
-                    outputs,
-                    changes,
-                    ..
-                } = all;
                 if let Some(passes) = all.passes {
                     let wrong =
                         Diagnostic::new(passes.start(), "a pipeline that extends another has no `passes` of its own");
                     reader.report(wrong.help("say where they belong: `changes: [Insert(at: End, passes: […])]`"));
                 }
-                Some(Said {
-                    include,
-                    settings,
-                    presets,
-                    views,
-                    fragments,
-                    textures,
-                    images,
-                    buffers,
-                    passes: None,
-                    outputs,
-                    changes,
-                })
+                common!(all: include settings presets views fragments textures images buffers outputs changes)
             }
             Role::Extension => {
                 let all: ExtensionFields<'_> = reader.read(root, "the extension")?;
-                let ExtensionFields {
-                    about,
-                    include,
-                    settings,
-                    presets,
-                    views,
-                    fragments,
-                    textures,
-                    images,
-                    buffers,
-                    changes,
-                    ..
-                } = all;
-                if let Some(about) = about {
+                if let Some(about) = all.about {
                     reader.words(about, "a description");
                 }
-                let (passes, outputs) = (None, None);
-                Some(Said {
-                    include,
-                    settings,
-                    presets,
-                    views,
-                    fragments,
-                    textures,
-                    images,
-                    buffers,
-                    passes,
-                    outputs,
-                    changes,
-                })
+                common!(all: include settings presets views fragments textures images buffers changes)
             }
-        }
+        })
     }
 }
 

@@ -64,12 +64,17 @@ impl<'t> Order<'t> {
         Some(&item.entry)
     }
 
-    /// Names of passes and uses, in no order.
+    /// Whether there is an anchor of that name.
+    pub(super) fn has_anchor(&self, name: &str) -> bool {
+        self.anchors.contains_key(name)
+    }
+
+    /// Names of passes and uses, in the order in which they came.
     pub(super) fn names(&self) -> Vec<&'t str> {
         sorted(&self.names)
     }
 
-    /// Names of anchors, in no order.
+    /// Names of anchors, in the order in which they came.
     pub(super) fn anchors(&self) -> Vec<&'t str> {
         sorted(&self.anchors)
     }
@@ -98,6 +103,7 @@ impl<'t> Order<'t> {
     }
 }
 
+/// Names by their numbers.
 fn sorted<'t>(names: &HashMap<&'t str, usize>) -> Vec<&'t str> {
     let mut names: Vec<(&usize, &&str)> = names.iter().map(|(name, at)| (at, name)).collect();
     names.sort();
