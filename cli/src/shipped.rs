@@ -20,6 +20,7 @@ pub(crate) const PIPELINES: Shipped = carried!(
     "library/bloom.ron",
     "library/blur.ron",
     "library/overlay.ron",
+    "library/resolve.ron",
     "library/tone_mapping.ron",
     "post.ron",
     "snow.ron",

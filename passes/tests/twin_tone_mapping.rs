@@ -1,7 +1,7 @@
 //! Claims about the tone mapping curves (IQ-21), over everything that the guard lets through.
 
 use framewright_passes::twin::radiance::{LARGEST_HALF, guard_radiance};
-use framewright_passes::twin::tone_mapping::{modified_reinhard, reinhard};
+use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
 
 /// Every finite half float from 0 on, smallest first.
 fn halves() -> impl Iterator<Item = f64> {
@@ -98,5 +98,56 @@ fn behind_the_guard_no_input_becomes_nan() {
         for mapped in [reinhard(guarded), modified_reinhard(guarded, 1.0), modified_reinhard(guarded, 100.0)] {
             assert!((0.0..=1.0).contains(&mapped), "{radiance} became {mapped}");
         }
+    }
+}
+
+#[test]
+fn the_filmic_curve_rises_from_zero_to_white_as_published() {
+    assert_eq!(filmic(0.0), 0.0);
+    // "1 on input maps to ~0.8 on output".
+    assert!((filmic(1.0) - 0.8038).abs() < 1e-4);
+    // (2.51 − 2.43)x² − 0.56x − 0.14 = 0.
+    let white = (0.56 + f64::sqrt(0.56 * 0.56 + 4.0 * 0.08 * 0.14)) / 0.16;
+    assert!(filmic(0.999 * white) < 1.0 && filmic(1.001 * white) == 1.0);
+    let curve: Vec<f64> = halves().map(filmic).collect();
+    assert!(curve.is_sorted() && curve.iter().all(|it| (0.0..=1.0).contains(it)));
+}
+
+/// Colours of every brightness: a channel is a share of the brightest.
+fn colours() -> impl Iterator<Item = [f64; 3]> {
+    let shares = [[1.0, 1.0, 1.0], [1.0, 0.5, 0.25], [0.1, 0.9, 1.0], [0.0, 1.0, 0.0], [1.0, 1e-3, 0.999]];
+    shares.into_iter().flat_map(|shares| halves().step_by(7).map(move |light| shares.map(|share| share * light)))
+}
+
+#[test]
+fn neutral_takes_what_glossy_surfaces_reflect_from_colours_that_are_not_bright() {
+    for radiance in [[0.08, 0.08, 0.08], [0.8, 0.8, 0.8], [0.1, 0.5, 0.79], [0.3, 0.08, 0.6]] {
+        let expected = radiance.map(|channel| channel - 0.04);
+        assert!(neutral(radiance).iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{radiance:?}");
+    }
+    assert_eq!(neutral([0.0; 3]), [0.0; 3]);
+}
+
+#[test]
+fn neutral_stays_between_zero_and_one_and_keeps_the_hue() {
+    for radiance in colours() {
+        let mapped = neutral(radiance);
+        assert!(mapped.iter().all(|channel| (0.0..1.0).contains(channel)), "{radiance:?} became {mapped:?}");
+        // The hue: where between the least and the largest channel the third lies.
+        let hue = |[r, g, b]: [f64; 3]| (r - b) / (g - b);
+        let (before, after) = (hue(radiance), hue(mapped));
+        let distinct = (mapped[1] - mapped[2]).abs() > 1e-3;
+        assert!(!distinct || (before - after).abs() < 1e-9 * (1.0 + before.abs()), "{radiance:?} became {mapped:?}");
+    }
+}
+
+#[test]
+fn neutral_brightens_with_the_light_and_ends_in_white() {
+    let largest = |radiance: [f64; 3]| neutral(radiance).into_iter().fold(0.0, f64::max);
+    for shares in [[1.0, 1.0, 1.0], [1.0, 0.5, 0.25], [0.0, 1.0, 0.0]] {
+        let curve: Vec<f64> = halves().map(|light| largest(shares.map(|share: f64| share * light))).collect();
+        assert!(curve.windows(2).all(|pair| pair[1] >= pair[0] - 1e-12));
+        let white = neutral(shares.map(|share| share * LARGEST_HALF));
+        assert!(white.iter().all(|channel| *channel > 0.999), "{white:?}");
     }
 }

@@ -1,7 +1,7 @@
 //! Fragments of the shipped library are held against the twins of their shaders, texel by texel (NU-5).
 
 use framewright_passes::twin::filters::gauss;
-use framewright_passes::twin::tone_mapping::{modified_reinhard, reinhard};
+use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
 use framewright_tests::render::{Setup, device, render};
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
@@ -58,22 +58,31 @@ fn blurring_several_times_is_as_many_gaussians_along_both_axes() -> Result<(), B
     Ok(())
 }
 
-/// Nine units in the last place, as in the tests of the shader itself.
+/// Nine units in the last place, as in the tests of the shader itself; of `neutral`, which takes one number from another, half
+/// a thousandth of an 8-bit step.
 #[test]
 fn each_operator_of_tone_mapping_is_its_curve() -> Result<(), Box<dyn Error>> {
     let Some(pictures) = drawn("1", "1.0")? else { return Ok(()) };
-    let [noise, _, clipped, compressed, bent] = &pictures[..] else { return Err("not five outputs".into()) };
+    let [noise, _, clipped, compressed, bent, film, mapped] = &pictures[..] else {
+        return Err("not seven outputs".into());
+    };
     type Curve = fn(f64) -> f64;
-    let curves: [(&Picture, Curve); 3] = [
+    let curves: [(&Picture, Curve); 4] = [
         (clipped, |light| (2.0 * light).min(1.0)),
         (compressed, reinhard),
         (bent, |light| modified_reinhard(light, 4.0)),
+        (film, filmic),
     ];
     for (picture, curve) in curves {
         for (light, found) in noise.iter().flatten().zip(picture.iter().flatten()) {
             let expected = curve(*light);
             assert!((found - expected).abs() <= 9.0 / 8_388_608.0 * expected, "{light} became {found}, not {expected}");
         }
+    }
+    for (light, found) in noise.iter().zip(mapped) {
+        let expected = neutral(*light);
+        let close = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() <= 2e-6);
+        assert!(close, "{light:?} became {found:?}, not {expected:?}");
     }
     Ok(())
 }

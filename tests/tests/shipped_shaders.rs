@@ -22,6 +22,10 @@ const DRAWN: &[(&str, Draw)] = &[
     ("blur", Draw::FullScreen),
     ("copy", Draw::FullScreen),
     ("deferred_lighting", Draw::FullScreen),
+    ("depth_resolve_average", Draw::FullScreen),
+    ("depth_resolve_max", Draw::FullScreen),
+    ("depth_resolve_min", Draw::FullScreen),
+    ("depth_resolve_zero", Draw::FullScreen),
     ("downsample", Draw::FullScreen),
     ("encode_hdr10", Draw::FullScreen),
     ("expose", Draw::FullScreen),
@@ -33,10 +37,12 @@ const DRAWN: &[(&str, Draw)] = &[
     ("lit_masked", MASKED),
     ("overlay", Draw::FullScreen),
     ("reinhard", Draw::FullScreen),
+    ("resolve_weighted", Draw::FullScreen),
     ("sky", Draw::Sky),
     ("snow", Draw::Indirect),
     ("soft_focus", Draw::FullScreen),
     ("tone_map", Draw::FullScreen),
+    ("tone_map_operator", Draw::FullScreen),
 ];
 
 /// Every shipped compute shader with the size of its workgroups.
@@ -133,7 +139,7 @@ fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Result<(), Box<dyn Error>> {
-    let cases: [(&str, &[&str], &[&str]); 15] = [
+    let cases: [(&str, &[&str], &[&str]); 21] = [
         ("accumulate", &["now", "before"], &["share"]),
         ("bloom_grow", &["own", "below"], &["radius", "share"]),
         ("bloom_mix", &["sharp", "bloom"], &["radius", "strength"]),
@@ -141,14 +147,20 @@ fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Resu
         ("blur", &["source"], &["direction_x", "direction_y"]),
         ("copy", &["source"], &[]),
         ("deferred_lighting", &["base_color", "normal", "emissive", "depth"], &[]),
+        ("depth_resolve_average", &["source"], &[]),
+        ("depth_resolve_max", &["source"], &[]),
+        ("depth_resolve_min", &["source"], &[]),
+        ("depth_resolve_zero", &["source"], &[]),
         ("downsample", &["source"], &[]),
         ("encode_hdr10", &["source"], &["reference_white"]),
         ("expose", &["source"], &["white_point"]),
         ("gauss", &["source"], &["direction_x", "direction_y", "radius"]),
         ("overlay", &["shown"], &["scale", "offset_x", "offset_y", "gain", "farthest", "layer"]),
         ("reinhard", &["source"], &[]),
+        ("resolve_weighted", &["source"], &["invert"]),
         ("soft_focus", &["sharp", "soft"], &["strength"]),
         ("tone_map", &["source"], &["exposure", "white_point"]),
+        ("tone_map_operator", &["source"], &["exposure", "operator", "white_point"]),
     ];
     for (name, images, params) in cases {
         let (found_images, found_params) = wanted(name, Draw::FullScreen)?;

@@ -178,6 +178,11 @@ impl ShaderInterfaces for Table {
             "sky" | "plain" => full_screen(vec![]),
             "whole" => ShaderInterface { outputs: outputs(1, Component::Uint, 1), ..ShaderInterface::default() },
             "tone_map" => full_screen(vec![source(), params(&[("exposure", "float"), ("white_point", "float")])]),
+            "tone_map_operator" => full_screen(vec![
+                adapting("source", variant),
+                params(&[("exposure", "float"), ("operator", "int"), ("white_point", "float")]),
+            ]),
+            "resolve_weighted" => full_screen(vec![adapting("source", variant), params(&[("invert", "uint")])]),
             "g_buffer" | "g_buffer_masked" => {
                 let mut outputs = outputs(3, float, 4);
                 outputs[1].components = 2;

@@ -2,6 +2,7 @@
 
 pub mod bloom;
 pub mod cross_fade;
+pub mod depth_samples;
 pub mod exposure;
 pub mod filters;
 pub mod g_buffer;
@@ -12,3 +13,4 @@ pub mod radiance;
 pub mod sky;
 pub mod snow;
 pub mod tone_mapping;
+pub mod weighted_resolve;

@@ -1,0 +1,38 @@
+// One depth from the samples of a texel. CPU twin: passes/src/twin/depth_samples.rs.
+//
+// What the modes mean is what VkResolveModeFlagBits says of them (Vulkan 1.3, "Render Pass Resolve Operations").
+#ifndef FRAMEWRIGHT_DEPTH_SAMPLES
+#define FRAMEWRIGHT_DEPTH_SAMPLES
+
+#include "include/texture.glsl"
+
+// A sample of the texel around a place, 0 to 1 from the upper left corner.
+float depth_of(sampler2DMS depth, vec2 uv, int number) {
+    return texelFetch(depth, texel_at(uv, textureSize(depth)), number).r;
+}
+
+float least_depth(sampler2DMS depth, vec2 uv) {
+    float least = depth_of(depth, uv, 0);
+    for (int number = 1; number < textureSamples(depth); ++number) {
+        least = min(least, depth_of(depth, uv, number));
+    }
+    return least;
+}
+
+float greatest_depth(sampler2DMS depth, vec2 uv) {
+    float greatest = depth_of(depth, uv, 0);
+    for (int number = 1; number < textureSamples(depth); ++number) {
+        greatest = max(greatest, depth_of(depth, uv, number));
+    }
+    return greatest;
+}
+
+float mean_depth(sampler2DMS depth, vec2 uv) {
+    float sum = 0.0;
+    for (int number = 0; number < textureSamples(depth); ++number) {
+        sum += depth_of(depth, uv, number);
+    }
+    return sum / float(textureSamples(depth));
+}
+
+#endif
