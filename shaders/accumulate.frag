@@ -3,6 +3,7 @@
 
 #include "include/radiance.glsl"
 
+// What this frame shows.
 layout(set = 0, binding = 0) uniform sampler2D now;
 // What this shader made of the frame before; all zero before the first.
 layout(set = 0, binding = 1) uniform sampler2D before;

@@ -7,10 +7,11 @@
 // One workgroup, an invocation a bin.
 layout(local_size_x = 256) in;
 
+// As `luminance_histogram` leaves it: 256 counts of 4 bytes.
 layout(set = 0, binding = 0, std430) readonly buffer Bins {
     uint count[BINS];
 } bins;
-// What the eye has become used to; from frame to frame.
+// What the eye has become used to, 12 bytes that begin at zero; from frame to frame.
 layout(set = 0, binding = 1, std430) buffer Exposure {
     // What radiance is multiplied by.
     float scale;
@@ -22,20 +23,22 @@ layout(set = 0, binding = 1, std430) buffer Exposure {
 layout(set = 0, binding = 2) uniform Params {
     // What the average luminance becomes.
     float key;
-    // Shares of the texels, the darkest and the brightest, that the average leaves out.
+    // The share of the texels, the darkest, that the average leaves out; 0 to 0.49.
     float darkest;
+    // And of the brightest.
     float brightest;
-    // From frame to frame, and until 1 − 1/e of a change is adapted to; 0 adapts at once.
+    // From frame to frame.
     float seconds;
+    // Seconds until 1 − 1/e of a change is adapted to; 0 adapts at once.
     float adaptation;
 } params;
 
 shared float parts[BINS];
 
-// The average logarithm of luminance, and what it is scaled to: E. Reinhard, M. Stark, P. Shirley, J. Ferwerda, "Photographic
-// Tone Reproduction for Digital Images", SIGGRAPH 2002, equations 1 and 2. Adaptation decays exponentially as in G. Krawczyk,
-// K. Myszkowski, H.-P. Seidel, "Perceptual Effects in Real-Time Tone Mapping", SCCG 2005; here of the logarithm, so that
-// darkening and brightening take equally long.
+// Lets the exposure follow the picture, in one workgroup. The average logarithm of luminance, and what it is scaled to: E.
+// Reinhard, M. Stark, P. Shirley, J. Ferwerda, "Photographic Tone Reproduction for Digital Images", SIGGRAPH 2002, equations 1
+// and 2. Adaptation decays exponentially as in G. Krawczyk, K. Myszkowski, H.-P. Seidel, "Perceptual Effects in Real-Time Tone
+// Mapping", SCCG 2005; here of the logarithm, so that darkening and brightening take equally long.
 void main() {
     const uint bin = gl_LocalInvocationIndex;
     const uint count = bins.count[bin];

@@ -18,7 +18,8 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// A mixture and no sum: however many levels there are, no light is added.
+// A level of a bloom chain with all below it mixed in. A mixture and no sum: however many levels there are, no light is
+// added.
 void main() {
     const vec3 here = guard_radiance(textureLod(own, uv, 0.0).rgb);
     const vec3 around = tent(below, uv, params.radius);

@@ -3,6 +3,7 @@
 
 #include "include/bloom.glsl"
 
+// What is in focus.
 layout(set = 0, binding = 0) uniform sampler2D sharp;
 // The largest level of the chain, grown; needs a linear filter.
 layout(set = 0, binding = 1) uniform sampler2D bloom;
@@ -17,7 +18,7 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// What a lens scatters is missing where it was: a mixture and no sum. Alpha stays that of the sharp image.
+// A sharp image with its bloom. What a lens scatters is missing where it was: a mixture and no sum. Alpha stays that of the sharp image.
 void main() {
     const vec4 focused = guard_color(textureLod(sharp, uv, 0.0));
     const vec3 scattered = tent(bloom, uv, params.radius);

@@ -1,12 +1,13 @@
 #version 460
 
+// What is copied.
 layout(set = 0, binding = 0) uniform sampler2D source;
 
 layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// Changes no value: what it copies need not be radiance (motion vectors are signed).
+// Copies, and changes no value: what it copies need not be radiance (motion vectors are signed).
 void main() {
     color = textureLod(source, uv, 0.0);
 }

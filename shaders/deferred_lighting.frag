@@ -5,17 +5,20 @@
 #include "include/lighting.glsl"
 #include "include/radiance.glsl"
 
-// As include/g_buffer_surface.glsl writes them, of the size that is drawn and without filter.
+// What `g_buffer` draws first; all four of the size that is drawn, and sampled with `filter: Nearest`.
 layout(set = 0, binding = 0) uniform sampler2D base_color;
+// What it draws second: octahedral.
 layout(set = 0, binding = 1) uniform sampler2D normal;
+// What it draws third.
 layout(set = 0, binding = 2) uniform sampler2D emissive;
+// The depth of the same objects.
 layout(set = 0, binding = 3) uniform sampler2D depth;
 
 layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// Where no object is the result is black: the sky goes there.
+// Lights what a G-buffer holds. Where no object is the result is black: the sky goes there.
 void main() {
     const float place = textureLod(depth, uv, 0.0).r;
     if (place <= 0.0) {

@@ -3,11 +3,13 @@
 
 #include "include/depth_samples.glsl"
 
+// Depth, of the size that is drawn.
 layout(set = 0, binding = 0) uniform sampler2DMS source;
 
 layout(location = 0) in vec2 uv;
 
-// For a pass that draws depth alone (`clear: 0.0, test: Always`): the least number of all samples, with reversed depth the farthest.
+// For a pass that draws depth alone (`clear: 0.0, test: Always`): the least number of all samples, with reversed depth the
+// farthest.
 void main() {
     gl_FragDepth = least_depth(source, uv);
 }

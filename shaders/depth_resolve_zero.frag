@@ -3,6 +3,7 @@
 
 #include "include/depth_samples.glsl"
 
+// Depth, of the size that is drawn.
 layout(set = 0, binding = 0) uniform sampler2DMS source;
 
 layout(location = 0) in vec2 uv;

@@ -3,15 +3,15 @@
 
 #include "include/radiance.glsl"
 
-// Needs a linear filter.
+// Twice the size of what is drawn; needs a linear filter.
 layout(set = 0, binding = 0) uniform sampler2D source;
 
 layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// In a target of half the size each texel's centre is the corner that four source texels share: the filter's weights are
-// a quarter each, and the one tap is their exact mean.
+// Half the size. Each texel's centre is the corner that four texels of the source share: the filter's weights are a quarter
+// each, and the one tap is their exact mean.
 void main() {
     color = guard_color(textureLod(source, uv, 0.0));
 }

@@ -4,6 +4,7 @@
 #include "include/hdr10.glsl"
 #include "include/radiance.glsl"
 
+// Radiance.
 layout(set = 0, binding = 0) uniform sampler2D source;
 layout(set = 0, binding = 1) uniform Params {
     // Luminance that radiance 1 is shown at, cd/m², more than 0.
@@ -14,7 +15,7 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// For a target of 10 bits or more that is shown as it is: UNORM, not SRGB.
+// Encodes radiance as HDR10, for a target of 10 bits or more that is shown as it is: UNORM, not SRGB.
 void main() {
     const vec3 radiance = guard_radiance(textureLod(source, uv, 0.0).rgb);
     color = vec4(encode_hdr10(radiance, guard_radiance(params.reference_white)), 1.0);

@@ -4,8 +4,9 @@
 #include "include/radiance.glsl"
 #include "include/tone_mapping.glsl"
 
+// Radiance.
 layout(set = 0, binding = 0) uniform sampler2D source;
-// As shaders/adapt_exposure.comp leaves it.
+// As `adapt_exposure` leaves it.
 layout(set = 0, binding = 1) uniform Exposure {
     float scale;
 } exposure;
@@ -18,6 +19,7 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
+// Tone mapping by the modified Reinhard curve, channel by channel, exposed as a buffer says.
 void main() {
     const vec3 radiance = guard_radiance(guard_radiance(textureLod(source, uv, 0.0).rgb) * exposure.scale);
     color = vec4(modified_reinhard(radiance, params.white_point), 1.0);

@@ -9,6 +9,7 @@ layout(location = 1) in vec3 world_normal;
 layout(location = 2) in vec2 texture_uv;
 layout(location = 3) flat in uint object_index;
 
+// As `g_buffer`, with the holes that alpha and cross-fading cut.
 void main() {
     const vec4 base = base_color(object_index, texture_uv);
     if (base.a < objects.object[object_index].alpha_cutoff

@@ -3,10 +3,12 @@
 
 #include "include/radiance.glsl"
 
+// What is blurred; needs a linear filter unless its size is that of what is drawn.
 layout(set = 0, binding = 0) uniform sampler2D source;
 layout(set = 0, binding = 1) uniform Params {
-    // From tap to tap, in texels of the source: (1, 0) and (0, 1) in two passes make a round blur.
+    // From tap to tap across, in texels of the source: (1, 0) and (0, 1) in two passes make a round blur.
     float direction_x;
+    // And down.
     float direction_y;
     // How far the taps reach, in steps of `direction`, 0 to 64: three standard deviations. 0 changes nothing.
     float radius;
@@ -18,7 +20,7 @@ layout(location = 0) out vec4 color;
 
 const float LARGEST_RADIUS = 64.0;
 
-// One axis of a Gaussian, its weights scaled to add up to 1.
+// One axis of a Gaussian as wide as one likes, its weights scaled to add up to 1.
 void main() {
     const vec2 step_uv = vec2(params.direction_x, params.direction_y) / vec2(textureSize(source, 0));
     const float radius = clamp(params.radius, 0.0, LARGEST_RADIUS);

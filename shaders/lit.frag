@@ -11,6 +11,7 @@ layout(location = 3) flat in uint object_index;
 
 layout(location = 0) out vec4 color;
 
+// Objects in the light of the scene's sun, sky and point lights, in radiance; what lets light through is premultiplied.
 void main() {
     color = lit_surface(object_index, base_color(object_index, texture_uv), world_position, world_normal);
 }

@@ -12,6 +12,7 @@ layout(location = 3) flat in uint object_index;
 
 layout(location = 0) out vec4 color;
 
+// As `lit`, with the holes that alpha and cross-fading cut.
 void main() {
     const vec4 base = base_color(object_index, texture_uv);
     if (base.a < objects.object[object_index].alpha_cutoff

@@ -6,8 +6,9 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
+// Radiance; each texel of it an invocation.
 layout(set = 0, binding = 0) uniform sampler2D source;
-// Adds to what is there.
+// 256 counts of 4 bytes; adds to what is there.
 layout(set = 0, binding = 1, std430) buffer Bins {
     uint count[BINS];
 } bins;

@@ -6,12 +6,14 @@
 #include "include/scene.glsl"
 #include "include/texture.glsl"
 
+// What is shown.
 layout(set = 0, binding = 0) uniform TEXTURE_shown shown;
 layout(set = 0, binding = 1) uniform Params {
     // Width and height of the rectangle, as a share of the picture's.
     float scale;
-    // Its upper left corner, from 0 to 1 across and down the picture.
+    // Its left side, from 0 to 1 across the picture.
     float offset_x;
+    // Its upper side, from 0 to 1 down the picture.
     float offset_y;
     // Multiplies colours.
     float gain;
@@ -26,7 +28,7 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// For a pass with `blend: Premultiplied` or `Alpha`: around the rectangle nothing changes. Shows flat images and those with
+// An image in a rectangle of the picture. For a pass with `blend: Premultiplied` or `Alpha`: around the rectangle nothing changes. Shows flat images and those with
 // layers, integers too, and of samples the first.
 void main() {
     const vec2 inside = (uv - vec2(params.offset_x, params.offset_y)) / max(params.scale, 1e-6);

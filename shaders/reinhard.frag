@@ -4,12 +4,14 @@
 #include "include/radiance.glsl"
 #include "include/tone_mapping.glsl"
 
+// Radiance.
 layout(set = 0, binding = 0) uniform sampler2D source;
 
 layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
+// Tone mapping by the Reinhard curve, channel by channel: no radiance is too bright to be shown.
 void main() {
     color = vec4(reinhard(guard_radiance(textureLod(source, uv, 0.0).rgb)), 1.0);
 }

@@ -5,6 +5,7 @@
 #include "include/texture.glsl"
 #include "include/weighted_resolve.glsl"
 
+// Radiance.
 layout(set = 0, binding = 0) uniform TEXTURE_source source;
 layout(set = 0, binding = 1) uniform Params {
     // Whether the mean is taken back to radiance; else it is left tone-mapped, 0 to 1.
@@ -15,7 +16,7 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// For `Samples("color")`: each sample is tone-mapped before they are averaged. The inverse of the mean, mean / (1 − largest
+// A resolve that bright samples don't drown. For `Samples("color")`: each sample is tone-mapped before they are averaged. The inverse of the mean, mean / (1 − largest
 // channel of the mean), is the weighted mean wherever one channel is the largest in all samples; dividing by the weights is
 // that without taking nearly 1 from 1.
 void main() {

@@ -15,6 +15,7 @@ const float DISC_EXPONENT = 2048.0;
 const float GLOW_SHARE = 0.15;
 const float DISC_SHARE = 4.0;
 
+// The sky by day, and the sun in it with a glow around.
 void main() {
     const vec3 towards = direction_of(direction);
     const float sunward = clamp(dot(towards, lights.sun_direction), 0.0, 1.0);

@@ -3,9 +3,11 @@
 
 #include "include/snow.glsl"
 
+// The flakes of this frame, 16 bytes each.
 layout(set = 0, binding = 0, std430) readonly buffer Flakes {
     Flake flake[];
 } flakes;
+// Numbers of those that are seen, as `snow_gather` leaves them.
 layout(set = 0, binding = 1, std430) readonly buffer Seen {
     uint number[];
 } seen;

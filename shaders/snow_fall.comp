@@ -6,9 +6,11 @@
 
 layout(local_size_x = 64) in;
 
+// The flakes of the frame before, 16 bytes each.
 layout(set = 0, binding = 0, std430) readonly buffer Before {
     Flake flake[];
 } before;
+// The flakes of this frame; an invocation each.
 layout(set = 0, binding = 1, std430) writeonly buffer Flakes {
     Flake flake[];
 } flakes;
@@ -39,7 +41,7 @@ float around(float position) {
     return position > EDGE ? position - 2.0 * EDGE : position < -EDGE ? position + 2.0 * EDGE : position;
 }
 
-// Steady fall, wind and swaying, one explicit Euler step a frame.
+// Moves snowflakes on: steady fall, wind and swaying, one explicit Euler step a frame.
 void main() {
     const uint index = gl_GlobalInvocationID.x;
     if (index >= flakes.flake.length()) {

@@ -7,6 +7,7 @@
 // One workgroup for all flakes, 256 at a time.
 layout(local_size_x = 256) in;
 
+// The flakes of this frame, 16 bytes each.
 layout(set = 0, binding = 0, std430) readonly buffer Flakes {
     Flake flake[];
 } flakes;
@@ -27,7 +28,7 @@ bool is_seen(Flake flake) {
     return max(reach.x, reach.y) < 1.0;
 }
 
-// A place for each flake by a running sum and not by an atomic counter: so their order, and with it the picture, is always
+// Gathers the flakes that are seen, in one workgroup. A place for each flake by a running sum and not by an atomic counter: so their order, and with it the picture, is always
 // the same.
 void main() {
     const uint all = uint(flakes.flake.length());

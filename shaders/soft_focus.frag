@@ -3,7 +3,9 @@
 
 #include "include/radiance.glsl"
 
+// What is in focus.
 layout(set = 0, binding = 0) uniform sampler2D sharp;
+// The same, blurred; of any size.
 layout(set = 0, binding = 1) uniform sampler2D soft;
 layout(set = 0, binding = 2) uniform Params {
     // 0 shows the sharp image alone, 1 the soft one.
@@ -14,6 +16,7 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
+// Mixes two images, as a lens does that draws softly.
 void main() {
     const vec4 focused = guard_color(textureLod(sharp, uv, 0.0));
     const vec4 blurred = guard_color(textureLod(soft, uv, 0.0));

@@ -4,6 +4,7 @@
 #include "include/radiance.glsl"
 #include "include/tone_mapping.glsl"
 
+// Radiance.
 layout(set = 0, binding = 0) uniform sampler2D source;
 layout(set = 0, binding = 1) uniform Params {
     // What radiance is multiplied by first.
@@ -16,6 +17,7 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
+// Tone mapping by the modified Reinhard curve, channel by channel, with a white point.
 void main() {
     const vec3 radiance = guard_radiance(guard_radiance(textureLod(source, uv, 0.0).rgb) * params.exposure);
     color = vec4(modified_reinhard(radiance, params.white_point), 1.0);

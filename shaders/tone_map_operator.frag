@@ -5,6 +5,7 @@
 #include "include/texture.glsl"
 #include "include/tone_mapping.glsl"
 
+// Radiance.
 layout(set = 0, binding = 0) uniform TEXTURE_source source;
 layout(set = 0, binding = 1) uniform Params {
     // What radiance is multiplied by first.
@@ -19,7 +20,7 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// Given `Samples("color")` it is the resolve too: each sample is tone-mapped, and what would be shown of them is averaged, so
+// Tone mapping by one of several curves. Given `Samples("color")` it is the resolve too: each sample is tone-mapped, and what would be shown of them is averaged, so
 // that no single bright sample drowns the others.
 void main() {
     vec3 sum = vec3(0.0);
