@@ -1,4 +1,4 @@
-// Numbers without pattern. CPU twin: passes/src/twin/snow.rs.
+// Numbers without pattern. CPU twin: passes/src/twin/random.rs.
 #ifndef FRAMEWRIGHT_RANDOM
 #define FRAMEWRIGHT_RANDOM
 

@@ -178,6 +178,14 @@ impl ShaderInterfaces for Table {
             "sky" | "plain" => full_screen(vec![]),
             "whole" => ShaderInterface { outputs: outputs(1, Component::Uint, 1), ..ShaderInterface::default() },
             "tone_map" => full_screen(vec![source(), params(&[("exposure", "float"), ("white_point", "float")])]),
+            "over_bright" | "blur_tent" | "copy" => full_screen(vec![source()]),
+            "scale_area" | "scale_catmull_rom" => {
+                full_screen(vec![source(), params(&[("target_width", "int"), ("target_height", "int")])])
+            }
+            "depth_stripes" => full_screen(vec![adapting("depth", variant), params(&[("period", "float")])]),
+            "depth_stripes_copy" => {
+                full_screen(vec![source(), adapting("depth", variant), params(&[("period", "float")])])
+            }
             "tone_map_operator" => full_screen(vec![
                 adapting("source", variant),
                 params(&[("exposure", "float"), ("operator", "int"), ("white_point", "float")]),

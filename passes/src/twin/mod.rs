@@ -3,13 +3,17 @@
 pub mod bloom;
 pub mod cross_fade;
 pub mod depth_samples;
+pub mod effects;
 pub mod exposure;
 pub mod filters;
+pub mod fxaa;
 pub mod g_buffer;
 pub mod hdr10;
 pub mod lighting;
 pub mod overlay;
 pub mod radiance;
+pub mod random;
+pub mod scale;
 pub mod sky;
 pub mod snow;
 pub mod tone_mapping;

@@ -1,5 +1,6 @@
 //! Twin of `shaders/snow_fall.comp`, `shaders/snow_gather.comp` and the includes of both.
 
+use super::random::random;
 use std::f64::consts::TAU;
 
 const EDGE: f64 = 1.25;
@@ -18,20 +19,6 @@ pub struct Flake {
     pub distance: f64,
     /// Of its swaying, 0 to 2π.
     pub phase: f64,
-}
-
-/// An integer from an integer: "pcg" of M. Jarzynski, M. Olano, "Hash Functions for GPU Rendering", Journal of Computer
-/// Graphics Techniques 9 (3), 2020.
-#[must_use]
-pub fn hash(value: u32) -> u32 {
-    let state = value.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
-    (word >> 22) ^ word
-}
-
-/// 0 to 1, without 1.
-fn random(value: u32) -> f64 {
-    f64::from(hash(value) >> 8) / 16_777_216.0
 }
 
 /// What left at one side comes in at the other.

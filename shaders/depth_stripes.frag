@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/depth_stripes.glsl"
+#include "include/scene.glsl"
+#include "include/texture.glsl"
+
+// Reversed depth without a far plane.
+layout(set = 0, binding = 0) uniform TEXTURE_depth depth;
+layout(set = 0, binding = 1) uniform Params {
+    // From stripe to stripe, metres along the camera's axis, more than 0.
+    float period;
+} params;
+
+layout(location = 0) in vec2 uv;
+
+layout(location = 0) out vec4 color;
+
+// Dark bands by distance from the camera. For a pass with `blend: Premultiplied` or `Alpha`: black that covers as much as the
+// stripe takes away, so that the colour need not be read. Of multisampled depth each sample has its stripe, and their mean is
+// drawn.
+void main() {
+    // The projection has no far plane: the near distance is the one number in its last column.
+    const float near = view.world_to_clip[3].z;
+    float light = 0.0;
+    for (int number = 0; number < samples_of(depth); ++number) {
+        light += stripe(found_at(depth, uv, 0, number).r, near, params.period);
+    }
+    color = vec4(0.0, 0.0, 0.0, 1.0 - light / float(samples_of(depth)));
+}

@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/depth_stripes.glsl"
+#include "include/radiance.glsl"
+#include "include/scene.glsl"
+#include "include/texture.glsl"
+
+// Radiance.
+layout(set = 0, binding = 0) uniform sampler2D source;
+// Reversed depth without a far plane.
+layout(set = 0, binding = 1) uniform TEXTURE_depth depth;
+layout(set = 0, binding = 2) uniform Params {
+    // From stripe to stripe, metres along the camera's axis, more than 0.
+    float period;
+} params;
+
+layout(location = 0) in vec2 uv;
+
+layout(location = 0) out vec4 color;
+
+// What `depth_stripes` draws over a colour, for one that is sampled.
+void main() {
+    const float near = view.world_to_clip[3].z;
+    float light = 0.0;
+    for (int number = 0; number < samples_of(depth); ++number) {
+        light += stripe(found_at(depth, uv, 0, number).r, near, params.period);
+    }
+    const vec4 found = guard_color(textureLod(source, uv, 0.0));
+    color = vec4(found.rgb * (light / float(samples_of(depth))), found.a);
+}

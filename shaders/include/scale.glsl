@@ -1,0 +1,59 @@
+// Images at another size. CPU twin: passes/src/twin/scale.rs. Places are counted in whole parts of a texel, so that they are
+// exact at any size up to 32,768.
+#ifndef FRAMEWRIGHT_SCALE
+#define FRAMEWRIGHT_SCALE
+
+#include "include/radiance.glsl"
+
+// The mean of what a pixel of a target of so many covers of the source: each texel counts by how much of it lies within.
+vec4 area_mean(sampler2D source, ivec2 pixel, ivec2 target) {
+    const uvec2 texels = uvec2(textureSize(source, 0));
+    const uvec2 pixels = uvec2(target);
+    // In parts of a texel, of which there are as many as the target has pixels.
+    const uvec2 begin = uvec2(pixel) * texels;
+    const uvec2 end = begin + texels;
+    vec4 sum = vec4(0.0);
+    for (uint y = begin.y / pixels.y; y * pixels.y < end.y; ++y) {
+        vec4 row = vec4(0.0);
+        for (uint x = begin.x / pixels.x; x * pixels.x < end.x; ++x) {
+            const uint within = min(end.x, (x + 1u) * pixels.x) - max(begin.x, x * pixels.x);
+            row += float(within) * guard_color(texelFetch(source, ivec2(x, y), 0));
+        }
+        const uint within = min(end.y, (y + 1u) * pixels.y) - max(begin.y, y * pixels.y);
+        sum += float(within) * (row / float(texels.x));
+    }
+    return sum / float(texels.y);
+}
+
+// E. Catmull, R. Rom, "A Class of Local Interpolating Splines", 1974, with a tension of 1/2: also the cubic convolution of
+// R. Keys, 1981. 1 at 0, 0 at every other whole number, and nothing beyond 2.
+float catmull_rom(float distance) {
+    const float x = abs(distance);
+    return x < 1.0 ? (1.5 * x - 2.5) * x * x + 1.0 : x < 2.0 ? ((-0.5 * x + 2.5) * x - 4.0) * x + 2.0 : 0.0;
+}
+
+// The source at the middle of a pixel of a target of so many, by Catmull and Rom's curve along rows and columns; where the
+// target is the smaller one the curve is as much wider, so that every texel counts. It is sharper than a mean, and swings over
+// at edges: what falls below 0 there is cut off.
+vec4 sharpened(sampler2D source, ivec2 pixel, ivec2 target) {
+    const ivec2 texels = textureSize(source, 0);
+    // The middle of the pixel, in texels from the middle of the first one and half a texel: whole and share.
+    const uvec2 place = (2u * uvec2(pixel) + 1u) * uvec2(texels);
+    const ivec2 whole = ivec2(place / uvec2(2 * target));
+    const vec2 share = vec2(place % uvec2(2 * target)) / vec2(2 * target) - 0.5;
+    const vec2 wide = max(vec2(texels) / vec2(target), 1.0);
+    const ivec2 reach = ivec2(ceil(2.0 * wide));
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+    for (int y = -reach.y; y <= reach.y; ++y) {
+        for (int x = -reach.x; x <= reach.x; ++x) {
+            const vec2 distance = (vec2(x, y) - share) / wide;
+            const float weight = catmull_rom(distance.x) * catmull_rom(distance.y);
+            sum += weight * guard_color(texelFetch(source, clamp(whole + ivec2(x, y), ivec2(0), texels - 1), 0));
+            weights += weight;
+        }
+    }
+    return sum / weights;
+}
+
+#endif

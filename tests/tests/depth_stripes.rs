@@ -1,0 +1,77 @@
+//! Depth stripes, as a blend and as a copy, of depth with one sample and with several, are held against their twin (IQ-16).
+
+use framewright_passes::scene::Scene;
+use framewright_passes::twin::effects::stripe;
+use framewright_tests::render::{Setup, device, render};
+use framewright_tests::shapes::{material, scene, sphere, square};
+use glam::{Mat4, Vec3};
+use std::error::Error;
+
+/// What Vulkan allows a sine to be off, 2⁻¹¹, twice over since it is squared: a quarter of an 8-bit step.
+const SINE: f64 = 2.0 / 2048.0;
+
+/// Texel by texel the samples of depth, and white light through the stripes in both forms.
+type Striped = Vec<([f64; 4], [f64; 2])>;
+
+fn floor_and_sphere() -> Scene {
+    let floor = Mat4::from_translation(Vec3::NEG_Y) * Mat4::from_rotation_x(-1.5) * Mat4::from_scale(Vec3::splat(9.0));
+    let objects = vec![(0, 0, floor), (1, 0, Mat4::from_translation(Vec3::new(-0.5, 0.4, 1.5)))];
+    scene(vec![square(), sphere(16)], vec![material([1.0; 4])], objects)
+}
+
+fn striped(msaa: &str, period: &str) -> Result<Option<Striped>, Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(None) };
+    let (set, scene) = ([("msaa", msaa), ("period", period)], floor_and_sphere());
+    let setup = Setup { pipeline: "tests/pipelines/depth_stripes.ron", set: &set, scene: &scene, extent: [67, 45] };
+    let channels = render(device, &setup)?.into_iter().map(|output| {
+        let (words, _) = output.bytes.as_chunks::<4>();
+        words.iter().step_by(4).map(|word| f64::from(f32::from_ne_bytes(*word))).collect()
+    });
+    let red: Vec<Vec<f64>> = channels.collect();
+    let texel = |at: usize| ([0, 1, 2, 3].map(|sample| red[sample][at]), [red[4][at], red[5][at]]);
+    Ok(Some((0..red[0].len()).map(texel).collect()))
+}
+
+/// The mean of the stripes of all samples, and how far phases may be off: distances have some four roundings.
+fn expected(samples: [f64; 4], period: f64) -> (f64, f64) {
+    let near = f64::from(floor_and_sphere().camera.near);
+    let mean = samples.iter().map(|depth| stripe(*depth, near, period)).sum::<f64>() / 4.0;
+    let periods = samples.iter().filter(|depth| **depth > 0.0).map(|depth| near / (depth * period)).fold(0.0, f64::max);
+    (mean, SINE + std::f64::consts::PI * periods * 2_f64.powi(-21))
+}
+
+#[test]
+fn stripes_are_their_twin_as_a_blend_and_as_a_copy() -> Result<(), Box<dyn Error>> {
+    for (msaa, period) in [("1", "1.0"), ("1", "0.37"), ("4", "1.0"), ("4", "0.25")] {
+        let Some(texels) = striped(msaa, period)? else { return Ok(()) };
+        for (samples, found) in &texels {
+            let (expected, bound) = expected(*samples, period.parse()?);
+            for light in found {
+                assert!((light - expected).abs() <= bound, "{msaa}×, {samples:?}: {light} instead of {expected}");
+            }
+        }
+        let dark = texels.iter().filter(|(_, [blended, _])| *blended < 0.1).count();
+        let bright = texels.iter().filter(|(samples, [blended, _])| samples[0] > 0.0 && *blended > 0.9).count();
+        assert!(dark > 30 && bright > 30, "{msaa}×, period {period}: {dark} dark and {bright} bright texels");
+    }
+    Ok(())
+}
+
+#[test]
+fn where_nothing_was_drawn_there_are_no_stripes() -> Result<(), Box<dyn Error>> {
+    for msaa in ["1", "4"] {
+        let Some(texels) = striped(msaa, "1.0")? else { return Ok(()) };
+        let empty: Vec<_> = texels.iter().filter(|(samples, _)| *samples == [0.0; 4]).collect();
+        assert!(empty.len() > 100);
+        assert!(empty.iter().all(|(_, found)| *found == [1.0; 2]));
+    }
+    Ok(())
+}
+
+#[test]
+fn stripes_that_can_not_be_told_apart_are_none() {
+    assert_eq!(stripe(0.0, 0.1, 1.0), 1.0);
+    assert_eq!(stripe(1e-30, 0.1, 1.0), 1.0);
+    assert_eq!(stripe(0.1, 0.1, 1e-9), 1.0);
+    assert!(stripe(0.1, 0.1, 1.0) < 1e-20 && (stripe(0.2, 0.1, 1.0) - 1.0).abs() < 1e-12);
+}
