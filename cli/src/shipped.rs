@@ -17,6 +17,7 @@ pub(crate) const PIPELINES: Shipped = carried!(
     "deferred_mobile.ron",
     "forward.ron",
     "forward_overlay.ron",
+    "image_quality.ron",
     "library/bloom.ron",
     "library/blur.ron",
     "library/depth_stripes.ron",

@@ -10,8 +10,17 @@ use support::{Outcome, Place, Vulkan};
 const SIZE: [u32; 2] = [160, 90];
 
 /// All shipped pipelines.
-const PIPELINES: [&str; 8] =
-    ["auto_exposure", "deferred", "deferred_mobile", "forward", "forward_overlay", "post", "snow", "soft_focus"];
+const PIPELINES: [&str; 9] = [
+    "auto_exposure",
+    "deferred",
+    "deferred_mobile",
+    "forward",
+    "forward_overlay",
+    "image_quality",
+    "post",
+    "snow",
+    "soft_focus",
+];
 
 /// Draws the shipped scene through a shipped pipeline; `None` where the driver or layer is missing.
 fn draw(place: &Place, vulkan: Vulkan, pipeline: &str, more: &[&str]) -> Option<Outcome> {
