@@ -1,0 +1,15 @@
+#version 460
+
+layout(set = 0, binding = 0, std430) buffer Counted {
+    uint number;
+} counted;
+
+layout(location = 0) out vec4 color;
+
+// Counts how often it runs where the triangle of a target of 64 × 48 covers every sample.
+void main() {
+    if (gl_FragCoord.x < 24.0 && gl_FragCoord.y < 18.0) {
+        atomicAdd(counted.number, 1u);
+    }
+    color = vec4(1.0);
+}

@@ -1,0 +1,162 @@
+//! What the shipped `image_quality` claims, on a real driver: each row of the requirements with the test that shows it, and a
+//! change of one line that was seen to turn it red.
+//!
+//! | row | test | what turns it red |
+//! |---|---|---|
+//! | IQ-1 | `plans::the_scene_is_drawn_at_the_scaled_size_and_one_draw_brings_it_to_the_screen`, `scale` | `image_quality.ron`: size of `color` `Output` |
+//! | IQ-2 | `plans::with_nothing_to_do_objects_are_drawn_straight_into_the_screen` | `image_quality.ron`: `otherwise` of `map` left out for a copy (`when: "true"`) |
+//! | IQ-3 | `plans::a_view_that_allows_nothing_takes_the_direct_path` | `image_quality.ron`: `view.allows_msaa` left out |
+//! | IQ-4 | `pictures::scale_two_is_the_mean_of_two_by_two_pixels`, `scale` | `scale.glsl`: `end = begin + pixels` |
+//! | IQ-6 | `samples::a_fragment_shader_runs_once_a_texel_whatever_the_samples` | `count_invocations.frag`: reads `gl_SampleID` |
+//! | IQ-6 | `samples::edges_improve_with_samples_and_with_scale` | `image_quality.ron`: `samples: 1` |
+//! | IQ-7 | `plans::multisampled_colour_is_resolved_before_what_samples_it`, `texture_declarations` | `image_quality.ron`: `stripes_back` left out |
+//! | IQ-8 | `plans::a_resolve_serves_every_reader_until_the_next_write` | `post.ron`: a draw of objects before `show_light` |
+//! | IQ-9 | `plans::a_blur_of_five_draws_takes_one_resolve_where_the_file_asks_for_three` | `image_quality.ron`: `shown` with one sample |
+//! | IQ-16 | `plans::stripes_take_one_resolve_as_a_blend_and_two_as_a_copy`, `pictures::both_forms_of_the_stripes_draw_the_same_picture`, `depth_stripes` | `depth_stripes.ron`: `blend` left out |
+//! | IQ-17 | `plans::a_blur_takes_as_many_draws_as_its_strength_and_works_on_8_bits`, `effects` | `image_quality.ron`: `repeat` of `strength + 1` |
+//! | IQ-18 | `plans::nothing_is_loaded_that_was_not_kept` | `image_quality.ron`: `sky` without `opaque` before it |
+//! | IQ-19 | `plans::colour_is_floating_point_only_where_something_makes_use_of_it` | `image_quality.ron`: `view.allows_hdr` left out |
+//! | IQ-20 | `samples::a_lamp_does_not_spoil_edges_where_bright_samples_weigh_less`, `resolves` | `weighted_resolve.glsl`: weight 1 |
+//! | IQ-21 | `pictures::tone_mapping_without_hdr_makes_one_half_of_white`, `tone_mapping_operators`, `twin_tone_mapping` | `tone_mapping.glsl`: `radiance / (2.0 + radiance)` |
+//! | IQ-22 | `plans::tone_mapping_is_the_resolving_draw_if_samples_are_mapped`, `samples::a_lamp_does_not_spoil_edges_where_samples_are_tone_mapped` | `tone_mapping.ron`: `Resolved("source")` for `Samples("source")` |
+//! | IQ-23 | `pictures::the_over_bright_view_is_what_is_beyond_white`, `effects` | `over_bright.frag`: `- 0.5` |
+//! | IQ-24 | `plans::the_listing_shows_resolves_in_their_place` | `image_quality.ron`: `depth_stripes` after `transparent` |
+
+mod pictures;
+mod plans;
+mod samples;
+
+use framewright_graph::compile::Options;
+use framewright_graph::plan::{Image, Plan, Work};
+use framewright_graph::root::Root;
+use framewright_passes::draw::interface;
+use framewright_passes::scene::{AlphaMode, Material, Scene};
+use framewright_passes::shipped::SHADERS;
+use framewright_tests::render::{self, Setup, device, in_repository};
+use framewright_tests::shapes::{material, scene, square};
+use framewright_vulkan::ShaderLibrary;
+use glam::{Mat4, Vec3};
+use std::error::Error;
+
+const PIPELINE: &str = "examples/pipelines/image_quality.ron";
+/// Everything off.
+const DIRECT: [(&str, &str); 3] = [("msaa", "1"), ("hdr", "false"), ("tone_mapping", "clip")];
+
+type Set<'a> = &'a [(&'a str, &'a str)];
+
+/// A slanted square that shines so much before nothing.
+fn shining(emissive: [f32; 3]) -> Scene {
+    let lamp = Material { emissive, ..material([0.0, 0.0, 0.0, 1.0]) };
+    let place = Mat4::from_rotation_z(0.3) * Mat4::from_scale(Vec3::splat(1.4));
+    scene(vec![square()], vec![lamp], vec![(0, 0, place)])
+}
+
+/// That, with a pane of glass before its right half.
+fn shining_behind_glass(emissive: [f32; 3]) -> Scene {
+    let Scene { mut materials, mut objects, meshes, .. } = shining(emissive);
+    materials.push(Material { alpha: AlphaMode::Blend, emissive: [0.1, 0.0, 0.2], ..material([0.0, 0.0, 0.0, 0.5]) });
+    let glass = Mat4::from_translation(Vec3::new(1.0, 0.0, 1.0)) * Mat4::from_rotation_z(-0.2);
+    let mut objects: Vec<_> =
+        objects.drain(..).map(|object| (object.mesh, object.material, object.transform)).collect();
+    objects.push((0, 1, glass));
+    scene(meshes, materials, objects)
+}
+
+/// The Plan of a pipeline for the device here, demoted or as the file says.
+fn plan_of(pipeline: &str, set: Set<'_>, scene: &Scene, demote: bool) -> Result<Option<Plan>, Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(None) };
+    let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
+    let setup = Setup { pipeline, set, scene, extent: [65, 47] };
+    render::plan(device, &setup, &mut shaders, &Options { demote, ..Options::default() }).map(Some)
+}
+
+fn plan(set: Set<'_>) -> Result<Option<Plan>, Box<dyn Error>> {
+    plan_of(PIPELINE, set, &shining_behind_glass([4.0; 3]), true)
+}
+
+/// What a frame does, in its order: passes by name, and `(resolve)`.
+fn listing(plan: &Plan) -> Vec<String> {
+    let mut listing = Vec::new();
+    for step in &plan.steps {
+        match &step.work {
+            Work::Render(scope) => {
+                listing.extend(scope.passes.iter().map(|pass| pass.name.to_string()));
+                let resolved = scope.color.iter().filter(|color| color.resolve.is_some());
+                listing.extend(resolved.map(|_| "(resolve)".to_owned()));
+            }
+            Work::Resolve(_) => listing.push("(resolve)".to_owned()),
+            Work::Dispatch(pass) | Work::Custom(pass) => listing.push(pass.name.to_string()),
+            Work::Copy(_) | Work::Blit(_) | Work::Fill(_) => listing.push("(transfer)".to_owned()),
+            Work::Export => {}
+        }
+    }
+    listing
+}
+
+/// The image that a pass draws colour into, whatever it is called: what is forwarded has the name of what gets it.
+fn drawn_by<'p>(plan: &'p Plan, pass: &str) -> Option<&'p Image> {
+    plan.steps.iter().find_map(|step| match &step.work {
+        Work::Render(scope) if scope.passes.iter().any(|it| &*it.name == pass) => {
+            plan.images.get(scope.color.first()?.image.0 as usize)
+        }
+        _ => None,
+    })
+}
+
+/// A picture in linear light: three channels a pixel.
+struct Picture {
+    width: usize,
+    pixels: Vec<[f64; 3]>,
+}
+
+/// What is shown of a scene.
+fn picture(set: Set<'_>, scene: &Scene, extent: [u32; 2]) -> Result<Option<Picture>, Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(None) };
+    let outputs = render::render(device, &Setup { pipeline: PIPELINE, set, scene, extent })?;
+    let [first, ..] = &outputs[..] else { return Err("no output".into()) };
+    let pixels = first.bytes.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b].map(decoded)).collect();
+    Ok(Some(Picture { width: extent[0] as usize, pixels }))
+}
+
+/// IEC 61966-2-1: an 8-bit step as linear light, and back, in steps.
+fn decoded(step: u8) -> f64 {
+    match f64::from(step) / 255.0 {
+        low if low <= 0.04045 => low / 12.92,
+        high => ((high + 0.055) / 1.055).powf(2.4),
+    }
+}
+
+fn encoded(light: f64) -> f64 {
+    match light {
+        low if low <= 0.003_130_8 => 255.0 * 12.92 * low,
+        high => 255.0 * (1.055 * high.powf(1.0 / 2.4) - 0.055),
+    }
+}
+
+impl Picture {
+    /// Half or another part of the size: the mean of so many by so many pixels, in light.
+    fn shrunk(&self, times: usize) -> Picture {
+        let (width, height) = (self.width / times, self.pixels.len() / self.width / times);
+        let block = |x: usize, y: usize| {
+            let all = (0..times * times).map(|at| (times * y + at / times) * self.width + times * x + at % times);
+            all.fold([0.0; 3], |sum, at| [0, 1, 2].map(|channel| sum[channel] + self.pixels[at][channel]))
+                .map(|sum| sum / (times * times) as f64)
+        };
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| block(x, y)).collect();
+        Picture { width, pixels }
+    }
+
+    /// The greatest difference from another, in 8-bit steps.
+    fn steps_from(&self, other: &Picture) -> f64 {
+        assert_eq!((self.width, self.pixels.len()), (other.width, other.pixels.len()));
+        let all = self.pixels.iter().flatten().zip(other.pixels.iter().flatten());
+        all.map(|(a, b)| (encoded(*a) - encoded(*b)).abs()).fold(0.0, f64::max)
+    }
+
+    /// Root of the mean squared difference from another, in light.
+    fn error_from(&self, other: &Picture) -> f64 {
+        assert_eq!((self.width, self.pixels.len()), (other.width, other.pixels.len()));
+        let all = self.pixels.iter().flatten().zip(other.pixels.iter().flatten());
+        (all.map(|(a, b)| (a - b).powi(2)).sum::<f64>() / (3 * self.pixels.len()) as f64).sqrt()
+    }
+}

@@ -1,0 +1,88 @@
+//! What samples do for edges, and what they cost: held against pictures of 256 samples a pixel.
+
+use crate::{DIRECT, Picture, Set, picture, shining};
+use framewright_graph::compile::Options;
+use framewright_tests::render::{Setup, device, draw, silent};
+use framewright_tests::shapes::empty_scene;
+use std::error::Error;
+
+const EXTENT: [u32; 2] = [32, 24];
+/// Along each axis.
+const MANY: u32 = 16;
+
+/// What is shown with one sample at so many times the size, averaged.
+fn converged(set: Set<'_>, light: f32) -> Result<Option<Picture>, Box<dyn Error>> {
+    let large = picture(&[set, &[("msaa", "1")]].concat(), &shining([light; 3]), EXTENT.map(|side| side * MANY))?;
+    Ok(large.map(|large| large.shrunk(MANY as usize)))
+}
+
+/// IQ-6: by atomic counting, of the fragments in the middle of one triangle.
+#[test]
+fn a_fragment_shader_runs_once_a_texel_whatever_the_samples() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    for (msaa, texels, samples) in [("1", 24 * 18, 24 * 18), ("4", 24 * 18, 4 * 24 * 18)] {
+        let (set, scene) = ([("msaa", msaa)], empty_scene());
+        let setup = Setup { pipeline: "tests/pipelines/invocations.ron", set: &set, scene: &scene, extent: [8, 8] };
+        let (_, mut executor) = draw(device, &setup, &Options { demote: false, ..Options::default() }, 1)?;
+        let output = executor.read(0)?;
+        silent(device)?;
+        let (words, _) = output.bytes.as_chunks::<4>();
+        let counted: Vec<f32> = words.iter().map(|word| f32::from_ne_bytes(*word)).collect();
+        assert_eq!(
+            counted[..2],
+            [texels as f32, samples as f32],
+            "{msaa}×: once a texel, and once a sample if it asks"
+        );
+    }
+    Ok(())
+}
+
+/// IQ-6, IQ-4: the error of an edge falls with samples, and with scale by the area filter, also beyond 2.
+#[test]
+fn edges_improve_with_samples_and_with_scale() -> Result<(), Box<dyn Error>> {
+    let Some(exact) = converged(&DIRECT, 0.8)? else { return Ok(()) };
+    let error = |more: Set<'_>| -> Result<f64, Box<dyn Error>> {
+        let set = [&DIRECT[1..], more].concat();
+        let Some(found) = picture(&set, &shining([0.8; 3]), EXTENT)? else { return Ok(f64::NAN) };
+        Ok(found.error_from(&exact))
+    };
+    let [one, four] = [error(&[("msaa", "1")])?, error(&[("msaa", "4")])?];
+    let scaled = |scale| error(&[("msaa", "1"), ("render_scale", scale)]);
+    let [two, three, as_many] = [scaled("2")?, scaled("3")?, scaled("4")?];
+    println!("1 sample {one:.4}, 4 samples {four:.4}; scale 2 {two:.4}, 3 {three:.4}, 4 {as_many:.4}");
+    assert!(four < 0.6 * one, "4 samples: {four}, one: {one}");
+    assert!(two < 0.7 * one && three < two && as_many < three, "scale 2: {two}, 3: {three}, 4: {as_many}, 1: {one}");
+    Ok(())
+}
+
+/// The errors of an edge before a lamp, of what is shown by Reinhard's curve: by the plain average, and otherwise.
+fn errors(otherwise: (&'static str, &'static str)) -> Result<Option<[f64; 2]>, Box<dyn Error>> {
+    const LAMP: f32 = 60.0;
+    let common = [("tone_mapping", "reinhard"), ("msaa", "4")];
+    let Some(exact) = converged(&common[..1], LAMP)? else { return Ok(None) };
+    let [Some(plain), Some(remedied)] = [
+        picture(&common, &shining([LAMP; 3]), EXTENT)?,
+        picture(&[common[0], common[1], otherwise], &shining([LAMP; 3]), EXTENT)?,
+    ] else {
+        return Ok(None);
+    };
+    Ok(Some([plain.error_from(&exact), remedied.error_from(&exact)]))
+}
+
+/// IQ-20: "MSAA degrades when HDR colours are involved", and the remedy.
+#[test]
+fn a_lamp_does_not_spoil_edges_where_bright_samples_weigh_less() -> Result<(), Box<dyn Error>> {
+    let Some([plain, weighted]) = errors(("weighted", "true"))? else { return Ok(()) };
+    println!("plain average {plain:.4}, weighted {weighted:.4}");
+    assert!(weighted < 0.5 * plain, "weighted {weighted}, plain {plain}");
+    Ok(())
+}
+
+/// IQ-22.
+#[test]
+fn a_lamp_does_not_spoil_edges_where_samples_are_tone_mapped() -> Result<(), Box<dyn Error>> {
+    let Some([plain, mapped]) = errors(("mapped", "samples"))? else { return Ok(()) };
+    println!("plain average {plain:.4}, samples tone-mapped {mapped:.4}");
+    assert!(mapped < 0.5 * plain, "mapped {mapped}, plain {plain}");
+    Ok(())
+}
