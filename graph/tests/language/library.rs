@@ -5,7 +5,7 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe::{self, PipelineFiles};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::{Inputs, expand};
-use framewright_graph::frame::Frame;
+use framewright_graph::frame::{Frame, ParamValue};
 use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
@@ -82,15 +82,43 @@ fn a_blur_is_two_passes_as_often_as_it_is_repeated() {
 
 #[test]
 fn tone_mapping_has_a_curve_for_each_operator() {
-    for (operator, expected) in [("clip", 1.0), ("reinhard", 1e30), ("white_point", 4.0)] {
+    let operators = ["clip", "reinhard", "white_point", "filmic", "neutral"];
+    for (number, operator) in operators.iter().enumerate() {
+        for fragment in ["tone_mapping", "tone_mapping_of_samples"] {
+            let uses = format!(
+                "(use: \"{fragment}\", name: \"show\", with: {{\"source\": \"color\", \"target\": \"screen\", \
+                 \"operator\": \"'{operator}'\"}})"
+            );
+            let frame = frame([8, 8], "tone_mapping", &uses);
+            let params = &frame.passes.last().expect("it maps").params;
+            let found = params.iter().find(|(name, _)| &**name == "operator").map(|(_, value)| *value);
+            assert_eq!(found, Some(ParamValue::Integer(number as i64)), "{fragment}, {operator}");
+        }
+    }
+}
+
+#[test]
+fn a_scale_is_one_pass_by_whatever_filter() {
+    for filter in ["nearest", "bilinear", "area", "catmull_rom"] {
         let uses = format!(
-            "(use: \"tone_mapping\", name: \"show\", with: {{\"source\": \"color\", \"target\": \"screen\", \"white_point\": 4.0, \
-             \"operator\": \"'{operator}'\"}})"
+            "(use: \"scale\", name: \"show\", with: {{\"source\": \"color\", \"target\": \"screen\", \
+             \"filter\": \"'{filter}'\"}})"
         );
-        let frame = frame([8, 8], "tone_mapping", &uses);
-        let params = &frame.passes.last().expect("it maps").params;
-        let white_point = params.iter().find(|(name, _)| &**name == "white_point").map(|(_, value)| *value);
-        assert_eq!(white_point, Some(framewright_graph::frame::ParamValue::Number(expected)), "{operator}");
+        let frame = frame([33, 7], "scale", &uses);
+        assert_eq!((passes(&frame, "show"), passes(&frame, filter)), (1, 1), "{filter}");
+    }
+}
+
+#[test]
+fn a_blur_of_a_strength_is_as_many_passes() {
+    for strength in [1, 2, 5, 64] {
+        let uses = format!(
+            "(use: \"blur_of_strength\", name: \"soften\", with: {{\"source\": \"color\", \"target\": \"screen\", \
+             \"strength\": {strength}}})"
+        );
+        let frame = frame([33, 7], "blur", &uses);
+        assert_eq!(passes(&frame, ".blur"), strength);
+        assert_eq!(frame.passes.last().map(|pass| pass.color[0].image.0), Some(1), "the last one draws the target");
     }
 }
 
