@@ -3,24 +3,30 @@
 //!
 //! | row | test | what turns it red |
 //! |---|---|---|
-//! | IQ-1 | `plans::the_scene_is_drawn_at_the_scaled_size_and_one_draw_brings_it_to_the_screen`, `scale` | `image_quality.ron`: size of `color` `Output` |
-//! | IQ-2 | `plans::with_nothing_to_do_objects_are_drawn_straight_into_the_screen` | `image_quality.ron`: `otherwise` of `map` left out for a copy (`when: "true"`) |
-//! | IQ-3 | `plans::a_view_that_allows_nothing_takes_the_direct_path` | `image_quality.ron`: `view.allows_msaa` left out |
+//! | IQ-1 | `plans::the_scene_is_drawn_at_the_scaled_size_and_one_draw_brings_it_to_the_screen`, `scale` | size of `color` `Output` |
+//! | IQ-2 | `plans::with_nothing_to_do_objects_are_drawn_straight_into_the_screen` | `map` whatever the operator |
+//! | IQ-3 | `plans::a_view_that_allows_nothing_takes_the_direct_path` | `view.allows_msaa` left out |
 //! | IQ-4 | `pictures::scale_two_is_the_mean_of_two_by_two_pixels`, `scale` | `scale.glsl`: `end = begin + pixels` |
-//! | IQ-6 | `samples::a_fragment_shader_runs_once_a_texel_whatever_the_samples` | `count_invocations.frag`: reads `gl_SampleID` |
-//! | IQ-6 | `samples::edges_improve_with_samples_and_with_scale` | `image_quality.ron`: `samples: 1` |
-//! | IQ-7 | `plans::multisampled_colour_is_resolved_before_what_samples_it`, `texture_declarations` | `image_quality.ron`: `stripes_back` left out |
-//! | IQ-8 | `plans::a_resolve_serves_every_reader_until_the_next_write` | `post.ron`: a draw of objects before `show_light` |
-//! | IQ-9 | `plans::a_blur_of_five_draws_takes_one_resolve_where_the_file_asks_for_three` | `image_quality.ron`: `shown` with one sample |
-//! | IQ-16 | `plans::stripes_take_one_resolve_as_a_blend_and_two_as_a_copy`, `pictures::both_forms_of_the_stripes_draw_the_same_picture`, `depth_stripes` | `depth_stripes.ron`: `blend` left out |
-//! | IQ-17 | `plans::a_blur_takes_as_many_draws_as_its_strength_and_works_on_8_bits`, `effects` | `image_quality.ron`: `repeat` of `strength + 1` |
-//! | IQ-18 | `plans::nothing_is_loaded_that_was_not_kept` | `image_quality.ron`: `sky` without `opaque` before it |
-//! | IQ-19 | `plans::colour_is_floating_point_only_where_something_makes_use_of_it` | `image_quality.ron`: `view.allows_hdr` left out |
+//! | IQ-4 | `pictures::light_is_averaged_before_tone_mapping_or_what_is_shown_after_it` | size of `scaled` for `mapped != 'pixels'` |
+//! | IQ-6 | `samples::a_fragment_shader_runs_once_a_texel_whatever_the_samples` | `count_invocations.frag` reads `gl_SampleID` |
+//! | IQ-6 | `samples::edges_improve_with_samples_and_with_scale` | samples of `color` 1 |
+//! | IQ-7 | `plans::multisampled_colour_is_resolved_before_what_samples_it`, `texture_declarations` | samples of `color` 1 |
+//! | IQ-8 | `plans::a_resolve_serves_every_reader_until_the_next_write` | `post.ron`: objects are drawn before `show_light` |
+//! | IQ-9 | `plans::a_blur_of_five_draws_takes_one_resolve_where_the_file_asks_for_three` | `shown` with one sample |
+//! | IQ-16 | `plans::stripes_take_one_resolve_as_a_blend_and_two_as_a_copy`, `depth_stripes` | `stripes_back` off |
+//! | IQ-16 | `pictures::both_forms_of_the_stripes_draw_the_same_picture` | `depth_stripes.ron`: `blend` left out |
+//! | IQ-17 | `plans::a_blur_takes_as_many_draws_as_its_strength_and_works_on_8_bits`, `effects` | format of `shown` `Like("color")` |
+//! | IQ-18 | `plans::nothing_is_loaded_that_was_not_kept` | `retain.rs`: `Start::Discard` loads (the checker says so first) |
+//! | IQ-19 | `plans::colour_is_floating_point_only_where_something_makes_use_of_it` | `scene.peak_radiance` left out |
 //! | IQ-20 | `samples::a_lamp_does_not_spoil_edges_where_bright_samples_weigh_less`, `resolves` | `weighted_resolve.glsl`: weight 1 |
-//! | IQ-21 | `pictures::tone_mapping_without_hdr_makes_one_half_of_white`, `tone_mapping_operators`, `twin_tone_mapping` | `tone_mapping.glsl`: `radiance / (2.0 + radiance)` |
-//! | IQ-22 | `plans::tone_mapping_is_the_resolving_draw_if_samples_are_mapped`, `samples::a_lamp_does_not_spoil_edges_where_samples_are_tone_mapped` | `tone_mapping.ron`: `Resolved("source")` for `Samples("source")` |
+//! | IQ-21 | `pictures::tone_mapping_without_hdr_makes_one_half_of_white`, `tone_mapping_operators` | `tone_mapping.glsl`: `radiance / (2.0 + radiance)` |
+//! | IQ-21 | `pictures::the_white_point_decides_how_much_is_compressed`, `twin_tone_mapping` | `tone_mapping.glsl`: `radiance / white` |
+//! | IQ-22 | `plans::tone_mapping_is_the_resolving_draw_if_samples_are_mapped` | `tone_mapping.ron`: `Resolved("source")` for `Samples("source")` |
+//! | IQ-22 | `samples::a_lamp_does_not_spoil_edges_where_samples_are_tone_mapped`, `resolves` | the same |
 //! | IQ-23 | `pictures::the_over_bright_view_is_what_is_beyond_white`, `effects` | `over_bright.frag`: `- 0.5` |
-//! | IQ-24 | `plans::the_listing_shows_resolves_in_their_place` | `image_quality.ron`: `depth_stripes` after `transparent` |
+//! | IQ-24 | `plans::the_listing_shows_resolves_in_their_place`, `cli/tests/image_quality.rs` | `stripes_back` off |
+//!
+//! Where no file is named it is `image_quality.ron`.
 
 mod pictures;
 mod plans;

@@ -1,0 +1,81 @@
+//! `image_quality` on the command line: what its frames list, and choices that make no picture.
+
+mod support;
+
+use serde_json::Value;
+use support::{Place, Vulkan};
+
+/// What a frame did, in its order: passes with their draws, resolves in between.
+fn listing(vulkan: Vulkan, more: &[&str]) -> Option<Vec<String>> {
+    let variables = vulkan.variables()?;
+    let place = Place::new();
+    let how = ["run", "image_quality", "--scene", "spheres_and_cubes", "--size", "160x90", "--report", "report.json"];
+    place.run_with(&variables, &[&how[..], more].concat()).exits(0);
+    let report = std::fs::read_to_string(place.path("report.json")).expect("written");
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    let passes = report["passes"].as_array().expect("a list").iter();
+    let told = passes.map(|pass| match pass["kind"].as_str() {
+        Some("resolve") => "resolve".to_owned(),
+        _ => format!("{} {}", pass["name"].as_str().expect("a name"), pass["draws"]),
+    });
+    Some(told.collect())
+}
+
+const SCENE: [&str; 4] = ["opaque 60", "masked 3", "sky 1", "transparent 4"];
+
+/// IQ-9, IQ-24: as a frame debugger shows it, with 3 resolves as it is written and 1 as it is compiled.
+#[test]
+fn the_listing_of_a_blur_shows_resolves_in_their_place_and_draws_counted() {
+    let blur = ["--set", "hdr=false", "--set", "tone_mapping=clip", "--set", "blur=5"];
+    let draws: Vec<String> = (0..5).map(|draw| format!("soften.blur[{draw}] 1")).collect();
+    let resolve = ["resolve".to_owned()];
+    let scene = SCENE.map(str::to_owned);
+    for vulkan in [Vulkan::LAVAPIPE, Vulkan::SWIFTSHADER] {
+        let Some(compiled) = listing(vulkan, &blur) else { return };
+        assert_eq!(compiled, [&scene[..], &resolve, &draws].concat());
+        let Some(written) = listing(vulkan, &[&blur[..], &["--no-demote"]].concat()) else { return };
+        let three = [&scene[..], &resolve, &draws[..2], &resolve, &draws[2..4], &resolve, &draws[4..]];
+        assert_eq!(written, three.concat());
+    }
+}
+
+/// IQ-16, IQ-24: stripes as a copy are two draws between two resolves, and what is transparent comes after them.
+#[test]
+fn the_listing_of_depth_stripes_shows_a_resolve_before_them_and_one_after_the_transparent_objects() {
+    for vulkan in [Vulkan::LAVAPIPE, Vulkan::SWIFTSHADER] {
+        let Some(copied) = listing(vulkan, &["--set", "depth_stripes=copied"]) else { return };
+        let expected = [
+            &SCENE[..3],
+            &[
+                "resolve",
+                "copied_stripes.stripes 1",
+                "stripes_back 1",
+                "transparent 4",
+                "resolve",
+                "map.curve.tone_map 1",
+            ],
+        ];
+        assert_eq!(copied, expected.concat());
+        let Some(blended) = listing(vulkan, &["--set", "depth_stripes=blended"]) else { return };
+        let expected = [&SCENE[..3], &["stripes.stripes 1", "transparent 4", "resolve", "map.curve.tone_map 1"]];
+        assert_eq!(blended, expected.concat());
+    }
+}
+
+#[test]
+fn a_choice_that_makes_no_picture_is_refused_with_what_is_allowed() {
+    let cases = [
+        ("render_scale=0", "it is a number from 0.25 to 4"),
+        ("render_scale=-1", "it is a number from 0.25 to 4"),
+        ("render_scale=NaN", "it is a number from 0.25 to 4"),
+        ("render_scale=1e9", "it is a number from 0.25 to 4"),
+        ("white_point=0.5", "it is a number from 1 to 100"),
+        ("blur=-1", "it is a whole number from 0 to 5"),
+        ("blur=10000", "it is a whole number from 0 to 5"),
+        ("msaa=3", "it is one of 1, 2, 4, 8"),
+        ("tone_mapping=sepia", "it is one of `clip`, `reinhard`, `white_point`, `filmic`, `neutral`, `over_bright`"),
+    ];
+    for (set, help) in cases {
+        Place::new().run(&["check", "image_quality", "--set", set]).exits(2).mentions("doesn't allow").mentions(help);
+    }
+}
