@@ -42,16 +42,21 @@ vec4 sharpened(sampler2D source, ivec2 pixel, ivec2 target) {
     const ivec2 whole = ivec2(place / uvec2(2 * target));
     const vec2 share = vec2(place % uvec2(2 * target)) / vec2(2 * target) - 0.5;
     const vec2 wide = max(vec2(texels) / vec2(target), 1.0);
-    const ivec2 reach = ivec2(ceil(2.0 * wide));
+    const ivec2 first = ivec2(ceil(share - 2.0 * wide));
+    const ivec2 last = ivec2(floor(share + 2.0 * wide));
     vec4 sum = vec4(0.0);
     float weights = 0.0;
-    for (int y = -reach.y; y <= reach.y; ++y) {
-        for (int x = -reach.x; x <= reach.x; ++x) {
-            const vec2 distance = (vec2(x, y) - share) / wide;
-            const float weight = catmull_rom(distance.x) * catmull_rom(distance.y);
-            sum += weight * guard_color(texelFetch(source, clamp(whole + ivec2(x, y), ivec2(0), texels - 1), 0));
-            weights += weight;
+    for (int y = first.y; y <= last.y; ++y) {
+        vec4 row = vec4(0.0);
+        float across = 0.0;
+        for (int x = first.x; x <= last.x; ++x) {
+            const float weight = catmull_rom((float(x) - share.x) / wide.x);
+            row += weight * guard_color(texelFetch(source, clamp(whole + ivec2(x, y), ivec2(0), texels - 1), 0));
+            across += weight;
         }
+        const float weight = catmull_rom((float(y) - share.y) / wide.y);
+        sum += weight * row;
+        weights += weight * across;
     }
     return sum / weights;
 }
