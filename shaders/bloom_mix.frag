@@ -18,7 +18,8 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// A sharp image with its bloom. What a lens scatters is missing where it was: a mixture and no sum. Alpha stays that of the sharp image.
+// A sharp image with its bloom. What a lens scatters is missing where it was: a mixture and no sum. Alpha stays that of the
+// sharp image.
 void main() {
     const vec4 focused = guard_color(textureLod(sharp, uv, 0.0));
     const vec3 scattered = tent(bloom, uv, params.radius);

@@ -28,8 +28,8 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// An image in a rectangle of the picture. For a pass with `blend: Premultiplied` or `Alpha`: around the rectangle nothing changes. Shows flat images and those with
-// layers, integers too, and of samples the first.
+// An image in a rectangle of the picture. For a pass with `blend: Premultiplied` or `Alpha`: around the rectangle nothing
+// changes. Shows flat images and those with layers, integers too, and of samples the first.
 void main() {
     const vec2 inside = (uv - vec2(params.offset_x, params.offset_y)) / max(params.scale, 1e-6);
     if (any(lessThan(inside, vec2(0.0))) || any(greaterThanEqual(inside, vec2(1.0)))) {

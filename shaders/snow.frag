@@ -13,7 +13,8 @@ layout(location = 1) flat in float alpha;
 
 layout(location = 0) out vec4 color;
 
-// Snowflakes, two triangles each. Round in the picture whatever its shape: distances are measured in pixels. For `Premultiplied` blending.
+// Snowflakes, two triangles each. Round in the picture whatever its shape: distances are measured in pixels. For
+// `Premultiplied` blending.
 void main() {
     const vec2 half_size = 1.0 / max(fwidth(across), vec2(1e-6));
     const float radius = min(half_size.x, half_size.y);

@@ -28,8 +28,8 @@ bool is_seen(Flake flake) {
     return max(reach.x, reach.y) < 1.0;
 }
 
-// Gathers the flakes that are seen, in one workgroup. A place for each flake by a running sum and not by an atomic counter: so their order, and with it the picture, is always
-// the same.
+// Gathers the flakes that are seen, in one workgroup. A place for each flake by a running sum and not by an atomic counter:
+// so their order, and with it the picture, is always the same.
 void main() {
     const uint all = uint(flakes.flake.length());
     uint found = 0u;

@@ -20,8 +20,8 @@ layout(location = 0) in vec2 uv;
 
 layout(location = 0) out vec4 color;
 
-// Tone mapping by one of several curves. Given `Samples("color")` it is the resolve too: each sample is tone-mapped, and what would be shown of them is averaged, so
-// that no single bright sample drowns the others.
+// Tone mapping by one of several curves. Given `Samples("color")` it is the resolve too: each sample is tone-mapped, and
+// what would be shown of them is averaged, so that no single bright sample drowns the others.
 void main() {
     vec3 sum = vec3(0.0);
     for (int number = 0; number < samples_of(source); ++number) {
