@@ -2,12 +2,16 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/cross_fade.glsl"
-#include "include/g_buffer_surface.glsl"
 #include "include/material.glsl"
 
-layout(location = 1) in vec3 world_normal;
 layout(location = 2) in vec2 texture_uv;
 layout(location = 3) flat in uint object_index;
+
+#ifndef DEPTH_ONLY
+#include "include/g_buffer_surface.glsl"
+
+layout(location = 1) in vec3 world_normal;
+#endif
 
 // As `g_buffer`, with the holes that alpha and cross-fading cut.
 void main() {
@@ -16,5 +20,7 @@ void main() {
         || fades_out(objects.object[object_index].cross_fade, gl_FragCoord.xy)) {
         discard;
     }
+#ifndef DEPTH_ONLY
     write_surface(object_index, base.rgb, world_normal);
+#endif
 }

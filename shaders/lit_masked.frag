@@ -3,14 +3,18 @@
 
 #include "include/cross_fade.glsl"
 #include "include/material.glsl"
+
+layout(location = 2) in vec2 texture_uv;
+layout(location = 3) flat in uint object_index;
+
+#ifndef DEPTH_ONLY
 #include "include/surface.glsl"
 
 layout(location = 0) in vec3 world_position;
 layout(location = 1) in vec3 world_normal;
-layout(location = 2) in vec2 texture_uv;
-layout(location = 3) flat in uint object_index;
 
 layout(location = 0) out vec4 color;
+#endif
 
 // As `lit`, with the holes that alpha and cross-fading cut.
 void main() {
@@ -19,5 +23,7 @@ void main() {
         || fades_out(objects.object[object_index].cross_fade, gl_FragCoord.xy)) {
         discard;
     }
+#ifndef DEPTH_ONLY
     color = lit_surface(object_index, base, world_position, world_normal);
+#endif
 }

@@ -1,6 +1,7 @@
 //! What a physical device can do: the minimum that this crate needs, and a live [`Profile`].
 
 use crate::convert;
+use crate::depth_resolve::DepthResolve;
 use crate::device::Shared;
 use crate::features::Features;
 use crate::queues::Families;
@@ -56,8 +57,13 @@ pub(crate) fn version(packed: u32) -> String {
     format!("{major}.{}.{}", vk::api_version_minor(packed), vk::api_version_patch(packed))
 }
 
-/// The capabilities of an open device.
-pub(crate) fn profile(shared: &Shared, source: String, needs: &mut dyn MemoryProvider) -> Profile {
+/// The capabilities of an open device, which resolves depth so.
+pub(crate) fn profile(
+    shared: &Shared,
+    source: String,
+    needs: &mut dyn MemoryProvider,
+    depth_resolve: DepthResolve,
+) -> Profile {
     let (instance, physical) = (&shared.instance.raw, shared.physical);
     let families = &shared.queues.families;
     // SAFETY: `physical` belongs to `instance`.
@@ -92,6 +98,8 @@ pub(crate) fn profile(shared: &Shared, source: String, needs: &mut dyn MemoryPro
             sharing: Sharing::Exclusive,
         },
         local_read: shared.local_read.is_some(),
+        depth_resolve: depth_resolve.has,
+        refuted_depth_resolve: depth_resolve.refuted,
         memory: MemoryModel::fitted(needs, &formats),
         formats,
         known_needs: Vec::new(),

@@ -1,6 +1,7 @@
 //! Choosing, opening and sharing a device.
 
 use crate::capabilities;
+use crate::depth_resolve::{self, DepthResolve};
 use crate::error::Error;
 use crate::features::Features;
 use crate::instance::Instance;
@@ -85,6 +86,8 @@ pub(crate) struct Shared {
     pub(crate) summary: DeviceSummary,
     pub(crate) caches: crate::caches::Caches,
     allocator: ManuallyDrop<Mutex<Allocator>>,
+    /// How it resolves depth, once that was tried.
+    depth_resolve: OnceLock<DepthResolve>,
     abandoned: OnceLock<Unfinished>,
     pub(crate) instance: ManuallyDrop<Instance>,
 }
@@ -165,6 +168,7 @@ impl Device {
             summary,
             caches: crate::caches::Caches::default(),
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
+            depth_resolve: OnceLock::new(),
             abandoned: OnceLock::new(),
             raw,
             instance: ManuallyDrop::new(instance),
@@ -172,11 +176,13 @@ impl Device {
         Ok(Device { shared: Arc::new(shared) })
     }
 
-    /// What the device can do, as far as Plans depend on it.
+    /// What the device can do, as far as Plans depend on it. The first time it is tried how the device resolves depth, which
+    /// takes one small frame.
     #[must_use]
     pub fn profile(&self) -> Profile {
         let source = format!("read from {}, Vulkan {}", self.shared.summary.driver, self.shared.summary.vulkan);
-        capabilities::profile(&self.shared, source, &mut self.memory())
+        let depth_resolve = self.shared.depth_resolve.get_or_init(|| depth_resolve::probe(self));
+        capabilities::profile(&self.shared, source, &mut self.memory(), depth_resolve.clone())
     }
 
     /// What images and buffers take of this device's memory, for [`framewright_graph::compile`].

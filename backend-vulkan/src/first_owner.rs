@@ -181,6 +181,7 @@ mod tests {
             draw: None,
             groups: None,
             shader: "p".into(),
+            redraws: None,
             discards: false,
             blend: Vec::new(),
             depth: None,

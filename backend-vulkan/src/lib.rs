@@ -40,6 +40,7 @@ mod check_work;
 mod contents;
 mod convert;
 mod custom;
+mod depth_resolve;
 mod descriptors;
 mod device;
 mod error;

@@ -13,7 +13,8 @@ use framewright_graph::plan::DepthState;
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(crate) struct PipelineDescriptor {
     pub(crate) vertex: Spirv,
-    pub(crate) fragment: Spirv,
+    /// `None`: nothing but depth is drawn.
+    pub(crate) fragment: Option<Spirv>,
     pub(crate) layout: vk::PipelineLayout,
     /// Bytes from vertex to vertex in each vertex buffer.
     pub(crate) strides: Vec<u32>,
@@ -52,8 +53,8 @@ impl Shared {
     pub(crate) fn pipeline(&self, name: &str, descriptor: PipelineDescriptor) -> Result<vk::Pipeline, Error> {
         self.caches.pipelines.get(descriptor, |descriptor| {
             let vertex = Module::new(self, &descriptor.vertex)?;
-            let fragment = Module::new(self, &descriptor.fragment)?;
-            let pipeline = create(self, descriptor, &vertex, &fragment)?;
+            let fragment = descriptor.fragment.as_ref().map(|fragment| Module::new(self, fragment)).transpose()?;
+            let pipeline = create(self, descriptor, &vertex, fragment.as_ref())?;
             self.name(pipeline, name);
             Ok(pipeline)
         })
@@ -116,12 +117,13 @@ fn create(
     shared: &Shared,
     descriptor: &PipelineDescriptor,
     vertex: &Module<'_>,
-    fragment: &Module<'_>,
+    fragment: Option<&Module<'_>>,
 ) -> Result<vk::Pipeline, Error> {
     let stage = |stage, module: &Module<'_>| {
         vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module.raw).name(c"main")
     };
-    let stages = [stage(vk::ShaderStageFlags::VERTEX, vertex), stage(vk::ShaderStageFlags::FRAGMENT, fragment)];
+    let fragment = fragment.map(|fragment| stage(vk::ShaderStageFlags::FRAGMENT, fragment));
+    let stages: Vec<_> = [stage(vk::ShaderStageFlags::VERTEX, vertex)].into_iter().chain(fragment).collect();
     let bindings: Vec<_> = (0..)
         .zip(&descriptor.strides)
         .map(|(binding, stride)| {

@@ -75,6 +75,7 @@ fn variant(pass: &plan::Pass) -> Variant {
     Variant {
         textures: bindings.filter_map(|it| Some((it.name.clone(), it.texture?))).collect(),
         local: local.map(|binding| binding.name.clone()).collect(),
+        depth_only: pass.redraws.is_some(),
     }
 }
 

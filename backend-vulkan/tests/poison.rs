@@ -4,7 +4,7 @@ mod common;
 
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Frame, ImageIndex, Output, Pass, Sampled, Work};
+use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Face, Frame, ImageIndex, Output, Pass, Sampled, Work};
 use framewright_graph::interface::DrawInterface;
 use framewright_graph::plan::{Plan, Role};
 use framewright_graph::source::Span;
@@ -56,7 +56,7 @@ fn pass(name: &str, shader: &str, sampled: &[(&str, u32)], target: u32) -> Pass 
         range: Subresources::WHOLE,
         frames_ago: 0,
         span: Span::NONE,
-        per_sample: false,
+        face: Face::Resolved,
         texture: None,
         own_pixel: false,
         sampler: Sampler::new(Filter::Nearest),

@@ -14,7 +14,7 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::encoding::Encoding;
 use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{
-    Blend, ColorTarget, Draw, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work,
+    Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work,
 };
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
@@ -71,7 +71,7 @@ fn drawn(frame: &mut Frame, shader: &str, format: Format, from: Option<ImageInde
         range: Subresources::WHOLE,
         frames_ago: 0,
         span: Span::NONE,
-        per_sample: false,
+        face: Face::Resolved,
         texture: None,
         own_pixel: false,
         sampler: Sampler::new(Filter::Nearest),

@@ -166,6 +166,9 @@ pub struct Variant {
     /// The shader's names for what is read from the pass's own rendering scope, as devices with local reads let it: the
     /// macro `LOCAL_READ_NAME` is defined.
     pub local: Vec<Arc<str>>,
+    /// Whether the shader draws nothing but depth: the macro `DEPTH_ONLY` is defined in its fragment stage, which is left out
+    /// if it neither discards fragments nor writes depth of its own then.
+    pub depth_only: bool,
 }
 
 /// Where shader interfaces come from: a compiler and reflection over files on disk, or a table in a test.

@@ -7,8 +7,8 @@ use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile, Queues};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{
-    Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Frame, Groups, Image, ImageIndex, Lifetime,
-    Output, Pass, Resource, Sampled, Storage, TransferUse, Work,
+    Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Face, Frame, Groups, Image, ImageIndex,
+    Lifetime, Output, Pass, Resource, Sampled, Storage, TransferUse, Work,
 };
 use framewright_graph::plan::{self, Plan, Queue, Role, Sharing};
 use framewright_graph::source::Span;
@@ -91,7 +91,7 @@ fn sampled(image: ImageIndex, stages: Stages) -> Sampled {
         range: Subresources::WHOLE,
         frames_ago: 0,
         span: Span::NONE,
-        per_sample: false,
+        face: Face::Resolved,
         texture: None,
         own_pixel: false,
         sampler: Sampler::new(Filter::Nearest),

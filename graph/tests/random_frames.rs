@@ -8,8 +8,8 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image, ImageIndex, Output, Pass, Resource, Sampled,
-    Storage, Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Output, Pass, Resource,
+    Sampled, Storage, Work,
 };
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::source::Span;
@@ -130,14 +130,17 @@ impl Maker {
         for number in 0..self.byte() % 4 {
             let Some(image) = self.pick(|maker, image| maker.written[image] && changed != Some(image)) else { return };
             let (format, samples) = IMAGES[image];
-            let per_sample = samples > 1 && (format.is_depth() || self.one_in(4));
+            let face = match samples > 1 && (format.is_depth() || self.one_in(4)) {
+                true => Face::Samples,
+                false => Face::Resolved,
+            };
             pass.sampled.push(Sampled {
                 binding: format!("source{number}").into(),
                 image: ImageIndex(image as u32),
                 range: Subresources::WHOLE,
                 frames_ago: 0,
                 span: Span::NONE,
-                per_sample,
+                face,
                 texture: None,
                 own_pixel: false,
                 sampler: Sampler::new(Filter::Nearest),

@@ -3,11 +3,11 @@
 use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image, ImageIndex, Output, Pass, Resource, Sampled,
-    Storage, Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Output, Pass, Resource,
+    Sampled, Storage, Work,
 };
 use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{CompareOp, Filter, Sampler, Stages, Subresources, Usage};
+use framewright_graph::vocabulary::{CompareOp, Filter, ResolveMode, Sampler, Stages, Subresources, Usage};
 
 /// A device that has every format at 1, 2, 4 and 8 samples, adds nothing to an image's bytes, and has one queue.
 #[must_use]
@@ -29,6 +29,8 @@ pub fn device() -> Profile {
         lazily_allocated_memory: false,
         queues: Queues::default(),
         local_read: false,
+        depth_resolve: vec![ResolveMode::SampleZero],
+        refuted_depth_resolve: Vec::new(),
         formats: Format::ALL.iter().map(support).collect(),
         memory: MemoryModel {
             alignment: 256,
@@ -139,7 +141,7 @@ impl Added<'_> {
             range: Subresources::WHOLE,
             frames_ago: 0,
             span: Span::NONE,
-            per_sample: false,
+            face: Face::Resolved,
             texture: None,
             own_pixel: false,
             sampler: Sampler::new(Filter::Nearest),

@@ -4,15 +4,18 @@ use crate::frames::{Added, Builder};
 use framewright_graph::format::Format::{
     D32_SFLOAT, R8G8B8A8_SRGB, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, R32_UINT,
 };
-use framewright_graph::frame::{Blend, Frame, ImageIndex, Lifetime};
-use framewright_graph::vocabulary::{FillValue, Subresources};
+use framewright_graph::frame::{Blend, Face, Frame, ImageIndex, Lifetime, Resolve};
+use framewright_graph::vocabulary::{FillValue, ResolveMode, Subresources};
 
-/// All that compile, with names: multisampled depth is refused where it is sampled as one value.
+/// All, with names.
 #[must_use]
 pub fn all() -> Vec<(String, Frame)> {
     let mut all = vec![
         ("forward, transparent".to_owned(), forward(true)),
         ("forward".to_owned(), forward(false)),
+        ("depth sampled".to_owned(), depth_sampled(None)),
+        ("depth resolved".to_owned(), depth_sampled(Some(ResolveMode::SampleZero))),
+        ("depth resolved by a draw".to_owned(), depth_sampled(Some(ResolveMode::Max))),
         ("weighted resolve".to_owned(), weighted()),
         ("prepass".to_owned(), prepass()),
         ("two versions".to_owned(), two_versions()),
@@ -40,16 +43,18 @@ pub fn forward(transparent: bool) -> Frame {
     builder.outputs(&[screen])
 }
 
-/// A pass blurs by multisampled depth.
+/// A pass blurs by multisampled depth, which is drawn again for it or resolved in this mode.
 #[must_use]
-pub fn depth_sampled() -> Frame {
+pub fn depth_sampled(mode: Option<ResolveMode>) -> Frame {
     let mut builder = Builder::default();
     let depth = builder.image("depth", D32_SFLOAT, 64, 4);
     let color = builder.image("color", R8G8B8A8_SRGB, 64, 4);
     let screen = builder.image("screen", R8G8B8A8_SRGB, 64, 1);
     builder.objects("opaque").clear(color).depth(depth, Some(0.0), true);
     builder.full_screen("blur").sample(depth).sample(color).color(screen, Blend::Replace);
-    builder.outputs(&[screen])
+    let mut frame = builder.outputs(&[screen]);
+    frame.images[0].resolve = mode.map(|mode| Resolve { mode: Some(mode), because: "it says so".into() });
+    frame
 }
 
 /// Objects at one size, shown at another.
@@ -74,7 +79,7 @@ pub fn weighted() -> Frame {
     let screen = builder.image("screen", R8G8B8A8_SRGB, 64, 1);
     builder.objects("opaque").clear(color);
     let pass = builder.full_screen("weighted").sample(color).color(screen, Blend::Replace);
-    pass.0.sampled[0].per_sample = true;
+    pass.0.sampled[0].face = Face::Samples;
     builder.outputs(&[screen])
 }
 

@@ -5,6 +5,7 @@ use framewright_graph::device::Estimated;
 use framewright_graph::format::Format;
 use framewright_graph::frame::Shape;
 use framewright_graph::plan;
+use framewright_graph::vocabulary::ResolveMode;
 use framewright_tests::frames::device;
 use framewright_tests::random_pipelines::allowed::{Allowed, NOT_YET};
 use framewright_tests::random_pipelines::generate;
@@ -16,7 +17,7 @@ use framewright_tests::random_pipelines::pipeline::{
 };
 use framewright_tests::random_pipelines::to_frame::to_frame;
 use framewright_tests::random_pipelines::{passes, shader, shrink};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::process::Command;
 
 /// Pipelines of many seeds and sizes.
@@ -54,6 +55,26 @@ fn shaders_of_one_name_have_one_text() {
             assert_eq!(*known, shader.files);
         }
     }
+}
+
+/// How the samples of depth become one value for a shader; `None`: whatever drew it is drawn again.
+#[test]
+fn each_rung_of_the_depth_ladder_turns_up() {
+    let mut rungs = BTreeSet::new();
+    for pipeline in (0..8000).map(|seed| generate::pipeline(seed, passes(seed, 40), &Allowed::default())) {
+        let reads = |pass: &Pass| match &pass.work {
+            Work::Draw(Draw { reads, .. }) | Work::Compute(Compute { reads, .. }) => reads.clone(),
+            _ => Vec::new(),
+        };
+        for read in pipeline.passes.iter().flat_map(reads) {
+            if let Read::Sampled { part, per_sample: false, .. } = read {
+                let image = &pipeline.images[part.image];
+                rungs.extend((image.samples > 1 && image.format.is_depth()).then_some(image.resolve));
+            }
+        }
+    }
+    let modes = [ResolveMode::Average, ResolveMode::SampleZero, ResolveMode::Min, ResolveMode::Max];
+    assert_eq!(rungs, [None].into_iter().chain(modes.map(Some)).collect());
 }
 
 #[test]
@@ -138,7 +159,7 @@ fn what_the_compiler_does_turns_up() {
 /// An image of 2 × 1 texels of one word each.
 fn words(life: Life) -> Image {
     let extent = [2, 1, 1];
-    Image { format: Format::R32_UINT, shape: Shape::D2, extent, mips: 1, layers: 1, samples: 1, life }
+    Image { format: Format::R32_UINT, shape: Shape::D2, extent, mips: 1, layers: 1, samples: 1, resolve: None, life }
 }
 
 /// All of an image that has one mip level and one layer.

@@ -197,3 +197,19 @@ fn full_screen_shaders_are_safe_to_rotate() -> Result<(), Box<dyn Error>> {
     }
     Ok(())
 }
+
+/// IQ-13: masked objects keep what removes fragments, opaque ones need no fragment shader; neither colour nor light is left.
+#[test]
+fn object_shaders_that_draw_nothing_but_depth_keep_only_what_removes_fragments() -> Result<(), Box<dyn Error>> {
+    let depth_only = Variant { depth_only: true, ..Variant::default() };
+    for (name, draw) in DRAWN.iter().filter(|(_, draw)| matches!(draw, Draw::Objects(_))) {
+        let whole = library().compiled(name, *draw, &Variant::default()).map_err(|problem| format!("{problem:?}"))?;
+        let alone = library().compiled(name, *draw, &depth_only).map_err(|problem| format!("{problem:?}"))?;
+        assert_eq!(alone.vertex, whole.vertex, "{name}: the same vertices");
+        assert_eq!(alone.fragment.is_some(), whole.interface.discards, "{name}");
+        assert_eq!(alone.interface.discards, whole.interface.discards, "{name}");
+        let read: Vec<&str> = alone.interface.bindings.iter().map(|binding| &*binding.name).collect();
+        assert!(alone.interface.outputs.is_empty() && !read.contains(&"lights"), "{name}: {read:?}");
+    }
+    Ok(())
+}

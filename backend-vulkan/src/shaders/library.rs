@@ -22,9 +22,9 @@ pub type Spirv = Arc<[u32]>;
 pub struct CompiledShader {
     /// Vertex stage.
     pub vertex: Spirv,
-    /// Fragment stage.
-    pub fragment: Spirv,
-    /// What both stages use.
+    /// Fragment stage; `None` where nothing but depth is drawn and it would change nothing.
+    pub fragment: Option<Spirv>,
+    /// What all stages use.
     pub interface: ShaderInterface,
     /// The fragment stage's input attachments by name, with their index among those of the shader.
     pub input_attachments: Vec<(String, u32)>,
@@ -49,7 +49,8 @@ pub struct CompiledCompute {
 /// A [`Variant`] says how a pass has them compiled. The macro `TEXTURE_NAME` stands for the type of the image that the pass
 /// gives as `NAME`, in the stages that are the shader's own and whose own file mentions it. Where a pass reads the image
 /// `NAME` locally, as an input attachment of its own rendering scope, its fragment stage is compiled with the macro
-/// `LOCAL_READ_NAME` and must declare it `subpassInput` then. What was once read or compiled is kept for the library's
+/// `LOCAL_READ_NAME` and must declare it `subpassInput` then. Where a pass draws nothing but depth it is compiled with the
+/// macro `DEPTH_ONLY`: what is left decides which fragments stay. What was once read or compiled is kept for the library's
 /// lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
     files: ShaderFiles,
@@ -109,15 +110,21 @@ impl ShaderLibrary {
         let Some(fragment) = self.stage(format!("{name}.frag"), Stage::Fragment, variant)? else {
             return Err(self.missing(".frag"));
         };
-        let own = Variant { local: Vec::new(), ..variant.clone() };
+        // The same vertex stage, word for word: it must meet the same depth.
+        let own = Variant { local: Vec::new(), depth_only: false, ..variant.clone() };
         let vertex = match self.stage(format!("{name}.vert"), Stage::Vertex, &own)? {
             Some(own) => own,
             None => self.usual_vertex_stage(name, draw)?,
         };
         let interface = join(&vertex, &fragment).map_err(|what| ShaderProblem::Unsupported { what })?;
+        let spirv = vertex.spirv.clone();
+        if variant.depth_only && changes_nothing(&fragment.reflected.interface) {
+            let interface = vertex.reflected.interface.clone();
+            return Ok(CompiledShader { vertex: spirv, fragment: None, interface, input_attachments: Vec::new() });
+        }
         Ok(CompiledShader {
-            vertex: vertex.spirv.clone(),
-            fragment: fragment.spirv.clone(),
+            vertex: spirv,
+            fragment: Some(fragment.spirv.clone()),
             interface,
             input_attachments: fragment.reflected.input_attachments.clone(),
         })
@@ -206,6 +213,17 @@ impl ShaderInterfaces for ShaderLibrary {
     }
 }
 
+/// Whether a fragment stage leaves depth as it would be without one.
+fn changes_nothing(fragment: &ShaderInterface) -> bool {
+    let writes = |kind: &BindingKind| {
+        matches!(
+            kind,
+            BindingKind::StorageImage { writable: true, .. } | BindingKind::StorageBlock { writable: true, .. }
+        )
+    };
+    !fragment.discards && !fragment.writes_depth && !fragment.bindings.iter().any(|binding| writes(&binding.kind))
+}
+
 /// What the macros that depend on a pass stand for in a stage whose file mentions `TEXTURE_NAME` for each of `adapting`.
 fn macros(adapting: &[String], variant: &Variant) -> Macros {
     let textures = adapting.iter().map(|name| {
@@ -214,7 +232,8 @@ fn macros(adapting: &[String], variant: &Variant) -> Macros {
         (format!("{TEXTURE}{name}"), texture)
     });
     let local = variant.local.iter().map(|name| (format!("LOCAL_READ_{name}"), String::new()));
-    textures.chain(local).collect()
+    let depth_only = variant.depth_only.then(|| ("DEPTH_ONLY".to_owned(), String::new()));
+    textures.chain(local).chain(depth_only).collect()
 }
 
 /// Macros of this beginning stand for the types of what a pass samples.

@@ -201,6 +201,7 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
         draw: Some(draw),
         groups: None,
         shader: shader.into(),
+        redraws: None,
         discards: false,
         blend: vec![Blend::Replace],
         depth: None,

@@ -4,7 +4,7 @@ use crate::common::{find_layer, findings, skip};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{
-    Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Frame, Groups, Image,
+    Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Face, Frame, Groups, Image,
     ImageIndex, Lifetime, Output, Pass, Resource, Sampled, Storage, TransferUse, Work,
 };
 use framewright_graph::interface::DrawInterface;
@@ -210,7 +210,7 @@ fn sampled(pass: &Pass, binding: &str, image: ImageIndex, range: Subresources) -
         range,
         frames_ago: 0,
         span: Span::NONE,
-        per_sample: false,
+        face: Face::Resolved,
         texture: None,
         own_pixel: false,
         sampler: Sampler::new(Filter::Nearest),

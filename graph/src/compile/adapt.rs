@@ -5,7 +5,9 @@
 
 mod access;
 mod demote;
+mod depth_only;
 mod forward;
+mod resolve;
 mod stores;
 
 use super::Options;
@@ -15,10 +17,10 @@ use super::model::{Adapted, Negotiated, Op, OpKind, Start, StoreIndex, Use};
 use super::parts::{self, Grids};
 use crate::describe::Diagnostic;
 use crate::device::Profile;
-use crate::frame::{Draw, Frame, ImageIndex, Pass, Resource, Sampled, Work};
+use crate::frame::{Draw, Face, Frame, ImageIndex, Pass, Resource, Sampled, Work};
 use crate::plan::{Inserted, Note, Stage};
 use crate::source::{Place, Span};
-use crate::vocabulary::{Aspects, Layout, ResolveMode, Subresources};
+use crate::vocabulary::{Aspects, Layout, Subresources};
 use demote::Demotions;
 use forward::Later;
 use std::collections::BTreeMap;
@@ -42,6 +44,9 @@ pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
         store_of: vec![None; frame.images.len()],
         buffer_store_of: vec![None; frame.buffers.len()],
         resolved_of: Vec::with_capacity(frame.images.len()),
+        redrawn_of: Vec::with_capacity(frame.images.len()),
+        depth_writers: BTreeMap::new(),
+        redrawn_times: BTreeMap::new(),
         is_output: vec![false; frame.images.len()],
         inserted_for: BTreeMap::new(),
         known_as: BTreeMap::new(),
@@ -87,8 +92,14 @@ struct Adapter<'a> {
     store_of: Vec<Option<StoreIndex>>,
     /// The same for buffers.
     buffer_store_of: Vec<Option<StoreIndex>>,
-    /// For each physical image the single-sample copy of what it holds, if there is one.
+    /// For each physical image what it holds resolved to one sample, if somebody asked for that.
     resolved_of: Vec<Option<StoreIndex>>,
+    /// For each physical image what it holds drawn again with one sample, if somebody asked for that.
+    redrawn_of: Vec<Option<StoreIndex>>,
+    /// For each multisampled depth image the operations that wrote its current version.
+    depth_writers: BTreeMap<StoreIndex, Vec<u32>>,
+    /// How often each pass is drawn again.
+    redrawn_times: BTreeMap<u32, u32>,
     /// Whether each image leaves the frame.
     is_output: Vec<bool>,
     /// How many resolved copies, copies and second images each image has had: they need distinct names.
@@ -186,12 +197,14 @@ impl Adapter<'_> {
         for used in uses {
             if used.writes {
                 self.drawn[used.store as usize] = kind.draws();
+                self.note_depth_writer(used, kind.draws());
             }
             let store = &self.adapted.stores[used.store as usize];
             let cell = if store.grid(self.input.grids).is_none() { store.first_cell } else { Use::CELLS };
             self.adapted.uses.push(Use { cell, ..*used });
         }
-        let side_effect = kind.pass().is_some_and(|pass| self.input.frame.passes[pass as usize].side_effect);
+        let own = if kind.inserted().is_none() { kind.pass() } else { None };
+        let side_effect = own.is_some_and(|pass| self.input.frame.passes[pass as usize].side_effect);
         self.adapted.ops.push(Op { kind, uses: start..start + uses.len() as u32, side_effect });
     }
 
@@ -237,11 +250,12 @@ impl Adapter<'_> {
         }
         let before = self.current(sampled.image);
         let count = self.samples(before);
-        if sampled.per_sample && count > 1 {
+        let per_sample = sampled.face == Face::Samples;
+        if per_sample && count > 1 {
             return Some(self.version_before(number, pass, sampled, before));
         }
         // A shader that adapts does without samples.
-        if sampled.per_sample && sampled.texture.is_none() {
+        if per_sample && sampled.texture.is_none() {
             let message = format!("`{}` reads single samples of `{}`, which has one sample", pass.name, declared.name);
             let help = format!(
                 "declare it `TEXTURE_{0} {0}` in the shader, which fits any number of samples, or sample it as `sampler2D` \
@@ -253,7 +267,11 @@ impl Adapter<'_> {
         }
         if count > 1 {
             let because = format!("`{}` samples `{}` and it has {count} samples", pass.name, declared.name);
-            return self.resolved(sampled.image, because, sampled.span);
+            if sampled.range.aspects == Aspects::STENCIL {
+                self.refuse_stencil(sampled.image, &because, sampled.span);
+                return None;
+            }
+            return self.resolved(sampled.image, sampled.face, because, sampled.span);
         }
         if self.demotions.is_worth_a_note(sampled.image) {
             let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
@@ -342,7 +360,7 @@ impl Adapter<'_> {
         let wanted = self.input.negotiated.samples(image);
         let samples_it = pass.sampled.iter().any(|sampled| {
             let same = sampled.image == image && sampled.frames_ago == 0 && self.overlap(image, sampled.range, range);
-            same && (sampled.per_sample || wanted == 1)
+            same && (sampled.face == Face::Samples || wanted == 1)
         });
         let there = self.store_of[image.0 as usize].is_some() && self.current_samples(image) == wanted;
         if samples_it && there && self.moves_on(number, image, range, keeps) {
@@ -385,34 +403,6 @@ impl Adapter<'_> {
             let message = format!("`{}` samples the depth `{name}` that it also writes", pass.name);
             self.errors.push(Diagnostic::new(sampled.span, message).help("test it without writing: `write: false`"));
         }
-    }
-
-    /// The single-sample copy of an image's current version, for a pass that reads it.
-    fn resolved(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
-        let declared = &self.input.frame.images[image.0 as usize];
-        if declared.format.is_depth() {
-            let message = format!("{because}; passes can't read resolved depth yet");
-            let help = format!("sample it as `sampler2DMS`, or give `{}` 1 sample", declared.name);
-            self.errors.push(Diagnostic::new(span, message).help(help));
-            return None;
-        }
-        Some(self.single_sample(image, because, span))
-    }
-
-    /// The single-sample copy of an image's current version: colour is averaged, integers and depth are sample zero.
-    fn single_sample(&mut self, image: ImageIndex, because: String, span: Span) -> StoreIndex {
-        let source = self.current(image);
-        if let Some(resolved) = self.resolved_of[source as usize] {
-            return resolved;
-        }
-        let declared = &self.input.frame.images[image.0 as usize];
-        let averaged = !declared.format.is_integer() && !declared.format.is_depth();
-        let mode = if averaged { ResolveMode::Average } else { ResolveMode::SampleZero };
-        let why = self.reason(because, span);
-        let target = self.second(image, "resolved", why.clone(), 1);
-        self.push_transfer(OpKind::Resolve { mode, why }, source, target, Use::ALL);
-        self.resolved_of[source as usize] = Some(target);
-        target
     }
 }
 

@@ -11,7 +11,7 @@ pub(super) use revise::{barriers, sizes, values};
 use super::batch::Batched;
 use super::cull::Live;
 use super::hand_over::MemoryScopes;
-use super::model::{Adapted, Home, Kind, Op, OpKind, Store};
+use super::model::{Adapted, Home, Kind, Op, Store};
 use super::outlive::States;
 use super::parts::Grids;
 use super::place::Placed;
@@ -295,11 +295,9 @@ fn notes(parts: &Parts<'_>) -> Vec<Note> {
 /// Why an operation is there.
 fn cause(parts: &Parts<'_>, op: &Op) -> Cause {
     let place = |pass: u32| -> Option<Place> { parts.frame.sources.place(parts.frame.passes[pass as usize].span) };
-    match &op.kind {
-        OpKind::Draw(pass) | OpKind::Pass(pass) => Cause::Written(place(*pass)),
-        OpKind::ForwardDraw { why, .. } | OpKind::Resolve { why, .. } | OpKind::Copy(why) => {
-            Cause::Inserted(why.clone())
-        }
+    match op.kind.inserted() {
+        Some(why) => Cause::Inserted(Box::new(why.clone())),
+        None => Cause::Written(op.kind.pass().and_then(place)),
     }
 }
 

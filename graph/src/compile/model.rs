@@ -4,6 +4,7 @@ use super::parts::{Grid, Grids};
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{Frame, ImageIndex, Resource};
 use crate::plan::{Inserted, Note, Subresources};
+use crate::view::ViewIndex;
 use crate::vocabulary::{Accesses, FillValue, Filter, Layout, ResolveMode, Stages, State, Usage};
 use std::ops::Range;
 use std::sync::Arc;
@@ -161,6 +162,26 @@ pub(super) enum OpKind {
         /// Why.
         why: Box<Inserted>,
     },
+    /// A draw of the frame again, of nothing but its depth and with one sample; its only use is that depth.
+    DepthOnly {
+        /// The pass of the frame.
+        pass: u32,
+        /// Its own name.
+        name: Arc<str>,
+        /// Why.
+        why: Box<Inserted>,
+    },
+    /// An inserted full-screen draw that resolves depth; its uses are source and target.
+    ResolveDraw {
+        /// How samples become one value.
+        mode: ResolveMode,
+        /// Its name.
+        name: Arc<str>,
+        /// The view that it draws for.
+        view: ViewIndex,
+        /// Why.
+        why: Box<Inserted>,
+    },
     /// An inserted resolve; its uses are source and target.
     Resolve {
         /// How samples become one value.
@@ -173,17 +194,37 @@ pub(super) enum OpKind {
 }
 
 impl OpKind {
-    /// The pass of the frame that it is or stands in for.
+    /// The pass of the frame that it is, stands in for or draws again.
     pub(super) fn pass(&self) -> Option<u32> {
         match self {
-            OpKind::Draw(pass) | OpKind::Pass(pass) | OpKind::ForwardDraw { pass, .. } => Some(*pass),
-            OpKind::Resolve { .. } | OpKind::Copy(_) => None,
+            OpKind::Draw(pass)
+            | OpKind::Pass(pass)
+            | OpKind::ForwardDraw { pass, .. }
+            | OpKind::DepthOnly { pass, .. } => Some(*pass),
+            OpKind::ResolveDraw { .. } | OpKind::Resolve { .. } | OpKind::Copy(_) => None,
         }
     }
 
     /// Whether it draws into attachments.
     pub(super) fn draws(&self) -> bool {
-        matches!(self, OpKind::Draw(_) | OpKind::ForwardDraw { .. })
+        match self {
+            OpKind::Draw(_) | OpKind::ForwardDraw { .. } | OpKind::DepthOnly { .. } | OpKind::ResolveDraw { .. } => {
+                true
+            }
+            OpKind::Pass(_) | OpKind::Resolve { .. } | OpKind::Copy(_) => false,
+        }
+    }
+
+    /// Why it was inserted, if it was.
+    pub(super) fn inserted(&self) -> Option<&Inserted> {
+        match self {
+            OpKind::Draw(_) | OpKind::Pass(_) => None,
+            OpKind::ForwardDraw { why, .. }
+            | OpKind::DepthOnly { why, .. }
+            | OpKind::ResolveDraw { why, .. }
+            | OpKind::Resolve { why, .. }
+            | OpKind::Copy(why) => Some(why),
+        }
     }
 }
 

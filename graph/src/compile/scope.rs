@@ -72,9 +72,12 @@ pub(super) struct Scope {
     pub(super) local: bool,
 }
 
-/// The name of an operation's pass.
-pub(super) fn op_name<'f>(frame: &'f Frame, adapted: &Adapted, op: u32) -> Option<&'f Arc<str>> {
-    adapted.ops[op as usize].kind.pass().map(|pass| &frame.passes[pass as usize].name)
+/// The name of the pass that an operation is in the Plan.
+pub(super) fn op_name<'f>(frame: &'f Frame, adapted: &'f Adapted, op: u32) -> Option<&'f Arc<str>> {
+    match &adapted.ops[op as usize].kind {
+        OpKind::DepthOnly { name, .. } | OpKind::ResolveDraw { name, .. } => Some(name),
+        kind => kind.pass().map(|pass| &frame.passes[pass as usize].name),
+    }
 }
 
 pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &mut Adapted, order: &[u32], device: &Profile) -> Scoped {
@@ -161,8 +164,8 @@ impl Ways {
 
 impl Builder<'_> {
     fn op(&mut self, op: u32) {
-        match self.adapted.ops[op as usize].kind {
-            OpKind::Draw(_) | OpKind::ForwardDraw { .. } => self.draw(op),
+        match &self.adapted.ops[op as usize].kind {
+            draw if draw.draws() => self.draw(op),
             OpKind::Resolve { .. } => match self.fold(op) {
                 Ok(()) => {}
                 Err(why) => {
@@ -172,7 +175,7 @@ impl Builder<'_> {
                     self.single(op);
                 }
             },
-            OpKind::Copy(_) | OpKind::Pass(_) => self.single(op),
+            _ => self.single(op),
         }
     }
 

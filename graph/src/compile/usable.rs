@@ -74,11 +74,7 @@ fn refusal(
 /// What the compiler inserted that uses a store, or where it comes from and goes.
 fn why<'a>(adapted: &'a Adapted, store: &'a Store, at: StoreIndex) -> &'a str {
     let inserted = |number: u32| -> Option<&Inserted> {
-        let (OpKind::Resolve { why, .. } | OpKind::ForwardDraw { why, .. } | OpKind::Copy(why)) =
-            &adapted.ops[number as usize].kind
-        else {
-            return None;
-        };
+        let why = adapted.ops[number as usize].kind.inserted()?;
         adapted.uses(number).iter().any(|used| used.store == at).then_some(why)
     };
     let because = (0..adapted.ops.len() as u32).find_map(inserted).or(store.inserted.as_deref());

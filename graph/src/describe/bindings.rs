@@ -63,7 +63,19 @@ static FACES: Words = Words {
             &["Samples(\"image\")"],
             "Each sample by itself.",
         ),
-        Word::new("Resolved", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Resolved(\"image\")"], "One value a texel."),
+        Word::new(
+            "Resolved",
+            &[Takes::Values(&[parts::WHOLE_IMAGE])],
+            &["Resolved(\"image\")"],
+            "One value a texel. Where the image has several samples its `resolve` says what becomes of them.",
+        ),
+        Word::new(
+            "DepthOnly",
+            &[Takes::Values(&[parts::WHOLE_IMAGE])],
+            &["DepthOnly(\"image\")"],
+            "One value of depth a texel. Where the image has several samples, whatever drew it is drawn again with one, and \
+             nothing but its depth: that of the middle of each texel.",
+        ),
     ],
 };
 
@@ -174,7 +186,12 @@ fn face<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(Leaf<'src>, Face
     }
     let (word, rest) = reader.one_of(leaf, &FACES)?;
     let [inner]: [Leaf<'_>; 1] = reader.inside(leaf, rest, &format!("{word}(\"image\")"))?;
-    Some((inner, if word == "Samples" { Face::Samples } else { Face::Resolved }))
+    let face = match word {
+        "Samples" => Face::Samples,
+        "Resolved" => Face::Resolved,
+        _ => Face::DepthOnly,
+    };
+    Some((inner, face))
 }
 
 /// Images and buffers that the shader reads and writes, by its names.

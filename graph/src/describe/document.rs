@@ -19,7 +19,7 @@ use super::settings::{self, SettingFields};
 use super::surroundings::Surroundings;
 use super::textures::Pictures;
 use super::tree::Tree;
-use super::{Diagnostic, outputs, textures, views};
+use super::{Diagnostic, outputs, resolves, textures, views};
 use crate::change::Change;
 use crate::expression::Value;
 use crate::facts::Facts;
@@ -64,6 +64,9 @@ fields! {
         pub(super) passes: Leaf<'src> => body::ITEMS,
         /// The images and buffers that leave the frame.
         pub(super) outputs: Leaf<'src> => outputs::OUTPUTS,
+        /// How several samples of depth become one value where a pass samples it, of images that don't say it; `Exact` if left
+        /// out.
+        pub(super) depth: Option<Leaf<'src>> => resolves::DEPTH,
         /// What is changed of all that, after the extensions.
         pub(super) changes: Option<Leaf<'src>> => CHANGES,
     }
@@ -252,6 +255,7 @@ fn said<'t>(reader: &mut Reader, all: Leaf<'t>) -> Option<Said<'t>> {
 pub(super) struct Whole<'s, 't> {
     pub(super) settings: &'s [Option<Setting>],
     pub(super) views: Option<Leaf<'t>>,
+    pub(super) depth: Option<Leaf<'t>>,
     pub(super) outputs: Leaf<'t>,
 }
 
@@ -276,7 +280,7 @@ fn lower(
         reader,
         fields.fragments.into_iter().chain(included.iter().filter_map(|tree| tree.root().field("fragments"))),
     );
-    let PipelineFields { textures, images, buffers, passes, views, outputs, .. } = fields;
+    let PipelineFields { textures, images, buffers, passes, views, depth, outputs, .. } = fields;
     let lists = Lists { textures, images: Some(images), buffers, passes: Some(passes) };
     let body = Body::read(reader, names, parameters, true, lists);
     let given = values.into_iter().map(|value| value.map(|value| Given { value, decided: Vec::new() })).collect();
@@ -286,5 +290,5 @@ fn lower(
     } else {
         Lowering::new(surroundings, &fragments, pictures, false)
     };
-    lowering.whole(reader, &body, level, Whole { settings, views, outputs })
+    lowering.whole(reader, &body, level, Whole { settings, views, depth, outputs })
 }

@@ -8,7 +8,7 @@ use super::reader::Reader;
 use super::resources::{Format, Image, Layers, Lifetime, Mips, Samples, Shape as ImageShape, Size};
 use super::scope::{Quoted, Scope, joined};
 use super::values::Decided;
-use super::{Diagnostic, Spanned, lifetimes, parameters, parts, values, views};
+use super::{Diagnostic, Spanned, lifetimes, parameters, parts, resolves, values, views};
 use crate::expression::{Value, Wanted};
 use crate::fields;
 use crate::format;
@@ -45,6 +45,9 @@ fields! {
         size: Leaf<'src> => Form::Words(&SIZES),
         /// Samples a texel; 1 if left out.
         samples: Option<Leaf<'src>> => Form::Words(&SAMPLES),
+        /// How several samples become one value where one is wanted; if left out colour is averaged, and depth is as the
+        /// pipeline's `depth` says.
+        resolve: Option<Leaf<'src>> => resolves::RESOLVE,
         /// Mip levels; 1 if left out.
         mips: Option<Leaf<'src>> => Form::Words(&MIPS),
         /// Array layers; 1 if left out, of a cube 6.
@@ -160,6 +163,7 @@ pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &Image
         Some(leaf) => samples(reader, scope, leaf, &name).map(|(samples, because)| (leaf.spanned(samples), because)),
         None => name.as_ref().map(|name| (Spanned { value: Samples::Count(1), span: name.span }, None)),
     };
+    let resolve = fields.resolve.map(|leaf| resolves::lower(reader, scope, leaf));
     let mips = or(reader, fields.mips, &name, Mips::Count(1), |reader, leaf| mips(reader, scope, leaf));
     let layers = or(reader, fields.layers, &name, Layers::Default, |reader, leaf| layers(reader, scope, leaf));
     let shape = or(reader, fields.shape, &name, ImageShape::D2, |reader, leaf| shape(reader, scope, leaf));
@@ -175,6 +179,10 @@ pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &Image
         size_because,
         samples,
         samples_because,
+        resolve: match resolve {
+            Some(resolve) => Some(resolve?),
+            None => None,
+        },
         mips: mips?,
         layers: layers?,
         shape: shape?,

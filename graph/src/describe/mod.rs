@@ -47,6 +47,7 @@ mod properties;
 mod put_in;
 mod reader;
 mod render;
+mod resolves;
 mod resources;
 mod scope;
 mod scope_names;
@@ -81,7 +82,8 @@ pub use pipeline_files::{PipelineFiles, SHIPPED, Shipped};
 pub(crate) use properties::scaled;
 pub use render::{escape, render};
 pub use resources::{
-    Buffer, Bytes, Fill, Format, Image, Layers, Lifetime, Mips, Samples, Shape as ImageShape, Size, State, StateWord,
+    Buffer, Bytes, Fill, Format, Image, Layers, Lifetime, Mips, Resolve, Resolves, Samples, Shape as ImageShape, Size,
+    State, StateWord,
 };
 pub(crate) use settings::shown as shown_number;
 pub use settings::{last_step, nth as nth_step};

@@ -8,6 +8,7 @@ use super::settings::{LISTED, default_on_step, listed, step};
 use crate::expression::Value;
 use crate::fields;
 use crate::format::Format;
+use std::sync::Arc;
 
 /// A setting, or a parameter of a fragment.
 #[derive(Debug, Clone)]
@@ -174,6 +175,14 @@ impl Parameter {
         }
     }
 
+    /// The texts that it may be.
+    pub(super) fn texts(&self) -> &[Arc<str>] {
+        match &self.kind {
+            ParameterKind::Value(SettingKind::Choice { of, .. }) => of,
+            _ => &[],
+        }
+    }
+
     /// Its value if none is given.
     pub(super) fn default(&self) -> Option<Value> {
         match &self.kind {
@@ -265,7 +274,7 @@ fn one_of<'src>(reader: &mut Reader, leaf: Leaf<'src>, rest: Option<Leaf<'src>>)
     };
     let default = fields.default.unwrap_or(first);
     let kind = if let Shape::Text = first.shape() {
-        let text = |reader: &mut Reader, leaf: Leaf<'src>| reader.words(leaf, "a text").map(std::sync::Arc::from);
+        let text = |reader: &mut Reader, leaf: Leaf<'src>| reader.words(leaf, "a text").map(Arc::from);
         let (default, of) = listed(reader, default, &entries, text)?;
         SettingKind::Choice { default, of }
     } else {

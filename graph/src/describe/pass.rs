@@ -212,6 +212,8 @@ pub enum Face {
     Samples,
     /// One value a texel.
     Resolved,
+    /// One value of depth a texel: where there are several samples, that which drawing it again with one leaves.
+    DepthOnly,
 }
 
 /// An image or buffer that a shader reads and writes by itself.

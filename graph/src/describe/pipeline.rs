@@ -1,7 +1,7 @@
 //! What a pipeline file says, as owned data: every name is found, every value has its place.
 
 use super::pass::Pass;
-use super::resources::{Buffer, Image, State};
+use super::resources::{Buffer, Image, Resolves, State};
 use super::views::View;
 use crate::encoding::Encoding;
 use crate::frame::{BufferIndex, ImageIndex, Resource};
@@ -22,6 +22,9 @@ pub struct Pipeline {
     pub buffers: Vec<Buffer>,
     /// Passes in the order that gives them meaning.
     pub passes: Vec<Pass>,
+    /// How several samples of depth become one value, of images that don't say it; `None`: whatever drew it is drawn again
+    /// for passes that sample it.
+    pub depth: Option<Resolves>,
     /// Images and buffers that leave the frame.
     pub outputs: Vec<Output>,
     /// Fragments that were put in, each before those within it.

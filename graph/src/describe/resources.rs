@@ -4,7 +4,7 @@ use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, Spanned};
 use crate::format;
 use crate::texture::TextureFile;
 use crate::view::ViewIndex;
-use crate::vocabulary;
+use crate::vocabulary::{self, ResolveMode};
 use std::sync::Arc;
 
 /// An image.
@@ -22,6 +22,8 @@ pub struct Image {
     pub samples: Spanned<Samples>,
     /// What decided how many samples it has, if anything did: "msaa = 4".
     pub samples_because: Option<Arc<str>>,
+    /// How several samples become one value, if the file says it.
+    pub resolve: Option<Resolves>,
     /// Mip levels.
     pub mips: Spanned<Mips>,
     /// Array layers.
@@ -34,6 +36,24 @@ pub struct Image {
     pub view: ViewIndex,
     /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).
     pub instance: Option<u32>,
+}
+
+/// How several samples become one value, and who says so.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resolves {
+    /// How.
+    pub resolve: Spanned<Resolve>,
+    /// What says so, with what decided it: "`resolve: Min` (quality = 'low')".
+    pub said: Arc<str>,
+}
+
+/// How several samples become one value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Resolve {
+    /// Of depth: whatever drew it is drawn again with one sample.
+    DepthOnly,
+    /// In this mode.
+    By(ResolveMode),
 }
 
 /// A texel format, by purpose or by name.

@@ -140,6 +140,7 @@ fn image(
         size_because: None,
         samples: Spanned { value: Samples::Count(1), span },
         samples_because: None,
+        resolve: None,
         mips: Spanned { value: Mips::Count(1), span },
         layers: Spanned { value: Layers::Default, span },
         shape: fields.shape.unwrap_or(from).spanned(shape),

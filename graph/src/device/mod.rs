@@ -11,7 +11,7 @@ pub use saved::{ProfileError, SHIPPED_PROFILES};
 use crate::format::Format;
 use crate::frame::Shape;
 use crate::plan::Sharing;
-use crate::vocabulary::{BufferUsage, Usage};
+use crate::vocabulary::{BufferUsage, ResolveMode, Usage};
 use serde::{Deserialize, Serialize};
 
 /// A device's capabilities, as far as a Plan depends on them.
@@ -46,6 +46,12 @@ pub struct Profile {
     /// (`VK_KHR_dynamic_rendering_local_read`).
     #[serde(default)]
     pub local_read: bool,
+    /// How depth can be resolved by the rendering scope that draws it, as far as the device does what it says.
+    #[serde(default = "least_depth_resolve")]
+    pub depth_resolve: Vec<ResolveMode>,
+    /// How the device says that it resolves depth, and a test showed that it doesn't.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub refuted_depth_resolve: Vec<ResolveMode>,
     /// What each format can be, each once; formats that are absent can be nothing.
     #[serde(deserialize_with = "sound::formats")]
     pub formats: Vec<FormatSupport>,
@@ -68,6 +74,11 @@ const fn least_extent_3d() -> u32 {
 /// The least that Vulkan demands.
 const fn least_layers() -> u32 {
     256
+}
+
+/// The least that Vulkan demands.
+fn least_depth_resolve() -> Vec<ResolveMode> {
+    vec![ResolveMode::SampleZero]
 }
 
 /// Queues beside the one that does graphics, compute and transfer.

@@ -1,9 +1,12 @@
 //! Formats, sizes and sample counts of images, each its own or that of an image that it follows.
 
 use super::{Chosen, shapes};
-use crate::describe::{self, Diagnostic, Format as Described, ImageRef, Layers, Mips, Samples, Size};
+use crate::describe::{
+    self, Diagnostic, Format as Described, ImageRef, Layers, Mips, Resolve, Resolves, Samples, Size,
+};
 use crate::format::Format;
-use crate::frame::Image;
+use crate::frame::{self, Image};
+use crate::vocabulary::ResolveMode;
 use std::sync::Arc;
 
 /// An image of the frame, and where its samples come from.
@@ -60,11 +63,13 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
             Mips::Like(_) => followed,
         },
     );
+    let policy = chosen.pipeline.depth.as_ref();
     let all = images.iter().zip(formats).zip(extents).zip(samples).zip(layers).zip(mips);
     all.map(|(((((described, format), extent), samples), layers), mips)| {
         let ([width, height], (samples, samples_because)) = (extent?, samples?);
         let image =
             Image { span: described.name.span, samples, ..Image::new(&described.name.text, format?, width, height) };
+        let image = Image { resolve: asked(described, &image, policy, errors)?, ..image };
         let image = shapes::shaped(described, image, layers?, mips?, errors)?;
         Some(Resolved { image, samples_because })
     })
@@ -108,6 +113,31 @@ fn format(image: &describe::Image, followed: Option<Format>) -> Option<Format> {
         Described::Named(format) => Some(format),
         Described::Like(_) => followed,
     }
+}
+
+/// How several samples of an image become one value, if it or, for depth, the pipeline says so. `None` after a mistake.
+fn asked(
+    described: &describe::Image,
+    image: &Image,
+    policy: Option<&Resolves>,
+    errors: &mut Vec<Diagnostic>,
+) -> Option<Option<frame::Resolve>> {
+    let depth = image.format.is_depth();
+    let Some(Resolves { resolve, said }) = described.resolve.as_ref().or(policy.filter(|_| depth)) else {
+        return Some(None);
+    };
+    let mode = match resolve.value {
+        Resolve::DepthOnly => None,
+        Resolve::By(mode) => Some(mode),
+    };
+    let usual = if image.format.is_integer() { ResolveMode::SampleZero } else { ResolveMode::Average };
+    if !depth && mode != Some(usual) {
+        let message = format!("`{}` can't be resolved so: it is {}", image.name, image.format);
+        let wrong = Diagnostic::new(resolve.span, message).label(described.format.span, "its format");
+        errors.push(wrong.help("colour is averaged, integers are sample zero; the other ways are for depth"));
+        return None;
+    }
+    Some(Some(frame::Resolve { mode, because: said.clone() }))
 }
 
 fn extent(

@@ -3,7 +3,7 @@
 use super::shader::Checked;
 use super::things::Things;
 use crate::describe::{self, Diagnostic};
-use crate::frame::Pass;
+use crate::frame::{Face, Pass};
 use crate::interface::{BindingKind, PASS_SET, ShaderInterface, Variant};
 
 /// Reports what a pass reads at its own position and its shader can't, where it is compiled for local reads. `interface`: the
@@ -24,7 +24,7 @@ pub(super) fn check(
         sampled.is_some_and(|sampled| {
             let image = things.image(sampled.image);
             let color = image.is_some_and(|image| !image.image.format.is_depth());
-            sampled.own_pixel && !sampled.per_sample && color && declared(name)
+            sampled.own_pixel && sampled.face == Face::Resolved && color && declared(name)
         })
     };
     let own: Vec<&describe::Sample> = pass.sample.iter().filter(read).collect();

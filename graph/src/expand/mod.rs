@@ -5,6 +5,7 @@
 //! ```
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
+mod depth_only;
 mod fills;
 mod images;
 mod local;
@@ -145,6 +146,7 @@ pub fn expand(
         said.once(&mut errors, before);
         used_here(&pipeline, pass.instance, &mut errors[before..]);
     }
+    depth_only::note(&chosen, &things, &mut states, &mut checked);
     let outputs = outputs(&chosen, &things, inputs.dump, &mut errors);
     let before = errors.len();
     order::check(&chosen, &things, &states, &outputs, &mut errors);

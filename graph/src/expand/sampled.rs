@@ -6,7 +6,7 @@ use super::shader::{component_words, shape_words};
 use super::things::Things;
 use super::{Chosen, storage};
 use crate::describe::{self, Diagnostic, Face, nearest, suggestion};
-use crate::frame::{Pass, Sampled, Shape};
+use crate::frame::{self, Pass, Sampled, Shape};
 use crate::interface::{BindingKind, Component, Dimension, ImageShape, PASS_SET, ShaderInterface};
 use crate::vocabulary::{Aspects, Filter, Sampler, Subresources};
 
@@ -64,6 +64,11 @@ pub(super) fn lower(
         range.aspects = if integers { Aspects::STENCIL } else { Aspects::DEPTH };
     }
     let per_sample = shape.map_or(sample.face == Face::Samples, |shape| shape.multisampled);
+    let face = match (per_sample, sample.face) {
+        (true, _) => frame::Face::Samples,
+        (false, Face::DepthOnly) => frame::Face::DepthOnly,
+        (false, Face::Plain | Face::Samples | Face::Resolved) => frame::Face::Resolved,
+    };
     let exact = image.format.is_depth() || image.format.is_integer() || per_sample || input;
     let default = if exact { Filter::Nearest } else { Filter::Linear };
     let texture = declared.filter(|known| known.adapts).map(|known| known.shape);
@@ -73,7 +78,7 @@ pub(super) fn lower(
         range,
         frames_ago: sample.part.previous.map_or(0, |previous| previous.value),
         span: sample.part.image.span,
-        per_sample,
+        face,
         texture,
         own_pixel: sample.own_pixel.map_or(input, |own| own.value),
         sampler: sampler(sample, texture, default),
@@ -197,10 +202,13 @@ impl Check<'_> {
             Face::Samples if !multisampled && !self.declared.adapts => {
                 Some(("single samples", "one value a texel", "sampler2D"))
             }
-            Face::Resolved if multisampled => Some(("one value a texel", "single samples", "sampler2DMS")),
+            Face::Resolved | Face::DepthOnly if multisampled => {
+                Some(("one value a texel", "single samples", "sampler2DMS"))
+            }
             _ => None,
         };
         let span = self.sample.part.image.span;
+        self.depth_only(errors);
         if let Some((given, wanted, declaration)) = contradicts {
             let message = format!(
                 "pass `{}` gives {given} of `{image_name}`, but shader `{shader}` reads {wanted}",
@@ -219,6 +227,17 @@ impl Check<'_> {
             );
             let declared = self.chosen.image(self.sample.part.image.index).samples.span;
             errors.push(Diagnostic::new(span, message).label(declared, "its samples").help(fewer));
+        }
+    }
+
+    /// Only what has depth can be drawn again for it.
+    fn depth_only(&self, errors: &mut Vec<Diagnostic>) {
+        let image = &self.image.image;
+        if self.sample.face == Face::DepthOnly && (!image.format.is_depth() || self.cells.planes == Aspects::STENCIL) {
+            let message = format!("`{}` is no depth: it is {}", image.name, image.format);
+            let declared = self.chosen.image(self.sample.part.image.index).format.span;
+            let wrong = Diagnostic::new(self.sample.part.image.span, message).label(declared, "its format");
+            errors.push(wrong.help(format!("`DepthOnly` is for depth; write `\"{}\"`", image.name)));
         }
     }
 

@@ -42,6 +42,16 @@ impl<'s> Checked<'s> {
         self.known(shader, found, errors)
     }
 
+    /// The interface of a shader that draws, compiled as `variant` says; its problem is reported by whoever asks.
+    pub(super) fn drawn(
+        &mut self,
+        shader: &str,
+        draw: Draw,
+        variant: &Variant,
+    ) -> Result<ShaderInterface, ShaderProblem> {
+        self.shaders.draw_shader(shader, draw, variant)
+    }
+
     /// What was found of a shader; a problem is reported once.
     fn known<T>(&mut self, shader: &Name, found: Result<T, ShaderProblem>, errors: &mut Vec<Diagnostic>) -> Option<T> {
         match found {

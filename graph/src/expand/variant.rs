@@ -16,7 +16,7 @@ pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) ->
         let range = parts::range(chosen, things, &sample.part, &mut Vec::new());
         Some((sample.binding.text.clone(), texture(image, &parts::cells(image, &range), sample.face)))
     };
-    Variant { textures: pass.sample.iter().filter_map(texture).collect(), local: Vec::new() }
+    Variant { textures: pass.sample.iter().filter_map(texture).collect(), ..Variant::default() }
 }
 
 /// As what a shader that leaves it to the pass declares a part of an image.
@@ -25,9 +25,9 @@ fn texture(image: &Image, cells: &Cells, face: Face) -> ImageShape {
     let component = if stencil { Component::Uint } else { Component::of(image.format) };
     let single_samples = match face {
         Face::Samples => true,
-        // Depth has no resolved face yet.
+        // What shows nothing but what is there needs no draws for it.
         Face::Plain => image.format.is_depth(),
-        Face::Resolved => false,
+        Face::Resolved | Face::DepthOnly => false,
     };
     ImageShape::of(image.shape, cells.layers.clone(), single_samples && image.samples > 1, component)
 }

@@ -147,6 +147,8 @@ impl Wanted<'static> {
     pub const INTEGER: Self = Wanted { types: &[Type::Integer], words: Type::Integer.words() };
     /// A number; whole ones become numbers.
     pub const NUMBER: Self = Wanted { types: &[Type::Number], words: Type::Number.words() };
+    /// A text.
+    pub const TEXT: Self = Wanted { types: &[Type::Text], words: Type::Text.words() };
     /// A format.
     pub const FORMAT: Self = Wanted { types: &[Type::Format], words: Type::Format.words() };
     /// An image.

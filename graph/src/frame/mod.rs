@@ -15,8 +15,10 @@ mod touch;
 
 pub use output::Output;
 pub use pass::{Draw, DrawList, Groups, ParamValue, Pass, Work};
-pub use resource::{Buffer, Image, Lifetime, Shape};
-pub use touch::{Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Sampled, StencilState, Storage, TransferUse};
+pub use resource::{Buffer, Image, Lifetime, Resolve, Shape};
+pub use touch::{
+    Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,
+};
 
 /// Index of an image in [`Frame::images`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -29,6 +29,8 @@ pub struct Pass {
     pub color: Vec<ColorTarget>,
     /// Depth (and stencil) attachment.
     pub depth: Option<DepthTarget>,
+    /// Why its shader can't draw its depth alone, for images of fewer samples, if it can't.
+    pub no_depth_only: Option<Arc<str>>,
     /// Buffers that it reads or writes by anything but a copy or fill.
     pub buffers: Vec<BufferUse>,
     /// What a copy, blit, fill or custom pass reads and writes by transfer: source before target.
@@ -52,6 +54,7 @@ impl Pass {
             storage: Vec::new(),
             color: Vec::new(),
             depth: None,
+            no_depth_only: None,
             buffers: Vec::new(),
             transfers: Vec::new(),
             side_effect: false,

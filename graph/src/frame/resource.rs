@@ -3,7 +3,7 @@
 use crate::format::Format;
 use crate::source::Span;
 use crate::texture::TextureFile;
-use crate::vocabulary::{FillValue, State};
+use crate::vocabulary::{FillValue, ResolveMode, State};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -26,6 +26,10 @@ pub struct Image {
     pub layers: u32,
     /// Samples a texel that were asked for: 1, 2, 4, 8 or 16. `adapt` lowers it to what the device has.
     pub samples: u32,
+    /// How several samples of it become one value, if the pipeline says so. Without a word colour is averaged, integers are
+    /// sample zero, and depth is drawn again for passes that sample it and sample zero where it is copied or leaves the
+    /// frame.
+    pub resolve: Option<Resolve>,
     /// How long its contents live.
     pub lifetime: Lifetime,
 }
@@ -43,9 +47,19 @@ impl Image {
             mips: 1,
             layers: 1,
             samples: 1,
+            resolve: None,
             lifetime: Lifetime::Transient,
         }
     }
+}
+
+/// How several samples of an image become one value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resolve {
+    /// The mode; `None`, of depth only: whatever drew it is drawn again with one sample.
+    pub mode: Option<ResolveMode>,
+    /// Who says so: "`resolve: Min`".
+    pub because: Arc<str>,
 }
 
 /// The shape of an image.

@@ -22,8 +22,8 @@ pub struct Sampled {
     pub frames_ago: u32,
     /// Where the image was named.
     pub span: Span,
-    /// Whether the shader reads single samples (the face `Samples`); else it wants one value a texel (`Resolved`).
-    pub per_sample: bool,
+    /// What the shader reads of each texel.
+    pub face: Face,
     /// As what the shader declares it, if the shader leaves that to the pass; single samples only if they are read. Where the
     /// image comes to have one sample, it is declared without samples.
     pub texture: Option<ImageShape>,
@@ -34,6 +34,19 @@ pub struct Sampled {
     pub sampler: Sampler,
     /// Shader stages that sample it.
     pub stages: Stages,
+}
+
+/// What a shader reads of each texel of an image that it samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Face {
+    /// One value: where there are several samples, what [`Image::resolve`](super::Image::resolve) makes of them.
+    #[default]
+    Resolved,
+    /// Each sample by itself.
+    Samples,
+    /// One value of depth, and where there are several samples the one that drawing it again with one leaves, whatever the
+    /// image's `resolve` says.
+    DepthOnly,
 }
 
 /// An image that a pass accesses as storage.

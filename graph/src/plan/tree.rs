@@ -149,6 +149,9 @@ impl Tree<'_> {
             }
         };
         let mut text = format!("`{}` {work} with shader `{}`", Shown(&pass.name), Shown(&pass.shader));
+        if let Some(redraws) = &pass.redraws {
+            text += &format!(", again as `{}` does, depth only", Shown(redraws));
+        }
         for (color, blend) in pass.blend.iter().enumerate() {
             let words = match blend {
                 Blend::Replace => continue,

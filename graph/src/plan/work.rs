@@ -106,6 +106,9 @@ pub struct Pass {
     pub groups: Option<Groups>,
     /// The shader's name.
     pub shader: Arc<str>,
+    /// The pass of which it draws the depth again and nothing else: its shader is compiled for that (the macro
+    /// `DEPTH_ONLY`), or left out where it would change nothing.
+    pub redraws: Option<Arc<str>>,
     /// Whether its fragment shader discards fragments: then a full-screen draw doesn't cover.
     pub discards: bool,
     /// How new colour meets old, for each colour attachment of the scope.

@@ -138,6 +138,7 @@ impl<'p> Check<'_, 'p> {
     fn outside(&mut self, pass: &'p Pass) {
         self.named(&pass.name);
         let drawn = pass.draw.is_some() || !pass.blend.is_empty() || pass.depth.is_some() || pass.stencil.is_some();
+        let drawn = drawn || pass.redraws.is_some();
         if drawn || pass.discards || pass.local_barrier || pass.merged.is_some() {
             self.wrong_pass(pass, "is no draw and has the state of one");
         }

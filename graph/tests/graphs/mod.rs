@@ -2,9 +2,11 @@
 
 use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Frame, Groups, Image, ImageIndex, Output, Pass, Resource, Sampled, Storage, Work};
+use framewright_graph::frame::{
+    Face, Frame, Groups, Image, ImageIndex, Output, Pass, Resource, Sampled, Storage, Work,
+};
 use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{Filter, Sampler, Stages, Subresources, Usage};
+use framewright_graph::vocabulary::{Filter, ResolveMode, Sampler, Stages, Subresources, Usage};
 use std::sync::Arc;
 
 /// A device that has every format at 1, 4 and 8 samples and adds nothing to an image's bytes.
@@ -28,6 +30,8 @@ pub(crate) fn device() -> Profile {
         max_layers: u32::MAX,
         queues: Queues::default(),
         local_read: false,
+        depth_resolve: vec![ResolveMode::SampleZero],
+        refuted_depth_resolve: Vec::new(),
         memory: MemoryModel {
             alignment: 256,
             row_texels: 1,
@@ -69,7 +73,7 @@ impl Builder {
             range: Subresources::WHOLE,
             frames_ago: 0,
             span: Span::NONE,
-            per_sample: false,
+            face: Face::Resolved,
             texture: None,
             own_pixel: false,
             sampler: Sampler::new(Filter::Nearest),

@@ -141,6 +141,7 @@ pub(crate) fn draw(
         draw: Some(draw),
         groups: None,
         shader: name.into(),
+        redraws: None,
         discards: false,
         blend: blend.to_vec(),
         depth,

@@ -13,6 +13,7 @@ mod library;
 mod misuse;
 mod random;
 mod repeat;
+mod resolves;
 mod resources;
 mod samplers;
 mod shipped;

@@ -3,7 +3,7 @@
 use crate::table::{INPUTS, frame, set, shipped};
 use framewright_graph::expand::{Facts, Inputs};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Frame, Image, ParamValue, Work};
+use framewright_graph::frame::{Face, Frame, Image, ParamValue, Work};
 
 fn names(frame: &Frame) -> Vec<&str> {
     frame.passes.iter().map(|pass| &*pass.name).collect()
@@ -91,7 +91,7 @@ fn tone_mapping_samples_one_value_a_texel_and_takes_its_parameter_from_the_setti
         [("exposure".into(), ParamValue::Number(1.0)), ("white_point".into(), ParamValue::Number(4.0))]
     );
     assert_eq!(&*pass.sampled[0].binding, "source");
-    assert!(!pass.sampled[0].per_sample);
+    assert_eq!(pass.sampled[0].face, Face::Resolved);
 }
 
 #[test]

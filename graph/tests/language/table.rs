@@ -175,6 +175,12 @@ impl ShaderInterfaces for Table {
         let shader = match name {
             "lit" => lit(false),
             "lit_masked" => lit(true),
+            "forgetful" => lit(!variant.depth_only),
+            "marked" => {
+                let mut marked = lit(true);
+                marked.bindings.insert(0, block("marks", 0, true, false, Stages::VERTEX_SHADER));
+                marked
+            }
             "sky" | "plain" => full_screen(vec![]),
             "whole" => ShaderInterface { outputs: outputs(1, Component::Uint, 1), ..ShaderInterface::default() },
             "tone_map" => full_screen(vec![source(), params(&[("exposure", "float"), ("white_point", "float")])]),

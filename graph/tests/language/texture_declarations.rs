@@ -42,8 +42,10 @@ fn what_a_shader_declares_follows_from_what_the_pass_gives() {
         (format!("{flat}{samples}{layers}"), "Samples(\"given\")", "sampler2DMSArray"),
         (format!("{flat}, samples: 1"), "Samples(\"given\")", "sampler2D"),
         ("format: R32_UINT, size: Output".to_owned(), "\"given\"", "usampler2D"),
-        // Of depth there is no resolved face.
+        // A shader that can take depth as it is gets it so.
         (format!("{depth}{samples}"), "\"given\"", "sampler2DMS"),
+        (format!("{depth}{samples}"), "Resolved(\"given\")", "sampler2D"),
+        (format!("{depth}{samples}"), "DepthOnly(\"given\")", "sampler2D"),
         (depth.to_owned(), "\"given\"", "sampler2D"),
         ("format: DepthStencil, size: Output".to_owned(), "\"given\"", "sampler2D"),
         ("format: DepthStencil, size: Output".to_owned(), "(image: \"given\", plane: Stencil)", "usampler2D"),

@@ -3,7 +3,7 @@
 use crate::table::{INPUTS, right, set};
 use framewright_graph::expand::{Facts, Inputs};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, ImageIndex, ParamValue, Resource, Work};
+use framewright_graph::frame::{Blend, Face, ImageIndex, ParamValue, Resource, Work};
 use framewright_graph::vocabulary::{CompareOp, Filter};
 
 /// A pipeline that shows one full-screen draw, with more settings, images and passes before it.
@@ -173,13 +173,13 @@ fn colour_is_filtered_and_depth_and_single_samples_are_not_unless_asked() {
     let frame = right(&pipeline("", images, passes), &INPUTS);
     let sampled = |pass: usize| {
         let sampled = &frame.passes[pass].sampled[0];
-        (sampled.sampler.filter, sampled.per_sample)
+        (sampled.sampler.filter, sampled.face)
     };
-    assert_eq!(sampled(2), (Filter::Linear, false));
-    assert_eq!(sampled(3), (Filter::Nearest, false));
-    assert_eq!(sampled(4), (Filter::Nearest, true));
-    assert_eq!(sampled(5), (Filter::Nearest, true));
-    assert_eq!(sampled(6), (Filter::Nearest, false));
+    assert_eq!(sampled(2), (Filter::Linear, Face::Resolved));
+    assert_eq!(sampled(3), (Filter::Nearest, Face::Resolved));
+    assert_eq!(sampled(4), (Filter::Nearest, Face::Samples));
+    assert_eq!(sampled(5), (Filter::Nearest, Face::Samples));
+    assert_eq!(sampled(6), (Filter::Nearest, Face::Resolved));
 }
 
 #[test]

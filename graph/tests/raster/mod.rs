@@ -6,7 +6,8 @@ pub(crate) mod graphs;
 
 use framewright_graph::format::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Image, ImageIndex, Output, Pass, Resource, Sampled, Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Image, ImageIndex, Output, Pass, Resource, Sampled,
+    Work,
 };
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{CompareOp, Filter, Sampler, Stages, Subresources};
@@ -20,6 +21,11 @@ impl Raster {
     pub(crate) fn image(&mut self, name: &str, format: Format, samples: u32) -> ImageIndex {
         self.0.images.push(Image { samples, ..Image::new(name, format, 64, 64) });
         ImageIndex(self.0.images.len() as u32 - 1)
+    }
+
+    /// Gives an image another format.
+    pub(crate) fn format(&mut self, image: usize, format: Format) {
+        self.0.images[image].format = format;
     }
 
     fn pass(&mut self, name: &str, work: Work) -> Added<'_> {
@@ -99,6 +105,11 @@ impl Added<'_> {
         self.depth(image, Some(0.0), CompareOp::GreaterOrEqual, true)
     }
 
+    /// Goes on with depth, and writes it.
+    pub(crate) fn write_depth(self, image: ImageIndex) -> Self {
+        self.depth(image, None, CompareOp::GreaterOrEqual, true)
+    }
+
     pub(crate) fn test_depth(self, image: ImageIndex) -> Self {
         self.depth(image, None, CompareOp::GreaterOrEqual, false)
     }
@@ -108,22 +119,27 @@ impl Added<'_> {
     }
 
     pub(crate) fn sample_by(self, image: ImageIndex, filter: Filter) -> Self {
-        self.sampled(image, false, filter)
+        self.sampled(image, Face::Resolved, filter)
     }
 
     /// Samples single samples.
     pub(crate) fn sample_each(self, image: ImageIndex) -> Self {
-        self.sampled(image, true, Filter::Nearest)
+        self.sampled(image, Face::Samples, Filter::Nearest)
     }
 
-    fn sampled(self, image: ImageIndex, per_sample: bool, filter: Filter) -> Self {
+    /// Samples depth that is drawn again for it.
+    pub(crate) fn sample_depth_only(self, image: ImageIndex) -> Self {
+        self.sampled(image, Face::DepthOnly, Filter::Nearest)
+    }
+
+    fn sampled(self, image: ImageIndex, face: Face, filter: Filter) -> Self {
         self.0.sampled.push(Sampled {
             binding: format!("source{}", self.0.sampled.len()).into(),
             image,
             range: Subresources::WHOLE,
             frames_ago: 0,
             span: Span::NONE,
-            per_sample,
+            face,
             texture: None,
             own_pixel: false,
             sampler: Sampler::new(filter),

@@ -95,6 +95,14 @@ pub(crate) fn whole_word(words: &str, word: &str) -> String {
         "Samples" => image("samples"),
         "Mips" => image("mips"),
         "Layers" => image("layers"),
+        "Resolve" => {
+            let format = match word {
+                "Average" => "Color",
+                _ => "Depth",
+            };
+            with("images", &format!("(name: \"it\", format: {format}, size: Output, samples: 4, resolve: {word})"))
+        }
+        "DepthPolicy" => with("images", "").replace("version: 1,", &format!("version: 1, depth: {word},")),
         "Shape" => image("shape"),
         "Lifetime" => image("lifetime"),
         "Bytes" => with("buffers", &format!("(name: \"it\", bytes: {word})")),

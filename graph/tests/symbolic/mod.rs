@@ -3,7 +3,7 @@
 //! A frame and its Plan are followed separately, each by its own meaning. The checker can tell whether a Plan keeps its own
 //! promises; only this can tell whether those are the frame's.
 
-use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Pass, Resource, Work};
+use framewright_graph::frame::{Blend, Draw, Face, Frame, ImageIndex, Pass, Resource, Work};
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, LoadOp, StoreOp};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -63,7 +63,7 @@ fn frame_pass(frame: &Frame, pass: &Pass, held: &mut [u64]) {
     }
     let sampled = pass.sampled.iter().map(|sampled| {
         let value = held[sampled.image.0 as usize];
-        let whole = sampled.per_sample || image(sampled.image).samples == 1;
+        let whole = sampled.face == Face::Samples || image(sampled.image).samples == 1;
         (sampled.binding.to_string(), if whole { value } else { resolved(value) })
     });
     let stored = pass.storage.iter().filter(|storage| storage.read);

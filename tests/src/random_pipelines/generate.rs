@@ -303,7 +303,7 @@ impl Maker<'_> {
         if self.allowed.has(Kind::StorageRead) && self.rng.one_in(6) {
             return Some(Read::Storage(self.part(image, 1, u32::MAX)));
         }
-        let per_sample = samples > 1 && (format.is_depth() || self.rng.one_in(3));
+        let per_sample = samples > 1 && self.rng.one_in(if format.is_depth() { 2 } else { 3 });
         let part = self.part(image, u32::MAX, u32::MAX);
         Some(Read::Sampled { part, frames_ago: self.frames_ago(life), per_sample })
     }

@@ -408,7 +408,7 @@ fn places<'p>(pipeline: &'p Pipeline, state: &'p State, thing: Thing) -> Box<dyn
             let contents = &state.images[number][0];
             Box::new(levels(image.mips, image.format).flat_map(move |(mip, plane)| {
                 texels_of(contents, mip).map(move |at| {
-                    let words = texels::resolved(image.format, &contents.all_samples(mip, at));
+                    let words = texels::resolved(image, &contents.all_samples(mip, at));
                     let (format, words) = texels::seen(image.format, plane, words);
                     let stencil = if plane == Plane::Stencil { "stencil of " } else { "" };
                     let place: Box<dyn Fn() -> String> = Box::new(move || format!("{stencil}mip {mip}, texel {at:?}"));

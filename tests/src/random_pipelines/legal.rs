@@ -21,6 +21,8 @@ pub struct Written {
     buffers: Vec<bool>,
     /// By image: an upper bound of its values, for sums.
     greatest: Vec<u64>,
+    /// By image: whether all that drew its depth can be drawn again.
+    redrawable: Vec<bool>,
 }
 
 /// Whether a pipeline may be so: every pass may stand where it stands, and what leaves the frame has contents.
@@ -95,6 +97,7 @@ impl Written {
             images: pipeline.images.iter().map(slots).collect(),
             buffers: pipeline.buffers.iter().map(|buffer| there(buffer.life)).collect(),
             greatest: pipeline.images.iter().map(plain).collect(),
+            redrawable: vec![false; pipeline.images.len()],
         }
     }
 
@@ -119,6 +122,7 @@ impl Written {
         let greatest = if legal { self.greatest_after(pipeline, pass) } else { None };
         let Some(greatest) = greatest else { return false };
         self.greatest = greatest;
+        self.note_depth(pass);
         for access in accesses(pass).iter().filter(|access| access.writes) {
             let image = access.part.image;
             slots(&pipeline.images[image], access.part).into_iter().for_each(|slot| self.images[image][slot] = true);
@@ -130,6 +134,29 @@ impl Written {
             self.images[to].fill(true);
         }
         true
+    }
+
+    /// Notes whether depth can still be drawn again after a pass.
+    fn note_depth(&mut self, pass: &Pass) {
+        if let Work::Draw(Draw { depth: Some(depth), .. }) = &pass.work {
+            let before = self.redrawable[depth.part.image];
+            if depth.write || depth.clear.is_some() {
+                self.redrawable[depth.part.image] = fits::draws_again(pass) && (depth.clear.is_some() || before);
+            }
+        } else {
+            let written = accesses(pass).into_iter().filter(|access| access.writes);
+            written.for_each(|access| self.redrawable[access.part.image] = false);
+            if let Work::Forward { to, .. } = pass.work {
+                self.redrawable[to] = false;
+            }
+        }
+    }
+
+    /// Whether the samples of an image can become one value for a shader.
+    pub(super) fn single(&self, pipeline: &Pipeline, part: Part) -> bool {
+        let image = &pipeline.images[part.image];
+        !image.format.is_depth()
+            || part.plane != Plane::Stencil && (image.resolve.is_some() || self.redrawable[part.image])
     }
 
     fn is_legal(&self, pipeline: &Pipeline, pass: &Pass) -> bool {

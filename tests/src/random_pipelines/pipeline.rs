@@ -2,7 +2,7 @@
 
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Shape, StencilState};
-use framewright_graph::vocabulary::{Aspects, CompareOp};
+use framewright_graph::vocabulary::{Aspects, CompareOp, ResolveMode};
 
 /// Texels in x, y and z.
 pub type Extent = [u32; 3];
@@ -53,6 +53,8 @@ pub struct Image {
     pub layers: u32,
     /// 1 or [`SAMPLES`].
     pub samples: u32,
+    /// How several samples of depth become one value; `None`: drawn again for shaders, and sample zero for all else.
+    pub resolve: Option<ResolveMode>,
     /// How long its contents live.
     pub life: Life,
 }

@@ -137,7 +137,7 @@ fn simplify_resources(smallest: &mut Pipeline, attempt: &mut impl FnMut(&mut Pip
         attempt(smallest, smaller);
         let mut smaller = smallest.clone();
         let image = &mut smaller.images[at];
-        (image.mips, image.samples) = (1, 1);
+        (image.mips, image.samples, image.resolve) = (1, 1, None);
         if image.shape == Shape::D2 {
             image.layers = 1;
         }

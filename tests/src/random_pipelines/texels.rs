@@ -3,10 +3,10 @@
 //! A component is a word: of integer formats its value, of UNORM formats its value in 255ths, of others the bits of a
 //! 32-bit float. All that is ever written can be represented exactly, averages of four samples included.
 
-use super::pipeline::Plane;
+use super::pipeline::{Image, Plane};
 use framewright_graph::format::{Format, Numeric};
 use framewright_graph::frame::Blend;
-use framewright_graph::vocabulary::{Aspects, FillValue};
+use framewright_graph::vocabulary::{Aspects, FillValue, ResolveMode};
 
 /// A texel's components.
 pub type Words = [u32; 4];
@@ -189,11 +189,19 @@ pub fn sum(format: Format, left: u32, right: u32) -> u32 {
     if is_unorm(format) { left + right } else { (f32::from_bits(left) + f32::from_bits(right)).to_bits() }
 }
 
-/// What one value for all samples is: the mean, or of integers the first.
+/// What one value for all samples of an image is: the mean, of integers the first, of depth what the image says. Drawing it
+/// again leaves the first: geometry covers whole texels, and with one sample shaders run as if for the first.
 #[must_use]
-pub fn resolved(format: Format, samples: &[Words]) -> Words {
-    if is_uint(format) || samples.len() == 1 {
-        return samples[0];
+pub fn resolved(image: &Image, samples: &[Words]) -> Words {
+    let format = image.format;
+    let depths = || samples.iter().map(|words| f32::from_bits(words[0]));
+    let mode = if format.is_depth() { image.resolve.unwrap_or(ResolveMode::SampleZero) } else { ResolveMode::Average };
+    match mode {
+        _ if is_uint(format) || samples.len() == 1 => return samples[0],
+        ResolveMode::SampleZero => return samples[0],
+        ResolveMode::Min => return [depths().fold(f32::INFINITY, f32::min).to_bits(), 0, 0, 0],
+        ResolveMode::Max => return [depths().fold(0.0, f32::max).to_bits(), 0, 0, 0],
+        ResolveMode::Average => {}
     }
     std::array::from_fn(|component| {
         let words = samples.iter().map(|sample| sample[component]);

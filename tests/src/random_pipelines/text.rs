@@ -25,6 +25,9 @@ impl fmt::Display for Pipeline {
                     write!(f, ", {count} {what}")?;
                 }
             }
+            if let Some(mode) = image.resolve {
+                write!(f, ", resolved by {mode:?}")?;
+            }
             writeln!(f, "{}", image.life)?;
         }
         for (number, buffer) in

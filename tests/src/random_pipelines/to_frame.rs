@@ -7,7 +7,7 @@ use super::pipeline::{
 };
 use super::{shader, texels};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Frame, ImageIndex, Lifetime, Resource};
+use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Face, Frame, ImageIndex, Lifetime, Resource};
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Sampler, Stages, State, Subresources};
 
@@ -23,6 +23,7 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
             mips: image.mips,
             layers: image.layers,
             samples: image.samples,
+            resolve: image.resolve.map(|mode| frame::Resolve { mode: Some(mode), because: "it says so".into() }),
             lifetime: lifetime(image.life, handed_in(number), |value| texels::fill(image.format, value)),
             ..frame::Image::new(&format!("i{number}"), image.format, width, height)
         });
@@ -197,7 +198,8 @@ fn add_read(pipeline: &Pipeline, made: &mut frame::Pass, binding: &str, read: Re
         Read::Storage(part) => add_store(pipeline, made, binding, Region::Image(part), (true, false), stages),
         Read::Sampled { part, frames_ago, per_sample } => {
             let sampled = sampled(pipeline, binding, part, stages);
-            made.sampled.push(frame::Sampled { frames_ago, per_sample, ..sampled });
+            let face = if per_sample { Face::Samples } else { Face::Resolved };
+            made.sampled.push(frame::Sampled { frames_ago, face, ..sampled });
         }
         Read::Own(part) => {
             made.sampled.push(frame::Sampled { own_pixel: true, ..sampled(pipeline, binding, part, stages) });
@@ -212,7 +214,7 @@ fn sampled(pipeline: &Pipeline, binding: &str, part: Part, stages: Stages) -> fr
         range: range(pipeline.images[part.image].format, part),
         frames_ago: 0,
         span: Span::NONE,
-        per_sample: false,
+        face: Face::Resolved,
         texture: None,
         own_pixel: false,
         sampler: Sampler::new(Filter::Nearest),

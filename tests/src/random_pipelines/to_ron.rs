@@ -8,7 +8,7 @@ use super::pipeline::{
 use super::{shader, texels, to_frame};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{ParamValue, Shape, StencilState};
-use framewright_graph::vocabulary::{Aspects, FillValue, Layout, Stages};
+use framewright_graph::vocabulary::{Aspects, FillValue, Layout, ResolveMode, Stages};
 
 /// The pipeline file that says what `pipeline` says. Its shaders are those of [`shader::shader`].
 #[must_use]
@@ -54,6 +54,13 @@ fn image_text(number: usize, image: &Image) -> String {
             text += &format!(", {field}: {count}");
         }
     }
+    text += match image.resolve {
+        None => "",
+        Some(ResolveMode::SampleZero) => ", resolve: SampleZero",
+        Some(ResolveMode::Min) => ", resolve: Min",
+        Some(ResolveMode::Max) => ", resolve: Max",
+        Some(ResolveMode::Average) => ", resolve: Average",
+    };
     let layout = match to_frame::handed_in(number) {
         Layout::General => ", layout: GENERAL",
         _ => ", layout: TRANSFER_DST_OPTIMAL",

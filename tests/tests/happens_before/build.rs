@@ -99,6 +99,7 @@ pub(crate) fn dispatch(name: &str, accesses: Vec<Access>) -> Step {
         draw: None,
         groups: Some(Groups::Count([1; 3])),
         shader: name.into(),
+        redraws: None,
         discards: false,
         blend: Vec::new(),
         depth: None,

@@ -141,6 +141,15 @@ pub(super) fn transfer_stage(kind: &OpKind) -> Stages {
     if matches!(kind, OpKind::Resolve { .. }) { Stages::RESOLVE } else { Stages::COPY }
 }
 
+/// The uses of a full-screen draw that resolves depth into another image.
+pub(super) fn resolve_draw(source: StoreIndex, target: StoreIndex, range: u32, format: Format) -> [Use; 2] {
+    let [read, _] = forward_draw(source, target);
+    // It is tested against nothing.
+    let accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE;
+    let write = Use { accesses, ..depth(Aspects::DEPTH, target, range, Start::Discard, true, format) };
+    [Use { range, ..read }, write]
+}
+
 /// The uses of a full-screen draw of one image into another.
 pub(super) fn forward_draw(source: StoreIndex, target: StoreIndex) -> [Use; 2] {
     let read = Use {

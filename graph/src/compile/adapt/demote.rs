@@ -4,7 +4,7 @@
 use super::{Input, copies_samples, has_edges};
 use crate::compile::link::covers;
 use crate::compile::parts::outlives;
-use crate::frame::{Draw, ImageIndex, Pass, Resource, Work};
+use crate::frame::{Draw, Face, ImageIndex, Pass, Resource, Work};
 use crate::plan::{Note, Stage};
 use std::collections::BTreeSet;
 
@@ -98,7 +98,7 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
                 }
             }
         }
-        for sampled in pass.sampled.iter().filter(|sampled| sampled.per_sample) {
+        for sampled in pass.sampled.iter().filter(|sampled| sampled.face == Face::Samples) {
             needs[sampled.image.0 as usize] = Needs::Samples(number);
         }
     }

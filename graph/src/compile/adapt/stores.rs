@@ -2,12 +2,10 @@
 
 use super::{Adapter, copies_samples};
 use crate::compile::model::{Home, Kind, Store, StoreIndex, Use};
-use crate::describe::Diagnostic;
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
 use crate::plan::{Inserted, Sharing};
-use crate::source::Span;
-use crate::vocabulary::{Aspects, BufferUsage, FillValue, Usage};
+use crate::vocabulary::{BufferUsage, FillValue, Usage};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -69,6 +67,7 @@ impl Adapter<'_> {
     pub(super) fn continued(&mut self, image: ImageIndex) -> StoreIndex {
         let store = self.current(image);
         self.resolved_of[store as usize] = None;
+        self.redrawn_of[store as usize] = None;
         store
     }
 
@@ -178,6 +177,7 @@ impl Adapter<'_> {
 
     fn add(&mut self, of: Resource, id: u32, kind: Kind, cells: u32) -> StoreIndex {
         self.resolved_of.push(None);
+        self.redrawn_of.push(None);
         self.drawn.push(false);
         self.adapted.stores.push(Store {
             id,
@@ -212,33 +212,7 @@ impl Adapter<'_> {
             return Some((self.current(image), range));
         }
         let because = format!("`{}` transfers from `{}` and it has {count} samples", pass.name, declared.name);
-        if declared.format.is_depth() && !self.depth_can_be_resolved(image, &because, used.span) {
-            return None;
-        }
-        Some((self.single_sample(image, because, used.span), range))
-    }
-
-    /// Whether a draw wrote an image's current version: then its rendering scope can carry a resolve.
-    fn drawn_last(&mut self, image: ImageIndex) -> bool {
-        let store = self.current(image);
-        self.drawn[store as usize]
-    }
-
-    /// Whether the samples of depth can become one, for what `because` says; reports why not.
-    fn depth_can_be_resolved(&mut self, image: ImageIndex, because: &str, span: Span) -> bool {
-        let declared = &self.input.frame.images[image.0 as usize];
-        let (what, help) = if declared.format.aspects().contains(Aspects::STENCIL) {
-            ("stencil can't be resolved", "choose a depth format without stencil")
-        } else if declared.layers > 1 {
-            ("several layers can't be resolved at once", "give it 1 layer")
-        } else if !self.drawn_last(image) {
-            ("they were not drawn into it", "depth is resolved where it is drawn: draw into it")
-        } else {
-            return true;
-        };
-        let help = format!("{help}, or give `{}` 1 sample", declared.name);
-        self.errors.push(Diagnostic::new(span, format!("{because}; {what}")).help(help));
-        false
+        Some((self.resolved_as_it_is(image, because, used.span)?, range))
     }
 
     pub(super) fn output(&mut self, output: &Output) {
@@ -252,10 +226,13 @@ impl Adapter<'_> {
         let declared = &self.input.frame.images[image.0 as usize];
         let count = self.current_samples(image);
         let because = format!("`{}` is an output and has {count} samples", declared.name);
-        if count > 1 && declared.format.is_depth() && !self.depth_can_be_resolved(image, &because, output.span) {
-            return;
-        }
-        let store = if count > 1 { self.single_sample(image, because, output.span) } else { self.current(image) };
+        let store = match count {
+            1 => self.current(image),
+            _ => match self.resolved_as_it_is(image, because, output.span) {
+                Some(resolved) => resolved,
+                None => return,
+            },
+        };
         self.leaves(store, output);
     }
 

@@ -73,9 +73,10 @@ fn view(old: &View, new: &View) -> Difference {
 }
 
 fn image(old: &Image, new: &Image) -> Difference {
-    let Image { name, span, format, shape, extent, mips, layers, samples, lifetime } = new;
+    let Image { name, span, format, shape, extent, mips, layers, samples, resolve, lifetime } = new;
     let same = same_name(&old.name, name)
         && old.span == *span
+        && old.resolve == *resolve
         && (old.format, old.shape, old.mips, old.layers, old.samples) == (*format, *shape, *mips, *layers, *samples)
         && same_lifetime(&old.lifetime, lifetime);
     if same { unless(old.extent == *extent, Sizes) } else { Structure }
@@ -97,11 +98,26 @@ fn same_lifetime(old: &Lifetime, new: &Lifetime) -> bool {
 }
 
 fn pass(old: &Pass, new: &Pass) -> Difference {
-    let Pass { name, span, view, work, sampled, storage, color, depth, buffers, transfers, side_effect, params } = new;
+    let Pass {
+        name,
+        span,
+        view,
+        work,
+        sampled,
+        storage,
+        color,
+        depth,
+        no_depth_only,
+        buffers,
+        transfers,
+        side_effect,
+        params,
+    } = new;
     let same = same_name(&old.name, name)
         && old.span == *span
         && old.view == *view
         && old.side_effect == *side_effect
+        && old.no_depth_only == *no_depth_only
         && same_lists(&old.sampled, sampled, same_sampled)
         && same_lists(&old.storage, storage, same_storage)
         && old.buffers == *buffers
@@ -119,9 +135,9 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
 }
 
 fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
-    let Sampled { binding, image, range, frames_ago, span, per_sample, texture, own_pixel, sampler, stages } = new;
+    let Sampled { binding, image, range, frames_ago, span, face, texture, own_pixel, sampler, stages } = new;
     (old.image, old.range, old.frames_ago, old.span) == (*image, *range, *frames_ago, *span)
-        && (old.per_sample, old.own_pixel, old.sampler, old.stages) == (*per_sample, *own_pixel, *sampler, *stages)
+        && (old.face, old.own_pixel, old.sampler, old.stages) == (*face, *own_pixel, *sampler, *stages)
         && old.texture == *texture
         && same_name(&old.binding, binding)
 }

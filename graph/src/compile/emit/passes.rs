@@ -8,7 +8,8 @@ use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
     Transfer, ViewId, Work,
 };
-use crate::vocabulary::{Filter, Sampler};
+use crate::view::ViewIndex;
+use crate::vocabulary::{CompareOp, Filter, ResolveMode, Sampler};
 use std::sync::Arc;
 
 /// The shader that draws one image into another.
@@ -96,20 +97,22 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     let op = &parts.adapted.ops[number as usize];
     let uses = parts.adapted.uses(number);
     let nothing = || Arc::clone(&parts.nothing);
+    if let OpKind::ResolveDraw { mode, name, view, .. } = &op.kind {
+        return resolve_draw(parts, number, *mode, name, *view);
+    }
     let Some(declared) = op.kind.pass().map(|pass| &parts.frame.passes[pass as usize]) else {
         return bare(nothing(), cause(parts, op), None, None, nothing());
     };
+    if let OpKind::DepthOnly { name, .. } = &op.kind {
+        return depth_only(parts, number, declared, name);
+    }
     let (name, cause) = (declared.name.clone(), cause(parts, op));
     if let OpKind::ForwardDraw { filter, .. } = op.kind {
-        let kind = BindingKind::Sampled(Sampler::new(filter));
-        let binding = || Some(Binding { name: COPY_SOURCE.into(), kind, texture: None });
-        let accesses =
-            uses.iter().map(|used| access(parts, used, (used.role == Role::Sampled).then(binding).flatten()));
         return Pass {
             blend: vec![Blend::Replace],
-            accesses: accesses.collect(),
+            accesses: from_source(parts, uses, filter),
             merged: parts.scoped.merged(parts.frame, parts.adapted, number),
-            view: view(parts, declared),
+            view: view(parts, declared.view),
             ..bare(name, cause, Some(Draw::FullScreen), None, COPY_SHADER.into())
         };
     }
@@ -122,7 +125,7 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
         }
     };
     let mut planned = bare(name, cause, draw, groups, shader);
-    planned.view = view(parts, declared);
+    planned.view = view(parts, declared.view);
     planned.accesses = Vec::with_capacity(uses.len());
     for used in uses {
         if parts.subjects[used.store as usize].is_image {
@@ -143,8 +146,53 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
 }
 
 /// The view that a pass is for, if the frame has any.
-fn view(parts: &Parts<'_>, declared: &FramePass) -> Option<ViewId> {
-    (!parts.frame.views.is_empty()).then_some(ViewId(declared.view.0))
+fn view(parts: &Parts<'_>, view: ViewIndex) -> Option<ViewId> {
+    (!parts.frame.views.is_empty()).then_some(ViewId(view.0))
+}
+
+/// The accesses of an inserted full-screen draw that samples one image.
+fn from_source(parts: &Parts<'_>, uses: &[Use], filter: Filter) -> Vec<Access> {
+    let kind = BindingKind::Sampled(Sampler::new(filter));
+    let binding = || Binding { name: COPY_SOURCE.into(), kind, texture: None };
+    uses.iter().map(|used| access(parts, used, (used.role == Role::Sampled).then(binding))).collect()
+}
+
+/// A draw of the frame again, of nothing but its depth.
+fn depth_only(parts: &Parts<'_>, number: u32, declared: &FramePass, name: &Arc<str>) -> Pass {
+    let (op, uses) = (&parts.adapted.ops[number as usize], parts.adapted.uses(number));
+    let (draw, shader) = match &declared.work {
+        FrameWork::Draw { draw, shader, .. } => (Some(*draw), shader.clone()),
+        _ => (None, Arc::clone(&parts.nothing)),
+    };
+    let mut planned = bare(name.clone(), cause(parts, op), draw, None, shader);
+    drawn(&mut planned, declared, uses);
+    Pass {
+        redraws: Some(declared.name.clone()),
+        view: view(parts, declared.view),
+        blend: Vec::new(),
+        params: declared.params.iter().map(|(name, value)| Param { name: name.clone(), value: *value }).collect(),
+        accesses: uses.iter().map(|used| access(parts, used, None)).collect(),
+        merged: parts.scoped.merged(parts.frame, parts.adapted, number),
+        ..planned
+    }
+}
+
+/// A full-screen draw that resolves depth.
+fn resolve_draw(parts: &Parts<'_>, number: u32, mode: ResolveMode, name: &Arc<str>, of: ViewIndex) -> Pass {
+    let (op, uses) = (&parts.adapted.ops[number as usize], parts.adapted.uses(number));
+    let shader = match mode {
+        ResolveMode::SampleZero => "depth_resolve_zero",
+        ResolveMode::Min => "depth_resolve_min",
+        ResolveMode::Max => "depth_resolve_max",
+        ResolveMode::Average => "depth_resolve_average",
+    };
+    Pass {
+        depth: Some(DepthState { test: CompareOp::Always, write: true }),
+        accesses: from_source(parts, uses, Filter::Nearest),
+        merged: parts.scoped.merged(parts.frame, parts.adapted, number),
+        view: view(parts, of),
+        ..bare(name.clone(), cause(parts, op), Some(Draw::FullScreen), None, shader.into())
+    }
 }
 
 /// What only draws have.
@@ -166,6 +214,7 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
         draw,
         groups,
         shader,
+        redraws: None,
         discards: false,
         blend: Vec::new(),
         depth: None,

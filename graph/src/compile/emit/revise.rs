@@ -34,7 +34,7 @@ pub(in crate::compile) fn values(parts: &Parts<'_>, plan: &mut Plan) {
 
 fn pass_values(parts: &Parts<'_>, op: u32, planned: &mut Pass) {
     let kind = &parts.adapted.ops[op as usize].kind;
-    let (OpKind::Draw(pass) | OpKind::Pass(pass)) = kind else { return };
+    let (OpKind::Draw(pass) | OpKind::Pass(pass) | OpKind::DepthOnly { pass, .. }) = kind else { return };
     let declared = &parts.frame.passes[*pass as usize];
     if let FrameWork::Dispatch { groups, .. } = &declared.work {
         planned.groups = Some(*groups);

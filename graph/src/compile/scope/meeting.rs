@@ -135,11 +135,11 @@ pub(in crate::compile) fn same_areas(adapted: &Adapted, order: &[u32], device: &
     let order = if device.local_read { order } else { &[] };
     let mut before = None;
     order.iter().filter_map(move |op| {
-        match adapted.ops[*op as usize].kind {
-            OpKind::Draw(_) | OpKind::ForwardDraw { .. } => {}
+        match &adapted.ops[*op as usize].kind {
+            draw if draw.draws() => {}
             // A scope may carry it.
             OpKind::Resolve { .. } => return None,
-            OpKind::Pass(_) | OpKind::Copy(_) => {
+            _ => {
                 before = None;
                 return None;
             }

@@ -8,7 +8,7 @@ use crate::change::Kind;
 use std::collections::HashMap;
 
 /// The words that no file need hold.
-const WORDS: &str = "Pipeline version settings presets views fragments textures images buffers passes outputs";
+const WORDS: &str = "Pipeline version settings presets views fragments textures images buffers passes outputs depth";
 
 /// A tree whose nodes stand in several texts.
 struct Builder {
@@ -50,6 +50,10 @@ pub(super) fn tree(draft: &Draft<'_>, base: Leaf<'_>) -> Tree {
     }
     if let Some(of) = draft.outputs_written {
         builder.list("outputs", of, draft.outputs.iter());
+    }
+    if let Some(depth) = draft.depth {
+        builder.word("depth");
+        builder.copy(depth);
     }
     builder.close(fields);
     builder.close(pipeline);

@@ -20,6 +20,7 @@ pub(super) struct Draft<'t> {
     pub(super) passes_written: Option<Leaf<'t>>,
     pub(super) outputs: Vec<Entry<'t>>,
     pub(super) outputs_written: Option<Leaf<'t>>,
+    pub(super) depth: Option<Leaf<'t>>,
 }
 
 /// Entries whose order has no meaning.
@@ -96,6 +97,7 @@ impl<'t> Draft<'t> {
                 account.did(leaf.start(), Action::Add { of: kind, names });
             }
         }
+        self.depth = said.depth.or(self.depth);
         if let Some(leaf) = said.passes
             && let Some(entries) = reader.list(leaf, "`passes`")
         {

@@ -8,7 +8,7 @@ use super::super::loader::{self, Loader};
 use super::super::reader::Reader;
 use super::super::tree::Tree;
 use super::super::{Diagnostic, Found};
-use super::super::{body, outputs, textures, views};
+use super::super::{body, outputs, resolves, textures, views};
 use super::apply::CHANGES;
 use crate::change::Action;
 use crate::fields;
@@ -50,6 +50,8 @@ fields! {
         passes: Option<Leaf<'src>> => body::ITEMS,
         /// Outputs in place of those that there are.
         outputs: Option<Leaf<'src>> => outputs::OUTPUTS,
+        /// How several samples of depth become one value, in place of what there is.
+        depth: Option<Leaf<'src>> => resolves::DEPTH,
         /// What is changed of all that.
         changes: Option<Leaf<'src>> => CHANGES,
     }
@@ -83,6 +85,8 @@ fields! {
         images: Option<Leaf<'src>> => body::IMAGES,
         /// Buffers that are added.
         buffers: Option<Leaf<'src>> => body::BUFFERS,
+        /// How several samples of depth become one value, in place of what there is.
+        depth: Option<Leaf<'src>> => resolves::DEPTH,
         /// What is changed.
         changes: Option<Leaf<'src>> => CHANGES,
     }
@@ -130,6 +134,7 @@ pub(super) struct Said<'t> {
     pub(super) buffers: Option<Leaf<'t>>,
     pub(super) passes: Option<Leaf<'t>>,
     pub(super) outputs: Option<Leaf<'t>>,
+    pub(super) depth: Option<Leaf<'t>>,
     pub(super) changes: Option<Leaf<'t>>,
 }
 
@@ -187,7 +192,7 @@ impl Layer {
             Role::Whole => {
                 let all: PipelineFields<'_> = reader.read(root, "the pipeline")?;
                 let [images, passes, outputs] = [all.images, all.passes, all.outputs].map(Some);
-                let common = common!(all: include settings presets views fragments textures buffers changes);
+                let common = common!(all: include settings presets views fragments textures buffers depth changes);
                 Said { images, passes, outputs, ..common }
             }
             Role::Extending => {
@@ -197,14 +202,14 @@ impl Layer {
                         Diagnostic::new(passes.start(), "a pipeline that extends another has no `passes` of its own");
                     reader.report(wrong.help("say where they belong: `changes: [Insert(at: End, passes: […])]`"));
                 }
-                common!(all: include settings presets views fragments textures images buffers outputs changes)
+                common!(all: include settings presets views fragments textures images buffers outputs depth changes)
             }
             Role::Extension => {
                 let all: ExtensionFields<'_> = reader.read(root, "the extension")?;
                 if let Some(about) = all.about {
                     reader.words(about, "a description");
                 }
-                common!(all: include settings presets views fragments textures images buffers changes)
+                common!(all: include settings presets views fragments textures images buffers depth changes)
             }
         })
     }

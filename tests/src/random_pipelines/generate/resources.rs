@@ -10,6 +10,7 @@ use framewright_graph::format::Format::{
     R32G32B32A32_UINT,
 };
 use framewright_graph::frame::Shape;
+use framewright_graph::vocabulary::ResolveMode;
 
 pub(super) fn images(rng: &mut Rng, passes: u32, allowed: &Allowed) -> Vec<Image> {
     let [width, height] = rng.of([[8, 8], [16, 8], [12, 20], [24, 16], [40, 24]]);
@@ -40,11 +41,15 @@ fn image(rng: &mut Rng, [width, height]: [u32; 2], allowed: &Allowed) -> Image {
         mips: 1,
         layers: 1,
         samples: 1,
+        resolve: None,
         life: life(rng, allowed),
     };
     let color = !format.is_depth();
     match rng.below(10) {
-        0 | 1 if allowed.has(Kind::Multisampled) => Image { samples: SAMPLES, life: Life::Transient, ..flat },
+        0 | 1 if allowed.has(Kind::Multisampled) => {
+            let resolve = if color { None } else { resolve(rng) };
+            Image { samples: SAMPLES, resolve, life: Life::Transient, ..flat }
+        }
         2 if allowed.has(Kind::Mips) => Image { mips: 2 + rng.below(2), ..flat },
         3 if allowed.has(Kind::Layers) => Image { layers: 2 + rng.below(2), ..flat },
         4 if allowed.has(Kind::Mips) && allowed.has(Kind::Layers) => Image { mips: 2, layers: 2, ..flat },
@@ -54,6 +59,12 @@ fn image(rng: &mut Rng, [width, height]: [u32; 2], allowed: &Allowed) -> Image {
         }
         _ => flat,
     }
+}
+
+/// How the samples of depth become one value: every other image says it.
+fn resolve(rng: &mut Rng) -> Option<ResolveMode> {
+    let modes = [ResolveMode::SampleZero, ResolveMode::Min, ResolveMode::Max, ResolveMode::Average];
+    if rng.one_in(2) { Some(rng.of(modes)) } else { None }
 }
 
 fn life(rng: &mut Rng, allowed: &Allowed) -> Life {

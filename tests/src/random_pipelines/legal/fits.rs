@@ -14,7 +14,7 @@ use framewright_graph::vocabulary::Aspects;
 /// Whether what a pass does fits what it names, whatever stands there.
 pub(super) fn fits(written: &Written, pipeline: &Pipeline, pass: &Pass) -> bool {
     let (reads, stores) = shader(pass);
-    reads.iter().all(|read| read_fits(pipeline, *read))
+    reads.iter().all(|read| read_fits(written, pipeline, *read))
         && match &pass.work {
             Work::Draw(draw) => draw_fits(pipeline, draw),
             Work::Compute(compute) => {
@@ -45,12 +45,26 @@ fn one_plane(pipeline: &Pipeline, part: Part) -> bool {
     (part.plane == Plane::All) != pipeline.images[part.image].format.aspects().contains(Aspects::STENCIL)
 }
 
+/// Whether the depth that a pass draws can be drawn again, alone: nothing that it reads may have changed.
+pub(super) fn draws_again(pass: &Pass) -> bool {
+    let (reads, stores) = shader(pass);
+    let Work::Draw(draw) = &pass.work else { return false };
+    let plain = match draw.geometry {
+        Geometry::FullScreen => true,
+        Geometry::Triangles { count, vertices, indices } => {
+            matches!(count, Count::Direct(..)) && vertices.is_none() && indices.is_none()
+        }
+    };
+    let tests_stencil = draw.depth.is_some_and(|depth| depth.stencil.is_some());
+    plain && !draw.custom && !tests_stencil && reads.is_empty() && stores.is_empty()
+}
+
 /// Whether what lives so can be read so many frames later.
 fn lasts(life: Life, frames_ago: u32) -> bool {
     frames_ago == 0 || matches!(life, Life::History(frames, _) if frames_ago <= frames)
 }
 
-fn read_fits(pipeline: &Pipeline, read: Read) -> bool {
+fn read_fits(written: &Written, pipeline: &Pipeline, read: Read) -> bool {
     match read {
         Read::Sampled { part, frames_ago, per_sample } => {
             let image = &pipeline.images[part.image];
@@ -61,7 +75,7 @@ fn read_fits(pipeline: &Pipeline, read: Read) -> bool {
                 && one_plane(pipeline, part)
                 && whole_cube
                 && (several || !per_sample)
-                && !(several && image.format.is_depth() && !per_sample)
+                && (!several || per_sample || written.single(pipeline, part))
                 && !(per_sample && part.layers > 1)
         }
         Read::Own(part) => {

@@ -154,13 +154,13 @@ impl Evaluator<'_> {
     fn forward(&mut self, from: usize, to: usize) {
         let source = self.before.images[from][0].clone();
         let [read, written] = [from, to].map(|image| &self.pipeline.images[image]);
-        let (format, samples, resolves) = (read.format, written.samples, read.samples > written.samples);
+        let (samples, resolves) = (written.samples, read.samples > written.samples);
         let [width, height, _] = written.extent;
         for at in 0..width * height {
             let place = [at % width, at / width, 0];
             for sample in 0..samples {
                 let words = if resolves {
-                    texels::resolved(format, &source.all_samples(0, place))
+                    texels::resolved(read, &source.all_samples(0, place))
                 } else {
                     source.texel(0, place, sample).words
                 };

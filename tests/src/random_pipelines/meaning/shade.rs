@@ -49,7 +49,7 @@ impl Evaluator<'_> {
                 let image = &self.pipeline.images[part.image];
                 let place = [at[0], at[1], part.layer];
                 let samples = self.before.images[part.image][0].all_samples(part.mip, place);
-                let (format, words) = texels::seen(image.format, part.plane, texels::resolved(image.format, &samples));
+                let (format, words) = texels::seen(image.format, part.plane, texels::resolved(image, &samples));
                 absorb(state, format, words)
             }
             Read::Storage(part) => self.texel_near(part, 0, false, state, at),
@@ -75,7 +75,7 @@ impl Evaluator<'_> {
                 absorb(state, format, words)
             });
         }
-        let words = texels::resolved(image.format, &contents.all_samples(part.mip, place(state)));
+        let words = texels::resolved(image, &contents.all_samples(part.mip, place(state)));
         let (format, words) = texels::seen(image.format, part.plane, words);
         absorb(state, format, words)
     }

@@ -1,0 +1,168 @@
+//! How a device really resolves depth: what it says, held against what it does. A driver is known that says it averages, and
+//! takes sample zero.
+//!
+//! A slope is drawn into depth of one texel and several samples, once for each mode; a pass works out from the single samples
+//! what each mode has to give. That is a frame like any other, with a Plan of its own.
+
+use crate::device::Device;
+use crate::error::Error;
+use crate::executor::{Executor, ExecutorOptions};
+use crate::recorder::{DrawSource, Recorder};
+use crate::shaders::ShaderLibrary;
+use crate::{capabilities, convert};
+use framewright_graph::compile::{Options, compile};
+use framewright_graph::device::Profile;
+use framewright_graph::format::Format;
+use framewright_graph::frame::{
+    Blend, ColorTarget, DepthTarget, Draw, Face, Frame, Image, ImageIndex, Output, Pass, Resolve, Resource, Sampled,
+    Work,
+};
+use framewright_graph::interface::DrawInterface;
+use framewright_graph::source::Span;
+use framewright_graph::vocabulary::{CompareOp, Filter, ResolveMode, Sampler, Stages, Subresources};
+
+/// The modes in which depth can be resolved.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct DepthResolve {
+    /// Those that the device has.
+    pub(crate) has: Vec<ResolveMode>,
+    /// Those that it says it has.
+    pub(crate) refuted: Vec<ResolveMode>,
+}
+
+/// All modes, in the order of the four components that `expect.frag` writes.
+const MODES: [ResolveMode; 4] = [ResolveMode::SampleZero, ResolveMode::Average, ResolveMode::Min, ResolveMode::Max];
+
+const FORMAT: Format = Format::D32_SFLOAT;
+
+const SHADERS: &[(&str, &str)] = &[
+    (
+        "slope.vert",
+        "#version 460
+        void main() {
+            const vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0;
+            gl_Position = vec4(corner, (corner.x + 1.0) * 0.2 + 0.1, 1.0);
+        }",
+    ),
+    ("slope.frag", "#version 460\nvoid main() {}"),
+    (
+        "expect.vert",
+        "#version 460
+        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
+    ),
+    (
+        "expect.frag",
+        "#version 460
+        layout(set = 0, binding = 0) uniform sampler2DMS slope;
+        layout(location = 0) out vec4 modes;
+        void main() {
+            const float first = texelFetch(slope, ivec2(0), 0).r;
+            modes = vec4(first);
+            for (int number = 1; number < textureSamples(slope); ++number) {
+                const float depth = texelFetch(slope, ivec2(0), number).r;
+                modes = vec4(first, modes.y + depth, min(modes.z, depth), max(modes.w, depth));
+            }
+            modes.y /= float(textureSamples(slope));
+        }",
+    ),
+];
+
+/// How far a resolve may be from what the samples say: a hundredth of the distance from sample to sample.
+const TOLERANCE: f32 = 0.001;
+
+/// What `device` does of what it says. Where that can't be found out, it is believed what every device must do.
+pub(crate) fn probe(device: &Device) -> DepthResolve {
+    let said = device.shared.depth_stencil_resolve().supported_depth_resolve_modes;
+    let said: Vec<ResolveMode> = MODES.into_iter().filter(|mode| said.contains(convert::resolve(*mode))).collect();
+    let kept = |mode: &ResolveMode| *mode == ResolveMode::SampleZero;
+    match resolves_so(device, &said) {
+        Ok(right) => {
+            let pairs = said.iter().zip(right);
+            let of =
+                |wanted: bool| pairs.clone().filter(|(_, right)| *right == wanted).map(|(mode, _)| *mode).collect();
+            DepthResolve { has: of(true), refuted: of(false) }
+        }
+        Err(_) => DepthResolve { has: said.into_iter().filter(kept).collect(), refuted: Vec::new() },
+    }
+}
+
+/// Whether each of these modes gives what it has to.
+fn resolves_so(device: &Device, modes: &[ResolveMode]) -> Result<Vec<bool>, Error> {
+    let claims = DepthResolve { has: modes.to_vec(), refuted: Vec::new() };
+    let claimed = capabilities::profile(&device.shared, String::new(), &mut device.memory(), claims);
+    let Some(frame) = frame(&claimed, modes) else { return Ok(vec![true; modes.len()]) };
+    let failed = |what: String| Error::BadPlan { what };
+    let plan = compile(&frame, &claimed, &mut device.memory(), &Options::default());
+    let plan = plan.map_err(|mistakes| failed(mistakes.into_iter().map(|it| it.message).collect()))?;
+    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
+    let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
+    executor.frame(&mut Nothing)?;
+    let expected = floats(&executor.read(0)?.bytes);
+    let expected =
+        |mode: ResolveMode| MODES.iter().zip(&expected).find(|(it, _)| **it == mode).map(|(_, depth)| *depth);
+    let mut right = Vec::with_capacity(modes.len());
+    for (output, mode) in (1..).zip(modes) {
+        let found = floats(&executor.read(output)?.bytes).first().copied();
+        let near = |(found, expected): (f32, f32)| (found - expected).abs() < TOLERANCE;
+        right.push(found.zip(expected(*mode)).is_some_and(near));
+    }
+    Ok(right)
+}
+
+/// Draws the slope for each mode; `None` if the device has no several samples of depth.
+fn frame(device: &Profile, modes: &[ResolveMode]) -> Option<Frame> {
+    let samples = *device.format(FORMAT)?.samples.iter().filter(|count| **count > 1).min()?;
+    let whole = Subresources::WHOLE;
+    let mut frame = Frame::default();
+    frame.images.push(Image::new("modes", Format::R32G32B32A32_SFLOAT, 1, 1));
+    for (number, mode) in (1..).zip(modes) {
+        let resolve = Some(Resolve { mode: Some(*mode), because: "to see what it does".into() });
+        frame.images.push(Image { samples, resolve, ..Image::new(&format!("slope {number}"), FORMAT, 1, 1) });
+        let depth = DepthTarget {
+            image: ImageIndex(number),
+            range: whole,
+            span: Span::NONE,
+            clear: Some(0.0),
+            test: CompareOp::Always,
+            write: true,
+            stencil: None,
+        };
+        frame.passes.push(Pass { depth: Some(depth), ..full_screen(&format!("slope {number}"), "slope") });
+    }
+    let slope = Sampled {
+        binding: "slope".into(),
+        image: ImageIndex(1),
+        range: whole,
+        frames_ago: 0,
+        span: Span::NONE,
+        face: Face::Samples,
+        texture: None,
+        own_pixel: false,
+        sampler: Sampler::new(Filter::Nearest),
+        stages: Stages::FRAGMENT_SHADER,
+    };
+    let target =
+        ColorTarget { image: ImageIndex(0), range: whole, span: Span::NONE, clear: None, blend: Blend::Replace };
+    frame.passes.push(Pass { sampled: vec![slope], color: vec![target], ..full_screen("expect", "expect") });
+    let output =
+        |image| Output { resource: Resource::Image(ImageIndex(image)), span: Span::NONE, after: None, encoding: None };
+    frame.outputs = (0..).take(frame.images.len()).map(output).collect();
+    Some(frame)
+}
+
+fn full_screen(name: &str, shader: &str) -> Pass {
+    Pass::new(name, Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: false })
+}
+
+fn floats(bytes: &[u8]) -> Vec<f32> {
+    bytes.as_chunks().0.iter().map(|word| f32::from_ne_bytes(*word)).collect()
+}
+
+/// Full-screen draws need nothing brought along.
+struct Nothing;
+
+impl DrawSource for Nothing {
+    fn record(&mut self, _: Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {
+        Ok(0)
+    }
+}

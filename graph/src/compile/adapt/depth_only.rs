@@ -1,0 +1,131 @@
+//! Depth-only passes: whatever drew a version of multisampled depth is drawn again with one sample, and nothing but its
+//! depth. It neither reads nor touches the multisampled depth.
+
+use super::{Adapter, access};
+use crate::compile::model::{OpKind, Role, Start, StoreIndex, Use};
+use crate::describe::Diagnostic;
+use crate::frame::{Draw, ImageIndex, Work};
+use crate::source::Span;
+use crate::view::ViewIndex;
+use crate::vocabulary::{Aspects, Subresources};
+use std::sync::Arc;
+
+/// Why depth can't be drawn again.
+struct Unavailable {
+    /// In words: "`terrain` is recorded by the program".
+    what: String,
+    /// The pass that is why.
+    at: Span,
+}
+
+impl Adapter<'_> {
+    /// Notes who wrote the current version of multisampled depth, each time that somebody writes it.
+    pub(super) fn note_depth_writer(&mut self, used: &Use, draws: bool) {
+        let Use { store, start, role, .. } = *used;
+        let depth = self.adapted.stores[store as usize].image();
+        if role == Role::Stencil || depth.is_none_or(|image| image.samples == 1 || !image.format.is_depth()) {
+            return;
+        }
+        let op = self.adapted.ops.len() as u32;
+        let writers = self.depth_writers.entry(store).or_default();
+        // Nothing shows from before; what else writes than draws replaces it whole, or can't be drawn again.
+        if start == Start::Clear || !draws {
+            writers.clear();
+        }
+        writers.push(op);
+    }
+
+    /// The view that the last writer of multisampled depth draws for.
+    pub(super) fn view_of_writer(&self, store: StoreIndex) -> ViewIndex {
+        let last = self.depth_writers.get(&store).and_then(|writers| writers.last());
+        let pass = last.and_then(|op| self.adapted.ops[*op as usize].kind.pass());
+        pass.map_or(ViewIndex::default(), |pass| self.input.frame.passes[pass as usize].view)
+    }
+
+    /// The single-sample depth that drawing the current version of `image` again leaves.
+    pub(super) fn redrawn(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
+        let source = self.current(image);
+        if let Some(redrawn) = self.redrawn_of[source as usize] {
+            return Some(redrawn);
+        }
+        let declared = &self.input.frame.images[image.0 as usize];
+        let passes = match self.redrawable(source, declared.layers) {
+            Ok(passes) => passes,
+            Err(Unavailable { what, at }) => {
+                let name = &declared.name;
+                let message = format!("{because}, and its depth can't be drawn again with 1: {what}");
+                let help = format!(
+                    "say how the samples of `{name}` become one, `resolve: SampleZero`, `Min`, `Max` or `Average`; or \
+                     sample it as `sampler2DMS`, or give it 1 sample"
+                );
+                self.errors.push(Diagnostic::new(span, message).label(at, "drawn here").help(help));
+                return None;
+            }
+        };
+        let why = self.reason(format!("{because}; what drew it is drawn again with 1"), span);
+        let target = self.second(image, "depth only", why.clone(), 1);
+        let range = self.range(image, Subresources { aspects: Aspects::DEPTH, ..Subresources::WHOLE });
+        for (number, pass) in passes.into_iter().enumerate() {
+            let start = if number == 0 { Start::Clear } else { Start::Keep };
+            let uses = [access::depth(Aspects::DEPTH, target, range, start, true, declared.format)];
+            let name = self.depth_only_name(pass);
+            self.push(OpKind::DepthOnly { pass, name, why: why.clone() }, &uses);
+        }
+        self.redrawn_of[source as usize] = Some(target);
+        Some(target)
+    }
+
+    /// The name of a pass that is drawn again: the pass's own with a word, and a number if it is drawn more than once.
+    fn depth_only_name(&mut self, pass: u32) -> Arc<str> {
+        let times = self.redrawn_times.entry(pass).or_insert(0);
+        *times += 1;
+        let name = &self.input.frame.passes[pass as usize].name;
+        match times {
+            1 => format!("{name} (depth only)"),
+            times => format!("{name} (depth only {times})"),
+        }
+        .into()
+    }
+
+    /// The passes that drew all of the current version.
+    fn redrawable(&self, store: StoreIndex, layers: u32) -> Result<Vec<u32>, Unavailable> {
+        let Adapter { adapted, input, .. } = self;
+        let writers = self.depth_writers.get(&store).map_or(&[][..], Vec::as_slice);
+        let mut passes = Vec::with_capacity(writers.len());
+        for op in writers {
+            let (kind, uses) = (&adapted.ops[*op as usize].kind, adapted.uses(*op));
+            let pass = kind.pass().map(|pass| (pass, &input.frame.passes[pass as usize]));
+            let unavailable = |what: &str| {
+                let name = pass.map_or("a copy", |(_, pass)| &pass.name);
+                let at = pass.map_or(Span::NONE, |(_, pass)| pass.span);
+                Unavailable { what: format!("`{name}` {what}"), at }
+            };
+            let (OpKind::Draw(number), Some((_, pass))) = (kind, pass) else {
+                return Err(unavailable("writes it and is no draw"));
+            };
+            let Work::Draw { draw, .. } = pass.work else { return Err(unavailable("is no draw")) };
+            if draw == Draw::Custom {
+                return Err(unavailable("is recorded by the program"));
+            }
+            if draw == Draw::Indirect || !pass.buffers.is_empty() {
+                return Err(unavailable("draws from buffers, which may have changed since"));
+            }
+            if uses.iter().any(|used| used.role == Role::Stencil) {
+                return Err(unavailable("tests stencil as well"));
+            }
+            if let Some(why) = &pass.no_depth_only {
+                return Err(unavailable(why));
+            }
+            let clears = uses.iter().any(|used| used.role == Role::Depth && used.start == Start::Clear);
+            if passes.is_empty() && !clears {
+                return Err(unavailable("draws onto what was there before the frame"));
+            }
+            passes.push(*number);
+        }
+        match (passes.is_empty(), layers) {
+            (true, _) => Err(Unavailable { what: "nothing in the frame draws it".to_owned(), at: Span::NONE }),
+            (false, 1) => Ok(passes),
+            (false, _) => Err(Unavailable { what: "it has several layers".to_owned(), at: Span::NONE }),
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! Whether what draws multisampled depth can draw it alone, where one value a texel of that depth may be wanted: then it is
+//! drawn again with one sample, by what the macro `DEPTH_ONLY` leaves of its shader.
+
+use super::order::State;
+use super::shader::{Checked, PARAMS};
+use super::things::Things;
+use super::{Chosen, variant};
+use crate::describe;
+use crate::frame::{Draw, Face, ImageIndex, Pass, Work};
+use crate::interface::{PASS_SET, ShaderInterface, ShaderProblem, Variant};
+use std::collections::HashSet;
+
+/// Notes why passes can't draw depth alone, for those that may have to. `states` are those of the pipeline's passes.
+pub(super) fn note(chosen: &Chosen<'_>, things: &Things, states: &mut [State], shaders: &mut Checked<'_>) {
+    let multisampled = |image: ImageIndex| {
+        let image = things.image(image).map(|image| &image.image);
+        image.filter(|image| image.samples > 1 && image.format.is_depth())
+    };
+    let mut wanted = HashSet::new();
+    for (image, index) in things.images.iter().zip(0..).map(|(image, index)| (image, ImageIndex(index))) {
+        let asks = image.as_ref().and_then(|image| image.image.resolve.as_ref());
+        if asks.is_some_and(|resolve| resolve.mode.is_none()) && multisampled(index).is_some() {
+            wanted.insert(index);
+        }
+    }
+    for state in &*states {
+        let State::On(pass) = state else { continue };
+        let sampled = pass.sampled.iter().filter(|sampled| sampled.face != Face::Samples && sampled.frames_ago == 0);
+        wanted.extend(sampled.map(|sampled| sampled.image).filter(|image| multisampled(*image).is_some()));
+    }
+    for (state, described) in states.iter_mut().zip(&chosen.pipeline.passes) {
+        let State::On(pass) = state else { continue };
+        let writes = pass
+            .depth
+            .as_ref()
+            .is_some_and(|depth| (depth.write || depth.clear.is_some()) && wanted.contains(&depth.image));
+        if writes {
+            pass.no_depth_only = hindrance(chosen, things, described, pass, shaders).map(Into::into);
+        }
+    }
+}
+
+/// Why the shader of a pass can't draw its depth alone, behind the name of the pass.
+fn hindrance(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    described: &describe::Pass,
+    pass: &Pass,
+    shaders: &mut Checked<'_>,
+) -> Option<String> {
+    let Work::Draw { draw, shader, .. } = &pass.work else { return None };
+    if *draw == Draw::Custom {
+        return None;
+    }
+    let whole = shaders.drawn(shader, *draw, &variant::of(chosen, things, described)).ok()?;
+    let alone = shaders.drawn(shader, *draw, &Variant { depth_only: true, ..Variant::default() });
+    let wrong = match alone {
+        Ok(alone) => difference(&whole, &alone)?,
+        Err(ShaderProblem::DoesNotCompile { messages }) => {
+            format!("it doesn't compile: {}", messages.first().map_or("", String::as_str))
+        }
+        Err(ShaderProblem::Unsupported { what }) => format!("it can't be used: {what}"),
+        Err(ShaderProblem::Missing { .. }) => return None,
+    };
+    Some(format!("has the shader `{shader}`, and with the macro `DEPTH_ONLY` {wrong}"))
+}
+
+/// What is wrong with what is left of a shader to draw depth alone.
+fn difference(whole: &ShaderInterface, alone: &ShaderInterface) -> Option<String> {
+    if whole.discards && !alone.discards {
+        return Some("it discards no fragments any more".to_owned());
+    }
+    if whole.writes_depth && !alone.writes_depth {
+        return Some("it writes no depth of its own any more".to_owned());
+    }
+    let read = alone.bindings.iter().find(|binding| binding.set == PASS_SET && binding.name != PARAMS)?;
+    Some(format!("it still uses `{}`, which may have changed since", read.name))
+}

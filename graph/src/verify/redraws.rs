@@ -1,0 +1,59 @@
+//! Whether depth-only passes draw again what they say: the same geometry, tested in the same way, with fewer samples.
+
+use super::Findings;
+use crate::plan::names::Shown;
+use crate::plan::{Pass, Plan, RenderScope, StepId, Work};
+use std::collections::HashMap;
+
+/// Reports passes that draw depth again, and not that of another pass.
+pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
+    let drawn = || {
+        let steps = (0..).map(StepId).zip(&plan.steps);
+        steps.filter_map(|(id, step)| match &step.work {
+            Work::Render(scope) => Some((id, &**scope)),
+            _ => None,
+        })
+    };
+    let passes = || drawn().flat_map(|(id, scope)| scope.passes.iter().map(move |pass| (id, scope, pass)));
+    if !passes().any(|(_, _, pass)| pass.redraws.is_some()) {
+        return;
+    }
+    let by_name: HashMap<&str, (&RenderScope, &Pass)> =
+        passes().map(|(_, scope, pass)| (&*pass.name, (scope, pass))).collect();
+    for (id, scope, pass) in passes() {
+        let Some(redraws) = &pass.redraws else { continue };
+        let wrong = match by_name.get(&**redraws) {
+            None => Some("draws again what the Plan doesn't draw"),
+            Some((of, original)) => wrong(plan, (scope, pass), (of, original)),
+        };
+        if let Some(wrong) = wrong {
+            found.structure(Some(id), None, format!("pass `{}` {wrong}", Shown(&pass.name)));
+        }
+    }
+}
+
+/// What is wrong with a pass that draws the depth of `original` again.
+fn wrong(
+    plan: &Plan,
+    (scope, pass): (&RenderScope, &Pass),
+    (of, original): (&RenderScope, &Pass),
+) -> Option<&'static str> {
+    let same = (pass.draw, &pass.shader, pass.view, pass.discards, &pass.params)
+        == (original.draw, &original.shader, original.view, original.discards, &original.params);
+    let tests = pass.depth == original.depth && pass.stencil == original.stencil && pass.stencil.is_none();
+    let (Some(depth), Some(drawn)) = (&scope.depth, &of.depth) else { return Some("draws no depth again") };
+    let [copy, image] = [depth, drawn].map(|attachment| plan.image(attachment.image));
+    let fewer = scope.samples == 1 && of.samples > 1 && copy.format == image.format && copy.extent == image.extent;
+    let alone = pass.accesses.len() == 1 && pass.buffers.is_empty() && scope.color.is_empty();
+    if original.redraws.is_some() || !same {
+        Some("draws something else than the pass that it draws again")
+    } else if !tests {
+        Some("tests depth otherwise than the pass that it draws again")
+    } else if !fewer {
+        Some("doesn't draw into depth of one sample that fits the depth of the pass that it draws again")
+    } else if !alone {
+        Some("draws again and touches more than its depth")
+    } else {
+        None
+    }
+}
