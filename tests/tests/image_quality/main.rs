@@ -13,6 +13,7 @@
 //! | IQ-7 | `plans::multisampled_colour_is_resolved_before_what_samples_it`, `texture_declarations` | samples of `color` 1 |
 //! | IQ-8 | `plans::a_resolve_serves_every_reader_until_the_next_write` | `post.ron`: objects are drawn before `show_light` |
 //! | IQ-9 | `plans::a_blur_of_five_draws_takes_one_resolve_where_the_file_asks_for_three` | `shown` with one sample |
+//! | IQ-10, IQ-12, IQ-15 | `graph/tests/depth_ladder.rs` | `compile/adapt/resolve.rs`: depth without a word is averaged |
 //! | IQ-13 | `cli/tests/depth_ladder.rs` | `lit_masked.frag`: no `fades_out`, or no cut-off, with `DEPTH_ONLY` |
 //! | IQ-14 | `cli/tests/depth_ladder.rs`, `graph/tests/depth_ladder.rs` | `depth_resolve_min.frag`: `greatest_depth` |
 //! | IQ-16 | `plans::stripes_take_one_resolve_as_a_blend_and_two_as_a_copy`, `depth_stripes` | `stripes_back` off |
