@@ -291,13 +291,14 @@ fn an_include_can_not_leave_its_folder() {
         fs::write(folder.join("test.frag"), format!("#version 460\n#include \"{name}\"\n{WHITE} }}")).expect("a file");
         match library(&folder).draw_shader("test", Draw::FullScreen, &Variant::default()) {
             Err(ShaderProblem::DoesNotCompile { messages }) => {
-                assert!(messages[0].contains(&format!("`{name}` is no shader file name")), "{messages:?}");
+                let refused = ["leads out of", "is no path of a file"];
+                assert!(refused.iter().any(|words| messages[0].contains(words)), "{messages:?}");
             }
             other => panic!("{other:?}"),
         }
     }
     match library(&folder).draw_shader("../secret", Draw::FullScreen, &Variant::default()) {
-        Err(ShaderProblem::Unsupported { what }) => assert!(what.contains("no shader file name"), "{what}"),
+        Err(ShaderProblem::Unsupported { what }) => assert!(what.contains("leads out of"), "{what}"),
         other => panic!("{other:?}"),
     }
 }

@@ -45,7 +45,7 @@ pub(crate) enum Error {
         shipped: Vec<&'static str>,
     },
     /// A file can't be read.
-    #[error("the {what} `{}` can't be read: {}", text::path(path), text::escape(&source.to_string()))]
+    #[error("the {what} `{}` can't be read: {}{}", text::path(path), text::escape(&source.to_string()), allow(source, path))]
     Read {
         /// What it is.
         what: &'static str,
@@ -256,8 +256,8 @@ pub(crate) struct Wrong {
     pub(crate) sources: Sources,
     /// The mistakes.
     pub(crate) diagnostics: Vec<Diagnostic>,
-    /// Whether the command line made them, and not the file.
-    pub(crate) by_command_line: bool,
+    /// How the command ends: the files are wrong, the command line is, or files can't be read.
+    pub(crate) exit: Exit,
 }
 
 impl Error {
@@ -295,13 +295,7 @@ impl Error {
             | Error::Unwritable(_)
             | Error::Json(_)
             | Error::Plan(_) => Exit::Found,
-            Error::Wrong { wrong } => {
-                if wrong.by_command_line {
-                    Exit::Usage
-                } else {
-                    Exit::Found
-                }
-            }
+            Error::Wrong { wrong } => wrong.exit,
             Error::Scene(problem) => match &**problem {
                 SceneError::Unreadable { source, .. } if source.kind() == io::ErrorKind::PermissionDenied => {
                     Exit::Environment
@@ -335,6 +329,14 @@ fn no_output(name: &str, outputs: &[String], image: bool) -> String {
     format!("the pipeline has no output named `{name}`\nhelp: {help}")
 }
 
+/// What to do about a file that can't be read.
+fn allow(problem: &io::Error, file: &Path) -> String {
+    match problem.kind() {
+        io::ErrorKind::PermissionDenied => format!("\nhelp: chmod u+r {}", text::path(file)),
+        _ => String::new(),
+    }
+}
+
 /// What to do about a file, if it is one, that can't be written.
 fn mend(problem: &io::Error, file: Option<&Path>) -> String {
     match problem.kind() {
@@ -349,6 +351,7 @@ fn mend(problem: &io::Error, file: Option<&Path>) -> String {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
             "\nhelp: make room: df -h shows what is full".to_owned()
         }
+        io::ErrorKind::FileTooLarge => "\nhelp: allow larger files: ulimit -f unlimited".to_owned(),
         io::ErrorKind::IsADirectory => "\nhelp: that is a folder: name a file in it".to_owned(),
         _ => String::new(),
     }

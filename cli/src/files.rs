@@ -2,7 +2,8 @@
 
 use crate::error::Error;
 use crate::{args, shipped, text};
-use framewright_graph::describe::{Found, LARGEST_FILE, SHIPPED, Shipped};
+use framewright_graph::describe::{Found, LARGEST_FILE, PipelineFiles, Shipped};
+use framewright_graph::file_path::FilePath;
 use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_passes::scene::{self, Scene, SceneError};
@@ -15,8 +16,8 @@ use std::path::Path;
 pub(crate) struct PipelineFile {
     /// Name to show: as the user gave it.
     pub(crate) shown: String,
-    /// Name without its folder.
-    pub(crate) name: String,
+    /// Which file it is, counted from its own folder.
+    pub(crate) path: FilePath,
     /// Where the files come from that it names; `None`: the binary carries it, and them.
     pub(crate) root: Option<Root>,
     /// What it holds.
@@ -33,7 +34,7 @@ pub(crate) fn pipeline(arguments: &args::Pipeline) -> Result<PipelineFile, Error
     match bytes(WHAT, path, LARGEST_FILE) {
         Ok(bytes) => Ok(PipelineFile {
             shown: path.to_string_lossy().into_owned(),
-            name: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+            path: (&*path.file_name().unwrap_or(path.as_os_str()).to_string_lossy()).into(),
             root: Some(limited(arguments, Root::new(path.parent().unwrap_or(Path::new("")).to_owned()))?),
             bytes,
         }),
@@ -41,11 +42,11 @@ pub(crate) fn pipeline(arguments: &args::Pipeline) -> Result<PipelineFile, Error
             let (file, text) = carried(WHAT, path, shipped::PIPELINES)?;
             let (shown, bytes) = (file.to_owned(), text.as_bytes().to_vec());
             if arguments.extend.is_empty() {
-                return Ok(PipelineFile { name: shown.clone(), shown, root: None, bytes });
+                return Ok(PipelineFile { path: file.into(), shown, root: None, bytes });
             }
             // Extensions of the user's own bring files of their own: the working directory takes the place of the folder.
-            let name = format!("{SHIPPED}{file}");
-            Ok(PipelineFile { shown, name, root: Some(limited(arguments, Root::new(".".into()))?), bytes })
+            let path = FilePath::Shipped(file.into());
+            Ok(PipelineFile { shown, path, root: Some(limited(arguments, Root::new(".".into()))?), bytes })
         }
         Err(error) => Err(error),
     }
@@ -68,23 +69,20 @@ fn limited(arguments: &args::Pipeline, own: Root) -> Result<Root, Error> {
 }
 
 /// Reads an extension that the user names; where there is no such file, the shipped one of that path. Files that it names
-/// are counted from it: so its path is counted from the pipeline's folder, the one of `root`.
+/// are counted from it: so its path is counted from the pipeline's folder, as `files` count.
 ///
 /// # Errors
 /// If there is neither, or it can't be read.
-pub(crate) fn extension(path: &Path, root: Option<&Root>) -> Result<Found, Error> {
+pub(crate) fn extension(path: &Path, files: &mut PipelineFiles) -> Result<Found, Error> {
     const WHAT: &str = "extension";
     let shown = path.to_string_lossy().into_owned();
     match bytes(WHAT, path, LARGEST_FILE) {
-        Ok(bytes) => {
-            let relative = root.and_then(|root| root.relative(path).ok()).unwrap_or_else(|| shown.clone());
-            Ok(Found { shown, relative, bytes })
-        }
+        Ok(bytes) => Ok(Found { shown, relative: files.which(path), bytes }),
         Err(Error::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
             let carried = shipped::PIPELINES.iter().find(|(file, _)| Path::new(file) == path);
             let (file, text) = carried.ok_or(Error::Read { what: WHAT, path: path.to_owned(), source })?;
-            let relative = format!("{SHIPPED}{file}");
-            Ok(Found { shown: relative.clone(), relative, bytes: text.as_bytes().to_vec() })
+            let relative = FilePath::Shipped((*file).into());
+            Ok(Found { shown: relative.to_string(), relative, bytes: text.as_bytes().to_vec() })
         }
         Err(error) => Err(error),
     }

@@ -1,8 +1,21 @@
-//! Ctrl-C (and a request to terminate): work stops at its next good moment, so that no file is left half-written.
+//! Signals: none ends the command in the middle of a file.
+//!
+//! After Ctrl-C (and a request to terminate) work stops at its next good moment. A file that grows beyond what the user may
+//! write (`ulimit -f`) is an error like a full disk.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// Has too large a file answered by an error of the write. To be called before there are other threads, which take it over.
+pub(crate) fn survive_large_files() {
+    #[cfg(unix)]
+    {
+        use nix::sys::signal::{SigSet, Signal};
+        // That can only fail for a signal that doesn't exist.
+        drop(SigSet::from(Signal::SIGXFSZ).thread_block());
+    }
+}
 
 /// Begins to watch. Where that isn't possible the system's own way of ending a program stays.
 pub(crate) fn watch() {

@@ -31,6 +31,7 @@ use error::Exit;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    interrupt::survive_large_files();
     let line = match args::parse(std::env::args_os()) {
         Ok(line) => line,
         Err(error) => {

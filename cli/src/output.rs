@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Makes sure, before any work is done, that each of `written` can be written, and that none of them is one of `read`, or
-/// another of them by a different name.
+/// another of them by a different name, or a shader.
 ///
 /// # Errors
 /// [`Error::Write`] with what stands in the way, [`Error::WrittenTwice`], [`Error::ReadAndWritten`].
@@ -22,6 +22,9 @@ pub(crate) fn prepare<'a>(
             if let Some((what, _)) = read.iter().find(|(_, file)| *file == real) {
                 return Err(Error::ReadAndWritten { what, path: path.clone() });
             }
+            if is_shader(&real) && real.exists() {
+                return Err(Error::ReadAndWritten { what: "shader", path: path.clone() });
+            }
             if seen.contains(&real) {
                 return Err(Error::WrittenTwice { path: path.clone() });
             }
@@ -29,6 +32,12 @@ pub(crate) fn prepare<'a>(
         }
     }
     Ok(())
+}
+
+/// Whether a file is a shader, or a part of one, by its name. Those of passes that are off aren't read, and would be lost all
+/// the same; nothing that is written is called so.
+fn is_shader(file: &Path) -> bool {
+    file.extension().is_some_and(|ending| ["vert", "frag", "comp", "glsl"].iter().any(|shader| ending == *shader))
 }
 
 /// Makes sure that `path` can be written. The answer is the file's one true name; `None` for a stream.

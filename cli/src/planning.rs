@@ -1,6 +1,6 @@
 //! From a pipeline file to its verified Plan: the part that `check`, `inspect` and `run` share.
 
-use crate::error::{Error, Wrong};
+use crate::error::{Error, Exit, Wrong};
 use crate::files::{self, PipelineFile};
 use crate::values::Size;
 use crate::{args, output, shipped};
@@ -8,6 +8,7 @@ use framewright_graph::compile::{self, Options};
 use framewright_graph::describe::{self, Diagnostic, Document, Files, Found, PipelineFiles, Unread};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Facts, Inputs};
+use framewright_graph::file_path::FilePath;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Plan;
 use framewright_graph::root::Root;
@@ -64,11 +65,15 @@ struct Named {
     root: Root,
     /// The pictures that were looked at.
     pictures: Vec<PathBuf>,
+    /// Whether the user has no right to read one of the files.
+    denied: bool,
 }
 
 impl Files for Named {
-    fn read(&mut self, from: &str, path: &str) -> Result<Found, Unread> {
-        self.files.read(from, path)
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
+        let found = self.files.read(from, path);
+        self.denied |= found.as_ref().is_err_and(|unread| unread.denied);
+        found
     }
 
     fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
@@ -82,20 +87,23 @@ impl Files for Named {
 /// # Errors
 /// If it can't be read or is wrong in itself.
 pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
-    let PipelineFile { shown, name, root, bytes } = files::pipeline(arguments)?;
+    let PipelineFile { shown, path, root, bytes } = files::pipeline(arguments)?;
     let mut sources = Sources::default();
-    let files = match &root {
-        Some(root) => PipelineFiles::beside(root.clone(), &name, shipped::PIPELINES),
-        None => PipelineFiles::shipped(shipped::PIPELINES),
+    let mut files = match (&root, &path) {
+        (Some(root), FilePath::Own(name)) => PipelineFiles::beside(root.clone(), name, shipped::PIPELINES),
+        (Some(root), FilePath::Shipped(_)) => PipelineFiles::of_shipped(root.clone(), shipped::PIPELINES),
+        (None, _) => PipelineFiles::shipped(shipped::PIPELINES),
     };
+    let extensions = arguments.extend.iter().map(|path| files::extension(path, &mut files));
+    let extensions = extensions.collect::<Result<Vec<Found>, Error>>()?;
     let folder = root.clone().unwrap_or_else(|| Root::new(PathBuf::default()));
     let textures = TextureFiles::new(folder.clone());
-    let mut named = Named { files, textures, root: folder, pictures: Vec::new() };
-    let extensions = arguments.extend.iter().map(|path| files::extension(path, root.as_ref()));
-    let extensions = extensions.collect::<Result<Vec<Found>, Error>>()?;
-    let own = Found { shown, relative: name, bytes };
-    let mut pipeline = describe::read_extended(&mut sources, &mut named, own, extensions)
-        .map_err(|diagnostics| wrong(&sources, diagnostics))?;
+    let mut named = Named { files, textures, root: folder, pictures: Vec::new(), denied: false };
+    let own = Found { shown, relative: path, bytes };
+    let mut pipeline = describe::read_extended(&mut sources, &mut named, own, extensions).map_err(|diagnostics| {
+        let exit = if named.denied { Exit::Environment } else { Exit::Found };
+        Error::Wrong { wrong: Box::new(Wrong { sources: sources.clone(), diagnostics, exit }) }
+    })?;
     choose(arguments, &mut pipeline, &mut sources)?;
     Ok(Loaded {
         pipeline,
@@ -124,13 +132,13 @@ fn choose(arguments: &args::Pipeline, pipeline: &mut Document, sources: &mut Sou
     }
     pipeline.choose(arguments.preset.as_deref(), &files).map_err(|unknown| {
         let (sources, diagnostics) = (sources.clone(), vec![unknown]);
-        Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, by_command_line: true }) }
+        Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, exit: Exit::Usage }) }
     })
 }
 
 impl Loaded {
     /// Makes sure that nothing is written over a file that the pipeline was read from, a picture that it names, or a shader
-    /// that was read by now, by whatever name.
+    /// that was read by now, by whatever name; nor over what is called like a shader.
     ///
     /// # Errors
     /// Those of [`output::prepare`].
@@ -180,7 +188,7 @@ impl Loaded {
             return Ok(());
         }
         let sources = Sources::clone(&self.sources);
-        Err(Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, by_command_line: true }) })
+        Err(Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, exit: Exit::Usage }) })
     }
 
     /// Compiles a frame for a device, and has the result verified.
@@ -214,5 +222,5 @@ fn inputs<'a>(set: &'a [(String, String)], view: View<'a>) -> Inputs<'a> {
 }
 
 fn wrong(sources: &Sources, diagnostics: Vec<Diagnostic>) -> Error {
-    Error::Wrong { wrong: Box::new(Wrong { sources: sources.clone(), diagnostics, by_command_line: false }) }
+    Error::Wrong { wrong: Box::new(Wrong { sources: sources.clone(), diagnostics, exit: Exit::Found }) }
 }

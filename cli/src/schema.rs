@@ -19,11 +19,11 @@ pub(crate) fn schema(arguments: &Schema) -> Result<Exit, Error> {
             let text = files::text("file", path, LARGEST_FILE)?;
             let shown = path.to_string_lossy();
             let mut sources = Sources::default();
-            let number = sources.add(shown.clone(), &shown, text.clone());
+            let number = sources.add(shown.clone(), &*shown, text.clone());
             let mut diagnostics = Vec::new();
             let tree = Tree::read(number, text.into(), &mut diagnostics).filter(|_| diagnostics.is_empty());
             let wrong =
-                |diagnostics| Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, by_command_line: false }) };
+                |diagnostics| Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, exit: Exit::Found }) };
             match tree.map(|tree| forms::convert(tree.root())) {
                 Some(Ok(value)) => value,
                 Some(Err(diagnostics)) => return Err(wrong(diagnostics)),

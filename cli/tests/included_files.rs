@@ -163,6 +163,61 @@ fn the_user_may_choose_another_root_or_none() {
     check(&place, &["--root", "."]).exits(1).mentions("leads out of `.`");
 }
 
+/// Runs the command as somebody who may not read everything, whoever runs the test.
+#[cfg(unix)]
+fn check_as_nobody(place: &Place, words: &[&str]) -> Outcome {
+    use std::os::unix::fs::PermissionsExt;
+    use std::os::unix::process::CommandExt;
+    std::fs::set_permissions(place.path(""), PermissionsExt::from_mode(0o755)).expect("allowed");
+    let mut command = place.command(words);
+    // Root reads everything.
+    if std::fs::File::open("/etc/shadow").is_ok() {
+        command.uid(65534);
+    }
+    support::outcome(&mut command)
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_may_not_be_read_is_the_environments_fault_whoever_names_it() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = place("fill.ron");
+    let forbid = |file: &str| {
+        std::fs::set_permissions(place.file(file, FILL), PermissionsExt::from_mode(0o000)).expect("allowed");
+    };
+    forbid("inside/fill.ron");
+    check_as_nobody(&place, &["check", "inside/p.ron"])
+        .exits(3)
+        .mentions("error: `fill.ron` can't be read: Permission denied")
+        .mentions(" --> inside/p.ron:3:15\n")
+        .mentions("help: chmod u+r inside/fill.ron");
+    forbid("secret.ron");
+    check_as_nobody(&place, &["check", "secret.ron"])
+        .exits(3)
+        .mentions("error: the pipeline `secret.ron` can't be read: Permission denied")
+        .mentions("help: chmod u+r secret.ron");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_may_be_called_anything_and_a_file_that_two_links_lead_to_is_one() {
+    let place = Place::new();
+    for folder in ["own", "a:b"] {
+        std::fs::create_dir(place.path(folder)).expect("a folder");
+    }
+    place.file("own/p.ron", pipeline("fill.ron").replace("include:", "extensions: [\"link.ron\"], include:"));
+    place.file("own/fill.ron", FILL);
+    place.file("a:b/more.ron", FILL.replace("\"fill\"", "\"more\""));
+    place.file("a:b/extension.ron", r#"Extension(version: 1, include: ["more.ron"], changes: [])"#);
+    std::os::unix::fs::symlink("../a:b/extension.ron", place.path("own/link.ron")).expect("a link");
+    place.file("own/alone.ron", pipeline("fill.ron"));
+    place.run(&["check", "own/alone.ron", "--extend", "a:b/extension.ron", "--root", "."]).exits(0);
+    place
+        .run(&["check", "own/p.ron", "--extend", "a:b/extension.ron", "--root", "."])
+        .exits(1)
+        .mentions("error: `../a:b/extension.ron` is applied twice");
+}
+
 #[test]
 fn what_is_no_text_file_is_refused_without_being_waited_for() {
     let place = place("odd.ron");

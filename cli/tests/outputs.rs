@@ -93,3 +93,16 @@ fn what_is_no_output_is_not_written_and_said() {
     }
     assert_eq!(place.names(), ["p.ron"]);
 }
+
+#[cfg(unix)]
+#[test]
+fn a_file_larger_than_the_user_may_write_is_an_error_that_leaves_nothing_behind() {
+    let place = Place::new();
+    // In blocks of 512 bytes or of 1024, as the shell has it.
+    let limited = "ulimit -f 2; exec \"$0\" inspect forward --format json -o plan.json";
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", limited, env!("CARGO_BIN_EXE_framewright")]).current_dir(place.path(""));
+    let outcome = support::outcome(&mut shell).exits(3).mentions("`plan.json` can't be written: File too large");
+    outcome.mentions("help: allow larger files: ulimit -f unlimited");
+    assert_eq!(place.names(), [""; 0]);
+}

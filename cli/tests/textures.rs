@@ -164,7 +164,8 @@ fn textures_that_are_missing_damaged_or_outside_are_found_with_their_place_witho
     let outside = PIPELINE.replace("pictures/deep.png", "../deep.png").replace("pictures/table.png", "/table.png");
     place.file("textures.ron", outside);
     let answer = place.run(&["check", "textures.ron"]).exits(1);
-    answer.mentions("error: `../deep.png` leads out of").mentions("error: `/table.png` leads out of");
+    let answer = answer.mentions("error: `../deep.png` leads out of").mentions("error: `/table.png` leads out of");
+    answer.mentions("help: give a folder that holds both by `--root`, or allow all by `--allow-outside`");
 }
 
 #[test]
@@ -211,6 +212,10 @@ fn no_shader_is_written_over() {
     let place = place();
     let answer = place.run(&["inspect", "textures.ron", "-o", "look_up.frag"]);
     answer.exits(2).mentions("`look_up.frag` is the shader itself, which would be lost");
+    // Nor one that isn't read, because its pass is off.
+    place.file("off.frag", LOOK_UP);
+    let answer = place.run(&["inspect", "forward", "-o", "off.frag"]);
+    answer.exits(2).mentions("`off.frag` is the shader itself, which would be lost");
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
     let run = ["run", "textures.ron", "--scene", "spheres_and_cubes", "--report", "look_up.frag"];
     place.run_with(&variables, &run).exits(2).mentions("`look_up.frag` is the shader itself, which would be lost");

@@ -4,6 +4,7 @@ mod shape;
 
 pub use shape::{Component, Dimension, ImageShape};
 
+use crate::file_path::FilePath;
 use crate::format::Format;
 use crate::frame::Draw;
 use crate::vocabulary::Stages;
@@ -173,6 +174,17 @@ pub struct Variant {
 
 /// Where shader interfaces come from: a compiler and reflection over files on disk, or a table in a test.
 pub trait ShaderInterfaces {
+    /// Which shader it is that the file `from` calls `name`, for a draw of `draw` (`None`: a compute shader): the name by
+    /// which the other functions know it, and which stands in Plans. Shaders of one name in different folders have
+    /// different ones.
+    ///
+    /// # Errors
+    /// [`ShaderProblem`] says why there is none.
+    fn find(&mut self, from: &FilePath, name: &Arc<str>, draw: Option<Draw>) -> Result<Arc<str>, ShaderProblem> {
+        let _ = (from, draw);
+        Ok(name.clone())
+    }
+
     /// The interface of the shader `name` when it draws `draw`, compiled as `variant` says.
     ///
     /// # Errors

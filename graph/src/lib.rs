@@ -12,6 +12,7 @@ pub mod encoding;
 pub mod expand;
 pub mod expression;
 pub mod facts;
+pub mod file_path;
 pub mod format;
 pub mod frame;
 pub mod interface;

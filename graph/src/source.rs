@@ -1,5 +1,6 @@
 //! Where something was written: files, byte ranges in them, and places that people read.
 
+use crate::file_path::FilePath;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -36,7 +37,9 @@ impl Span {
 pub struct SourceFile {
     /// As the user named it: shown in diagnostics.
     pub shown: String,
-    /// Relative to the pipeline's own folder: stands in Plans, which must not depend on the working directory.
+    /// Which one it is.
+    pub path: FilePath,
+    /// That as a text: it stands in Plans, which must not depend on the working directory.
     pub relative: Arc<str>,
     /// The text.
     pub text: Arc<str>,
@@ -51,12 +54,13 @@ pub struct Sources {
 
 impl Sources {
     /// Adds a text and returns its number.
-    pub fn add(&mut self, shown: impl Into<String>, relative: &str, text: impl Into<Arc<str>>) -> u32 {
-        let text = text.into();
+    pub fn add(&mut self, shown: impl Into<String>, path: impl Into<FilePath>, text: impl Into<Arc<str>>) -> u32 {
+        let (path, text) = (path.into(), text.into());
         let line_starts = std::iter::once(0)
             .chain(text.bytes().zip(1..).filter(|(byte, _)| *byte == b'\n').map(|(_, at)| at))
             .collect();
-        self.files.push(SourceFile { shown: shown.into(), relative: relative.into(), text, line_starts });
+        let (shown, relative) = (shown.into(), path.to_string().into());
+        self.files.push(SourceFile { shown, path, relative, text, line_starts });
         u32::try_from(self.files.len() - 1).expect("fewer than 2^32 files")
     }
 

@@ -51,7 +51,7 @@ impl TextureFiles {
         let unreadable = |reason: String| TextureProblem::Unreadable { reason };
         let found = self.root.locate(path).map_err(|problem| match problem {
             NoFile::Outside { .. } => TextureProblem::Outside,
-            NoFile::Unreadable { reason } => unreadable(reason),
+            NoFile::Unreadable { reason } | NoFile::Denied { reason } => unreadable(reason),
             other => unreadable(format!("it {other}")),
         })?;
         let bytes = fs::metadata(&found).map_err(|error| unreadable(error.to_string()))?.len();

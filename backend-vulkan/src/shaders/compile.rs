@@ -5,7 +5,8 @@ use shaderc::{
     CompileOptions, Compiler, EnvVersion, GlslProfile, OptimizationLevel, ResolvedInclude, ShaderKind, SourceLanguage,
     SpirvVersion, TargetEnv,
 };
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
 
 /// A file may include others this deep.
 const MAX_INCLUDE_DEPTH: usize = 16;
@@ -37,6 +38,8 @@ pub(super) fn compile(
     macros: &[(String, String)],
 ) -> Result<Vec<u32>, Vec<String>> {
     let included = Cell::new(0);
+    // Files that were included, by the names that the compiler knows them by.
+    let known = RefCell::new(HashMap::from([(source.shown.clone(), source.path.clone())]));
     let mut options = CompileOptions::new().map_err(|error| vec![error.to_string()])?;
     options.set_source_language(SourceLanguage::GLSL);
     options.set_forced_version_profile(460, GlslProfile::Core);
@@ -48,14 +51,18 @@ pub(super) fn compile(
     for (name, value) in macros {
         options.add_macro_definition(name, Some(value));
     }
-    options.set_include_callback(|requested, _, _, depth| {
+    options.set_include_callback(|requested, _, includer, depth| {
         included.set(included.get() + 1);
         if depth > MAX_INCLUDE_DEPTH || included.get() > MAX_INCLUDES {
             return Err(format!("more than {MAX_INCLUDE_DEPTH} includes deep or {MAX_INCLUDES} in all: a circle?"));
         }
-        match files.find(requested)? {
-            Some(Found { shown, text }) => Ok(ResolvedInclude { resolved_name: shown, content: text }),
-            None => Err(format!("looked for it in {}", files.places().join(", "))),
+        let from = known.borrow().get(includer).unwrap_or(&source.path).clone();
+        match files.included(&from, requested)? {
+            Some(Found { path, shown, text }) => {
+                known.borrow_mut().insert(shown.clone(), path);
+                Ok(ResolvedInclude { resolved_name: shown, content: text })
+            }
+            None => Err(format!("looked for it in {}", files.places(&from).join(", "))),
         }
     });
     let kind = match stage {

@@ -1,5 +1,6 @@
-//! Where shader sources are found: folders on disk first, then the texts that are shipped with the program.
+//! Where shader sources are found: folders on disk, and the texts that are shipped with the program.
 
+use framewright_graph::file_path::FilePath;
 use framewright_graph::root::{NoFile, Root};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -9,9 +10,12 @@ use std::path::PathBuf;
 /// Larger files are no shaders.
 const MAX_SOURCE_BYTES: usize = 1 << 20;
 
-/// Where shaders and what they include are looked for, in this order.
+/// What messages call the place of what is shipped.
+const SHIPPED: &str = "the shipped shaders";
+
+/// Where shaders and what they include are looked for.
 pub(super) struct ShaderFiles {
-    /// Folders on disk.
+    /// Folders on disk, in this order.
     pub(super) roots: Vec<Root>,
     /// File name and text.
     pub(super) shipped: &'static [(&'static str, &'static str)],
@@ -20,7 +24,10 @@ pub(super) struct ShaderFiles {
 }
 
 /// A source text.
+#[derive(Debug)]
 pub(super) struct Found {
+    /// Which file it is.
+    pub(super) path: FilePath,
     /// The name that messages show.
     pub(super) shown: String,
     /// GLSL.
@@ -28,19 +35,42 @@ pub(super) struct Found {
 }
 
 impl ShaderFiles {
-    /// The text of the file `name` (`lit.frag`, `light/sun.glsl`), `None` if there is none.
+    /// The file `name` of a pipeline (`lit.frag`), or else the shipped file of that name; `None` if there is neither.
     ///
     /// # Errors
     /// If the name leads out of the folders, or a file of that name can't be a shader: what is wrong with it, in words.
-    pub(super) fn find(&self, name: &str) -> Result<Option<Found>, String> {
-        if !stays_inside(name) {
-            return Err(format!(
-                "`{name}` is no shader file name: plain names and subfolders with `/` only, no `..`, no `\\`"
-            ));
+    pub(super) fn find(&self, name: &FilePath) -> Result<Option<Found>, String> {
+        let own = match name {
+            FilePath::Own(own) => self.on_disk(own)?,
+            FilePath::Shipped(_) => None,
+        };
+        Ok(own.or_else(|| self.shipped(name.path())))
+    }
+
+    /// The file that the shader file `from` includes as `name`: beside it, then in the pipeline's folder, then shipped;
+    /// `None` if there is none. What a shipped file includes is shipped.
+    ///
+    /// # Errors
+    /// Those of [`ShaderFiles::find`].
+    pub(super) fn included(&self, from: &FilePath, name: &str) -> Result<Option<Found>, String> {
+        let whole = match from {
+            FilePath::Own(_) => FilePath::Own("".into()),
+            FilePath::Shipped(_) => FilePath::Shipped("".into()),
+        };
+        let refused = |problem: NoFile| format!("`{name}` {problem}");
+        for path in [from.beside(name).map_err(refused)?, whole.beside(name).map_err(refused)?] {
+            if let Some(found) = self.find(&path)? {
+                return Ok(Some(found));
+            }
         }
+        Ok(None)
+    }
+
+    /// The file of that path in the first folder that has one.
+    fn on_disk(&self, path: &str) -> Result<Option<Found>, String> {
         for root in &self.roots {
-            let shown = root.folder().join(name).display().to_string();
-            let located = root.locate(name);
+            let shown = root.folder().join(path).display().to_string();
+            let located = root.locate(path);
             self.read.borrow_mut().extend(located.clone());
             let bytes = match located.and_then(|found| root.read(&found, MAX_SOURCE_BYTES)) {
                 Ok(bytes) => bytes,
@@ -54,21 +84,45 @@ impl ShaderFiles {
             if text.contains('\0') {
                 return Err(format!("{shown} contains a zero byte"));
             }
-            return Ok(Some(Found { shown: shown.replace('\0', ""), text }));
+            return Ok(Some(Found { path: path.into(), shown: shown.replace('\0', ""), text }));
         }
-        let shipped = self.shipped.iter().find(|(shipped, _)| *shipped == name);
-        Ok(shipped.map(|(name, text)| Found { shown: format!("shipped:{name}"), text: (*text).to_owned() }))
+        Ok(None)
     }
 
-    /// The places that [`ShaderFiles::find`] looks in, for messages.
-    pub(super) fn places(&self) -> Vec<String> {
-        let folders = self.roots.iter().map(|root| root.folder().display().to_string());
-        folders.chain((!self.shipped.is_empty()).then(|| "the shipped shaders".to_owned())).collect()
+    fn shipped(&self, name: &str) -> Option<Found> {
+        let (name, text) = self.shipped.iter().find(|(shipped, _)| *shipped == name)?;
+        let path = FilePath::Shipped((*name).into());
+        Some(Found { shown: path.to_string(), path, text: (*text).to_owned() })
     }
 
-    /// Names of everything that has a file ending in `ending`, sorted.
-    pub(super) fn known_shaders(&self, ending: &str) -> Vec<String> {
-        let on_disk = self.roots.iter().filter_map(|root| fs::read_dir(root.folder()).ok());
+    /// Whether files in that folder may be read.
+    pub(super) fn may_read(&self, folder: &str) -> bool {
+        let inside = |root: &Root| !matches!(root.locate(folder), Err(NoFile::Outside { .. }));
+        self.roots.iter().any(inside)
+    }
+
+    /// The places where something that the file `from` names is looked for, for messages.
+    pub(super) fn places(&self, from: &FilePath) -> Vec<String> {
+        let shipped = (!self.shipped.is_empty()).then(|| SHIPPED.to_owned());
+        let FilePath::Own(_) = from else { return shipped.into_iter().collect() };
+        let shown = |folder: &str| {
+            let folder = folder.to_owned();
+            self.roots.iter().map(move |root| root.folder().join(&folder).components().collect::<PathBuf>())
+        };
+        let beside = (!from.folder().is_empty()).then(|| shown(from.folder())).into_iter().flatten();
+        let folders = beside.chain(shown("")).map(|folder| folder.display().to_string());
+        folders.chain(shipped).collect()
+    }
+
+    /// Names of all shaders whose files end in `ending` where something that the file `from` names is looked for, sorted.
+    pub(super) fn known_shaders(&self, from: &FilePath, ending: &str) -> Vec<String> {
+        let own = matches!(from, FilePath::Own(_));
+        let beside = Some(from.folder()).filter(|folder| !folder.is_empty() && self.may_read(folder));
+        let folders = self.roots.iter().flat_map(|root| {
+            let beside = beside.map(|folder| root.folder().join(folder));
+            beside.into_iter().chain([root.folder().to_owned()])
+        });
+        let on_disk = folders.filter(|_| own).filter_map(|folder| fs::read_dir(folder).ok());
         let on_disk = on_disk.flatten().flatten().filter_map(|entry| entry.file_name().into_string().ok());
         let shipped = self.shipped.iter().map(|(name, _)| (*name).to_owned());
         let mut names: Vec<String> =
@@ -77,9 +131,4 @@ impl ShaderFiles {
         names.dedup();
         names
     }
-}
-
-/// Whether `name` is a relative path that can't leave the folder it is joined to.
-fn stays_inside(name: &str) -> bool {
-    !name.contains(['\\', '\0', ':']) && name.split('/').all(|part| !matches!(part, "" | "." | ".."))
 }

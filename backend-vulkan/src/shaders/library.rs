@@ -3,11 +3,12 @@
 use super::compile::{Stage, compile};
 use super::files::{Found, ShaderFiles};
 use super::reflect::{StageInterface, reflect};
+use framewright_graph::file_path::FilePath;
 use framewright_graph::frame::Draw;
 use framewright_graph::interface::{
     BindingKind, DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
 };
-use framewright_graph::root::Root;
+use framewright_graph::root::{NoFile, Root};
 use shaderc::Compiler;
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -43,8 +44,12 @@ pub struct CompiledCompute {
 ///
 /// The shader `NAME` of a draw is `NAME.frag` with `NAME.vert`, or without one with the vertex shader of its kind of
 /// draw: `objects.vert`, `sky.vert`, `full_screen.vert` (custom draws too) or `vertices.vert` (indirect draws too). The
-/// compute shader `NAME` is `NAME.comp`. Every file is looked for in the folders in their order, then among the shipped
-/// texts; so is every `#include "x.glsl"`, whose name is never relative to the including file.
+/// compute shader `NAME` is `NAME.comp`.
+///
+/// A pipeline's file that names a shader has its own beside it: `NAME` in `effects/glow.ron` is the shader `effects/NAME`
+/// if there is one. Else it is looked for in the folders in their order, then among the shipped texts; so is the usual
+/// vertex shader, and what is `#include`d: beside the file that includes it, in the folders, among the shipped. What a
+/// shipped file names is shipped: from there `NAME` is the shader `shipped:NAME`.
 ///
 /// A [`Variant`] says how a pass has them compiled. The macro `TEXTURE_NAME` stands for the type of the image that the pass
 /// gives as `NAME`, in the stages that are the shader's own and whose own file mentions it. Where a pass reads the image
@@ -108,7 +113,7 @@ impl ShaderLibrary {
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     pub fn compiled(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<CompiledShader, ShaderProblem> {
         let Some(fragment) = self.stage(format!("{name}.frag"), Stage::Fragment, variant)? else {
-            return Err(self.missing(".frag"));
+            return Err(self.missing(&FilePath::of_text(name), ".frag"));
         };
         // The same vertex stage, word for word: it must meet the same depth.
         let own = Variant { local: Vec::new(), depth_only: false, ..variant.clone() };
@@ -136,7 +141,7 @@ impl ShaderLibrary {
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     pub fn compute(&mut self, name: &str, variant: &Variant) -> Result<CompiledCompute, ShaderProblem> {
         let stage = self.stage(format!("{name}.comp"), Stage::Compute, variant)?;
-        let stage = stage.ok_or_else(|| self.missing(".comp"))?;
+        let stage = stage.ok_or_else(|| self.missing(&FilePath::of_text(name), ".comp"))?;
         Ok(CompiledCompute { compute: stage.spirv.clone(), interface: stage.reflected.interface.clone() })
     }
 
@@ -144,7 +149,11 @@ impl ShaderLibrary {
     fn usual_vertex_stage(&mut self, name: &str, draw: Draw) -> Result<Arc<CompiledStage>, ShaderProblem> {
         let file = vertex_shader_of(draw);
         let what = || format!("no vertex shader: neither `{name}.vert` nor `{file}` was found");
-        let stage = self.stage(file.to_owned(), Stage::Vertex, &Variant::default())?;
+        let usual = match FilePath::of_text(name) {
+            FilePath::Own(_) => FilePath::Own(file.into()),
+            FilePath::Shipped(_) => FilePath::Shipped(file.into()),
+        };
+        let stage = self.stage(usual.to_string(), Stage::Vertex, &Variant::default())?;
         stage.ok_or_else(|| ShaderProblem::Unsupported { what: what() })
     }
 
@@ -164,7 +173,7 @@ impl ShaderLibrary {
         if let Some(known) = self.sources.get(file) {
             return known.clone();
         }
-        let found = self.files.find(file).map_err(|what| ShaderProblem::Unsupported { what });
+        let found = self.files.find(&FilePath::of_text(file)).map_err(|what| ShaderProblem::Unsupported { what });
         let source = found.map(|found| {
             found.map(|found| {
                 let adapting = adapting(&found.text);
@@ -194,12 +203,34 @@ impl ShaderLibrary {
         Ok(Some(Arc::new(CompiledStage { file: found.shown.clone(), spirv: spirv.into(), reflected })))
     }
 
-    fn missing(&self, ending: &str) -> ShaderProblem {
-        ShaderProblem::Missing { looked_in: self.files.places(), known: self.files.known_shaders(ending) }
+    /// That the file `from` names no shader that there is.
+    fn missing(&self, from: &FilePath, ending: &str) -> ShaderProblem {
+        let looked_in = self.files.places(from);
+        ShaderProblem::Missing { looked_in, known: self.files.known_shaders(from, ending) }
     }
 }
 
 impl ShaderInterfaces for ShaderLibrary {
+    fn find(&mut self, from: &FilePath, name: &Arc<str>, draw: Option<Draw>) -> Result<Arc<str>, ShaderProblem> {
+        let ending = if draw.is_some() { ".frag" } else { ".comp" };
+        let none = |_: NoFile| ShaderProblem::Unsupported { what: format!("`{name}` is no name of a shader") };
+        let beside = match from {
+            FilePath::Shipped(_) => FilePath::Shipped(name.clone()),
+            FilePath::Own(_) => from.beside(name).map_err(none)?,
+        };
+        // Of a file that the user named by hand the folder may lie outside: nothing is looked for there.
+        if from.folder().is_empty() || self.files.may_read(from.folder()) {
+            let path = beside.to_string();
+            if self.source(&format!("{path}{ending}"))?.is_some() {
+                return Ok(path.into());
+            }
+        }
+        match from {
+            FilePath::Own(_) if self.source(&format!("{name}{ending}"))?.is_some() => Ok(name.clone()),
+            _ => Err(self.missing(from, ending)),
+        }
+    }
+
     fn draw_shader(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
         self.compiled(name, draw, variant).map(|shader| shader.interface)
     }

@@ -41,7 +41,7 @@ use std::sync::{Arc, Mutex};
 /// answer. If there are too many variants.
 pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
     let report = match report(arguments) {
-        Err(Error::Wrong { wrong }) if arguments.format == CheckFormat::Json && !wrong.by_command_line => Report {
+        Err(Error::Wrong { wrong }) if arguments.format == CheckFormat::Json && wrong.exit == Exit::Found => Report {
             diagnostics: describe::to_json(&wrong.sources, &wrong.diagnostics),
             ..Report::of_nothing(arguments)
         },

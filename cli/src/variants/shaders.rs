@@ -1,16 +1,19 @@
 //! Shader interfaces that several threads ask for: each shader is compiled and reflected once.
 
+use framewright_graph::file_path::FilePath;
 use framewright_graph::frame::Draw;
 use framewright_graph::interface::{DrawInterface, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant};
 use framewright_vulkan::ShaderLibrary;
 use std::collections::HashMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What one thread knows of a library that it shares.
 pub(crate) struct Shared<'a> {
     library: &'a Mutex<ShaderLibrary>,
     /// By name, then by what is drawn (`None`: a compute shader) and how it is compiled.
     known: HashMap<String, Vec<(Option<Draw>, Variant, Found)>>,
+    /// Which shader it is, by the file that names it, its name there and what is drawn.
+    which: HashMap<(FilePath, Arc<str>, Option<Draw>), Result<Arc<str>, ShaderProblem>>,
 }
 
 type Found = Result<ShaderInterface, ShaderProblem>;
@@ -19,10 +22,10 @@ impl<'a> Shared<'a> {
     /// One that knows nothing yet.
     #[must_use]
     pub(crate) fn new(library: &'a Mutex<ShaderLibrary>) -> Shared<'a> {
-        Shared { library, known: HashMap::new() }
+        Shared { library, known: HashMap::new(), which: HashMap::new() }
     }
 
-    fn find(&mut self, name: &str, draw: Option<Draw>, variant: &Variant) -> Found {
+    fn compiled(&mut self, name: &str, draw: Option<Draw>, variant: &Variant) -> Found {
         let same = |(other, compiled, _): &&(Option<Draw>, Variant, Found)| *other == draw && compiled == variant;
         if let Some((.., found)) = self.known.get(name).and_then(|all| all.iter().find(same)) {
             return found.clone();
@@ -38,12 +41,18 @@ impl<'a> Shared<'a> {
 }
 
 impl ShaderInterfaces for Shared<'_> {
+    fn find(&mut self, from: &FilePath, name: &Arc<str>, draw: Option<Draw>) -> Result<Arc<str>, ShaderProblem> {
+        let library = self.library;
+        let find = || library.lock().unwrap_or_else(PoisonError::into_inner).find(from, name, draw);
+        self.which.entry((from.clone(), name.clone(), draw)).or_insert_with(find).clone()
+    }
+
     fn draw_shader(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
-        self.find(name, Some(draw), variant)
+        self.compiled(name, Some(draw), variant)
     }
 
     fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
-        self.find(name, None, variant)
+        self.compiled(name, None, variant)
     }
 
     fn brought_along(&self, draw: Draw) -> DrawInterface {

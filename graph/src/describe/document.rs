@@ -24,6 +24,7 @@ use crate::change::Change;
 use crate::expression::Value;
 use crate::facts::Facts;
 use crate::fields;
+use crate::file_path::FilePath;
 use crate::source::Sources;
 use crate::view::Allowances;
 
@@ -108,13 +109,13 @@ impl Document {
     pub(super) fn read(
         mut reader: Reader,
         loader: &mut Loader<'_>,
-        relative: &str,
+        relative: &FilePath,
         Composed { tree, mut wanted, account }: Composed,
     ) -> Result<Document, Vec<Diagnostic>> {
         let mut document = None;
         if let Some(Said { settings, presets, include, textures }) = said(&mut reader, tree.root()) {
             let paths = loader::paths(&mut reader, include, "`include`");
-            wanted.push(Wanted { from: relative.to_owned(), paths });
+            wanted.push(Wanted { from: relative.clone(), paths });
             let included = includes::read(&mut reader, loader, wanted);
             loader.look(&mut reader, textures);
             loader.look_in_fragments(&mut reader, tree.root());

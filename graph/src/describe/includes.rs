@@ -4,6 +4,7 @@ use super::fragments::LibraryFields;
 use super::loader::{self, Loader};
 use super::reader::Reader;
 use super::tree::Tree;
+use crate::file_path::FilePath;
 use crate::source::Span;
 use crate::texture::{TextureFile, TextureInfo, TextureProblem};
 use std::collections::HashSet;
@@ -14,7 +15,7 @@ pub trait Files {
     ///
     /// # Errors
     /// Why it can't be read.
-    fn read(&mut self, from: &str, path: &str) -> Result<Found, Unread>;
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread>;
 
     /// Looks at a picture's file: its path is counted from the pipeline's own folder.
     ///
@@ -33,11 +34,13 @@ pub struct Unread {
     pub why: String,
     /// What to do.
     pub help: Option<String>,
+    /// Whether it is there, and the user has no right to read it: then nothing is wrong with the files.
+    pub denied: bool,
 }
 
 impl From<String> for Unread {
     fn from(why: String) -> Unread {
-        Unread { why, help: None }
+        Unread { why, help: None, denied: false }
     }
 }
 
@@ -46,8 +49,8 @@ impl From<String> for Unread {
 pub struct Found {
     /// As it is shown in diagnostics.
     pub shown: String,
-    /// The path from the pipeline's own folder: it stands in Plans, and the same path is the same file.
-    pub relative: String,
+    /// Which file it is: this stands in Plans.
+    pub relative: FilePath,
     /// What it holds.
     pub bytes: Vec<u8>,
 }
@@ -57,7 +60,7 @@ pub struct Found {
 pub struct NoFiles;
 
 impl Files for NoFiles {
-    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
         Err(format!("`{path}` can't be read: this pipeline was given as a text by itself").into())
     }
 }
@@ -66,7 +69,7 @@ impl Files for NoFiles {
 #[derive(Debug)]
 pub(super) struct Wanted {
     /// The path of the file that names them.
-    pub(super) from: String,
+    pub(super) from: FilePath,
     /// Their paths, and where each is named.
     pub(super) paths: Vec<(String, Span)>,
 }
@@ -74,9 +77,9 @@ pub(super) struct Wanted {
 /// What reads included files.
 pub(super) struct Included<'l, 'a> {
     loader: &'l mut Loader<'a>,
-    known: HashSet<String>,
+    known: HashSet<FilePath>,
     /// Files that are being read, and where each is named.
-    path: Vec<(String, Span)>,
+    path: Vec<(FilePath, Span)>,
     /// What was read, each file after those that it includes.
     trees: Vec<Tree>,
 }
@@ -100,7 +103,7 @@ impl Included<'_, '_> {
     }
 
     fn file(&mut self, reader: &mut Reader, path: &str, span: Span) {
-        let from = self.path.last().map_or("", |(from, _)| from).to_owned();
+        let Some((from, _)) = self.path.last().cloned() else { return };
         let Some(found) = self.loader.find(reader, &from, path, span) else { return };
         if let Some(first) = self.path.iter().position(|(outer, _)| *outer == found.relative) {
             loader::circle(reader, &self.path, first, span, ("include", "included"));

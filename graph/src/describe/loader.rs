@@ -6,6 +6,7 @@ use super::reader::Reader;
 use super::textures::{self, Pictures};
 use super::tree::Tree;
 use super::{Diagnostic, Files, Found, LANGUAGE_VERSION, LARGEST_FILE, Unread};
+use crate::file_path::FilePath;
 use crate::source::{Sources, Span};
 use crate::texture::{TextureFile, TextureInfo, TextureProblem};
 use std::collections::HashMap;
@@ -38,7 +39,7 @@ impl<'a> Loader<'a> {
     }
 
     /// The file that the file `from` names `path`, at `span`.
-    pub(super) fn find(&mut self, reader: &mut Reader, from: &str, path: &str, span: Span) -> Option<Found> {
+    pub(super) fn find(&mut self, reader: &mut Reader, from: &FilePath, path: &str, span: Span) -> Option<Found> {
         self.named += 1;
         if self.named > MOST_NAMED {
             // One answer stands for all that follow.
@@ -49,7 +50,7 @@ impl<'a> Loader<'a> {
             return None;
         }
         let found = self.files.read(from, path);
-        found.map_err(|Unread { why, help }| reader.report(Diagnostic { help, ..Diagnostic::new(span, why) })).ok()
+        found.map_err(|Unread { why, help, .. }| reader.report(Diagnostic { help, ..Diagnostic::new(span, why) })).ok()
     }
 
     /// The text of a file that was named at `span`; `words` say what for: "included here".
@@ -137,7 +138,7 @@ pub(super) fn version(reader: &mut Reader, all: Leaf<'_>) -> bool {
 /// names it, and then at `span` the first again. `verb` says what they do to each other, `named` what is done to one.
 pub(super) fn circle(
     reader: &mut Reader,
-    path: &[(String, Span)],
+    path: &[(FilePath, Span)],
     first: usize,
     span: Span,
     (verb, named): (&str, &str),

@@ -78,7 +78,7 @@ pub use pass::{
 pub use pipeline::{
     BufferRef, ImageRef, Instance, Name, Output, Pipeline, RemovedPass, ResourceRef, Setting, SettingKind, Spanned,
 };
-pub use pipeline_files::{PipelineFiles, SHIPPED, Shipped};
+pub use pipeline_files::{PipelineFiles, Shipped};
 pub(crate) use properties::scaled;
 pub use render::{escape, render};
 pub use resources::{
@@ -102,6 +102,7 @@ pub mod text {
     pub use super::tree::Tree;
 }
 
+use crate::file_path::FilePath;
 use crate::source::{Sources, Span};
 use extend::Layer;
 use loader::Loader;
@@ -139,7 +140,7 @@ pub fn read_bytes_with(
     relative: &str,
     bytes: Vec<u8>,
 ) -> Result<Document, Vec<Diagnostic>> {
-    let pipeline = Found { shown: shown.to_owned(), relative: relative.to_owned(), bytes };
+    let pipeline = Found { shown: shown.to_owned(), relative: relative.into(), bytes };
     read_extended(sources, files, pipeline, Vec::new())
 }
 
@@ -195,13 +196,13 @@ pub fn read_with(
     if text.len() > LARGEST_FILE {
         return Err(vec![too_large(shown, text.len())]);
     }
-    read_all(sources, files, (shown, relative, text), Vec::new())
+    read_all(sources, files, (shown, &relative.into(), text), Vec::new())
 }
 
 fn read_all(
     sources: &mut Sources,
     files: &mut dyn Files,
-    (shown, relative, text): (&str, &str, String),
+    (shown, relative, text): (&str, &FilePath, String),
     extensions: Vec<Found>,
 ) -> Result<Document, Vec<Diagnostic>> {
     let text: Arc<str> = text.into();

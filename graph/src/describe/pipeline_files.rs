@@ -1,15 +1,16 @@
 //! The files that a pipeline on disk names: those beside it, then those that are shipped with the program.
 
 use super::{Files, Found, LARGEST_FILE, Unread, suggest};
-use crate::root::{NoFile, Root, beside};
+use crate::file_path::FilePath;
+use crate::root::{NoFile, Root};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// What stands before the path of a shipped file, where it isn't a shipped pipeline that names it.
-pub const SHIPPED: &str = "shipped:";
-
 /// Path and text of files that are shipped with the program.
 pub type Shipped = &'static [(&'static str, &'static str)];
+
+/// What to do about a file that lies outside the root.
+pub(super) const WITHIN_ROOT: &str = "give a folder that holds both by `--root`, or allow all by `--allow-outside`";
 
 /// Files beside a pipeline, then shipped ones.
 ///
@@ -17,19 +18,25 @@ pub type Shipped = &'static [(&'static str, &'static str)];
 /// taken. What a shipped file names is counted from it, and shipped too.
 #[derive(Debug)]
 pub struct PipelineFiles {
-    /// `None`: the pipeline is itself shipped.
+    /// `None`: the pipeline is itself shipped, and the user's own files are those that are shipped.
     root: Option<Root>,
     shipped: Shipped,
     /// Files that were read, and the first path that led to each: a second path leads to the same file.
-    paths: HashMap<PathBuf, String>,
+    paths: HashMap<PathBuf, FilePath>,
 }
 
 impl PipelineFiles {
     /// Those of the pipeline called `name` in the folder of `root`.
     #[must_use]
     pub fn beside(root: Root, name: &str, shipped: Shipped) -> PipelineFiles {
-        let paths = root.locate(name).map(|own| (own, name.to_owned())).into_iter().collect();
+        let paths = root.locate(name).map(|own| (own, name.into())).into_iter().collect();
         PipelineFiles { root: Some(root), shipped, paths }
+    }
+
+    /// Those of a shipped pipeline to which files in the folder of `root` are applied.
+    #[must_use]
+    pub fn of_shipped(root: Root, shipped: Shipped) -> PipelineFiles {
+        PipelineFiles { root: Some(root), shipped, paths: HashMap::new() }
     }
 
     /// Those of a pipeline that is itself shipped.
@@ -38,24 +45,44 @@ impl PipelineFiles {
         PipelineFiles { root: None, shipped, paths: HashMap::new() }
     }
 
+    /// Which file it is that the user names `file`, wherever it lies; the path of one that was read already is that one's.
+    pub fn which(&mut self, file: &Path) -> FilePath {
+        let relative = || {
+            let relative = self.root.as_ref().and_then(|root| root.relative(file).ok());
+            FilePath::Own(relative.unwrap_or_else(|| file.to_string_lossy().into_owned()).into())
+        };
+        match file.canonicalize() {
+            Ok(found) => match self.paths.get(&found) {
+                Some(known) => known.clone(),
+                None => {
+                    let relative = relative();
+                    self.paths.entry(found).or_insert(relative).clone()
+                }
+            },
+            Err(_) => relative(),
+        }
+    }
+
     /// The file at `relative`, if there is one on disk.
-    fn on_disk(&mut self, root: &Root, relative: String) -> Result<Found, NoFile> {
-        let found = root.locate(&relative)?;
+    fn on_disk(&mut self, root: &Root, relative: FilePath) -> Result<Found, NoFile> {
+        let found = root.locate(relative.path())?;
         let bytes = root.read(&found, LARGEST_FILE)?;
         let relative = self.paths.entry(found).or_insert(relative).clone();
         let shown = match root.folder() {
-            here if here == Path::new(".") => relative.clone(),
-            folder => folder.join(&relative).to_string_lossy().into_owned(),
+            here if here == Path::new(".") => relative.path().to_owned(),
+            folder => folder.join(relative.path()).to_string_lossy().into_owned(),
         };
         Ok(Found { shown, relative, bytes })
     }
 
     /// The shipped file at `path`.
     fn carried(&self, path: &str) -> Option<Found> {
-        let (_, text) = self.shipped.iter().find(|(shipped, _)| *shipped == path)?;
-        let before = if self.root.is_some() { SHIPPED } else { "" };
-        let relative = format!("{before}{path}");
-        Some(Found { shown: relative.clone(), relative, bytes: text.as_bytes().to_vec() })
+        let (path, text) = self.shipped.iter().find(|(shipped, _)| *shipped == path)?;
+        let relative = match self.root {
+            Some(_) => FilePath::Shipped((*path).into()),
+            None => FilePath::Own((*path).into()),
+        };
+        Some(Found { shown: relative.to_string(), relative, bytes: text.as_bytes().to_vec() })
     }
 
     fn near(&self, path: &str) -> Option<String> {
@@ -65,27 +92,41 @@ impl PipelineFiles {
 }
 
 impl Files for PipelineFiles {
-    fn read(&mut self, from: &str, path: &str) -> Result<Found, Unread> {
-        let shipped = from.strip_prefix(SHIPPED).or(if self.root.is_none() { Some(from) } else { None });
-        if let Some(from) = shipped {
-            let carried = self.carried(&beside(from, path));
-            return carried.ok_or_else(|| Unread {
-                why: format!("there is no file `{path}` among those that are shipped"),
-                help: self.near(path),
-            });
-        }
-        let Some(root) = self.root.clone() else { return Err(format!("there is no file `{path}`").into()) };
-        match self.on_disk(&root, beside(from, path)) {
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
+        let unread = |problem: NoFile| Unread::from(format!("`{path}` {problem}"));
+        let beside = from.beside(path).map_err(unread)?;
+        let root = match (&beside, &self.root) {
+            (FilePath::Own(_), Some(root)) => root.clone(),
+            (beside, _) => {
+                return self.carried(beside.path()).ok_or_else(|| Unread {
+                    why: format!("there is no file `{path}` among those that are shipped"),
+                    help: self.near(path),
+                    denied: false,
+                });
+            }
+        };
+        let named = beside.path().to_owned();
+        match self.on_disk(&root, beside) {
             Ok(found) => Ok(found),
-            Err(NoFile::Missing) => self.carried(&beside("", path)).ok_or_else(|| Unread {
-                why: format!("there is no file `{path}` beside `{from}`, and none of that path is shipped"),
-                help: self.near(path),
-            }),
+            Err(NoFile::Missing) => {
+                let shipped = FilePath::Shipped("".into()).beside(path).map_err(unread)?;
+                self.carried(shipped.path()).ok_or_else(|| Unread {
+                    why: format!("there is no file `{path}` beside `{from}`, and none of that path is shipped"),
+                    help: self.near(path),
+                    denied: false,
+                })
+            }
             Err(outside @ NoFile::Outside { .. }) => Err(Unread {
                 why: format!("`{path}` {outside}, from which nothing may be read"),
-                help: Some("give a folder that holds both by `--root`, or allow all by `--allow-outside`".to_owned()),
+                help: Some(WITHIN_ROOT.to_owned()),
+                denied: false,
             }),
-            Err(other) => Err(format!("`{path}` {other}").into()),
+            Err(denied @ NoFile::Denied { .. }) => Err(Unread {
+                why: format!("`{path}` {denied}"),
+                help: Some(format!("chmod u+r {}", root.folder().join(&named).display())),
+                denied: true,
+            }),
+            Err(other) => Err(unread(other)),
         }
     }
 }

@@ -4,13 +4,14 @@ use super::Diagnostic;
 use super::forms::{Described, Form, Plain, names};
 use super::leaf::Leaf;
 use super::pipeline::{Name, Spanned};
+use super::pipeline_files::WITHIN_ROOT;
 use super::reader::Reader;
 use super::resources::{Format, Image, Layers, Lifetime, Mips, Samples, Shape, Size};
 use super::scope::Scope;
 use super::{leaf, parameters, values};
 use crate::fields;
+use crate::file_path::FilePath;
 use crate::frame;
-use crate::root::beside;
 use crate::source::{Sources, Span};
 use crate::texture::{ColorSpace, TextureFile, TextureInfo, TextureProblem, format_problem};
 use crate::view::ViewIndex;
@@ -72,15 +73,22 @@ pub(super) fn look(
         let Some(path) = silent.words(fields.file, "the path of a file") else { continue };
         let Some(color_space) = color_space(&mut silent, fields.color_space) else { continue };
         let span = fields.file.span();
-        let from = span.file().and_then(|file| sources.file(file)).map_or("", |file| &*file.relative);
-        let file = TextureFile { path: beside(from, &path).into(), color_space };
-        let picture = match info(&file) {
-            Ok(info) => Some(Picture { file: Arc::new(file), info }),
-            Err(problem) => {
-                reader.report(Diagnostic::new(span, format!("`{path}` {problem}")));
-                None
+        let from = span.file().and_then(|file| sources.file(file)).map(|file| &file.path);
+        let picture = match from.unwrap_or(&"".into()).beside(&path) {
+            Ok(FilePath::Own(path)) => {
+                let file = TextureFile { path, color_space };
+                info(&file).map(|info| Picture { file: Arc::new(file), info }).map_err(|problem| {
+                    let help = (problem == TextureProblem::Outside).then(|| WITHIN_ROOT.to_owned());
+                    (problem.to_string(), help)
+                })
             }
+            Ok(FilePath::Shipped(_)) => Err(("can't be read: no textures are shipped".to_owned(), None)),
+            Err(problem) => Err((problem.to_string(), None)),
         };
+        let picture = picture.map_err(|(why, help)| {
+            reader.report(Diagnostic { help, ..Diagnostic::new(span, format!("`{path}` {why}")) });
+        });
+        let picture = picture.ok();
         pictures.insert(span, picture);
     }
 }

@@ -126,7 +126,7 @@ pub fn expand(
     let things = Things::resolve(&chosen, &mut errors);
     said.each_once(&mut errors, 0);
 
-    let mut checked = shader::Checked::new(shaders);
+    let mut checked = shader::Checked::new(shaders, &sources);
     let mut states = Vec::with_capacity(pipeline.passes.len());
     let mut switched_off = Vec::new();
     for pass in &pipeline.passes {

@@ -22,6 +22,11 @@ pub(super) fn lower(
     let variant = variant::of(chosen, things, pass);
     let interface = shaders.interface(pass, &variant, errors);
     let mut lowered = draft(chosen, things, pass, interface.as_ref(), errors);
+    if let Work::Draw { shader, .. } | Work::Dispatch { shader, .. } = &mut lowered.work
+        && let Some(found) = shaders.find(pass, &mut Vec::new())
+    {
+        *shader = found;
+    }
     work::check(chosen, things, pass, &lowered, interface.as_ref(), errors);
     if let Some(interface) = &interface {
         supplied::check(shaders, pass, interface, errors);

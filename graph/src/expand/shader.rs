@@ -7,6 +7,7 @@ use crate::interface::{
     BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterface, ShaderInterfaces,
     ShaderProblem, Variant,
 };
+use crate::source::Sources;
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -16,14 +17,24 @@ pub(super) const PARAMS: &str = "params";
 /// Shader interfaces, each of whose mistakes is reported once.
 pub(super) struct Checked<'s> {
     shaders: &'s mut dyn ShaderInterfaces,
+    sources: &'s Sources,
     seen: HashSet<(Arc<str>, Option<Draw>)>,
     /// Shaders that have no interface, and why: one may draw several things.
     reported: Vec<(Arc<str>, ShaderProblem)>,
 }
 
 impl<'s> Checked<'s> {
-    pub(super) fn new(shaders: &'s mut dyn ShaderInterfaces) -> Checked<'s> {
-        Checked { shaders, seen: HashSet::new(), reported: Vec::new() }
+    /// `sources` are the files that name the shaders.
+    pub(super) fn new(shaders: &'s mut dyn ShaderInterfaces, sources: &'s Sources) -> Checked<'s> {
+        Checked { shaders, sources, seen: HashSet::new(), reported: Vec::new() }
+    }
+
+    /// Which shader a pass has, if it has one and it is found. One that isn't is reported where it is first named.
+    pub(super) fn find(&mut self, pass: &describe::Pass, errors: &mut Vec<Diagnostic>) -> Option<Arc<str>> {
+        let (shader, draw) = named(pass)?;
+        let from = shader.span.file().and_then(|file| self.sources.file(file)).map(|file| &file.path);
+        let found = self.shaders.find(from.unwrap_or(&"".into()), &shader.text, draw);
+        self.known(shader, &shader.text, found, errors)
     }
 
     /// The interface of a pass's shader, compiled as `variant` says, if it has one. A shader that can't be had is reported
@@ -34,12 +45,13 @@ impl<'s> Checked<'s> {
         variant: &Variant,
         errors: &mut Vec<Diagnostic>,
     ) -> Option<ShaderInterface> {
-        let (shader, found) = match &pass.work {
-            Work::Draw { shader, draw } => (shader, self.shaders.draw_shader(&shader.text, work::draw(draw), variant)),
-            Work::Dispatch { shader, .. } => (shader, self.shaders.compute_shader(&shader.text, variant)),
-            Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => return None,
+        let (shader, draw) = named(pass)?;
+        let path = self.find(pass, errors)?;
+        let found = match draw {
+            Some(draw) => self.shaders.draw_shader(&path, draw, variant),
+            None => self.shaders.compute_shader(&path, variant),
         };
-        self.known(shader, found, errors)
+        self.known(shader, &path, found, errors)
     }
 
     /// The interface of a shader that draws, compiled as `variant` says; its problem is reported by whoever asks.
@@ -53,14 +65,20 @@ impl<'s> Checked<'s> {
     }
 
     /// What was found of a shader; a problem is reported once.
-    fn known<T>(&mut self, shader: &Name, found: Result<T, ShaderProblem>, errors: &mut Vec<Diagnostic>) -> Option<T> {
+    fn known<T>(
+        &mut self,
+        shader: &Name,
+        path: &Arc<str>,
+        found: Result<T, ShaderProblem>,
+        errors: &mut Vec<Diagnostic>,
+    ) -> Option<T> {
         match found {
             Ok(found) => Some(found),
             Err(problem) => {
-                let said = self.reported.iter().any(|(other, known)| *other == shader.text && *known == problem);
+                let said = self.reported.iter().any(|(other, known)| other == path && *known == problem);
                 if !said {
                     errors.push(report(shader, &problem));
-                    self.reported.push((shader.text.clone(), problem));
+                    self.reported.push((path.clone(), problem));
                 }
                 None
             }
@@ -70,13 +88,19 @@ impl<'s> Checked<'s> {
     /// What whoever draws brings along (nothing, for a dispatch), the first time that a shader draws this; then it is
     /// known to fit or not.
     pub(super) fn brought_along_first(&mut self, pass: &describe::Pass) -> Option<DrawInterface> {
-        let (shader, draw) = match &pass.work {
-            Work::Draw { shader, draw } => (shader, Some(work::draw(draw))),
-            Work::Dispatch { shader, .. } => (shader, None),
-            Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => return None,
-        };
-        let first = self.seen.insert((shader.text.clone(), draw));
+        let (_, draw) = named(pass)?;
+        let path = self.find(pass, &mut Vec::new())?;
+        let first = self.seen.insert((path, draw));
         first.then(|| draw.map_or_else(DrawInterface::default, |draw| self.shaders.brought_along(draw)))
+    }
+}
+
+/// The shader that a pass names, and what it draws with it; `None`: it is a compute shader.
+fn named(pass: &describe::Pass) -> Option<(&Name, Option<Draw>)> {
+    match &pass.work {
+        Work::Draw { shader, draw } => Some((shader, Some(work::draw(draw)))),
+        Work::Dispatch { shader, .. } => Some((shader, None)),
+        Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => None,
     }
 }
 

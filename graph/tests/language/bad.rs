@@ -3,6 +3,7 @@
 use crate::table::{INPUTS, Pictures, Table};
 use framewright_graph::describe::{self, Diagnostic, Files, Found, Unread};
 use framewright_graph::expand::{Inputs, expand};
+use framewright_graph::file_path::FilePath;
 use framewright_graph::source::Sources;
 use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
 use std::path::{Path, PathBuf};
@@ -35,9 +36,9 @@ fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
 struct Folder;
 
 impl Files for Folder {
-    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
         let bytes = std::fs::read(folder().join(path)).map_err(|_| format!("there is no file `{path}`"))?;
-        Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes })
+        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes })
     }
 
     fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {

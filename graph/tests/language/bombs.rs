@@ -2,6 +2,7 @@
 
 use crate::table::{INPUTS, frame};
 use framewright_graph::describe::{self, Files, Found, Unread};
+use framewright_graph::file_path::FilePath;
 use framewright_graph::source::Sources;
 use std::fmt::Write as _;
 
@@ -108,12 +109,12 @@ fn ten_thousand_brackets_in_an_expression_are_too_many() {
 struct Endless(usize);
 
 impl Files for Endless {
-    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
         self.0 += 1;
         let at: usize = path.trim_end_matches(".ron").parse().map_err(|_| format!("what is `{path}`?"))?;
         let text =
             format!("Fragments(version: 1, include: [\"{}.ron\", \"{}.ron\"], fragments: [])", at + 1, at + 1000);
-        Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes: text.into_bytes() })
+        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes: text.into_bytes() })
     }
 }
 
@@ -147,10 +148,10 @@ fn a_hundred_thousand_passes_are_put_in_in_bounded_memory() {
 struct Counted(u32);
 
 impl Files for Counted {
-    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
         self.0 += 1;
         let bytes = b"Fragments(version: 1, fragments: [])".to_vec();
-        Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes })
+        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes })
     }
 }
 

@@ -6,6 +6,7 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe::{self, Document, Files, Found, Unread};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::{Inputs, expand};
+use framewright_graph::file_path::FilePath;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Plan;
 use framewright_graph::source::Sources;
@@ -34,9 +35,9 @@ const BASE: &str = r#"Pipeline(
 struct Shelf(Vec<(&'static str, String)>);
 
 impl Files for Shelf {
-    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
         let (_, text) = self.0.iter().find(|(name, _)| *name == path).ok_or_else(|| format!("no `{path}`"))?;
-        Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes: text.clone().into_bytes() })
+        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes: text.clone().into_bytes() })
     }
 }
 
@@ -49,7 +50,7 @@ fn document(text: &str, files: &[(&'static str, &str)], applied: &[&str]) -> (Do
     let shelf = files.iter().chain(&[("base.ron", BASE)]).map(|(name, text)| (*name, (*text).to_owned()));
     let found = |name: &str, text: &str| Found {
         shown: name.to_owned(),
-        relative: name.to_owned(),
+        relative: name.into(),
         bytes: text.as_bytes().to_vec(),
     };
     let further = applied.iter().zip(0..).map(|(text, at)| found(&format!("further{at}.ron"), text)).collect();
@@ -123,7 +124,7 @@ fn a_word_that_is_wrong_in_the_base_stays_wrong_where_the_entry_is_changed() {
     let base = BASE.replace(r#"(name: "sky", draw"#, r#"Layer(name: "sky", draw"#);
     let changes = extending(r#"changes: [Set(pass: "sky", to: (side_effect: true))]"#);
     for text in [extending(""), changes] {
-        let own = Found { shown: "test.ron".to_owned(), relative: "test.ron".to_owned(), bytes: text.into_bytes() };
+        let own = Found { shown: "test.ron".to_owned(), relative: "test.ron".into(), bytes: text.into_bytes() };
         let mut sources = Sources::default();
         let mut shelf = Shelf(vec![("base.ron", base.clone())]);
         let errors = describe::read_extended(&mut sources, &mut shelf, own, Vec::new());
@@ -278,4 +279,21 @@ fn a_hundred_thousand_passes_are_extended_by_a_thousand_changes_in_little_time_a
     let text = format!("Pipeline(version: 1, extends: \"big.ron\", changes: [{}])", changes.join(", "));
     let (document, _) = document(&text, &[("big.ron", &base)], &[]);
     assert_eq!(document.changes().len(), 1 + 1001);
+}
+
+#[test]
+fn only_the_removal_of_a_thing_of_the_kind_that_is_missed_is_shown() {
+    let removed = |text: &str| {
+        let mut sources = Sources::default();
+        let mut shelf = Shelf(vec![("base.ron", BASE.to_owned())]);
+        let errors = describe::read_with(&mut sources, &mut shelf, "test.ron", "test.ron", text.to_owned());
+        describe::render(&sources, &errors.expect_err("wrong")).matches("is removed here").count()
+    };
+    // A pass and an image of one name: the image is missed, and the pass was removed.
+    let named = |changes: &str| extending(&format!("changes: [{changes}]"));
+    let other = |name: &str| format!("Insert(at: End, passes: [{}])", fill(name));
+    let missing = r#"Set(pass: "mix", to: (color: ["other"]))"#;
+    assert_eq!(removed(&named(&format!("{}, Remove(pass: \"other\"), {missing}", other("other")))), 0);
+    assert_eq!(removed(&named(&format!("Remove(pass: \"sky\"), {}", missing.replace("other", "sky")))), 0);
+    assert!(removed(&named(&format!("Remove(image: \"small\"), {}", missing.replace("other", "small")))) > 0);
 }

@@ -3,6 +3,7 @@
 use crate::table::{INPUTS, Table, right, unnamed, wrong};
 use framewright_graph::describe::{self, Files, Found, Unread};
 use framewright_graph::expand::{Inputs, expand};
+use framewright_graph::file_path::FilePath;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Frame, ImageIndex, ParamValue, Work};
 use framewright_graph::source::Sources;
@@ -193,10 +194,10 @@ struct Shelf {
 }
 
 impl Files for Shelf {
-    fn read(&mut self, from: &str, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
         self.read.push(format!("{from} -> {path}"));
         let (_, text) = self.files.iter().find(|(name, _)| *name == path).ok_or_else(|| format!("no `{path}`"))?;
-        Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes: text.clone().into_bytes() })
+        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes: text.clone().into_bytes() })
     }
 }
 

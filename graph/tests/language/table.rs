@@ -2,6 +2,7 @@
 
 use framewright_graph::describe::{self, Diagnostic, Files, Found, NoFiles, Unread};
 use framewright_graph::expand::{Facts, Inputs, expand};
+use framewright_graph::file_path::FilePath;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, DrawList, Frame};
 use framewright_graph::interface::{
@@ -388,7 +389,7 @@ impl Pictures {
 }
 
 impl Files for Pictures {
-    fn read(&mut self, from: &str, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
         NoFiles.read(from, path)
     }
 

@@ -3,6 +3,7 @@
 use crate::table::{INPUTS, Pictures, Table, right};
 use framewright_graph::describe::{self, Files, Found, Unread};
 use framewright_graph::expand::expand;
+use framewright_graph::file_path::FilePath;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Frame, Image, Lifetime, Shape};
 use framewright_graph::source::Sources;
@@ -78,11 +79,11 @@ fn passes_sample_a_texture_before_anything_is_drawn() {
 struct Shelf;
 
 impl Files for Shelf {
-    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
         let text = r#"Fragments(version: 1, fragments: [(name: "film", parameters: [(name: "target", value: Image)],
             textures: [(name: "grain", file: "grain.png", color_space: Linear)],
             passes: [(name: "draw", draw: FullScreen("downsample"), sample: {"source": "grain"}, color: ["target"])])])"#;
-        Ok(Found { shown: path.to_owned(), relative: path.to_owned(), bytes: text.as_bytes().to_vec() })
+        Ok(Found { shown: path.to_owned(), relative: path.into(), bytes: text.as_bytes().to_vec() })
     }
 
     fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
@@ -105,7 +106,7 @@ fn a_fragment_brings_its_textures_which_lie_beside_the_file_that_it_stands_in() 
 struct Counted(u32);
 
 impl Files for Counted {
-    fn read(&mut self, _: &str, path: &str) -> Result<Found, Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
         Err(format!("no `{path}`").into())
     }
 

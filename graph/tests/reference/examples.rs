@@ -3,6 +3,7 @@
 use crate::catalogue;
 use crate::table::{INPUTS, Pictures, frame};
 use framewright_graph::describe;
+use framewright_graph::file_path::FilePath;
 use framewright_graph::source::Sources;
 
 /// A pipeline in which everything that examples name is declared. Places for more are marked by `{…}`.
@@ -174,11 +175,11 @@ fn right(what: &str, text: &str) {
 struct Based(Vec<u8>);
 
 impl describe::Files for Based {
-    fn read(&mut self, _: &str, path: &str) -> Result<describe::Found, describe::Unread> {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<describe::Found, describe::Unread> {
         let second = "(name: \"second\", draw: FullScreen(\"plain\"), color: [\"screen\"])";
         let base = with("passes", second).into_bytes();
         let bytes = if path == "base.ron" { base } else { self.0.clone() };
-        Ok(describe::Found { shown: path.to_owned(), relative: path.to_owned(), bytes })
+        Ok(describe::Found { shown: path.to_owned(), relative: path.into(), bytes })
     }
 }
 
@@ -186,8 +187,8 @@ impl describe::Files for Based {
 struct One(Vec<u8>);
 
 impl describe::Files for One {
-    fn read(&mut self, _: &str, path: &str) -> Result<describe::Found, describe::Unread> {
-        Ok(describe::Found { shown: path.to_owned(), relative: path.to_owned(), bytes: self.0.clone() })
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<describe::Found, describe::Unread> {
+        Ok(describe::Found { shown: path.to_owned(), relative: path.into(), bytes: self.0.clone() })
     }
 }
 

@@ -12,6 +12,7 @@ use super::super::{body, outputs, resolves, textures, views};
 use super::apply::CHANGES;
 use crate::change::Action;
 use crate::fields;
+use crate::file_path::FilePath;
 use crate::source::Span;
 
 fields! {
@@ -106,8 +107,8 @@ pub(super) enum Role {
 /// A file that a pipeline is put together of.
 pub(in super::super) struct Layer {
     pub(super) tree: Tree,
-    /// Its path from the pipeline's own folder.
-    pub(super) relative: String,
+    /// Which file it is.
+    pub(super) relative: FilePath,
     pub(super) role: Role,
 }
 
@@ -147,9 +148,9 @@ pub(super) struct Layers {
 
 impl Layer {
     /// A pipeline's own file.
-    pub(in super::super) fn pipeline(tree: Tree, relative: &str) -> Layer {
+    pub(in super::super) fn pipeline(tree: Tree, relative: &FilePath) -> Layer {
         let role = if tree.root().field("extends").is_some() { Role::Extending } else { Role::Whole };
-        Layer { tree, relative: relative.to_owned(), role }
+        Layer { tree, relative: relative.clone(), role }
     }
 
     /// Whether it isn't an extension, which would be no pipeline. Reports that.
@@ -174,7 +175,7 @@ impl Layer {
 
     /// What naming it comes to.
     pub(super) fn action(&self) -> Action {
-        let file = self.relative.as_str().into();
+        let file = self.relative.to_string().into();
         match self.role {
             Role::Extension => Action::Extension { file },
             Role::Whole | Role::Extending => Action::Extends { file },
@@ -292,7 +293,11 @@ fn pipelines(reader: &mut Reader, loader: &mut Loader<'_>, own: Layer) -> Option
     }
 }
 
-fn extension(reader: &mut Reader, loader: &mut Loader<'_>, (from, path, span): (&str, &str, Span)) -> Option<Layer> {
+fn extension(
+    reader: &mut Reader,
+    loader: &mut Loader<'_>,
+    (from, path, span): (&FilePath, &str, Span),
+) -> Option<Layer> {
     let found = loader.find(reader, from, path, span)?;
     layer(reader, loader, found, span)
 }

@@ -1,0 +1,142 @@
+//! Shaders: beside the file that names them, then beside the pipeline, then those that are shipped.
+
+mod support;
+
+use support::{Outcome, Place};
+
+/// A full-screen shader whose one parameter is called `parameter`.
+fn shader(parameter: &str) -> String {
+    format!(
+        "#version 460\n#include \"part.glsl\"\nlayout(set = 0, binding = 0) uniform Params {{ float {parameter}; }} params;\n\
+         layout(location = 0) out vec4 color;\nvoid main() {{ color = vec4(part(params.{parameter})); }}\n"
+    )
+}
+
+/// What a shader includes: the function `part`, which calls `other`, if that is not empty.
+fn part(body: &str) -> String {
+    format!("float part(float x) {{ return {body}; }}\n")
+}
+
+const PIPELINE: &str = r#"Pipeline(
+    version: 1,
+    include: ["effects/glow.ron"],
+    images: [(name: "first", format: Output, size: Output), (name: "screen", format: Output, size: Output)],
+    passes: [
+        (name: "own", draw: FullScreen("tint"), params: {"near": 1.0}, color: ["first"]),
+        (use: "glow", name: "other", with: {"target": "screen"}),
+    ],
+    outputs: ["first", "screen"],
+)"#;
+
+const GLOW: &str = r#"Fragments(version: 1, fragments: [
+    (name: "glow", parameters: [(name: "target", value: Image)],
+        passes: [(name: "draw", draw: FullScreen("tint"), params: {"far": 1.0}, color: ["target"])]),
+])"#;
+
+/// `p.ron` and `effects/glow.ron`, each with a shader `tint` beside it that takes other parameters and includes another file.
+fn place() -> Place {
+    let place = Place::new();
+    std::fs::create_dir(place.path("effects")).expect("a folder");
+    place.file("p.ron", PIPELINE);
+    place.file("effects/glow.ron", GLOW);
+    place.file("tint.frag", shader("near"));
+    place.file("effects/tint.frag", shader("far"));
+    place.file("part.glsl", part("x"));
+    place
+}
+
+fn check(place: &Place) -> Outcome {
+    place.run(&["check", "p.ron"])
+}
+
+#[test]
+fn a_fragment_has_the_shader_beside_its_own_file_and_the_plan_tells_it_from_the_pipelines_of_that_name() {
+    let place = place();
+    check(&place).exits(0);
+    let plan = place.run(&["inspect", "p.ron"]).exits(0).out;
+    assert!(plan.contains("`own` draws the full screen with shader `tint` (p.ron:6)"), "{plan}");
+    assert!(
+        plan.contains("`other.draw` draws the full screen with shader `effects/tint` (effects/glow.ron:3)"),
+        "{plan}"
+    );
+    check(&place).exits(0);
+    place.run(&["check", "p.ron", "--all-variants"]).exits(0);
+
+    // What it includes is looked for beside it too, then beside the pipeline.
+    place.file("effects/part.glsl", part("beside"));
+    check(&place).exits(1).mentions("effects/part.glsl:1: error: 'beside' : undeclared identifier");
+}
+
+#[test]
+fn where_there_is_none_beside_the_fragment_the_pipelines_is_taken_then_a_shipped_one() {
+    let place = place();
+    std::fs::remove_file(place.path("effects/tint.frag")).expect("gone");
+    check(&place).exits(1).mentions("error: shader `tint` has no parameter `far`").mentions("effects/glow.ron:3:");
+    place.file("tint.frag", shader("far"));
+    place.file("p.ron", PIPELINE.replace("near", "far"));
+    check(&place).exits(0);
+    std::fs::remove_file(place.path("tint.frag")).expect("gone");
+    check(&place)
+        .exits(1)
+        .mentions("error: there is no shader named `tint`")
+        .mentions("looked for in ./effects, ., the shipped shaders");
+    place.file(
+        "effects/glow.ron",
+        GLOW.replace("\"tint\"", "\"copy\"").replace("params: {\"far\": 1.0}", "sample: {\"source\": \"target\"}"),
+    );
+    let plain = PIPELINE.replace("FullScreen(\"tint\"), params: {\"far\": 1.0}", "FullScreen(\"copy\")");
+    place.file("p.ron", plain);
+    let outcome = check(&place).exits(1);
+    assert!(!outcome.err.contains("there is no shader named `copy`"), "{}", outcome.err);
+}
+
+#[test]
+fn a_shipped_fragment_keeps_the_shipped_shader_whatever_lies_beside_the_pipeline() {
+    let place = Place::new();
+    place.file("bloom_shrink.frag", "this is no shader");
+    place.file("full_screen.vert", "nor is this");
+    place.file(
+        "p.ron",
+        r#"Pipeline(
+    version: 1,
+    include: ["library/bloom.ron"],
+    images: [
+        (name: "color", format: Color(hdr: true), size: Output),
+        (name: "screen", format: Output, size: Output),
+    ],
+    passes: [
+        (name: "sky", draw: Sky, color: [(image: "color", clear: (0.0, 0.0, 0.0, 1.0))]),
+        (use: "bloom", name: "glow", with: {"source": "color", "target": "screen"}),
+    ],
+    outputs: ["screen"],
+)"#,
+    );
+    check(&place).exits(0);
+    let plan = place.run(&["inspect", "p.ron"]).exits(0).out;
+    assert!(plan.contains("with shader `shipped:bloom_shrink` (shipped:library/bloom.ron:"), "{plan}");
+}
+
+#[cfg(unix)]
+#[test]
+fn no_shader_outside_the_root_is_read_from_a_fragments_folder_either() {
+    let place = place();
+    let outside = tempfile::tempdir().expect("a folder");
+    let secret = outside.path().join("tint.frag");
+    std::fs::write(&secret, "top secret").expect("a file");
+    std::fs::remove_file(place.path("effects/tint.frag")).expect("gone");
+    std::os::unix::fs::symlink(&secret, place.path("effects/tint.frag")).expect("a link");
+    let outcome = check(&place).exits(1).mentions("effects/tint.frag leads out of `.`");
+    assert!(!outcome.err.contains("top"), "{}", outcome.err);
+}
+
+#[test]
+fn a_users_file_that_is_called_like_a_shipped_one_is_the_users() {
+    let place = place();
+    let text = PIPELINE.replace("effects/glow.ron", "glow.ron");
+    place.file("shipped:forward.ron", text);
+    place.file("glow.ron", GLOW);
+    place.file("tint.frag", shader("far"));
+    place.file("shipped:forward.ron", PIPELINE.replace("effects/glow.ron", "glow.ron").replace("near", "far"));
+    let plan = place.run(&["inspect", "./shipped:forward.ron"]).exits(0).out;
+    assert!(plan.contains("(./shipped:forward.ron:6)"), "{plan}");
+}
