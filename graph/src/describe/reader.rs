@@ -175,7 +175,12 @@ impl Reader {
 
     /// Which name may have been meant, or the few that there are.
     pub fn known<'k>(&self, name: &str, known: impl IntoIterator<Item = &'k str> + Clone) -> Option<String> {
-        if self.errors.len() > MANY_MISTAKES { None } else { suggest::help(name, known) }
+        if self.has_many() { None } else { suggest::help(name, known) }
+    }
+
+    /// Whether so many mistakes were reported that nobody reads the help of another.
+    pub(super) fn has_many(&self) -> bool {
+        self.errors.len() > MANY_MISTAKES
     }
 
     /// The values of a list.

@@ -10,6 +10,7 @@ mod encodings;
 mod extend;
 mod fragments;
 mod library;
+mod many_changes;
 mod misuse;
 mod random;
 mod repeat;

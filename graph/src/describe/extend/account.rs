@@ -6,6 +6,7 @@ use super::super::pipeline::{Name, RemovedPass};
 use super::super::tree::Tree;
 use crate::change::{Action, Change, Kind};
 use crate::source::Span;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 /// All that was done.
@@ -16,7 +17,9 @@ pub(in super::super) struct Account {
     /// What was changed.
     pub(super) changed: Vec<Changed>,
     /// What was removed.
-    pub(super) removed: Vec<Removed>,
+    removed: Vec<Removed>,
+    /// The last removal of a thing, by kind and name.
+    last_removed: HashMap<(Kind, Arc<str>), usize>,
 }
 
 /// An entry that another file changes.
@@ -49,7 +52,13 @@ impl Account {
 
     /// The removal of a thing of that name.
     pub(super) fn removed(&self, kind: Kind, name: &str) -> Option<&Removed> {
-        self.removed.iter().rev().find(|removed| removed.kind == kind && *removed.name.text == *name)
+        self.last_removed.get(&(kind, name.into())).map(|at| &self.removed[*at])
+    }
+
+    /// A thing was removed.
+    pub(super) fn remove(&mut self, removed: Removed) {
+        self.last_removed.insert((removed.kind, removed.name.text.clone()), self.removed.len());
+        self.removed.push(removed);
     }
 
     /// The passes that were removed.
@@ -63,20 +72,90 @@ impl Account {
         if self.changed.is_empty() && self.removed.is_empty() {
             return;
         }
+        let places = Places::of(&self.changed);
+        let removed: HashMap<(Kind, &str), Span> =
+            self.removed.iter().map(|removed| ((removed.kind, &*removed.name.text), removed.by)).collect();
         for error in errors {
             let Some(primary) = error.labels.first().map(|label| label.span) else { continue };
-            let has = |within: Span| error.labels.iter().any(|label| holds(within, label.span));
+            let changed = self.beside(&places, error, primary);
             let named = tree.text_at(primary).trim_matches('"');
-            let changed = self.changed.iter().find_map(|changed| match (has(changed.by), has(changed.entry)) {
-                (true, false) => Some((changed.name.span, format!("`{}` stands here", changed.name.text))),
-                (false, true) if holds(changed.entry, primary) => Some((changed.by, "changed here".to_owned())),
-                _ => None,
-            });
-            let removed = self.removed.iter().rev().find(|removed| *removed.name.text == *named);
-            let removed = removed.map(|removed| (removed.by, format!("`{named}` is removed here")));
-            let labels = changed.into_iter().chain(removed).map(|(span, text)| Label { span, text });
-            error.labels.extend(labels.collect::<Vec<_>>());
+            let missed = missed(&error.message, named).iter();
+            let removed = missed.filter_map(|kind| removed.get(&(*kind, named))).max_by_key(|by| (by.file(), by.start));
+            let removed = removed.map(|by| Label { span: *by, text: format!("`{named}` is removed here") });
+            error.labels.extend(changed.into_iter().chain(removed));
         }
+    }
+
+    /// The other place of a mistake that is in a change, or in what is changed.
+    fn beside(&self, places: &Places, error: &Diagnostic, primary: Span) -> Option<Label> {
+        let is_in = |within: Span| error.labels.iter().any(|label| holds(within, label.span));
+        let in_changes = error.labels.iter().flat_map(|label| places.changes(&self.changed, label.span));
+        let in_change = in_changes.filter(|at| !is_in(self.changed[*at].entry)).min();
+        // Of the changes of one entry no more are looked at than the mistake has places.
+        let in_entry = places.entries(&self.changed, primary).iter().find(|at| !is_in(self.changed[**at].by)).copied();
+        let by_change = |at: usize| {
+            let Changed { name, .. } = &self.changed[at];
+            Label { span: name.span, text: format!("`{}` stands here", name.text) }
+        };
+        let by_entry = |at: usize| Label { span: self.changed[at].by, text: "changed here".to_owned() };
+        match (in_change, in_entry) {
+            (Some(change), Some(entry)) if entry < change => Some(by_entry(entry)),
+            (Some(change), _) => Some(by_change(change)),
+            (None, entry) => entry.map(by_entry),
+        }
+    }
+}
+
+/// Where changes and what they change stand, by file and beginning: numbers of [`Account::changed`]. Neither stands within
+/// another of its sort.
+struct Places {
+    by: BTreeMap<(Option<usize>, u32), Vec<usize>>,
+    entries: BTreeMap<(Option<usize>, u32), Vec<usize>>,
+}
+
+impl Places {
+    fn of(changed: &[Changed]) -> Places {
+        let mut places = Places { by: BTreeMap::new(), entries: BTreeMap::new() };
+        for (at, Changed { entry, by, .. }) in changed.iter().enumerate() {
+            places.by.entry((by.file(), by.start)).or_default().push(at);
+            places.entries.entry((entry.file(), entry.start)).or_default().push(at);
+        }
+        places
+    }
+
+    /// The changes that `place` stands in.
+    fn changes(&self, changed: &[Changed], place: Span) -> impl Iterator<Item = usize> {
+        last(&self.by, place).iter().copied().filter(move |at| holds(changed[*at].by, place))
+    }
+
+    /// The changes of the entry that `place` stands in.
+    fn entries(&self, changed: &[Changed], place: Span) -> &[usize] {
+        let changes = last(&self.entries, place);
+        let inside = changes.first().is_some_and(|at| holds(changed[*at].entry, place));
+        if inside { changes } else { &[] }
+    }
+}
+
+/// What begins last before `place`, or with it.
+fn last(places: &BTreeMap<(Option<usize>, u32), Vec<usize>>, place: Span) -> &[usize] {
+    let before = places.range(..=(place.file(), place.start)).next_back();
+    before.map_or(&[], |(_, numbers)| numbers)
+}
+
+/// Of which kinds a thing is that a mistake misses under the name `named`: in its words, which are all that says so.
+fn missed(message: &str, named: &str) -> &'static [Kind] {
+    let what = message.strip_prefix("there is ").and_then(|rest| rest.strip_suffix(&format!(" named `{named}`")));
+    match what.unwrap_or_default() {
+        "no pass" => &[Kind::Pass],
+        "no image" => &[Kind::Image, Kind::Texture],
+        "no buffer" => &[Kind::Buffer],
+        "no image or buffer" => &[Kind::Image, Kind::Texture, Kind::Buffer],
+        "no setting" => &[Kind::Setting],
+        "no preset" => &[Kind::Preset],
+        "no view" => &[Kind::View],
+        // In an expression.
+        "nothing" => &[Kind::Setting, Kind::Image, Kind::Texture, Kind::Buffer],
+        _ => &[],
     }
 }
 

@@ -239,11 +239,7 @@ impl<'t> Change<'_, 't> {
         let texts = |entry: &Entry<'t>| entry.texts().map(Arc::from).collect();
         let found: Option<Vec<Arc<str>>> = match kind {
             Kind::Pass => self.draft.passes.remove(&name.text).map(texts),
-            Kind::Output => {
-                let outputs = &mut self.draft.outputs;
-                let at = outputs.iter().position(|output| output.name.is_some_and(|it| *it.text == *name.text));
-                at.map(|at| drop(outputs.remove(at))).map(|()| Vec::new())
-            }
+            Kind::Output => self.draft.outputs.remove(&name.text).map(|_| Vec::new()),
             _ => self.draft.list_mut(kind).remove(&name.text).map(|_| Vec::new()),
         };
         let Some(texts) = found else {
@@ -251,7 +247,7 @@ impl<'t> Change<'_, 't> {
             return None;
         };
         let by = self.leaf.span();
-        self.account.removed.push(Removed { kind, name: name.clone(), by, texts });
+        self.account.remove(Removed { kind, name: name.clone(), by, texts });
         self.account.did(by, Action::Remove { of: kind, name: name.text });
         Some(())
     }
@@ -263,7 +259,7 @@ impl<'t> Change<'_, 't> {
             InsertFields { before: None, after: None, at: None, passes: None, outputs: Some(outputs) } => {
                 let new: Vec<_> = self.reader.list(outputs, "`outputs`")?.into_iter().map(draft::output).collect();
                 let names = new.iter().filter_map(|entry| Some(entry.name?.text.into())).collect();
-                self.draft.outputs.extend(new);
+                new.into_iter().for_each(|output| self.draft.outputs.add(output));
                 self.account.did(by, Action::Add { of: Kind::Output, names });
             }
             InsertFields { before, after, at, passes: Some(passes), outputs: None } => {
@@ -322,12 +318,14 @@ impl<'t> Change<'_, 't> {
             return Some(name.text);
         }
         let help = match self.draft.passes.find(&name.text) {
+            None if self.reader.has_many() => String::new(),
             Some(_) => format!("that is a pass: write `before: \"{0}\"` or `after: \"{0}\"`", name.text),
             None => suggest::help(&name.text, self.draft.passes.anchors())
                 .unwrap_or_else(|| "this pipeline has no anchors: name a pass, by `before` or `after`".to_owned()),
         };
         let unknown = Diagnostic::new(name.span, format!("there is no anchor named `{}`", name.text));
-        self.reader.report(unknown.help(help));
+        let help = Some(help).filter(|help| !help.is_empty());
+        self.reader.report(Diagnostic { help, ..unknown });
         None
     }
 
@@ -352,12 +350,16 @@ impl<'t> Change<'_, 't> {
             self.reader.report(gone.label(removed.by, "removed here"));
             return;
         }
+        let unknown = Diagnostic::new(name.span, format!("there is no {word} named `{text}`"));
+        if self.reader.has_many() {
+            self.reader.report(unknown);
+            return;
+        }
         let names = match kind {
             Kind::Pass => self.draft.passes.names(),
-            Kind::Output => self.draft.outputs.iter().filter_map(|output| Some(output.name?.text)).collect(),
+            Kind::Output => self.draft.outputs.names(),
             _ => self.draft.list_mut(kind).names(),
         };
-        let unknown = Diagnostic::new(name.span, format!("there is no {word} named `{text}`"));
         let within = text.split(['.', '[']).next().filter(|outer| names.contains(outer) && *outer != &**text);
         let help = match within {
             Some(outer) if text.contains('.') => Some(format!(

@@ -49,7 +49,7 @@ pub(super) fn tree(draft: &Draft<'_>, base: Leaf<'_>) -> Tree {
         builder.list("passes", of, draft.passes.all());
     }
     if let Some(of) = draft.outputs_written {
-        builder.list("outputs", of, draft.outputs.iter());
+        builder.list("outputs", of, draft.outputs.entries.iter().flatten());
     }
     if let Some(depth) = draft.depth {
         builder.word("depth");
@@ -122,20 +122,20 @@ impl Builder {
             named
         });
         let node = self.open(NodeKind::Fields, entry.leaf);
-        for (name, value) in fields {
+        for (name, value) in fields.pairs() {
             self.copy(*name);
             match value {
                 Value::Plain(value) => self.copy(*value),
                 Value::Map { of, entries } => {
                     let map = self.open(NodeKind::Map, *of);
-                    self.pairs(entries);
+                    self.pairs(entries.pairs());
                     self.close(map);
                 }
                 Value::Parts { of, fields } => {
                     let named = self.open(NodeKind::Named, *of);
                     self.first_word(*of);
                     let parts = self.open(NodeKind::Fields, *of);
-                    self.pairs(fields);
+                    self.pairs(fields.pairs());
                     self.close(parts);
                     self.close(named);
                 }

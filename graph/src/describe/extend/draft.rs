@@ -18,7 +18,7 @@ pub(super) struct Draft<'t> {
     lists: HashMap<Kind, List<'t>>,
     pub(super) passes: Order<'t>,
     pub(super) passes_written: Option<Leaf<'t>>,
-    pub(super) outputs: Vec<Entry<'t>>,
+    pub(super) outputs: List<'t>,
     pub(super) outputs_written: Option<Leaf<'t>>,
     pub(super) depth: Option<Leaf<'t>>,
 }
@@ -49,7 +49,8 @@ impl<'t> List<'t> {
         self.entries.iter().flatten().filter_map(|entry| Some(entry.name?.text)).collect()
     }
 
-    fn add(&mut self, entry: Entry<'t>) {
+    /// Adds an entry; of those of one name the first is found.
+    pub(super) fn add(&mut self, entry: Entry<'t>) {
         if let Some(name) = entry.name {
             self.index.entry(name.text).or_insert(self.entries.len());
         }
@@ -110,9 +111,10 @@ impl<'t> Draft<'t> {
             && let Some(entries) = reader.list(leaf, "`outputs`")
         {
             self.outputs_written = Some(leaf);
-            self.outputs = entries.into_iter().map(output).collect();
+            self.outputs = List::default();
+            entries.into_iter().map(output).for_each(|output| self.outputs.add(output));
             if role != Role::Whole {
-                let names = self.outputs.iter().filter_map(|entry| Some(entry.name?.text.into())).collect();
+                let names = self.outputs.names().into_iter().map(Arc::from).collect();
                 account.did(leaf.start(), Action::Outputs { names });
             }
         }

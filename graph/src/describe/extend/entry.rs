@@ -2,7 +2,9 @@
 
 use super::super::leaf::{Leaf, Shape};
 use super::super::pipeline::Name;
+use super::keyed::Keyed;
 use crate::source::Span;
+use std::borrow::Cow;
 
 /// An entry.
 pub(super) struct Entry<'t> {
@@ -10,7 +12,7 @@ pub(super) struct Entry<'t> {
     /// As it is called; `None` if that can't be read, which will be reported.
     pub(super) name: Option<Called<'t>>,
     /// Once it was changed.
-    pub(super) fields: Option<Vec<(Leaf<'t>, Value<'t>)>>,
+    pub(super) fields: Option<Keyed<'t, Value<'t>>>,
 }
 
 /// A name where it stands.
@@ -25,9 +27,9 @@ pub(super) enum Value<'t> {
     /// As it was written.
     Plain(Leaf<'t>),
     /// `{…}` with entries of several files; `of` is the first file's.
-    Map { of: Leaf<'t>, entries: Vec<(Leaf<'t>, Leaf<'t>)> },
+    Map { of: Leaf<'t>, entries: Keyed<'t, Leaf<'t>> },
     /// `Word(…)` with fields of several files; `of` is the first file's.
-    Parts { of: Leaf<'t>, fields: Vec<(Leaf<'t>, Leaf<'t>)> },
+    Parts { of: Leaf<'t>, fields: Keyed<'t, Leaf<'t>> },
 }
 
 impl<'t> Called<'t> {
@@ -47,17 +49,17 @@ impl<'t> Entry<'t> {
         Entry { leaf, name: leaf.field("name").and_then(Called::of), fields: None }
     }
 
-    fn fields(&mut self) -> &mut Vec<(Leaf<'t>, Value<'t>)> {
+    fn fields(&mut self) -> &mut Keyed<'t, Value<'t>> {
         let written = || self.leaf.fields().into_iter().flatten().map(|(name, value)| (name, Value::Plain(value)));
-        self.fields.get_or_insert_with(|| written().collect())
+        self.fields.get_or_insert_with(|| Keyed::new(written(), field))
     }
 
     /// Gives a field a value. The entries of a map come beside those that are there, or in place of those with the same
     /// keys; any other value takes the place of the whole.
     pub(super) fn set(&mut self, name: Leaf<'t>, value: Leaf<'t>) {
         let fields = self.fields();
-        let Some((_, there)) = fields.iter_mut().find(|(field, _)| field.text() == name.text()) else {
-            fields.push((name, Value::Plain(value)));
+        let Some(there) = fields.find(name.text()) else {
+            fields.put(name, Value::Plain(value), field);
             return;
         };
         let Some(new) = value.entries() else {
@@ -67,10 +69,10 @@ impl<'t> Entry<'t> {
         if let Value::Plain(of) = *there
             && let Some(entries) = of.entries()
         {
-            *there = Value::Map { of, entries: entries.collect() };
+            *there = Value::Map { of, entries: Keyed::new(entries, Leaf::words) };
         }
         match there {
-            Value::Map { entries, .. } => new.for_each(|(key, value)| put(entries, key, value, |key| key.words())),
+            Value::Map { entries, .. } => new.for_each(|(key, value)| entries.put(key, value, Leaf::words)),
             Value::Plain(_) | Value::Parts { .. } => *there = Value::Plain(value),
         }
     }
@@ -78,23 +80,20 @@ impl<'t> Entry<'t> {
     /// Gives a field within the parentheses of the field `of` a value: `default` in `value: Bool(default: true)`. Whether
     /// there are such parentheses.
     pub(super) fn set_part(&mut self, of: &str, name: Leaf<'t>, value: Leaf<'t>) -> bool {
-        let Some((_, there)) = self.fields().iter_mut().find(|(field, _)| field.text() == of) else { return false };
+        let Some(there) = self.fields().find(of) else { return false };
         if let Value::Plain(of) = *there
             && let (Shape::Word(_, Some(_)), Some(fields)) = (of.shape(), of.fields())
         {
-            *there = Value::Parts { of, fields: fields.collect() };
+            *there = Value::Parts { of, fields: Keyed::new(fields, field) };
         }
         let Value::Parts { fields, .. } = there else { return false };
-        put(fields, name, value, |name| Some(name.text()));
+        fields.put(name, value, field);
         true
     }
 
     /// Takes a field away. Whether it was there.
     pub(super) fn take(&mut self, name: &str) -> bool {
-        let fields = self.fields();
-        let before = fields.len();
-        fields.retain(|(field, _)| field.text() != name);
-        fields.len() < before
+        self.fields().take(name)
     }
 
     /// Texts without escapes that stand in it as it was written first.
@@ -103,16 +102,7 @@ impl<'t> Entry<'t> {
     }
 }
 
-/// Puts a value in the place of the one with the same key, or at the end.
-fn put<'t, K: PartialEq>(
-    pairs: &mut Vec<(Leaf<'t>, Leaf<'t>)>,
-    key: Leaf<'t>,
-    value: Leaf<'t>,
-    of: impl Fn(Leaf<'t>) -> Option<K>,
-) {
-    let wanted = of(key);
-    match pairs.iter_mut().find(|(there, _)| wanted.is_some() && of(*there) == wanted) {
-        Some(pair) => *pair = (key, value),
-        None => pairs.push((key, value)),
-    }
+/// The key of a field: its name.
+fn field(name: Leaf<'_>) -> Option<Cow<'_, str>> {
+    Some(name.text().into())
 }

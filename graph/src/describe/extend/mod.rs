@@ -13,6 +13,7 @@ mod apply;
 mod build;
 mod draft;
 mod entry;
+mod keyed;
 mod layers;
 mod order;
 
