@@ -2,7 +2,7 @@
 
 mod support;
 
-use support::{Outcome, Place};
+use support::{Outcome, Place, Vulkan};
 
 /// A full-screen shader whose one parameter is called `parameter`.
 fn shader(parameter: &str) -> String {
@@ -12,7 +12,7 @@ fn shader(parameter: &str) -> String {
     )
 }
 
-/// What a shader includes: the function `part`, which calls `other`, if that is not empty.
+/// What a shader includes: the function `part`.
 fn part(body: &str) -> String {
     format!("float part(float x) {{ return {body}; }}\n")
 }
@@ -59,8 +59,11 @@ fn a_fragment_has_the_shader_beside_its_own_file_and_the_plan_tells_it_from_the_
         plan.contains("`other.draw` draws the full screen with shader `effects/tint` (effects/glow.ron:3)"),
         "{plan}"
     );
-    check(&place).exits(0);
     place.run(&["check", "p.ron", "--all-variants"]).exits(0);
+    if let Some(variables) = Vulkan::LAVAPIPE.variables() {
+        let run = ["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "16x16"];
+        place.run_with(&variables, &run).exits(0);
+    }
 
     // What it includes is looked for beside it too, then beside the pipeline.
     place.file("effects/part.glsl", part("beside"));
@@ -71,7 +74,7 @@ fn a_fragment_has_the_shader_beside_its_own_file_and_the_plan_tells_it_from_the_
 fn where_there_is_none_beside_the_fragment_the_pipelines_is_taken_then_a_shipped_one() {
     let place = place();
     std::fs::remove_file(place.path("effects/tint.frag")).expect("gone");
-    check(&place).exits(1).mentions("error: shader `tint` has no parameter `far`").mentions("effects/glow.ron:3:");
+    check(&place).exits(1).mentions("error: shader `tint` needs the parameter `near`").mentions("effects/glow.ron:3:");
     place.file("tint.frag", shader("far"));
     place.file("p.ron", PIPELINE.replace("near", "far"));
     check(&place).exits(0);
@@ -80,14 +83,12 @@ fn where_there_is_none_beside_the_fragment_the_pipelines_is_taken_then_a_shipped
         .exits(1)
         .mentions("error: there is no shader named `tint`")
         .mentions("looked for in ./effects, ., the shipped shaders");
-    place.file(
-        "effects/glow.ron",
-        GLOW.replace("\"tint\"", "\"copy\"").replace("params: {\"far\": 1.0}", "sample: {\"source\": \"target\"}"),
-    );
-    let plain = PIPELINE.replace("FullScreen(\"tint\"), params: {\"far\": 1.0}", "FullScreen(\"copy\")");
-    place.file("p.ron", plain);
-    let outcome = check(&place).exits(1);
-    assert!(!outcome.err.contains("there is no shader named `copy`"), "{}", outcome.err);
+    let copy = |source: &str| format!(r#""copy"), sample: {{"source": "{source}"}}, color"#);
+    let glow = GLOW.replace("parameters: [", r#"parameters: [(name: "from", value: Image), "#);
+    place.file("effects/glow.ron", glow.replace(r#""tint"), params: {"far": 1.0}, color"#, &copy("from")));
+    let sky = PIPELINE.replace(r#"FullScreen("tint"), params: {"near": 1.0}"#, "Sky");
+    place.file("p.ron", sky.replace("with: {", r#"with: {"from": "first", "#));
+    check(&place).exits(0);
 }
 
 #[test]
