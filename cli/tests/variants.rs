@@ -278,3 +278,32 @@ fn a_mistake_beyond_a_number_of_lights_is_found() {
     let axis = answer["axes"].as_array().and_then(|axes| axes.iter().find(|axis| axis["name"] == "scene.point_lights"));
     assert_eq!(axis.expect("it varies")["values"], serde_json::json!(["64", "0", "11", "12", "13", "19", "20", "21"]));
 }
+
+#[test]
+fn plans_that_differ_in_values_alone_are_one_line_for_people_and_each_its_own_for_programs() {
+    let place = Place::new();
+    let exposed = r#"Pipeline(
+    version: 1,
+    settings: [
+        (name: "msaa", value: OneOf(default: 4, of: [1, 4])),
+        (name: "white_point", value: OneOf(default: 4, of: [4, 8, 16])),
+    ],
+    images: [
+        (name: "color", format: Color(hdr: true), size: Output, samples: "msaa"),
+        (name: "screen", format: Output, size: Output),
+    ],
+    passes: [
+        (name: "behind", draw: Sky, color: [(image: "color", clear: (0.0, 0.0, 0.0, 1.0))]),
+        (name: "show", draw: FullScreen("tone_map"), sample: {"source": "color"},
+            params: {"exposure": 1.0, "white_point": "white_point"}, color: ["screen"]),
+    ],
+    outputs: ["screen"],
+)"#;
+    place.file("p.ron", exposed);
+    let told = check(&place, &["p.ron"]).exits(0).out;
+    let alike = "\n  3 variants, 3 Plans that differ in values alone, such as with ";
+    assert!(told.starts_with(&format!("6 distinct Plans{alike}the defaults: ")), "{told}");
+    assert_eq!(told.matches(alike).count(), 2, "{told}");
+    assert!(told.contains(&format!("{alike}--set msaa=1: ")), "{told}");
+    assert_eq!(json(&place, &["p.ron"], 0)["plans"].as_array().map(Vec::len), Some(6));
+}

@@ -1,4 +1,4 @@
-//! Whether two Plans are the same, by hashes of all that they hold.
+//! Whether two Plans are the same, or the same but for values, by hashes of all that they hold.
 
 use framewright_graph::plan::{DeviceUsed, Plan};
 use serde::ser::{
@@ -8,9 +8,21 @@ use serde::ser::{
 use std::fmt;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// A hash of all of a Plan but what it is named for: the texts of settings and the device's name.
+/// What a Plan is known by: hashes of all of it but what it is named for, the texts of settings and the device's name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct Identity {
+    /// The same for the same Plan.
+    pub(crate) plan: u64,
+    /// The same for Plans that differ in [`VALUES`] alone.
+    pub(crate) shape: u64,
+}
+
+/// Fields that say how much, and not what is done: parameters and what is filled in, clear values, counts of workgroups.
+const VALUES: [&str; 3] = ["value", "clear", "groups"];
+
+/// What a Plan is known by.
 #[must_use]
-pub(super) fn of(plan: &Plan) -> u64 {
+pub(super) fn of(plan: &Plan) -> Identity {
     let Plan {
         format_version: _,
         device,
@@ -26,21 +38,31 @@ pub(super) fn of(plan: &Plan) -> u64 {
         totals,
     } = plan;
     let DeviceUsed { name: _, exact_memory } = device;
-    let mut hashing = Hashing(DefaultHasher::new());
+    let mut hashing = Hashing::default();
     // A Plan of which a part can't be written is known by the parts before it.
     let _ = (exact_memory, views, images, buffers, heaps, steps, outputs, notes, totals).serialize(&mut hashing);
-    hashing.0.finish()
+    Identity { plan: hashing.whole.finish(), shape: hashing.shape.finish() }
 }
 
 /// Takes what is written into a hash. Names of fields are left out, since their order says the same; what has any number of
 /// members ends with a mark, and what may be there or not begins with one.
-struct Hashing(DefaultHasher);
+#[derive(Default)]
+struct Hashing {
+    whole: DefaultHasher,
+    /// Of all but values.
+    shape: DefaultHasher,
+    /// Whether a value is being written.
+    in_value: bool,
+}
 
 const END: u8 = 0xfe;
 
 impl Hashing {
     fn put(&mut self, value: impl Hash) -> Result<(), fmt::Error> {
-        value.hash(&mut self.0);
+        value.hash(&mut self.whole);
+        if !self.in_value {
+            value.hash(&mut self.shape);
+        }
         Ok(())
     }
 }
@@ -215,8 +237,24 @@ members_alone! {
     SerializeTuple: serialize_element(),
     SerializeTupleStruct: serialize_field(),
     SerializeTupleVariant: serialize_field(),
-    SerializeStruct: serialize_field(_name),
     SerializeStructVariant: serialize_field(_name),
+}
+
+impl SerializeStruct for &mut Hashing {
+    type Ok = ();
+    type Error = fmt::Error;
+
+    fn serialize_field<T: Serialize + ?Sized>(&mut self, name: &'static str, value: &T) -> Result<(), fmt::Error> {
+        let outside = self.in_value;
+        self.in_value |= VALUES.contains(&name);
+        value.serialize(&mut **self)?;
+        self.in_value = outside;
+        Ok(())
+    }
+
+    fn end(self) -> Result<(), fmt::Error> {
+        Ok(())
+    }
 }
 
 #[cfg(test)]
@@ -224,9 +262,28 @@ mod tests {
     use super::*;
 
     fn hash(value: &impl Serialize) -> u64 {
-        let mut hashing = Hashing(DefaultHasher::new());
+        let mut hashing = Hashing::default();
         value.serialize(&mut hashing).expect("it can be written");
-        hashing.0.finish()
+        assert_eq!(hashing.whole.finish(), hashing.shape.finish());
+        hashing.whole.finish()
+    }
+
+    #[test]
+    fn values_differ_and_leave_the_shape() {
+        #[derive(serde::Serialize)]
+        struct Param {
+            name: &'static str,
+            value: f32,
+            after: u8,
+        }
+        let hashes = |name, value, after| {
+            let mut hashing = Hashing::default();
+            Param { name, value, after }.serialize(&mut hashing).expect("it can be written");
+            (hashing.whole.finish(), hashing.shape.finish())
+        };
+        let (whole, shape) = hashes("a", 1.0, 1);
+        assert!(hashes("a", 2.0, 1).0 != whole && hashes("a", 2.0, 1).1 == shape);
+        assert!(hashes("b", 1.0, 1).1 != shape && hashes("a", 1.0, 2).1 != shape);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What becomes of one variant: put together, compiled, verified.
 
 use super::axes::{self, Axes};
-use super::identity;
+use super::identity::{self, Identity};
 use super::shaders::Shared;
 use super::space::Choice;
 use crate::check;
@@ -45,8 +45,8 @@ type Made = Result<Arc<Frame>, Vec<Diagnostic>>;
 /// A variant of which nothing is wrong.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fine {
-    /// The same for the same Plan.
-    pub(crate) plan: u64,
+    /// What the Plan is known by.
+    pub(crate) plan: Identity,
     /// The Plan's sums.
     pub(crate) totals: Totals,
 }

@@ -103,6 +103,9 @@ pub(crate) struct PlanTold {
     pub(crate) example: Variant,
     /// The Plan's sums.
     pub(crate) totals: Totals,
+    /// The same for Plans that differ in values alone.
+    #[serde(skip)]
+    pub(crate) shape: u64,
 }
 
 impl Report {
@@ -141,12 +144,13 @@ impl Report {
     ) -> Report {
         let axes = &subject.axes;
         let Found { checked, failing, plans, failures: _ } = found;
-        let mut plans: Vec<_> = plans.into_values().collect();
-        plans.sort_by_key(|plan| plan.example);
-        let told = plans.into_iter().map(|plan| PlanTold {
+        let mut plans: Vec<_> = plans.into_iter().collect();
+        plans.sort_by_key(|(_, plan)| plan.example);
+        let told = plans.into_iter().map(|(identity, plan)| PlanTold {
             variants: plan.variants,
             example: Variant::of(axes, &space.choice(plan.example.number)),
             totals: plan.totals,
+            shape: identity.shape,
         });
         let plans: Vec<PlanTold> = told.collect();
         Report {

@@ -1,6 +1,7 @@
 //! All variants, on several threads: what is found doesn't depend on how many.
 
 use super::axes;
+use super::identity::Identity;
 use super::judge::{Fine, Judge, Subject};
 use super::shaders::Shared;
 use super::space::Space;
@@ -28,7 +29,7 @@ pub(crate) struct Found {
     /// Those of them that are wrong.
     pub(crate) failing: usize,
     /// Distinct Plans.
-    pub(crate) plans: HashMap<u64, PlanFound>,
+    pub(crate) plans: HashMap<Identity, PlanFound>,
     /// Distinct mistakes, by message and place.
     pub(crate) failures: HashMap<Mistake, Failure>,
 }
@@ -177,7 +178,8 @@ mod tests {
     #[test]
     fn what_stands_for_others_is_nearest_to_the_defaults_whoever_found_it() {
         let diagnostic = Diagnostic { message: "wrong".to_owned(), labels: Vec::new(), help: None };
-        let fine = Fine { plan: 7, totals: Totals::default() };
+        let plan = Identity { plan: 7, shape: 1 };
+        let fine = Fine { plan, totals: Totals::default() };
         let numbers = [(2, 1), (1, 5), (1, 7), (3, 0)];
         for split in 0..=numbers.len() {
             for turned in 0..numbers.len() {
@@ -195,7 +197,7 @@ mod tests {
                 let failure = &found.failures[&mistake(&diagnostic)];
                 assert_eq!((failure.example, failure.variants), (least, 4));
                 assert_eq!(failure.devices, BTreeSet::from([0, 1]));
-                assert_eq!((found.plans[&7].example, found.plans[&7].variants), (least, 4));
+                assert_eq!((found.plans[&plan].example, found.plans[&plan].variants), (least, 4));
             }
         }
     }

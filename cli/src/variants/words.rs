@@ -2,6 +2,7 @@
 
 use super::report::{AxisTold, FailureTold, PlanTold, Report, Variant};
 use crate::{check, text};
+use std::collections::HashMap;
 
 /// Mistakes and Plans that people are told of; programs are told of more.
 const MOST: usize = 20;
@@ -57,17 +58,47 @@ fn with(variant: &Variant) -> String {
 }
 
 fn plans(report: &Report) -> String {
-    let line = |plan: &PlanTold| {
-        let variants = text::count(plan.variants, "variant, ", "variants, such as ");
-        format!("  {variants}{}: {}\n", with(&plan.example), check::sums(&plan.totals))
+    let line = |alike: &Alike<'_>| {
+        let variants = match alike.plans {
+            1 => text::count(alike.variants, "variant, ", "variants, such as "),
+            plans => {
+                let variants = text::count(alike.variants, "variant", "variants");
+                format!("{variants}, {plans} Plans that differ in values alone, such as ")
+            }
+        };
+        format!("  {variants}{}: {}\n", with(&alike.first.example), check::sums(&alike.first.totals))
     };
     let mut answer = text::count(report.distinct_plans, "distinct Plan", "distinct Plans") + "\n";
-    answer.extend(report.plans.iter().take(MOST).map(line));
-    if report.plans.len() > MOST {
-        let further = report.plans.len() - MOST;
+    let groups = alike(&report.plans);
+    answer.extend(groups.iter().take(MOST).map(line));
+    let further: usize = groups.iter().skip(MOST).map(|alike| alike.plans).sum();
+    if further > 0 {
         answer += &format!("  and {} (`--format json` tells them all)\n", text::count(further, "other", "others"));
     }
     answer
+}
+
+/// Plans that differ in values alone.
+struct Alike<'r> {
+    /// The one that is nearest to the defaults.
+    first: &'r PlanTold,
+    plans: usize,
+    variants: usize,
+}
+
+/// Plans that differ in values alone together, each lot where its first stands.
+fn alike(plans: &[PlanTold]) -> Vec<Alike<'_>> {
+    let mut groups: Vec<Alike<'_>> = Vec::new();
+    let mut places = HashMap::new();
+    for plan in plans {
+        let place = *places.entry(plan.shape).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push(Alike { first: plan, plans: 0, variants: 0 });
+        }
+        groups[place].plans += 1;
+        groups[place].variants += plan.variants;
+    }
+    groups
 }
 
 fn verdict(report: &Report) -> String {
