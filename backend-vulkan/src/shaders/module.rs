@@ -1,7 +1,7 @@
 //! A SPIR-V module with its instructions found by id.
 
 use rspirv::dr::{Instruction, Module, Operand};
-use rspirv::spirv::{Decoration, Op};
+use rspirv::spirv::{Decoration, Op, StorageClass};
 use std::collections::HashMap;
 
 /// A module, indexed.
@@ -180,6 +180,14 @@ pub(super) fn id(instruction: &Instruction, at: usize) -> Option<u32> {
 pub(super) fn number(operand: &Operand) -> Option<u32> {
     match operand {
         Operand::LiteralBit32(number) => Some(*number),
+        _ => None,
+    }
+}
+
+/// Storage class of a variable.
+pub(super) fn storage_class(variable: &Instruction) -> Option<StorageClass> {
+    match variable.operands.first() {
+        Some(Operand::StorageClass(class)) => Some(*class),
         _ => None,
     }
 }

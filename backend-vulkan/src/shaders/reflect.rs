@@ -1,15 +1,11 @@
 //! What one shader stage uses, read off its SPIR-V.
 
+use super::bindings::{bindings, component_of};
 use super::compile::Stage;
-use super::module::{Indexed, id, number};
-use framewright_graph::format::Format;
-use framewright_graph::interface::{
-    Binding, BindingKind, Block, Component, Dimension, FragmentOutput, ImageShape, Member, PASS_SET, ShaderInterface,
-    VertexInput,
-};
-use framewright_graph::vocabulary::Stages;
+use super::module::{Indexed, id, number, storage_class};
+use framewright_graph::interface::{FragmentOutput, ShaderInterface, VertexInput};
 use rspirv::dr::{Instruction, Operand};
-use rspirv::spirv::{BuiltIn, Capability, Decoration, Dim, ExecutionMode, ImageFormat, Op, StorageClass};
+use rspirv::spirv::{BuiltIn, Capability, Decoration, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;
 
 /// What a stage uses, and what it takes from or hands to the other stage.
@@ -53,8 +49,6 @@ const CAPABILITIES: [Capability; 14] = [
     Capability::ImageCubeArray,
 ];
 
-/// Bindings are numbered below this: drivers make tables as long as the largest number.
-const BINDINGS: u32 = 256;
 /// Locations between stages and of vertex attributes are below these: Vulkan promises no more to all. The compiler itself
 /// limits those of colour outputs.
 const VARYINGS: u32 = 15;
@@ -172,182 +166,6 @@ fn check_own_memory(module: &Indexed<'_>) -> Result<(), String> {
     Ok(())
 }
 
-/// The resources. In the pass's own set every declared one counts, since that is what a pipeline file binds; in the
-/// others only what is used, since include libraries declare more than one shader needs.
-fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) -> Result<Vec<Binding>, String> {
-    let stages = match stage {
-        Stage::Vertex => Stages::VERTEX_SHADER,
-        Stage::Fragment => Stages::FRAGMENT_SHADER,
-        Stage::Compute => Stages::COMPUTE_SHADER,
-    };
-    let mut bindings = Vec::new();
-    for (variable, instruction) in module.variables() {
-        if storage_class(instruction) == Some(StorageClass::PushConstant) && used.contains(&variable) {
-            return Err("push constants: parameters come in the uniform block `params`".to_owned());
-        }
-        let set = module.decoration_number(variable, Decoration::DescriptorSet);
-        let binding = module.decoration_number(variable, Decoration::Binding);
-        let (Some(set), Some(binding)) = (set, binding) else { continue };
-        if set != PASS_SET && !used.contains(&variable) {
-            continue;
-        }
-        let Some(ty) = module.pointee(instruction) else { continue };
-        let kind = kind(module, variable, instruction, ty);
-        if stage == Stage::Vertex && writes(&kind) {
-            let name = module.name(variable);
-            return Err(format!("`{name}` is written by a vertex shader: not every device can; declare it `readonly`"));
-        }
-        let own = module.name(variable);
-        let name = if own.is_empty() { ty.result_id.map_or("", |ty| module.name(ty)) } else { own };
-        bindings.push(Binding { set, binding, name: name.to_owned(), kind, adapts: false, stages });
-    }
-    bindings.sort_by_key(|it| (it.set, it.binding));
-    if let Some(far) = bindings.iter().find(|it| it.binding >= BINDINGS) {
-        return Err(format!("`{}` at binding {}: bindings go up to {}", far.name, far.binding, BINDINGS - 1));
-    }
-    if let Some(pair) =
-        bindings.windows(2).find(|pair| (pair[0].set, pair[0].binding) == (pair[1].set, pair[1].binding))
-    {
-        let Binding { set, binding, name, .. } = &pair[0];
-        return Err(format!("`{name}` and `{}` at the same place: set {set}, binding {binding}", pair[1].name));
-    }
-    Ok(bindings)
-}
-
-/// Whether a shader may write such a resource.
-fn writes(kind: &BindingKind) -> bool {
-    matches!(kind, BindingKind::StorageImage { writable: true, .. } | BindingKind::StorageBlock { writable: true, .. })
-}
-
-/// Kind and shape of a resource of type `ty`.
-fn kind(module: &Indexed<'_>, variable: u32, instruction: &Instruction, ty: &Instruction) -> BindingKind {
-    let other = |what: &str| BindingKind::Other(what.to_owned());
-    match (ty.class.opcode, storage_class(instruction)) {
-        (Op::TypeArray | Op::TypeRuntimeArray, _) => other("an array of resources"),
-        (Op::TypeSampledImage, _) => match id(ty, 0).and_then(|image| module.global(image)) {
-            Some(image) if image.operands.get(2).and_then(number) == Some(1) => other("a sampler that compares depth"),
-            Some(image) => image_shape(module, image)
-                .filter(|shape| shape.dimension != Dimension::Buffer)
-                .map_or_else(|| other("a texel buffer"), BindingKind::SampledImage),
-            None => other("an image of unknown type"),
-        },
-        (Op::TypeImage, _) => match (image_shape(module, ty), ty.operands.get(5).and_then(number)) {
-            (Some(ImageShape { dimension: Dimension::Buffer, .. }), _) => other("a texel buffer"),
-            (Some(shape), Some(2)) => BindingKind::StorageImage {
-                shape,
-                format: ty.operands.get(6).and_then(texel_format),
-                readable: module.decoration(variable, Decoration::NonReadable).is_none(),
-                writable: module.decoration(variable, Decoration::NonWritable).is_none(),
-            },
-            (Some(_), _) => other("an image without sampler"),
-            (None, _) => BindingKind::InputAttachment {
-                multisampled: ty.operands.get(4).and_then(number) == Some(1),
-                component: id(ty, 0).map_or(Component::Float, |component| component_of(&module.type_name(component))),
-            },
-        },
-        (Op::TypeSampler, _) => other("a sampler without image"),
-        (Op::TypeStruct, Some(StorageClass::Uniform)) => BindingKind::UniformBlock(block(module, ty)),
-        (Op::TypeStruct, Some(StorageClass::StorageBuffer)) => {
-            let members = u32::try_from(ty.operands.len()).unwrap_or(0);
-            let lacks = |wanted| {
-                let decorated = |member| module.member_decoration(ty.result_id?, member, wanted);
-                module.decoration(variable, wanted).is_none() && !(0..members).all(|member| decorated(member).is_some())
-            };
-            let (readable, writable) = (lacks(Decoration::NonReadable), lacks(Decoration::NonWritable));
-            BindingKind::StorageBlock { readable, writable }
-        }
-        (opcode, _) => BindingKind::Other(format!("{opcode:?}")),
-    }
-}
-
-/// The format that a storage image's declaration names, if images of a pipeline can have it.
-fn texel_format(operand: &Operand) -> Option<Format> {
-    let Operand::ImageFormat(format) = operand else { return None };
-    match format {
-        ImageFormat::R8 => Some(Format::R8_UNORM),
-        ImageFormat::R8ui => Some(Format::R8_UINT),
-        ImageFormat::Rg8 => Some(Format::R8G8_UNORM),
-        ImageFormat::Rgba8 => Some(Format::R8G8B8A8_UNORM),
-        ImageFormat::Rgba8ui => Some(Format::R8G8B8A8_UINT),
-        ImageFormat::Rgb10A2 => Some(Format::A2B10G10R10_UNORM_PACK32),
-        ImageFormat::R16f => Some(Format::R16_SFLOAT),
-        ImageFormat::Rg16f => Some(Format::R16G16_SFLOAT),
-        ImageFormat::Rgba16 => Some(Format::R16G16B16A16_UNORM),
-        ImageFormat::Rgba16f => Some(Format::R16G16B16A16_SFLOAT),
-        ImageFormat::R32ui => Some(Format::R32_UINT),
-        ImageFormat::R32f => Some(Format::R32_SFLOAT),
-        ImageFormat::Rg32f => Some(Format::R32G32_SFLOAT),
-        ImageFormat::Rgba32ui => Some(Format::R32G32B32A32_UINT),
-        ImageFormat::Rgba32f => Some(Format::R32G32B32A32_SFLOAT),
-        ImageFormat::R11fG11fB10f => Some(Format::B10G11R11_UFLOAT_PACK32),
-        _ => None,
-    }
-}
-
-/// Shape of an image type; `None` for input attachments.
-fn image_shape(module: &Indexed<'_>, image: &Instruction) -> Option<ImageShape> {
-    let [Operand::IdRef(component), Operand::Dim(dim), _, arrayed, multisampled, ..] = &image.operands[..] else {
-        return None;
-    };
-    let dimension = match dim {
-        Dim::Dim1D => Dimension::D1,
-        Dim::Dim2D => Dimension::D2,
-        Dim::Dim3D => Dimension::D3,
-        Dim::DimCube => Dimension::Cube,
-        Dim::DimBuffer => Dimension::Buffer,
-        _ => return None,
-    };
-    Some(ImageShape {
-        dimension,
-        arrayed: number(arrayed) == Some(1),
-        multisampled: number(multisampled) == Some(1),
-        component: component_of(&module.type_name(*component)),
-    })
-}
-
-/// What a scalar or vector with the GLSL name `ty` is made of.
-fn component_of(ty: &str) -> Component {
-    match ty.as_bytes().first() {
-        Some(b'i') => Component::Int,
-        Some(b'u') => Component::Uint,
-        _ => Component::Float,
-    }
-}
-
-/// A uniform block's members, and its size rounded up to 16 bytes as std140 does.
-fn block(module: &Indexed<'_>, structure: &Instruction) -> Block {
-    let Some(structure_id) = structure.result_id else { return Block::default() };
-    let mut block = Block::default();
-    for (index, operand) in (0_u32..).zip(&structure.operands) {
-        let Some(ty) = operand.id_ref_any() else { continue };
-        let member_number =
-            |decoration| module.member_decoration(structure_id, index, decoration).flatten().and_then(number);
-        let offset = member_number(Decoration::Offset).unwrap_or(0);
-        let bytes = bytes_of(module, ty, member_number(Decoration::MatrixStride).unwrap_or(16));
-        block.bytes = block.bytes.max(offset.saturating_add(bytes));
-        let name = module.member_name(structure_id, index).to_owned();
-        block.members.push(Member { name, offset, ty: module.type_name(ty) });
-    }
-    block.bytes = block.bytes.checked_next_multiple_of(16).unwrap_or(u32::MAX);
-    block
-}
-
-/// Bytes that a block member of type `ty` spans.
-fn bytes_of(module: &Indexed<'_>, ty: u32, matrix_stride: u32) -> u32 {
-    let Some(it) = module.global(ty) else { return 0 };
-    let element = id(it, 0).unwrap_or(0);
-    match it.class.opcode {
-        Op::TypeVector => bytes_of(module, element, matrix_stride).saturating_mul(module.components(ty)),
-        Op::TypeMatrix => matrix_stride.saturating_mul(it.operands.get(1).and_then(number).unwrap_or(0)),
-        Op::TypeArray => {
-            let stride = module.decoration_number(ty, Decoration::ArrayStride).unwrap_or(16);
-            stride.saturating_mul(module.array_length(it))
-        }
-        Op::TypeStruct => block(module, it).bytes,
-        _ => it.operands.first().and_then(number).unwrap_or(32) / 8,
-    }
-}
-
 /// The variables of one storage class that have a location.
 fn varyings(module: &Indexed<'_>, class: StorageClass, used: &HashSet<u32>) -> Vec<Varying> {
     let mut varyings: Vec<Varying> = module
@@ -434,12 +252,4 @@ fn takes_derivatives(opcode: Op) -> bool {
             | Op::ImageSampleProjDrefImplicitLod
             | Op::ImageQueryLod
     )
-}
-
-/// Storage class of a variable.
-fn storage_class(variable: &Instruction) -> Option<StorageClass> {
-    match variable.operands.first() {
-        Some(Operand::StorageClass(class)) => Some(*class),
-        _ => None,
-    }
 }
