@@ -4,7 +4,8 @@
 //! be available by then; a write before a read must be available, and then visible to it.
 
 use super::scopes::take_in;
-use super::timeline::{MemoryOperation, Timeline, Touch, What};
+use super::timeline::Timeline;
+use super::touch::{MemoryOperation, Touch, What};
 use super::uses::{Kind, ordered_within_a_step};
 use super::world::World;
 use super::{Harm, Missing};

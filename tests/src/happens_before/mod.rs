@@ -20,6 +20,7 @@ mod contents;
 mod hazards;
 mod scopes;
 mod timeline;
+mod touch;
 mod uses;
 mod world;
 

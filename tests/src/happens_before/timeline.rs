@@ -11,85 +11,12 @@
 //! - the first half of an ownership transfer → its second half, when a semaphore orders them.
 
 use super::scopes::{and_earlier, and_later, each};
-use super::uses::{self, Kind, Use};
+use super::touch::{MemoryOperation, Nodes, Touch, What};
+use super::uses::{self, Kind};
 use super::world::{World, role};
 use framewright_graph::plan::{ImageBarrier, Queue, Resource, Role, Step};
 use framewright_graph::vocabulary::{Accesses, Layout, Stages, State};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// A set of nodes.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Nodes(Vec<u64>);
-
-impl Nodes {
-    fn insert(&mut self, node: usize) {
-        if self.0.len() <= node / 64 {
-            self.0.resize(node / 64 + 1, 0);
-        }
-        self.0[node / 64] |= 1 << (node % 64);
-    }
-
-    fn extend(&mut self, other: &Nodes) {
-        if self.0.len() < other.0.len() {
-            self.0.resize(other.0.len(), 0);
-        }
-        self.0.iter_mut().zip(&other.0).for_each(|(own, other)| *own |= other);
-    }
-
-    pub(super) fn contains(&self, node: usize) -> bool {
-        self.0.get(node / 64).is_some_and(|word| word >> (node % 64) & 1 == 1)
-    }
-}
-
-/// One access by one stage, a layout transition, or what stands for either at the borders of a frame.
-#[derive(Debug, Clone)]
-pub(super) struct Touch {
-    pub(super) node: usize,
-    pub(super) queue: Queue,
-    /// Counts steps over all frames.
-    pub(super) time: usize,
-    pub(super) physical: usize,
-    pub(super) cells: Vec<usize>,
-    pub(super) what: What,
-    /// The use that it is part of, and which one of its step.
-    pub(super) of: Option<(usize, Use)>,
-}
-
-/// What a touch is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum What {
-    /// One access in one stage.
-    Access(Stages, Accesses),
-    /// A layout transition: reads and writes; waits for what is available, leaves its own writes available.
-    Transition,
-    /// What it holds when it first appears: written and available.
-    Initial,
-    /// What comes after the frame and relies on the promised state: reads and writes.
-    After,
-}
-
-impl What {
-    pub(super) fn writes(self) -> bool {
-        match self {
-            What::Access(_, access) => Accesses::WRITES.contains(access),
-            What::Transition | What::Initial | What::After => true,
-        }
-    }
-}
-
-/// An availability operation, a visibility operation, or both: a barrier, a signal, a wait.
-#[derive(Debug)]
-pub(super) struct MemoryOperation {
-    pub(super) queue: Queue,
-    /// The call that it is part of.
-    pub(super) call: usize,
-    /// Where writes become available: masks and node.
-    pub(super) from: Option<(Stages, Accesses, usize)>,
-    /// Where they become visible: masks and node.
-    pub(super) to: Option<(Stages, Accesses, usize)>,
-    /// `None`: all memory; else one image or buffer, in these parts.
-    pub(super) part: Option<(usize, Vec<usize>)>,
-}
 
 /// Second scopes that stand open on a queue.
 #[derive(Debug)]

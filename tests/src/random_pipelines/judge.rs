@@ -1,14 +1,15 @@
 //! Holds what a driver makes of a pipeline against what the pipeline means.
 
-use super::meaning::{self, Filled, State, imported_buffer, imported_image};
-use super::pipeline::{Count, Draw, Extent, Geometry, Life, Pass, Pipeline, Plane, Thing, Work};
+pub use super::compare::Difference;
+use super::compare::{compare, levels};
+use super::meaning::{self, State, imported_buffer, imported_image};
+use super::pipeline::{Count, Draw, Geometry, Life, Pass, Pipeline, Work};
 use super::spoil::Spoil;
 use super::{shader, texels, to_frame, to_ron};
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::device::Profile;
 use framewright_graph::expand::{self, Facts, Inputs};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{self, Frame};
 use framewright_graph::plan::{Plan, Resource};
 use framewright_graph::root::Root;
@@ -57,23 +58,6 @@ pub enum Fault {
     Findings(Vec<String>),
     /// An output holds something else.
     Difference(Difference),
-}
-
-/// The first place at which an output holds something else.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Difference {
-    /// Which frame, from 0.
-    pub frame: u32,
-    /// Which output.
-    pub thing: Thing,
-    /// Where in it.
-    pub place: String,
-    /// The bytes that it should hold.
-    pub expected: Vec<u8>,
-    /// Those that it holds.
-    pub found: Vec<u8>,
-    /// The number of the pass that should have written them; `None`: they were there before any.
-    pub writer: Option<u32>,
 }
 
 impl Fault {
@@ -308,11 +292,6 @@ fn hand_in(pipeline: &Pipeline, plan: &Plan, executor: &mut Executor, frame: u32
     Ok(())
 }
 
-/// What is read and written at once: the mip levels and planes of an image.
-fn levels(mips: u32, format: Format) -> impl Iterator<Item = (u32, Plane)> {
-    (0..mips).flat_map(move |mip| texels::planes(format).iter().map(move |plane| (mip, *plane)))
-}
-
 /// All bytes of an output.
 fn read(plan: &Plan, executor: &mut Executor, output: usize) -> Result<Vec<u8>, Error> {
     match plan.outputs[output].resource {
@@ -370,57 +349,4 @@ impl DrawSource for Program<'_> {
         }
         Ok(())
     }
-}
-
-/// The first place at which `found` isn't what `state` says.
-fn compare(pipeline: &Pipeline, state: &State, thing: Thing, frame: u32, found: &[u8]) -> Option<Difference> {
-    let mut at = 0;
-    for (place, expected, writer) in places(pipeline, state, thing) {
-        let end = at + expected.len();
-        let here = found.get(at..end.min(found.len())).unwrap_or(&[]);
-        if here != expected {
-            return Some(Difference { frame, thing, place: place(), expected, found: here.to_vec(), writer });
-        }
-        at = end;
-    }
-    (at != found.len()).then(|| Difference {
-        frame,
-        thing,
-        place: "beyond its end".to_owned(),
-        expected: Vec::new(),
-        found: found[at..].to_vec(),
-        writer: None,
-    })
-}
-
-/// A place in words, the bytes there, and who wrote them.
-type Place<'p> = (Box<dyn Fn() -> String + 'p>, Vec<u8>, Option<u32>);
-
-/// Everything that an output holds, in the order in which it is read.
-fn places<'p>(pipeline: &'p Pipeline, state: &'p State, thing: Thing) -> Box<dyn Iterator<Item = Place<'p>> + 'p> {
-    match thing {
-        Thing::Buffer(buffer) => Box::new(state.buffers[buffer][0].iter().enumerate().map(|(at, word)| {
-            let place: Box<dyn Fn() -> String> = Box::new(move || format!("word {at}"));
-            (place, word.bits.to_le_bytes().to_vec(), word.writer)
-        })),
-        Thing::Image(number) => {
-            let image = &pipeline.images[number];
-            let contents = &state.images[number][0];
-            Box::new(levels(image.mips, image.format).flat_map(move |(mip, plane)| {
-                texels_of(contents, mip).map(move |at| {
-                    let words = texels::resolved(image, &contents.all_samples(mip, at));
-                    let (format, words) = texels::seen(image.format, plane, words);
-                    let stencil = if plane == Plane::Stencil { "stencil of " } else { "" };
-                    let place: Box<dyn Fn() -> String> = Box::new(move || format!("{stencil}mip {mip}, texel {at:?}"));
-                    (place, texels::bytes(format, words), contents.texel(mip, at, 0).writer)
-                })
-            }))
-        }
-    }
-}
-
-/// The positions of a mip level's texels, in the order in which they are read.
-fn texels_of(contents: &Filled, mip: u32) -> impl Iterator<Item = Extent> + use<> {
-    let [width, height, depth] = contents.extent(mip);
-    (0..width * height * depth).map(move |line| [line % width, line / width % height, line / width / height])
 }

@@ -6,6 +6,7 @@
 //! ```
 
 pub mod allowed;
+mod compare;
 pub mod generate;
 pub mod hash;
 pub mod judge;
