@@ -86,7 +86,8 @@ fn where_there_is_none_beside_the_fragment_the_pipelines_is_taken_then_a_shipped
     let copy = |source: &str| format!(r#""copy"), sample: {{"source": "{source}"}}, color"#);
     let glow = GLOW.replace("parameters: [", r#"parameters: [(name: "from", value: Image), "#);
     place.file("effects/glow.ron", glow.replace(r#""tint"), params: {"far": 1.0}, color"#, &copy("from")));
-    let sky = PIPELINE.replace(r#"FullScreen("tint"), params: {"near": 1.0}"#, "Sky");
+    let cleared = r#"Sky, color: [(image: "first", clear: (0.0, 0.0, 0.0, 1.0))]"#;
+    let sky = PIPELINE.replace(r#"FullScreen("tint"), params: {"near": 1.0}, color: ["first"]"#, cleared);
     place.file("p.ron", sky.replace("with: {", r#"with: {"from": "first", "#));
     check(&place).exits(0);
 }

@@ -4,7 +4,7 @@ use super::bindings::{bindings, component_of};
 use super::compile::Stage;
 use super::module::{Indexed, id, number, storage_class};
 use framewright_graph::interface::{FragmentOutput, ShaderInterface, VertexInput};
-use rspirv::dr::{Instruction, Operand};
+use rspirv::dr::Operand;
 use rspirv::spirv::{BuiltIn, Capability, Decoration, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;
 

@@ -13,10 +13,12 @@ pub(crate) struct Shared<'a> {
     /// By name, then by what is drawn (`None`: a compute shader) and how it is compiled.
     known: HashMap<String, Vec<(Option<Draw>, Variant, Found)>>,
     /// Which shader it is, by the file that names it, its name there and what is drawn.
-    which: HashMap<(FilePath, Arc<str>, Option<Draw>), Result<Arc<str>, ShaderProblem>>,
+    which: HashMap<Named, Result<Arc<str>, ShaderProblem>>,
 }
 
 type Found = Result<ShaderInterface, ShaderProblem>;
+
+type Named = (FilePath, Arc<str>, Option<Draw>);
 
 impl<'a> Shared<'a> {
     /// One that knows nothing yet.

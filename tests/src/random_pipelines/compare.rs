@@ -76,7 +76,7 @@ fn places<'p>(pipeline: &'p Pipeline, state: &'p State, thing: Thing) -> Box<dyn
 }
 
 /// The positions of a mip level's texels, in the order in which they are read.
-fn texels_of(contents: &Filled, mip: u32) -> impl Iterator<Item = Extent> + use<> {
+pub(super) fn texels_of(contents: &Filled, mip: u32) -> impl Iterator<Item = Extent> + use<> {
     let [width, height, depth] = contents.extent(mip);
     (0..width * height * depth).map(move |line| [line % width, line / width % height, line / width / height])
 }

@@ -1,7 +1,7 @@
 //! Holds what a driver makes of a pipeline against what the pipeline means.
 
 pub use super::compare::Difference;
-use super::compare::{compare, levels};
+use super::compare::{compare, levels, texels_of};
 use super::meaning::{self, State, imported_buffer, imported_image};
 use super::pipeline::{Count, Draw, Geometry, Life, Pass, Pipeline, Work};
 use super::spoil::Spoil;
