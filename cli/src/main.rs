@@ -14,6 +14,7 @@ mod new;
 mod notes;
 mod output;
 mod picture;
+mod placed;
 mod planning;
 mod profiles;
 mod progress;

@@ -8,9 +8,10 @@ use std::collections::HashMap;
 const MANY: usize = 20;
 const FEW: usize = 3;
 
-/// Notes for whoever checks a pipeline; why scopes are separate is for those who look into the Plan.
+/// Notes for whoever checks a pipeline; why scopes are separate is for those who look into the Plan, and what a shipped
+/// fragment leaves out by itself is for nobody.
 pub(crate) fn told(notes: &[Note]) -> impl Iterator<Item = &Note> {
-    notes.iter().filter(|note| note.stage != Stage::Scope)
+    notes.iter().filter(|note| note.stage != Stage::Scope && !note.is_of_shipped_fragment())
 }
 
 /// One line for each note, in their order; of many of one kind only for the first few, and how many more there are.

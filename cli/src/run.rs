@@ -5,7 +5,7 @@ use crate::error::{Error, Exit};
 use crate::planning::{self, Loaded, Planned, View};
 use crate::report::{Report, Setting, Validation};
 use crate::values::OutputFile;
-use crate::{files, interrupt, output, picture, progress, rows, text};
+use crate::{files, interrupt, output, picture, placed, progress, rows, text};
 use framewright_graph::frame::{Frame, Image, Lifetime, Resource};
 use framewright_graph::plan::{self, Totals};
 use framewright_graph::source::Span;
@@ -40,6 +40,7 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
     let device = Device::open(&DeviceOptions { choice, validation: arguments.validate })?;
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
     let planned = planned(arguments, &mut pipeline, &scene, &device)?;
+    placed::cameras(&planned.frame, &scene)?;
     // Now its shaders are known.
     pipeline.spare(arguments.written())?;
     let wanted = wanted(arguments, &planned)?;
@@ -163,7 +164,8 @@ fn draw(
     let mut source = SceneDrawSource::with_views(device, scene, size, &planned.plan.views)?;
     let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
     let Loaded { shaders, textures, .. } = pipeline;
-    let mut executor = Executor::with_textures(device, &planned.plan, shaders, textures, &options)?;
+    let mut executor = Executor::with_textures(device, &planned.plan, shaders, textures, &options)
+        .map_err(|problem| placed::texture(&planned.frame, problem))?;
     let progress = progress::frames(arguments.frames);
     let mut frames = Vec::new();
     for drawn in 0..arguments.frames {

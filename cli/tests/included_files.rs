@@ -254,3 +254,52 @@ fn a_circle_is_found_however_it_is_written() {
     place.file("inside/p.ron", pipeline("./p.ron"));
     check(&place, &[]).exits(1).mentions("in a circle: `p.ron` → `p.ron`");
 }
+
+/// A pipeline of one's own that uses shipped fragments.
+fn of_shipped_fragments(source: &str) -> String {
+    format!(
+        r#"Pipeline(
+    version: 1,
+    include: ["library/blur.ron", "library/tone_mapping.ron"],
+    images: [
+        (name: "color", format: Color(hdr: true), size: Output), (name: "depth", format: Depth, size: Output),
+        (name: "soft", format: Color(hdr: true), size: Output), (name: "screen", format: Output, size: Output),
+    ],
+    passes: [
+        (name: "opaque", draw: Objects(Opaque), shader: "lit", color: [(image: "color", clear: (0.0, 0.0, 0.0, 1.0))],
+            depth: (image: "depth", clear: 0.0)),
+        (use: "blur", name: "soften", with: {{"source": "{source}", "target": "soft", "times": 1}}),
+        (use: "tone_mapping", name: "show", with: {{"source": "soft", "target": "screen", "operator": "'reinhard'"}}),
+    ],
+    outputs: ["screen"],
+)"#
+    )
+}
+
+#[test]
+fn what_goes_wrong_in_a_shipped_fragment_is_said_first_where_it_is_used() {
+    let place = Place::new();
+    place.file("p.ron", of_shipped_fragments("depth"));
+    let answer = place.run(&["check", "p.ron"]).exits(1);
+    let answer = answer.mentions("is a depth image (D32_SFLOAT) and can't be a colour target\n  --> p.ron:11:29\n");
+    answer.mentions("^^^^^^^^ used here as `soften`\n").mentions("::: shipped:library/blur.ron:");
+}
+
+#[test]
+fn what_a_shipped_fragment_leaves_out_by_itself_is_told_to_programs_alone() {
+    let place = Place::new();
+    place.file("p.ron", of_shipped_fragments("color"));
+    let told = place.run(&["check", "p.ron"]).exits(0).out;
+    assert!(!told.contains("is off"), "{told}");
+    let tree = place.run(&["inspect", "p.ron"]).exits(0).out;
+    assert!(!tree.contains("is off"), "{tree}");
+    let all = place.run(&["check", "p.ron", "--format", "json"]).exits(0).out;
+    assert!(all.contains(".tone_map_scaled") && all.contains("is off: "), "{all}");
+    // What one's own file leaves out is told.
+    let own = of_shipped_fragments("color").replace("(name: \"opaque\",", "(name: \"opaque\", when: \"1 < 2\",");
+    let own =
+        own.replace("passes: [", "passes: [\n        (name: \"off\", when: \"1 > 2\", draw: Sky, color: [\"color\"]),");
+    place.file("p.ron", own);
+    let told = place.run(&["check", "p.ron"]).exits(0).out;
+    assert!(told.contains("note: `off`: is off: "), "{told}");
+}

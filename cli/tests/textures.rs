@@ -176,6 +176,7 @@ fn what_no_texture_can_be_used_for_is_said_where_it_stands() {
     place.file("textures.ron", drawn);
     let answer = place.run(&["check", "textures.ron"]).exits(1);
     let answer = answer.mentions("error: `mirror` does more with `tile` than sample it: it comes from a file");
+    let answer = answer.mentions("help: passes only sample a texture: declare an image and draw into that");
     answer
         .mentions("error: `table` is an output and comes from a file: no pass makes it")
         .mentions("--> textures.ron:");
@@ -191,7 +192,8 @@ fn a_texture_that_was_changed_after_the_check_is_no_crash() {
     place.file("pictures/tile.png", &whole[..whole.len() - 20]);
     place.run(&["check", "textures.ron"]).exits(0);
     let Some(outcome) = run(&place, Vulkan::LAVAPIPE) else { return };
-    outcome.exits(1).mentions("pictures/tile.png");
+    let answer = outcome.exits(1).mentions("error: `pictures/tile.png` is no picture that can be read: ");
+    answer.mentions("--> textures.ron:5:16");
 }
 
 #[test]

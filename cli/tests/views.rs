@@ -158,3 +158,46 @@ fn the_plan_tells_each_views_size_camera_and_passes() {
         plan["notes"].as_array().expect("notes").iter().filter_map(|it| it["text"].as_str()).collect();
     assert!(notes.contains(&"is off: tone_mapping = false in view `preview`"), "{notes:?}");
 }
+
+#[test]
+fn a_camera_that_the_scene_lacks_is_said_where_the_view_stands() {
+    let place = Place::new();
+    place.file("three.ron", three());
+    let arguments = ["three.ron", "--scene", "spheres_and_cubes", "-o", "screen.png"];
+    let Some(outcome) = run(&place, Vulkan::LAVAPIPE, &arguments) else { return };
+    outcome
+        .exits(1)
+        .mentions("error: view `preview` asks for the camera `top`; the scene has none by a name\n")
+        .mentions("--> three.ron:")
+        .mentions("help: name a camera of the scene, or leave `camera` out: the scene's own\n");
+}
+
+#[test]
+fn what_is_drawn_for_one_view_into_the_image_of_another_is_told() {
+    let place = Place::new();
+    let pipeline = |sky: &str| {
+        format!(
+            r#"Pipeline(version: 1,
+    views: [(name: "main"), (name: "preview", size: Scaled(0.25))],
+    images: [
+        (name: "screen", format: Output, size: Output), (name: "small", view: "preview", format: Output, size: Output),
+    ],
+    passes: [
+        (name: "sky", draw: Sky, color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]),
+        (name: "sky_of_preview", {sky}),
+        (name: "shown", view: "preview", draw: FullScreen("copy"), sample: {{"source": "screen"}}, color: ["small"]),
+    ],
+    outputs: ["screen", "small"])"#
+        )
+    };
+    place.file("p.ron", pipeline(r#"view: "preview", draw: Sky, color: ["screen"]"#));
+    let told = place.run(&["check", "p.ron"]).exits(0).out;
+    let note = "note: `sky_of_preview`: draws view `preview` into `screen`, which is for view `main` of another size";
+    assert!(told.contains(note) && told.contains("(p.ron:8:70)"), "{told}");
+    let small = r#"view: "preview", draw: Sky, color: [(image: "small", clear: (0.0, 0.0, 0.0, 1.0))]"#;
+    for fine in [small, r#"draw: Sky, color: ["screen"]"#] {
+        place.file("p.ron", pipeline(fine));
+        let told = place.run(&["check", "p.ron"]).exits(0).out;
+        assert!(!told.contains("another size"), "{told}");
+    }
+}

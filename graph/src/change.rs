@@ -139,3 +139,10 @@ pub struct Change {
     /// What.
     pub action: Action,
 }
+
+impl Change {
+    /// Whether it removes something of this kind.
+    pub(crate) fn removes(&self, kind: Kind) -> bool {
+        matches!(self.action, Action::Remove { of, .. } if of == kind)
+    }
+}

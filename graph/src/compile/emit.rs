@@ -289,7 +289,17 @@ fn notes(parts: &Parts<'_>) -> Vec<Note> {
         text: "does not run: no output needs what it writes".to_owned(),
         at: frame.sources.place(pass.span),
     });
-    off.chain(culled).chain(parts.notes.iter().cloned()).chain(parts.adapted.notes.iter().cloned()).collect()
+    let remarks = frame.remarks.iter().map(|remark| Note {
+        stage: Stage::Expand,
+        subject: remark.pass.clone(),
+        text: remark.text.clone(),
+        at: frame.sources.place(remark.span),
+    });
+    off.chain(remarks)
+        .chain(culled)
+        .chain(parts.notes.iter().cloned())
+        .chain(parts.adapted.notes.iter().cloned())
+        .collect()
 }
 
 /// Why an operation is there.

@@ -230,6 +230,12 @@ impl Check<'_> {
     fn files(&mut self) {
         if let Some((span, what)) = lifetimes::misused_file(self.frame, self.pass) {
             self.wrong(span, &what);
+            if let Some(error) = self.errors.last_mut() {
+                error.help = Some(
+                    "passes only sample a texture: declare an image and draw into that; the shader `copy` copies into it"
+                        .to_owned(),
+                );
+            }
         }
     }
 

@@ -34,12 +34,12 @@ fields! {
         /// Of how many frames before this one; only of what has history.
         previous: Option<Leaf<'src>> => parts::PREVIOUS,
         /// Between texels: the nearest, or a weighted mean of those around; `Linear` for colour and else `Nearest` if left out.
-        filter: Option<Leaf<'src>> => FILTER,
+        filter: Option<Leaf<'src>> => SAMPLER_FILTER,
         /// Between mip levels: the nearest, or a weighted mean of two; `Nearest` if left out.
-        mip_filter: Option<Leaf<'src>> => FILTER,
+        mip_filter: Option<Leaf<'src>> => SAMPLER_FILTER,
         /// Beyond the edges: the texels at the edge, the image again, or the image mirrored, again and again; `Clamp` if left
         /// out.
-        address: Option<Leaf<'src>> => Form::Choice("an address mode", || names(&ADDRESSES)),
+        address: Option<Leaf<'src>> => ADDRESS,
         /// A promise that each fragment reads only the texel at its own position.
         own_pixel: Option<Leaf<'src>> => Form::Truth,
     }
@@ -81,6 +81,13 @@ static FACES: Words = Words {
 
 /// How texels are mixed.
 pub(super) const FILTER: Form = Form::Choice("a filter", || names(&FILTERS));
+
+/// How texels are mixed that are sampled.
+const SAMPLER_FILTER: Form = Form::Either(&[FILTER, Form::Expression("a filter")]);
+
+/// What lies beyond the edges.
+const ADDRESS: Form =
+    Form::Either(&[Form::Choice("an address mode", || names(&ADDRESSES)), Form::Expression("an address mode")]);
 
 /// Storage images and buffers, by the shader's names.
 pub(super) const STORAGE: Form =
@@ -136,9 +143,9 @@ pub(super) fn samples<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'
             fields;
         let selected = Selected { mip, mips, layer, layers, plane, previous };
         let image = face(reader, image).map(|(name, face)| (parts::image_part(reader, scope, name, selected), face));
-        let filter = chosen(reader, filter, "a filter", &FILTERS);
-        let mip_filter = chosen(reader, mip_filter, "a filter", &FILTERS);
-        let address = chosen(reader, address, "an address mode", &ADDRESSES);
+        let filter = sampler(reader, scope, filter, "a filter", &FILTERS);
+        let mip_filter = sampler(reader, scope, mip_filter, "a filter", &FILTERS);
+        let address = sampler(reader, scope, address, "an address mode", &ADDRESSES);
         let own_pixel = match own_pixel {
             Some(leaf) => values::truth(reader, scope, leaf).map(|own| Some(leaf.spanned(own))),
             None => Some(None),
@@ -177,6 +184,18 @@ fn chosen<T: Copy>(
 ) -> Option<Option<Spanned<T>>> {
     let Some(leaf) = leaf else { return Some(None) };
     values::choice(reader, leaf, what, choices).map(|value| Some(leaf.spanned(value)))
+}
+
+/// A part of a sampler, if it is there: `None` if it is none of the words that it may be.
+fn sampler<T: Copy>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Option<Leaf<'_>>,
+    what: &str,
+    choices: &[(&'static str, T)],
+) -> Option<Option<Spanned<T>>> {
+    let Some(leaf) = leaf else { return Some(None) };
+    values::word(reader, scope, leaf, what, choices).map(|value| Some(leaf.spanned(value)))
 }
 
 /// An image's name, and which of its faces is meant.

@@ -92,7 +92,7 @@ pub(super) const SET: Form = Form::Map("setting", &settings::VALUE);
 fields! {
     /// A settings file: what one user chooses of a pipeline.
     /// ```ron
-    /// Settings(version: 1, preset: "low", set: {"msaa": 2})
+    /// Settings(version: 1, preset: "low", set: {"msaa": 4})
     /// ```
     pub(super) struct SettingsFields<'src> as "Settings" {
         /// The version of settings files: 1.

@@ -20,7 +20,7 @@ use super::surroundings::Surroundings;
 use super::textures::Pictures;
 use super::tree::Tree;
 use super::{Diagnostic, outputs, resolves, textures, views};
-use crate::change::Change;
+use crate::change::{Change, Kind};
 use crate::expression::Value;
 use crate::facts::Facts;
 use crate::fields;
@@ -34,7 +34,7 @@ fields! {
     /// Pipeline(
     ///     version: 1,
     ///     images: [(name: "screen", format: Output, size: Output)],
-    ///     passes: [(name: "show", draw: FullScreen("plain"), color: ["screen"])],
+    ///     passes: [(name: "sky", draw: Sky, color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))])],
     ///     outputs: ["screen"],
     /// )
     /// ```
@@ -123,7 +123,12 @@ impl Document {
                 settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
             let allows = Allowances::default();
             let surroundings = Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], allows, device: None };
-            let files = Read { all: tree.root(), included: &included, pictures: &loader.pictures };
+            let files = Read {
+                all: tree.root(),
+                included: &included,
+                pictures: &loader.pictures,
+                removed_view: account.changes.iter().find(|change| change.removes(Kind::View)),
+            };
             lower(&mut reader, files, &settings, values, &surroundings, true);
             let settings: Option<Vec<Setting>> = settings.into_iter().collect();
             document = settings.zip(presets.into_iter().collect()).map(|both| (both, included));
@@ -196,7 +201,12 @@ impl Document {
         let mut reader = Reader::default();
         let settings: Vec<Option<Setting>> = self.settings.iter().cloned().map(Some).collect();
         let values = values.iter().cloned().map(Some).collect();
-        let files = Read { all: self.tree.root(), included: &self.included, pictures: &self.pictures };
+        let files = Read {
+            all: self.tree.root(),
+            included: &self.included,
+            pictures: &self.pictures,
+            removed_view: self.changes().iter().find(|change| change.removes(Kind::View)),
+        };
         match lower(&mut reader, files, &settings, values, surroundings, false) {
             Some(pipeline) if reader.errors.is_empty() => {
                 let removed = self.account.removed_passes().collect();
@@ -239,6 +249,7 @@ struct Read<'t> {
     included: &'t [Tree],
     /// What textures name.
     pictures: &'t Pictures,
+    removed_view: Option<&'t Change>,
 }
 
 /// Settings, presets and what is included. `None` if the file is no pipeline.
@@ -257,13 +268,15 @@ pub(super) struct Whole<'s, 't> {
     pub(super) settings: &'s [Option<Setting>],
     pub(super) views: Option<Leaf<'t>>,
     pub(super) depth: Option<Leaf<'t>>,
+    /// The first view that is no longer there.
+    pub(super) removed_view: Option<&'s Change>,
     pub(super) outputs: Leaf<'t>,
 }
 
 /// Puts in values; `None` if errors were reported. `reading` if nothing is to be said about values.
 fn lower(
     reader: &mut Reader,
-    Read { all, included, pictures }: Read<'_>,
+    Read { all, included, pictures, removed_view }: Read<'_>,
     settings: &[Option<Setting>],
     values: Vec<Option<Value>>,
     surroundings: &Surroundings<'_>,
@@ -291,5 +304,5 @@ fn lower(
     } else {
         Lowering::new(surroundings, &fragments, pictures, false)
     };
-    lowering.whole(reader, &body, level, Whole { settings, views, depth, outputs })
+    lowering.whole(reader, &body, level, Whole { settings, views, depth, removed_view, outputs })
 }

@@ -301,8 +301,8 @@ pub(super) fn scale<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'sr
     let (by, because) = values::number_because(reader, scope, leaf)?;
     if by <= 0.0 {
         let wrong = format!("a scale is greater than 0, found {}", super::shown_number(by));
-        let wrong = Diagnostic::new(leaf.span(), wrong).remark(because.as_deref().unwrap_or_default());
-        scope.fault(reader, leaf, wrong);
+        let because = scope.within_view(because.as_deref().unwrap_or_default());
+        scope.fault(reader, leaf, Diagnostic::new(leaf.span(), wrong).remark(because));
         return None;
     }
     Some((by, because))
@@ -350,7 +350,7 @@ fn samples<'src>(
         }
     };
     if !SAMPLE_COUNTS.contains(&count) {
-        let why = because.map(|because: Arc<str>| format!(" ({because})")).unwrap_or_default();
+        let why = because.map(|because: Arc<str>| format!(" ({})", scope.within_view(&because))).unwrap_or_default();
         let name = image.as_ref().map_or("", |name| &*name.text);
         let wrong = Diagnostic::new(leaf.span(), format!("image `{name}` can't have {count} samples{why}"));
         let allowed = SAMPLE_COUNTS.map(|count| count.to_string()).join(", ");

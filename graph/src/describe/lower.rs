@@ -118,14 +118,14 @@ impl<'a, 't> Lowering<'a, 't> {
         reader: &mut Reader,
         body: &Body<'t>,
         mut level: Level,
-        Whole { settings, views, depth, outputs }: Whole<'_, 't>,
+        Whole { settings, views, depth, removed_view, outputs }: Whole<'_, 't>,
     ) -> Option<Pipeline> {
         let place = Place { prefix: "".into(), view: ViewIndex::default(), instance: None };
         if let Some(views) = views {
             level.images = vec![Block::Below; body.images.len()];
             level.buffers = vec![Block::Below; body.buffers.len()];
             let scope = self.scope(body, &level, ViewIndex::default(), None);
-            self.views = Views::read(reader, &scope, self.surroundings, settings, views);
+            self.views = Views::read(reader, &scope, self.surroundings, settings, views, removed_view);
         }
         self.body(reader, body, &mut level, &place);
         circles::find(&self.images, &self.buffers, &mut reader.errors);
@@ -184,6 +184,7 @@ impl<'a, 't> Lowering<'a, 't> {
             lenient: self.lenient,
             forgave: &self.forgave,
             early: false,
+            view: self.views.name(view),
         }
     }
 
@@ -256,6 +257,11 @@ impl<'a, 't> Lowering<'a, 't> {
                     AnyImage::Texture(fields) => textures::lower(reader, &scope, self.pictures, fields),
                 }
             });
+            let image = image.map(|image| {
+                let because = |because: Option<Arc<str>>| because.map(|because| self.views.within(view, because));
+                let (size_because, samples_because) = (because(image.size_because), because(image.samples_because));
+                Image { size_because, samples_because, ..image }
+            });
             let known = image.as_ref().map(|image| properties::of(image, &self.properties, self.extent(view)));
             let known = match known {
                 Some(Err(wrong)) => {
@@ -271,9 +277,7 @@ impl<'a, 't> Lowering<'a, 't> {
             let list = body.known.image_lists[at];
             self.images.push(image.map(|image| {
                 let name = full(place, &image.name, list.then_some(number));
-                let because = |because: Option<Arc<str>>| because.map(|because| self.views.within(view, because));
-                let (size_because, samples_because) = (because(image.size_because), because(image.samples_because));
-                Image { name, size_because, samples_because, view, instance: place.instance, ..image }
+                Image { name, view, instance: place.instance, ..image }
             }));
             // What is wrong with one is wrong with all.
             right = reader.errors.len() == before;

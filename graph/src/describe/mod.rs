@@ -71,6 +71,7 @@ pub use document::Document;
 pub(crate) use images::LARGEST_SIZE;
 pub use includes::{Files, Found, NoFiles, Unread};
 pub use json::to_json;
+pub(crate) use origins::users_first;
 pub use pass::{
     BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, Off, Param, Part, Pass, Sample, Selection,
     StandIn, Storage, StorageAccess, Uniform, Work,

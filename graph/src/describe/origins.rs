@@ -1,7 +1,7 @@
 //! Which line brought a file in: a mistake in one that was included shows both places.
 
-use super::{Diagnostic, Label};
-use crate::source::Span;
+use super::{Diagnostic, Label, SHIPPED};
+use crate::source::{Sources, Span};
 
 /// A longer way to a file is not shown whole.
 const MOST_SHOWN: usize = 10;
@@ -42,5 +42,20 @@ impl Origins {
                 error.labels.push(Label { span: origin.span, text: origin.words.to_owned() });
             }
         }
+    }
+}
+
+/// Lets mistakes that come to light in a shipped file begin with the place in the user's own file that led there: only that
+/// can be mended.
+pub(crate) fn users_first(sources: &Sources, errors: &mut [Diagnostic]) {
+    let shipped = |label: &Label| {
+        label.span.file().and_then(|file| sources.file(file)).is_some_and(|file| file.relative.starts_with(SHIPPED))
+    };
+    for error in errors.iter_mut().filter(|error| error.labels.first().is_some_and(shipped)) {
+        let Some(own) = error.labels.iter().position(|label| !shipped(label)) else { continue };
+        if error.labels[0].text.is_empty() {
+            "comes to light here".clone_into(&mut error.labels[0].text);
+        }
+        error.labels[..=own].rotate_right(1);
     }
 }

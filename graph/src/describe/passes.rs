@@ -143,7 +143,7 @@ pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &PassF
     let pass = Pass { off, otherwise, ..pass? };
     bindings_differ(reader, &pass);
     if let Some(leaf) = fields.otherwise {
-        stand_ins_make_sense(reader, fields.when.is_some(), leaf, &pass);
+        stand_ins_make_sense(reader, fields.when.is_some(), leaf, Of::Pass, &pass);
     }
     Some(pass)
 }
@@ -320,8 +320,32 @@ pub(super) fn written_buffers(pass: &Pass) -> impl Iterator<Item = BufferRef> {
     })
 }
 
+/// What `otherwise` is of.
+#[derive(Clone, Copy)]
+pub(super) enum Of {
+    Pass,
+    Use,
+}
+
+impl Of {
+    /// What is said of a stand-in for an image that is not written, and what to do.
+    const fn foreign(self) -> (&'static str, &'static str) {
+        match self {
+            Of::Pass => (
+                "`otherwise` fills an image that this pass doesn't write",
+                "it is one of the images that the pass draws into or writes",
+            ),
+            Of::Use => (
+                "`otherwise` fills an image that no pass of this use would write",
+                "it is an image in `with` that a pass of the fragment writes; what is repeated 0 times writes nothing, on or \
+                 off",
+            ),
+        }
+    }
+}
+
 /// Stand-ins fill images of the pass's own, each once, from other images.
-pub(super) fn stand_ins_make_sense(reader: &mut Reader, conditional: bool, leaf: Leaf<'_>, pass: &Pass) {
+pub(super) fn stand_ins_make_sense(reader: &mut Reader, conditional: bool, leaf: Leaf<'_>, of: Of, pass: &Pass) {
     if !conditional {
         let idle = Diagnostic::new(leaf.span(), "`otherwise` never comes to pass: there is no `when`");
         reader.report(idle.help("add `when`, or remove `otherwise`"));
@@ -337,8 +361,8 @@ pub(super) fn stand_ins_make_sense(reader: &mut Reader, conditional: bool, leaf:
             continue;
         }
         if !written(pass).any(|image| image.index == to.index) {
-            let foreign = Diagnostic::new(to.span, "`otherwise` fills an image that this pass doesn't write");
-            reader.report(foreign.help("it is one of the images that the pass draws into or writes"));
+            let (message, help) = of.foreign();
+            reader.report(Diagnostic::new(to.span, message).help(help));
         } else if let Some(first) = first.insert(to.index, to.span) {
             let twice = Diagnostic::new(to.span, "`otherwise` fills this image twice");
             reader.report(twice.remark("again here").label(first, "first here"));

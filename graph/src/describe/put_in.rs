@@ -5,7 +5,7 @@ use super::body::Body;
 use super::lower::{Lowering, Place, full};
 use super::parts;
 use super::pass::{ImagePart, Part, Pass, Work};
-use super::passes::{self, optional};
+use super::passes::{self, Of, optional};
 use super::pipeline::{BufferRef, ImageRef, Instance, Name};
 use super::reader::Reader;
 use super::scope::{Given, Level, Scope};
@@ -99,7 +99,7 @@ impl<'t> Lowering<'_, 't> {
         let work = Work::Custom { callback: name.clone(), reads: Vec::new(), writes: written };
         let pass = Pass { off, work, otherwise, view: place.view, instance: place.instance, ..Pass::idle(whole) };
         if let Some(leaf) = fields.otherwise {
-            passes::stand_ins_make_sense(reader, fields.when.is_some(), leaf, &pass);
+            passes::stand_ins_make_sense(reader, fields.when.is_some(), leaf, Of::Use, &pass);
         }
         if is_on {
             return;

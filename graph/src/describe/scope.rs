@@ -1,12 +1,13 @@
 //! What stands in quotes: names of what the level at hand declares, and expressions over them.
 
-use super::Diagnostic;
 use super::known::Known;
 use super::leaf::{Leaf, Shape};
+use super::names::Names;
 use super::parameters::{Parameter, ParameterKind};
 use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, SettingKind};
 use super::reader::Reader;
 use super::surroundings::Surroundings;
+use super::{Diagnostic, Label};
 use crate::expression::{Decision, Expression, Outcome, Type, Value, Wanted};
 use crate::frame::{BufferIndex, ImageIndex, Resource};
 use crate::source::Span;
@@ -74,6 +75,8 @@ pub(super) struct Scope<'a> {
     pub(super) forgave: &'a Cell<bool>,
     /// Whether properties of images are to be put off.
     pub(super) early: bool,
+    /// The view that the entry is for, unless it is the main one.
+    pub(super) view: Option<&'a Name>,
 }
 
 /// What a text in quotes is, where a value is wanted.
@@ -96,7 +99,10 @@ impl<'a> Scope<'a> {
         match expression.evaluate(self) {
             Ok(outcome) => Some(outcome),
             Err(errors) => {
-                for error in errors {
+                for mut error in errors {
+                    if let Some(Label { text, .. }) = error.labels.first_mut() {
+                        *text = self.within_view(text);
+                    }
                     self.fault(reader, leaf, error);
                 }
                 self.forgave.set(true);
@@ -184,6 +190,23 @@ impl<'a> Scope<'a> {
             return None;
         }
         self.given.get(at)?.as_ref().map(|given| Quoted::Given(parameter, given))
+    }
+
+    /// Whether a text is a plain name, and nothing that an expression can name is called so.
+    pub(super) fn names_nothing(&self, text: &str) -> bool {
+        let Known { given, images, buffers, .. } = self.known;
+        let one = |names: &Names| names.complete() && names.at(text).is_none();
+        let index = self.index.is_some_and(|(index, _)| *index.text == *text);
+        let word = !text.is_empty() && !is_expression(text) && !matches!(text, "true" | "false");
+        word && !index && [given, images, buffers].into_iter().all(one)
+    }
+
+    /// What decided a value, with the view that it is of if that isn't the main one.
+    pub(super) fn within_view(&self, because: &str) -> String {
+        match self.view {
+            Some(name) if !because.is_empty() => format!("{because} in view `{}`", name.text),
+            _ => because.to_owned(),
+        }
     }
 
     /// What decided the value of a setting or parameter: "msaa = 4".

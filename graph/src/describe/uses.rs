@@ -123,7 +123,10 @@ fn argument(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>, parameter: &
         },
         ParameterKind::Value(kind) => {
             let given = match leaf.shape() {
-                Shape::Text => scope.evaluate(reader, leaf, wanted(kind)).map(given)?,
+                Shape::Text => {
+                    unquoted(reader, scope, leaf, kind)?;
+                    scope.evaluate(reader, leaf, wanted(kind)).map(given)?
+                }
                 _ => Given { value: plain(reader, leaf, kind)?, decided: Vec::new() },
             };
             allowed(reader, scope, leaf, parameter, kind, &given)?;
@@ -137,7 +140,7 @@ const fn wanted(kind: &SettingKind) -> Wanted<'static> {
         SettingKind::Bool { .. } => Wanted::BOOL,
         SettingKind::OneOf { .. } | SettingKind::Integer { .. } => Wanted::INTEGER,
         SettingKind::Number { .. } => Wanted::NUMBER,
-        SettingKind::Choice { .. } => Wanted { types: &[Type::Text], words: "a text in single quotes" },
+        SettingKind::Choice { .. } => Wanted::TEXT,
     }
 }
 
@@ -152,6 +155,21 @@ fn plain(reader: &mut Reader, leaf: Leaf<'_>, kind: &SettingKind) -> Option<Valu
             None
         }
     }
+}
+
+/// Reports a word that stands where an expression is wanted, and is meant for a text: nothing is called so.
+fn unquoted(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>, kind: &SettingKind) -> Option<()> {
+    let SettingKind::Choice { of, .. } = kind else { return Some(()) };
+    let Some(word) = leaf.plain().filter(|word| scope.names_nothing(word)) else { return Some(()) };
+    let known = of.iter().any(|text| **text == *word);
+    let example = of.first().filter(|_| !known).map_or(word, |first| first);
+    let message = format!("texts in expressions stand in single quotes, found `{word}`");
+    reader.wrong(
+        leaf,
+        message,
+        &format!("write it in single quotes inside the quotes: `\"'{example}'\"`; it is {}", kind.allowed()),
+    );
+    None
 }
 
 fn allowed(

@@ -197,6 +197,31 @@ impl SettingKind {
     }
 }
 
+/// One of a few words, by itself or as the text that an expression says.
+pub(super) fn word<'src, T: Copy>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    what: &str,
+    choices: &[(&'static str, T)],
+) -> Option<T> {
+    let quoted = leaf.plain().filter(|text| !scope.names_nothing(text));
+    if quoted.is_none() {
+        return choice(reader, leaf, what, choices);
+    }
+    let Outcome { value: Value::Text(text), decided, .. } = scope.evaluate(reader, leaf, Wanted::TEXT)? else {
+        return None;
+    };
+    let found = choices.iter().find(|(word, _)| **word == *text).map(|(_, value)| *value);
+    if found.is_none() {
+        let because = scope.within_view(joined(&decided).as_deref().unwrap_or_default());
+        let wrong = Diagnostic::new(leaf.span(), format!("`{text}` is not {what}")).remark(because);
+        let known: Vec<String> = choices.iter().map(|(word, _)| format!("`'{word}'`")).collect();
+        scope.fault(reader, leaf, wrong.help(format!("it is one of {}", known.join(", "))));
+    }
+    found
+}
+
 /// One of a few words.
 pub(super) fn choice<'src, T: Copy>(
     reader: &mut Reader,

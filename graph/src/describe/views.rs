@@ -11,7 +11,8 @@ use super::pipeline::{Name, Setting};
 use super::reader::Reader;
 use super::scope::{Given, Scope};
 use super::surroundings::Surroundings;
-use super::{Diagnostic, LARGEST_SIZE, body, images, properties, shown_number, values};
+use super::{Diagnostic, LARGEST_SIZE, Label, body, images, properties, shown_number, values};
+use crate::change::{Action, Change};
 use crate::fields;
 use crate::view::{Allowances, ViewIndex};
 use std::sync::Arc;
@@ -109,8 +110,9 @@ impl<'a> Views<'a> {
         surroundings: &Surroundings<'a>,
         settings: &[Option<Setting>],
         list: Leaf<'_>,
+        removed: Option<&Change>,
     ) -> Views<'a> {
-        let mut names = Names::new("view");
+        let (mut names, before) = (Names::new("view"), reader.errors.len());
         let fields: Vec<Option<ViewFields<'_>>> = body::entries(reader, Some(list), "`views`", "view", &mut names);
         if fields.is_empty() && reader.errors.is_empty() {
             reader.wrong(list, "a frame without views shows nothing", "leave `views` out: there is one then");
@@ -118,6 +120,9 @@ impl<'a> Views<'a> {
         let mut views = Vec::with_capacity(fields.len());
         for (number, fields) in fields.into_iter().enumerate() {
             views.push(fields.and_then(|fields| view(reader, scope, surroundings, settings, number == 0, &fields)));
+            if number == 0 {
+                since_removed(&mut reader.errors[before..], removed);
+            }
         }
         Views { names, list: views }
     }
@@ -141,14 +146,15 @@ impl<'a> Views<'a> {
         self.list.get(view.0 as usize)?.as_ref().map(|(_, seen)| seen)
     }
 
+    /// The name of a view, unless it is the main one.
+    pub(super) fn name(&self, view: ViewIndex) -> Option<&Name> {
+        let (view, _) = self.list.get(view.0 as usize).filter(|_| view != ViewIndex::default())?.as_ref()?;
+        Some(&view.name)
+    }
+
     /// `because` of something within a view: of the main one as it is, else with the view's name.
     pub(super) fn within(&self, view: ViewIndex, because: Arc<str>) -> Arc<str> {
-        match self.list.get(view.0 as usize) {
-            Some(Some((View { name, .. }, _))) if view != ViewIndex::default() => {
-                format!("{because} in view `{}`", name.text).into()
-            }
-            _ => because,
-        }
+        self.name(view).map_or_else(|| because.clone(), |name| format!("{because} in view `{}`", name.text).into())
     }
 
     /// All of them. `None` if one couldn't be read.
@@ -188,6 +194,17 @@ impl<'t> Lowering<'_, 't> {
     }
 }
 
+/// Adds to mistakes in the first view that another one was the first before it was removed.
+fn since_removed(errors: &mut [Diagnostic], removed: Option<&Change>) {
+    let Some(Change { span, action: Action::Remove { name, .. } }) = removed else { return };
+    for error in errors.iter_mut().filter(|error| error.message == FIRST_IS_THE_FRAMES) {
+        error.labels.push(Label { span: *span, text: format!("`{name}` is removed here") });
+    }
+}
+
+/// Said of a first view with a size.
+const FIRST_IS_THE_FRAMES: &str = "the first view has the size of the frame";
+
 fn view<'a>(
     reader: &mut Reader,
     scope: &Scope<'_>,
@@ -202,7 +219,7 @@ fn view<'a>(
     }
     let extent = match fields.size {
         Some(leaf) if main => {
-            reader.wrong(leaf, "the first view has the size of the frame", "leave `size` out; `--size` chooses it");
+            reader.wrong(leaf, FIRST_IS_THE_FRAMES, "leave `size` out; `--size` chooses it");
             None
         }
         Some(leaf) => size(reader, scope, leaf),

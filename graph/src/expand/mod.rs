@@ -26,6 +26,7 @@ mod things;
 mod touches;
 mod transfers;
 mod variant;
+mod views;
 mod waits;
 mod work;
 mod written;
@@ -118,6 +119,7 @@ pub fn expand(
         Ok(pipeline) => pipeline,
         Err(mistakes) => {
             errors.extend(mistakes);
+            describe::users_first(&sources, &mut errors);
             return Err(errors);
         }
     };
@@ -160,10 +162,12 @@ pub fn expand(
             let passes = states.into_iter().flat_map(order::State::into_passes).collect();
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
-            Ok(Frame { sources, settings, changes, views, images, buffers, passes, outputs, switched_off })
+            let remarks = views::remarks(&chosen);
+            Ok(Frame { sources, settings, changes, views, images, buffers, passes, outputs, switched_off, remarks })
         }
         _ => {
             document.tell_origins(&mut errors);
+            describe::users_first(&sources, &mut errors);
             Err(describe::in_order(errors))
         }
     }

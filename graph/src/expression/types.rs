@@ -148,7 +148,7 @@ impl Wanted<'static> {
     /// A number; whole ones become numbers.
     pub const NUMBER: Self = Wanted { types: &[Type::Number], words: Type::Number.words() };
     /// A text.
-    pub const TEXT: Self = Wanted { types: &[Type::Text], words: Type::Text.words() };
+    pub const TEXT: Self = Wanted { types: &[Type::Text], words: "a text in single quotes" };
     /// A format.
     pub const FORMAT: Self = Wanted { types: &[Type::Format], words: Type::Format.words() };
     /// An image.

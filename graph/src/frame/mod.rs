@@ -58,6 +58,19 @@ pub struct Frame {
     pub outputs: Vec<Output>,
     /// Passes that conditions switched off, and why.
     pub switched_off: Vec<SwitchedOff>,
+    /// What is allowed and probably not meant.
+    pub remarks: Vec<Remark>,
+}
+
+/// Something about a pass that is allowed and probably not meant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remark {
+    /// The pass's name.
+    pub pass: Arc<str>,
+    /// Where that stands.
+    pub span: Span,
+    /// What it is.
+    pub text: String,
 }
 
 /// A pass that a condition switched off.

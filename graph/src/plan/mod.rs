@@ -27,6 +27,7 @@
 //! (parameters, object data, outputs) is not the Plan's: whoever executes it keeps one copy for each frame in flight.
 
 use crate::change::Action;
+use crate::describe::SHIPPED;
 use crate::format::Format;
 use crate::frame::Shape;
 use crate::source::Place;
@@ -450,6 +451,16 @@ pub struct Note {
     pub text: String,
     /// The place it comes from.
     pub at: Option<Place>,
+}
+
+impl Note {
+    /// Whether it tells which passes a shipped fragment leaves out by itself: whoever uses the fragment can do nothing
+    /// about it, and need not.
+    #[must_use]
+    pub fn is_of_shipped_fragment(&self) -> bool {
+        let shipped = self.at.as_ref().is_some_and(|place| place.file.starts_with(SHIPPED));
+        shipped && self.subject.contains('.') && matches!(self.stage, Stage::Expand | Stage::Cull)
+    }
 }
 
 /// A stage of the compiler.

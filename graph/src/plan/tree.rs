@@ -35,8 +35,9 @@ pub(super) fn tree(plan: &Plan) -> String {
         parts.push(Node::new("buffers", plan.buffers.iter().map(|it| buffer(plan, it)).collect()));
     }
     parts.push(Node::new("outputs", plan.outputs.iter().filter_map(|it| output(plan, it)).collect()));
-    if !plan.notes.is_empty() {
-        parts.push(Node::new("notes", plan.notes.iter().map(note).collect()));
+    let notes: Vec<Node> = plan.notes.iter().filter(|note| !note.is_of_shipped_fragment()).map(note).collect();
+    if !notes.is_empty() {
+        parts.push(Node::new("notes", notes));
     }
     parts.push(totals(&plan.totals));
     Node::new(format!("Plan for {}, with {memory}", Shown(&plan.device.name)), parts).draw()

@@ -95,6 +95,35 @@ fn what_extends_and_says_nothing_else_is_the_same_but_for_its_places() {
     assert_eq!(unnamed(&twice), unnamed(&base));
 }
 
+/// What the preset of [`BASE`] chooses, by the settings' names.
+fn preset(document: &Document) -> Vec<(&str, String)> {
+    let chosen = |choice: &describe::Choice| (&*document.settings[choice.setting].name.text, choice.value.to_string());
+    document.presets[0].set.iter().map(chosen).collect()
+}
+
+#[test]
+fn one_value_of_a_preset_is_set_and_the_others_stay() {
+    let changes = r#"changes: [Set(preset: "soft", to: (set: {"strength": 0.25}))]"#;
+    let (document, _) = document(&extending(changes), &[], &[]);
+    assert_eq!(preset(&document), [("strength", "0.25".to_owned()), ("haze", "true".to_owned())]);
+}
+
+#[test]
+fn a_setting_that_is_removed_is_taken_out_of_presets_and_views() {
+    let view = r#"views: [(name: "main", set: {"strength": 0.0, "haze": true})], images: ["#;
+    let with_view = BASE.replacen("images: [", view, 1);
+    let text = r#"Pipeline(version: 1, extends: "view.ron", changes: [
+        Set(pass: "mix", to: (params: {"strength": 0.25})),
+        Set(preset: "soft", to: (about: "with haze")),
+        Remove(setting: "strength"),
+    ])"#;
+    let files = [("view.ron", &*with_view)];
+    let (document, _) = document(text, &files, &[]);
+    assert_eq!(preset(&document), [("haze", "true".to_owned())]);
+    assert_eq!(document.presets[0].about.as_deref(), Some("with haze"));
+    assert_eq!(frame_of(text, &files, &[]).views.len(), 1);
+}
+
 #[test]
 fn fields_are_set_and_taken_away_and_maps_are_merged_by_key() {
     let changes = r#"changes: [

@@ -39,3 +39,38 @@ fn each_word_for_what_lies_beyond_the_edges_is_one_of_vulkans() {
         assert_eq!(sampler("R8_UNORM", &format!("address: {word}")), wanted);
     }
 }
+
+#[test]
+fn an_expression_chooses_a_filter_and_an_address_mode_by_their_words() {
+    let chosen = "filter: \"if(2 > 1, 'Nearest', 'Linear')\", mip_filter: \"'Linear'\", address: \"'Mirror'\"";
+    let wanted =
+        Sampler { mips: Filter::Linear, address: AddressMode::MirroredRepeat, ..Sampler::new(Filter::Nearest) };
+    assert_eq!(sampler("R8_UNORM", chosen), wanted);
+}
+
+#[test]
+fn a_fragment_hands_on_the_filter_that_it_is_given() {
+    let text = r#"Pipeline(
+        version: 1,
+        fragments: [(name: "look",
+            parameters: [
+                (name: "source", value: Image), (name: "target", value: Image),
+                (name: "filter", value: OneOf(default: "Linear", of: ["Nearest", "Linear"])),
+            ],
+            passes: [(name: "look", draw: FullScreen("downsample"), color: ["target"],
+                sample: {"source": (image: "source", filter: "filter")})])],
+        images: [
+            (name: "source", format: R8_UNORM, size: Output), (name: "one", format: Output, size: Output),
+            (name: "other", format: Output, size: Output),
+        ],
+        passes: [
+            (name: "fill", fill: (to: "source", value: 0)),
+            (use: "look", name: "first", with: {"source": "source", "target": "one"}),
+            (use: "look", name: "second", with: {"source": "source", "target": "other", "filter": "'Nearest'"}),
+        ],
+        outputs: ["one", "other"],
+    )"#;
+    let passes = right(text, &INPUTS).passes;
+    let filters: Vec<Filter> = passes[1..].iter().map(|pass| pass.sampled[0].sampler.filter).collect();
+    assert_eq!(filters, [Filter::Linear, Filter::Nearest]);
+}

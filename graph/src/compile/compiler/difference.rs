@@ -54,9 +54,9 @@ fn of_lists<T>(old: &[T], new: &[T], of: impl Fn(&T, &T) -> Difference) -> Diffe
 }
 
 pub(super) fn between(old: &Frame, new: &Frame) -> Difference {
-    let Frame { sources, settings, changes, views, images, buffers, passes, outputs, switched_off } = new;
+    let Frame { sources, settings, changes, views, images, buffers, passes, outputs, switched_off, remarks } = new;
     let same = old.sources == *sources && old.changes == *changes && old.outputs == *outputs;
-    if !same || old.switched_off != *switched_off {
+    if !same || old.switched_off != *switched_off || old.remarks != *remarks {
         return Structure;
     }
     unless(old.settings == *settings, Values)

@@ -9,6 +9,7 @@ use super::super::{body, outputs};
 use super::account::{Account, Changed, Removed};
 use super::draft::{self, Draft};
 use super::entry::Entry;
+use super::unset;
 use crate::change::{Action, Kind, Where};
 use crate::fields;
 use std::collections::HashSet;
@@ -31,7 +32,7 @@ fields! {
         preset: Option<Leaf<'src>> => Form::Plain(Plain::Text),
         /// Or a view.
         view: Option<Leaf<'src>> => Form::Plain(Plain::Text),
-        /// Fields with their new values, as the thing has them.
+        /// Fields with their new values, as the thing has them; entries of a map come beside those that are there.
         to: Option<Leaf<'src>> => Form::Open("fields of the thing"),
         /// Names of fields that are left out.
         without: Option<Leaf<'src>> => Form::List(&Form::Plain(Plain::Text)),
@@ -97,7 +98,8 @@ static KINDS: Words = Words {
             "Remove",
             &[Takes::Fields(RemoveFields::<'static>::table)],
             &["Remove(pass: \"second\")"],
-            "One thing is removed. What others still use can't be.",
+            "One thing is removed. What others still use can't be; but presets and views choose nothing any more for a setting \
+             that is removed.",
         ),
         Word::new(
             "Insert",
@@ -246,6 +248,9 @@ impl<'t> Change<'_, 't> {
             self.missing(kind, &name);
             return None;
         };
+        if kind == Kind::Setting {
+            unset::everywhere(self.draft, &name.text);
+        }
         let by = self.leaf.span();
         self.account.remove(Removed { kind, name: name.clone(), by, texts });
         self.account.did(by, Action::Remove { of: kind, name: name.text });
@@ -366,6 +371,10 @@ impl<'t> Change<'_, 't> {
                 "changes don't reach into a use: give it other arguments by `Set(pass: \"{outer}\", to: (with: {{…}}))`"
             )),
             Some(outer) => Some(format!("changes are of all that is repeated: `{outer}`")),
+            None if kind == Kind::Pass && self.draft.passes.has_anchor(text) => Some(format!(
+                "that is an anchor, which does nothing and stays: insert at it by `Insert(at: \"{text}\", passes: […])`, and change \
+                 or remove what stands there by its own name"
+            )),
             None => suggest::help(text, names).or_else(|| Some(format!("this pipeline has no {}", kind.plural()))),
         };
         self.reader.report(Diagnostic { help, ..unknown });

@@ -19,7 +19,7 @@ fields! {
     /// A pipeline that extends another: it begins with what that says.
     ///
     /// ```ron
-    /// Pipeline(version: 1, extends: "base.ron", changes: [Remove(pass: "second")])
+    /// Pipeline(version: 1, extends: "forward.ron", changes: [Remove(pass: "transparent")])
     /// ```
     pub(in crate::describe) struct ExtendingFields<'src> as "Pipeline" {
         /// The version of the language: 1.
@@ -62,7 +62,7 @@ fields! {
     /// An extension: what may be added to pipelines.
     ///
     /// ```ron
-    /// Extension(version: 1, about: "without the second pass", changes: [Remove(pass: "second")])
+    /// Extension(version: 1, about: "without glass", changes: [Remove(pass: "transparent")])
     /// ```
     pub(in crate::describe) struct ExtensionFields<'src> as "Extension" {
         /// The version of the language: 1.

@@ -16,6 +16,7 @@ mod entry;
 mod keyed;
 mod layers;
 mod order;
+mod unset;
 
 pub(super) use account::Account;
 pub(super) use apply::CHANGES;
