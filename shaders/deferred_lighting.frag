@@ -13,6 +13,16 @@ layout(set = 0, binding = 1) uniform sampler2D normal;
 layout(set = 0, binding = 2) uniform sampler2D emissive;
 // The depth of the same objects.
 layout(set = 0, binding = 3) uniform sampler2D depth;
+#ifdef HAS_sun_shadow
+// Depth of what casts the sun's shadows, one layer for each cascade. It may be left out, and `shadow_taps` with it.
+layout(set = 0, binding = 4) uniform TEXTURE_sun_shadow sun_shadow;
+layout(set = 0, binding = 8) uniform Params {
+    // Width of the filter at the edges of shadows in texels of the map, 1 to 7.
+    int shadow_taps;
+} params;
+#endif
+
+#include "include/sun_shadow.glsl"
 
 layout(location = 0) in vec2 uv;
 
@@ -27,7 +37,8 @@ void main() {
     }
     const vec4 from_camera = view.clip_to_world * vec4(uv * 2.0 - 1.0, place, 1.0);
     const vec3 facing = from_octahedral(textureLod(normal, uv, 0.0).xy);
-    const Reflected reflected = reflect_light(from_camera.xyz / from_camera.w, facing);
+    const vec3 position = from_camera.xyz / from_camera.w;
+    const Reflected reflected = reflect_light(position, facing, sunlit(position, facing));
     const vec3 scattered = textureLod(base_color, uv, 0.0).rgb * reflected.diffuse;
     color = vec4(guard_radiance(scattered + reflected.specular + textureLod(emissive, uv, 0.0).rgb), 1.0);
 }

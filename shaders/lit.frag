@@ -1,6 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#ifdef HAS_sun_shadow
+// Depth of what casts the sun's shadows, one layer for each cascade. It may be left out, and `shadow_taps` with it.
+layout(set = 0, binding = 0) uniform TEXTURE_sun_shadow sun_shadow;
+layout(set = 0, binding = 8) uniform Params {
+    // Width of the filter at the edges of shadows in texels of the map, 1 to 7.
+    int shadow_taps;
+} params;
+#endif
+
 #include "include/material.glsl"
 #include "include/surface.glsl"
 

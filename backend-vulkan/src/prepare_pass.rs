@@ -71,9 +71,11 @@ fn indirect(plan: &Plan, pass: &plan::Pass, offset: u64, bytes: u64) -> Result<B
 /// How the Plan has the shader of a pass compiled.
 fn variant(pass: &plan::Pass) -> Variant {
     let bindings = pass.accesses.iter().filter_map(|access| access.binding.as_ref());
+    let sampled = bindings.clone().filter(|binding| binding.kind != BindingKind::Storage);
     let local = bindings.clone().filter(|binding| binding.kind == BindingKind::InputAttachment);
     Variant {
         textures: bindings.filter_map(|it| Some((it.name.clone(), it.texture?))).collect(),
+        sampled: sampled.map(|binding| binding.name.clone()).collect(),
         local: local.map(|binding| binding.name.clone()).collect(),
         depth_only: pass.redraws.is_some(),
     }

@@ -161,7 +161,7 @@ fn draw(
     device: &Device,
 ) -> Result<(Vec<FrameReport>, Vec<Picture>), Error> {
     let size = [arguments.size.width, arguments.size.height];
-    let mut source = SceneDrawSource::with_views(device, scene, size, &planned.plan.views)?;
+    let mut source = SceneDrawSource::for_plan(device, scene, size, &planned.plan)?;
     let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
     let Loaded { shaders, textures, .. } = pipeline;
     let mut executor = Executor::with_textures(device, &planned.plan, shaders, textures, &options)

@@ -27,14 +27,16 @@ pub(crate) const PIPELINES: Shipped = carried!(
     "library/overlay.ron",
     "library/resolve.ron",
     "library/scale.ron",
+    "library/sun_shadow.ron",
     "library/tone_mapping.ron",
     "post.ron",
+    "shadows.ron",
     "snow.ron",
     "soft_focus.ron",
 );
 
 /// The scenes in `examples/scenes`.
-pub(crate) const SCENES: Shipped = carried!("scenes": "spheres_and_cubes.ron");
+pub(crate) const SCENES: Shipped = carried!("scenes": "courtyard.ron", "spheres_and_cubes.ron");
 
 /// Names by which shipped files are asked for: of those in no folder, without their ending.
 pub(crate) fn names(files: Shipped) -> impl Iterator<Item = &'static str> {

@@ -10,7 +10,7 @@ use support::{Outcome, Place, Vulkan};
 const SIZE: [u32; 2] = [160, 90];
 
 /// All shipped pipelines.
-const PIPELINES: [&str; 9] = [
+const PIPELINES: [&str; 10] = [
     "auto_exposure",
     "deferred",
     "deferred_mobile",
@@ -18,6 +18,7 @@ const PIPELINES: [&str; 9] = [
     "forward_overlay",
     "image_quality",
     "post",
+    "shadows",
     "snow",
     "soft_focus",
 ];

@@ -164,6 +164,8 @@ pub struct Variant {
     /// Names that are missing here are two-dimensional images of floating point, so that what is wrong with a pass can be
     /// told from its shader.
     pub textures: Vec<(Arc<str>, ImageShape)>,
+    /// The shader's names for what the pass samples: the macro `HAS_NAME` is defined.
+    pub sampled: Vec<Arc<str>>,
     /// The shader's names for what is read from the pass's own rendering scope, as devices with local reads let it: the
     /// macro `LOCAL_READ_NAME` is defined.
     pub local: Vec<Arc<str>>,

@@ -41,9 +41,9 @@ struct Reflected {
 };
 
 // What a surface at `position` (world space) reflects: ambient light and Lambert's cosine law, in units in which a white
-// surface that faces a light shows its radiance. Only the sun is mirrored.
-Reflected reflect_light(vec3 position, vec3 normal) {
-    const vec3 from_sun = lights.sun_radiance * max(dot(normal, lights.sun_direction), 0.0);
+// surface that faces a light shows its radiance. Only the sun is mirrored, of which the share `sunlit` arrives.
+Reflected reflect_light(vec3 position, vec3 normal, float sunlit) {
+    const vec3 from_sun = lights.sun_radiance * (sunlit * max(dot(normal, lights.sun_direction), 0.0));
     vec3 diffuse = lights.ambient_radiance + from_sun;
     for (uint i = 0u; i < lights.point_light_count; ++i) {
         const PointLight light = lights.point_lights[i];

@@ -60,4 +60,20 @@ layout(set = 1, binding = 2, std430) readonly buffer Objects {
     Object object[];
 } objects;
 
+// How the sun sees a part of the scene; see include/sun_shadow.glsl.
+struct Cascade {
+    // Depth is reversed: 1 is nearest to the sun.
+    mat4 world_to_clip;
+    // Width of a texel of its map, metres.
+    float texel;
+};
+
+layout(set = 1, binding = 3, std140) uniform Cascades {
+    // The nearest first.
+    Cascade cascade[4];
+    uint count;
+    // How far from the camera shadows reach, metres.
+    float reach;
+} cascades;
+
 #endif

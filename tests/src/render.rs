@@ -98,7 +98,7 @@ pub fn draw(
 ) -> Result<(Plan, Executor), Box<dyn Error>> {
     let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
     let plan = plan(device, setup, &mut shaders, options)?;
-    let mut draws = SceneDrawSource::new(device, setup.scene, setup.extent)?;
+    let mut draws = SceneDrawSource::for_plan(device, setup.scene, setup.extent, &plan)?;
     let how = ExecutorOptions { poison: options.poison, ..ExecutorOptions::default() };
     let mut executor = Executor::new(device, &plan, &mut shaders, &how)?;
     for _ in 0..frames {

@@ -64,7 +64,7 @@ fn demand_twin(scene: &Scene) -> Result<(), Box<dyn Error>> {
             let ray = ray(dx, dy);
             let hit = caster.cast(&ray)?;
             let position = ray.origin + ray.direction * hit.depth;
-            Some(lit_surface(material, hit.base_color, &reflect_light(scene, position, hit.normal)))
+            Some(lit_surface(material, hit.base_color, &reflect_light(scene, position, hit.normal, 1.0)))
         };
         let places = [(0.0, 0.0), (-SNAP, 0.0), (SNAP, 0.0), (0.0, -SNAP), (0.0, SNAP)];
         let expected: Vec<[f64; 4]> = places.into_iter().filter_map(twin).collect();

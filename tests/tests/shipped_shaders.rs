@@ -21,6 +21,8 @@ const DRAWN: &[(&str, Draw)] = &[
     ("bloom_shrink", Draw::FullScreen),
     ("blur", Draw::FullScreen),
     ("blur_tent", Draw::FullScreen),
+    ("casters", OPAQUE),
+    ("casters_masked", MASKED),
     ("copy", Draw::FullScreen),
     ("deferred_lighting", Draw::FullScreen),
     ("depth_resolve_average", Draw::FullScreen),

@@ -68,7 +68,7 @@ fn pictures(device: &Device, frame: &Frame, scene: &Scene, extent: [u32; 2]) -> 
     let plan = compile(frame, &device.profile(), &mut device.memory(), &Options::default()).expect("a Plan");
     assert_eq!(verify(&plan), []);
     let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interface);
-    let mut source = SceneDrawSource::with_views(device, scene, extent, &plan.views).expect("a source");
+    let mut source = SceneDrawSource::for_plan(device, scene, extent, &plan).expect("a source");
     let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default()).expect("an executor");
     executor.frame(&mut source).expect("a frame");
     (0..plan.outputs.len()).map(|output| executor.read(output).expect("its texels").bytes).collect()
@@ -99,6 +99,6 @@ fn a_camera_that_the_scene_does_not_have_is_named_with_those_it_has() {
     let Some(device) = device() else { return };
     let frame = frame(&[None, Some("top")]);
     let plan = compile(&frame, &device.profile(), &mut device.memory(), &Options::default()).expect("a Plan");
-    let said = SceneDrawSource::with_views(device, &balls(), SIZES[0], &plan.views).err().expect("no such camera");
+    let said = SceneDrawSource::for_plan(device, &balls(), SIZES[0], &plan).err().expect("no such camera");
     assert!(said.to_string().contains("view `view 1` asks for the camera `top`; the scene has `side`"), "{said}");
 }

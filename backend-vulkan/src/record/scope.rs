@@ -143,7 +143,7 @@ impl Frame<'_> {
                 }
                 1
             }
-            Draw::FullScreen | Draw::Objects(_) | Draw::Sky | Draw::Custom => {
+            Draw::FullScreen | Draw::Objects(_) | Draw::Casters(_) | Draw::Sky | Draw::Custom => {
                 source.record(pass.draw, &mut recorder)?
             }
         };

@@ -11,7 +11,7 @@ use framewright_graph::interface::{
 use framewright_graph::root::{NoFile, Root};
 use shaderc::Compiler;
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -69,7 +69,7 @@ pub struct ShaderLibrary {
 struct Source {
     found: Found,
     /// What `NAME` stands for in the macros `TEXTURE_NAME` that it mentions, each once.
-    adapting: Vec<String>,
+    mentioned: Mentioned,
 }
 
 /// A stage by its file and macros.
@@ -160,7 +160,7 @@ impl ShaderLibrary {
     /// One stage by its file name; `None` if there is no such file.
     fn stage(&mut self, file: String, stage: Stage, variant: &Variant) -> StageResult {
         let Some(source) = self.source(&file)? else { return Ok(None) };
-        let key = (file, stage, macros(&source.adapting, variant));
+        let key = (file, stage, macros(&source.mentioned, variant));
         if let Some(known) = self.stages.get(&key) {
             return known.clone();
         }
@@ -176,8 +176,8 @@ impl ShaderLibrary {
         let found = self.files.find(&FilePath::of_text(file)).map_err(|what| ShaderProblem::Unsupported { what });
         let source = found.map(|found| {
             found.map(|found| {
-                let adapting = adapting(&found.text);
-                Arc::new(Source { found, adapting })
+                let mentioned = Mentioned::by(&found.text);
+                Arc::new(Source { found, mentioned })
             })
         });
         self.sources.insert(file.to_owned(), source.clone());
@@ -185,7 +185,7 @@ impl ShaderLibrary {
     }
 
     fn compile_stage(&mut self, source: &Source, stage: Stage, macros: &Macros) -> StageResult {
-        let Source { found, adapting } = source;
+        let Source { found, mentioned } = source;
         let compiler = match &mut self.compiler {
             Some(compiler) => compiler,
             none => none.insert(Compiler::new().map_err(|error| ShaderProblem::Unsupported {
@@ -198,7 +198,7 @@ impl ShaderLibrary {
             .map_err(|what| ShaderProblem::Unsupported { what: format!("{}: {what}", found.shown) })?;
         for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
             let sampled = matches!(binding.kind, BindingKind::SampledImage(_));
-            binding.adapts = sampled && adapting.contains(&binding.name);
+            binding.adapts = sampled && mentioned.adapting.contains(&binding.name);
         }
         Ok(Some(Arc::new(CompiledStage { file: found.shown.clone(), spirv: spirv.into(), reflected })))
     }
@@ -255,29 +255,42 @@ fn changes_nothing(fragment: &ShaderInterface) -> bool {
     !fragment.discards && !fragment.writes_depth && !fragment.bindings.iter().any(|binding| writes(&binding.kind))
 }
 
-/// What the macros that depend on a pass stand for in a stage whose file mentions `TEXTURE_NAME` for each of `adapting`.
-fn macros(adapting: &[String], variant: &Variant) -> Macros {
-    let textures = adapting.iter().map(|name| {
+/// What the macros that depend on a pass stand for in a stage whose file mentions such names.
+fn macros(mentioned: &Mentioned, variant: &Variant) -> Macros {
+    let textures = mentioned.adapting.iter().map(|name| {
         let given = variant.textures.iter().find(|(given, _)| **given == **name);
         let texture = given.map_or_else(|| "sampler2D".to_owned(), |(_, texture)| texture.to_string());
         (format!("{TEXTURE}{name}"), texture)
     });
+    let sampled = variant.sampled.iter().filter(|name| mentioned.optional.iter().any(|known| **known == ***name));
+    let sampled = sampled.map(|name| (format!("{HAS}{name}"), String::new()));
     let local = variant.local.iter().map(|name| (format!("LOCAL_READ_{name}"), String::new()));
     let depth_only = variant.depth_only.then(|| ("DEPTH_ONLY".to_owned(), String::new()));
-    textures.chain(local).chain(depth_only).collect()
+    textures.chain(sampled).chain(local).chain(depth_only).collect()
 }
 
 /// Macros of this beginning stand for the types of what a pass samples.
 const TEXTURE: &str = "TEXTURE_";
 
-/// The names that a GLSL text mentions behind [`TEXTURE`] outside comments, each once, in order.
-fn adapting(text: &str) -> Vec<String> {
-    let text = without_comments(text);
-    let words = text.split(|letter: char| letter != '_' && !letter.is_ascii_alphanumeric());
-    let mut names: Vec<String> = words.filter_map(|word| word.strip_prefix(TEXTURE)).map(str::to_owned).collect();
-    names.sort_unstable();
-    names.dedup();
-    names
+/// Macros of this beginning are there if a pass samples what they name.
+const HAS: &str = "HAS_";
+
+/// The names that a GLSL text mentions behind [`TEXTURE`] and [`HAS`] outside comments, each once, in order.
+struct Mentioned {
+    adapting: Vec<String>,
+    optional: Vec<String>,
+}
+
+impl Mentioned {
+    fn by(text: &str) -> Mentioned {
+        let text = without_comments(text);
+        let behind = |beginning: &str| {
+            let words = text.split(|letter: char| letter != '_' && !letter.is_ascii_alphanumeric());
+            let names = words.filter_map(|word| word.strip_prefix(beginning)).map(str::to_owned);
+            names.collect::<BTreeSet<String>>().into_iter().collect()
+        };
+        Mentioned { adapting: behind(TEXTURE), optional: behind(HAS) }
+    }
 }
 
 /// A GLSL text with a blank in place of each comment.
@@ -300,7 +313,7 @@ fn without_comments(text: &str) -> String {
 /// The vertex shader of a kind of draw, for shaders without one of their own.
 fn vertex_shader_of(draw: Draw) -> &'static str {
     match draw {
-        Draw::Objects(_) => "objects.vert",
+        Draw::Objects(_) | Draw::Casters(_) => "objects.vert",
         Draw::Sky => "sky.vert",
         Draw::FullScreen | Draw::Custom => "full_screen.vert",
         Draw::Vertices { .. } | Draw::Indirect => "vertices.vert",
@@ -345,12 +358,12 @@ fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterf
 
 #[cfg(test)]
 mod tests {
-    use super::adapting;
+    use super::Mentioned;
 
     #[test]
     fn a_macro_that_only_a_comment_mentions_adapts_nothing() {
         let text = "// TEXTURE_a\nuniform TEXTURE_b b; /* TEXTURE_c\nTEXTURE_d */ uniform TEXTURE_e/**/e; // TEXTURE_f";
-        assert_eq!(adapting(text), ["b", "e"]);
-        assert_eq!(adapting("uniform TEXTURE_b b; /* TEXTURE_c"), ["b"]);
+        assert_eq!(Mentioned::by(text).adapting, ["b", "e"]);
+        assert_eq!(Mentioned::by("uniform TEXTURE_b b; /* TEXTURE_c").adapting, ["b"]);
     }
 }

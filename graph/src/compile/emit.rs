@@ -280,7 +280,10 @@ fn notes(parts: &Parts<'_>) -> Vec<Note> {
     let off = frame.switched_off.iter().map(|off| Note {
         stage: Stage::Expand,
         subject: off.name.clone(),
-        text: format!("is off: {}", off.because),
+        text: match &off.sampled {
+            Some(name) => format!("is compiled without `{name}`: {}", off.because),
+            None => format!("is off: {}", off.because),
+        },
         at: frame.sources.place(off.span),
     });
     let culled = parts.live.culled.iter().map(|pass| &frame.passes[*pass as usize]).map(|pass| Note {

@@ -3,7 +3,8 @@
 use super::forms::{Described, Form, Takes, Word, Words, names};
 use super::leaf::{Leaf, Shape};
 use super::parts::{self, Selected};
-use super::pass::{Face, Param, Part, Sample, Storage, StorageAccess, Uniform};
+use super::pass::{Face, LeftOut, Param, Part, Sample, Storage, StorageAccess, Uniform};
+use super::passes::{self, optional};
 use super::pipeline::Name;
 use super::reader::Reader;
 use super::scope::Scope;
@@ -42,6 +43,8 @@ fields! {
         address: Option<Leaf<'src>> => ADDRESS,
         /// A promise that each fragment reads only the texel at its own position.
         own_pixel: Option<Leaf<'src>> => Form::Truth,
+        /// A condition: if it is false, the shader is compiled without it.
+        when: Option<Leaf<'src>> => passes::CONDITION,
     }
 }
 
@@ -132,28 +135,48 @@ const ADDRESSES: [(&str, AddressMode); 3] =
 const ACCESSES: [(&str, StorageAccess); 3] =
     [("Read", StorageAccess::Read), ("Write", StorageAccess::Write), ("ReadWrite", StorageAccess::ReadWrite)];
 
-/// Images by the shader's names.
-pub(super) fn samples<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Sample>> {
-    entries(reader, leaf, "`sample`", "a sampled image", |reader, binding, value| {
+/// Images by the shader's names, and those that conditions leave out.
+pub(super) fn samples<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+) -> Option<(Vec<Sample>, Vec<LeftOut>)> {
+    let mut left_out = Vec::new();
+    let all = entries(reader, leaf, "`sample`", "a sampled image", |reader, binding, value| {
         let fields = match value.shape() {
             Shape::Parentheses => reader.read(value, "a sampled image")?,
             _ => SampleFields::plain(value),
         };
-        let SampleFields { image, mip, mips, layer, layers, plane, previous, filter, mip_filter, address, own_pixel } =
-            fields;
-        let selected = Selected { mip, mips, layer, layers, plane, previous };
-        let image = face(reader, image).map(|(name, face)| (parts::image_part(reader, scope, name, selected), face));
-        let filter = sampler(reader, scope, filter, "a filter", &FILTERS);
-        let mip_filter = sampler(reader, scope, mip_filter, "a filter", &FILTERS);
-        let address = sampler(reader, scope, address, "an address mode", &ADDRESSES);
-        let own_pixel = match own_pixel {
-            Some(leaf) => values::truth(reader, scope, leaf).map(|own| Some(leaf.spanned(own))),
-            None => Some(None),
-        };
-        let (part, face) = image?;
-        let (binding, part, own_pixel) = (binding?, part?, own_pixel?);
-        Some(Sample { binding, part, face, filter: filter?, mip_filter: mip_filter?, address: address?, own_pixel })
-    })
+        let off = optional(fields.when, |leaf| passes::when(reader, scope, leaf)).map(Option::flatten);
+        let is_off = matches!(off, Some(Some(_)));
+        let scope = &Scope { lenient: scope.lenient || is_off, ..*scope };
+        let before = reader.errors.len();
+        let sample = sample(reader, scope, binding.clone(), fields);
+        match off? {
+            None => sample.map(Some),
+            // What has no value because it is left out is no mistake.
+            Some(off) if reader.errors.len() == before => {
+                left_out.push(LeftOut { binding: binding?, off });
+                Some(None)
+            }
+            Some(_) => None,
+        }
+    })?;
+    Some((all.into_iter().flatten().collect(), left_out))
+}
+
+fn sample(reader: &mut Reader, scope: &Scope<'_>, binding: Option<Name>, fields: SampleFields<'_>) -> Option<Sample> {
+    let SampleFields { image, mip, mips, layer, layers, plane, previous, .. } = fields;
+    let SampleFields { filter, mip_filter, address, own_pixel, .. } = fields;
+    let selected = Selected { mip, mips, layer, layers, plane, previous };
+    let image = face(reader, image).map(|(name, face)| (parts::image_part(reader, scope, name, selected), face));
+    let filter = sampler(reader, scope, filter, "a filter", &FILTERS);
+    let mip_filter = sampler(reader, scope, mip_filter, "a filter", &FILTERS);
+    let address = sampler(reader, scope, address, "an address mode", &ADDRESSES);
+    let own_pixel = optional(own_pixel, |leaf| values::truth(reader, scope, leaf).map(|own| leaf.spanned(own)));
+    let (part, face) = image?;
+    let (binding, part, own_pixel) = (binding?, part?, own_pixel?);
+    Some(Sample { binding, part, face, filter: filter?, mip_filter: mip_filter?, address: address?, own_pixel })
 }
 
 impl<'src> SampleFields<'src> {
@@ -171,6 +194,7 @@ impl<'src> SampleFields<'src> {
             mip_filter: None,
             address: None,
             own_pixel: None,
+            when: None,
         }
     }
 }

@@ -73,8 +73,8 @@ pub use includes::{Files, Found, NoFiles, Unread};
 pub use json::to_json;
 pub(crate) use origins::users_first;
 pub use pass::{
-    BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, Off, Param, Part, Pass, Sample, Selection,
-    StandIn, Storage, StorageAccess, Uniform, Work,
+    BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, LeftOut, Off, Param, Part, Pass, Sample,
+    Selection, StandIn, Storage, StorageAccess, Uniform, Work,
 };
 pub use pipeline::{
     BufferRef, ImageRef, Instance, Name, Output, Pipeline, RemovedPass, ResourceRef, Setting, SettingKind, Spanned,

@@ -2,7 +2,7 @@
 
 use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, Spanned};
 use super::resources::Fill;
-use crate::frame::{Blend, DrawList, ParamValue, StencilState};
+use crate::frame::{Blend, Cascade, DrawList, ParamValue, StencilState};
 use crate::source::Span;
 use crate::view::ViewIndex;
 use crate::vocabulary::{AddressMode, Aspects, CompareOp, Filter};
@@ -19,6 +19,8 @@ pub struct Pass {
     pub work: Work,
     /// Images that its shaders sample.
     pub sample: Vec<Sample>,
+    /// Images that its shaders would sample, had conditions not left them out.
+    pub left_out: Vec<LeftOut>,
     /// Images and buffers that its shaders read and write by themselves.
     pub storage: Vec<Storage>,
     /// Buffers that its shaders read as uniform blocks.
@@ -50,6 +52,15 @@ pub struct Off {
     pub span: Span,
     /// What made the condition fail: "tone_mapping = false".
     pub because: String,
+}
+
+/// A sampled image that a condition leaves out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOut {
+    /// The shader's name for it.
+    pub binding: Name,
+    /// Why.
+    pub off: Off,
 }
 
 /// What a pass does.
@@ -108,6 +119,8 @@ pub enum Work {
 pub enum Draw {
     /// One of the scene's draw lists.
     Objects(DrawList),
+    /// What casts the sun's shadow.
+    Casters(Cascade),
     /// The sky.
     Sky,
     /// One triangle that covers every pixel.

@@ -157,6 +157,7 @@ impl Pass {
             off: None,
             work,
             sample: Vec::new(),
+            left_out: Vec::new(),
             storage: Vec::new(),
             uniform: Vec::new(),
             vertex: None,
@@ -181,7 +182,7 @@ fn parts_of<'src>(
 ) -> Option<Pass> {
     let what = name.map_or_else(|| "this pass".to_owned(), |name| format!("pass `{}`", name.text));
     let work = work::lower(reader, scope, fields, &what);
-    let sample = optional(fields.sample, |leaf| bindings::samples(reader, scope, leaf));
+    let sample = optional(fields.sample, |leaf| bindings::samples(reader, scope, leaf)).map(Option::unwrap_or_default);
     let storage = optional(fields.storage, |leaf| bindings::storage(reader, scope, leaf));
     let uniform = optional(fields.uniform, |leaf| bindings::uniforms(reader, scope, leaf));
     let vertex = optional(fields.vertex, |leaf| parts::buffer(reader, scope, leaf));
@@ -193,9 +194,11 @@ fn parts_of<'src>(
     if let (Some(color), Some(depth)) = (&color, &depth) {
         targets_make_sense(reader, fields, &what, color.as_deref().unwrap_or(&[]), depth.as_ref());
     }
+    let (sample, left_out) = sample?;
     Some(Pass {
         work: work?,
-        sample: sample?.unwrap_or_default(),
+        sample,
+        left_out,
         storage: storage?.unwrap_or_default(),
         uniform: uniform?.unwrap_or_default(),
         vertex: vertex?,

@@ -5,6 +5,7 @@
 //! ```
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
+mod casters;
 mod depth_only;
 mod fills;
 mod images;
@@ -134,10 +135,17 @@ pub fn expand(
     for pass in &pipeline.passes {
         let before = errors.len();
         targets::fit(&chosen, &things, pass, &mut errors);
+        let left_out = pass.left_out.iter().filter(|_| pass.off.is_none());
+        switched_off.extend(left_out.map(|describe::LeftOut { binding, off }| SwitchedOff {
+            name: pass.name.text.clone(),
+            sampled: Some(binding.text.clone()),
+            span: off.span,
+            because: off.because.clone(),
+        }));
         states.push(match &pass.off {
             Some(describe::Off { span, because }) => {
                 let name = pass.name.text.clone();
-                switched_off.push(SwitchedOff { name, span: *span, because: because.clone() });
+                switched_off.push(SwitchedOff { name, sampled: None, span: *span, because: because.clone() });
                 // What a pass that is off would do wrong does no harm.
                 let would = passes::draft(&chosen, &things, pass, None, &mut Vec::new());
                 let stand_ins = passes::stand_ins(&things, pass, because, &mut errors);
@@ -149,6 +157,7 @@ pub fn expand(
         used_here(&pipeline, pass.instance, &mut errors[before..]);
     }
     depth_only::note(&chosen, &things, &mut states, &mut checked);
+    casters::agree(&pipeline.passes, &states, &mut errors);
     let outputs = outputs(&chosen, &things, inputs.dump, &mut errors);
     let before = errors.len();
     order::check(&chosen, &things, &states, &outputs, &mut errors);

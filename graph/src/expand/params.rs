@@ -10,6 +10,7 @@ use std::sync::Arc;
 pub(super) fn give(
     pass: &describe::Pass,
     interface: &ShaderInterface,
+    whole: Option<&ShaderInterface>,
     errors: &mut Vec<Diagnostic>,
 ) -> Vec<(Arc<str>, ParamValue)> {
     let Some(Name { text: shader, span: named }) = pass.shader() else { return Vec::new() };
@@ -20,6 +21,9 @@ pub(super) fn give(
     for param in &pass.params {
         let name = &param.name.text;
         let Some(member) = block.members.iter().find(|member| member.name == **name) else {
+            if whole.and_then(self::block).is_some_and(|whole| whole.members.iter().any(|it| it.name == **name)) {
+                continue;
+            }
             misspelt.extend(nearest(name, block.members.iter().map(|member| &*member.name)));
             let unknown = format!("shader `{shader}` has no parameter named `{name}`");
             let help = suggestion(name, block.members.iter().map(|member| &*member.name))

@@ -38,7 +38,10 @@ pub(super) fn lower(
         }
         misspelt.extend(storage::check(chosen, things, pass, &lowered, interface, errors));
         shader::missing(pass, interface, &misspelt, errors);
-        lowered.params = params::give(pass, interface, errors);
+        let whole = variant::with_all(&variant, pass);
+        let whole = (!pass.left_out.is_empty()).then(|| shaders.interface(pass, &whole, errors)).flatten();
+        sampled::check_left_out(pass, whole.as_ref(), errors);
+        lowered.params = params::give(pass, interface, whole.as_ref(), errors);
         targets::fed(things, pass, interface, errors);
     } else if let Described::Custom { .. } = pass.work {
         lowered.params = params::as_written(pass);

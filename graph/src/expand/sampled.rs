@@ -144,6 +144,18 @@ pub(super) fn check<'i>(
     misspelt
 }
 
+/// Reports what conditions leave out and the shader wouldn't sample anyway. `whole` is what it is with all of them.
+pub(super) fn check_left_out(pass: &describe::Pass, whole: Option<&ShaderInterface>, errors: &mut Vec<Diagnostic>) {
+    let (Some(whole), Some(shader)) = (whole, pass.shader()) else { return };
+    for describe::LeftOut { binding, .. } in &pass.left_out {
+        if declared(whole, &binding.text).is_none() {
+            let unknown = format!("shader `{}` samples no image named `{}`", shader.text, binding.text);
+            let help = suggestion(&binding.text, names(whole));
+            errors.push(Diagnostic { help, ..Diagnostic::new(binding.span, unknown) });
+        }
+    }
+}
+
 struct Check<'a> {
     chosen: &'a Chosen<'a>,
     pass: &'a describe::Pass,

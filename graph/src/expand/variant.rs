@@ -16,7 +16,14 @@ pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) ->
         let range = parts::range(chosen, things, &sample.part, &mut Vec::new());
         Some((sample.binding.text.clone(), texture(image, &parts::cells(image, &range), sample.face)))
     };
-    Variant { textures: pass.sample.iter().filter_map(texture).collect(), ..Variant::default() }
+    let sampled = pass.sample.iter().map(|sample| sample.binding.text.clone()).collect();
+    Variant { textures: pass.sample.iter().filter_map(texture).collect(), sampled, ..Variant::default() }
+}
+
+/// The variant that its shader would have if no condition left anything out.
+pub(super) fn with_all(variant: &Variant, pass: &describe::Pass) -> Variant {
+    let left_out = pass.left_out.iter().map(|left_out| left_out.binding.text.clone());
+    Variant { sampled: variant.sampled.iter().cloned().chain(left_out).collect(), ..variant.clone() }
 }
 
 /// As what a shader that leaves it to the pass declares a part of an image.

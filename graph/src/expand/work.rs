@@ -12,6 +12,7 @@ use crate::vocabulary::{FillValue, Filter};
 pub(super) fn draw(draw: &describe::Draw) -> Draw {
     match draw {
         describe::Draw::Objects(list) => Draw::Objects(*list),
+        describe::Draw::Casters(cascade) => Draw::Casters(*cascade),
         describe::Draw::Sky => Draw::Sky,
         describe::Draw::FullScreen => Draw::FullScreen,
         describe::Draw::Vertices { count, instances } => Draw::Vertices { count: *count, instances: *instances },

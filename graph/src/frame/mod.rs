@@ -14,7 +14,7 @@ mod resource;
 mod touch;
 
 pub use output::Output;
-pub use pass::{Draw, DrawList, Groups, ParamValue, Pass, Work};
+pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Work};
 pub use resource::{Buffer, Image, Lifetime, Resolve, Shape};
 pub use touch::{
     Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,
@@ -56,7 +56,7 @@ pub struct Frame {
     pub passes: Vec<Pass>,
     /// Images and buffers whose last version the frame is made for.
     pub outputs: Vec<Output>,
-    /// Passes that conditions switched off, and why.
+    /// Passes, and what they sample, that conditions switched off, and why.
     pub switched_off: Vec<SwitchedOff>,
     /// What is allowed and probably not meant.
     pub remarks: Vec<Remark>,
@@ -73,11 +73,13 @@ pub struct Remark {
     pub text: String,
 }
 
-/// A pass that a condition switched off.
+/// A pass, or an image that it samples, that a condition switched off.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SwitchedOff {
-    /// Its name.
+    /// The pass's name.
     pub name: Arc<str>,
+    /// The shader's name for what isn't sampled; `None`: the pass doesn't run.
+    pub sampled: Option<Arc<str>>,
     /// Where the condition stands.
     pub span: Span,
     /// The condition with its value: "tone_mapping = false".

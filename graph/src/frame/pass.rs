@@ -132,6 +132,8 @@ pub enum Groups {
 pub enum Draw {
     /// One of the scene's draw lists.
     Objects(DrawList),
+    /// What casts the sun's shadow, as the sun sees it.
+    Casters(Cascade),
     /// The sky, behind everything.
     Sky,
     /// One triangle that covers every pixel.
@@ -149,6 +151,45 @@ pub enum Draw {
     Indirect,
     /// What the embedding program records inside the rendering scope, known to it by the pass's shader name.
     Custom,
+}
+
+/// One of the parts, by distance from the camera, of what the sun's shadows fall on; each has a shadow map of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cascade {
+    /// Which of the objects that may cast shadows are drawn.
+    pub list: DrawList,
+    /// Which part, from 0, the nearest.
+    pub index: u32,
+    /// How many there are, 1 to [`Cascade::MOST`].
+    pub of: u32,
+    /// How far shadows reach; `None`: through the whole scene.
+    pub reach: Option<Metres>,
+}
+
+impl Cascade {
+    /// There are at most so many.
+    pub const MOST: u32 = 4;
+}
+
+/// A length in metres, finite and above 0.
+// Bits of such numbers are ordered as the numbers are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "f32", into = "f32")]
+pub struct Metres(u32);
+
+impl TryFrom<f32> for Metres {
+    type Error = &'static str;
+
+    fn try_from(metres: f32) -> Result<Metres, &'static str> {
+        if metres.is_finite() && metres > 0.0 { Ok(Metres(metres.to_bits())) } else { Err("no length above 0") }
+    }
+}
+
+impl From<Metres> for f32 {
+    fn from(metres: Metres) -> f32 {
+        f32::from_bits(metres.0)
+    }
 }
 
 /// The scene's draw lists.

@@ -9,7 +9,7 @@ use super::{
     Totals, Transfer, View, Wait, Work,
 };
 use crate::encoding::Encoding;
-use crate::frame::{Blend, BufferRole, Draw, DrawList, Groups, ParamValue, StencilState};
+use crate::frame::{Blend, BufferRole, Cascade, Draw, DrawList, Groups, ParamValue, StencilState};
 use crate::source::Place;
 use crate::texture::ColorSpace;
 use crate::view::Allowances;
@@ -133,9 +133,8 @@ impl Tree<'_> {
 
     fn pass(self, pass: &Pass) -> Node {
         let work = match (pass.draw, pass.groups) {
-            (Some(Draw::Objects(DrawList::Opaque)), _) => "draws opaque objects".to_owned(),
-            (Some(Draw::Objects(DrawList::Masked)), _) => "draws masked objects".to_owned(),
-            (Some(Draw::Objects(DrawList::Transparent)), _) => "draws transparent objects".to_owned(),
+            (Some(Draw::Objects(list)), _) => format!("draws {} objects", words_of_list(list)),
+            (Some(Draw::Casters(cascade)), _) => casters(cascade),
             (Some(Draw::Sky), _) => "draws the sky".to_owned(),
             (Some(Draw::FullScreen), _) => "draws the full screen".to_owned(),
             (Some(Draw::Vertices { count, instances }), _) => format!("draws {count} × {instances} vertices"),
@@ -301,6 +300,20 @@ fn hazard(who: &str, hazard: Hazard, after: Option<StepId>) -> String {
         Hazard::Export => format!("promised state, after {after}"),
         Hazard::Ownership => format!("another queue takes it over after {after}"),
     }
+}
+
+fn words_of_list(list: DrawList) -> &'static str {
+    match list {
+        DrawList::Opaque => "opaque",
+        DrawList::Masked => "masked",
+        DrawList::Transparent => "transparent",
+    }
+}
+
+fn casters(Cascade { list, index, of, reach }: Cascade) -> String {
+    let reach = reach.map_or_else(|| "the whole scene".to_owned(), |reach| format!("{} m", f32::from(reach)));
+    let list = words_of_list(list);
+    format!("draws {list} objects as the sun sees them, cascade {index} of {of} through {reach}")
 }
 
 fn view(view: &View) -> Node {

@@ -4,7 +4,7 @@ use framewright_graph::describe::{self, Diagnostic, Files, Found, NoFiles, Unrea
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::file_path::FilePath;
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Draw, DrawList, Frame};
+use framewright_graph::frame::{Draw, Frame};
 use framewright_graph::interface::{
     Attribute, Binding, BindingKind, Block, Component, Dimension, DrawInterface, FragmentOutput, ImageShape, Member,
     ShaderInterface, ShaderInterfaces, ShaderProblem, Supplied, SuppliedKind, Variant, VertexInput,
@@ -161,6 +161,14 @@ fn compute_shader(name: &str) -> Option<ShaderInterface> {
 
 const NAMES: &[&str] = &["blur", "downsample", "lit", "lit_masked", "reinhard", "sky", "soft_focus", "tone_map"];
 
+/// What lights surfaces may be given shadow maps.
+fn shadowed(mut shader: ShaderInterface, variant: &Variant) -> ShaderInterface {
+    if variant.sampled.iter().any(|name| **name == *"sun_shadow") {
+        shader.bindings.extend([adapting("sun_shadow", variant), params(&[("shadow_taps", "int")])]);
+    }
+    shader
+}
+
 /// What is read from the pass's own rendering scope is declared so.
 fn read_locally(mut shader: ShaderInterface, variant: &Variant) -> ShaderInterface {
     for binding in shader.bindings.iter_mut().filter(|it| variant.local.iter().any(|local| **local == *it.name)) {
@@ -174,8 +182,9 @@ impl ShaderInterfaces for Table {
         let float = Component::Float;
         let source = || texture("source", 0, false, float);
         let shader = match name {
-            "lit" => lit(false),
-            "lit_masked" => lit(true),
+            "lit" => shadowed(lit(false), variant),
+            "lit_masked" => shadowed(lit(true), variant),
+            "casters" | "casters_masked" => ShaderInterface { outputs: Vec::new(), ..lit(name == "casters_masked") },
             "forgetful" => lit(!variant.depth_only),
             "marked" => {
                 let mut marked = lit(true);
@@ -329,7 +338,7 @@ impl ShaderInterfaces for Table {
         let view = supplied(1, 0, "view", SuppliedKind::UniformBlock);
         let lights = supplied(1, 1, "lights", SuppliedKind::StorageBlock);
         match draw {
-            Draw::Objects(DrawList::Opaque | DrawList::Masked | DrawList::Transparent) => DrawInterface {
+            Draw::Objects(_) | Draw::Casters(_) => DrawInterface {
                 vertex_stride: 32,
                 attributes: vec![
                     Attribute { name: "position", components: 3, offset: 0 },

@@ -7,12 +7,16 @@ use super::block::Block;
 use crate::scene::{AlphaMode, Camera, Scene};
 use glam::{DMat3, DMat4, DVec3, Mat4, Vec3};
 
-/// Clip space from the shaders' world space, and back. `aspect` is width over height.
+/// Clip space from the shaders' world space. `aspect` is width over height.
 ///
 /// Depth is reversed without a far plane: 1 on the near plane, 0 infinitely far. Clip space is Vulkan's: y down.
-pub(super) fn view_block(camera: &Camera, aspect: f64) -> Vec<u8> {
+pub(super) fn world_to_clip(camera: &Camera, aspect: f64) -> DMat4 {
     let rotation = DMat4::from_mat3(DMat3::from_mat4(camera.transform.as_dmat4()).inverse());
-    let world_to_clip = camera.projection(aspect).as_dmat4() * rotation;
+    camera.projection(aspect).as_dmat4() * rotation
+}
+
+/// Clip space from the shaders' world space, whose origin is at the camera, and back.
+pub(super) fn view_block(camera: &Camera, world_to_clip: DMat4) -> Vec<u8> {
     let mut block = Block::default();
     block.mat4(world_to_clip.as_mat4());
     block.mat4(world_to_clip.inverse().as_mat4());

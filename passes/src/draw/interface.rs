@@ -14,6 +14,8 @@ pub const VIEW_BINDING: u32 = 0;
 pub const LIGHTS_BINDING: u32 = 1;
 /// Binding of matrices and material factors by object, in [`FRAME_SET`].
 pub const OBJECTS_BINDING: u32 = 2;
+/// Binding of how the sun sees the scene, in [`FRAME_SET`].
+pub const CASCADES_BINDING: u32 = 3;
 /// Binding of the base colour's texture, in [`MATERIAL_SET`].
 pub const BASE_COLOR_TEXTURE_BINDING: u32 = 0;
 
@@ -29,9 +31,10 @@ pub fn interface(draw: Draw) -> DrawInterface {
         frame(VIEW_BINDING, "view", SuppliedKind::UniformBlock),
         frame(LIGHTS_BINDING, "lights", SuppliedKind::StorageBlock),
         frame(OBJECTS_BINDING, "objects", SuppliedKind::StorageBlock),
+        frame(CASCADES_BINDING, "cascades", SuppliedKind::UniformBlock),
     ];
     match draw {
-        Draw::Objects(_) => {
+        Draw::Objects(_) | Draw::Casters(_) => {
             supplied.push(Supplied {
                 set: MATERIAL_SET,
                 binding: BASE_COLOR_TEXTURE_BINDING,

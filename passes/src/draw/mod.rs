@@ -1,6 +1,7 @@
 //! What a draw brings along, and the draw source that draws a scene.
 
 mod block;
+pub mod cascades;
 mod frame_data;
 mod geometry;
 mod interface;
@@ -9,7 +10,8 @@ mod source;
 mod textures;
 
 pub use interface::{
-    BASE_COLOR_TEXTURE_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING, VIEW_BINDING, interface,
+    BASE_COLOR_TEXTURE_BINDING, CASCADES_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING,
+    VIEW_BINDING, interface,
 };
 pub use lists::{draw_order, draw_order_from};
 pub use source::{MOST_POINT_LIGHTS, SceneDrawSource};

@@ -1,13 +1,16 @@
 //! Draws a scene.
 
-use super::frame_data::{lights_block, objects_block, view_block};
+use super::cascades::{self, Map, cascades_block, seen_by_sun};
+use super::frame_data::{lights_block, objects_block, view_block, world_to_clip};
 use super::geometry::Geometry;
-use super::interface::{FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING, VIEW_BINDING, interface};
+use super::interface::{
+    CASCADES_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING, VIEW_BINDING, interface,
+};
 use super::lists::draw_order_from;
 use super::textures::Textures;
 use crate::scene::{Camera, Scene};
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::plan::View;
+use framewright_graph::plan::{Plan, View, ViewId};
 use framewright_vulkan::{BindGroup, BufferUsage, CullMode, Device, DrawSource, Error, FrontFace, Recorder, Resource};
 
 /// Every fragment looks at every point light, so their number is kept small.
@@ -30,6 +33,15 @@ pub struct SceneDrawSource {
 struct Seen {
     frame: BindGroup,
     transparent: Vec<ObjectDraw>,
+    /// By cascade, the nearest first.
+    cascades: Vec<SeenBySun>,
+}
+
+/// What the sun sees of a cascade.
+struct SeenBySun {
+    frame: BindGroup,
+    opaque: Vec<ObjectDraw>,
+    masked: Vec<ObjectDraw>,
 }
 
 /// One object, with the state that it wants.
@@ -47,18 +59,31 @@ impl SceneDrawSource {
     /// # Errors
     /// More than [`MOST_POINT_LIGHTS`] point lights, a texture or scene larger than the device takes, or no memory.
     pub fn new(device: &Device, scene: &Scene, extent: [u32; 2]) -> Result<SceneDrawSource, Error> {
-        SceneDrawSource::with_views(device, scene, extent, &[])
+        SceneDrawSource::seen_from(device, scene, &[(scene.camera, extent, Vec::new())])
     }
 
-    /// Uploads a scene for the views of a Plan, each with its camera; if there are none, as [`SceneDrawSource::new`] does.
+    /// Uploads a scene for the views of a Plan, each with its camera, and for the sun's shadows in each; a Plan without views
+    /// is for the default camera's, of which `extent` is as in [`SceneDrawSource::new`].
     ///
     /// # Errors
     /// Those of [`SceneDrawSource::new`]; [`Error::DrawSource`] if the scene has no camera that a view names.
-    pub fn with_views(
+    pub fn for_plan(device: &Device, scene: &Scene, extent: [u32; 2], plan: &Plan) -> Result<SceneDrawSource, Error> {
+        let mut views = Vec::with_capacity(plan.views.len());
+        for (number, view) in (0..).map(ViewId).zip(&plan.views) {
+            let camera = scene.camera_named(view.camera.as_deref()).ok_or_else(|| no_camera(scene, view))?;
+            views.push((*camera, view.extent, cascades::of_plan(plan, Some(number))));
+        }
+        if views.is_empty() {
+            views.push((scene.camera, extent, cascades::of_plan(plan, None)));
+        }
+        SceneDrawSource::seen_from(device, scene, &views)
+    }
+
+    /// Uploads a scene, seen by cameras, each with its picture's size and the cascades of the sun's shadows.
+    fn seen_from(
         device: &Device,
         scene: &Scene,
-        extent: [u32; 2],
-        views: &[View],
+        views: &[(Camera, [u32; 2], Vec<Map>)],
     ) -> Result<SceneDrawSource, Error> {
         let lights = scene.point_lights.len();
         if lights > MOST_POINT_LIGHTS {
@@ -66,29 +91,9 @@ impl SceneDrawSource {
             return Err(Error::DrawSource { what });
         }
         let objects = interface(Draw::Objects(DrawList::Opaque));
-        let seen = |camera: &Camera, extent: [u32; 2]| {
-            let [width, height] = extent.map(|side| f64::from(side.max(1)));
-            let view = device.buffer(BufferUsage::Uniform, &view_block(camera, width / height))?;
-            let lights = device.buffer(BufferUsage::Storage, &lights_block(scene, camera))?;
-            let by_object = device.buffer(BufferUsage::Storage, &objects_block(scene, camera))?;
-            let resources = [
-                (VIEW_BINDING, Resource::Buffer(&view)),
-                (LIGHTS_BINDING, Resource::Buffer(&lights)),
-                (OBJECTS_BINDING, Resource::Buffer(&by_object)),
-            ];
-            let frame = device.bind_group(&objects, FRAME_SET, &resources)?;
-            Ok::<_, Error>(Seen { frame, transparent: draws(scene, camera, DrawList::Transparent) })
-        };
-        let of_view = |view: &View| {
-            let camera = scene.camera_named(view.camera.as_deref()).ok_or_else(|| no_camera(scene, view))?;
-            seen(camera, view.extent)
-        };
-        let mut of_views = views.iter().map(of_view).collect::<Result<Vec<_>, _>>()?;
-        if of_views.is_empty() {
-            of_views.push(seen(&scene.camera, extent)?);
-        }
+        let seen = |(camera, extent, maps): &(Camera, [u32; 2], Vec<Map>)| seen(device, scene, camera, *extent, maps);
         Ok(SceneDrawSource {
-            views: of_views,
+            views: views.iter().map(seen).collect::<Result<_, _>>()?,
             geometry: Geometry::new(device, scene)?,
             textures: Textures::new(device, &objects, &scene.textures)?,
             opaque: draws(scene, &scene.camera, DrawList::Opaque),
@@ -97,8 +102,8 @@ impl SceneDrawSource {
     }
 
     /// Records one draw list. State is set only where it differs from the draw before.
-    fn record_objects(&self, list: &[ObjectDraw], seen: &Seen, recorder: &mut Recorder<'_>) {
-        recorder.bind_group(FRAME_SET, &seen.frame);
+    fn record_objects(&self, list: &[ObjectDraw], frame: &BindGroup, recorder: &mut Recorder<'_>) {
+        recorder.bind_group(FRAME_SET, frame);
         self.geometry.bind(recorder);
         let (mut texture, mut raster) = (None, None);
         for draw in list {
@@ -123,6 +128,14 @@ impl SceneDrawSource {
         }
     }
 
+    /// What the sun sees of a cascade of a pass's view.
+    fn seen_by_sun(&self, cascade: u32, recorder: &Recorder<'_>) -> Result<&SeenBySun, Error> {
+        self.seen(recorder)?.cascades.get(cascade as usize).ok_or_else(|| {
+            let pass = recorder.pass();
+            Error::DrawSource { what: format!("pass `{pass}` draws cascade {cascade}, which wasn't prepared") }
+        })
+    }
+
     /// What the view of a pass sees.
     fn seen(&self, recorder: &Recorder<'_>) -> Result<&Seen, Error> {
         let view = recorder.view().map_or(0, |view| view.0 as usize);
@@ -139,7 +152,13 @@ impl DrawSource for SceneDrawSource {
             Draw::Objects(list) => {
                 let seen = self.seen(recorder)?;
                 let draws = self.list(list, seen);
-                self.record_objects(draws, seen, recorder);
+                self.record_objects(draws, &seen.frame, recorder);
+                Ok(u32::try_from(draws.len()).unwrap_or(u32::MAX))
+            }
+            Draw::Casters(cascade) => {
+                let seen = self.seen_by_sun(cascade.index, recorder)?;
+                let draws = if cascade.list == DrawList::Masked { &seen.masked } else { &seen.opaque };
+                self.record_objects(draws, &seen.frame, recorder);
                 Ok(u32::try_from(draws.len()).unwrap_or(u32::MAX))
             }
             Draw::Sky | Draw::FullScreen => {
@@ -155,6 +174,41 @@ impl DrawSource for SceneDrawSource {
             }
         }
     }
+}
+
+/// What a camera sees, and the sun for it.
+fn seen(device: &Device, scene: &Scene, camera: &Camera, extent: [u32; 2], maps: &[Map]) -> Result<Seen, Error> {
+    let [width, height] = extent.map(|side| f64::from(side.max(1)));
+    let aspect = width / height;
+    let by_sun: Vec<_> = maps.iter().map(|map| seen_by_sun(scene, camera, aspect, map.cascade, map.texels)).collect();
+    let lights = device.buffer(BufferUsage::Storage, &lights_block(scene, camera))?;
+    let by_object = device.buffer(BufferUsage::Storage, &objects_block(scene, camera))?;
+    let cascades = device.buffer(BufferUsage::Uniform, &cascades_block(&by_sun))?;
+    let objects = interface(Draw::Objects(DrawList::Opaque));
+    let frame = |world_to_clip| {
+        let view = device.buffer(BufferUsage::Uniform, &view_block(camera, world_to_clip))?;
+        let resources = [
+            (VIEW_BINDING, Resource::Buffer(&view)),
+            (LIGHTS_BINDING, Resource::Buffer(&lights)),
+            (OBJECTS_BINDING, Resource::Buffer(&by_object)),
+            (CASCADES_BINDING, Resource::Buffer(&cascades)),
+        ];
+        device.bind_group(&objects, FRAME_SET, &resources)
+    };
+    let casters = |seen: &cascades::Seen, list| {
+        let mut draws = draws(scene, camera, list);
+        draws.retain(|draw| cascades::may_cast(scene, camera, seen, draw.object));
+        draws
+    };
+    let cascade = |seen: &cascades::Seen| {
+        let [opaque, masked] = [DrawList::Opaque, DrawList::Masked].map(|list| casters(seen, list));
+        Ok::<_, Error>(SeenBySun { frame: frame(seen.world_to_clip)?, opaque, masked })
+    };
+    Ok(Seen {
+        frame: frame(world_to_clip(camera, aspect))?,
+        transparent: draws(scene, camera, DrawList::Transparent),
+        cascades: by_sun.iter().map(cascade).collect::<Result<_, _>>()?,
+    })
 }
 
 fn no_camera(scene: &Scene, view: &View) -> Error {

@@ -32,11 +32,12 @@ pub struct Reflected {
 }
 
 /// What a surface at `position` with unit normal `normal`, both in the scene's own coordinates, reflects to the camera.
+/// `sunlit` is the share of the sun's light that arrives there, 0 to 1.
 #[must_use]
-pub fn reflect_light(scene: &Scene, position: DVec3, normal: DVec3) -> Reflected {
+pub fn reflect_light(scene: &Scene, position: DVec3, normal: DVec3, sunlit: f64) -> Reflected {
     let vector = |components: [f32; 3]| DVec3::from_array(components.map(f64::from));
     let to_sun = -vector(scene.sun.direction);
-    let from_sun = vector(scene.sun.color) * normal.dot(to_sun).max(0.0);
+    let from_sun = vector(scene.sun.color) * (sunlit * normal.dot(to_sun).max(0.0));
     let from_points = scene.point_lights.iter().map(|light| {
         let towards = vector(light.position) - position;
         let facing = normal.dot(towards.normalize_or_zero()).max(0.0);

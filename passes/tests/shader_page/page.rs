@@ -1,25 +1,27 @@
 //! The page: a text with one place for each kind of shader.
 
 use crate::comments;
-use framewright_graph::frame::{Draw, DrawList};
+use framewright_graph::frame::{Cascade, Draw, DrawList};
 use framewright_graph::interface::{Binding, BindingKind, PASS_SET, ShaderInterface, Variant};
 use framewright_passes::draw;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::shaders::ShaderLibrary;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// How a pipeline names a shader of some kind, and what it draws then. A shader is of the first kind that it fits.
-const DRAWS: [(&str, Draw); 4] = [
+const DRAWS: [(&str, Draw); 5] = [
     ("FullScreen", Draw::FullScreen),
     ("Sky", Draw::Sky),
     ("Objects", Draw::Objects(DrawList::Opaque)),
+    ("Casters", Draw::Casters(Cascade { list: DrawList::Opaque, index: 0, of: 1, reach: None })),
     ("Indirect", Draw::Indirect),
 ];
 
 /// One shader.
 struct Shader {
     name: &'static str,
-    /// `FullScreen`, `Sky`, `Objects`, `Indirect` or `dispatch`.
+    /// `FullScreen`, `Sky`, `Objects`, `Casters`, `Indirect` or `dispatch`.
     kind: &'static str,
     /// Its own files one after the other.
     text: String,
@@ -68,13 +70,20 @@ fn drawn(library: &mut ShaderLibrary, name: &'static str, text: &str) -> Shader 
     let fits = DRAWS.iter().filter(|(kind, _)| match vertex {
         Some(_) if name == "sky" => *kind == "Sky",
         Some(_) => *kind == "Indirect",
+        None if name.starts_with("casters") => *kind == "Casters",
         None => *kind != "Indirect",
     });
-    let mut compiled =
-        fits.filter_map(|(kind, draw)| Some((*kind, library.compiled(name, *draw, &Variant::default()).ok()?)));
+    let variant = Variant { sampled: optional(text), ..Variant::default() };
+    let mut compiled = fits.filter_map(|(kind, draw)| Some((*kind, library.compiled(name, *draw, &variant).ok()?)));
     let (kind, compiled) = compiled.next().unwrap_or_else(|| panic!("{name} fits no kind of draw"));
     let text = format!("{text}\n{}", vertex.unwrap_or_default());
     Shader { name, kind, text, interface: compiled.interface }
+}
+
+/// Names of what a shader may be compiled without.
+fn optional(text: &str) -> Vec<Arc<str>> {
+    let named = text.lines().filter_map(|line| line.strip_prefix("#ifdef HAS_"));
+    named.map(|name| name.trim().into()).collect()
 }
 
 /// What the page says of a shader.

@@ -46,9 +46,11 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
     let Input { frame, live, negotiated, options, .. } = input;
     let mut demotions = Demotions::default();
     let passes = || live.passes.iter().map(|number| (*number, &frame.passes[*number as usize]));
-    if passes().any(|(_, pass)| matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. })) {
+    if passes().any(|(_, pass)| matches!(pass.work, Work::Draw { draw: Draw::Objects(_) | Draw::Casters(_), .. })) {
         demotions.of_geometry = vec![false; frame.images.len()];
-        for (_, pass) in passes().filter(|(_, pass)| matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. })) {
+        for (_, pass) in passes()
+            .filter(|(_, pass)| matches!(pass.work, Work::Draw { draw: Draw::Objects(_) | Draw::Casters(_), .. }))
+        {
             pass.color.iter().for_each(|target| demotions.of_geometry[target.image.0 as usize] = true);
         }
     }

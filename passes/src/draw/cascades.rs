@@ -1,0 +1,137 @@
+//! How the sun sees the parts of a scene whose shadows are drawn: cascaded shadow maps that don't shimmer.
+//!
+//! What a camera sees is cut into slices by distance (F. Zhang, H. Sun, L. Xu, K. L. Lee, "Parallel-split shadow maps for
+//! large-scale virtual environments", VRCIA 2006), and each slice put into a sphere, whose size depends on neither the
+//! camera's place nor its direction. The square around the sphere moves by whole texels (M. Valient, "Stable rendering of
+//! cascaded shadow maps", ShaderX6, 2008). So a texel covers the same place of the scene as long as it is covered at all.
+
+use super::block::Block;
+use crate::scene::{Camera, Scene};
+use framewright_graph::frame::{Cascade, Draw};
+use framewright_graph::plan::{Plan, ViewId, Work};
+use glam::{DMat4, DVec3, DVec4, Vec3};
+use std::collections::BTreeMap;
+
+/// How the sun sees a cascade.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seen {
+    /// From the shaders' world space (the scene's axes, the camera as origin) to clip space, depth reversed: all casters lie
+    /// between 1, towards the sun, and 0.
+    pub world_to_clip: DMat4,
+    /// Width of a texel of its map, metres.
+    pub texel: f64,
+    /// How far from the camera shadows reach, metres.
+    pub reach: f64,
+}
+
+/// A cascade, and the width and height of its map in texels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Map {
+    pub(super) cascade: Cascade,
+    pub(super) texels: u32,
+}
+
+/// The cascades that a Plan draws for a view, the nearest first. The list that they hold is none's in particular.
+pub(super) fn of_plan(plan: &Plan, view: Option<ViewId>) -> Vec<Map> {
+    let mut maps = BTreeMap::new();
+    for step in &plan.steps {
+        let Work::Render(scope) = &step.work else { continue };
+        for pass in scope.passes.iter().filter(|pass| pass.view == view) {
+            if let Some(Draw::Casters(cascade)) = pass.draw {
+                let texels = scope.extent[0].min(scope.extent[1]);
+                maps.entry(cascade.index).or_insert(Map { cascade, texels });
+            }
+        }
+    }
+    maps.into_values().collect()
+}
+
+/// Whether an object's box lies in what the sun sees of a cascade, or between it and the sun.
+pub(super) fn may_cast(scene: &Scene, camera: &Camera, seen: &Seen, object: u32) -> bool {
+    let object = &scene.objects[object as usize];
+    let bounds = scene.meshes[object.mesh].bounds.transformed(object.transform);
+    let to_clip = seen.world_to_clip * DMat4::from_translation(-camera.position().as_dvec3());
+    let in_clip = bounds.transformed(to_clip.as_mat4());
+    (0..2).all(|axis| in_clip.min[axis] <= 1.0 && in_clip.max[axis] >= -1.0)
+}
+
+/// Texels at each border of a map that a filter may reach into.
+const MARGIN: f64 = 6.0;
+/// Slices begin at this share of the reach, or at the near plane where that is further off.
+const NEAREST: f64 = 1.0 / 256.0;
+/// How much of the way slices grow by a factor, and not by a distance.
+const LOGARITHMIC: f64 = 0.75;
+
+/// How the sun sees a cascade of a camera's picture, of which `aspect` is width over height. Its map has `texels` in width
+/// and height, at least 16.
+#[must_use]
+pub fn seen_by_sun(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade, texels: u32) -> Seen {
+    let texels = f64::from(texels.max(16));
+    let eye = camera.position().as_dvec3();
+    let (middle, radius) = sphere_around(scene);
+    let reach = cascade.reach.map_or_else(|| through(middle.distance(eye) + radius), |reach| f32::from(reach).into());
+    let [near, far] = [cascade.index, cascade.index + 1].map(|border| split(camera, reach, border, cascade.of));
+    let (ahead, slice) = sphere_of_slice(camera, aspect, near, far);
+    let texel = 2.0 * slice / (texels - 2.0 * MARGIN);
+
+    let to_sun = -Vec3::from(scene.sun.direction).as_dvec3();
+    let to_sun = to_sun.try_normalize().unwrap_or(DVec3::Y);
+    let (right, up) = to_sun.any_orthonormal_pair();
+    let forward = -camera.transform.z_axis.truncate().as_dvec3();
+    let centre = eye + forward * ahead;
+    let [x, y] = [right, up].map(|axis| (axis.dot(centre) / texel).round() * texel);
+
+    let half = texel * texels * 0.5;
+    let lowest = to_sun.dot(middle) - radius;
+    let row = |axis: DVec3, at: f64, scale: f64| (axis * scale).extend((axis.dot(eye) - at) * scale);
+    let rows =
+        [row(right, x, half.recip()), row(up, y, -half.recip()), row(to_sun, lowest, (2.0 * radius).recip()), DVec4::W];
+    let world_to_clip = DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose();
+    Seen { world_to_clip, texel, reach }
+}
+
+/// A sphere around everything: middle and radius. Somewhat larger, so that nothing ends up beyond it by rounding.
+fn sphere_around(scene: &Scene) -> (DVec3, f64) {
+    let around = scene.bounds().map_or((DVec3::ZERO, 0.0), |bounds| (bounds.center().as_dvec3(), bounds.radius()));
+    (around.0, (around.1 * 1.001).max(1e-3))
+}
+
+/// A power of √2 that is no less: it stays the same while the camera moves a little.
+fn through(distance: f64) -> f64 {
+    ((distance.max(1e-3).log2() * 2.0).ceil() * 0.5).exp2()
+}
+
+/// How far from the camera the slice number `border` begins, metres.
+fn split(camera: &Camera, reach: f64, border: u32, of: u32) -> f64 {
+    if border == 0 {
+        return 0.0;
+    }
+    let nearest = f64::from(camera.near).max(reach * NEAREST).min(reach);
+    let share = f64::from(border) / f64::from(of.max(1));
+    let logarithmic = nearest * (reach / nearest).powf(share);
+    let even = nearest + (reach - nearest) * share;
+    LOGARITHMIC * logarithmic + (1.0 - LOGARITHMIC) * even
+}
+
+/// The least sphere around what is seen between two distances: how far ahead of the camera its middle is, and its radius.
+fn sphere_of_slice(camera: &Camera, aspect: f64, near: f64, far: f64) -> (f64, f64) {
+    let up = (f64::from(camera.vertical_fov) * 0.5).tan();
+    // A corner at distance d lies so many d from the axis.
+    let squared = up * up * (1.0 + aspect * aspect);
+    let ahead = (0.5 * (near + far) * (1.0 + squared)).min(far);
+    (ahead, ((far - ahead).powi(2) + squared * far * far).sqrt())
+}
+
+/// The block `cascades` of `shaders/include/scene.glsl`, the nearest cascade first.
+pub(super) fn cascades_block(cascades: &[Seen]) -> Vec<u8> {
+    let mut block = Block::default();
+    for number in 0..Cascade::MOST as usize {
+        let seen = cascades.get(number);
+        block.mat4(seen.map_or(DMat4::ZERO, |seen| seen.world_to_clip).as_mat4());
+        block.float(seen.map_or(0.0, |seen| seen.texel) as f32);
+        block.align();
+    }
+    block.uint(u32::try_from(cascades.len()).unwrap_or(Cascade::MOST));
+    block.float(cascades.first().map_or(0.0, |seen| seen.reach) as f32);
+    block.bytes()
+}

@@ -1,0 +1,116 @@
+//! Claims about how the sun sees the parts of a scene (IQ-25): everything is covered, and nothing shimmers.
+
+use framewright_graph::frame::{Cascade, DrawList};
+use framewright_passes::draw::cascades::{Seen, seen_by_sun};
+use framewright_passes::scene::{Camera, Scene, load};
+use glam::{DMat4, DQuat, DVec2, DVec3, Vec3};
+use std::path::Path;
+
+const TEXELS: u32 = 1024;
+const ASPECT: f64 = 16.0 / 9.0;
+
+fn scene() -> Scene {
+    load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes/spheres_and_cubes.ron"))
+        .expect("it is shipped")
+}
+
+fn cascade(index: u32, of: u32) -> Cascade {
+    Cascade { list: DrawList::Opaque, index, of, reach: 30.0.try_into().ok() }
+}
+
+fn seen(scene: &Scene, camera: &Camera, index: u32, of: u32) -> Seen {
+    seen_by_sun(scene, camera, ASPECT, cascade(index, of), TEXELS)
+}
+
+/// The camera, moved by metres and turned by radians.
+fn moved(camera: &Camera, by: DVec3, turn: f64) -> Camera {
+    let turned = DMat4::from_quat(DQuat::from_axis_angle(DVec3::new(0.2, 0.9, 0.1).normalize(), turn));
+    let place = DMat4::from_translation(camera.position().as_dvec3());
+    let transform = DMat4::from_translation(by) * place * turned * place.inverse() * camera.transform.as_dmat4();
+    Camera { transform: transform.as_mat4(), ..*camera }
+}
+
+/// Where a place of the scene lies in the map, in texels, and its depth there.
+fn in_map(seen: &Seen, camera: &Camera, place: DVec3) -> (DVec2, f64) {
+    let clip = seen.world_to_clip * (place - camera.position().as_dvec3()).extend(1.0);
+    ((clip.truncate().truncate() * 0.5 + 0.5) * f64::from(TEXELS), clip.z)
+}
+
+#[test]
+fn a_texel_covers_the_same_place_wherever_the_camera_goes_and_looks() {
+    let scene = scene();
+    let mut whole_steps = 0;
+    for (index, of) in [(0, 1), (0, 2), (1, 2), (0, 4), (3, 4)] {
+        let before = seen(&scene, &scene.camera, index, of);
+        for step in 1..40 {
+            let far = f64::from(step) * 0.037;
+            let camera = moved(&scene.camera, DVec3::new(far, 0.3 * far, -0.7 * far), 0.02 * f64::from(step));
+            let after = seen(&scene, &camera, index, of);
+            assert!((after.texel - before.texel).abs() < 1e-12, "cascade {index} of {of} changes its size");
+            for place in [DVec3::ZERO, DVec3::new(1.3, 0.2, -2.1), DVec3::new(-4.0, 2.0, 3.0)] {
+                let ((was, depth), (is, now)) = (in_map(&before, &scene.camera, place), in_map(&after, &camera, place));
+                let shift = is - was;
+                assert!((shift - shift.round()).abs().max_element() < 1e-6, "cascade {index} of {of}: {shift}");
+                assert!((now - depth).abs() < 1e-9, "its depth goes from {depth} to {now}");
+                whole_steps += u32::from(shift.round() != DVec2::ZERO);
+            }
+        }
+    }
+    assert!(whole_steps > 100, "the maps hardly move: {whole_steps}");
+}
+
+#[test]
+fn every_place_that_is_seen_within_the_reach_lies_in_a_map_with_room_for_the_filter() {
+    let scene = scene();
+    let camera = &scene.camera;
+    let forward = -camera.transform.z_axis.truncate().as_dvec3();
+    let (right, up) = (camera.transform.x_axis.truncate().as_dvec3(), camera.transform.y_axis.truncate().as_dvec3());
+    let tangent = (f64::from(camera.vertical_fov) * 0.5).tan();
+    for of in [1, 2, 4] {
+        let maps: Vec<Seen> = (0..of).map(|index| seen(&scene, camera, index, of)).collect();
+        let finest_first = maps.windows(2).all(|pair| pair[0].texel < pair[1].texel);
+        assert!(finest_first, "{maps:?}");
+        for number in 0..300 {
+            let ahead = 0.1 + 29.9 * f64::from(number) / 299.0;
+            for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (0.0, 0.0), (-1.0, 1.0), (1.0, 1.0)] {
+                let aside = right * (x * ASPECT) + up * y;
+                let place = camera.position().as_dvec3() + (forward + aside * tangent) * ahead;
+                let room = |seen: &Seen| {
+                    let (at, _) = in_map(seen, camera, place);
+                    at.min_element().min((f64::from(TEXELS) - at).min_element())
+                };
+                let most = maps.iter().map(room).fold(f64::NEG_INFINITY, f64::max);
+                assert!(most >= 4.5, "{ahead} m ahead, {x} {y}: {most} texels from the border, {of} cascades");
+            }
+        }
+    }
+}
+
+#[test]
+fn everything_that_may_cast_lies_between_the_sun_and_the_end_of_the_map() {
+    let scene = scene();
+    let seen = seen(&scene, &scene.camera, 0, 4);
+    let bounds = scene.bounds().expect("there are objects");
+    for corner in 0..8 {
+        let pick = |axis: usize| if corner >> axis & 1 == 0 { bounds.min[axis] } else { bounds.max[axis] };
+        let (_, depth) = in_map(&seen, &scene.camera, Vec3::new(pick(0), pick(1), pick(2)).as_dvec3());
+        assert!((0.0..=1.0).contains(&depth), "{depth}");
+    }
+    let to_sun = -Vec3::from(scene.sun.direction).as_dvec3();
+    let [(_, near), (_, far)] = [1.0, -1.0].map(|way| in_map(&seen, &scene.camera, to_sun * way));
+    assert!(near > far, "depth is not reversed");
+}
+
+#[test]
+fn without_a_reach_shadows_go_through_the_whole_scene_and_keep_their_size_in_small_steps() {
+    let scene = scene();
+    let whole = |camera: &Camera| seen_by_sun(&scene, camera, ASPECT, Cascade { reach: None, ..cascade(0, 1) }, TEXELS);
+    let bounds = scene.bounds().expect("there are objects");
+    let reach = whole(&scene.camera).reach;
+    let needed = scene.camera.position().as_dvec3().distance(bounds.center().as_dvec3()) + bounds.radius();
+    assert!((needed..needed * 1.5).contains(&reach), "{reach}, {needed}");
+    let steps = (0..100).map(|step| whole(&moved(&scene.camera, DVec3::X * (f64::from(step) * 0.01), 0.0)).reach);
+    let mut reaches: Vec<f64> = steps.collect();
+    reaches.dedup();
+    assert!(reaches.len() <= 2, "{reaches:?}");
+}

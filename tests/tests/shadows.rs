@@ -1,0 +1,148 @@
+//! The sun's shadows (IQ-25) are held against rays from what the ray-caster sees to the sun.
+
+use framewright_graph::frame::{Cascade, DrawList};
+use framewright_graph::vocabulary::Filter;
+use framewright_passes::draw::cascades::seen_by_sun;
+use framewright_passes::scene::{AlphaMode, Camera, Sampler, Scene, Sun, Texture, Wrap};
+use framewright_passes::twin::lighting::{lit_surface, reflect_light};
+use framewright_tests::raycast::RayCaster;
+use framewright_tests::raycast::triangle::Ray;
+use framewright_tests::render::{Setup, device, render};
+use framewright_tests::shapes::{material, scene, square};
+use glam::{DVec2, DVec3, EulerRot, Mat4, Quat, Vec3};
+use std::error::Error;
+
+/// Width and height.
+const EXTENT: [u32; 2] = [120, 90];
+/// Width and height of the maps of `tests/pipelines/shadows.ron`.
+const MAP: u32 = 1024;
+/// Largest error of a channel, relative to it.
+const RELATIVE: f64 = 1e-3;
+
+/// A floor, a wall, a slanted board and a fence with holes, in a slanted sun.
+fn yard() -> Scene {
+    let mut board = material([0.8, 0.5, 0.3, 1.0]);
+    board.double_sided = true;
+    let mut fence = material([0.3, 0.8, 0.4, 1.0]);
+    fence.double_sided = true;
+    fence.alpha = AlphaMode::Mask { cutoff: 0.5 };
+    fence.base_color_texture = Some(0);
+    let place = |at: [f32; 3], turn: [f32; 3], scale: [f32; 3]| {
+        let turn = Quat::from_euler(EulerRot::XYZ, turn[0], turn[1], turn[2]);
+        Mat4::from_scale_rotation_translation(Vec3::from(scale), turn, Vec3::from(at))
+    };
+    let mut yard = scene(
+        vec![square()],
+        vec![material([0.7, 0.7, 0.7, 1.0]), board, fence],
+        vec![
+            (0, 0, place([0.0, 0.0, 0.0], [-std::f32::consts::FRAC_PI_2, 0.0, 0.0], [6.0, 6.0, 1.0])),
+            (0, 1, place([-1.5, 1.2, 0.0], [0.0, 0.6, 0.0], [1.2, 1.2, 1.0])),
+            (0, 1, place([1.2, 1.9, -0.5], [0.9, 0.3, 0.0], [1.2, 1.0, 1.0])),
+            (0, 2, place([0.3, 0.9, 1.6], [0.0, -0.2, 0.0], [1.0, 0.7, 1.0])),
+        ],
+    );
+    yard.textures = vec![bars()];
+    yard.camera = Camera::look_at(DVec3::new(2.5, 4.0, 6.0), DVec3::new(0.0, 0.4, 0.0), DVec3::Y, 0.8, 0.05)
+        .expect("a direction");
+    yard.ambient = [0.1, 0.15, 0.2];
+    yard.sun =
+        Sun { direction: Vec3::new(0.45, -1.0, -0.6).normalize().to_array(), color: [3.0, 2.5, 2.0], shadows: true };
+    yard
+}
+
+/// Wide bars with as wide gaps.
+fn bars() -> Texture {
+    let [wrap_u, wrap_v] = [Wrap::ClampToEdge; 2];
+    let sampler = Sampler { wrap_u, wrap_v, magnify: Filter::Nearest, minify: Filter::Nearest, mip: None };
+    let texel = |x: u32| if x / 16 % 2 == 0 { [255; 4] } else { [255, 255, 255, 0] };
+    Texture { name: String::new(), width: 64, height: 1, rgba8: (0..64).flat_map(texel).collect(), sampler }
+}
+
+/// What the picture shows of the sun's light: pixels in it, pixels without it, pixels that neither can be said of.
+fn hold_against_rays(scene: &Scene, cascades: u32, taps: u32) -> Result<[usize; 3], Box<dyn Error>> {
+    let Some(device) = device() else { return Ok([usize::MAX; 3]) };
+    let (number, width) = (cascades.to_string(), taps.to_string());
+    let set = [("cascades", &*number), ("taps", &*width)];
+    let setup = Setup { pipeline: "tests/pipelines/shadows.ron", set: &set, scene, extent: EXTENT };
+    let outputs = render(device, &setup)?;
+    let (texels, _) = outputs[0].bytes.as_chunks::<16>();
+    let caster = RayCaster::new(scene);
+    let to_sun = -Vec3::from(scene.sun.direction).as_dvec3();
+    let (right, up) = to_sun.any_orthonormal_pair();
+    // Where no blocker begins or ends within this, the coarsest map can tell.
+    let coarsest = Cascade { list: DrawList::Opaque, index: cascades - 1, of: cascades, reach: 14.0.try_into().ok() };
+    let aspect = f64::from(EXTENT[0]) / f64::from(EXTENT[1]);
+    let blur = seen_by_sun(scene, &scene.camera, aspect, coarsest, MAP).texel * f64::from(taps + 3);
+    let mut counts = [0; 3];
+    for (index, texel) in texels.iter().enumerate() {
+        let at = DVec2::new((index % EXTENT[0] as usize) as f64 + 0.5, (index / EXTENT[0] as usize) as f64 + 0.5);
+        let ray = caster.camera_ray(at, EXTENT);
+        let Some(hit) = caster.cast(&ray) else { continue };
+        let corners = [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)].map(|(x, y)| at + DVec2::new(x, y));
+        if corners.iter().any(|&at| caster.cast(&caster.camera_ray(at, EXTENT)).map(|it| it.object) != Some(hit.object))
+        {
+            continue;
+        }
+        let position = ray.origin + ray.direction * hit.depth;
+        // Along the ray to the sun up to just above the surface.
+        let rise = hit.normal.dot(to_sun);
+        let blocked = |across: f64, upwards: f64| {
+            let beside = (right * across + up * upwards) * blur;
+            let origin = position + beside + to_sun * ((0.01 - hit.normal.dot(beside)) / rise);
+            caster.cast(&Ray { origin, direction: to_sun, spread: [DVec3::ZERO; 2] }).is_some()
+        };
+        if rise < 0.05 {
+            counts[2] += 1;
+            continue;
+        }
+        let here = blocked(0.0, 0.0);
+        let around = (0..16).map(|step| f64::from(step) * std::f64::consts::TAU / 16.0);
+        if around
+            .into_iter()
+            .any(|turn| [0.5, 1.0].iter().any(|far| blocked(turn.cos() * far, turn.sin() * far) != here))
+        {
+            counts[2] += 1;
+            continue;
+        }
+        let sunlit = if here { 0.0 } else { 1.0 };
+        counts[usize::from(here)] += 1;
+        let material = &scene.materials[scene.objects[hit.object as usize].material];
+        let expected = lit_surface(material, hit.base_color, &reflect_light(scene, position, hit.normal, sunlit));
+        for channel in 0..3 {
+            let word: [u8; 4] = texel[4 * channel..4 * channel + 4].try_into()?;
+            let found = f64::from(f32::from_ne_bytes(word));
+            let close = (found - expected[channel]).abs() <= RELATIVE * expected[channel] + 1e-3;
+            assert!(
+                close,
+                "{cascades} cascades, {taps} taps, {at}: object {} shows {found}, not {} (sunlit {sunlit})",
+                hit.object, expected[channel]
+            );
+        }
+    }
+    Ok(counts)
+}
+
+#[test]
+fn what_the_sun_does_not_reach_lies_in_shadow_whatever_the_cascades_and_the_filter() -> Result<(), Box<dyn Error>> {
+    let yard = yard();
+    for (cascades, taps) in [(1, 1), (2, 3), (4, 1), (4, 7)] {
+        let [lit, dark, between] = hold_against_rays(&yard, cascades, taps)?;
+        assert!(
+            lit > 1000 && dark > 100,
+            "{cascades} cascades, {taps} taps: {lit} lit, {dark} dark, {between} between"
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn a_scene_whose_sun_casts_no_shadows_has_no_maps_and_all_of_its_light() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let mut yard = yard();
+    yard.sun.shadows = false;
+    let setup = |pipeline| Setup { pipeline, set: &[], scene: &yard, extent: EXTENT };
+    let without = render(device, &setup("tests/pipelines/lit.ron"))?;
+    let with = render(device, &setup("tests/pipelines/shadows.ron"))?;
+    assert!(with[0].bytes == without[0].bytes, "what has no shadow is not drawn as without any");
+    Ok(())
+}
