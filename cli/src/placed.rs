@@ -1,6 +1,6 @@
 //! Mistakes that only a run finds, with their places in the pipeline's files.
 
-use crate::error::{Error, Wrong};
+use crate::error::{Error, Exit, Wrong};
 use framewright_graph::describe::Diagnostic;
 use framewright_graph::frame::Frame;
 use framewright_graph::source::Sources;
@@ -37,5 +37,5 @@ pub(crate) fn texture(frame: &Frame, problem: framewright_vulkan::Error) -> Erro
 
 fn wrong(frame: &Frame, diagnostics: Vec<Diagnostic>) -> Error {
     let sources = Sources::clone(&frame.sources);
-    Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, by_command_line: false }) }
+    Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, exit: Exit::Found }) }
 }

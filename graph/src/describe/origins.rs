@@ -1,6 +1,7 @@
 //! Which line brought a file in: a mistake in one that was included shows both places.
 
-use super::{Diagnostic, Label, SHIPPED};
+use super::{Diagnostic, Label};
+use crate::file_path::FilePath;
 use crate::source::{Sources, Span};
 
 /// A longer way to a file is not shown whole.
@@ -49,7 +50,8 @@ impl Origins {
 /// can be mended.
 pub(crate) fn users_first(sources: &Sources, errors: &mut [Diagnostic]) {
     let shipped = |label: &Label| {
-        label.span.file().and_then(|file| sources.file(file)).is_some_and(|file| file.relative.starts_with(SHIPPED))
+        let file = label.span.file().and_then(|file| sources.file(file));
+        file.is_some_and(|file| matches!(FilePath::of_text(&file.relative), FilePath::Shipped(_)))
     };
     for error in errors.iter_mut().filter(|error| error.labels.first().is_some_and(shipped)) {
         let Some(own) = error.labels.iter().position(|label| !shipped(label)) else { continue };

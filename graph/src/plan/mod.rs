@@ -27,7 +27,7 @@
 //! (parameters, object data, outputs) is not the Plan's: whoever executes it keeps one copy for each frame in flight.
 
 use crate::change::Action;
-use crate::describe::SHIPPED;
+use crate::file_path::FilePath;
 use crate::format::Format;
 use crate::frame::Shape;
 use crate::source::Place;
@@ -458,7 +458,8 @@ impl Note {
     /// about it, and need not.
     #[must_use]
     pub fn is_of_shipped_fragment(&self) -> bool {
-        let shipped = self.at.as_ref().is_some_and(|place| place.file.starts_with(SHIPPED));
+        let shipped =
+            self.at.as_ref().is_some_and(|place| matches!(FilePath::of_text(&place.file), FilePath::Shipped(_)));
         shipped && self.subject.contains('.') && matches!(self.stage, Stage::Expand | Stage::Cull)
     }
 }

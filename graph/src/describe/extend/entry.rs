@@ -49,7 +49,7 @@ impl<'t> Entry<'t> {
         Entry { leaf, name: leaf.field("name").and_then(Called::of), fields: None }
     }
 
-    fn fields(&mut self) -> &mut Keyed<'t, Value<'t>> {
+    pub(super) fn fields(&mut self) -> &mut Keyed<'t, Value<'t>> {
         let written = || self.leaf.fields().into_iter().flatten().map(|(name, value)| (name, Value::Plain(value)));
         self.fields.get_or_insert_with(|| Keyed::new(written(), field))
     }
