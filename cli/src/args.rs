@@ -156,7 +156,8 @@ pub(crate) struct Facts {
 /// `framewright new`.
 #[derive(Debug, Args)]
 pub(crate) struct New {
-    /// Name of the pipeline: letters, digits, `_` and `-`. The file is NAME.ron, and there must be none yet.
+    /// Name of the pipeline, perhaps behind a folder: letters, digits, `_` and `-`. The file is NAME.ron, and there must be none
+    /// yet.
     #[arg(value_name = "NAME")]
     pub(crate) name: PathBuf,
 }

@@ -2,6 +2,7 @@
 
 use crate::{picture, text};
 use framewright_graph::describe::{self, Diagnostic};
+use framewright_graph::file_path::for_shell;
 use framewright_graph::format::Format;
 use framewright_graph::source::Sources;
 use framewright_passes::scene::SceneError;
@@ -332,7 +333,7 @@ fn no_output(name: &str, outputs: &[String], image: bool) -> String {
 /// What to do about a file that can't be read.
 fn allow(problem: &io::Error, file: &Path) -> String {
     match problem.kind() {
-        io::ErrorKind::PermissionDenied => format!("\nhelp: chmod u+r {}", text::path(file)),
+        io::ErrorKind::PermissionDenied => format!("\nhelp: chmod u+r {}", text::escape(&for_shell(file))),
         _ => String::new(),
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::root::NoFile;
 use std::fmt;
+use std::path::Path;
 use std::sync::Arc;
 
 /// A file that a pipeline is made of. The same path is the same file.
@@ -85,6 +86,17 @@ impl fmt::Display for FilePath {
     }
 }
 
+/// A path as a shell takes it for one word.
+#[must_use]
+pub fn for_shell(path: &Path) -> String {
+    let path = path.to_string_lossy();
+    let plain = |letter: char| letter.is_alphanumeric() || "/._-+,:@%".contains(letter);
+    if !path.is_empty() && !path.starts_with('-') && path.chars().all(plain) {
+        return path.into_owned();
+    }
+    format!("'{}'", path.replace('\'', "'\\''"))
+}
+
 /// `path` where it stands in the file `from`: both counted from the same folder.
 fn beside(from: &str, path: &str) -> String {
     if path.starts_with('/') {
@@ -133,6 +145,19 @@ mod tests {
         }
         for path in ["c:/a.ron", "a\\b.ron", "a//b.ron", "", "a\0.ron"] {
             assert_eq!(FilePath::from("p.ron").beside(path), Err(NoFile::NoPath), "`{path}`");
+        }
+    }
+
+    #[test]
+    fn a_path_is_one_word_to_a_shell() {
+        for (path, word) in [
+            ("a/b-c.ron", "a/b-c.ron"),
+            ("a b.ron", "'a b.ron'"),
+            ("a'b$.ron", "'a'\\''b$.ron'"),
+            ("-r", "'-r'"),
+            ("", "''"),
+        ] {
+            assert_eq!(for_shell(Path::new(path)), word);
         }
     }
 

@@ -119,10 +119,6 @@ fn no_path_leads_out_of_the_folder() {
     for path in ["../a.png", "b/../../a.png", &absolute] {
         assert_eq!(textures.info(&file(path, Srgb)), Err(TextureProblem::Outside), "{path}");
     }
-    for path in ["b//a.png", "", "c:\\a.png"] {
-        let refused = textures.info(&file(path, Srgb)).expect_err("no path");
-        assert!(refused.to_string().starts_with("can't be read: it is no path of a file"), "{path}: {refused}");
-    }
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink(outside.path().join("a.png"), inside.path().join("link.png")).expect("a link");

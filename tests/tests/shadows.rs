@@ -54,7 +54,7 @@ fn yard() -> Scene {
 fn bars() -> Texture {
     let [wrap_u, wrap_v] = [Wrap::ClampToEdge; 2];
     let sampler = Sampler { wrap_u, wrap_v, magnify: Filter::Nearest, minify: Filter::Nearest, mip: None };
-    let texel = |x: u32| if x / 16 % 2 == 0 { [255; 4] } else { [255, 255, 255, 0] };
+    let texel = |x: u32| if (x / 16).is_multiple_of(2) { [255; 4] } else { [255, 255, 255, 0] };
     Texture { name: String::new(), width: 64, height: 1, rgba8: (0..64).flat_map(texel).collect(), sampler }
 }
 

@@ -58,12 +58,15 @@ impl ShaderFiles {
             FilePath::Shipped(_) => FilePath::Shipped("".into()),
         };
         let refused = |problem: NoFile| format!("`{name}` {problem}");
-        for path in [from.beside(name).map_err(refused)?, whole.beside(name).map_err(refused)?] {
-            if let Some(found) = self.find(&path)? {
+        let places = [from.beside(name).map_err(refused)?, whole.beside(name).map_err(refused)?];
+        for place in &places {
+            if let FilePath::Own(own) = place
+                && let Some(found) = self.on_disk(own)?
+            {
                 return Ok(Some(found));
             }
         }
-        Ok(None)
+        Ok(places.iter().find_map(|place| self.shipped(place.path())))
     }
 
     /// The file of that path in the first folder that has one.
@@ -109,7 +112,8 @@ impl ShaderFiles {
             let folder = folder.to_owned();
             self.roots.iter().map(move |root| root.folder().join(&folder).components().collect::<PathBuf>())
         };
-        let beside = (!from.folder().is_empty()).then(|| shown(from.folder())).into_iter().flatten();
+        let beside = Some(from.folder()).filter(|folder| !folder.is_empty() && self.may_read(folder));
+        let beside = beside.into_iter().flat_map(shown);
         let folders = beside.chain(shown("")).map(|folder| folder.display().to_string());
         folders.chain(shipped).collect()
     }

@@ -84,6 +84,8 @@ type StageResult = Result<Option<Arc<CompiledStage>>, ShaderProblem>;
 /// One stage of a shader.
 struct CompiledStage {
     file: String,
+    /// Whether it is one of those that are shipped.
+    shipped: bool,
     spirv: Spirv,
     reflected: StageInterface,
 }
@@ -117,9 +119,10 @@ impl ShaderLibrary {
         };
         // The same vertex stage, word for word: it must meet the same depth.
         let own = Variant { local: Vec::new(), depth_only: false, ..variant.clone() };
+        // A shipped vertex shader goes with the shipped fragment shader only.
         let vertex = match self.stage(format!("{name}.vert"), Stage::Vertex, &own)? {
-            Some(own) => own,
-            None => self.usual_vertex_stage(name, draw)?,
+            Some(own) if own.shipped == fragment.shipped => own,
+            _ => self.usual_vertex_stage(name, draw)?,
         };
         let interface = join(&vertex, &fragment).map_err(|what| ShaderProblem::Unsupported { what })?;
         let spirv = vertex.spirv.clone();
@@ -200,7 +203,8 @@ impl ShaderLibrary {
             let sampled = matches!(binding.kind, BindingKind::SampledImage(_));
             binding.adapts = sampled && mentioned.adapting.contains(&binding.name);
         }
-        Ok(Some(Arc::new(CompiledStage { file: found.shown.clone(), spirv: spirv.into(), reflected })))
+        let (file, shipped) = (found.shown.clone(), matches!(found.path, FilePath::Shipped(_)));
+        Ok(Some(Arc::new(CompiledStage { file, shipped, spirv: spirv.into(), reflected })))
     }
 
     /// That the file `from` names no shader that there is.

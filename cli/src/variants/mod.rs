@@ -41,7 +41,7 @@ use std::sync::{Arc, Mutex};
 /// answer. If there are too many variants.
 pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
     let report = match report(arguments) {
-        Err(Error::Wrong { wrong }) if arguments.format == CheckFormat::Json && wrong.exit == Exit::Found => Report {
+        Err(Error::Wrong { wrong }) if arguments.format == CheckFormat::Json && wrong.exit != Exit::Usage => Report {
             diagnostics: describe::to_json(&wrong.sources, &wrong.diagnostics),
             ..Report::of_nothing(arguments)
         },
@@ -102,11 +102,17 @@ fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
-/// A bar on a terminal; nothing anywhere else.
+/// So many may take long enough to wonder.
+const MANY: usize = 10_000;
+
+/// A bar on a terminal; anywhere else a line, if there are many.
 fn progress(variants: usize) -> ProgressBar {
     let bar = ProgressBar::new(variants as u64);
     if let Ok(style) = ProgressStyle::with_template("checking {wide_bar} {pos}/{len} variants, {eta} left") {
         bar.set_style(style);
+    }
+    if bar.is_hidden() && variants >= MANY {
+        text::say(&format!("note: checking {variants} variants"));
     }
     bar
 }

@@ -156,7 +156,7 @@ pub(super) fn samples<'src>(
             None => sample.map(Some),
             // What has no value because it is left out is no mistake.
             Some(off) if reader.errors.len() == before => {
-                left_out.push(LeftOut { binding: binding?, off });
+                left_out.push(LeftOut { binding: binding?, sample, off });
                 Some(None)
             }
             Some(_) => None,

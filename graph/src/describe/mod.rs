@@ -14,6 +14,7 @@
 mod bindings;
 mod body;
 mod buffers;
+mod casters;
 mod choices;
 mod circles;
 mod diagnostic;
@@ -71,7 +72,7 @@ pub use document::Document;
 pub(crate) use images::LARGEST_SIZE;
 pub use includes::{Files, Found, NoFiles, Unread};
 pub use json::to_json;
-pub(crate) use origins::users_first;
+pub(crate) use origins::{USED_HERE, users_first};
 pub use pass::{
     BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, LeftOut, Off, Param, Part, Pass, Sample,
     Selection, StandIn, Storage, StorageAccess, Uniform, Work,

@@ -46,6 +46,9 @@ impl Origins {
     }
 }
 
+/// What labels say of the place where a fragment is put in, before its name there.
+pub(crate) const USED_HERE: &str = "used here as ";
+
 /// Lets mistakes that come to light in a shipped file begin with the place in the user's own file that led there: only that
 /// can be mended.
 pub(crate) fn users_first(sources: &Sources, errors: &mut [Diagnostic]) {
@@ -54,7 +57,9 @@ pub(crate) fn users_first(sources: &Sources, errors: &mut [Diagnostic]) {
         file.is_some_and(|file| matches!(FilePath::of_text(&file.relative), FilePath::Shipped(_)))
     };
     for error in errors.iter_mut().filter(|error| error.labels.first().is_some_and(shipped)) {
-        let Some(own) = error.labels.iter().position(|label| !shipped(label)) else { continue };
+        let used = |label: &Label| !shipped(label) && label.text.starts_with(USED_HERE);
+        let own = error.labels.iter().position(used);
+        let Some(own) = own.or_else(|| error.labels.iter().position(|label| !shipped(label))) else { continue };
         if error.labels[0].text.is_empty() {
             "comes to light here".clone_into(&mut error.labels[0].text);
         }

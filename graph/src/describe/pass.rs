@@ -55,10 +55,12 @@ pub struct Off {
 }
 
 /// A sampled image that a condition leaves out.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct LeftOut {
     /// The shader's name for it.
     pub binding: Name,
+    /// What it would be; `None` if it has no value then.
+    pub sample: Option<Sample>,
     /// Why.
     pub off: Off,
 }

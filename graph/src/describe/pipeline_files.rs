@@ -1,7 +1,7 @@
 //! The files that a pipeline on disk names: those beside it, then those that are shipped with the program.
 
 use super::{Files, Found, LARGEST_FILE, Unread, suggest};
-use crate::file_path::FilePath;
+use crate::file_path::{FilePath, for_shell};
 use crate::root::{NoFile, Root};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -123,7 +123,7 @@ impl Files for PipelineFiles {
             }),
             Err(denied @ NoFile::Denied { .. }) => Err(Unread {
                 why: format!("`{path}` {denied}"),
-                help: Some(format!("chmod u+r {}", root.folder().join(&named).display())),
+                help: Some(format!("chmod u+r {}", for_shell(&root.folder().join(&named)))),
                 denied: true,
             }),
             Err(other) => Err(unread(other)),

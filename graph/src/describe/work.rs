@@ -1,18 +1,17 @@
 //! What a pass does: `draw`, `dispatch`, `copy`, `blit`, `fill` or `custom`, exactly one of them.
 
-use super::Diagnostic;
 use super::bindings::{self, FILTERS};
 use super::forms::{Described, Form, Plain, Takes, Word, Words, names};
 use super::leaf::{Leaf, Shape};
-use super::parts;
 use super::pass::{Draw, Groups, Part, Work};
-use super::passes::{PassFields, optional};
+use super::passes::PassFields;
 use super::pipeline::Name;
 use super::reader::Reader;
 use super::scope::Scope;
 use super::values;
+use super::{casters, parts};
 use crate::fields;
-use crate::frame::{Cascade, DrawList, Metres};
+use crate::frame::DrawList;
 
 fields! {
     /// A copy: bits as they are.
@@ -83,8 +82,8 @@ static DRAWS: Words = Words {
         ),
         Word::new(
             "Casters",
-            &[Takes::Fields(CastersFields::<'static>::table)],
-            &["Casters(list: Opaque, cascade: 0, of: 1)"],
+            &[Takes::Fields(casters::fields)],
+            &[casters::FORM],
             "What casts the sun's shadow, as the sun sees it: depth for a shadow map.",
         ),
         Word::alone("Sky", "The scene's sky, by the shader `sky` unless `shader` names another."),
@@ -109,25 +108,9 @@ static DRAWS: Words = Words {
     ],
 };
 
-fields! {
-    /// Casters: what casts the sun's shadow onto one of several parts of what is seen, by distance from the camera.
-    struct CastersFields<'src> {
-        /// Which objects; light goes through transparent ones.
-        list: Leaf<'src> => Form::Choice("a list of casters", || names(&CASTERS)),
-        /// Which part, from 0, the nearest.
-        cascade: Leaf<'src> => Form::Whole(0, Cascade::MOST as i64 - 1),
-        /// How many parts there are; all have a map of one size.
-        of: Leaf<'src> => Form::Whole(1, Cascade::MOST as i64),
-        /// How far from the camera shadows reach, in metres; through the whole scene if left out or 0.
-        reach: Option<Leaf<'src>> => Form::Number,
-    }
-}
-
-const LISTS: [(&str, DrawList); 3] =
+/// Draw lists, by name.
+pub(super) const LISTS: [(&str, DrawList); 3] =
     [("Opaque", DrawList::Opaque), ("Masked", DrawList::Masked), ("Transparent", DrawList::Transparent)];
-
-/// Those that light doesn't go through.
-const CASTERS: [(&str, DrawList); 2] = [LISTS[0], LISTS[1]];
 
 /// Counts of vertices, instances and invocations.
 const MANY: Form = Form::Whole(1, u32::MAX as i64);
@@ -328,7 +311,7 @@ fn draw_work<'src>(
             (Draw::Sky, "draws the sky")
         }
         "Objects" => (Draw::Objects(list(reader, leaf, rest)?), "draws objects"),
-        "Casters" => (Draw::Casters(casters(reader, scope, leaf, rest)?), "draws objects"),
+        "Casters" => (Draw::Casters(casters::lower(reader, scope, leaf, rest)?), "draws objects"),
         "Vertices" => {
             let one = || Some(1);
             let number = |reader: &mut Reader, leaf, what: &str| {
@@ -362,44 +345,6 @@ fn draw_work<'src>(
 fn list<'src>(reader: &mut Reader, leaf: Leaf<'src>, rest: Option<Leaf<'src>>) -> Option<DrawList> {
     let [list]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Objects(Opaque)")?;
     values::choice(reader, list, "a draw list", &LISTS)
-}
-
-/// What casts the sun's shadow.
-fn casters<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'src>,
-    rest: Option<Leaf<'src>>,
-) -> Option<Cascade> {
-    let fields: CastersFields<'_> = reader.inside(leaf, rest, "Casters(list: Opaque, cascade: 0, of: 1)")?;
-    let most = i64::from(Cascade::MOST);
-    let list = values::choice(reader, fields.list, "a list of casters", &CASTERS);
-    let index = values::whole(reader, scope, fields.cascade, "cascade", 0..=most - 1);
-    let of = values::whole(reader, scope, fields.of, "number of cascades", 1..=most);
-    let reach = optional(fields.reach, |leaf| reach(reader, scope, leaf)).map(Option::flatten);
-    let (list, index, of, reach) = (list?, index?, of?, reach?);
-    if index >= of {
-        let beyond = Diagnostic::new(fields.cascade.span(), format!("there is no cascade {index} of {of}"));
-        scope.fault(reader, fields.cascade, beyond.label(fields.of.span(), "so many").help("the first one is 0"));
-        return None;
-    }
-    Some(Cascade { list, index, of, reach })
-}
-
-/// How far shadows reach; `None`: through the whole scene.
-fn reach<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Option<Metres>> {
-    let (metres, because) = values::number_because(reader, scope, leaf)?;
-    if metres == 0.0 {
-        return Some(None);
-    }
-    #[allow(clippy::cast_possible_truncation, reason = "what becomes 0 or infinite is refused")]
-    let known = Metres::try_from(metres as f32);
-    if known.is_err() {
-        let wrong = Diagnostic::new(leaf.span(), "shadows can't reach that far");
-        let wrong = wrong.help("a number of metres above 0 that 32 bits can hold, or 0 for the whole scene");
-        scope.fault(reader, leaf, wrong.remark(because.as_deref().unwrap_or_default()));
-    }
-    known.ok().map(Some)
 }
 
 /// A compute shader and how often it runs.

@@ -1,29 +1,73 @@
-//! Cascades of one view, which are looked up together, are cut from it in one way.
+//! Cascades of one view are looked up together: they are cut from it in one way, and lie in the layers of one image.
 
 use super::order::State;
-use crate::describe::{self, Diagnostic};
-use crate::frame::{Cascade, Draw, Work};
+use super::used_here;
+use crate::describe::{self, Diagnostic, Pipeline};
+use crate::frame::{Cascade, DepthTarget, Draw, Work};
 use crate::view::ViewIndex;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-/// Reports passes that cut what one view shows into cascades otherwise than those before them.
-pub(super) fn agree(described: &[describe::Pass], states: &[State], errors: &mut Vec<Diagnostic>) {
-    let mut first: HashMap<ViewIndex, (Cascade, &describe::Pass)> = HashMap::new();
-    for (pass, state) in described.iter().zip(states) {
-        let State::On(lowered) = state else { continue };
-        let Work::Draw { draw: Draw::Casters(cascade), .. } = lowered.work else { continue };
-        let (other, before) = first.entry(pass.view).or_insert((cascade, pass));
-        if (other.of, other.reach) != (cascade.of, cascade.reach) {
-            let [here, there] = [&cascade, other].map(words);
-            let message =
-                format!("pass `{}` draws cascades otherwise than pass `{}`", pass.name.text, before.name.text);
-            let wrong = Diagnostic::new(pass.name.span, message).remark(here).label(before.name.span, there);
-            errors.push(wrong.help("all cascades of a view are of one number and reach: give both the same"));
+/// A pass that draws casters.
+struct Casters<'f> {
+    pass: &'f describe::Pass,
+    cascade: Cascade,
+    target: &'f DepthTarget,
+}
+
+/// Reports, once for each use of a fragment and each pass outside of fragments, cascades that can't be looked up with the
+/// first of their view, and those that no pass draws.
+pub(super) fn agree(pipeline: &Pipeline, states: &[State], errors: &mut Vec<Diagnostic>) {
+    let mut views: BTreeMap<ViewIndex, Vec<Casters<'_>>> = BTreeMap::new();
+    for (pass, state) in pipeline.passes.iter().zip(states) {
+        if let State::On(lowered) = state
+            && let Work::Draw { draw: Draw::Casters(cascade), .. } = lowered.work
+            && let Some(target) = &lowered.depth
+        {
+            views.entry(pass.view).or_default().push(Casters { pass, cascade, target });
+        }
+    }
+    for all in views.values() {
+        let first = &all[0];
+        let mut said = HashSet::new();
+        for casters in all {
+            let Some(wrong) = differs(first, casters) else { continue };
+            if casters.pass.instance.is_none_or(|instance| said.insert(instance)) {
+                errors.push(wrong);
+                let wrong = errors.len() - 1;
+                used_here(pipeline, casters.pass.instance, &mut errors[wrong..]);
+            }
+        }
+        let drawn: BTreeSet<u32> = all.iter().map(|casters| casters.cascade.index).collect();
+        if let Some(missing) = (0..first.cascade.of).find(|index| !drawn.contains(index)) {
+            let message = format!("no pass draws cascade {missing} of {}", first.cascade.of);
+            let wrong = Diagnostic::new(first.pass.name.span, message).remark(words(&first.cascade));
+            errors.push(wrong.help("all cascades of a view are drawn: `repeat` a pass as often as there are"));
+            let wrong = errors.len() - 1;
+            used_here(pipeline, first.pass.instance, &mut errors[wrong..]);
         }
     }
 }
 
+/// What keeps a pass's cascade from being looked up with the first one's.
+fn differs(first: &Casters<'_>, other: &Casters<'_>) -> Option<Diagnostic> {
+    let (name, before) = (&other.pass.name, &first.pass.name);
+    if (first.cascade.of, first.cascade.reach) != (other.cascade.of, other.cascade.reach) {
+        let message = format!("pass `{}` draws cascades otherwise than pass `{}`", name.text, before.text);
+        let wrong = Diagnostic::new(name.span, message).remark(words(&other.cascade));
+        let wrong = if name.span == before.span { wrong } else { wrong.label(before.span, words(&first.cascade)) };
+        return Some(wrong.help("all cascades of a view are of one number and reach: give both the same"));
+    }
+    if first.target.image != other.target.image {
+        let wrong = Diagnostic::new(other.target.span, "all cascades of a view are layers of one image");
+        return Some(wrong.label(first.target.span, format!("pass `{}` draws into this one", before.text)));
+    }
+    let (index, layer) = (other.cascade.index, other.target.range.base_layer);
+    (index != layer).then(|| {
+        let wrong = Diagnostic::new(other.target.span, format!("cascade {index} belongs into layer {index}"));
+        wrong.remark(format!("layer {layer}")).help("shaders look each cascade up in the layer of its number")
+    })
+}
+
 fn words(cascade: &Cascade) -> String {
-    let reach = cascade.reach.map_or_else(|| "the whole scene".to_owned(), |reach| format!("{} m", f32::from(reach)));
-    format!("one of {} through {reach}", cascade.of)
+    format!("cascade {} of {} through {}", cascade.index, cascade.of, cascade.reach_in_words())
 }

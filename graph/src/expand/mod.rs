@@ -34,7 +34,7 @@ mod written;
 
 pub use crate::facts::Facts;
 
-use crate::describe::{self, Diagnostic, Document, LARGEST_SIZE, Pipeline, Surroundings, suggestion};
+use crate::describe::{self, Diagnostic, Document, LARGEST_SIZE, Pipeline, Surroundings, USED_HERE, suggestion};
 use crate::device::Profile;
 use crate::encoding::Encoding;
 use crate::frame::{Frame, ImageIndex, Output, Resource, SwitchedOff};
@@ -136,7 +136,7 @@ pub fn expand(
         let before = errors.len();
         targets::fit(&chosen, &things, pass, &mut errors);
         let left_out = pass.left_out.iter().filter(|_| pass.off.is_none());
-        switched_off.extend(left_out.map(|describe::LeftOut { binding, off }| SwitchedOff {
+        switched_off.extend(left_out.map(|describe::LeftOut { binding, off, .. }| SwitchedOff {
             name: pass.name.text.clone(),
             sampled: Some(binding.text.clone()),
             span: off.span,
@@ -157,7 +157,7 @@ pub fn expand(
         used_here(&pipeline, pass.instance, &mut errors[before..]);
     }
     depth_only::note(&chosen, &things, &mut states, &mut checked);
-    casters::agree(&pipeline.passes, &states, &mut errors);
+    casters::agree(&pipeline, &states, &mut errors);
     let outputs = outputs(&chosen, &things, inputs.dump, &mut errors);
     let before = errors.len();
     order::check(&chosen, &things, &states, &outputs, &mut errors);
@@ -193,9 +193,7 @@ fn used_here(pipeline: &Pipeline, instance: Option<u32>, errors: &mut [Diagnosti
     let mut next = instance;
     while let Some(instance) = next.and_then(|at| pipeline.instances.get(at as usize)) {
         for error in errors.iter_mut() {
-            error
-                .labels
-                .push(describe::Label { span: instance.span, text: format!("used here as `{}`", instance.name) });
+            error.labels.push(describe::Label { span: instance.span, text: format!("{USED_HERE}`{}`", instance.name) });
         }
         next = instance.within;
     }

@@ -38,8 +38,8 @@ pub(super) fn lower(
         }
         misspelt.extend(storage::check(chosen, things, pass, &lowered, interface, errors));
         shader::missing(pass, interface, &misspelt, errors);
-        let whole = variant::with_all(&variant, pass);
-        let whole = (!pass.left_out.is_empty()).then(|| shaders.interface(pass, &whole, errors)).flatten();
+        let whole = (!pass.left_out.is_empty()).then(|| variant::with_all(chosen, things, pass)).flatten();
+        let whole = whole.and_then(|whole| shaders.interface(pass, &whole, errors));
         sampled::check_left_out(pass, whole.as_ref(), errors);
         lowered.params = params::give(pass, interface, whole.as_ref(), errors);
         targets::fed(things, pass, interface, errors);

@@ -20,10 +20,13 @@ pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) ->
     Variant { textures: pass.sample.iter().filter_map(texture).collect(), sampled, ..Variant::default() }
 }
 
-/// The variant that its shader would have if no condition left anything out.
-pub(super) fn with_all(variant: &Variant, pass: &describe::Pass) -> Variant {
-    let left_out = pass.left_out.iter().map(|left_out| left_out.binding.text.clone());
-    Variant { sampled: variant.sampled.iter().cloned().chain(left_out).collect(), ..variant.clone() }
+/// The variant that its shader would have if no condition left anything out; `None` where what is left out has no value
+/// that could tell.
+pub(super) fn with_all(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) -> Option<Variant> {
+    let left_out = pass.left_out.iter().map(|left_out| left_out.sample.clone());
+    let left_out: Vec<describe::Sample> = left_out.collect::<Option<_>>()?;
+    let whole = describe::Pass { sample: [&pass.sample[..], &left_out].concat(), ..pass.clone() };
+    Some(of(chosen, things, &whole))
 }
 
 /// As what a shader that leaves it to the pass declares a part of an image.

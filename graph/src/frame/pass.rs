@@ -170,6 +170,12 @@ pub struct Cascade {
 impl Cascade {
     /// There are at most so many.
     pub const MOST: u32 = 4;
+
+    /// How far shadows reach, for people: "14 m", "the whole scene".
+    #[must_use]
+    pub fn reach_in_words(&self) -> String {
+        self.reach.map_or_else(|| "the whole scene".to_owned(), |reach| format!("{} m", f32::from(reach)))
+    }
 }
 
 /// A length in metres, finite and above 0.

@@ -454,13 +454,13 @@ pub struct Note {
 }
 
 impl Note {
-    /// Whether it tells which passes a shipped fragment leaves out by itself: whoever uses the fragment can do nothing
+    /// Whether it tells which passes a shipped fragment switches off by itself: whoever uses the fragment can do nothing
     /// about it, and need not.
     #[must_use]
     pub fn is_of_shipped_fragment(&self) -> bool {
         let shipped =
             self.at.as_ref().is_some_and(|place| matches!(FilePath::of_text(&place.file), FilePath::Shipped(_)));
-        shipped && self.subject.contains('.') && matches!(self.stage, Stage::Expand | Stage::Cull)
+        shipped && self.subject.contains('.') && self.stage == Stage::Expand
     }
 }
 

@@ -310,9 +310,9 @@ fn words_of_list(list: DrawList) -> &'static str {
     }
 }
 
-fn casters(Cascade { list, index, of, reach }: Cascade) -> String {
-    let reach = reach.map_or_else(|| "the whole scene".to_owned(), |reach| format!("{} m", f32::from(reach)));
-    let list = words_of_list(list);
+fn casters(cascade: Cascade) -> String {
+    let Cascade { list, index, of, .. } = cascade;
+    let (list, reach) = (words_of_list(list), cascade.reach_in_words());
     format!("draws {list} objects as the sun sees them, cascade {index} of {of} through {reach}")
 }
 

@@ -6,7 +6,7 @@
 //! cascaded shadow maps", ShaderX6, 2008). So a texel covers the same place of the scene as long as it is covered at all.
 
 use super::block::Block;
-use crate::scene::{Camera, Scene};
+use crate::scene::{Bounds, Camera, Object, Scene};
 use framewright_graph::frame::{Cascade, Draw};
 use framewright_graph::plan::{Plan, ViewId, Work};
 use glam::{DMat4, DVec3, DVec4, Vec3};
@@ -47,12 +47,17 @@ pub(super) fn of_plan(plan: &Plan, view: Option<ViewId>) -> Vec<Map> {
 }
 
 /// Whether an object's box lies in what the sun sees of a cascade, or between it and the sun.
-pub(super) fn may_cast(scene: &Scene, camera: &Camera, seen: &Seen, object: u32) -> bool {
-    let object = &scene.objects[object as usize];
-    let bounds = scene.meshes[object.mesh].bounds.transformed(object.transform);
-    let to_clip = seen.world_to_clip * DMat4::from_translation(-camera.position().as_dvec3());
-    let in_clip = bounds.transformed(to_clip.as_mat4());
-    (0..2).all(|axis| in_clip.min[axis] <= 1.0 && in_clip.max[axis] >= -1.0)
+#[must_use]
+pub fn may_cast(scene: &Scene, camera: &Camera, seen: &Seen, object: &Object) -> bool {
+    let Bounds { min, max } = scene.meshes[object.mesh].bounds.transformed(object.transform);
+    let eye = camera.position().as_dvec3();
+    let corners = (0..8).map(|corner| {
+        let pick = |axis: usize| f64::from(if corner >> axis & 1 == 0 { min[axis] } else { max[axis] });
+        (seen.world_to_clip * (DVec3::new(pick(0), pick(1), pick(2)) - eye).extend(1.0)).truncate()
+    });
+    let (least, most) =
+        corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(least, most), at| (least.min(at), most.max(at)));
+    (0..2).all(|axis| least[axis] <= 1.0 && most[axis] >= -1.0)
 }
 
 /// Texels at each border of a map that a filter may reach into.

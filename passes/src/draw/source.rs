@@ -197,7 +197,7 @@ fn seen(device: &Device, scene: &Scene, camera: &Camera, extent: [u32; 2], maps:
     };
     let casters = |seen: &cascades::Seen, list| {
         let mut draws = draws(scene, camera, list);
-        draws.retain(|draw| cascades::may_cast(scene, camera, seen, draw.object));
+        draws.retain(|draw| cascades::may_cast(scene, camera, seen, &scene.objects[draw.object as usize]));
         draws
     };
     let cascade = |seen: &cascades::Seen| {

@@ -77,7 +77,7 @@ impl Account {
             self.removed.iter().map(|removed| ((removed.kind, &*removed.name.text), removed.by)).collect();
         for error in errors {
             let Some(primary) = error.labels.first().map(|label| label.span) else { continue };
-            let changed = self.beside(&places, error, primary);
+            let changed = self.beside(&places, error);
             let named = tree.text_at(primary).trim_matches('"');
             let missed = missed(&error.message, named).iter();
             let removed = missed.filter_map(|kind| removed.get(&(*kind, named))).max_by_key(|by| (by.file(), by.start));
@@ -87,12 +87,14 @@ impl Account {
     }
 
     /// The other place of a mistake that is in a change, or in what is changed.
-    fn beside(&self, places: &Places, error: &Diagnostic, primary: Span) -> Option<Label> {
+    fn beside(&self, places: &Places, error: &Diagnostic) -> Option<Label> {
         let is_in = |within: Span| error.labels.iter().any(|label| holds(within, label.span));
         let in_changes = error.labels.iter().flat_map(|label| places.changes(&self.changed, label.span));
         let in_change = in_changes.filter(|at| !is_in(self.changed[*at].entry)).min();
         // Of the changes of one entry no more are looked at than the mistake has places.
-        let in_entry = places.entries(&self.changed, primary).iter().find(|at| !is_in(self.changed[**at].by)).copied();
+        let in_entries = error.labels.iter().map(|label| places.entries(&self.changed, label.span));
+        let mut in_entries = in_entries.map(|changes| changes.iter().find(|at| !is_in(self.changed[**at].by)));
+        let in_entry = in_entries.find_map(|at| at.copied());
         let by_change = |at: usize| {
             let Changed { name, .. } = &self.changed[at];
             Label { span: name.span, text: format!("`{}` stands here", name.text) }
@@ -144,6 +146,9 @@ fn last(places: &BTreeMap<(Option<usize>, u32), Vec<usize>>, place: Span) -> &[u
 
 /// Of which kinds a thing is that a mistake misses under the name `named`: in its words, which are all that says so.
 fn missed(message: &str, named: &str) -> &'static [Kind] {
+    if message.starts_with("texts in expressions stand in single quotes") {
+        return &[Kind::Setting];
+    }
     let what = message.strip_prefix("there is ").and_then(|rest| rest.strip_suffix(&format!(" named `{named}`")));
     match what.unwrap_or_default() {
         "no pass" => &[Kind::Pass],

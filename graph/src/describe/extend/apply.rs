@@ -9,7 +9,6 @@ use super::super::{body, outputs};
 use super::account::{Account, Changed, Removed};
 use super::draft::{self, Draft};
 use super::entry::Entry;
-use super::unset;
 use crate::change::{Action, Kind, Where};
 use crate::fields;
 use std::collections::HashSet;
@@ -249,9 +248,13 @@ impl<'t> Change<'_, 't> {
             return None;
         };
         if kind == Kind::Setting {
-            unset::everywhere(self.draft, &name.text);
+            self.draft.removed_settings.insert(name.text.clone());
         }
         let by = self.leaf.span();
+        if let Some(outputs) = self.draft.outputs_written.filter(|_| kind == Kind::Output) {
+            let (entry, span) = (outputs.span(), outputs.start());
+            self.account.changed.push(Changed { entry, name: Name { text: "outputs".into(), span }, by });
+        }
         self.account.remove(Removed { kind, name: name.clone(), by, texts });
         self.account.did(by, Action::Remove { of: kind, name: name.text });
         Some(())

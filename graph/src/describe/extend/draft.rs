@@ -9,7 +9,7 @@ use super::entry::{Called, Entry};
 use super::layers::{Role, Said};
 use super::order::Order;
 use crate::change::{Action, Kind, Where};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// All lists of a pipeline.
@@ -21,6 +21,8 @@ pub(super) struct Draft<'t> {
     pub(super) outputs: List<'t>,
     pub(super) outputs_written: Option<Leaf<'t>>,
     pub(super) depth: Option<Leaf<'t>>,
+    /// Names of settings that were removed, whether or not others of the name were added since.
+    pub(super) removed_settings: HashSet<Arc<str>>,
 }
 
 /// Entries whose order has no meaning.

@@ -72,5 +72,7 @@ fn compose(reader: &mut Reader, layers: &Layers) -> Option<Composed> {
             apply::changes(reader, &mut draft, list, &mut account);
         }
     }
+    let removed = std::mem::take(&mut draft.removed_settings);
+    unset::everywhere(&mut draft, &removed);
     Some(Composed { tree: build::tree(&draft, base), wanted, account })
 }
