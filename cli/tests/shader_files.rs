@@ -142,3 +142,24 @@ fn a_users_file_that_is_called_like_a_shipped_one_is_the_users() {
     let plan = place.run(&["inspect", "./shipped:forward.ron"]).exits(0).out;
     assert!(plan.contains("(./shipped:forward.ron:6)"), "{plan}");
 }
+
+#[test]
+fn what_a_shader_includes_is_looked_for_in_all_of_the_users_folders_before_the_shipped_files() {
+    let place = place();
+    // A shipped file has that path, counted from the including file's folder; the user's own lies beside the pipeline.
+    std::fs::create_dir(place.path("include")).expect("a folder");
+    place.file("include/tools.glsl", "#include \"random.glsl\"\n");
+    place.file("random.glsl", "float own_random(float x) { return x; }\n");
+    let text = shader("near").replace("part.glsl", "include/tools.glsl").replace("part(", "own_random(");
+    place.file("tint.frag", text);
+    check(&place).exits(0);
+}
+
+#[test]
+fn a_shipped_vertex_shader_goes_with_the_shipped_fragment_shader_of_its_name_only() {
+    let place = place();
+    let text = PIPELINE.replace("FullScreen(\"tint\")", "FullScreen(\"snow\")");
+    place.file("p.ron", text);
+    place.file("snow.frag", shader("near"));
+    check(&place).exits(0);
+}

@@ -125,6 +125,17 @@ fn a_setting_that_is_removed_is_taken_out_of_presets_and_views() {
 }
 
 #[test]
+fn a_setting_that_is_removed_and_declared_again_is_the_one_that_presets_mean() {
+    let again =
+        r#"Extension(version: 1, settings: [(name: "strength", value: Number(default: 0.1, min: 0.0, max: 1.0))])"#;
+    let without = r#"Extension(version: 1, changes: [Remove(setting: "strength")])"#;
+    let files = [("without.ron", without), ("again.ron", again)];
+    let (document, _) = document(&extending(r#"extensions: ["without.ron", "again.ron"]"#), &files, &[]);
+    assert_eq!(document.settings.last().map(|it| it.kind.default().to_string()).as_deref(), Some("0.1"));
+    assert!(preset(&document).iter().any(|(name, _)| *name == "strength"), "{:?}", preset(&document));
+}
+
+#[test]
 fn fields_are_set_and_taken_away_and_maps_are_merged_by_key() {
     let changes = r#"changes: [
         Set(image: "color", to: (samples: 2, size: Fixed(32, 16))),
