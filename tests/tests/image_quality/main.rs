@@ -28,6 +28,7 @@
 //! | IQ-22 | `samples::a_lamp_does_not_spoil_edges_where_samples_are_tone_mapped`, `resolves` | the same |
 //! | IQ-23 | `pictures::the_over_bright_view_is_what_is_beyond_white`, `effects` | `over_bright.frag`: `- 0.5` |
 //! | IQ-24 | `plans::the_listing_shows_resolves_in_their_place`, `cli/tests/image_quality.rs` | `stripes_back` off |
+//! | IQ-25 | `shadows`, `passes/tests/cascades.rs` | `sun_shadow.glsl`: `caster < depth`; `cascades.rs`: places not rounded to texels |
 //!
 //! Where no file is named it is `image_quality.ron`.
 
