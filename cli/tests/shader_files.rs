@@ -163,3 +163,37 @@ fn a_shipped_vertex_shader_goes_with_the_shipped_fragment_shader_of_its_name_onl
     place.file("snow.frag", shader("near"));
     check(&place).exits(0);
 }
+
+#[test]
+fn what_the_compiler_inserts_is_drawn_by_shipped_shaders_whatever_the_user_calls_his_own() {
+    let place = Place::new();
+    place.file(
+        "p.ron",
+        r#"Pipeline(
+            version: 1,
+            settings: [(name: "map", value: Bool(default: false))],
+            images: [
+                (name: "color", format: Color(hdr: true), size: Scaled(0.5)),
+                (name: "screen", format: Output, size: Output),
+            ],
+            passes: [
+                (name: "sky", draw: Sky, color: [(image: "color", clear: (0.0, 0.0, 0.0, 1.0))]),
+                (name: "map", when: "map", draw: FullScreen("reinhard"), sample: {"source": "color"}, color: ["screen"],
+                    otherwise: Forward(from: "color", to: "screen")),
+            ],
+            outputs: ["screen"],
+        )"#,
+    );
+    let drawn = |file: &str| {
+        let variables = Vulkan::LAVAPIPE.variables()?;
+        let run = ["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "32x18", "-o", file];
+        place.run_with(&variables, &run).exits(0);
+        Some(std::fs::read(place.path(file)).expect("a picture"))
+    };
+    let before = drawn("before.png");
+    let red = "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0, 0.0, 0.0, 1.0); }\n";
+    place.file("copy.frag", red);
+    assert!(drawn("after.png") == before, "the user's `copy` was drawn");
+    let plan = place.run(&["inspect", "p.ron"]).exits(0).out;
+    assert!(plan.contains("with shader `shipped:copy`"), "{plan}");
+}

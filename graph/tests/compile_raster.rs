@@ -80,7 +80,7 @@ fn a_forward_that_only_loses_samples_is_the_resolve() {
 fn a_forward_between_formats_is_drawn() {
     let plan = compiled(&forward(4, true, false));
     assert_eq!((plan.totals.resolves, plan.totals.inserted_passes), (1, 1));
-    assert_eq!(&*scopes(&plan)[1].passes[0].shader, "copy");
+    assert_eq!(&*scopes(&plan)[1].passes[0].shader, "shipped:copy");
 }
 
 #[test]

@@ -158,11 +158,16 @@ fn iq_14_a_mode_that_the_device_lacks_or_only_claims_is_drawn_and_the_reason_sai
     let lacking = resolving(&[ResolveMode::SampleZero]);
     let lying = Profile { refuted_depth_resolve: vec![ResolveMode::Average], ..lacking.clone() };
     let cases = [
-        (ResolveMode::Max, &lacking, "depth_resolve_max", "`a device for tests` resolves depth by SAMPLE_ZERO only"),
+        (
+            ResolveMode::Max,
+            &lacking,
+            "shipped:depth_resolve_max",
+            "`a device for tests` resolves depth by SAMPLE_ZERO only",
+        ),
         (
             ResolveMode::Average,
             &lying,
-            "depth_resolve_average",
+            "shipped:depth_resolve_average",
             "`a device for tests` claims to resolve depth by AVERAGE, and a test showed that it doesn't",
         ),
     ];

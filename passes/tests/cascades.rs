@@ -14,11 +14,11 @@ fn scene() -> Scene {
         .expect("it is shipped")
 }
 
-fn cascade(index: u32, of: u32) -> Cascade {
+fn cascade(index: u8, of: u8) -> Cascade {
     Cascade { list: DrawList::Opaque, index, of, reach: 30.0.try_into().ok() }
 }
 
-fn seen(scene: &Scene, camera: &Camera, index: u32, of: u32) -> Seen {
+fn seen(scene: &Scene, camera: &Camera, index: u8, of: u8) -> Seen {
     seen_by_sun(scene, camera, ASPECT, cascade(index, of), TEXELS)
 }
 

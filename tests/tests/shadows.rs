@@ -59,7 +59,7 @@ fn bars() -> Texture {
 }
 
 /// What the picture shows of the sun's light: pixels in it, pixels without it, pixels that neither can be said of.
-fn hold_against_rays(scene: &Scene, cascades: u32, taps: u32) -> Result<[usize; 3], Box<dyn Error>> {
+fn hold_against_rays(scene: &Scene, cascades: u8, taps: u32) -> Result<[usize; 3], Box<dyn Error>> {
     let Some(device) = device() else { return Ok([usize::MAX; 3]) };
     let (number, width) = (cascades.to_string(), taps.to_string());
     let set = [("cascades", &*number), ("taps", &*width)];

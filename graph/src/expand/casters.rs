@@ -37,7 +37,7 @@ pub(super) fn agree(pipeline: &Pipeline, states: &[State], errors: &mut Vec<Diag
                 used_here(pipeline, casters.pass.instance, &mut errors[wrong..]);
             }
         }
-        let drawn: BTreeSet<u32> = all.iter().map(|casters| casters.cascade.index).collect();
+        let drawn: BTreeSet<u8> = all.iter().map(|casters| casters.cascade.index).collect();
         if let Some(missing) = (0..first.cascade.of).find(|index| !drawn.contains(index)) {
             let message = format!("no pass draws cascade {missing} of {}", first.cascade.of);
             let wrong = Diagnostic::new(first.pass.name.span, message).remark(words(&first.cascade));
@@ -62,7 +62,7 @@ fn differs(first: &Casters<'_>, other: &Casters<'_>) -> Option<Diagnostic> {
         return Some(wrong.label(first.target.span, format!("pass `{}` draws into this one", before.text)));
     }
     let (index, layer) = (other.cascade.index, other.target.range.base_layer);
-    (index != layer).then(|| {
+    (u32::from(index) != layer).then(|| {
         let wrong = Diagnostic::new(other.target.span, format!("cascade {index} belongs into layer {index}"));
         wrong.remark(format!("layer {layer}")).help("shaders look each cascade up in the layer of its number")
     })

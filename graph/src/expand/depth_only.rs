@@ -7,7 +7,8 @@ use super::things::Things;
 use super::{Chosen, variant};
 use crate::describe;
 use crate::frame::{Draw, Face, ImageIndex, Pass, Work};
-use crate::interface::{PASS_SET, ShaderInterface, ShaderProblem, Variant};
+use crate::interface::{Binding, PASS_SET, ShaderInterface, ShaderProblem, Variant};
+use crate::vocabulary::Stages;
 use std::collections::HashSet;
 
 /// Notes why passes can't draw depth alone, for those that may have to. `states` are those of the pipeline's passes.
@@ -73,6 +74,12 @@ fn difference(whole: &ShaderInterface, alone: &ShaderInterface) -> Option<String
     if whole.writes_depth && !alone.writes_depth {
         return Some("it writes no depth of its own any more".to_owned());
     }
-    let read = alone.bindings.iter().find(|binding| binding.set == PASS_SET && binding.name != PARAMS)?;
-    Some(format!("it still uses `{}`, which may have changed since", read.name))
+    let own = |binding: &&Binding| binding.set == PASS_SET && binding.name != PARAMS;
+    if let Some(read) = alone.bindings.iter().find(own) {
+        return Some(format!("it still uses `{}`, which may have changed since", read.name));
+    }
+    // A vertex shader that does without what isn't given would put the geometry elsewhere.
+    let moving = |binding: &&Binding| own(binding) && binding.stages.contains(Stages::VERTEX_SHADER);
+    let lacking = whole.bindings.iter().find(moving)?;
+    Some(format!("its vertex shader would lack `{}`", lacking.name))
 }

@@ -5,6 +5,7 @@ use crate::source::Span;
 use crate::view::ViewIndex;
 use crate::vocabulary::{FillValue, Filter};
 use serde::{Deserialize, Serialize};
+use std::num::NonZero;
 use std::sync::Arc;
 
 #[cfg(doc)]
@@ -160,16 +161,16 @@ pub struct Cascade {
     /// Which of the objects that may cast shadows are drawn.
     pub list: DrawList,
     /// Which part, from 0, the nearest.
-    pub index: u32,
+    pub index: u8,
     /// How many there are, 1 to [`Cascade::MOST`].
-    pub of: u32,
+    pub of: u8,
     /// How far shadows reach; `None`: through the whole scene.
     pub reach: Option<Metres>,
 }
 
 impl Cascade {
     /// There are at most so many.
-    pub const MOST: u32 = 4;
+    pub const MOST: u8 = 4;
 
     /// How far shadows reach, for people: "14 m", "the whole scene".
     #[must_use]
@@ -182,19 +183,20 @@ impl Cascade {
 // Bits of such numbers are ordered as the numbers are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "f32", into = "f32")]
-pub struct Metres(u32);
+pub struct Metres(NonZero<u32>);
 
 impl TryFrom<f32> for Metres {
     type Error = &'static str;
 
     fn try_from(metres: f32) -> Result<Metres, &'static str> {
-        if metres.is_finite() && metres > 0.0 { Ok(Metres(metres.to_bits())) } else { Err("no length above 0") }
+        let bits = NonZero::new(metres.to_bits()).filter(|_| metres.is_finite() && metres > 0.0);
+        bits.map(Metres).ok_or("no length above 0")
     }
 }
 
 impl From<Metres> for f32 {
     fn from(metres: Metres) -> f32 {
-        f32::from_bits(metres.0)
+        f32::from_bits(metres.0.get())
     }
 }
 
@@ -219,4 +221,24 @@ pub enum ParamValue {
     Integer(i64),
     /// A number.
     Number(f64),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_finite_lengths_above_0_are_lengths_and_they_are_ordered_as_numbers() {
+        for bad in [0.0, -0.0, -1.0, f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+            assert!(Metres::try_from(bad).is_err(), "{bad}");
+        }
+        let lengths = [f32::MIN_POSITIVE / 2.0, 1e-3, 1.0, 14.0, f32::MAX];
+        let known = lengths.map(|length| Metres::try_from(length).expect("a length"));
+        assert!(known.is_sorted() && known.map(f32::from) == lengths);
+    }
+
+    #[test]
+    fn no_draw_takes_more_room_than_a_draw_of_vertices() {
+        assert_eq!(size_of::<Draw>(), 12);
+    }
 }

@@ -86,6 +86,8 @@ fn a_shader_that_cannot_draw_depth_alone_is_known_where_that_is_asked_of_it() {
     let still_reads = "has the shader `marked`, and with the macro `DEPTH_ONLY` it still uses `marks`, which may have \
                        changed since";
     assert_eq!(why("marked", "storage: {\"marks\": \"marks\"},").as_deref(), Some(still_reads));
+    let would_lack = "has the shader `moved`, and with the macro `DEPTH_ONLY` its vertex shader would lack `marks`";
+    assert_eq!(why("moved", "storage: {\"marks\": \"marks\"},").as_deref(), Some(would_lack));
     let keeps_all = "has the shader `forgetful`, and with the macro `DEPTH_ONLY` it discards no fragments any more";
     assert_eq!(why("forgetful", "").as_deref(), Some(keeps_all));
 }

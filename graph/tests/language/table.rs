@@ -186,9 +186,11 @@ impl ShaderInterfaces for Table {
             "lit_masked" => shadowed(lit(true), variant),
             "casters" | "casters_masked" => ShaderInterface { outputs: Vec::new(), ..lit(name == "casters_masked") },
             "forgetful" => lit(!variant.depth_only),
-            "marked" => {
+            "marked" | "moved" => {
                 let mut marked = lit(true);
-                marked.bindings.insert(0, block("marks", 0, true, false, Stages::VERTEX_SHADER));
+                if name == "marked" || !variant.depth_only {
+                    marked.bindings.insert(0, block("marks", 0, true, false, Stages::VERTEX_SHADER));
+                }
                 marked
             }
             "sky" | "plain" => full_screen(vec![]),

@@ -160,7 +160,7 @@ fn plan_pass(pass: &plan::Pass, scope: Option<&plan::RenderScope>, held: &mut [u
     for (location, attachment) in scope.color.iter().enumerate() {
         let value = &mut held[attachment.image.0 as usize];
         *value = match &*pass.shader {
-            "copy" => drawn(read[0].1),
+            "shipped:copy" => drawn(read[0].1),
             _ => made(&pass.name, &format!("color {location}"), *value, depth, &read),
         };
     }

@@ -4,7 +4,7 @@ use crate::hand_written_plans;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Shape};
 use framewright_graph::interface::{Component, Dimension, ImageShape};
-use framewright_graph::plan::{Plan, PlanError, RenderScope, Resource, Role, Work};
+use framewright_graph::plan::{FORMAT_VERSION, Plan, PlanError, RenderScope, Resource, Role, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Accesses, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage};
 use serde_json::Value;
@@ -252,4 +252,11 @@ fn a_plan_without_steps_is_refused() {
 #[test]
 fn the_tree_says_what_runs_in_order_and_why() {
     insta::assert_snapshot!(multisampled().tree());
+}
+
+#[test]
+fn the_page_about_the_form_is_about_this_version() {
+    let page = include_str!("../../../docs/plan-format.md");
+    assert!(page.starts_with(&format!("# The JSON form of a Plan, version {FORMAT_VERSION}\n")));
+    assert!(page.contains(&format!("| `format_version` | `{FORMAT_VERSION}` |")));
 }

@@ -75,7 +75,7 @@ pub fn seen_by_sun(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade
     let eye = camera.position().as_dvec3();
     let (middle, radius) = sphere_around(scene);
     let reach = cascade.reach.map_or_else(|| through(middle.distance(eye) + radius), |reach| f32::from(reach).into());
-    let [near, far] = [cascade.index, cascade.index + 1].map(|border| split(camera, reach, border, cascade.of));
+    let [near, far] = [0.0, 1.0].map(|end| split(camera, reach, f64::from(cascade.index) + end, cascade.of));
     let (ahead, slice) = sphere_of_slice(camera, aspect, near, far);
     let texel = 2.0 * slice / (texels - 2.0 * MARGIN);
 
@@ -107,12 +107,12 @@ fn through(distance: f64) -> f64 {
 }
 
 /// How far from the camera the slice number `border` begins, metres.
-fn split(camera: &Camera, reach: f64, border: u32, of: u32) -> f64 {
-    if border == 0 {
+fn split(camera: &Camera, reach: f64, border: f64, of: u8) -> f64 {
+    if border == 0.0 {
         return 0.0;
     }
     let nearest = f64::from(camera.near).max(reach * NEAREST).min(reach);
-    let share = f64::from(border) / f64::from(of.max(1));
+    let share = border / f64::from(of.max(1));
     let logarithmic = nearest * (reach / nearest).powf(share);
     let even = nearest + (reach - nearest) * share;
     LOGARITHMIC * logarithmic + (1.0 - LOGARITHMIC) * even
@@ -136,7 +136,7 @@ pub(super) fn cascades_block(cascades: &[Seen]) -> Vec<u8> {
         block.float(seen.map_or(0.0, |seen| seen.texel) as f32);
         block.align();
     }
-    block.uint(u32::try_from(cascades.len()).unwrap_or(Cascade::MOST));
+    block.uint(u32::try_from(cascades.len()).unwrap_or(u32::MAX).min(Cascade::MOST.into()));
     block.float(cascades.first().map_or(0.0, |seen| seen.reach) as f32);
     block.bytes()
 }

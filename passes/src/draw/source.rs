@@ -129,8 +129,8 @@ impl SceneDrawSource {
     }
 
     /// What the sun sees of a cascade of a pass's view.
-    fn seen_by_sun(&self, cascade: u32, recorder: &Recorder<'_>) -> Result<&SeenBySun, Error> {
-        self.seen(recorder)?.cascades.get(cascade as usize).ok_or_else(|| {
+    fn seen_by_sun(&self, cascade: u8, recorder: &Recorder<'_>) -> Result<&SeenBySun, Error> {
+        self.seen(recorder)?.cascades.get(usize::from(cascade)).ok_or_else(|| {
             let pass = recorder.pass();
             Error::DrawSource { what: format!("pass `{pass}` draws cascade {cascade}, which wasn't prepared") }
         })

@@ -12,8 +12,9 @@ use crate::view::ViewIndex;
 use crate::vocabulary::{CompareOp, Filter, ResolveMode, Sampler};
 use std::sync::Arc;
 
-/// The shader that draws one image into another.
-const COPY_SHADER: &str = "copy";
+/// The shader that draws one image into another. What the compiler inserts is drawn by shipped shaders, whatever files of
+/// those names a user has.
+const COPY_SHADER: &str = "shipped:copy";
 /// The name by which it knows its source.
 const COPY_SOURCE: &str = "source";
 
@@ -181,10 +182,10 @@ fn depth_only(parts: &Parts<'_>, number: u32, declared: &FramePass, name: &Arc<s
 fn resolve_draw(parts: &Parts<'_>, number: u32, mode: ResolveMode, name: &Arc<str>, of: ViewIndex) -> Pass {
     let (op, uses) = (&parts.adapted.ops[number as usize], parts.adapted.uses(number));
     let shader = match mode {
-        ResolveMode::SampleZero => "depth_resolve_zero",
-        ResolveMode::Min => "depth_resolve_min",
-        ResolveMode::Max => "depth_resolve_max",
-        ResolveMode::Average => "depth_resolve_average",
+        ResolveMode::SampleZero => "shipped:depth_resolve_zero",
+        ResolveMode::Min => "shipped:depth_resolve_min",
+        ResolveMode::Max => "shipped:depth_resolve_max",
+        ResolveMode::Average => "shipped:depth_resolve_average",
     };
     Pass {
         depth: Some(DepthState { test: CompareOp::Always, write: true }),

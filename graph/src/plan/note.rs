@@ -1,0 +1,55 @@
+//! What the stages of the compiler have to say that no step shows.
+
+use crate::file_path::FilePath;
+use crate::source::Place;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// A decision that no step shows.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Note {
+    /// Which stage decided.
+    pub stage: Stage,
+    /// What it is about: a pass or an image.
+    pub subject: Arc<str>,
+    /// In the reader's words.
+    pub text: String,
+    /// The place it comes from.
+    pub at: Option<Place>,
+}
+
+impl Note {
+    /// Whether it tells which passes a shipped fragment switches off by itself: whoever uses the fragment can do nothing
+    /// about it, and need not.
+    #[must_use]
+    pub fn is_of_shipped_fragment(&self) -> bool {
+        let shipped =
+            self.at.as_ref().is_some_and(|place| matches!(FilePath::of_text(&place.file), FilePath::Shipped(_)));
+        shipped && self.subject.contains('.') && self.stage == Stage::Expand
+    }
+}
+
+/// A stage of the compiler.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stage {
+    /// Settings and conditions.
+    Expand,
+    /// Versions and dependencies.
+    Link,
+    /// What reaches no output goes.
+    Cull,
+    /// Samples, sizes and formats meet.
+    Adapt,
+    /// The order.
+    Schedule,
+    /// Rendering scopes.
+    Scope,
+    /// Load and store operations.
+    Retain,
+    /// Memory.
+    Place,
+    /// Barriers.
+    Synchronise,
+}
