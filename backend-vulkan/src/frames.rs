@@ -207,7 +207,7 @@ impl Frames {
     /// The report of a frame that was waited for; `None` if its place was taken by a later frame.
     pub(crate) fn report(&self, plan: &Plan, frame: u64) -> Option<Result<FrameReport, Error>> {
         let slot = &self.slots[self.slot_of(frame)];
-        (slot.frame == Some(frame)).then(|| slot.timing.report(plan, &self.batches, &slot.recorded.draws))
+        (slot.frame == Some(frame)).then(|| slot.timing.report(plan, &self.batches, &slot.recorded.counts))
     }
 
     /// What was kept of an output of a frame that was waited for.

@@ -201,7 +201,8 @@ pub(crate) fn drawn(
     let pipeline = Some(shared.pipeline(&pass.name, descriptor)?);
     let supplied = (PASS_SET + 1..).zip(supplied).map(|(set, layout)| (layout, reads(set))).collect();
     let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
-    let state = PassState { layout, supplied, vertex_stride: brought_stride };
+    let usual_vertices = shader.usual_vertices;
+    let state = PassState { layout, supplied, vertex_stride: brought_stride, usual_vertices };
     let sets = Turns::new(physical.period(template.resources()));
     Ok(Drawn { sets, pipeline, local, state, vertices, ..nothing(template) })
 }

@@ -81,6 +81,7 @@ pub struct Recorder<'f> {
     bound: Vec<bool>,
     vertices: Option<u64>,
     indices: Option<u64>,
+    culled: u32,
     misuse: Option<String>,
 }
 
@@ -99,6 +100,8 @@ pub(crate) struct PassState {
     pub(crate) supplied: Vec<(vk::DescriptorSetLayout, bool)>,
     /// Bytes from vertex to vertex of what whoever draws brings along; 0 if the pipeline reads no such vertex buffer.
     pub(crate) vertex_stride: u32,
+    /// As [`crate::CompiledShader::usual_vertices`].
+    pub(crate) usual_vertices: bool,
 }
 
 impl PassState {
@@ -120,7 +123,20 @@ impl<'f> Recorder<'f> {
         let (pass, has_pipeline) = (&drawn.state, drawn.pipeline.is_some());
         let bound = pass.supplied.iter().map(|(_, needed)| !needed).collect();
         let (vertices, indices, misuse) = (None, None, None);
-        Recorder { shared, commands, kept, pass, has_pipeline, plan, extent, bound, vertices, indices, misuse }
+        Recorder {
+            shared,
+            commands,
+            kept,
+            pass,
+            has_pipeline,
+            plan,
+            extent,
+            bound,
+            vertices,
+            indices,
+            culled: 0,
+            misuse,
+        }
     }
 
     /// The pass's name.
@@ -140,6 +156,18 @@ impl<'f> Recorder<'f> {
     #[must_use]
     pub fn shader(&self) -> &str {
         &self.plan.shader
+    }
+
+    /// Whether the shipped vertex shader of this kind of draw places the vertices. If not, it can't be told from the scene
+    /// where they end up, and nothing that is drawn may be left out.
+    #[must_use]
+    pub fn has_usual_vertices(&self) -> bool {
+        self.pass.usual_vertices
+    }
+
+    /// Counts objects that the draw source leaves out because nothing of them can be seen, for the report.
+    pub fn count_culled(&mut self, objects: u32) {
+        self.culled = self.culled.saturating_add(objects);
     }
 
     /// The command buffer, recording inside the pass's rendering scope, for commands of the program's own. To record is
@@ -325,8 +353,8 @@ impl<'f> Recorder<'f> {
         self.misuse.get_or_insert_with(what);
     }
 
-    /// The first misuse, if there was any.
-    pub(crate) fn finish(self) -> Result<(), String> {
-        self.misuse.map_or(Ok(()), Err)
+    /// How many objects were left out, or the first misuse if there was any.
+    pub(crate) fn finish(self) -> Result<u32, String> {
+        self.misuse.map_or(Ok(self.culled), Err)
     }
 }

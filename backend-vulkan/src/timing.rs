@@ -34,9 +34,20 @@ pub struct PassReport {
     pub name: String,
     /// Draw calls, dispatches, or commands of a custom pass.
     pub draws: u32,
+    /// Objects that the draw source left out because nothing of them can be seen; see [`crate::Recorder::count_culled`].
+    pub culled: u32,
     /// From the end of the pass before it in its scope, or of the step before, to its own end. Resolves and stores at the
     /// end of the scope are the step's. A device that draws in tiles can't tell the passes of one scope apart.
     pub milliseconds: f64,
+}
+
+/// What was recorded for a pass.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Counts {
+    /// As in [`PassReport`].
+    pub(crate) draws: u32,
+    /// As in [`PassReport`].
+    pub(crate) culled: u32,
 }
 
 /// The timestamps of one frame: one when each batch begins, one at the end of each pass, one at the end of each step.
@@ -86,10 +97,10 @@ impl Timing {
         }
     }
 
-    /// The report of the frame that was waited for. `draws` holds the draw calls of each pass in order.
-    pub(crate) fn report(&self, plan: &Plan, batches: &[Batch], draws: &[u32]) -> Result<FrameReport, Error> {
+    /// The report of the frame that was waited for. `counts` holds what was recorded for each pass, in order.
+    pub(crate) fn report(&self, plan: &Plan, batches: &[Batch], counts: &[Counts]) -> Result<FrameReport, Error> {
         let stamps = self.stamps()?;
-        let mut draws = draws.iter().copied();
+        let mut counts = counts.iter().copied();
         let mut stamps = stamps.into_iter().map(|[value, written]| (written != 0).then_some(value));
         let mut next = move || stamps.next().flatten();
         let mut queues: Vec<(Queue, Option<u64>, Option<u64>)> = Vec::new();
@@ -106,11 +117,8 @@ impl Timing {
                 for pass in passes(&step.work) {
                     let ended = next();
                     let milliseconds = clock.between(began, ended);
-                    reports.push(PassReport {
-                        name: pass.name.to_string(),
-                        draws: draws.next().unwrap_or(0),
-                        milliseconds,
-                    });
+                    let Counts { draws, culled } = counts.next().unwrap_or_default();
+                    reports.push(PassReport { name: pass.name.to_string(), draws, culled, milliseconds });
                     began = ended;
                 }
                 let ended = next();

@@ -192,18 +192,20 @@ impl Report {
     #[must_use]
     pub(crate) fn table(&self) -> String {
         let mut table = Table::new();
-        table.load_preset(ASCII_MARKDOWN).set_header(["step", "pass", "draws", "GPU ms"]);
+        table.load_preset(ASCII_MARKDOWN).set_header(["step", "pass", "draws", "culled", "GPU ms"]);
         for row in &self.passes {
             let name = match row.inserted {
                 Some(word) => format!("({word} {})", text::escape(&row.name)),
                 None => text::escape(&row.name),
             };
-            let draws = if row.kind == Kind::Draw { row.draws.to_string() } else { String::new() };
-            table.add_row([row.step.to_string(), name, draws, format!("{:.2}", row.gpu_milliseconds)]);
+            let count = |count: u32| if row.kind == Kind::Draw { count.to_string() } else { String::new() };
+            let (draws, culled) = (count(row.draws), count(row.culled));
+            table.add_row([row.step.to_string(), name, draws, culled, format!("{:.2}", row.gpu_milliseconds)]);
         }
-        let draws: u32 = self.passes.iter().map(|row| row.draws).sum();
-        table.add_row(["", "frame", &draws.to_string(), &format!("{:.2}", self.gpu_milliseconds)]);
-        for column in [0, 2, 3] {
+        let sum = |count: fn(&Row) -> u32| self.passes.iter().map(count).sum::<u32>().to_string();
+        let (draws, culled) = (sum(|row| row.draws), sum(|row| row.culled));
+        table.add_row(["", "frame", &draws, &culled, &format!("{:.2}", self.gpu_milliseconds)]);
+        for column in [0, 2, 3, 4] {
             if let Some(column) = table.column_mut(column) {
                 column.set_cell_alignment(CellAlignment::Right);
             }

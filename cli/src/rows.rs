@@ -18,6 +18,8 @@ pub(crate) struct Row {
     pub(crate) inserted: Option<&'static str>,
     /// Draw calls.
     pub(crate) draws: u32,
+    /// Objects that were left out because nothing of them can be seen.
+    pub(crate) culled: u32,
     /// Median of its GPU times over all frames. A resolve at the end of a rendering scope takes what its passes leave of
     /// the scope's time, stores included.
     pub(crate) gpu_milliseconds: f64,
@@ -51,8 +53,15 @@ pub(crate) fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
     let mut rows = Vec::new();
     for (step, planned) in plan.steps.iter().enumerate() {
         let gpu_milliseconds = over(&|frame| frame.steps[step].milliseconds);
-        let pass =
-            |kind, name: &str| Row { step, kind, name: name.to_owned(), inserted: None, draws: 0, gpu_milliseconds };
+        let pass = |kind, name: &str| Row {
+            step,
+            kind,
+            name: name.to_owned(),
+            inserted: None,
+            draws: 0,
+            culled: 0,
+            gpu_milliseconds,
+        };
         let moves = |kind, word, transfer: &Transfer| match &transfer.name {
             Some(name) => pass(kind, name),
             None => {
@@ -64,7 +73,8 @@ pub(crate) fn rows(plan: &Plan, frames: &[FrameReport]) -> Vec<Row> {
             Work::Render(scope) => {
                 for (number, drawn) in last.steps[step].passes.iter().enumerate() {
                     let gpu_milliseconds = over(&|frame| frame.steps[step].passes[number].milliseconds);
-                    rows.push(Row { draws: drawn.draws, gpu_milliseconds, ..pass(Kind::Draw, &drawn.name) });
+                    let (draws, culled) = (drawn.draws, drawn.culled);
+                    rows.push(Row { draws, culled, gpu_milliseconds, ..pass(Kind::Draw, &drawn.name) });
                 }
                 if let Some(resolves) = resolves(plan, scope) {
                     let rest = over(&|frame| {

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::poison;
 use crate::prepare::{Prepared, Step as Made};
 use crate::recorder::{DrawSource, Kept};
-use crate::timing::Timing;
+use crate::timing::{Counts, Timing};
 use ash::vk;
 use framewright_graph::plan::{Plan, Resource, Step, Work};
 
@@ -31,8 +31,8 @@ pub(crate) struct Frame<'f> {
 /// A recorded frame.
 #[derive(Default)]
 pub(crate) struct Recorded {
-    /// Draw calls or dispatches of each pass.
-    pub(crate) draws: Vec<u32>,
+    /// By pass.
+    pub(crate) counts: Vec<Counts>,
     pub(crate) kept: Kept,
 }
 
@@ -63,7 +63,7 @@ impl Frame<'_> {
                 }
                 (Work::Dispatch(_), Made::Dispatch(pass)) => {
                     self.dispatch(commands, pass)?;
-                    recorded.draws.push(1);
+                    recorded.counts.push(Counts { draws: 1, culled: 0 });
                     timing.stamp(commands);
                 }
                 (Work::Custom(pass), _) => {
@@ -71,7 +71,7 @@ impl Frame<'_> {
                     source.custom(&pass.shader, &mut recorder)?;
                     let recorded_commands = recorder.finish();
                     let wrong = |what| Error::Recording { pass: pass.name.to_string(), what };
-                    recorded.draws.push(recorded_commands.map_err(wrong)?);
+                    recorded.counts.push(Counts { draws: recorded_commands.map_err(wrong)?, culled: 0 });
                     timing.stamp(commands);
                 }
                 (Work::Resolve(transfer), _) => self.resolve(commands, transfer),

@@ -7,7 +7,7 @@ use crate::pipeline::LocalRead;
 use crate::prepare::{Scope, Views};
 use crate::prepare_pass::Drawn;
 use crate::recorder::{CullMode, DrawSource, FrontFace, Kept, Recorder};
-use crate::timing::Timing;
+use crate::timing::{Counts, Timing};
 use ash::vk;
 use framewright_graph::frame::Draw;
 use framewright_graph::plan::{self, Attachment, RenderScope};
@@ -65,7 +65,7 @@ impl Frame<'_> {
                 self.draw(commands, pass, made, plan.extent, source, &mut recorded.kept)
             });
             timing.stamp(commands);
-            recorded.draws.push(drawn?);
+            recorded.counts.push(drawn?);
         }
         // SAFETY: the scope was begun above.
         unsafe { device.cmd_end_rendering(commands) };
@@ -110,7 +110,7 @@ impl Frame<'_> {
         extent: [u32; 2],
         source: &mut dyn DrawSource,
         kept: &mut Kept,
-    ) -> Result<u32, Error> {
+    ) -> Result<Counts, Error> {
         let device = &self.shared.raw;
         if let Some(pipeline) = pass.pipeline {
             let sets = [pass.sets.at(self.number).ok_or_else(unprepared)?.set.raw];
@@ -125,7 +125,7 @@ impl Frame<'_> {
         let mut recorder = Recorder::new(self.shared, commands, kept, pass, plan, extent);
         recorder.set_cull_mode(CullMode::None);
         recorder.set_front_face(FrontFace::CounterClockwise);
-        let drawn = match pass.draw {
+        let draws = match pass.draw {
             Draw::FullScreen if !pass.state.reads_supplied() => {
                 recorder.draw(0..3, 0..1);
                 1
@@ -147,8 +147,8 @@ impl Frame<'_> {
                 source.record(pass.draw, &mut recorder)?
             }
         };
-        recorder.finish().map_err(|what| Error::Recording { pass: plan.name.to_string(), what })?;
-        Ok(drawn)
+        let culled = recorder.finish().map_err(|what| Error::Recording { pass: plan.name.to_string(), what })?;
+        Ok(Counts { draws, culled })
     }
 
     /// Binds the vertex and index buffers that the Plan gives the pass.

@@ -27,6 +27,8 @@ pub struct CompiledShader {
     pub fragment: Option<Spirv>,
     /// What all stages use.
     pub interface: ShaderInterface,
+    /// Whether the vertex stage is the shipped one of its kind of draw.
+    pub usual_vertices: bool,
     /// The fragment stage's input attachments by name, with their index among those of the shader.
     pub input_attachments: Vec<(String, u32)>,
 }
@@ -120,20 +122,25 @@ impl ShaderLibrary {
         // The same vertex stage, word for word: it must meet the same depth.
         let own = Variant { local: Vec::new(), depth_only: false, ..variant.clone() };
         // A shipped vertex shader goes with the shipped fragment shader only.
-        let vertex = match self.stage(format!("{name}.vert"), Stage::Vertex, &own)? {
-            Some(own) if own.shipped == fragment.shipped => own,
-            _ => self.usual_vertex_stage(name, draw)?,
+        let (vertex, usual_vertices) = match self.stage(format!("{name}.vert"), Stage::Vertex, &own)? {
+            Some(own) if own.shipped == fragment.shipped => (own, false),
+            _ => {
+                let usual = self.usual_vertex_stage(name, draw)?;
+                let shipped = usual.shipped;
+                (usual, shipped)
+            }
         };
         let interface = join(&vertex, &fragment).map_err(|what| ShaderProblem::Unsupported { what })?;
         let spirv = vertex.spirv.clone();
         if variant.depth_only && changes_nothing(&fragment.reflected.interface) {
-            let interface = vertex.reflected.interface.clone();
-            return Ok(CompiledShader { vertex: spirv, fragment: None, interface, input_attachments: Vec::new() });
+            let (interface, input_attachments) = (vertex.reflected.interface.clone(), Vec::new());
+            return Ok(CompiledShader { vertex: spirv, fragment: None, interface, usual_vertices, input_attachments });
         }
         Ok(CompiledShader {
             vertex: spirv,
             fragment: Some(fragment.spirv.clone()),
             interface,
+            usual_vertices,
             input_attachments: fragment.reflected.input_attachments.clone(),
         })
     }

@@ -3,6 +3,7 @@
 mod block;
 pub mod cascades;
 mod frame_data;
+pub mod frustum;
 mod geometry;
 mod interface;
 mod lists;

@@ -2,6 +2,7 @@
 
 use super::cascades::{self, Map, cascades_block, seen_by_sun};
 use super::frame_data::{lights_block, objects_block, view_block, world_to_clip};
+use super::frustum;
 use super::geometry::Geometry;
 use super::interface::{
     CASCADES_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING, VIEW_BINDING, interface,
@@ -27,11 +28,14 @@ pub struct SceneDrawSource {
     textures: Textures,
     opaque: Vec<ObjectDraw>,
     masked: Vec<ObjectDraw>,
+    culls: bool,
 }
 
 /// What a view's camera decides.
 struct Seen {
     frame: BindGroup,
+    /// By object, whether it may be seen.
+    in_sight: Vec<bool>,
     transparent: Vec<ObjectDraw>,
     /// By cascade, the nearest first.
     cascades: Vec<SeenBySun>,
@@ -40,8 +44,8 @@ struct Seen {
 /// What the sun sees of a cascade.
 struct SeenBySun {
     frame: BindGroup,
-    opaque: Vec<ObjectDraw>,
-    masked: Vec<ObjectDraw>,
+    /// By object, whether it may cast a shadow there.
+    casts: Vec<bool>,
 }
 
 /// One object, with the state that it wants.
@@ -98,15 +102,36 @@ impl SceneDrawSource {
             textures: Textures::new(device, &objects, &scene.textures)?,
             opaque: draws(scene, &scene.camera, DrawList::Opaque),
             masked: draws(scene, &scene.camera, DrawList::Masked),
+            culls: true,
         })
     }
 
-    /// Records one draw list. State is set only where it differs from the draw before.
-    fn record_objects(&self, list: &[ObjectDraw], frame: &BindGroup, recorder: &mut Recorder<'_>) {
+    /// Whether objects are left out that lie outside of what a pass shows; they are unless this says otherwise. The picture
+    /// is the same. Passes whose shaders bring a vertex shader of their own are always given all objects.
+    pub fn set_culling(&mut self, on: bool) {
+        self.culls = on;
+    }
+
+    /// Records those of a draw list that are `wanted`, by object, and returns how many. State is set only where it differs
+    /// from the draw before.
+    fn record_objects(
+        &self,
+        list: &[ObjectDraw],
+        wanted: &[bool],
+        frame: &BindGroup,
+        recorder: &mut Recorder<'_>,
+    ) -> u32 {
         recorder.bind_group(FRAME_SET, frame);
         self.geometry.bind(recorder);
+        let all = !self.culls || !recorder.has_usual_vertices();
         let (mut texture, mut raster) = (None, None);
+        let (mut drawn, mut culled) = (0, 0);
         for draw in list {
+            if !(all || wanted[draw.object as usize]) {
+                culled += 1;
+                continue;
+            }
+            drawn += 1;
             if texture != Some(draw.texture) {
                 recorder.bind_group(MATERIAL_SET, self.textures.group(draw.texture));
                 texture = Some(draw.texture);
@@ -118,6 +143,8 @@ impl SceneDrawSource {
             }
             self.geometry.draw(draw.mesh, draw.object, recorder);
         }
+        recorder.count_culled(culled);
+        drawn
     }
 
     fn list<'s>(&'s self, list: DrawList, seen: &'s Seen) -> &'s [ObjectDraw] {
@@ -151,15 +178,12 @@ impl DrawSource for SceneDrawSource {
         match draw {
             Draw::Objects(list) => {
                 let seen = self.seen(recorder)?;
-                let draws = self.list(list, seen);
-                self.record_objects(draws, &seen.frame, recorder);
-                Ok(u32::try_from(draws.len()).unwrap_or(u32::MAX))
+                Ok(self.record_objects(self.list(list, seen), &seen.in_sight, &seen.frame, recorder))
             }
             Draw::Casters(cascade) => {
                 let seen = self.seen_by_sun(cascade.index, recorder)?;
-                let draws = if cascade.list == DrawList::Masked { &seen.masked } else { &seen.opaque };
-                self.record_objects(draws, &seen.frame, recorder);
-                Ok(u32::try_from(draws.len()).unwrap_or(u32::MAX))
+                let list = if cascade.list == DrawList::Masked { &self.masked } else { &self.opaque };
+                Ok(self.record_objects(list, &seen.casts, &seen.frame, recorder))
             }
             Draw::Sky | Draw::FullScreen => {
                 let seen = self.seen(recorder)?;
@@ -195,17 +219,13 @@ fn seen(device: &Device, scene: &Scene, camera: &Camera, extent: [u32; 2], maps:
         ];
         device.bind_group(&objects, FRAME_SET, &resources)
     };
-    let casters = |seen: &cascades::Seen, list| {
-        let mut draws = draws(scene, camera, list);
-        draws.retain(|draw| cascades::may_cast(scene, camera, seen, &scene.objects[draw.object as usize]));
-        draws
-    };
     let cascade = |seen: &cascades::Seen| {
-        let [opaque, masked] = [DrawList::Opaque, DrawList::Masked].map(|list| casters(seen, list));
-        Ok::<_, Error>(SeenBySun { frame: frame(seen.world_to_clip)?, opaque, masked })
+        let casts = scene.objects.iter().map(|object| cascades::may_cast(scene, camera, seen, object)).collect();
+        Ok::<_, Error>(SeenBySun { frame: frame(seen.world_to_clip)?, casts })
     };
     Ok(Seen {
         frame: frame(world_to_clip(camera, aspect))?,
+        in_sight: frustum::in_sight(scene, camera, aspect),
         transparent: draws(scene, camera, DrawList::Transparent),
         cascades: by_sun.iter().map(cascade).collect::<Result<_, _>>()?,
     })
