@@ -203,6 +203,7 @@ fn the_report_holds_what_the_table_shows_and_more() {
     assert_eq!(passes.iter().filter(|pass| pass["kind"] == "resolve").count(), 1);
     let opaque = &passes[0];
     assert!(opaque["draws"].as_u64() > Some(10), "{opaque:#}");
+    assert_eq!(opaque["culled"], 2, "{opaque:#}");
     assert!(opaque["gpu_milliseconds"].as_f64() > Some(0.0), "{opaque:#}");
     assert!(report["gpu_milliseconds"].as_f64() > opaque["gpu_milliseconds"].as_f64());
 }
