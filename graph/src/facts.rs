@@ -148,7 +148,7 @@ impl Facts {
         casts_shadows: true,
         peak_radiance: 65504.0,
         suns: 1,
-        point_lights: 64,
+        point_lights: 4096,
         objects: 250_000,
         triangles: 4_194_304_000_000,
     };

@@ -47,6 +47,7 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "include/luminance.glsl",
     "include/material.glsl",
     "include/overlay.glsl",
+    "include/point_lights.glsl",
     "include/radiance.glsl",
     "include/random.glsl",
     "include/scale.glsl",

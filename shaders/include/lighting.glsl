@@ -2,6 +2,7 @@
 #ifndef FRAMEWRIGHT_LIGHTING
 #define FRAMEWRIGHT_LIGHTING
 
+#include "include/point_lights.glsl"
 #include "include/scene.glsl"
 
 // Share of light that any plain dielectric (refractive index 1.5) mirrors head-on.
@@ -34,6 +35,13 @@ float falloff(float distance_squared, float inverse_range) {
     return clamp(1.0 - share * share, 0.0, 1.0) / squared;
 }
 
+// What a white surface at `position` scatters of a point light.
+vec3 from_point(PointLight light, vec3 position, vec3 normal) {
+    const vec3 towards = light.position - position;
+    const float facing = max(dot(normal, direction_of(towards)), 0.0);
+    return light.intensity * (facing * falloff(dot(towards, towards), light.inverse_range));
+}
+
 // Light scattered back by a white surface, and light mirrored by any surface.
 struct Reflected {
     vec3 diffuse;
@@ -45,11 +53,9 @@ struct Reflected {
 Reflected reflect_light(vec3 position, vec3 normal, float sunlit) {
     const vec3 from_sun = lights.sun_radiance * (sunlit * max(dot(normal, lights.sun_direction), 0.0));
     vec3 diffuse = lights.ambient_radiance + from_sun;
-    for (uint i = 0u; i < lights.point_light_count; ++i) {
-        const PointLight light = lights.point_lights[i];
-        const vec3 towards = light.position - position;
-        const float facing = max(dot(normal, direction_of(towards)), 0.0);
-        diffuse += light.intensity * (facing * falloff(dot(towards, towards), light.inverse_range));
+    const Reach reach = reach_of(position);
+    for (uint i = 0u; i < reach.count; ++i) {
+        diffuse += from_point(light_of(reach, i), position, normal);
     }
     return Reflected(diffuse, from_sun * highlight(normal, direction_of(-position), lights.sun_direction));
 }

@@ -52,6 +52,8 @@ layout(set = 1, binding = 1, std430) readonly buffer Lights {
     vec3 zenith_radiance;
     vec3 horizon_radiance;
     vec3 ground_radiance;
+    // How many of the point lights, the first ones, reach everywhere; the others stand in the lists of `clusters`.
+    uint lights_everywhere;
     PointLight point_lights[];
 } lights;
 
@@ -75,5 +77,19 @@ layout(set = 1, binding = 3, std140) uniform Cascades {
     // How far from the camera shadows reach, metres.
     float reach;
 } cascades;
+
+// Which of the other point lights reach which part of what the camera sees; see include/point_lights.glsl.
+layout(set = 1, binding = 4, std430) readonly buffer Clusters {
+    // World space to tiles of the picture, times the distance along the camera's axis, which is w.
+    mat4 world_to_cluster;
+    uint tiles_across;
+    uint tiles_down;
+    uint slices;
+    // 1 over the distance from which on slices count, metres, and how many there are from there to twice as far.
+    float inverse_nearest;
+    float slices_per_doubling;
+    // For each cluster where its list begins, and where the last one ends; then the lists: numbers of lights.
+    uint words[];
+} clusters;
 
 #endif

@@ -14,5 +14,5 @@ fn a_scene_with_more_point_lights_than_can_be_drawn_is_refused() {
     assert!(SceneDrawSource::new(device, &scene, [16, 16]).is_ok());
     scene.point_lights.push(light);
     let refusal = SceneDrawSource::new(device, &scene, [16, 16]).err().map(|error| error.to_string());
-    assert_eq!(refusal.as_deref(), Some("the scene has 65 point lights, and at most 64 can be drawn"));
+    assert_eq!(refusal.as_deref(), Some("the scene has 4097 point lights, and at most 4096 can be drawn"));
 }

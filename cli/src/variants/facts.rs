@@ -115,7 +115,7 @@ mod tests {
     fn the_number_of_lights_varies_by_its_parts() {
         let lights = of("\"scene.lights >= 2\"");
         assert_eq!(lights[0], (Fact::Suns, vec!["1".to_owned(), "0".to_owned()]));
-        assert_eq!(lights[1], (Fact::PointLights, ["64", "0", "1", "2", "3"].map(String::from).to_vec()));
+        assert_eq!(lights[1], (Fact::PointLights, ["4096", "0", "1", "2", "3"].map(String::from).to_vec()));
         assert_eq!(lights.len(), 2);
     }
 

@@ -4,6 +4,7 @@
 //! own origin doesn't shake.
 
 use super::block::Block;
+use super::clusters::Clusters;
 use crate::scene::{AlphaMode, Camera, Scene};
 use glam::{DMat3, DMat4, DVec3, Mat4, Vec3};
 
@@ -24,8 +25,8 @@ pub(super) fn view_block(camera: &Camera, world_to_clip: DMat4) -> Vec<u8> {
     block.bytes()
 }
 
-/// Sun, ambient light, sky and point lights.
-pub(super) fn lights_block(scene: &Scene, camera: &Camera) -> Vec<u8> {
+/// Sun, ambient light, sky and point lights, these in the order of `clusters`.
+pub(super) fn lights_block(scene: &Scene, camera: &Camera, clusters: &Clusters) -> Vec<u8> {
     let mut block = Block::default();
     block.vec3((-Vec3::from(scene.sun.direction)).to_array());
     block.uint(u32::try_from(scene.point_lights.len()).unwrap_or(u32::MAX));
@@ -34,8 +35,8 @@ pub(super) fn lights_block(scene: &Scene, camera: &Camera) -> Vec<u8> {
     block.vec3(scene.sky.zenith);
     block.vec3(scene.sky.horizon);
     block.vec3(scene.sky.ground);
-    block.align();
-    for light in &scene.point_lights {
+    block.uint(clusters.everywhere);
+    for light in clusters.order.iter().map(|number| &scene.point_lights[*number as usize]) {
         block.vec3(from_camera(camera, Vec3::from(light.position).as_dvec3()).as_vec3().to_array());
         block.float(light.range.map_or(0.0, f32::recip));
         block.vec3(light.color.map(|channel| channel * light.intensity));

@@ -16,6 +16,8 @@ pub const LIGHTS_BINDING: u32 = 1;
 pub const OBJECTS_BINDING: u32 = 2;
 /// Binding of how the sun sees the scene, in [`FRAME_SET`].
 pub const CASCADES_BINDING: u32 = 3;
+/// Binding of which point lights reach which part of what is seen, in [`FRAME_SET`].
+pub const CLUSTERS_BINDING: u32 = 4;
 /// Binding of the base colour's texture, in [`MATERIAL_SET`].
 pub const BASE_COLOR_TEXTURE_BINDING: u32 = 0;
 
@@ -32,6 +34,7 @@ pub fn interface(draw: Draw) -> DrawInterface {
         frame(LIGHTS_BINDING, "lights", SuppliedKind::StorageBlock),
         frame(OBJECTS_BINDING, "objects", SuppliedKind::StorageBlock),
         frame(CASCADES_BINDING, "cascades", SuppliedKind::UniformBlock),
+        frame(CLUSTERS_BINDING, "clusters", SuppliedKind::StorageBlock),
     ];
     match draw {
         Draw::Objects(_) | Draw::Casters(_) => {

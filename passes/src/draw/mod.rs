@@ -2,6 +2,7 @@
 
 mod block;
 pub mod cascades;
+pub mod clusters;
 mod frame_data;
 pub mod frustum;
 mod geometry;
@@ -11,8 +12,8 @@ mod source;
 mod textures;
 
 pub use interface::{
-    BASE_COLOR_TEXTURE_BINDING, CASCADES_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING,
-    VIEW_BINDING, interface,
+    BASE_COLOR_TEXTURE_BINDING, CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET,
+    OBJECTS_BINDING, VIEW_BINDING, interface,
 };
 pub use lists::{draw_order, draw_order_from};
 pub use source::{MOST_POINT_LIGHTS, SceneDrawSource};

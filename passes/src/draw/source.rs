@@ -1,21 +1,24 @@
 //! Draws a scene.
 
 use super::cascades::{self, Map, cascades_block, seen_by_sun};
+use super::clusters::Clusters;
 use super::frame_data::{lights_block, objects_block, view_block, world_to_clip};
 use super::frustum;
 use super::geometry::Geometry;
 use super::interface::{
-    CASCADES_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING, VIEW_BINDING, interface,
+    CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING, VIEW_BINDING,
+    interface,
 };
 use super::lists::draw_order_from;
 use super::textures::Textures;
-use crate::scene::{Camera, Scene};
+use crate::scene::{Camera, Scene, limits};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::plan::{Plan, View, ViewId};
 use framewright_vulkan::{BindGroup, BufferUsage, CullMode, Device, DrawSource, Error, FrontFace, Recorder, Resource};
 
-/// Every fragment looks at every point light, so their number is kept small.
-pub const MOST_POINT_LIGHTS: usize = 64;
+/// Point lights that a scene may have to be drawn. Those with a range are looked at where they reach; see
+/// [`super::clusters`].
+pub const MOST_POINT_LIGHTS: usize = limits::POINT_LIGHTS;
 
 /// A scene on a device, ready to be drawn.
 ///
@@ -205,7 +208,9 @@ fn seen(device: &Device, scene: &Scene, camera: &Camera, extent: [u32; 2], maps:
     let [width, height] = extent.map(|side| f64::from(side.max(1)));
     let aspect = width / height;
     let by_sun: Vec<_> = maps.iter().map(|map| seen_by_sun(scene, camera, aspect, map.cascade, map.texels)).collect();
-    let lights = device.buffer(BufferUsage::Storage, &lights_block(scene, camera))?;
+    let in_clusters = Clusters::new(scene, camera, aspect);
+    let lights = device.buffer(BufferUsage::Storage, &lights_block(scene, camera, &in_clusters))?;
+    let clusters = device.buffer(BufferUsage::Storage, &in_clusters.block())?;
     let by_object = device.buffer(BufferUsage::Storage, &objects_block(scene, camera))?;
     let cascades = device.buffer(BufferUsage::Uniform, &cascades_block(&by_sun))?;
     let objects = interface(Draw::Objects(DrawList::Opaque));
@@ -216,6 +221,7 @@ fn seen(device: &Device, scene: &Scene, camera: &Camera, extent: [u32; 2], maps:
             (LIGHTS_BINDING, Resource::Buffer(&lights)),
             (OBJECTS_BINDING, Resource::Buffer(&by_object)),
             (CASCADES_BINDING, Resource::Buffer(&cascades)),
+            (CLUSTERS_BINDING, Resource::Buffer(&clusters)),
         ];
         device.bind_group(&objects, FRAME_SET, &resources)
     };

@@ -12,8 +12,8 @@ pub const VERTICES: usize = 16 << 20;
 pub const INDICES: usize = 48 << 20;
 /// Objects.
 pub const OBJECTS: usize = 250_000;
-/// Point lights: each is evaluated at every fragment.
-pub const POINT_LIGHTS: usize = 64;
+/// Point lights.
+pub const POINT_LIGHTS: usize = 4096;
 /// Width and height of a texture, texels. Every device that the project runs on has it.
 pub const TEXTURE_SIDE: u32 = 8192;
 /// Bytes of all textures together, decoded: 1 GiB.
