@@ -276,7 +276,10 @@ fn a_mistake_beyond_a_number_of_lights_is_found() {
     let cause = &answer["failures"][0]["breaks_with"];
     assert_eq!(cause["facts"], serde_json::json!([{ "name": "scene.point_lights", "value": "12" }]));
     let axis = answer["axes"].as_array().and_then(|axes| axes.iter().find(|axis| axis["name"] == "scene.point_lights"));
-    assert_eq!(axis.expect("it varies")["values"], serde_json::json!(["4096", "0", "11", "12", "13", "19", "20", "21"]));
+    assert_eq!(
+        axis.expect("it varies")["values"],
+        serde_json::json!(["4096", "0", "11", "12", "13", "19", "20", "21"])
+    );
 }
 
 #[test]

@@ -58,7 +58,7 @@ impl Ball {
     /// the origin along that; `None` if nothing does.
     fn cut(self, normal: DVec3, distance: f64) -> Option<Ball> {
         let beyond = distance - normal.dot(self.centre);
-        if !(beyond > 0.0) {
+        if beyond <= 0.0 {
             return Some(self);
         }
         let squared_radius = self.squared_radius - beyond * beyond;
