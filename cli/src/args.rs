@@ -104,7 +104,7 @@ pub(crate) struct Run {
     /// Pipeline and settings.
     #[command(flatten)]
     pub(crate) pipeline: Pipeline,
-    /// Scene to draw: a .glb file, or a scene of our own in RON.
+    /// Scene to draw: a .glb or .gltf file, or a scene of our own in RON.
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: PathBuf,
     /// Size of the output in pixels.
@@ -145,7 +145,7 @@ impl Run {
 /// `framewright facts`.
 #[derive(Debug, Args)]
 pub(crate) struct Facts {
-    /// Scene: a .glb file, or a scene of our own in RON; if there is none by that name, a shipped scene's name.
+    /// Scene: a .glb or .gltf file, or a scene of our own in RON; if there is none by that name, a shipped scene's name.
     #[arg(value_name = "SCENE")]
     pub(crate) scene: PathBuf,
     /// Answer for programs.

@@ -4,8 +4,10 @@ use crate::{picture, text};
 use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::file_path::for_shell;
 use framewright_graph::format::Format;
+use framewright_graph::root::NoFile;
 use framewright_graph::source::Sources;
 use framewright_passes::scene::SceneError;
+use framewright_passes::scene::gltf::{GltfError, Problem};
 use framewright_vulkan::Blame;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -301,6 +303,10 @@ impl Error {
                 SceneError::Unreadable { source, .. } if source.kind() == io::ErrorKind::PermissionDenied => {
                     Exit::Environment
                 }
+                SceneError::Gltf {
+                    error: GltfError { problem: Problem::File { problem: NoFile::Denied { .. }, .. }, .. },
+                    ..
+                } => Exit::Environment,
                 _ => Exit::Found,
             },
             Error::Vulkan(problem) => match problem.blame() {

@@ -1,10 +1,10 @@
 //! What a scene may hold. A file beyond these limits is refused with a message, before memory is spent on it.
 
-/// Bytes of a scene file: 512 MiB.
+/// Bytes of a scene file, and of all data that a glTF file names beside itself: 512 MiB.
 pub const FILE_BYTES: u64 = 512 << 20;
 /// Bytes of a scene in text form: 4 MiB.
 pub const TEXT_BYTES: u64 = 4 << 20;
-/// Bytes of the JSON inside a GLB: 64 MiB.
+/// Bytes of the JSON of a glTF file: 64 MiB.
 pub const JSON_BYTES: usize = 64 << 20;
 /// Vertices of all meshes together.
 pub const VERTICES: usize = 16 << 20;

@@ -1,15 +1,16 @@
 //! Scenes from files.
 
-use super::{Scene, glb, limits, text};
+use super::{Scene, gltf, limits, text};
 use framewright_graph::describe::{Diagnostic, render};
+use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use std::path::{Path, PathBuf};
 
 /// Why a file is no scene. The sentences name the file as it was given, escaped.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
-    /// The name ends in neither `.glb` nor `.ron`.
-    #[error("{}: a scene is a .glb or a .ron file", shown(path))]
+    /// The name ends in neither `.glb` nor `.gltf` nor `.ron`.
+    #[error("{}: a scene is a .glb, .gltf or .ron file", shown(path))]
     Kind {
         /// The file.
         path: PathBuf,
@@ -46,27 +47,31 @@ pub enum SceneError {
         /// At least one.
         mistakes: Vec<Diagnostic>,
     },
-    /// A `.glb` file with a mistake.
+    /// A `.glb` or `.gltf` file with a mistake.
     #[error("{}: {error}", shown(path))]
-    Glb {
+    Gltf {
         /// The file.
         path: PathBuf,
         /// The mistake.
-        error: glb::GlbError,
+        error: gltf::GltfError,
     },
 }
 
-/// Reads the scene in a file: GLB ([`super::glb`]) where its name ends in `.glb`, our own format ([`super::text`]) where it
-/// ends in `.ron`.
+/// Reads the scene in a file: glTF ([`super::gltf`]) where its name ends in `.glb` or `.gltf`, our own format
+/// ([`super::text`]) where it ends in `.ron`.
 ///
 /// # Errors
 /// [`SceneError`] says what is wrong with the file, and where in it.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
     let extension = path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
     match extension.as_deref() {
-        Some("glb") => {
-            let bytes = bytes(path, limits::FILE_BYTES)?;
-            glb::read(&bytes).map_err(|error| SceneError::Glb { path: path.into(), error })
+        Some(ending @ ("glb" | "gltf")) => {
+            let beside = Root::new(path.parent().unwrap_or(Path::new("")).to_owned());
+            let scene = match ending {
+                "glb" => gltf::read_glb(&bytes(path, limits::FILE_BYTES)?, Some(&beside)),
+                _ => gltf::read_json(&bytes(path, limits::JSON_BYTES as u64)?, Some(&beside)),
+            };
+            scene.map_err(|error| SceneError::Gltf { path: path.into(), error })
         }
         Some("ron") => {
             let not_text = |error: std::string::FromUtf8Error| SceneError::NotText {

@@ -17,7 +17,7 @@ mod bounds;
 mod camera;
 mod defaults;
 mod facts;
-pub mod glb;
+pub mod gltf;
 mod light;
 pub mod limits;
 mod load;

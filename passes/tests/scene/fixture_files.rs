@@ -1,7 +1,7 @@
 //! The committed GLB files are what the code makes, and load as what they were made to be.
 
 use crate::fixtures;
-use framewright_passes::scene::{AlphaMode, Scene, Wrap, glb};
+use framewright_passes::scene::{AlphaMode, Scene, Wrap, gltf};
 use glam::Vec3;
 
 /// Set to write the files anew.
@@ -27,7 +27,7 @@ fn the_committed_files_are_what_the_code_makes() {
 
 fn fixture(name: &str) -> Scene {
     let bytes = fixtures::all().into_iter().find(|(known, _)| *known == name).expect("a known fixture").1;
-    let scene = glb::read(&bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let scene = gltf::read_glb(&bytes, None).unwrap_or_else(|error| panic!("{name}: {error}"));
     assert_eq!(scene.notes, Vec::<String>::new(), "{name}");
     scene
 }
@@ -225,7 +225,7 @@ fn lights_in_the_file_replace_the_default_sun() {
 #[test]
 fn a_file_without_camera_is_framed_whole() {
     for (name, bytes) in fixtures::all().into_iter().filter(|(name, _)| *name != "camera_and_lights.glb") {
-        let scene = glb::read(&bytes).expect("loads");
+        let scene = gltf::read_glb(&bytes, None).expect("loads");
         let to_clip = scene.camera.projection(1.0) * scene.camera.view();
         for object in &scene.objects {
             for position in &scene.meshes[object.mesh].positions {

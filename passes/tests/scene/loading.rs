@@ -65,8 +65,8 @@ fn the_same_file_gives_the_same_scene() {
 
 #[test]
 fn files_that_are_no_scene() {
-    assert_eq!(sentence("scene.obj", b""), "scene.obj: a scene is a .glb or a .ron file");
-    assert_eq!(sentence("scene", b""), "scene: a scene is a .glb or a .ron file");
+    assert_eq!(sentence("scene.obj", b""), "scene.obj: a scene is a .glb, .gltf or .ron file");
+    assert_eq!(sentence("scene", b""), "scene: a scene is a .glb, .gltf or .ron file");
     assert_eq!(
         sentence("\u{1b}[31m.glb", b"x"),
         "\\u{1b}[31m.glb: this is not a GLB file: it doesn't begin with `glTF`"

@@ -2,7 +2,8 @@
 
 mod fixture_files;
 mod fixtures;
-mod glb_mistakes;
+mod gltf_files;
+mod gltf_mistakes;
 mod loading;
 mod mutations;
 mod text_mistakes;

@@ -3,7 +3,7 @@
 use crate::fixtures;
 use framewright_graph::describe::render;
 use framewright_graph::source::Sources;
-use framewright_passes::scene::{Scene, glb, text};
+use framewright_passes::scene::{Scene, gltf, text};
 use proptest::prelude::*;
 
 /// What a scene promises to whoever draws it.
@@ -36,7 +36,7 @@ fn is_sound(scene: &Scene) {
 #[test]
 fn what_the_fixtures_give_is_sound() {
     for (name, bytes) in fixtures::all() {
-        is_sound(&glb::read(&bytes).unwrap_or_else(|error| panic!("{name}: {error}")));
+        is_sound(&gltf::read_glb(&bytes, None).unwrap_or_else(|error| panic!("{name}: {error}")));
     }
 }
 
@@ -44,7 +44,7 @@ fn what_the_fixtures_give_is_sound() {
 fn every_file_cut_short_is_an_error() {
     for (name, bytes) in fixtures::all() {
         for length in (0..bytes.len()).step_by(7) {
-            assert!(glb::read(&bytes[..length]).is_err(), "{name} of {length} bytes loads");
+            assert!(gltf::read_glb(&bytes[..length], None).is_err(), "{name} of {length} bytes loads");
         }
     }
 }
@@ -67,7 +67,7 @@ proptest! {
             let at = at.index(bytes.len());
             bytes[at] ^= flip;
         }
-        if let Ok(scene) = glb::read(&bytes) {
+        if let Ok(scene) = gltf::read_glb(&bytes, None) {
             is_sound(&scene);
         }
     }
@@ -84,7 +84,7 @@ proptest! {
             let at = digits[at.index(digits.len())];
             bytes[at] = relabel(bytes[at], by);
         }
-        if let Ok(scene) = glb::read(&bytes) {
+        if let Ok(scene) = gltf::read_glb(&bytes, None) {
             is_sound(&scene);
         }
     }

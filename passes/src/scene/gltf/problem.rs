@@ -1,25 +1,26 @@
-//! What can be wrong with a GLB file.
+//! What can be wrong with a glTF file.
 
+use framewright_graph::root::NoFile;
 use std::fmt;
 
-/// A mistake in a GLB file. Written `accessor 3: …`.
+/// A mistake in a glTF file. Written `accessor 3: …`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct GlbError {
+pub struct GltfError {
     /// The thing in the file that is wrong: "accessor 3". Empty for the file as a whole.
     pub at: String,
     /// What is wrong with it.
     pub problem: Problem,
 }
 
-impl fmt::Display for GlbError {
+impl fmt::Display for GltfError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.at.is_empty() { self.problem.fmt(f) } else { write!(f, "{}: {}", self.at, self.problem) }
     }
 }
 
-impl std::error::Error for GlbError {}
+impl std::error::Error for GltfError {}
 
-/// What is wrong with a thing in a GLB file.
+/// What is wrong with a thing in a glTF file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Problem {
     /// The first four bytes aren't `glTF`.
@@ -76,11 +77,32 @@ pub enum Problem {
         /// How many there are.
         count: usize,
     },
-    /// Data stands in another file.
-    #[error("its data stands outside the file (`{0}`); only data packed into the GLB is read")]
+    /// Data stands in another file, and there is no folder to read it from; the URI's beginning, escaped.
+    #[error("its data stands in another file (`{0}`), and only this one is read")]
     External(String),
+    /// Data stands somewhere else altogether; the URI's beginning, escaped.
+    #[error("its data stands at `{0}`; only `data:` URIs and files beside this one are read")]
+    Scheme(String),
+    /// A data URI that isn't one.
+    #[error("its data URI `{uri}…` can't be read: {reason}")]
+    DataUri {
+        /// Its beginning; escaped.
+        uri: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A file beside this one that can't be read.
+    #[error("its file `{path}` {}", .problem.to_string().escape_debug())]
+    File {
+        /// Its path after percent-decoding, as it is counted from this file's folder; escaped.
+        path: String,
+        /// Why it can't.
+        problem: NoFile,
+    },
     /// A buffer that has no data.
-    #[error("it has no data: only the first buffer can be the file's binary chunk, and only if there is one")]
+    #[error(
+        "it has no data: it names no file, and only the first buffer can be the file's binary chunk, and only if there is one"
+    )]
     NoData,
     /// A range reaches beyond what holds it.
     #[error("bytes {start} to {end} are outside {holder}, which has {has}")]

@@ -1,11 +1,12 @@
-//! Textures out of embedded images.
+//! Textures out of images.
 
 use super::accessor::Data;
 use super::document::{self, follow};
-use super::problem::{GlbError, Problem};
+use super::problem::{GltfError, Problem};
 use crate::scene::{Sampler, Texture, Wrap, limits};
 use framewright_graph::vocabulary::Filter;
 use image::{DynamicImage, ImageFormat, ImageReader};
+use std::borrow::Cow;
 use std::io::Cursor;
 
 /// Decodes textures when a material first asks for them.
@@ -19,7 +20,7 @@ pub(super) struct Textures {
 
 impl Textures {
     /// The place of glTF's texture `number` in the scene's list; `None` if it has no image.
-    pub(super) fn place(&mut self, data: &Data<'_>, number: u64, user: &str) -> Result<Option<usize>, GlbError> {
+    pub(super) fn place(&mut self, data: &Data<'_>, number: u64, user: &str) -> Result<Option<usize>, GltfError> {
         if let Some(place) = self.numbers.iter().position(|known| *known == number) {
             return Ok(Some(place));
         }
@@ -42,20 +43,21 @@ impl Textures {
         Ok(Some(self.decoded.len() - 1))
     }
 
-    fn decode(&mut self, data: &Data<'_>, image: &document::Image, at: &str) -> Result<DynamicImage, GlbError> {
-        let fail = |problem| GlbError { at: at.into(), problem };
-        if let Some(uri) = &image.uri {
-            return Err(fail(Problem::External(uri.chars().take(40).flat_map(char::escape_debug).collect())));
-        }
-        let (bytes, _) = data.view(image.buffer_view.ok_or_else(|| fail(Problem::NoData))?, at)?;
+    fn decode(&mut self, data: &Data<'_>, image: &document::Image, at: &str) -> Result<DynamicImage, GltfError> {
+        let fail = |problem| GltfError { at: at.into(), problem };
+        let bytes: Cow<'_, [u8]> = match (&image.uri, image.buffer_view) {
+            (Some(uri), _) => data.external.bytes(uri, at)?.into(),
+            (None, Some(view)) => data.view(view, at)?.0.into(),
+            (None, None) => return Err(fail(Problem::NoData)),
+        };
         // What the bytes are counts, not what the file says about them.
-        let format = match image::guess_format(bytes) {
+        let format = match image::guess_format(&bytes) {
             Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
             _ => return Err(fail(Problem::ImageKind)),
         };
         let undecodable = |error: image::ImageError| fail(Problem::Image(error.to_string().escape_debug().to_string()));
         let (width, height) =
-            ImageReader::with_format(Cursor::new(bytes), format).into_dimensions().map_err(undecodable)?;
+            ImageReader::with_format(Cursor::new(&bytes), format).into_dimensions().map_err(undecodable)?;
         let side = width.max(height);
         let limit = limits::TEXTURE_SIDE;
         if side > limit {
@@ -67,13 +69,13 @@ impl Textures {
             let (is, limit) = (self.bytes, limits::TEXTURE_BYTES);
             return Err(fail(Problem::TooMuch { what: "bytes of all textures up to here", is, limit }));
         }
-        ImageReader::with_format(Cursor::new(bytes), format).decode().map_err(undecodable)
+        ImageReader::with_format(Cursor::new(&bytes), format).decode().map_err(undecodable)
     }
 }
 
 /// glTF 2.0, section 5.26: OpenGL's numbers.
-fn read_sampler(sampler: &document::Sampler, at: &str) -> Result<Sampler, GlbError> {
-    let unknown = |what, is: u64, expected| GlbError {
+fn read_sampler(sampler: &document::Sampler, at: &str) -> Result<Sampler, GltfError> {
+    let unknown = |what, is: u64, expected| GltfError {
         at: at.into(),
         problem: Problem::Word { what, is: is.to_string(), expected },
     };

@@ -1,4 +1,5 @@
-//! glTF 2.0 in its binary form, one file with everything in it.
+//! glTF 2.0: in its binary form (GLB), one file with everything in it, or as JSON (`.gltf`). In both, buffers and images may
+//! be `data:` URIs, or files in the folder of this one, never outside of it.
 //!
 //! Read are: triangles (lists, strips, fans) with positions, normals (computed flat where missing), one set of texture
 //! coordinates (the one that the base colour texture names; zeros where missing) and indices of 8, 16 or 32 bits or none;
@@ -9,13 +10,14 @@
 //!
 //! Not drawn, and noted in [`Scene::notes`]: points and lines, vertex colours, emissive, normal, occlusion and
 //! metallic-roughness textures, texture transforms, skins, morph targets, animations, orthographic cameras, spot lights,
-//! further suns. A file that *requires* an extension other than the two named is refused. Data outside the file is refused.
+//! further suns. A file that *requires* an extension other than the two named is refused.
 //!
 //! A file may lie about everything. Each reference, range, count and number is checked where it is used.
 
 mod accessor;
 mod container;
 mod document;
+mod external;
 mod lights;
 mod material;
 mod nodes;
@@ -23,23 +25,35 @@ mod picture;
 mod primitive;
 mod problem;
 
-pub use problem::{GlbError, Problem};
+pub use problem::{GltfError, Problem};
 
 use super::{Bounds, Camera, Material, Mesh, NamedCamera, Notes, Object, Scene, defaults, limits};
 use accessor::Data;
 use document::{Document, follow};
+use framewright_graph::root::Root;
 use glam::{DMat4, DVec3};
 use nodes::Placed;
 use picture::Textures;
 
-/// Reads a scene from the bytes of a GLB file.
+/// Reads a scene from the bytes of a GLB file. Files that it names are read from `beside`, and without that not at all.
 ///
 /// # Errors
-/// [`GlbError`] says which thing in the file is wrong.
-pub fn read(bytes: &[u8]) -> Result<Scene, GlbError> {
+/// [`GltfError`] says which thing in the file is wrong.
+pub fn read_glb(bytes: &[u8], beside: Option<&Root>) -> Result<Scene, GltfError> {
     let container = container::split(bytes)?;
-    let document = Document::read(container.json)?;
-    let data = Data { document: &document, binary: container.binary };
+    scene(&Document::read(container.json)?, container.binary, beside)
+}
+
+/// Reads a scene from the JSON of a `.gltf` file; `beside` as in [`read_glb`].
+///
+/// # Errors
+/// [`GltfError`] says which thing in the file is wrong.
+pub fn read_json(json: &[u8], beside: Option<&Root>) -> Result<Scene, GltfError> {
+    scene(&Document::read(json)?, None, beside)
+}
+
+fn scene(document: &Document, binary: Option<&[u8]>, beside: Option<&Root>) -> Result<Scene, GltfError> {
+    let data = Data::new(document, binary, beside);
     let mut notes = Notes::default();
     if document.animated {
         notes.add("animations are ignored".into());
@@ -50,11 +64,11 @@ pub fn read(bytes: &[u8]) -> Result<Scene, GlbError> {
         materials.push(material::read(&data, material, &format!("material {number}"), &mut textures, &mut notes)?);
     }
     let (meshes, groups) = meshes(&data, &mut materials, &mut notes)?;
-    let placed = nodes::walk(&document)?;
-    let (objects, bounds) = objects(&document, &placed, &meshes, &groups, &mut notes)?;
-    let bounds = bounds.ok_or(GlbError { at: String::new(), problem: Problem::Nothing })?;
-    let lights = lights::read(&document, &placed, &mut notes)?;
-    let cameras = cameras(&document, &placed, &mut notes)?;
+    let placed = nodes::walk(document)?;
+    let (objects, bounds) = objects(document, &placed, &meshes, &groups, &mut notes)?;
+    let bounds = bounds.ok_or(GltfError { at: String::new(), problem: Problem::Nothing })?;
+    let lights = lights::read(document, &placed, &mut notes)?;
+    let cameras = cameras(document, &placed, &mut notes)?;
     let camera = cameras.first().map_or_else(|| Camera::framing(bounds), |first| first.camera);
     Ok(Scene {
         meshes,
@@ -83,7 +97,7 @@ fn meshes(
     data: &Data<'_>,
     materials: &mut Vec<Material>,
     notes: &mut Notes,
-) -> Result<(Vec<Mesh>, Vec<Vec<Part>>), GlbError> {
+) -> Result<(Vec<Mesh>, Vec<Vec<Part>>), GltfError> {
     let mut meshes = Vec::new();
     let mut groups = Vec::with_capacity(data.document.meshes.len());
     let mut budget = primitive::Budget::default();
@@ -119,7 +133,7 @@ fn objects(
     meshes: &[Mesh],
     groups: &[Vec<Part>],
     notes: &mut Notes,
-) -> Result<(Vec<Object>, Option<Bounds>), GlbError> {
+) -> Result<(Vec<Object>, Option<Bounds>), GltfError> {
     let mut objects: Vec<Object> = Vec::new();
     let mut all: Option<Bounds> = None;
     for Placed { number, node, to_world } in placed {
@@ -132,7 +146,7 @@ fn objects(
         let is = objects.len() + parts.len();
         if is > limits::OBJECTS {
             let (is, limit) = (is as u64, limits::OBJECTS as u64);
-            return Err(GlbError { at, problem: Problem::TooMuch { what: "objects up to here", is, limit } });
+            return Err(GltfError { at, problem: Problem::TooMuch { what: "objects up to here", is, limit } });
         }
         let mesh_name = document.meshes.get(group as usize).and_then(|mesh| mesh.name.clone());
         let name = node.name.clone().or(mesh_name).unwrap_or_else(|| at.clone());
@@ -142,7 +156,7 @@ fn objects(
             if !bounds.within(limits::COORDINATE) {
                 let is = format!("{:?} to {:?}", bounds.min.to_array(), bounds.max.to_array());
                 let problem = Problem::OutOfRange { what: "its place in the world", is, expected: "at most 1e9 m" };
-                return Err(GlbError { at, problem });
+                return Err(GltfError { at, problem });
             }
             all = Some(all.map_or(bounds, |all| all.union(bounds)));
             let name = if index == 0 { name.clone() } else { format!("{name}, primitive {index}") };
@@ -153,7 +167,7 @@ fn objects(
 }
 
 /// Every perspective camera that stands somewhere, without the scale of its node, by the name of its node.
-fn cameras(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Result<Vec<NamedCamera>, GlbError> {
+fn cameras(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Result<Vec<NamedCamera>, GltfError> {
     let mut cameras = Vec::new();
     for Placed { number, node, to_world } in placed {
         let Some(index) = node.camera else { continue };
@@ -168,7 +182,7 @@ fn cameras(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Res
         };
         let check = |what, is: f64, ok: bool, expected| {
             let problem = Problem::OutOfRange { what, is: is.to_string(), expected };
-            if ok { Ok(is as f32) } else { Err(GlbError { at: at.clone(), problem }) }
+            if ok { Ok(is as f32) } else { Err(GltfError { at: at.clone(), problem }) }
         };
         let (fov, near) = (perspective.yfov, perspective.znear);
         let fov = check("the vertical field of view", fov, Camera::allows_fov(fov), "1e-4 to 3.1 radians")?;

@@ -2,7 +2,7 @@
 
 use super::document::{Document, follow};
 use super::nodes::Placed;
-use super::problem::{GlbError, Problem};
+use super::problem::{GltfError, Problem};
 use crate::scene::{Notes, PointLight, Sun, defaults, limits};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -13,7 +13,7 @@ pub(super) struct Lights {
 }
 
 /// The lights of the scene; the default sun where the file has neither a directional nor a point light.
-pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Result<Lights, GlbError> {
+pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Result<Lights, GltfError> {
     let mut sun = None;
     let mut points = Vec::new();
     for Placed { number, node, to_world } in placed {
@@ -23,7 +23,7 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
         let within = |what, is: f64| {
             let problem = Problem::OutOfRange { what, is: is.to_string(), expected: "0 to 1e9" };
             let fits = (0.0..=limits::RADIANCE).contains(&is);
-            if fits { Ok(is) } else { Err(GlbError { at: at.clone(), problem }) }
+            if fits { Ok(is) } else { Err(GltfError { at: at.clone(), problem }) }
         };
         let mut color = light.color.unwrap_or([1.0; 3]);
         for part in &mut color {
@@ -51,7 +51,7 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
                 if position.abs().max_element() > limits::COORDINATE {
                     let is = format!("{position:?}");
                     let problem = Problem::OutOfRange { what: "its place in the world", is, expected: "at most 1e9 m" };
-                    return Err(GlbError { at, problem });
+                    return Err(GltfError { at, problem });
                 }
                 points.push(PointLight {
                     position: position.as_vec3().to_array(),
@@ -65,13 +65,13 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
             other => {
                 let is = other.escape_debug().to_string();
                 let problem = Problem::Word { what: "type", is, expected: "directional, point or spot" };
-                return Err(GlbError { at, problem });
+                return Err(GltfError { at, problem });
             }
         }
     }
     if points.len() > limits::POINT_LIGHTS {
         let (is, limit) = (points.len() as u64, limits::POINT_LIGHTS as u64);
-        return Err(GlbError { at: String::new(), problem: Problem::TooMuch { what: "point lights", is, limit } });
+        return Err(GltfError { at: String::new(), problem: Problem::TooMuch { what: "point lights", is, limit } });
     }
     let dark = Sun { direction: defaults::SUN.direction, color: [0.0; 3], shadows: false };
     let sun = sun.unwrap_or(if points.is_empty() { defaults::SUN } else { dark });

@@ -1,13 +1,19 @@
-//! Typed data out of the binary chunk. Every range is checked before a byte is read.
+//! Typed data out of buffers. Every range is checked before a byte is read.
 
 use super::document::{Document, SparsePart, follow};
-use super::problem::{GlbError, Problem};
+use super::external::External;
+use super::problem::{GltfError, Problem};
 use crate::scene::limits;
+use framewright_graph::root::Root;
+use std::cell::OnceCell;
 
-/// The document with its binary data.
+/// The document with its data.
 pub(super) struct Data<'a> {
     pub(super) document: &'a Document,
-    pub(super) binary: Option<&'a [u8]>,
+    pub(super) external: External<'a>,
+    binary: Option<&'a [u8]>,
+    /// By buffer: what its URI led to, once somebody asked.
+    read: Vec<OnceCell<Vec<u8>>>,
 }
 
 /// What one element of an accessor is.
@@ -50,14 +56,20 @@ impl Component {
     }
 }
 
-impl Data<'_> {
+impl<'a> Data<'a> {
+    /// A document with the file's binary chunk, if it has one, and the folder that it lies in.
+    pub(super) fn new(document: &'a Document, binary: Option<&'a [u8]>, beside: Option<&'a Root>) -> Data<'a> {
+        let read = document.buffers.iter().map(|_| OnceCell::new()).collect();
+        Data { document, external: External::new(beside), binary, read }
+    }
+
     /// Vectors of 32-bit floats; coordinates of textures may be normalised integers too.
     pub(super) fn vectors<const N: usize>(
         &self,
         index: u64,
         role: &'static str,
         user: &str,
-    ) -> Result<Vec<[f32; N]>, GlbError> {
+    ) -> Result<Vec<[f32; N]>, GltfError> {
         let (element, bytes) = self.elements(index, user)?;
         let texture = role == TEXTURE_COORDINATES;
         let scale = match element {
@@ -81,13 +93,13 @@ impl Data<'_> {
         };
         let values: Vec<f32> = bytes.chunks_exact(element.component.bytes() as usize).map(value).collect();
         if values.iter().any(|value| !value.is_finite()) {
-            return Err(GlbError { at: format!("accessor {index}"), problem: Problem::NotFinite(role) });
+            return Err(GltfError { at: format!("accessor {index}"), problem: Problem::NotFinite(role) });
         }
         Ok(values.as_chunks::<N>().0.to_vec())
     }
 
     /// Indices of 8, 16 or 32 bits.
-    pub(super) fn indices(&self, index: u64, user: &str) -> Result<Vec<u32>, GlbError> {
+    pub(super) fn indices(&self, index: u64, user: &str) -> Result<Vec<u32>, GltfError> {
         let (element, bytes) = self.elements(index, user)?;
         let unsigned = matches!(element.component, Component::U8 | Component::U16 | Component::U32);
         if element.components != 1 || !unsigned {
@@ -97,29 +109,38 @@ impl Data<'_> {
     }
 
     /// The bytes of a buffer view, with its stride.
-    pub(super) fn view(&self, index: u64, user: &str) -> Result<(&[u8], Option<u64>), GlbError> {
+    pub(super) fn view(&self, index: u64, user: &str) -> Result<(&[u8], Option<u64>), GltfError> {
         let view = follow(&self.document.buffer_views, index, "buffer view", user)?;
         let at = format!("buffer view {index}");
-        let buffer = follow(&self.document.buffers, view.buffer, "buffer", &at)?;
-        let buffer_at = format!("buffer {}", view.buffer);
-        if let Some(uri) = &buffer.uri {
-            // Only the beginning: an URI may hold all the data.
-            let shown: String = uri.chars().take(40).flat_map(char::escape_debug).collect();
-            return Err(GlbError { at: buffer_at, problem: Problem::External(shown) });
-        }
-        let (0, Some(binary)) = (view.buffer, self.binary) else {
-            return Err(GlbError { at: buffer_at, problem: Problem::NoData });
-        };
-        let binary = range(binary, 0, buffer.byte_length, &buffer_at, || "the binary chunk".into())?;
-        let bytes = range(binary, view.byte_offset, view.byte_length, &at, || buffer_at)?;
+        let buffer = self.buffer(view.buffer, &at)?;
+        let bytes = range(buffer, view.byte_offset, view.byte_length, &at, || format!("buffer {}", view.buffer))?;
         Ok((bytes, view.byte_stride))
     }
 
+    /// The bytes of a buffer: behind its URI, or of the first without one the binary chunk.
+    fn buffer(&self, index: u64, user: &str) -> Result<&[u8], GltfError> {
+        let buffer = follow(&self.document.buffers, index, "buffer", user)?;
+        let at = format!("buffer {index}");
+        let (bytes, holder) = match (&buffer.uri, self.binary) {
+            (Some(uri), _) => {
+                let read = &self.read[index as usize];
+                if read.get().is_none() {
+                    let bytes = self.external.bytes(uri, &at)?;
+                    read.get_or_init(|| bytes);
+                }
+                (read.get().map_or(&[][..], Vec::as_slice), "its data")
+            }
+            (None, Some(binary)) if index == 0 => (binary, "the binary chunk"),
+            (None, _) => return Err(GltfError { at, problem: Problem::NoData }),
+        };
+        range(bytes, 0, buffer.byte_length, &at, || holder.into())
+    }
+
     /// All elements of an accessor without gaps, sparse ones put in place.
-    fn elements(&self, index: u64, user: &str) -> Result<(Element, Vec<u8>), GlbError> {
+    fn elements(&self, index: u64, user: &str) -> Result<(Element, Vec<u8>), GltfError> {
         let accessor = follow(&self.document.accessors, index, "accessor", user)?;
         let at = format!("accessor {index}");
-        let fail = |problem| GlbError { at: at.clone(), problem };
+        let fail = |problem| GltfError { at: at.clone(), problem };
         let component = Component::from_code(accessor.component_type).ok_or_else(|| {
             let is = accessor.component_type.to_string();
             fail(Problem::Word { what: "component type", is, expected: "5120, 5121, 5122, 5123, 5125 or 5126" })
@@ -164,8 +185,8 @@ impl Data<'_> {
     }
 
     /// Where sparse values go: ascending, each less than `count`.
-    fn sparse_indices(&self, part: &SparsePart, len: u64, count: u64, at: &str) -> Result<Vec<u32>, GlbError> {
-        let fail = |problem| GlbError { at: at.into(), problem };
+    fn sparse_indices(&self, part: &SparsePart, len: u64, count: u64, at: &str) -> Result<Vec<u32>, GltfError> {
+        let fail = |problem| GltfError { at: at.into(), problem };
         if len == 0 {
             return Err(fail(Problem::NoElements));
         }
@@ -189,11 +210,11 @@ impl Data<'_> {
     }
 
     /// `count` elements of `size` bytes from `offset` in a view, copied without gaps.
-    fn packed(&self, view: u64, offset: u64, count: u64, size: u64, at: &str) -> Result<Vec<u8>, GlbError> {
+    fn packed(&self, view: u64, offset: u64, count: u64, size: u64, at: &str) -> Result<Vec<u8>, GltfError> {
         let (bytes, stride) = self.view(view, at)?;
         let stride = match stride {
             Some(stride) if stride < size || !(4..=252).contains(&stride) => {
-                return Err(GlbError { at: format!("buffer view {view}"), problem: Problem::Stride { stride, size } });
+                return Err(GltfError { at: format!("buffer view {view}"), problem: Problem::Stride { stride, size } });
             }
             Some(stride) => stride,
             None => size,
@@ -203,7 +224,7 @@ impl Data<'_> {
         Ok(bytes.chunks(stride as usize).flat_map(|element| &element[..size as usize]).copied().collect())
     }
 
-    fn wrong_type(&self, index: u64, role: &'static str, expected: &'static str) -> GlbError {
+    fn wrong_type(&self, index: u64, role: &'static str, expected: &'static str) -> GltfError {
         let found = follow(&self.document.accessors, index, "accessor", "").map_or_else(
             |_| String::new(),
             |accessor| {
@@ -211,7 +232,7 @@ impl Data<'_> {
                 format!("{} of {normalized}component type {}", accessor.kind.escape_debug(), accessor.component_type)
             },
         );
-        GlbError { at: format!("accessor {index}"), problem: Problem::ElementType { role, found, expected } }
+        GltfError { at: format!("accessor {index}"), problem: Problem::ElementType { role, found, expected } }
     }
 }
 
@@ -230,11 +251,11 @@ fn range<'b>(
     length: u64,
     at: &str,
     holder: impl FnOnce() -> String,
-) -> Result<&'b [u8], GlbError> {
+) -> Result<&'b [u8], GltfError> {
     let end = start.saturating_add(length);
     let inside =
         usize::try_from(start).ok().zip(usize::try_from(end).ok()).and_then(|(start, end)| bytes.get(start..end));
-    inside.ok_or_else(|| GlbError {
+    inside.ok_or_else(|| GltfError {
         at: at.into(),
         problem: Problem::Range { start, end, holder: holder(), has: bytes.len() as u64 },
     })

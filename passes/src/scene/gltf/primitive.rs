@@ -2,7 +2,7 @@
 
 use super::accessor::{Data, TEXTURE_COORDINATES};
 use super::document::{Document, Primitive};
-use super::problem::{GlbError, Problem};
+use super::problem::{GltfError, Problem};
 use crate::scene::mesh::flat_shaded;
 use crate::scene::{Bounds, Mesh, Notes, limits};
 
@@ -14,12 +14,12 @@ pub(super) struct Budget {
 }
 
 impl Budget {
-    fn take(&mut self, vertices: usize, indices: usize, at: &str) -> Result<(), GlbError> {
+    fn take(&mut self, vertices: usize, indices: usize, at: &str) -> Result<(), GltfError> {
         self.vertices = self.vertices.saturating_add(vertices);
         self.indices = self.indices.saturating_add(indices);
         let fits = |what, is: usize, limit: usize| {
             let problem = Problem::TooMuch { what, is: is as u64, limit: limit as u64 };
-            if is > limit { Err(GlbError { at: at.into(), problem }) } else { Ok(()) }
+            if is > limit { Err(GltfError { at: at.into(), problem }) } else { Ok(()) }
         };
         fits("vertices of all meshes up to here", self.vertices, limits::VERTICES)?;
         fits("indices of all meshes up to here", self.indices, limits::INDICES)
@@ -33,8 +33,8 @@ pub(super) fn read(
     at: &str,
     budget: &mut Budget,
     notes: &mut Notes,
-) -> Result<Option<Mesh>, GlbError> {
-    let fail = |problem| GlbError { at: at.into(), problem };
+) -> Result<Option<Mesh>, GltfError> {
+    let fail = |problem| GltfError { at: at.into(), problem };
     let mode = Mode::of(primitive, at)?;
     let Some(mode) = mode else {
         notes.add(format!("{at}: points and lines are not drawn"));
@@ -55,7 +55,7 @@ pub(super) fn read(
     };
     if let Some((number, index)) = corners.iter().enumerate().find(|(_, index)| **index as usize >= vertices) {
         let at = primitive.indices.map_or_else(String::new, |accessor| format!("accessor {accessor}"));
-        return Err(GlbError { at, problem: Problem::Index { at: number, index: *index, vertices } });
+        return Err(GltfError { at, problem: Problem::Index { at: number, index: *index, vertices } });
     }
     let indices = mode.triangles(&corners).ok_or_else(|| fail(Problem::Corners(corners.len())))?;
     let normals = match primitive.attributes.get("NORMAL") {
@@ -88,7 +88,7 @@ enum Mode {
 
 impl Mode {
     /// The primitive's mode; `None` for points and lines.
-    fn of(primitive: &Primitive, at: &str) -> Result<Option<Mode>, GlbError> {
+    fn of(primitive: &Primitive, at: &str) -> Result<Option<Mode>, GltfError> {
         match primitive.mode.unwrap_or(4) {
             0..=3 => Ok(None),
             4 => Ok(Some(Mode::Triangles)),
@@ -96,7 +96,7 @@ impl Mode {
             6 => Ok(Some(Mode::Fan)),
             other => {
                 let problem = Problem::Word { what: "mode", is: other.to_string(), expected: "0 to 6" };
-                Err(GlbError { at: at.into(), problem })
+                Err(GltfError { at: at.into(), problem })
             }
         }
     }
@@ -124,12 +124,12 @@ fn texture_coordinates(document: &Document, primitive: &Primitive) -> Option<Str
     Some(format!("TEXCOORD_{}", texture.tex_coord))
 }
 
-fn per_vertex<T>(values: Vec<T>, vertices: usize, accessor: u64) -> Result<Vec<T>, GlbError> {
+fn per_vertex<T>(values: Vec<T>, vertices: usize, accessor: u64) -> Result<Vec<T>, GltfError> {
     if values.len() == vertices {
         return Ok(values);
     }
     let problem = Problem::Count { count: values.len(), vertices };
-    Err(GlbError { at: format!("accessor {accessor}"), problem })
+    Err(GltfError { at: format!("accessor {accessor}"), problem })
 }
 
 /// Normals at length 1; `None` if one has no direction.

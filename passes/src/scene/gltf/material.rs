@@ -3,7 +3,7 @@
 use super::accessor::Data;
 use super::document;
 use super::picture::Textures;
-use super::problem::{GlbError, Problem};
+use super::problem::{GltfError, Problem};
 use crate::scene::{AlphaMode, Material, Notes, limits};
 
 pub(super) fn read(
@@ -12,13 +12,13 @@ pub(super) fn read(
     at: &str,
     textures: &mut Textures,
     notes: &mut Notes,
-) -> Result<Material, GlbError> {
+) -> Result<Material, GltfError> {
     let pbr = &material.pbr_metallic_roughness;
     let within = |what, is: f64, most: f64, expected| {
         if (0.0..=most).contains(&is) {
             return Ok(is as f32);
         }
-        Err(GlbError { at: at.into(), problem: Problem::OutOfRange { what, is: is.to_string(), expected } })
+        Err(GltfError { at: at.into(), problem: Problem::OutOfRange { what, is: is.to_string(), expected } })
     };
     let mut base_color = [1.0; 4];
     for (place, factor) in base_color.iter_mut().zip(pbr.base_color_factor.unwrap_or([1.0; 4])) {
@@ -62,7 +62,7 @@ pub(super) fn read(
         other => {
             let is = other.escape_debug().to_string();
             let problem = Problem::Word { what: "alpha mode", is, expected: "OPAQUE, MASK or BLEND" };
-            return Err(GlbError { at: at.into(), problem });
+            return Err(GltfError { at: at.into(), problem });
         }
     };
     let name = material.name.clone().unwrap_or_else(|| at.to_owned());

@@ -1,6 +1,6 @@
 //! The parts of glTF's JSON that are read. Everything else is skipped.
 
-use super::problem::{GlbError, Problem};
+use super::problem::{GltfError, Problem};
 use serde::Deserialize;
 use serde_json::value::RawValue;
 use std::collections::BTreeMap;
@@ -29,8 +29,8 @@ const KNOWN_EXTENSIONS: [&str; 2] = ["KHR_lights_punctual", "KHR_materials_emiss
 
 impl Document {
     /// Reads the JSON; each element of a list by itself, so that a mistake in it can be named.
-    pub(super) fn read(json: &[u8]) -> Result<Document, GlbError> {
-        let whole = |problem| GlbError { at: String::new(), problem };
+    pub(super) fn read(json: &[u8]) -> Result<Document, GltfError> {
+        let whole = |problem| GltfError { at: String::new(), problem };
         let json = std::str::from_utf8(json).map_err(|_| whole(Problem::Json("the JSON is not UTF-8".into())))?;
         let root: Root = serde_json::from_str(json).map_err(|error| whole(Problem::Json(words(&error, true))))?;
         if !root.asset.version.starts_with("2.") {
@@ -59,17 +59,17 @@ impl Document {
 }
 
 /// The element that `at` refers to, or which reference leads nowhere.
-pub(super) fn follow<'d, T>(list: &'d [T], index: u64, kind: &'static str, at: &str) -> Result<&'d T, GlbError> {
+pub(super) fn follow<'d, T>(list: &'d [T], index: u64, kind: &'static str, at: &str) -> Result<&'d T, GltfError> {
     usize::try_from(index)
         .ok()
         .and_then(|index| list.get(index))
-        .ok_or_else(|| GlbError { at: at.into(), problem: Problem::Missing { kind, index, count: list.len() } })
+        .ok_or_else(|| GltfError { at: at.into(), problem: Problem::Missing { kind, index, count: list.len() } })
 }
 
-fn list<T: for<'a> Deserialize<'a>>(kind: &str, elements: &[&RawValue]) -> Result<Vec<T>, GlbError> {
+fn list<T: for<'a> Deserialize<'a>>(kind: &str, elements: &[&RawValue]) -> Result<Vec<T>, GltfError> {
     let read = |(index, element): (usize, &&RawValue)| {
         serde_json::from_str(element.get())
-            .map_err(|error| GlbError { at: format!("{kind} {index}"), problem: Problem::Json(words(&error, false)) })
+            .map_err(|error| GltfError { at: format!("{kind} {index}"), problem: Problem::Json(words(&error, false)) })
     };
     elements.iter().enumerate().map(read).collect()
 }

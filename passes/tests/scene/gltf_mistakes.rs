@@ -5,7 +5,7 @@ use crate::fixtures::{
     builder::{Builder, pack},
     png,
 };
-use framewright_passes::scene::{glb, limits};
+use framewright_passes::scene::{gltf, limits};
 use serde_json::{Value, json};
 
 /// Makes a file's JSON say something false.
@@ -33,7 +33,7 @@ fn said(lie: impl FnOnce(&mut Value)) -> String {
 }
 
 fn verdict(bytes: &[u8]) -> String {
-    glb::read(bytes).map_or_else(|error| error.to_string(), |_| "it loads".to_owned())
+    gltf::read_glb(bytes, None).map_or_else(|error| error.to_string(), |_| "it loads".to_owned())
 }
 
 #[test]
@@ -148,14 +148,13 @@ fn ranges_outside_the_data() {
 #[test]
 fn data_outside_the_file() {
     let uri = said(|json| json["buffers"][0]["uri"] = json!("mesh.bin"));
-    assert_eq!(uri, "buffer 0: its data stands outside the file (`mesh.bin`); only data packed into the GLB is read");
+    assert_eq!(uri, "buffer 0: its data stands in another file (`mesh.bin`), and only this one is read");
     let image = said(|json| json["images"][0]["uri"] = json!("\u{1b}[31mred.png"));
-    let expected = "its data stands outside the file (`\\u{1b}[31mred.png`); only data packed into the GLB is read";
+    let expected = "its data stands in another file (`\\u{1b}[31mred.png`), and only this one is read";
     assert_eq!(image, format!("image 0: {expected}"));
     let mut json = sound().json();
     json["images"] = json!([{}]);
-    let nothing =
-        "image 0: it has no data: only the first buffer can be the file's binary chunk, and only if there is one";
+    let nothing = "image 0: it has no data: it names no file, and only the first buffer can be the file's binary chunk, and only if there is one";
     assert_eq!(verdict(&pack(&json.to_string(), sound().binary())), nothing);
 }
 
@@ -413,7 +412,7 @@ fn what_is_not_drawn_is_noted() {
         .expect("a list")
         .push(json!({"attributes": {"POSITION": 0}, "mode": 1}));
     json["animations"] = json!([{}]);
-    let scene = glb::read(&pack(&json.to_string(), file.binary())).expect("loads");
+    let scene = gltf::read_glb(&pack(&json.to_string(), file.binary()), None).expect("loads");
     assert_eq!(scene.materials[0].emissive, [0.0; 3]);
     assert_eq!(
         scene.notes,

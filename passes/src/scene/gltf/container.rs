@@ -1,6 +1,6 @@
 //! The GLB container (glTF 2.0, section 4): a header, a JSON chunk, perhaps a binary chunk.
 
-use super::problem::{GlbError, Problem};
+use super::problem::{GltfError, Problem};
 use crate::scene::limits;
 
 /// The two chunks that matter.
@@ -9,8 +9,8 @@ pub(super) struct Container<'a> {
     pub(super) binary: Option<&'a [u8]>,
 }
 
-pub(super) fn split(bytes: &[u8]) -> Result<Container<'_>, GlbError> {
-    let whole = |problem| GlbError { at: String::new(), problem };
+pub(super) fn split(bytes: &[u8]) -> Result<Container<'_>, GltfError> {
+    let whole = |problem| GltfError { at: String::new(), problem };
     if !bytes.starts_with(b"glTF") {
         return Err(whole(Problem::NotGlb));
     }
@@ -31,7 +31,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<Container<'_>, GlbError> {
     }
     if json.data.len() > limits::JSON_BYTES {
         let (is, limit) = (json.data.len() as u64, limits::JSON_BYTES as u64);
-        return Err(GlbError { at: "JSON chunk".into(), problem: Problem::TooMuch { what: "bytes", is, limit } });
+        return Err(GltfError { at: "JSON chunk".into(), problem: Problem::TooMuch { what: "bytes", is, limit } });
     }
     let binary = chunk(rest, "binary chunk")?.filter(|(chunk, _)| chunk.kind == *b"BIN\0").map(|(chunk, _)| chunk.data);
     Ok(Container { json: json.data, binary })
@@ -45,13 +45,13 @@ struct Chunk<'a> {
 }
 
 /// The first chunk and what follows it; `None` at the end.
-fn chunk<'a>(bytes: &'a [u8], name: &str) -> Result<Option<(Chunk<'a>, &'a [u8])>, GlbError> {
+fn chunk<'a>(bytes: &'a [u8], name: &str) -> Result<Option<(Chunk<'a>, &'a [u8])>, GltfError> {
     let (Some(says), Some(kind), Some(rest)) = (word(bytes, 0), word(bytes, 4), bytes.get(8..)) else {
         return Ok(None);
     };
     match rest.split_at_checked(says as usize) {
         Some((data, rest)) => Ok(Some((Chunk { kind: kind.to_le_bytes(), data }, rest))),
-        None => Err(GlbError { at: name.into(), problem: Problem::ChunkCutShort { has: rest.len(), says } }),
+        None => Err(GltfError { at: name.into(), problem: Problem::ChunkCutShort { has: rest.len(), says } }),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The tree of nodes, walked without recursion.
 
 use super::document::{Document, Node, follow};
-use super::problem::{GlbError, Problem};
+use super::problem::{GltfError, Problem};
 use glam::{DMat4, DQuat, DVec3};
 
 /// A node with its place in the world.
@@ -12,7 +12,7 @@ pub(super) struct Placed<'d> {
 }
 
 /// Every node of the scene that is shown, parents before children, siblings in the file's order.
-pub(super) fn walk(document: &Document) -> Result<Vec<Placed<'_>>, GlbError> {
+pub(super) fn walk(document: &Document) -> Result<Vec<Placed<'_>>, GltfError> {
     let parents = parents(document)?;
     let mut waiting: Vec<(usize, DMat4)> =
         roots(document, &parents)?.into_iter().rev().map(|root| (root, DMat4::IDENTITY)).collect();
@@ -22,7 +22,7 @@ pub(super) fn walk(document: &Document) -> Result<Vec<Placed<'_>>, GlbError> {
         let at = format!("node {number}");
         let to_world = parent_to_world * local(node, &at)?;
         if !to_world.is_finite() {
-            return Err(GlbError { at, problem: Problem::NotFinite("its place and those of its ancestors together") });
+            return Err(GltfError { at, problem: Problem::NotFinite("its place and those of its ancestors together") });
         }
         // `parents` has checked that every child exists and has no other parent.
         waiting.extend(node.children.iter().rev().map(|child| (*child as usize, to_world)));
@@ -32,7 +32,7 @@ pub(super) fn walk(document: &Document) -> Result<Vec<Placed<'_>>, GlbError> {
 }
 
 /// The parent of every node. Each node has at most one, and none is its own ancestor.
-fn parents(document: &Document) -> Result<Vec<Option<usize>>, GlbError> {
+fn parents(document: &Document) -> Result<Vec<Option<usize>>, GltfError> {
     let nodes = &document.nodes;
     let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
     for (number, node) in nodes.iter().enumerate() {
@@ -40,7 +40,7 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, GlbError> {
             follow(nodes, *child, "node", &format!("node {number}"))?;
             let child = *child as usize;
             if let Some(other) = parents[child].replace(number) {
-                return Err(GlbError { at: format!("node {child}"), problem: Problem::TwoParents(other, number) });
+                return Err(GltfError { at: format!("node {child}"), problem: Problem::TwoParents(other, number) });
             }
         }
     }
@@ -52,14 +52,14 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, GlbError> {
             next = parents[node];
         }
         if let Some(node) = next.filter(|node| tried_from[*node] == start) {
-            return Err(GlbError { at: format!("node {node}"), problem: Problem::Loop });
+            return Err(GltfError { at: format!("node {node}"), problem: Problem::Loop });
         }
     }
     Ok(parents)
 }
 
 /// The nodes at the top of the scene that the file shows; without any scene, of the file.
-fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, GlbError> {
+fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, GltfError> {
     let tops = |number: &usize| parents[*number].is_none();
     if document.scenes.is_empty() && document.scene.is_none() {
         return Ok((0..document.nodes.len()).filter(tops).collect());
@@ -75,7 +75,7 @@ fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, G
             follow(&document.nodes, *root, "node", &at)?;
             let number = *root as usize;
             if parents[number].is_some() || std::mem::replace(&mut listed[number], true) {
-                return Err(GlbError { at: at.clone(), problem: Problem::NotRoot(*root) });
+                return Err(GltfError { at: at.clone(), problem: Problem::NotRoot(*root) });
             }
             Ok(number)
         })
@@ -83,8 +83,8 @@ fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, G
 }
 
 /// From the node's space to its parent's.
-fn local(node: &Node, at: &str) -> Result<DMat4, GlbError> {
-    let fail = |problem| GlbError { at: at.into(), problem };
+fn local(node: &Node, at: &str) -> Result<DMat4, GltfError> {
+    let fail = |problem| GltfError { at: at.into(), problem };
     let Some(matrix) = node.matrix else {
         let scale = node.scale.map_or(DVec3::ONE, DVec3::from);
         let translation = node.translation.map_or(DVec3::ZERO, DVec3::from);

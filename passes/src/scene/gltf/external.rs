@@ -1,0 +1,89 @@
+//! Data outside the binary chunk: in the file itself as a `data:` URI (RFC 2397), or in a file beside it.
+
+use super::problem::{GltfError, Problem};
+use crate::scene::limits;
+use base64::Engine;
+use base64::alphabet::STANDARD;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use framewright_graph::file_path::FilePath;
+use framewright_graph::root::{NoFile, Root};
+use percent_encoding::percent_decode_str;
+use std::cell::Cell;
+
+/// Where URIs lead to.
+#[derive(Debug)]
+pub(super) struct External<'a> {
+    /// The folder that files are read from; `None`: none are.
+    beside: Option<&'a Root>,
+    /// Bytes that were read so far.
+    taken: Cell<u64>,
+}
+
+/// Exporters leave the padding at the end out now and then.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &STANDARD,
+    GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
+);
+
+/// Characters of an URI that messages show: it may hold all the data.
+const SHOWN: usize = 40;
+/// And of a path.
+const LONGEST_PATH: usize = 256;
+
+impl<'a> External<'a> {
+    pub(super) fn new(beside: Option<&'a Root>) -> External<'a> {
+        External { beside, taken: Cell::new(0) }
+    }
+
+    /// What stands behind an URI: a data URI, or the relative path of a file, percent-encoded (RFC 3986, section 2.1).
+    pub(super) fn bytes(&self, uri: &str, at: &str) -> Result<Vec<u8>, GltfError> {
+        let fail = |problem| GltfError { at: at.into(), problem };
+        let shown = || uri.chars().take(SHOWN).flat_map(char::escape_debug).collect::<String>();
+        let bytes = match scheme(uri) {
+            Some(scheme) if scheme.eq_ignore_ascii_case("data") => {
+                data(&uri[scheme.len() + 1..]).map_err(|reason| fail(Problem::DataUri { uri: shown(), reason }))?
+            }
+            Some(_) => return Err(fail(Problem::Scheme(shown()))),
+            None => {
+                let root = self.beside.ok_or_else(|| fail(Problem::External(shown())))?;
+                self.file(root, uri).map_err(|problem| {
+                    let path = percent_decode_str(uri).decode_utf8_lossy();
+                    let path = path.chars().take(LONGEST_PATH).flat_map(char::escape_debug).collect();
+                    fail(Problem::File { path, problem })
+                })?
+            }
+        };
+        self.taken.set(self.taken.get() + bytes.len() as u64);
+        let (is, limit) = (self.taken.get(), limits::FILE_BYTES);
+        let problem = Problem::TooMuch { what: "bytes of all files and data URIs up to here", is, limit };
+        if is > limit { Err(fail(problem)) } else { Ok(bytes) }
+    }
+
+    /// What a file beside this one holds.
+    fn file(&self, root: &Root, uri: &str) -> Result<Vec<u8>, NoFile> {
+        let path = percent_decode_str(uri).decode_utf8().map_err(|_| NoFile::NoPath)?;
+        // What isn't written as a path is none, whatever the system would make of it.
+        FilePath::from("").beside(&path)?;
+        let left = limits::FILE_BYTES.saturating_sub(self.taken.get());
+        root.read(&root.locate(&path)?, usize::try_from(left).unwrap_or(usize::MAX))
+    }
+}
+
+/// What stands before the first colon of an absolute URI (RFC 3986, section 3.1).
+fn scheme(uri: &str) -> Option<&str> {
+    let (scheme, _) = uri.split_once(':')?;
+    let begins = scheme.starts_with(|first: char| first.is_ascii_alphabetic());
+    let goes_on = scheme.chars().all(|letter| letter.is_ascii_alphanumeric() || "+-.".contains(letter));
+    (begins && goes_on).then_some(scheme)
+}
+
+/// The data of a data URI, without its scheme.
+///
+/// # Errors
+/// Why there are none, in words.
+fn data(uri: &str) -> Result<Vec<u8>, String> {
+    let (kind, data) = uri.split_once(',').ok_or("it has no comma before its data")?;
+    let bytes: Vec<u8> = percent_decode_str(data).collect();
+    let base64 = kind.rsplit(';').next().is_some_and(|last| last.eq_ignore_ascii_case("base64"));
+    if base64 { BASE64.decode(bytes).map_err(|error| error.to_string()) } else { Ok(bytes) }
+}
