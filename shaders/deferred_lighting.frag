@@ -13,6 +13,10 @@ layout(set = 0, binding = 1) uniform sampler2D normal;
 layout(set = 0, binding = 2) uniform sampler2D emissive;
 // The depth of the same objects.
 layout(set = 0, binding = 3) uniform sampler2D depth;
+#ifdef HAS_ambient_occlusion
+// The share of ambient light that reaches each surface, as `ambient_occlusion_blur` draws it. It may be left out.
+layout(set = 0, binding = 5) uniform sampler2D ambient_occlusion;
+#endif
 #ifdef HAS_sun_shadow
 // Depth of what casts the sun's shadows, one layer for each cascade. It may be left out, and `shadow_taps` with it.
 layout(set = 0, binding = 4) uniform TEXTURE_sun_shadow sun_shadow;
@@ -38,7 +42,12 @@ void main() {
     const vec4 from_camera = view.clip_to_world * vec4(uv * 2.0 - 1.0, place, 1.0);
     const vec3 facing = from_octahedral(textureLod(normal, uv, 0.0).xy);
     const vec3 position = from_camera.xyz / from_camera.w;
-    const Reflected reflected = reflect_light(position, facing, sunlit(position, facing));
+#ifdef HAS_ambient_occlusion
+    const float open = textureLod(ambient_occlusion, uv, 0.0).r;
+#else
+    const float open = 1.0;
+#endif
+    const Reflected reflected = reflect_light(position, facing, sunlit(position, facing), open);
     const vec3 scattered = textureLod(base_color, uv, 0.0).rgb * reflected.diffuse;
     color = vec4(guard_radiance(scattered + reflected.specular + textureLod(emissive, uv, 0.0).rgb), 1.0);
 }

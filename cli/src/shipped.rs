@@ -18,6 +18,7 @@ pub(crate) const PIPELINES: Shipped = carried!(
     "forward.ron",
     "forward_overlay.ron",
     "image_quality.ron",
+    "library/ambient_occlusion.ron",
     "library/bloom.ron",
     "library/blur.ron",
     "library/depth_stripes.ron",

@@ -16,7 +16,7 @@ const HOW: [&str; 4] = ["--size", "320x180", "--frames", "4"];
 
 /// The scene that a pipeline draws: in the other one the sun casts no shadows.
 fn scene(pipeline: &str) -> &'static str {
-    if pipeline == "shadows" { "courtyard" } else { "spheres_and_cubes" }
+    if ["deferred", "shadows"].contains(&pipeline) { "courtyard" } else { "spheres_and_cubes" }
 }
 
 /// Names of the files of a folder that end so, without that.

@@ -10,6 +10,8 @@ macro_rules! shaders {
 pub const SHADERS: &[(&str, &str)] = shaders![
     "accumulate.frag",
     "adapt_exposure.comp",
+    "ambient_occlusion.frag",
+    "ambient_occlusion_blur.frag",
     "bloom_grow.frag",
     "bloom_mix.frag",
     "bloom_shrink.frag",
@@ -35,6 +37,7 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "g_buffer.frag",
     "g_buffer_masked.frag",
     "gauss.frag",
+    "include/ambient_occlusion.glsl",
     "include/bloom.glsl",
     "include/cross_fade.glsl",
     "include/depth_samples.glsl",

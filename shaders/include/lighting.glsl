@@ -49,10 +49,11 @@ struct Reflected {
 };
 
 // What a surface at `position` (world space) reflects: ambient light and Lambert's cosine law, in units in which a white
-// surface that faces a light shows its radiance. Only the sun is mirrored, of which the share `sunlit` arrives.
-Reflected reflect_light(vec3 position, vec3 normal, float sunlit) {
+// surface that faces a light shows its radiance. Only the sun is mirrored, of which the share `sunlit` arrives; of ambient
+// light arrives the share `open`.
+Reflected reflect_light(vec3 position, vec3 normal, float sunlit, float open) {
     const vec3 from_sun = lights.sun_radiance * (sunlit * max(dot(normal, lights.sun_direction), 0.0));
-    vec3 diffuse = lights.ambient_radiance + from_sun;
+    vec3 diffuse = lights.ambient_radiance * open + from_sun;
     const Reach reach = reach_of(position);
     for (uint i = 0u; i < reach.count; ++i) {
         diffuse += from_point(light_of(reach, i), position, normal);

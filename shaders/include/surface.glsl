@@ -12,7 +12,7 @@ vec4 lit_surface(uint object_index, vec4 base_color, vec3 position, vec3 normal)
     const Object object = objects.object[object_index];
     const float alpha = object.transparent != 0u ? clamp(base_color.a, 0.0, 1.0) : 1.0;
     const vec3 facing = direction_of(gl_FrontFacing ? normal : -normal);
-    const Reflected reflected = reflect_light(position, facing, sunlit(position, facing));
+    const Reflected reflected = reflect_light(position, facing, sunlit(position, facing), 1.0);
     return guard_color(vec4(base_color.rgb * reflected.diffuse * alpha + reflected.specular + object.emissive, alpha));
 }
 

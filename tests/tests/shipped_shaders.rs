@@ -16,6 +16,8 @@ const TRANSPARENT: Draw = Draw::Objects(DrawList::Transparent);
 /// Every shipped fragment shader with a draw that it is made for.
 const DRAWN: &[(&str, Draw)] = &[
     ("accumulate", Draw::FullScreen),
+    ("ambient_occlusion", Draw::FullScreen),
+    ("ambient_occlusion_blur", Draw::FullScreen),
     ("bloom_grow", Draw::FullScreen),
     ("bloom_mix", Draw::FullScreen),
     ("bloom_shrink", Draw::FullScreen),
@@ -151,8 +153,10 @@ fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Result<(), Box<dyn Error>> {
-    let cases: [(&str, &[&str], &[&str]); 30] = [
+    let cases: [(&str, &[&str], &[&str]); 32] = [
         ("accumulate", &["now", "before"], &["share"]),
+        ("ambient_occlusion", &["depth", "normal"], &["radius", "strength"]),
+        ("ambient_occlusion_blur", &["source", "depth"], &[]),
         ("bloom_grow", &["own", "below"], &["radius", "share"]),
         ("bloom_mix", &["sharp", "bloom"], &["radius", "strength"]),
         ("bloom_shrink", &["source"], &["partial"]),

@@ -169,6 +169,11 @@ fn shadowed(mut shader: ShaderInterface, variant: &Variant) -> ShaderInterface {
     shader
 }
 
+/// What the draw source brings along for a whole frame.
+fn of_frame(binding: u32, name: &str, kind: BindingKind) -> Binding {
+    Binding { set: 1, binding, name: name.to_owned(), kind, adapts: false, stages: Stages::FRAGMENT_SHADER }
+}
+
 /// What is read from the pass's own rendering scope is declared so.
 fn read_locally(mut shader: ShaderInterface, variant: &Variant) -> ShaderInterface {
     for binding in shader.bindings.iter_mut().filter(|it| variant.local.iter().any(|local| **local == *it.name)) {
@@ -215,19 +220,28 @@ impl ShaderInterfaces for Table {
                 ShaderInterface { outputs, ..lit(name == "g_buffer_masked") }
             }
             "deferred_lighting" => {
-                let frame = |binding, name: &str, kind| {
-                    let stages = Stages::FRAGMENT_SHADER;
-                    Binding { set: 1, binding, name: name.to_owned(), kind, adapts: false, stages }
-                };
-                full_screen(vec![
+                let lights = BindingKind::StorageBlock { readable: true, writable: false };
+                let mut bindings = vec![
                     texture("base_color", 0, false, float),
                     texture("normal", 1, false, float),
                     texture("emissive", 2, false, float),
                     texture("depth", 3, false, float),
-                    frame(0, "view", BindingKind::UniformBlock(Block::default())),
-                    frame(1, "lights", BindingKind::StorageBlock { readable: true, writable: false }),
-                ])
+                    of_frame(0, "view", BindingKind::UniformBlock(Block::default())),
+                    of_frame(1, "lights", lights),
+                ];
+                if variant.sampled.iter().any(|name| **name == *"ambient_occlusion") {
+                    bindings.push(texture("ambient_occlusion", 5, false, float));
+                }
+                shadowed(full_screen(bindings), variant)
             }
+            "ambient_occlusion" => full_screen(vec![
+                texture("depth", 0, false, float),
+                texture("normal", 1, false, float),
+                params(&[("radius", "float"), ("strength", "float")]),
+                of_frame(0, "view", BindingKind::UniformBlock(Block::default())),
+            ]),
+            "fxaa" => full_screen(vec![source(), params(&[("subpixel", "float")])]),
+            "ambient_occlusion_blur" => full_screen(vec![source(), texture("depth", 1, false, float)]),
             "bloom_shrink" => full_screen(vec![source(), params(&[("partial", "uint")])]),
             "bloom_grow" => full_screen(vec![
                 texture("own", 0, false, float),
