@@ -25,8 +25,13 @@ const PIPELINES: [&str; 10] = [
 
 /// Draws the shipped scene through a shipped pipeline; `None` where the driver or layer is missing.
 fn draw(place: &Place, vulkan: Vulkan, pipeline: &str, more: &[&str]) -> Option<Outcome> {
+    draw_scene(place, vulkan, pipeline, "spheres_and_cubes", more)
+}
+
+/// The same of another scene.
+fn draw_scene(place: &Place, vulkan: Vulkan, pipeline: &str, scene: &str, more: &[&str]) -> Option<Outcome> {
     let variables = vulkan.variables()?;
-    let mut arguments = vec!["run", pipeline, "--scene", "spheres_and_cubes", "--size", "160x90"];
+    let mut arguments = vec!["run", pipeline, "--scene", scene, "--size", "160x90"];
     arguments.extend(more);
     Some(place.run_with(&variables, &arguments))
 }
@@ -125,9 +130,12 @@ fn shipped_pipelines_are_silent_on_swiftshader_under_the_current_layer() {
 #[test]
 fn both_drivers_draw_the_same_pictures_up_to_their_edges() {
     let place = Place::new();
-    for pipeline in PIPELINES {
+    // In the other scene the sun casts shadows.
+    let in_courtyard = [("deferred", "courtyard"), ("shadows", "courtyard")];
+    for (pipeline, scene) in PIPELINES.map(|pipeline| (pipeline, "spheres_and_cubes")).into_iter().chain(in_courtyard) {
         for (vulkan, file) in [(Vulkan::LAVAPIPE, "lavapipe.png"), (Vulkan::SWIFTSHADER_CURRENT, "swiftshader.png")] {
-            let Some(outcome) = draw(&place, vulkan, pipeline, &["--frames", "3", "-o", file]) else { return };
+            let more = ["--frames", "3", "-o", file];
+            let Some(outcome) = draw_scene(&place, vulkan, pipeline, scene, &more) else { return };
             outcome.exits(0);
         }
         let (ours, theirs) = (picture(&place.path("lavapipe.png")), picture(&place.path("swiftshader.png")));
