@@ -16,6 +16,10 @@ layout(set = 0, binding = 8) uniform Params {
 layout(location = 2) in vec2 texture_uv;
 layout(location = 3) flat in uint object_index;
 
+#ifdef ALPHA_TO_COVERAGE
+#include "include/alpha_coverage.glsl"
+#endif
+
 #ifndef DEPTH_ONLY
 #include "include/surface.glsl"
 
@@ -25,14 +29,25 @@ layout(location = 1) in vec3 world_normal;
 layout(location = 0) out vec4 color;
 #endif
 
-// As `lit`, with the holes that alpha and cross-fading cut.
+// As `lit`, with the holes that alpha and cross-fading cut. For a pass with `alpha_to_coverage` too: then their edges have as
+// many steps as there are samples.
 void main() {
     const vec4 base = base_color(object_index, texture_uv);
-    if (base.a < objects.object[object_index].alpha_cutoff
-        || fades_out(objects.object[object_index].cross_fade, gl_FragCoord.xy)) {
+    const float cutoff = objects.object[object_index].alpha_cutoff;
+#ifdef ALPHA_TO_COVERAGE
+    // Taken before anything is discarded, as neighbours are compared.
+    const float covered = covered_by(base.a, cutoff, fwidth(base.a));
+    const bool is_hole = covered == 0.0;
+#else
+    const bool is_hole = base.a < cutoff;
+#endif
+    if (is_hole || fades_out(objects.object[object_index].cross_fade, gl_FragCoord.xy)) {
         discard;
     }
 #ifndef DEPTH_ONLY
     color = lit_surface(object_index, base, world_position, world_normal);
+#endif
+#ifdef ALPHA_TO_COVERAGE
+    color.a = covered;
 #endif
 }

@@ -14,8 +14,8 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Profile;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, Face, Frame, Image, ImageIndex, Output, Pass, Resolve, Resource, Sampled,
-    Work,
+    Blend, ColorTarget, DepthTarget, Draw, Face, Frame, Image, ImageIndex, Output, Pass, Resolve, ResolveWay, Resource,
+    Sampled, Work,
 };
 use framewright_graph::interface::DrawInterface;
 use framewright_graph::source::Span;
@@ -116,7 +116,7 @@ fn frame(device: &Profile, modes: &[ResolveMode]) -> Option<Frame> {
     let mut frame = Frame::default();
     frame.images.push(Image::new("modes", Format::R32G32B32A32_SFLOAT, 1, 1));
     for (number, mode) in (1..).zip(modes) {
-        let resolve = Some(Resolve { mode: Some(*mode), because: "to see what it does".into() });
+        let resolve = Some(Resolve { way: ResolveWay::By(*mode), because: "to see what it does".into() });
         frame.images.push(Image { samples, resolve, ..Image::new(&format!("slope {number}"), FORMAT, 1, 1) });
         let depth = DepthTarget {
             image: ImageIndex(number),

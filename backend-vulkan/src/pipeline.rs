@@ -26,6 +26,7 @@ pub(crate) struct PipelineDescriptor {
     pub(crate) stencil_format: Option<Format>,
     pub(crate) stencil: Option<StencilState>,
     pub(crate) samples: u32,
+    pub(crate) alpha_to_coverage: bool,
     pub(crate) local: Option<LocalRead>,
 }
 
@@ -140,8 +141,9 @@ fn create(
         vk::PipelineInputAssemblyStateCreateInfo::default().topology(vk::PrimitiveTopology::TRIANGLE_LIST);
     let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
     let raster = vk::PipelineRasterizationStateCreateInfo::default().line_width(1.0);
-    let multisample =
-        vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(convert::samples(descriptor.samples));
+    let multisample = vk::PipelineMultisampleStateCreateInfo::default()
+        .rasterization_samples(convert::samples(descriptor.samples))
+        .alpha_to_coverage_enable(descriptor.alpha_to_coverage);
     let mut depth = vk::PipelineDepthStencilStateCreateInfo::default();
     if let Some(state) = descriptor.depth {
         depth = depth

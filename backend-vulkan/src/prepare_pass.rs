@@ -78,6 +78,7 @@ fn variant(pass: &plan::Pass) -> Variant {
         sampled: sampled.map(|binding| binding.name.clone()).collect(),
         local: local.map(|binding| binding.name.clone()).collect(),
         depth_only: pass.redraws.is_some(),
+        alpha_to_coverage: pass.alpha_to_coverage,
     }
 }
 
@@ -196,6 +197,7 @@ pub(crate) fn drawn(
         stencil_format: scope.stencil.as_ref().map(format),
         stencil: pass.stencil,
         samples: scope.samples,
+        alpha_to_coverage: pass.alpha_to_coverage,
         local: local.clone(),
     };
     let pipeline = Some(shared.pipeline(&pass.name, descriptor)?);

@@ -357,3 +357,38 @@ fn a_dump_of_an_image_that_is_not_there_is_an_error_and_nothing_is_written() {
     place.run_with(&variables, &arguments).exits(2).mentions("`dept`").mentions("`depth`");
     assert_eq!(place.names(), [""; 0]);
 }
+
+/// Where the device filters depth it may be; a `D16_UNORM` that isn't filtered becomes no larger format that isn't either.
+#[test]
+fn depth_that_the_device_does_not_filter_is_refused_with_its_place() {
+    let depth = |format: &str, sampled: &str| {
+        format!(
+            r#"Pipeline(
+    version: 1,
+    images: [(name: "depth", format: {format}, size: Output), (name: "screen", format: Output, size: Output)],
+    passes: [
+        (name: "opaque", draw: Objects(Opaque), shader: "lit",
+            color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))], depth: (image: "depth", clear: 0.0)),
+        (name: "show", draw: FullScreen("downsample"),
+            sample: {{"source": {sampled}}}, color: ["screen"]),
+    ],
+    outputs: ["screen"],
+)
+"#
+        )
+    };
+    let place = Place::new();
+    for format in ["Depth", "D16_UNORM"] {
+        place.file("p.ron", depth(format, r#"(image: "depth", filter: Linear)"#));
+        place
+            .run(&["check", "p.ron"])
+            .exits(1)
+            .mentions("error: `show` can't filter `depth`: `lavapipe` can't do that with D")
+            .mentions(" --> p.ron:8:40\n")
+            .mentions("write `filter: Nearest`, or choose another format");
+        place.run(&["check", "p.ron", "--device", "swiftshader"]).exits(0);
+    }
+    // Without a word it isn't filtered.
+    place.file("p.ron", depth("Depth", r#""depth""#));
+    place.run(&["check", "p.ron"]).exits(0);
+}

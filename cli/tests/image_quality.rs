@@ -39,26 +39,46 @@ fn the_listing_of_a_blur_shows_resolves_in_their_place_and_draws_counted() {
     }
 }
 
-/// IQ-16, IQ-24: stripes as a copy are two draws between two resolves, and what is transparent comes after them.
+/// IQ-12, IQ-16, IQ-24: a depth-only pass stands before the stripes. As a copy they are two draws between two resolves, as a
+/// blend one draw and a resolve in the end; what is transparent comes after them, with samples.
 #[test]
-fn the_listing_of_depth_stripes_shows_a_resolve_before_them_and_one_after_the_transparent_objects() {
+fn the_listing_of_depth_stripes_shows_a_depth_only_pass_before_them_and_transparent_objects_after_them() {
     for vulkan in [Vulkan::LAVAPIPE, Vulkan::SWIFTSHADER] {
         let Some(copied) = listing(vulkan, &["--set", "depth_stripes=copied"]) else { return };
+        let again = ["opaque (depth only) 60", "masked (depth only) 3"];
         let expected = [
             &SCENE[..3],
-            &[
-                "resolve",
-                "copied_stripes.stripes 1",
-                "stripes_back 1",
-                "transparent 4",
-                "resolve",
-                "map.curve.tone_map 1",
-            ],
+            &["resolve"],
+            &again,
+            &["copied_stripes.stripes 1", "stripes_back 1", "transparent 4", "resolve", "map.curve.tone_map 1"],
         ];
         assert_eq!(copied, expected.concat());
         let Some(blended) = listing(vulkan, &["--set", "depth_stripes=blended"]) else { return };
-        let expected = [&SCENE[..3], &["stripes.stripes 1", "transparent 4", "resolve", "map.curve.tone_map 1"]];
+        let expected =
+            [&SCENE[..3], &again, &["stripes.stripes 1", "transparent 4", "resolve", "map.curve.tone_map 1"]];
         assert_eq!(blended, expected.concat());
+        let Some(one) = listing(vulkan, &["--set", "depth_stripes=blended", "--set", "msaa=1"]) else { return };
+        assert_eq!(one, [&SCENE[..3], &["stripes.stripes 1", "transparent 4", "map.curve.tone_map 1"]].concat());
+    }
+}
+
+/// Formats, resolves and coverage that are chosen: drawn under the current validation layer, which finds nothing.
+#[test]
+fn every_precision_resolve_and_coverage_is_drawn_silently_on_both_drivers() {
+    let choices = [
+        ["color_precision=Smallest", "depth_precision=Smallest", "light_resolve=Weighted"],
+        ["color_precision=Exact", "depth_precision=Balanced", "alpha_to_coverage=true"],
+        ["hdr=false", "color_precision=Exact", "depth_stripes=blended"],
+    ];
+    for vulkan in [Vulkan::LAVAPIPE_CURRENT, Vulkan::SWIFTSHADER_CURRENT] {
+        let Some(variables) = vulkan.variables() else { return };
+        for choice in choices {
+            let set = choice.iter().flat_map(|choice| ["--set", choice]);
+            let how = ["run", "image_quality", "--scene", "spheres_and_cubes", "--size", "96x54", "--validate"];
+            let arguments: Vec<&str> = how.into_iter().chain(set).collect();
+            let said = Place::new().run_with(&variables, &arguments).exits(0).out;
+            assert!(said.contains("validation: silent; "), "{choice:?}: {said}");
+        }
     }
 }
 

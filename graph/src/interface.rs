@@ -19,6 +19,9 @@ pub struct ShaderInterface {
     pub vertex_inputs: Vec<VertexInput>,
     /// Colour outputs of the fragment stage.
     pub outputs: Vec<FragmentOutput>,
+    /// What it does with the alpha of the images that [`PASS_SET`] samples, by their names; of images that aren't there it
+    /// makes no use of alpha.
+    pub alpha: Vec<(String, AlphaUse)>,
     /// Whether the fragment stage may discard fragments.
     pub discards: bool,
     /// Whether the fragment stage reads `gl_FragCoord`.
@@ -31,6 +34,15 @@ pub struct ShaderInterface {
     pub writes_depth: bool,
     /// Invocations of a workgroup in x, y and z, each at least 1; of compute shaders only.
     pub workgroup_size: Option<[u32; 3]>,
+}
+
+/// What a shader does with the fourth component of an image that it samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum AlphaUse {
+    /// It counts for nothing but the fourth component of colour outputs.
+    Passed,
+    /// It may count for anything.
+    Read,
 }
 
 /// The set whose bindings belong to the pass: its sampled and storage images, its buffers, and one block of parameters.
@@ -172,6 +184,8 @@ pub struct Variant {
     /// Whether the shader draws nothing but depth: the macro `DEPTH_ONLY` is defined in its fragment stage, which is left out
     /// if it neither discards fragments nor writes depth of its own then.
     pub depth_only: bool,
+    /// Whether its alpha says how many samples are covered: the macro `ALPHA_TO_COVERAGE` is defined in its fragment stage.
+    pub alpha_to_coverage: bool,
 }
 
 /// Where shader interfaces come from: a compiler and reflection over files on disk, or a table in a test.

@@ -7,7 +7,7 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_SRGB};
-use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Resolve};
+use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Resolve, ResolveWay};
 use framewright_graph::plan::{Cause, Plan, RenderScope, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{CompareOp, LoadOp, ResolveMode, StoreOp, Usage};
@@ -68,7 +68,10 @@ impl Stripes {
     fn frame(self, mode: Option<Option<ResolveMode>>) -> Frame {
         let Stripes { raster, depth, screen } = self;
         let mut frame = raster.output(screen);
-        frame.images[depth.0 as usize].resolve = mode.map(|mode| Resolve { mode, because: "`resolve: …`".into() });
+        frame.images[depth.0 as usize].resolve = mode.map(|mode| {
+            let way = mode.map_or(ResolveWay::DepthOnly, ResolveWay::By);
+            Resolve { way, because: "`resolve: …`".into() }
+        });
         frame
     }
 }
@@ -201,7 +204,8 @@ fn the_face_asks_for_the_depth_only_pass_whatever_the_image_says() {
     raster.objects("opaque").clear_depth(depth);
     raster.full_screen("fog").sample_depth_only(depth).color(screen, Blend::Replace);
     let mut frame = raster.output(screen);
-    frame.images[0].resolve = Some(Resolve { mode: Some(ResolveMode::SampleZero), because: "`resolve: …`".into() });
+    frame.images[0].resolve =
+        Some(Resolve { way: ResolveWay::By(ResolveMode::SampleZero), because: "`resolve: …`".into() });
     let plan = compiled(&frame);
     assert_eq!((plan.totals.resolves, plan.totals.inserted_passes), (0, 1));
 }

@@ -8,8 +8,8 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Output, Pass, Resource,
-    Sampled, Storage, Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Output, Pass, Resolve,
+    ResolveWay, Resource, Sampled, Storage, Work,
 };
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::source::Span;
@@ -189,7 +189,9 @@ fn frame(passes: &[Vec<u8>], about: [bool; IMAGES.len()], outputs: &[u8]) -> Fra
     let mut maker = Maker { frame: Frame::default(), written: [false; IMAGES.len()], about, bytes: Vec::new() };
     for (number, (format, samples)) in IMAGES.into_iter().enumerate() {
         let image = Image::new(&format!("image{number}"), format, 64, 64);
-        maker.frame.images.push(Image { samples, ..image });
+        let weighted = samples > 1 && format == R16G16B16A16_SFLOAT;
+        let resolve = weighted.then(|| Resolve { way: ResolveWay::Weighted, because: "it says so".into() });
+        maker.frame.images.push(Image { samples, resolve, ..image });
     }
     passes.iter().for_each(|bytes| maker.pass(bytes));
     maker.bytes = outputs.to_vec();

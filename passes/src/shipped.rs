@@ -37,6 +37,7 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "g_buffer.frag",
     "g_buffer_masked.frag",
     "gauss.frag",
+    "include/alpha_coverage.glsl",
     "include/ambient_occlusion.glsl",
     "include/bloom.glsl",
     "include/cross_fade.glsl",

@@ -4,7 +4,7 @@ use crate::frames::{Added, Builder};
 use framewright_graph::format::Format::{
     D32_SFLOAT, R8G8B8A8_SRGB, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, R32_UINT,
 };
-use framewright_graph::frame::{Blend, Face, Frame, ImageIndex, Lifetime, Resolve};
+use framewright_graph::frame::{Blend, Face, Frame, ImageIndex, Lifetime, Resolve, ResolveWay};
 use framewright_graph::vocabulary::{FillValue, ResolveMode, Subresources};
 
 /// All, with names.
@@ -53,7 +53,7 @@ pub fn depth_sampled(mode: Option<ResolveMode>) -> Frame {
     builder.objects("opaque").clear(color).depth(depth, Some(0.0), true);
     builder.full_screen("blur").sample(depth).sample(color).color(screen, Blend::Replace);
     let mut frame = builder.outputs(&[screen]);
-    frame.images[0].resolve = mode.map(|mode| Resolve { mode: Some(mode), because: "it says so".into() });
+    frame.images[0].resolve = mode.map(|mode| Resolve { way: ResolveWay::By(mode), because: "it says so".into() });
     frame
 }
 

@@ -15,6 +15,7 @@ struct Resolved {
     weighted: Picture,
     small: Picture,
     shown: Picture,
+    inserted: Picture,
 }
 
 fn resolved(operator: &str) -> Result<Option<Resolved>, Box<dyn Error>> {
@@ -27,10 +28,11 @@ fn resolved(operator: &str) -> Result<Option<Resolved>, Box<dyn Error>> {
         floats.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
     });
     let pictures: Vec<Picture> = pictures.collect();
-    let [a, b, c, d, weighted, small, shown] = <[Picture; 7]>::try_from(pictures).map_err(|_| "not seven outputs")?;
+    let [a, b, c, d, weighted, small, shown, inserted] =
+        <[Picture; 8]>::try_from(pictures).map_err(|_| "not eight outputs")?;
     let guarded = |texel: [[f64; 3]; 4]| texel.map(|sample| sample.map(guard_radiance));
     let samples = (0..a.len()).map(|at| guarded([a[at], b[at], c[at], d[at]])).collect();
-    Ok(Some(Resolved { samples, weighted, small, shown }))
+    Ok(Some(Resolved { samples, weighted, small, shown, inserted }))
 }
 
 /// Some twenty roundings of 2⁻²⁴, and what is lost of denormals.
@@ -55,6 +57,15 @@ fn a_weighted_resolve_is_the_mean_of_tone_mapped_samples_taken_back() -> Result<
         assert!(close(weighted, weighted_mean(samples)), "{samples:?} became {weighted:?}");
         assert!(close(small, mean_compressed(samples)), "{samples:?} became {small:?} tone-mapped");
     }
+    Ok(())
+}
+
+/// What `resolve: Weighted` inserts for a pass that samples the plain name.
+#[test]
+fn what_is_inserted_is_bit_for_bit_what_the_fragment_draws() -> Result<(), Box<dyn Error>> {
+    let Some(Resolved { weighted, inserted, .. }) = resolved("clip")? else { return Ok(()) };
+    let bits = |picture: &Picture| picture.iter().flatten().map(|it| it.to_bits()).collect::<Vec<_>>();
+    assert!(bits(&weighted) == bits(&inserted));
     Ok(())
 }
 

@@ -57,7 +57,8 @@ pub struct CompiledCompute {
 /// gives as `NAME`, in the stages that are the shader's own and whose own file mentions it. Where a pass reads the image
 /// `NAME` locally, as an input attachment of its own rendering scope, its fragment stage is compiled with the macro
 /// `LOCAL_READ_NAME` and must declare it `subpassInput` then. Where a pass draws nothing but depth it is compiled with the
-/// macro `DEPTH_ONLY`: what is left decides which fragments stay. What was once read or compiled is kept for the library's
+/// macro `DEPTH_ONLY`: what is left decides which fragments stay. Where its alpha says how many samples are covered, it is
+/// compiled with the macro `ALPHA_TO_COVERAGE`. What was once read or compiled is kept for the library's
 /// lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
     files: ShaderFiles,
@@ -120,7 +121,7 @@ impl ShaderLibrary {
             return Err(self.missing(&FilePath::of_text(name), ".frag"));
         };
         // The same vertex stage, word for word: it must meet the same depth.
-        let own = Variant { local: Vec::new(), depth_only: false, ..variant.clone() };
+        let own = Variant { local: Vec::new(), depth_only: false, alpha_to_coverage: false, ..variant.clone() };
         // A shipped vertex shader goes with the shipped fragment shader only.
         let (vertex, usual_vertices) = match self.stage(format!("{name}.vert"), Stage::Vertex, &own)? {
             Some(own) if own.shipped == fragment.shipped => (own, false),
@@ -277,7 +278,8 @@ fn macros(mentioned: &Mentioned, variant: &Variant) -> Macros {
     let sampled = sampled.map(|name| (format!("{HAS}{name}"), String::new()));
     let local = variant.local.iter().map(|name| (format!("LOCAL_READ_{name}"), String::new()));
     let depth_only = variant.depth_only.then(|| ("DEPTH_ONLY".to_owned(), String::new()));
-    textures.chain(sampled).chain(local).chain(depth_only).collect()
+    let covers = variant.alpha_to_coverage.then(|| ("ALPHA_TO_COVERAGE".to_owned(), String::new()));
+    textures.chain(sampled).chain(local).chain(depth_only).chain(covers).collect()
 }
 
 /// Macros of this beginning stand for the types of what a pass samples.
@@ -361,6 +363,12 @@ fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterf
                     vertex.file, binding.name, binding.set, binding.binding, fragment.file, other.name
                 ));
             }
+        }
+    }
+    for (name, used) in &vertex.reflected.interface.alpha {
+        match joined.alpha.iter_mut().find(|(known, _)| known == name) {
+            Some((_, known)) => *known = (*known).max(*used),
+            None => joined.alpha.push((name.clone(), *used)),
         }
     }
     joined.bindings.sort_by_key(|it| (it.set, it.binding));

@@ -1,5 +1,6 @@
 //! Shaders by name: GLSL from folders or shipped with the program, compiled to SPIR-V and reflected. Needs no device.
 
+mod alpha;
 mod bindings;
 mod compile;
 mod files;

@@ -1,9 +1,10 @@
 //! What one shader stage uses, read off its SPIR-V.
 
+use super::alpha;
 use super::bindings::{bindings, component_of};
 use super::compile::Stage;
 use super::module::{Indexed, id, number, storage_class};
-use framewright_graph::interface::{FragmentOutput, ShaderInterface, VertexInput};
+use framewright_graph::interface::{AlphaUse, FragmentOutput, PASS_SET, ShaderInterface, VertexInput};
 use rspirv::dr::Operand;
 use rspirv::spirv::{BuiltIn, Capability, Decoration, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;
@@ -89,6 +90,7 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
             Stage::Fragment | Stage::Compute => Vec::new(),
         },
         outputs: if fragment { fragment_outputs(&module)? } else { Vec::new() },
+        alpha: alpha_uses(&module, fragment),
         discards: module
             .code()
             .any(|it| matches!(it.class.opcode, Op::Kill | Op::TerminateInvocation | Op::DemoteToHelperInvocation)),
@@ -110,6 +112,18 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
         })
         .collect();
     Ok(StageInterface { interface, inputs, outputs, input_attachments })
+}
+
+/// What becomes of the alpha of the images that the pass's own set samples.
+fn alpha_uses(module: &Indexed<'_>, fragment: bool) -> Vec<(String, AlphaUse)> {
+    let sampled = module.variables().filter(|(id_of, it)| {
+        let image =
+            module.pointee(it).is_some_and(|ty| matches!(ty.class.opcode, Op::TypeSampledImage | Op::TypeImage));
+        image && module.decoration_number(*id_of, Decoration::DescriptorSet) == Some(PASS_SET)
+    });
+    sampled
+        .filter_map(|(id_of, _)| Some((module.name(id_of).to_owned(), alpha::used(module, id_of, fragment)?)))
+        .collect()
 }
 
 /// Invocations of a workgroup, as the entry point says.

@@ -10,6 +10,8 @@ mod forward;
 mod resolve;
 mod stores;
 
+pub(super) use access::has_samples;
+
 use super::Options;
 use super::cull::Live;
 use super::link::covers;
@@ -17,7 +19,7 @@ use super::model::{Adapted, Negotiated, Op, OpKind, Start, StoreIndex, Use};
 use super::parts::{self, Grids};
 use crate::describe::Diagnostic;
 use crate::device::Profile;
-use crate::frame::{Draw, Face, Frame, ImageIndex, Pass, Resource, Sampled, Work};
+use crate::frame::{Draw, Face, Frame, ImageIndex, Pass, ResolveWay, Resource, Sampled, Work};
 use crate::plan::{Inserted, Note, Stage};
 use crate::source::{Place, Span};
 use crate::vocabulary::{Aspects, Layout, Subresources};
@@ -92,8 +94,8 @@ struct Adapter<'a> {
     store_of: Vec<Option<StoreIndex>>,
     /// The same for buffers.
     buffer_store_of: Vec<Option<StoreIndex>>,
-    /// For each physical image what it holds resolved to one sample, if somebody asked for that.
-    resolved_of: Vec<Option<StoreIndex>>,
+    /// For each physical image what it holds resolved to one sample, and how, if somebody asked for that.
+    resolved_of: Vec<Option<(ResolveWay, StoreIndex)>>,
     /// For each physical image what it holds drawn again with one sample, if somebody asked for that.
     redrawn_of: Vec<Option<StoreIndex>>,
     /// For each multisampled depth image the operations that wrote its current version.
@@ -186,6 +188,10 @@ impl Adapter<'_> {
             if let Some((store, range)) = self.transferred(pass, used) {
                 uses.push(access::transfer(&pass.work, used, entry, store, range));
             }
+        }
+        if pass.alpha_to_coverage && !access::has_samples(&self.adapted, &uses) {
+            let text = "alpha_to_coverage is off: its targets have 1 sample".to_owned();
+            self.note(&pass.name, text, pass.span);
         }
         let kind = if matches!(pass.work, Work::Draw { .. }) { OpKind::Draw(number) } else { OpKind::Pass(number) };
         self.push(kind, &uses);
@@ -418,7 +424,7 @@ fn copies_samples(frame: &Frame, pass: &Pass) -> bool {
     frame.images[target.0 as usize].samples > 1
 }
 
-/// Whether a draw is made of objects or other geometry that has edges inside the image.
+/// Whether a draw is made of objects or other geometry that has edges inside the image, or makes edges by its alpha.
 fn has_edges(pass: &Pass) -> bool {
-    matches!(&pass.work, Work::Draw { draw, .. } if *draw != Draw::FullScreen)
+    pass.alpha_to_coverage || matches!(&pass.work, Work::Draw { draw, .. } if *draw != Draw::FullScreen)
 }

@@ -23,8 +23,8 @@ use super::synchronise::Pending;
 use crate::device::Profile;
 use crate::frame::{Frame, Lifetime, Resource as Declared, Work as FrameWork};
 use crate::plan::{
-    Buffer, BufferId, Cause, Change, DeviceUsed, FORMAT_VERSION, Image, ImageId, Initial, Note, Placement, Plan, Queue,
-    Resource, Role, SettingUsed, Stage, Step, Subresources, Totals, View, Work,
+    Buffer, BufferId, Cause, Change, ChosenFormat, DeviceUsed, FORMAT_VERSION, Image, ImageId, Initial, Note,
+    Placement, Plan, Queue, Resource, Role, SettingUsed, Stage, Step, Subresources, Totals, View, Work,
 };
 use crate::source::Place;
 use crate::vocabulary::{FillValue, State};
@@ -189,6 +189,7 @@ fn spread(parts: &Parts<'_>, queues: &Queues, steps: &mut [Step]) {
 pub(super) fn resources(frame: &Frame, structure: &Structure, settled: &Settled) -> Resources {
     let Structure { adapted, states, .. } = structure;
     let (mut images, mut buffers) = (Vec::with_capacity(adapted.stores.len()), Vec::new());
+    let mut chosen = settled.placed.chosen.iter().peekable();
     let stores = adapted.stores.iter().zip(0_u32..).zip(states).zip(&settled.placed.placements);
     for (((store, at), states), placement) in stores {
         let name = store_name(frame, adapted, at).clone();
@@ -207,6 +208,7 @@ pub(super) fn resources(frame: &Frame, structure: &Structure, settled: &Settled)
                 name,
                 cause,
                 format: image.format,
+                chosen: chosen.next_if(|(of, _)| *of == at).and_then(|(_, more)| chosen_format(frame, store, *more)),
                 shape: image.shape,
                 extent: image.extent,
                 mips: image.mips,
@@ -228,6 +230,13 @@ pub(super) fn resources(frame: &Frame, structure: &Structure, settled: &Settled)
         }
     }
     (images, buffers)
+}
+
+/// What the pipeline's choice of a format comes to.
+fn chosen_format(frame: &Frame, store: &Store, more_bytes: i64) -> Option<ChosenFormat> {
+    let Declared::Image(image) = store.of else { return None };
+    let chosen = frame.images[image.0 as usize].chosen.as_ref()?;
+    Some(ChosenFormat { because: chosen.because.clone(), usual: chosen.usual, more_bytes })
 }
 
 fn role(
@@ -294,7 +303,7 @@ fn notes(parts: &Parts<'_>) -> Vec<Note> {
     });
     let remarks = frame.remarks.iter().map(|remark| Note {
         stage: Stage::Expand,
-        subject: remark.pass.clone(),
+        subject: remark.subject.clone(),
         text: remark.text.clone(),
         at: frame.sources.place(remark.span),
     });

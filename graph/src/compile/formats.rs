@@ -1,6 +1,7 @@
 //! Format fallback: where the device can't use a format as the frame does, another one that holds at least as much.
 //!
-//! Only images that nobody outside of the frame sees, and whose texels no shader or program is told the layout of: neither
+//! A format that the pipeline chose by a policy gives way to the one that there would be without it. Else only images that
+//! nobody outside of the frame sees, and whose texels no shader or program is told the layout of: neither
 //! imported ones nor outputs, no storage images, nothing that is copied to or from buffers or by custom passes. An output
 //! that is encoded for HDR10 may have 16 bits instead of 10.
 
@@ -39,6 +40,14 @@ fn substitutes(format: Format) -> &'static [Format] {
 /// Formats that hold HDR10 as well as `format` does.
 fn hdr10_substitutes(format: Format) -> &'static [Format] {
     if format == A2B10G10R10_UNORM_PACK32 { &[R16G16B16A16_UNORM] } else { &[] }
+}
+
+/// Formats in place of one that a policy chose: those that hold as much and no more than the one that there would be without
+/// it, then that one.
+fn up_to(chosen: Format, usual: Format) -> Vec<Format> {
+    let larger = substitutes(chosen);
+    let last = larger.iter().position(|format| *format == usual).unwrap_or(0);
+    larger[..last].iter().copied().chain([usual]).collect()
 }
 
 /// What the frame asks of an image's format.
@@ -86,19 +95,26 @@ pub(super) fn fall_back(frame: &Frame, device: &Profile) -> Option<(Frame, Vec<N
         let format = frame.images[group[0]].format;
         let lacks = |format: Format, image: &usize| !wanted[*image].missing(device.format(format)).is_empty();
         let Some(first) = group.iter().find(|image| lacks(format, image)) else { continue };
-        if group.iter().any(|image| wanted[*image].fixed) {
+        let usual = group.iter().find_map(|image| frame.images[*image].chosen.as_ref()).map(|chosen| chosen.usual);
+        if usual.is_none() && group.iter().any(|image| wanted[*image].fixed) {
             return None;
         }
-        let fits = |format: &&Format| !group.iter().any(|image| lacks(**format, image));
+        let fits = |format: &Format| !group.iter().any(|image| lacks(*format, image));
         let hdr10 = group.iter().any(|image| wanted[*image].hdr10);
-        let substitutes = if hdr10 { hdr10_substitutes(format) } else { substitutes(format) };
-        let other = *substitutes.iter().find(fits)?;
+        let substitutes = match usual {
+            Some(usual) => up_to(format, usual),
+            None if hdr10 => hdr10_substitutes(format).to_vec(),
+            None => substitutes(format).to_vec(),
+        };
+        let other = substitutes.into_iter().find(fits)?;
         let missing = wanted[*first].missing(device.format(format)).join(", ");
         group.iter().for_each(|image| made[*image] = Some((other, missing.clone())));
     }
     for (number, made) in made.into_iter().enumerate() {
         let Some((format, missing)) = made else { continue };
-        substitute.images[number].format = format;
+        let image = &mut substitute.images[number];
+        image.format = format;
+        image.chosen.take_if(|chosen| chosen.usual == format);
         notes.push(note(frame, number, format, &format!("`{}` has no {missing} for it", device.name)));
     }
     (!notes.is_empty()).then_some((substitute, notes))

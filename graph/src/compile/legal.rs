@@ -5,12 +5,14 @@ mod transfers;
 
 use super::parts;
 use crate::describe::Diagnostic;
+use crate::format::Format;
 use crate::frame::{
-    Buffer, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Output, Pass, Resource, Shape, Work,
+    Buffer, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Output, Pass, Resolve, ResolveWay, Resource,
+    Shape, Work,
 };
 use crate::source::Span;
 use crate::states::{Subject, When};
-use crate::vocabulary::{Aspects, Stages, Subresources};
+use crate::vocabulary::{Aspects, ResolveMode, Stages, Subresources};
 
 /// Most images, buffers and passes of a frame: their numbers have room to spare in 32 bits.
 const MOST: usize = 1 << 24;
@@ -166,12 +168,27 @@ fn image_problem(image: &Image) -> Option<String> {
         Some("is three-dimensional and has layers".to_owned())
     } else if image.shape == Shape::D3 && image.format.is_depth() {
         Some("is three-dimensional and can't hold depth".to_owned())
+    } else if let Some(Resolve { way, .. }) = &image.resolve
+        && !resolvable(image.format, *way)
+    {
+        Some(format!("can't be resolved as it says: it is {}", image.format))
     } else if matches!(image.lifetime, Lifetime::File(_)) && (image.layers > 1 || image.shape == Shape::Cube) {
         Some("comes from a file and has layers".to_owned())
     } else if image.shape == Shape::Cube && (width != height || !image.layers.is_multiple_of(6)) {
         Some(format!("is a cube of {width}×{height} with {} layers; cubes are square and have 6", image.layers))
     } else {
         None
+    }
+}
+
+/// Whether images of a format can be resolved in a way.
+fn resolvable(format: Format, way: ResolveWay) -> bool {
+    match way {
+        ResolveWay::DepthOnly => format.is_depth(),
+        ResolveWay::By(_) if format.is_depth() => true,
+        ResolveWay::By(mode) if format.is_integer() => mode == ResolveMode::SampleZero,
+        ResolveWay::By(mode) => mode == ResolveMode::Average,
+        ResolveWay::Weighted => !format.is_depth() && !format.is_integer(),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::parts::{Grid, Grids};
 use crate::device::{BufferDescriptor, ImageDescriptor};
+use crate::format::Format;
 use crate::frame::{Frame, ImageIndex, Resource};
 use crate::plan::{Inserted, Note, Subresources};
 use crate::view::ViewIndex;
@@ -21,6 +22,8 @@ pub(super) struct Store {
     /// Why it was inserted, if it was.
     pub(super) inserted: Option<Box<Inserted>>,
     pub(super) kind: Kind,
+    /// The format that it would have if the pipeline hadn't chosen another one.
+    pub(super) usual: Option<Format>,
     pub(super) home: Home,
     /// The state in which it is to be left, if one was asked for.
     pub(super) after: Option<State>,
@@ -171,10 +174,10 @@ pub(super) enum OpKind {
         /// Why.
         why: Box<Inserted>,
     },
-    /// An inserted full-screen draw that resolves depth; its uses are source and target.
+    /// An inserted full-screen draw that resolves depth or colour; its uses are source and target.
     ResolveDraw {
         /// How samples become one value.
-        mode: ResolveMode,
+        by: ResolveShader,
         /// Its name.
         name: Arc<str>,
         /// The view that it draws for.
@@ -191,6 +194,15 @@ pub(super) enum OpKind {
     },
     /// An inserted copy; its uses are source and target.
     Copy(Box<Inserted>),
+}
+
+/// What a full-screen draw that resolves draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ResolveShader {
+    /// Depth, in this mode.
+    Depth(ResolveMode),
+    /// Colour, of which bright samples weigh less.
+    Weighted,
 }
 
 impl OpKind {

@@ -6,6 +6,7 @@ use super::pack::{Block, Measured, Packing};
 use super::synchronise::NEVER;
 use crate::describe::Diagnostic;
 use crate::device::{ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
+use crate::format::Format;
 use crate::plan::{Heap, Placement, StepId};
 use crate::source::Span;
 use crate::vocabulary::Usage;
@@ -22,6 +23,8 @@ pub(super) struct Placed {
     pub(super) live_peak_bytes: u64,
     /// Bytes of what outlives the frame.
     pub(super) kept_bytes: u64,
+    /// For stores whose format the pipeline chose, rising, how many bytes more that takes than the usual one.
+    pub(super) chosen: Vec<(StoreIndex, i64)>,
 }
 
 impl Placed {
@@ -78,12 +81,13 @@ pub(super) fn place(
         transient_bytes: 0,
         live_peak_bytes: 0,
         kept_bytes: 0,
+        chosen: Vec::new(),
     };
     let mut members: Vec<Members> = Vec::new();
     let (overlaps, spans) = (spans.is_some(), spans.unwrap_or(lifetimes));
     // Images often follow others of their kind.
     let mut last_needs: Option<(&ImageDescriptor, MemoryNeeds)> = None;
-    for (store, [first, last]) in adapted.stores.iter().zip(lifetimes) {
+    for ((store, at), [first, last]) in adapted.stores.iter().zip(0..).zip(lifetimes) {
         if *first == NEVER && store.is_transient() {
             placed.placements.push(None);
             continue;
@@ -96,6 +100,10 @@ pub(super) fn place(
                     _ => memory.image(image),
                 };
                 last_needs = Some((image, needs));
+                if let Some(usual) = store.usual {
+                    let usual = usual_needs(image, usual, device, memory);
+                    placed.chosen.push((at, needs.bytes.cast_signed().saturating_sub(usual.bytes.cast_signed())));
+                }
                 (needs, device.lazily_allocated_memory && transient)
             }
             Kind::Buffer(buffer) => (memory.buffer(buffer), false),
@@ -155,6 +163,20 @@ pub(super) fn place(
         placed.live_peak_bytes = Measured::of(&all.collect::<Vec<Block>>()).live_peak();
     }
     Ok(placed)
+}
+
+/// What an image would need in the format `usual`: said by a model where the device can't make it.
+fn usual_needs(
+    image: &ImageDescriptor,
+    usual: Format,
+    device: &Profile,
+    memory: &mut dyn MemoryProvider,
+) -> MemoryNeeds {
+    let descriptor = ImageDescriptor { format: usual, ..*image };
+    let support = device.format(usual);
+    let made =
+        support.is_some_and(|support| support.usage.contains(image.usage) && support.samples.contains(&image.samples));
+    if made { memory.image(&descriptor) } else { device.memory.image(&descriptor) }
 }
 
 /// The first heap whose memory types fit, narrowed to those that both accept; a new one for `most` members.

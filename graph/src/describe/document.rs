@@ -19,7 +19,7 @@ use super::settings::{self, SettingFields};
 use super::surroundings::Surroundings;
 use super::textures::Pictures;
 use super::tree::Tree;
-use super::{Diagnostic, outputs, resolves, textures, views};
+use super::{Diagnostic, outputs, precision, resolves, textures, views};
 use crate::change::{Change, Kind};
 use crate::expression::Value;
 use crate::facts::Facts;
@@ -68,6 +68,11 @@ fields! {
         /// How several samples of depth become one value where a pass samples it, of images that don't say it; `Exact` if left
         /// out.
         pub(super) depth: Option<Leaf<'src>> => resolves::DEPTH,
+        /// What images of the format `Color` become that passes of the frame alone draw and sample; `Balanced` if left out.
+        pub(super) color: Option<Leaf<'src>> => precision::COLOR,
+        /// What images of the formats `Depth` and `DepthStencil` become that passes of the frame alone draw and sample; `Exact`
+        /// if left out.
+        pub(super) depth_format: Option<Leaf<'src>> => precision::DEPTH,
         /// What is changed of all that, after the extensions.
         pub(super) changes: Option<Leaf<'src>> => CHANGES,
     }
@@ -268,6 +273,8 @@ pub(super) struct Whole<'s, 't> {
     pub(super) settings: &'s [Option<Setting>],
     pub(super) views: Option<Leaf<'t>>,
     pub(super) depth: Option<Leaf<'t>>,
+    pub(super) color: Option<Leaf<'t>>,
+    pub(super) depth_format: Option<Leaf<'t>>,
     /// The first view that is no longer there.
     pub(super) removed_view: Option<&'s Change>,
     pub(super) outputs: Leaf<'t>,
@@ -294,7 +301,7 @@ fn lower(
         reader,
         fields.fragments.into_iter().chain(included.iter().filter_map(|tree| tree.root().field("fragments"))),
     );
-    let PipelineFields { textures, images, buffers, passes, views, depth, outputs, .. } = fields;
+    let PipelineFields { textures, images, buffers, passes, views, depth, color, depth_format, outputs, .. } = fields;
     let lists = Lists { textures, images: Some(images), buffers, passes: Some(passes) };
     let body = Body::read(reader, names, parameters, true, lists);
     let given = values.into_iter().map(|value| value.map(|value| Given { value, decided: Vec::new() })).collect();
@@ -304,5 +311,5 @@ fn lower(
     } else {
         Lowering::new(surroundings, &fragments, pictures, false)
     };
-    lowering.whole(reader, &body, level, Whole { settings, views, depth, removed_view, outputs })
+    lowering.whole(reader, &body, level, Whole { settings, views, depth, color, depth_format, removed_view, outputs })
 }

@@ -46,7 +46,7 @@ fields! {
         /// Samples a texel; 1 if left out.
         samples: Option<Leaf<'src>> => Form::Words(&SAMPLES),
         /// How several samples become one value where one is wanted; if left out colour is averaged, and depth is as the
-        /// pipeline's `depth` says.
+        /// pipeline's `depth` says. An image that another is forwarded to has its own.
         resolve: Option<Leaf<'src>> => resolves::RESOLVE,
         /// Mip levels; 1 if left out.
         mips: Option<Leaf<'src>> => Form::Words(&MIPS),
@@ -76,10 +76,13 @@ static FORMATS: Words = Words {
             "Color",
             &[Takes::Nothing, Takes::Fields(ColorFormatFields::<'static>::table)],
             &["Color(hdr: true)"],
-            "Colour: `R16G16B16A16_SFLOAT` with high dynamic range, else `R8G8B8A8_SRGB`.",
+            "Colour: `R16G16B16A16_SFLOAT` with high dynamic range, else `R8G8B8A8_SRGB`, unless the pipeline's `color` says otherwise.",
         ),
-        Word::alone("Depth", "Depth: `D32_SFLOAT`."),
-        Word::alone("DepthStencil", "Depth and stencil: `D32_SFLOAT_S8_UINT`."),
+        Word::alone("Depth", "Depth: `D32_SFLOAT`, unless the pipeline's `depth_format` says otherwise."),
+        Word::alone(
+            "DepthStencil",
+            "Depth and stencil: `D32_SFLOAT_S8_UINT`, unless the pipeline's `depth_format` says otherwise.",
+        ),
         Word::alone("Output", "What leaves the frame: `R8G8B8A8_SRGB`."),
         Word::new("Like", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Like(\"image\")"], "That of another image."),
     ],

@@ -13,7 +13,7 @@ use super::scope::{Block, Checked, Level, Properties, Scope};
 use super::surroundings::Surroundings;
 use super::textures::{self, Pictures};
 use super::views::Views;
-use super::{Diagnostic, buffers, circles, images, outputs, passes, previous, resolves, values};
+use super::{Diagnostic, buffers, circles, images, outputs, passes, precision, previous, resolves, values};
 use crate::source::Span;
 use crate::view::ViewIndex;
 use std::cell::Cell;
@@ -118,7 +118,7 @@ impl<'a, 't> Lowering<'a, 't> {
         reader: &mut Reader,
         body: &Body<'t>,
         mut level: Level,
-        Whole { settings, views, depth, removed_view, outputs }: Whole<'_, 't>,
+        Whole { settings, views, depth, color, depth_format, removed_view, outputs }: Whole<'_, 't>,
     ) -> Option<Pipeline> {
         let place = Place { prefix: "".into(), view: ViewIndex::default(), instance: None };
         if let Some(views) = views {
@@ -130,9 +130,11 @@ impl<'a, 't> Lowering<'a, 't> {
         self.body(reader, body, &mut level, &place);
         circles::find(&self.images, &self.buffers, &mut reader.errors);
         previous::check(&self.images, &self.buffers, &self.passes, &mut reader.errors);
-        let depth =
-            depth.map(|leaf| resolves::policy(reader, &self.scope(body, &level, ViewIndex::default(), None), leaf));
-        let outputs = outputs::lower(reader, &self.scope(body, &level, ViewIndex::default(), None), outputs);
+        let scope = self.scope(body, &level, ViewIndex::default(), None);
+        let depth = depth.map(|leaf| resolves::policy(reader, &scope, leaf));
+        let color = color.map(|leaf| precision::color(reader, &scope, leaf));
+        let depth_format = depth_format.map(|leaf| precision::depth(reader, &scope, leaf));
+        let outputs = outputs::lower(reader, &scope, outputs);
         if self.reading {
             self.unused(reader);
         }
@@ -149,6 +151,8 @@ impl<'a, 't> Lowering<'a, 't> {
             buffers: self.buffers.into_iter().collect::<Option<_>>()?,
             passes: self.passes.into_iter().collect::<Option<_>>()?,
             depth: depth.map_or(Some(None), |depth| depth)?,
+            color: color.map_or(Some(None), |color| color.map(Some))?,
+            depth_format: depth_format.map_or(Some(None), |depth_format| depth_format.map(Some))?,
             outputs: outputs?,
             instances: self.instances,
             removed: Vec::new(),

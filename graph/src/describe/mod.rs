@@ -43,6 +43,7 @@ mod pass;
 mod passes;
 mod pipeline;
 mod pipeline_files;
+mod precision;
 mod previous;
 mod properties;
 mod put_in;
@@ -84,8 +85,8 @@ pub use pipeline_files::{PipelineFiles, Shipped};
 pub(crate) use properties::scaled;
 pub use render::{escape, render};
 pub use resources::{
-    Buffer, Bytes, Fill, Format, Image, Layers, Lifetime, Mips, Resolve, Resolves, Samples, Shape as ImageShape, Size,
-    State, StateWord,
+    Buffer, Bytes, Fill, Format, Image, Layers, Lifetime, Mips, Precision, Precisions, Resolves, Samples,
+    Shape as ImageShape, Size, State, StateWord,
 };
 pub(crate) use settings::shown as shown_number;
 pub use settings::{last_step, nth as nth_step};

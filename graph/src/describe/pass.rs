@@ -33,6 +33,8 @@ pub struct Pass {
     pub color: Vec<Color>,
     /// Depth (and stencil) target.
     pub depth: Option<Depth>,
+    /// Where it is said, if the alpha of the first colour says how many samples are covered.
+    pub alpha_to_coverage: Option<Span>,
     /// Values for the shader's block `params`.
     pub params: Vec<Param>,
     /// Whether it has an effect that no image or buffer shows.

@@ -56,6 +56,9 @@ fields! {
         pub(super) color: Option<Leaf<'src>> => targets::COLOR,
         /// What it draws depth and stencil into.
         pub(super) depth: Option<Leaf<'src>> => targets::DEPTH,
+        /// `true`: as many samples of a texel are covered as the alpha says that the shader writes at location 0, where its
+        /// targets have several; not if left out.
+        pub(super) alpha_to_coverage: Option<Leaf<'src>> => Form::Truth,
         /// What it reads by transfer.
         pub(super) reads: Option<Leaf<'src>> => work::TRANSFERRED,
         /// What it writes by transfer, all of it.
@@ -164,6 +167,7 @@ impl Pass {
             index: None,
             color: Vec::new(),
             depth: None,
+            alpha_to_coverage: None,
             params: Vec::new(),
             side_effect: false,
             otherwise: Vec::new(),
@@ -189,6 +193,9 @@ fn parts_of<'src>(
     let index = optional(fields.index, |leaf| parts::buffer(reader, scope, leaf));
     let color = optional(fields.color, |leaf| targets::color(reader, scope, leaf));
     let depth = optional(fields.depth, |leaf| targets::depth(reader, scope, leaf));
+    let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| {
+        values::truth(reader, scope, leaf).map(|covers| covers.then(|| leaf.span()))
+    });
     let params = optional(fields.params, |leaf| bindings::params(reader, scope, leaf));
     let side_effect = optional(fields.side_effect, |leaf| values::truth(reader, scope, leaf));
     if let (Some(color), Some(depth)) = (&color, &depth) {
@@ -205,6 +212,7 @@ fn parts_of<'src>(
         index: index?,
         color: color?.unwrap_or_default(),
         depth: depth?,
+        alpha_to_coverage: alpha_to_coverage?.flatten(),
         params: params?.unwrap_or_default(),
         side_effect: side_effect?.unwrap_or_default(),
         ..Pass::idle(name?.clone())

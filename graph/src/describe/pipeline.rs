@@ -1,7 +1,7 @@
 //! What a pipeline file says, as owned data: every name is found, every value has its place.
 
 use super::pass::Pass;
-use super::resources::{Buffer, Image, Resolves, State};
+use super::resources::{Buffer, Image, Precisions, Resolves, State};
 use super::views::View;
 use crate::encoding::Encoding;
 use crate::frame::{BufferIndex, ImageIndex, Resource};
@@ -25,6 +25,10 @@ pub struct Pipeline {
     /// How several samples of depth become one value, of images that don't say it; `None`: whatever drew it is drawn again
     /// for passes that sample it.
     pub depth: Option<Resolves>,
+    /// What `Color` becomes; `None`: [`Precision::Balanced`](super::Precision).
+    pub color: Option<Precisions>,
+    /// What `Depth` and `DepthStencil` become; `None`: [`Precision::Exact`](super::Precision).
+    pub depth_format: Option<Precisions>,
     /// Images and buffers that leave the frame.
     pub outputs: Vec<Output>,
     /// Fragments that were put in, each before those within it.

@@ -2,9 +2,11 @@
 
 use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, Spanned};
 use crate::format;
+use crate::frame::ResolveWay;
+use crate::source::Span;
 use crate::texture::TextureFile;
 use crate::view::ViewIndex;
-use crate::vocabulary::{self, ResolveMode};
+use crate::vocabulary;
 use std::sync::Arc;
 
 /// An image.
@@ -42,31 +44,44 @@ pub struct Image {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolves {
     /// How.
-    pub resolve: Spanned<Resolve>,
+    pub resolve: Spanned<ResolveWay>,
     /// What says so, with what decided it: "`resolve: Min` (quality = 'low')".
     pub said: Arc<str>,
 }
 
-/// How several samples become one value.
+/// How exactly images of a purpose hold what they are asked to, and who says so.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Precisions {
+    /// How exactly.
+    pub precision: Precision,
+    /// Where it is said.
+    pub span: Span,
+    /// What says so, with what decided it: "`color: Smallest` (quality = 'low')".
+    pub said: Arc<str>,
+}
+
+/// How exactly an image holds what it is asked to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Resolve {
-    /// Of depth: whatever drew it is drawn again with one sample.
-    DepthOnly,
-    /// In this mode.
-    By(ResolveMode),
+pub enum Precision {
+    /// In as few bytes as will do.
+    Smallest,
+    /// In as many as are usually enough.
+    Balanced,
+    /// In as many as there are.
+    Exact,
 }
 
 /// A texel format, by purpose or by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Format {
-    /// Colour: `R16G16B16A16_SFLOAT` with high dynamic range, else `R8G8B8A8_SRGB`.
+    /// Colour: `R16G16B16A16_SFLOAT` with high dynamic range, else `R8G8B8A8_SRGB`, unless the pipeline says otherwise.
     Color {
         /// Whether values above 1 are kept.
         hdr: bool,
     },
-    /// Depth: `D32_SFLOAT`.
+    /// Depth: `D32_SFLOAT`, unless the pipeline says otherwise.
     Depth,
-    /// Depth and stencil: `D32_SFLOAT_S8_UINT`.
+    /// Depth and stencil: `D32_SFLOAT_S8_UINT`, unless the pipeline says otherwise.
     DepthStencil,
     /// What leaves the frame: `R8G8B8A8_SRGB`.
     Output,

@@ -2,7 +2,7 @@
 //! there by itself or as an expression in quotes.
 
 use super::Diagnostic;
-use super::forms::Form;
+use super::forms::{Form, Words};
 use super::leaf::{Leaf, Number, Shape};
 use super::parameters::ParameterKind;
 use super::pipeline::SettingKind;
@@ -263,4 +263,51 @@ pub(super) fn fill<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src
     };
     let parts = parts.map(|part| number(reader, scope, part));
     Some(Fill::Color([parts[0]?, parts[1]?, parts[2]?, parts[3]?]))
+}
+
+/// One of several words that take nothing, or a setting or expression that says one.
+pub(super) fn bare_word<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    words: &'static Words,
+) -> Option<Decided<&'static str>> {
+    let Shape::Text = leaf.shape() else {
+        let (word, rest) = reader.one_of(leaf, words)?;
+        return reader.bare(word, rest).map(|()| (word, None));
+    };
+    let fits = |kind: &SettingKind| matches!(kind, SettingKind::Choice { .. });
+    let (value, because) = match scope.quoted(reader, leaf, fits, "a text")? {
+        Quoted::Given(parameter, given) => {
+            if scope.known.settings
+                && let Some(odd) = parameter.texts().iter().find(|text| words.find(text).is_none())
+            {
+                let message = format!("this setting allows `{}`, which is not {}", odd, words.what);
+                reader.wrong(leaf, message, &words.forms());
+                return None;
+            }
+            (given.value.clone(), scope.because(parameter, given))
+        }
+        Quoted::Expression => {
+            let outcome = scope.evaluate(reader, leaf, Wanted::TEXT)?;
+            let because = joined(&outcome.decided);
+            (outcome.value, because)
+        }
+    };
+    let Value::Text(text) = value else { return None };
+    match words.find(&text) {
+        Some(known) => Some((known.word, because)),
+        None => {
+            let wrong = Diagnostic::new(leaf.span(), format!("`{}` is not {}", text, words.what));
+            let wrong = wrong.remark(because.as_deref().unwrap_or_default()).help(words.forms());
+            scope.fault(reader, leaf, wrong);
+            None
+        }
+    }
+}
+
+/// A field with its word, and what decided it.
+pub(super) fn said(field: &str, word: &str, because: Option<Arc<str>>) -> Arc<str> {
+    let because = because.map(|because| format!(" ({because})")).unwrap_or_default();
+    format!("`{field}: {word}`{because}").into()
 }

@@ -156,7 +156,7 @@ static GROUPS: Words = Words {
 const GROUP: Form = Form::Whole(1, MOST_GROUPS);
 
 /// Fields of a pass that have a meaning beside some kinds of work alone.
-pub(super) const GOES_WITH: [(&str, &[&str]); 12] = [
+pub(super) const GOES_WITH: [(&str, &[&str]); 13] = [
     ("shader", &["draw"]),
     ("groups", &["dispatch"]),
     ("sample", &["draw", "dispatch", "custom"]),
@@ -167,6 +167,7 @@ pub(super) const GOES_WITH: [(&str, &[&str]); 12] = [
     ("index", &["draw"]),
     ("color", &["draw", "custom"]),
     ("depth", &["draw", "custom"]),
+    ("alpha_to_coverage", &["draw"]),
     ("reads", &["custom"]),
     ("writes", &["custom"]),
 ];
@@ -256,6 +257,7 @@ fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: &str, word: &str) {
         fields.index,
         fields.color,
         fields.depth,
+        fields.alpha_to_coverage,
         fields.reads,
         fields.writes,
     ];

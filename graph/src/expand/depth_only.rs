@@ -6,7 +6,7 @@ use super::shader::{Checked, PARAMS};
 use super::things::Things;
 use super::{Chosen, variant};
 use crate::describe;
-use crate::frame::{Draw, Face, ImageIndex, Pass, Work};
+use crate::frame::{Draw, Face, ImageIndex, Pass, ResolveWay, Work};
 use crate::interface::{Binding, PASS_SET, ShaderInterface, ShaderProblem, Variant};
 use crate::vocabulary::Stages;
 use std::collections::HashSet;
@@ -20,7 +20,7 @@ pub(super) fn note(chosen: &Chosen<'_>, things: &Things, states: &mut [State], s
     let mut wanted = HashSet::new();
     for (image, index) in things.images.iter().zip(0..).map(|(image, index)| (image, ImageIndex(index))) {
         let asks = image.as_ref().and_then(|image| image.image.resolve.as_ref());
-        if asks.is_some_and(|resolve| resolve.mode.is_none()) && multisampled(index).is_some() {
+        if asks.is_some_and(|resolve| resolve.way == ResolveWay::DepthOnly) && multisampled(index).is_some() {
             wanted.insert(index);
         }
     }

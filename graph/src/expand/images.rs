@@ -1,11 +1,9 @@
 //! Formats, sizes and sample counts of images, each its own or that of an image that it follows.
 
 use super::{Chosen, shapes};
-use crate::describe::{
-    self, Diagnostic, Format as Described, ImageRef, Layers, Mips, Resolve, Resolves, Samples, Size,
-};
+use crate::describe::{self, Diagnostic, Format as Described, ImageRef, Layers, Mips, Resolves, Samples, Size};
 use crate::format::Format;
-use crate::frame::{self, Image};
+use crate::frame::{self, Image, ResolveWay};
 use crate::vocabulary::ResolveMode;
 use std::sync::Arc;
 
@@ -126,18 +124,22 @@ fn asked(
     let Some(Resolves { resolve, said }) = described.resolve.as_ref().or(policy.filter(|_| depth)) else {
         return Some(None);
     };
-    let mode = match resolve.value {
-        Resolve::DepthOnly => None,
-        Resolve::By(mode) => Some(mode),
+    let (way, integers) = (resolve.value, image.format.is_integer());
+    let (fits, ways) = match way {
+        _ if depth => (way != ResolveWay::Weighted, "depth is drawn again, sample zero, least, greatest or averaged"),
+        _ if integers => (way == ResolveWay::By(ResolveMode::SampleZero), "integers are sample zero"),
+        way => {
+            let known = [ResolveWay::By(ResolveMode::Average), ResolveWay::Weighted];
+            (known.contains(&way), "colour is averaged, or weighted")
+        }
     };
-    let usual = if image.format.is_integer() { ResolveMode::SampleZero } else { ResolveMode::Average };
-    if !depth && mode != Some(usual) {
+    if !fits {
         let message = format!("`{}` can't be resolved so: it is {}", image.name, image.format);
         let wrong = Diagnostic::new(resolve.span, message).label(described.format.span, "its format");
-        errors.push(wrong.help("colour is averaged, integers are sample zero; the other ways are for depth"));
+        errors.push(wrong.help(ways));
         return None;
     }
-    Some(Some(frame::Resolve { mode, because: said.clone() }))
+    Some(Some(frame::Resolve { way, because: said.clone() }))
 }
 
 fn extent(

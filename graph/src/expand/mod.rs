@@ -15,6 +15,7 @@ mod order;
 mod params;
 mod parts;
 mod passes;
+mod precision;
 mod sampled;
 mod settings;
 mod shader;
@@ -126,7 +127,7 @@ pub fn expand(
     };
     let chosen = Chosen { pipeline: &pipeline, extent: inputs.output_extent };
     let mut said = once::Said::default();
-    let things = Things::resolve(&chosen, &mut errors);
+    let mut things = Things::resolve(&chosen, &mut errors);
     said.each_once(&mut errors, 0);
 
     let mut checked = shader::Checked::new(shaders, &sources);
@@ -162,6 +163,7 @@ pub fn expand(
     let before = errors.len();
     order::check(&chosen, &things, &states, &outputs, &mut errors);
     said.each_once(&mut errors, before);
+    let kept = precision::choose(&chosen, &mut things, &states, &outputs, &mut checked);
 
     let Things { images, buffers } = things;
     let images = images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>();
@@ -171,7 +173,7 @@ pub fn expand(
             let passes = states.into_iter().flat_map(order::State::into_passes).collect();
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
-            let remarks = views::remarks(&chosen);
+            let remarks = [views::remarks(&chosen), kept].concat();
             Ok(Frame { sources, settings, changes, views, images, buffers, passes, outputs, switched_off, remarks })
         }
         _ => {

@@ -62,6 +62,7 @@ pub(super) fn draft(
     lowered.span = pass.name.span;
     lowered.view = pass.view;
     lowered.side_effect = pass.side_effect;
+    lowered.alpha_to_coverage = pass.alpha_to_coverage.is_some();
     for sample in &pass.sample {
         let range = parts::range(chosen, things, &sample.part, errors);
         lowered.sampled.extend(sampled::lower(things, sample, range, interface, raster));

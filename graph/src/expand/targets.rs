@@ -159,6 +159,20 @@ fn agree(pass: &describe::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
 /// Every colour target is fed by an output of the same type.
 pub(super) fn fed(things: &Things, pass: &describe::Pass, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
     let shader = pass.shader().map_or("", |shader| &*shader.text);
+    if let Some(span) = pass.alpha_to_coverage {
+        let first = interface.outputs.iter().find(|output| output.location == 0);
+        let why = match (pass.color.is_empty(), first) {
+            (true, _) => Some("it draws no colour".to_owned()),
+            (false, Some(output)) if output.component != Component::Float || output.components < 4 => {
+                Some(format!("shader `{shader}` writes no alpha to `{}`", output.name))
+            }
+            (false, _) => None,
+        };
+        if let Some(why) = why {
+            let message = format!("pass `{}` has no alpha that could say what is covered: {why}", pass.name.text);
+            errors.push(Diagnostic::new(span, message).help("leave `alpha_to_coverage` out"));
+        }
+    }
     for (location, target) in (0..).zip(&pass.color) {
         let Some(image) = things.image(target.part.image.index) else { continue };
         let (name, format) = (&image.image.name, image.image.format);

@@ -17,7 +17,15 @@ pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) ->
         Some((sample.binding.text.clone(), texture(image, &parts::cells(image, &range), sample.face)))
     };
     let sampled = pass.sample.iter().map(|sample| sample.binding.text.clone()).collect();
-    Variant { textures: pass.sample.iter().filter_map(texture).collect(), sampled, ..Variant::default() }
+    let textures = pass.sample.iter().filter_map(texture).collect();
+    Variant { textures, sampled, alpha_to_coverage: covers_samples(things, pass), ..Variant::default() }
+}
+
+/// Whether the alpha that a pass draws says how many samples are covered: its targets have several.
+fn covers_samples(things: &Things, pass: &describe::Pass) -> bool {
+    let several =
+        |color: &describe::Color| things.image(color.part.image.index).is_some_and(|target| target.image.samples > 1);
+    pass.alpha_to_coverage.is_some() && pass.color.iter().any(several)
 }
 
 /// The variant that its shader would have if no condition left anything out; `None` where what is left out has no value
@@ -42,7 +50,7 @@ fn texture(image: &Image, cells: &Cells, face: Face) -> ImageShape {
     ImageShape::of(image.shape, cells.layers.clone(), single_samples && image.samples > 1, component)
 }
 
-/// Reports a shader that adapts to single samples, and is wrong where the device leaves its images one sample.
+/// Reports a shader that adapts to several samples, and is wrong where the device leaves its images one sample.
 pub(super) fn check_single_sampled(
     pass: &describe::Pass,
     lowered: &Pass,
@@ -50,9 +58,11 @@ pub(super) fn check_single_sampled(
     shaders: &mut Checked<'_>,
     errors: &mut Vec<Diagnostic>,
 ) {
-    if lowered.sampled.iter().any(|sampled| sampled.texture.is_some_and(|texture| texture.multisampled)) {
+    let adapts = lowered.sampled.iter().any(|sampled| sampled.texture.is_some_and(|texture| texture.multisampled));
+    if adapts || variant.alpha_to_coverage {
         let mut single = variant.clone();
         single.textures.iter_mut().for_each(|(_, texture)| texture.multisampled = false);
+        single.alpha_to_coverage = false;
         shaders.interface(pass, &single, errors);
     }
 }

@@ -30,7 +30,8 @@ pub(super) fn lower(
     let drawn = |draw, shader: &describe::Name| Work::Draw {
         draw,
         shader: shader.text.clone(),
-        discards: interface.is_some_and(|interface| interface.discards),
+        // What isn't covered stays as it is.
+        discards: interface.is_some_and(|interface| interface.discards) || pass.alpha_to_coverage.is_some(),
         per_sample: interface.is_some_and(|interface| interface.per_sample),
     };
     match &pass.work {

@@ -15,7 +15,7 @@ mod touch;
 
 pub use output::Output;
 pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Work};
-pub use resource::{Buffer, Image, Lifetime, Resolve, Shape};
+pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, Shape};
 pub use touch::{
     Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,
 };
@@ -62,11 +62,11 @@ pub struct Frame {
     pub remarks: Vec<Remark>,
 }
 
-/// Something about a pass that is allowed and probably not meant.
+/// Something about a pass or an image that is allowed and probably not meant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remark {
-    /// The pass's name.
-    pub pass: Arc<str>,
+    /// The name of the pass or the image.
+    pub subject: Arc<str>,
     /// Where that stands.
     pub span: Span,
     /// What it is.

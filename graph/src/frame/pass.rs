@@ -30,6 +30,8 @@ pub struct Pass {
     pub color: Vec<ColorTarget>,
     /// Depth (and stencil) attachment.
     pub depth: Option<DepthTarget>,
+    /// Whether the alpha of the first colour says how many samples are covered, where the targets have several.
+    pub alpha_to_coverage: bool,
     /// Why its shader can't draw its depth alone, for images of fewer samples, if it can't.
     pub no_depth_only: Option<Arc<str>>,
     /// Buffers that it reads or writes by anything but a copy or fill.
@@ -55,6 +57,7 @@ impl Pass {
             storage: Vec::new(),
             color: Vec::new(),
             depth: None,
+            alpha_to_coverage: false,
             no_depth_only: None,
             buffers: Vec::new(),
             transfers: Vec::new(),

@@ -30,8 +30,19 @@ pub struct Image {
     /// sample zero, and depth is drawn again for passes that sample it and sample zero where it is copied or leaves the
     /// frame.
     pub resolve: Option<Resolve>,
+    /// If the pipeline has chosen its format, out of several that its purpose allows: what it would be otherwise.
+    pub chosen: Option<ChosenFormat>,
     /// How long its contents live.
     pub lifetime: Lifetime,
+}
+
+/// A format that a pipeline has chosen by a policy.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ChosenFormat {
+    /// The format without the policy, which does whatever the chosen one does.
+    pub usual: Format,
+    /// Who says so: "`color: Smallest`".
+    pub because: Arc<str>,
 }
 
 impl Image {
@@ -48,6 +59,7 @@ impl Image {
             layers: 1,
             samples: 1,
             resolve: None,
+            chosen: None,
             lifetime: Lifetime::Transient,
         }
     }
@@ -56,10 +68,22 @@ impl Image {
 /// How several samples of an image become one value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolve {
-    /// The mode; `None`, of depth only: whatever drew it is drawn again with one sample.
-    pub mode: Option<ResolveMode>,
+    /// How.
+    pub way: ResolveWay,
     /// Who says so: "`resolve: Min`".
     pub because: Arc<str>,
+}
+
+/// A way in which several samples become one value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ResolveWay {
+    /// Of depth: whatever drew it is drawn again with one sample.
+    DepthOnly,
+    /// In one of Vulkan's modes: of colour the average, of integers sample zero, of depth any.
+    By(ResolveMode),
+    /// Of floating-point and normalised colour: the mean of tone-mapped samples, taken back to light, so that one bright
+    /// sample doesn't drown the others. By a draw.
+    Weighted,
 }
 
 /// The shape of an image.

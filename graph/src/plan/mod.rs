@@ -57,7 +57,7 @@ pub use work::{
 };
 
 /// The version of the JSON form that this library writes and reads.
-pub const FORMAT_VERSION: u32 = 5;
+pub const FORMAT_VERSION: u32 = 6;
 
 /// Index of an image in [`Plan::images`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -176,6 +176,8 @@ pub struct Image {
     pub cause: Cause,
     /// Texel format.
     pub format: Format,
+    /// What the pipeline's choice of that format comes to, if a policy of it made one.
+    pub chosen: Option<ChosenFormat>,
     /// Flat, deep, or a cube.
     pub shape: Shape,
     /// Width, height, depth in texels.
@@ -193,6 +195,18 @@ pub struct Image {
     pub sharing: Sharing,
     /// Where its memory comes from.
     pub role: Role,
+}
+
+/// What a format comes to that a policy of the pipeline chose.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ChosenFormat {
+    /// The policy: "`color: Smallest`".
+    pub because: Arc<str>,
+    /// The format without it.
+    pub usual: Format,
+    /// Bytes that the image takes more than it would in the usual format; below 0: fewer.
+    pub more_bytes: i64,
 }
 
 /// A buffer.

@@ -4,9 +4,9 @@ use super::changes;
 use super::names::{Shown, vulkan};
 use super::outline::Node;
 use super::{
-    Access, Attachment, BindingKind, Buffer, BufferAccess, Cause, Hazard, Image, ImageBarrier, ImageId, Initial,
-    MemoryBarrier, Note, Output, Pass, Plan, Queue, RenderScope, Resource, Role, Side, Step, StepId, Subresources,
-    Totals, Transfer, View, Wait, Work,
+    Access, Attachment, BindingKind, Buffer, BufferAccess, Cause, ChosenFormat, Hazard, Image, ImageBarrier, ImageId,
+    Initial, MemoryBarrier, Note, Output, Pass, Plan, Queue, RenderScope, Resource, Role, Side, Step, StepId,
+    Subresources, Totals, Transfer, View, Wait, Work,
 };
 use crate::encoding::Encoding;
 use crate::frame::{Blend, BufferRole, Cascade, Draw, DrawList, Groups, ParamValue, StencilState};
@@ -151,6 +151,9 @@ impl Tree<'_> {
         let mut text = format!("`{}` {work} with shader `{}`", Shown(&pass.name), Shown(&pass.shader));
         if let Some(redraws) = &pass.redraws {
             text += &format!(", again as `{}` does, depth only", Shown(redraws));
+        }
+        if pass.alpha_to_coverage {
+            text += ", alpha to coverage";
         }
         for (color, blend) in pass.blend.iter().enumerate() {
             let words = match blend {
@@ -389,7 +392,18 @@ fn image(plan: &Plan, image: &Image) -> Node {
     text += &format!(", {}", samples(image.samples));
     let next = |at: u32| plan.images.get(at as usize).map_or("", |image| &image.name);
     text += &role(&image.role, &image.name, next);
-    Node::leaf(text + &cause(&image.cause))
+    Node::new(text + &cause(&image.cause), image.chosen.iter().map(chosen).collect())
+}
+
+fn chosen(chosen: &ChosenFormat) -> Node {
+    let ChosenFormat { because, usual, more_bytes } = chosen;
+    let amount = bytes(more_bytes.unsigned_abs());
+    let comes_to = match more_bytes {
+        0 => "as many bytes as".to_owned(),
+        1.. => format!("{amount} more than"),
+        ..0 => format!("{amount} fewer than"),
+    };
+    Node::leaf(format!("{}: {comes_to} in {usual}", Shown(because)))
 }
 
 fn output(plan: &Plan, output: &Output) -> Option<Node> {

@@ -111,6 +111,9 @@ pub struct Pass {
     pub redraws: Option<Arc<str>>,
     /// Whether its fragment shader discards fragments: then a full-screen draw doesn't cover.
     pub discards: bool,
+    /// Whether the alpha that its shader writes at location 0 says how many samples are covered: it is compiled for that (the
+    /// macro `ALPHA_TO_COVERAGE`).
+    pub alpha_to_coverage: bool,
     /// How new colour meets old, for each colour attachment of the scope.
     pub blend: Vec<Blend>,
     /// Depth comparison and whether passing fragments write depth; `None`: no test, no write.

@@ -25,6 +25,10 @@ impl<'p> Check<'_, 'p> {
         if pass.blend.len() != scope.color.len() {
             self.wrong_pass(pass, "doesn't say how each colour attachment is blended");
         }
+        let covers = scope.samples > 1 && !scope.color.is_empty() && pass.redraws.is_none();
+        if pass.alpha_to_coverage && !(covers && pass.discards) {
+            self.wrong_pass(pass, "covers samples by alpha and can't, or doesn't say that fragments may be lost");
+        }
         let local = attachments(scope).any(|(attachment, _)| attachment.layout == Layout::RenderingLocalReadKhr);
         for (attachment, blend) in scope.color.iter().zip(&pass.blend) {
             let reads = *blend != Blend::Replace;
@@ -139,7 +143,7 @@ impl<'p> Check<'_, 'p> {
         self.named(&pass.name);
         let drawn = pass.draw.is_some() || !pass.blend.is_empty() || pass.depth.is_some() || pass.stencil.is_some();
         let drawn = drawn || pass.redraws.is_some();
-        if drawn || pass.discards || pass.local_barrier || pass.merged.is_some() {
+        if drawn || pass.discards || pass.alpha_to_coverage || pass.local_barrier || pass.merged.is_some() {
             self.wrong_pass(pass, "is no draw and has the state of one");
         }
     }

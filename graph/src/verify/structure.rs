@@ -4,7 +4,7 @@ use super::Findings;
 use super::frames::{self, Frames};
 use super::violation::{Rule, Violation};
 use crate::frame::Shape;
-use crate::plan::{Buffer, Image, Initial, Placement, Plan, Resource, Role};
+use crate::plan::{Buffer, ChosenFormat, Image, Initial, Placement, Plan, Resource, Role};
 use crate::texture::format_problem;
 use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
 use std::collections::HashSet;
@@ -79,6 +79,11 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
         | Usage::INPUT_ATTACHMENT;
     if image.usage.contains(Usage::TRANSIENT_ATTACHMENT) && !attachment.contains(image.usage) {
         wrong("is a TRANSIENT_ATTACHMENT and more than an attachment");
+    }
+    if let Some(ChosenFormat { usual, .. }) = &image.chosen
+        && (*usual == image.format || usual.aspects() != image.format.aspects())
+    {
+        wrong("is in a format that can't have been chosen in place of its usual one");
     }
     match &image.role {
         Role::Transient(placement) => {

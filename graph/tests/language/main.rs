@@ -12,6 +12,7 @@ mod fragments;
 mod library;
 mod many_changes;
 mod misuse;
+mod precision;
 mod random;
 mod repeat;
 mod resolves;

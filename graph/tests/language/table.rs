@@ -6,8 +6,8 @@ use framewright_graph::file_path::FilePath;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, Frame};
 use framewright_graph::interface::{
-    Attribute, Binding, BindingKind, Block, Component, Dimension, DrawInterface, FragmentOutput, ImageShape, Member,
-    ShaderInterface, ShaderInterfaces, ShaderProblem, Supplied, SuppliedKind, Variant, VertexInput,
+    AlphaUse, Attribute, Binding, BindingKind, Block, Component, Dimension, DrawInterface, FragmentOutput, ImageShape,
+    Member, ShaderInterface, ShaderInterfaces, ShaderProblem, Supplied, SuppliedKind, Variant, VertexInput,
 };
 use framewright_graph::source::Sources;
 use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
@@ -182,6 +182,16 @@ fn read_locally(mut shader: ShaderInterface, variant: &Variant) -> ShaderInterfa
     shader
 }
 
+/// What shaders do with the alpha of what they sample.
+fn alpha(name: &str) -> Vec<(String, AlphaUse)> {
+    let used = match name {
+        "copy" | "scale_area" | "scale_catmull_rom" | "resolve_weighted" | "depth_stripes_copy" => AlphaUse::Passed,
+        "tinted" => AlphaUse::Read,
+        _ => return Vec::new(),
+    };
+    vec![("source".to_owned(), used)]
+}
+
 impl ShaderInterfaces for Table {
     fn draw_shader(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
         let float = Component::Float;
@@ -201,7 +211,7 @@ impl ShaderInterfaces for Table {
             "sky" | "plain" => full_screen(vec![]),
             "whole" => ShaderInterface { outputs: outputs(1, Component::Uint, 1), ..ShaderInterface::default() },
             "tone_map" => full_screen(vec![source(), params(&[("exposure", "float"), ("white_point", "float")])]),
-            "over_bright" | "blur_tent" | "copy" => full_screen(vec![source()]),
+            "over_bright" | "blur_tent" | "copy" | "tinted" => full_screen(vec![source()]),
             "scale_area" | "scale_catmull_rom" => {
                 full_screen(vec![source(), params(&[("target_width", "int"), ("target_height", "int")])])
             }
@@ -339,7 +349,7 @@ impl ShaderInterfaces for Table {
                 return Err(ShaderProblem::Missing { looked_in, known });
             }
         };
-        Ok(read_locally(shader, variant))
+        Ok(ShaderInterface { alpha: alpha(name), ..read_locally(shader, variant) })
     }
 
     fn compute_shader(&mut self, name: &str, _: &Variant) -> Result<ShaderInterface, ShaderProblem> {

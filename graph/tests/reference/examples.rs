@@ -98,11 +98,13 @@ pub(crate) fn whole_word(words: &str, word: &str) -> String {
         "Layers" => image("layers"),
         "Resolve" => {
             let format = match word {
-                "Average" => "Color",
+                "Average" | "Weighted" => "Color",
                 _ => "Depth",
             };
             with("images", &format!("(name: \"it\", format: {format}, size: Output, samples: 4, resolve: {word})"))
         }
+        "ColorPolicy" => with("images", "").replace("version: 1,", &format!("version: 1, color: {word},")),
+        "DepthFormatPolicy" => with("images", "").replace("version: 1,", &format!("version: 1, depth_format: {word},")),
         "DepthPolicy" => with("images", "").replace("version: 1,", &format!("version: 1, depth: {word},")),
         "Shape" => image("shape"),
         "Lifetime" => image("lifetime"),

@@ -3,7 +3,7 @@
 //! A frame and its Plan are followed separately, each by its own meaning. The checker can tell whether a Plan keeps its own
 //! promises; only this can tell whether those are the frame's.
 
-use framewright_graph::frame::{Blend, Draw, Face, Frame, ImageIndex, Pass, Resource, Work};
+use framewright_graph::frame::{Blend, Draw, Face, Frame, Image, ImageIndex, Pass, ResolveWay, Resource, Work};
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, LoadOp, StoreOp};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -19,6 +19,16 @@ fn mix(what: impl Hash) -> u64 {
 
 fn resolved(value: u64) -> u64 {
     mix(("resolved", value))
+}
+
+fn weighted(value: u64) -> u64 {
+    mix(("weighted", value))
+}
+
+/// One value of what has several samples, as the image says.
+fn single(image: &Image, value: u64) -> u64 {
+    let way = image.resolve.as_ref().map(|resolve| resolve.way);
+    if way == Some(ResolveWay::Weighted) { weighted(value) } else { resolved(value) }
 }
 
 fn drawn(value: u64) -> u64 {
@@ -40,15 +50,15 @@ pub(crate) fn of_frame(frame: &Frame) -> Vec<u64> {
     for pass in &frame.passes {
         frame_pass(frame, pass, &mut held);
     }
-    let single = |image: ImageIndex| match frame.images[image.0 as usize].samples {
-        1 => held[image.0 as usize],
-        _ => resolved(held[image.0 as usize]),
+    let leaving = |at: ImageIndex| match &frame.images[at.0 as usize] {
+        image if image.samples == 1 => held[at.0 as usize],
+        image => single(image, held[at.0 as usize]),
     };
     let image = |resource: Resource| match resource {
         Resource::Image(image) => image,
         Resource::Buffer(_) => unreachable!("these frames have no buffers"),
     };
-    frame.outputs.iter().map(|output| single(image(output.resource))).collect()
+    frame.outputs.iter().map(|output| leaving(image(output.resource))).collect()
 }
 
 fn frame_pass(frame: &Frame, pass: &Pass, held: &mut [u64]) {
@@ -56,7 +66,7 @@ fn frame_pass(frame: &Frame, pass: &Pass, held: &mut [u64]) {
     if let Work::Forward { from, to, .. } = pass.work {
         let (source, target) = (image(from), image(to));
         let value = held[from.0 as usize];
-        let value = if source.samples > target.samples { resolved(value) } else { value };
+        let value = if source.samples > target.samples { single(source, value) } else { value };
         let same = source.format == target.format && source.samples >= target.samples;
         held[to.0 as usize] = if same { value } else { drawn(value) };
         return;
@@ -64,7 +74,7 @@ fn frame_pass(frame: &Frame, pass: &Pass, held: &mut [u64]) {
     let sampled = pass.sampled.iter().map(|sampled| {
         let value = held[sampled.image.0 as usize];
         let whole = sampled.face == Face::Samples || image(sampled.image).samples == 1;
-        (sampled.binding.to_string(), if whole { value } else { resolved(value) })
+        (sampled.binding.to_string(), if whole { value } else { single(image(sampled.image), value) })
     });
     let stored = pass.storage.iter().filter(|storage| storage.read);
     let stored = stored.map(|storage| (storage.binding.to_string(), held[storage.image.0 as usize]));
@@ -161,6 +171,7 @@ fn plan_pass(pass: &plan::Pass, scope: Option<&plan::RenderScope>, held: &mut [u
         let value = &mut held[attachment.image.0 as usize];
         *value = match &*pass.shader {
             "shipped:copy" => drawn(read[0].1),
+            "shipped:resolve_weighted" => weighted(read[0].1),
             _ => made(&pass.name, &format!("color {location}"), *value, depth, &read),
         };
     }

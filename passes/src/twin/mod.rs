@@ -1,5 +1,6 @@
 //! CPU twins of the shaders' closed formulas, in 64-bit floating point: what the GPU is held against.
 
+pub mod alpha_coverage;
 pub mod ambient_occlusion;
 pub mod bloom;
 pub mod cross_fade;

@@ -23,7 +23,9 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
             mips: image.mips,
             layers: image.layers,
             samples: image.samples,
-            resolve: image.resolve.map(|mode| frame::Resolve { mode: Some(mode), because: "it says so".into() }),
+            resolve: image
+                .resolve
+                .map(|mode| frame::Resolve { way: frame::ResolveWay::By(mode), because: "it says so".into() }),
             lifetime: lifetime(image.life, handed_in(number), |value| texels::fill(image.format, value)),
             ..frame::Image::new(&format!("i{number}"), image.format, width, height)
         });

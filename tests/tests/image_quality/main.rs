@@ -10,10 +10,12 @@
 //! | IQ-4 | `pictures::light_is_averaged_before_tone_mapping_or_what_is_shown_after_it` | size of `scaled` for `mapped != 'pixels'` |
 //! | IQ-6 | `samples::a_fragment_shader_runs_once_a_texel_whatever_the_samples` | `count_invocations.frag` reads `gl_SampleID` |
 //! | IQ-6 | `samples::edges_improve_with_samples_and_with_scale` | samples of `color` 1 |
+//! | IQ-6 | `samples::edges_of_holes_improve_with_samples_only_where_alpha_says_how_many_are_covered`, `alpha_coverage` | `alpha_coverage.glsl`: `+ 0.5` left out |
 //! | IQ-7 | `plans::multisampled_colour_is_resolved_before_what_samples_it`, `texture_declarations` | samples of `color` 1 |
 //! | IQ-8 | `plans::a_resolve_serves_every_reader_until_the_next_write` | `post.ron`: objects are drawn before `show_light` |
 //! | IQ-9 | `plans::a_blur_of_five_draws_takes_one_resolve_where_the_file_asks_for_three` | `shown` with one sample |
 //! | IQ-10, IQ-12, IQ-15 | `graph/tests/depth_ladder.rs` | `compile/adapt/resolve.rs`: depth without a word is averaged |
+//! | IQ-12, IQ-24 | `cli/tests/image_quality.rs`, `depth_stripes` | `depth_stripes.ron`: `"depth"` for `DepthOnly("depth")` |
 //! | IQ-13 | `cli/tests/depth_ladder.rs` | `lit_masked.frag`: no `fades_out`, or no cut-off, with `DEPTH_ONLY` |
 //! | IQ-14 | `cli/tests/depth_ladder.rs`, `graph/tests/depth_ladder.rs` | `depth_resolve_min.frag`: `greatest_depth` |
 //! | IQ-16 | `plans::stripes_take_one_resolve_as_a_blend_and_two_as_a_copy`, `depth_stripes` | `stripes_back` off |
@@ -22,6 +24,7 @@
 //! | IQ-18 | `plans::nothing_is_loaded_that_was_not_kept` | `retain.rs`: `Start::Discard` loads (the checker says so first) |
 //! | IQ-19 | `plans::colour_is_floating_point_only_where_something_makes_use_of_it` | `scene.peak_radiance` left out |
 //! | IQ-20 | `samples::a_lamp_does_not_spoil_edges_where_bright_samples_weigh_less`, `resolves` | `weighted_resolve.glsl`: weight 1 |
+//! | IQ-20 | `graph/tests/weighted_resolve.rs`, `resolves` | `resolves.ron`: `resolve` left out |
 //! | IQ-21 | `pictures::tone_mapping_without_hdr_makes_one_half_of_white`, `tone_mapping_operators` | `tone_mapping.glsl`: `radiance / (2.0 + radiance)` |
 //! | IQ-21 | `pictures::the_white_point_decides_how_much_is_compressed`, `twin_tone_mapping` | `tone_mapping.glsl`: `radiance / white` |
 //! | IQ-22 | `plans::tone_mapping_is_the_resolving_draw_if_samples_are_mapped` | `tone_mapping.ron`: `Resolved("source")` for `Samples("source")` |
@@ -32,6 +35,7 @@
 //!
 //! Where no file is named it is `image_quality.ron`.
 
+mod formats;
 mod pictures;
 mod plans;
 mod samples;

@@ -172,7 +172,8 @@ fn colour_is_floating_point_only_where_something_makes_use_of_it() -> Result<(),
         (&dim, "true", "reinhard", Format::R8G8B8A8_SRGB),
     ];
     for (scene, hdr, tone_mapping, format) in cases {
-        let set = [("hdr", hdr), ("tone_mapping", tone_mapping), ("depth_stripes", "copied"), ("weighted", "true")];
+        let set =
+            [("hdr", hdr), ("tone_mapping", tone_mapping), ("depth_stripes", "copied"), ("light_resolve", "Weighted")];
         let Some(plan) = plan_of(PIPELINE, &set, scene, true)? else { return Ok(()) };
         assert_eq!(format_of(&plan, "opaque"), Some(format), "{hdr}, {tone_mapping}");
         // What stands between keeps it.
@@ -200,6 +201,7 @@ fn the_listing_shows_resolves_in_their_place() -> Result<(), Box<dyn Error>> {
         "opaque",
         "sky",
         "(resolve)",
+        "opaque (depth only)",
         "copied_stripes.stripes",
         "stripes_back",
         "transparent",

@@ -169,3 +169,9 @@ pub(super) fn forward_draw(source: StoreIndex, target: StoreIndex) -> [Use; 2] {
     };
     [read, write]
 }
+
+/// Whether a pass with these uses draws colour into several samples.
+pub(in crate::compile) fn has_samples(adapted: &Adapted, uses: &[Use]) -> bool {
+    let mut colors = uses.iter().filter(|used| used.role == Role::Color);
+    colors.any(|used| adapted.stores[used.store as usize].image().is_some_and(|image| image.samples > 1))
+}

@@ -157,7 +157,9 @@ impl Adapter<'_> {
         // What isn't used any more by now never is again, so a long chain of forwards is no long list.
         let used = |image: &ImageIndex| after(later.access[image.0 as usize]) || is_output[image.0 as usize];
         known.retain(|image| used(image) && *image != to);
-        let resolved = |image: ImageIndex| store_of[image.0 as usize].and_then(|held| resolved_of[held as usize]);
+        let resolved = |image: ImageIndex| {
+            store_of[image.0 as usize].and_then(|held| resolved_of[held as usize]).map(|(_, resolved)| resolved)
+        };
         known.retain(|image| held(*image) || resolved(*image) == Some(store));
         known.push(to);
         let both_leave = known.iter().filter(|image| is_output[image.0 as usize]).count() > 1;

@@ -1,13 +1,14 @@
 //! Several samples become one value: once for each version of an image, for all its readers.
 //!
-//! Colour is averaged, integers are sample zero. Depth has a ladder: whatever drew it is drawn again with one sample (see
+//! Colour is averaged, or weighted by a draw; integers are sample zero. Depth has a ladder: whatever drew it is drawn again with one sample (see
 //! `depth_only`), or it is resolved, by the scope that drew it where the device has the mode, else by a draw.
 
 use super::{Adapter, access};
-use crate::compile::model::{OpKind, StoreIndex, Use};
+use crate::compile::model::{OpKind, ResolveShader, StoreIndex, Use};
 use crate::describe::Diagnostic;
 use crate::device::Profile;
-use crate::frame::{Face, ImageIndex, Resolve};
+use crate::frame::{Face, ImageIndex, Resolve, ResolveWay};
+use crate::plan::Inserted;
 use crate::plan::names::vulkan;
 use crate::source::Span;
 use crate::vocabulary::{Aspects, ResolveMode, Subresources};
@@ -23,10 +24,10 @@ impl Adapter<'_> {
     ) -> Option<StoreIndex> {
         let declared = &self.input.frame.images[image.0 as usize];
         if !declared.format.is_depth() {
-            return Some(self.average(image, because, span));
+            return self.color(image, because, span);
         }
         match declared.resolve.as_ref().filter(|_| face != Face::DepthOnly) {
-            Some(Resolve { mode: Some(mode), because: asked }) => {
+            Some(Resolve { way: ResolveWay::By(mode), because: asked }) => {
                 self.resolved_depth(image, *mode, format!("{because}, {asked}"), span)
             }
             _ => self.redrawn(image, because, span),
@@ -38,7 +39,7 @@ impl Adapter<'_> {
     pub(super) fn resolved_as_it_is(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
         let declared = &self.input.frame.images[image.0 as usize];
         if !declared.format.is_depth() {
-            return Some(self.average(image, because, span));
+            return self.color(image, because, span);
         }
         if declared.format.aspects().contains(Aspects::STENCIL) {
             self.refuse_stencil(image, &because, span);
@@ -46,10 +47,12 @@ impl Adapter<'_> {
         }
         match &declared.resolve {
             None => self.resolved_depth(image, ResolveMode::SampleZero, because, span),
-            Some(Resolve { mode: Some(mode), because: asked }) => {
+            Some(Resolve { way: ResolveWay::By(mode), because: asked }) => {
                 self.resolved_depth(image, *mode, format!("{because}, {asked}"), span)
             }
-            Some(Resolve { mode: None, .. }) => self.redrawn(image, because, span),
+            Some(Resolve { way: ResolveWay::DepthOnly | ResolveWay::Weighted, .. }) => {
+                self.redrawn(image, because, span)
+            }
         }
     }
 
@@ -60,15 +63,55 @@ impl Adapter<'_> {
         self.errors.push(Diagnostic::new(span, format!("{because}; stencil can't be resolved")).help(help));
     }
 
-    /// Colour averaged, integers sample zero.
-    fn average(&mut self, image: ImageIndex, because: String, span: Span) -> StoreIndex {
-        let integers = self.input.frame.images[image.0 as usize].format.is_integer();
-        let mode = if integers { ResolveMode::SampleZero } else { ResolveMode::Average };
+    /// Colour averaged or weighted, integers sample zero.
+    fn color(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
         let source = self.current(image);
-        match self.resolved_of[source as usize] {
-            Some(resolved) => resolved,
-            None => self.resolve(image, mode, because, span),
+        let declared = &self.input.frame.images[image.0 as usize];
+        let usual = if declared.format.is_integer() { ResolveMode::SampleZero } else { ResolveMode::Average };
+        let way = declared.resolve.as_ref().map_or(ResolveWay::By(usual), |resolve| resolve.way);
+        if let Some(resolved) = self.resolved_so(source, way) {
+            return Some(resolved);
         }
+        match &declared.resolve {
+            Some(Resolve { way: ResolveWay::Weighted, because: asked }) => {
+                let because = format!("{because}, {asked}");
+                if self.refuses_layers(image, &because, span) {
+                    return None;
+                }
+                let why = self.reason(because, span);
+                let target = self.second(image, "resolved", why.clone(), 1);
+                let uses = access::forward_draw(source, target);
+                Some(self.resolve_by_draw(ResolveShader::Weighted, why, uses))
+            }
+            _ => Some(self.resolve(image, usual, because, span)),
+        }
+    }
+
+    /// Whether an image has several layers, which no draw resolves at once. Reports that.
+    fn refuses_layers(&mut self, image: ImageIndex, because: &str, span: Span) -> bool {
+        let declared = &self.input.frame.images[image.0 as usize];
+        if declared.layers > 1 {
+            let help = format!("give it 1 layer, or give `{}` 1 sample", declared.name);
+            let message = format!("{because}; several layers can't be resolved at once");
+            self.errors.push(Diagnostic::new(span, message).help(help));
+        }
+        declared.layers > 1
+    }
+
+    /// Inserts a full-screen draw from one image into another.
+    fn resolve_by_draw(&mut self, by: ResolveShader, why: Box<Inserted>, uses: [Use; 2]) -> StoreIndex {
+        let [source, target] = [uses[0].store, uses[1].store];
+        let store = &self.adapted.stores[target as usize];
+        // Whoever is inserted has a name of its own.
+        let name = store.renamed.clone().unwrap_or_default();
+        let view = self.view_of_writer(source);
+        let way = match by {
+            ResolveShader::Depth(mode) => ResolveWay::By(mode),
+            ResolveShader::Weighted => ResolveWay::Weighted,
+        };
+        self.push(OpKind::ResolveDraw { by, name, view, why }, &uses);
+        self.resolved_of[source as usize] = Some((way, target));
+        target
     }
 
     /// Depth resolved by the scope that drew it, or by a draw.
@@ -80,16 +123,13 @@ impl Adapter<'_> {
         span: Span,
     ) -> Option<StoreIndex> {
         let source = self.current(image);
-        if let Some(resolved) = self.resolved_of[source as usize] {
+        if let Some(resolved) = self.resolved_so(source, ResolveWay::By(mode)) {
             return Some(resolved);
         }
-        let declared = &self.input.frame.images[image.0 as usize];
-        if declared.layers > 1 {
-            let help = format!("give it 1 layer, or give `{}` 1 sample", declared.name);
-            let message = format!("{because}; several layers can't be resolved at once");
-            self.errors.push(Diagnostic::new(span, message).help(help));
+        if self.refuses_layers(image, &because, span) {
             return None;
         }
+        let declared = &self.input.frame.images[image.0 as usize];
         let by_draw = if declared.format.aspects().contains(Aspects::STENCIL) {
             "it has stencil beside the depth".to_owned()
         } else if !self.drawn[source as usize] {
@@ -103,12 +143,7 @@ impl Adapter<'_> {
         let target = self.second(image, "resolved", why.clone(), 1);
         let depth = self.range(image, Subresources { aspects: Aspects::DEPTH, ..Subresources::WHOLE });
         let uses = access::resolve_draw(source, target, depth, declared.format);
-        let store = &self.adapted.stores[target as usize];
-        let name = store.renamed.clone().unwrap_or_else(|| declared.name.clone());
-        let view = self.view_of_writer(source);
-        self.push(OpKind::ResolveDraw { mode, name, view, why }, &uses);
-        self.resolved_of[source as usize] = Some(target);
-        Some(target)
+        Some(self.resolve_by_draw(ResolveShader::Depth(mode), why, uses))
     }
 
     /// Inserts a resolve that a scope may carry.
@@ -117,8 +152,14 @@ impl Adapter<'_> {
         let why = self.reason(because, span);
         let target = self.second(image, "resolved", why.clone(), 1);
         self.push_transfer(OpKind::Resolve { mode, why }, source, target, Use::ALL);
-        self.resolved_of[source as usize] = Some(target);
+        self.resolved_of[source as usize] = Some((ResolveWay::By(mode), target));
         target
+    }
+
+    /// What an image holds resolved in a way, if somebody asked for that: images that are forwarded to each other may say
+    /// different ones.
+    fn resolved_so(&self, source: StoreIndex, way: ResolveWay) -> Option<StoreIndex> {
+        self.resolved_of[source as usize].filter(|(known, _)| *known == way).map(|(_, resolved)| resolved)
     }
 }
 

@@ -165,7 +165,9 @@ impl Adapter<'_> {
         };
         let cells = self.input.grids.of(image).map_or(1, |grid| grid.len());
         self.images += 1;
-        self.add(Resource::Image(image), self.images - 1, Kind::Image(descriptor), cells)
+        let store = self.add(Resource::Image(image), self.images - 1, Kind::Image(descriptor), cells);
+        self.adapted.stores[store as usize].usual = declared.chosen.as_ref().map(|chosen| chosen.usual);
+        store
     }
 
     fn add_buffer(&mut self, buffer: BufferIndex) -> StoreIndex {
@@ -185,6 +187,7 @@ impl Adapter<'_> {
             renamed: None,
             inserted: None,
             kind,
+            usual: None,
             home: Home::Transient,
             after: None,
             first_cell: self.adapted.cells,

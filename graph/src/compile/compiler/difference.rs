@@ -73,10 +73,10 @@ fn view(old: &View, new: &View) -> Difference {
 }
 
 fn image(old: &Image, new: &Image) -> Difference {
-    let Image { name, span, format, shape, extent, mips, layers, samples, resolve, lifetime } = new;
+    let Image { name, span, format, shape, extent, mips, layers, samples, resolve, chosen, lifetime } = new;
     let same = same_name(&old.name, name)
         && old.span == *span
-        && old.resolve == *resolve
+        && (&old.resolve, &old.chosen) == (resolve, chosen)
         && (old.format, old.shape, old.mips, old.layers, old.samples) == (*format, *shape, *mips, *layers, *samples)
         && same_lifetime(&old.lifetime, lifetime);
     if same { unless(old.extent == *extent, Sizes) } else { Structure }
@@ -107,6 +107,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         storage,
         color,
         depth,
+        alpha_to_coverage,
         no_depth_only,
         buffers,
         transfers,
@@ -116,7 +117,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
     let same = same_name(&old.name, name)
         && old.span == *span
         && old.view == *view
-        && old.side_effect == *side_effect
+        && (old.side_effect, old.alpha_to_coverage) == (*side_effect, *alpha_to_coverage)
         && old.no_depth_only == *no_depth_only
         && same_lists(&old.sampled, sampled, same_sampled)
         && same_lists(&old.storage, storage, same_storage)

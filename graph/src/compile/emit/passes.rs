@@ -1,9 +1,10 @@
 //! Passes, copies, blits, fills and resolves of the Plan.
 
 use super::{Parts, cause, frame_work};
-use crate::compile::model::{Kind, Op, OpKind, Role, Use};
-use crate::frame::{Blend, DepthTarget, Draw, Groups, Pass as FramePass, Work as FrameWork};
-use crate::interface::ImageShape;
+use crate::compile::adapt::has_samples;
+use crate::compile::model::{Kind, Op, OpKind, ResolveShader, Role, Use};
+use crate::frame::{Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, Work as FrameWork};
+use crate::interface::{Component, Dimension, ImageShape};
 use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
     Transfer, ViewId, Work,
@@ -98,8 +99,8 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     let op = &parts.adapted.ops[number as usize];
     let uses = parts.adapted.uses(number);
     let nothing = || Arc::clone(&parts.nothing);
-    if let OpKind::ResolveDraw { mode, name, view, .. } = &op.kind {
-        return resolve_draw(parts, number, *mode, name, *view);
+    if let OpKind::ResolveDraw { by, name, view, .. } = &op.kind {
+        return resolve_draw(parts, number, *by, name, *view);
     }
     let Some(declared) = op.kind.pass().map(|pass| &parts.frame.passes[pass as usize]) else {
         return bare(nothing(), cause(parts, op), None, None, nothing());
@@ -137,6 +138,7 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     }
     if matches!(declared.work, FrameWork::Draw { .. }) {
         drawn(&mut planned, declared, uses);
+        planned.alpha_to_coverage = declared.alpha_to_coverage && has_samples(parts.adapted, uses);
         planned.merged = parts.scoped.merged(parts.frame, parts.adapted, number);
     }
     if !declared.params.is_empty() {
@@ -178,22 +180,38 @@ fn depth_only(parts: &Parts<'_>, number: u32, declared: &FramePass, name: &Arc<s
     }
 }
 
-/// A full-screen draw that resolves depth.
-fn resolve_draw(parts: &Parts<'_>, number: u32, mode: ResolveMode, name: &Arc<str>, of: ViewIndex) -> Pass {
+/// A full-screen draw that resolves depth or colour.
+fn resolve_draw(parts: &Parts<'_>, number: u32, by: ResolveShader, name: &Arc<str>, of: ViewIndex) -> Pass {
     let (op, uses) = (&parts.adapted.ops[number as usize], parts.adapted.uses(number));
-    let shader = match mode {
-        ResolveMode::SampleZero => "shipped:depth_resolve_zero",
-        ResolveMode::Min => "shipped:depth_resolve_min",
-        ResolveMode::Max => "shipped:depth_resolve_max",
-        ResolveMode::Average => "shipped:depth_resolve_average",
+    let shader = match by {
+        ResolveShader::Depth(ResolveMode::SampleZero) => "shipped:depth_resolve_zero",
+        ResolveShader::Depth(ResolveMode::Min) => "shipped:depth_resolve_min",
+        ResolveShader::Depth(ResolveMode::Max) => "shipped:depth_resolve_max",
+        ResolveShader::Depth(ResolveMode::Average) => "shipped:depth_resolve_average",
+        ResolveShader::Weighted => "shipped:resolve_weighted",
     };
-    Pass {
-        depth: Some(DepthState { test: CompareOp::Always, write: true }),
+    let pass = Pass {
         accesses: from_source(parts, uses, Filter::Nearest),
         merged: parts.scoped.merged(parts.frame, parts.adapted, number),
         view: view(parts, of),
         ..bare(name.clone(), cause(parts, op), Some(Draw::FullScreen), None, shader.into())
+    };
+    match by {
+        ResolveShader::Depth(_) => Pass { depth: Some(DepthState { test: CompareOp::Always, write: true }), ..pass },
+        ResolveShader::Weighted => weighted(pass),
     }
+}
+
+/// What the shader of weighted resolves takes beside its source: to be told that its source has samples, and that the mean is
+/// to be light.
+fn weighted(mut pass: Pass) -> Pass {
+    let samples =
+        ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: true, component: Component::Float };
+    for binding in pass.accesses.iter_mut().filter_map(|access| access.binding.as_mut()) {
+        binding.texture = Some(samples);
+    }
+    let params = vec![Param { name: "invert".into(), value: ParamValue::Bool(true) }];
+    Pass { blend: vec![Blend::Replace], params, ..pass }
 }
 
 /// What only draws have.
@@ -217,6 +235,7 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
         shader,
         redraws: None,
         discards: false,
+        alpha_to_coverage: false,
         blend: Vec::new(),
         depth: None,
         stencil: None,

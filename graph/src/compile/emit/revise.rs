@@ -71,6 +71,12 @@ pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
             planned.clone_from(placement);
         }
     }
+    for (store, more_bytes) in &parts.placed.chosen {
+        let image = images.get_mut(parts.adapted.stores[*store as usize].id as usize);
+        if let Some(chosen) = image.and_then(|image| image.chosen.as_mut()) {
+            chosen.more_bytes = *more_bytes;
+        }
+    }
     plan.heaps.clone_from(&parts.placed.heaps);
     for (step, grouped) in plan.steps.iter_mut().zip(&parts.scoped.steps) {
         match (&mut step.work, grouped) {

@@ -8,7 +8,8 @@ use crate::change::Kind;
 use std::collections::HashMap;
 
 /// The words that no file need hold.
-const WORDS: &str = "Pipeline version settings presets views fragments textures images buffers passes outputs depth";
+const WORDS: &str =
+    "Pipeline version settings presets views fragments textures images buffers passes outputs depth color depth_format";
 
 /// A tree whose nodes stand in several texts.
 struct Builder {
@@ -51,9 +52,11 @@ pub(super) fn tree(draft: &Draft<'_>, base: Leaf<'_>) -> Tree {
     if let Some(of) = draft.outputs_written {
         builder.list("outputs", of, draft.outputs.entries.iter().flatten());
     }
-    if let Some(depth) = draft.depth {
-        builder.word("depth");
-        builder.copy(depth);
+    for (word, leaf) in [("depth", draft.depth), ("color", draft.color), ("depth_format", draft.depth_format)] {
+        if let Some(leaf) = leaf {
+            builder.word(word);
+            builder.copy(leaf);
+        }
     }
     builder.close(fields);
     builder.close(pipeline);

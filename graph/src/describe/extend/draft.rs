@@ -21,6 +21,8 @@ pub(super) struct Draft<'t> {
     pub(super) outputs: List<'t>,
     pub(super) outputs_written: Option<Leaf<'t>>,
     pub(super) depth: Option<Leaf<'t>>,
+    pub(super) color: Option<Leaf<'t>>,
+    pub(super) depth_format: Option<Leaf<'t>>,
     /// Names of settings that were removed, whether or not others of the name were added since.
     pub(super) removed_settings: HashSet<Arc<str>>,
 }
@@ -101,6 +103,8 @@ impl<'t> Draft<'t> {
             }
         }
         self.depth = said.depth.or(self.depth);
+        self.color = said.color.or(self.color);
+        self.depth_format = said.depth_format.or(self.depth_format);
         if let Some(leaf) = said.passes
             && let Some(entries) = reader.list(leaf, "`passes`")
         {

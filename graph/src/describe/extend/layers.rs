@@ -8,7 +8,7 @@ use super::super::loader::{self, Loader};
 use super::super::reader::Reader;
 use super::super::tree::Tree;
 use super::super::{Diagnostic, Found};
-use super::super::{body, outputs, resolves, textures, views};
+use super::super::{body, outputs, precision, resolves, textures, views};
 use super::apply::CHANGES;
 use crate::change::Action;
 use crate::fields;
@@ -53,6 +53,10 @@ fields! {
         outputs: Option<Leaf<'src>> => outputs::OUTPUTS,
         /// How several samples of depth become one value, in place of what there is.
         depth: Option<Leaf<'src>> => resolves::DEPTH,
+        /// What `Color` becomes, in place of what there is.
+        color: Option<Leaf<'src>> => precision::COLOR,
+        /// What `Depth` and `DepthStencil` become, in place of what there is.
+        depth_format: Option<Leaf<'src>> => precision::DEPTH,
         /// What is changed of all that.
         changes: Option<Leaf<'src>> => CHANGES,
     }
@@ -88,6 +92,10 @@ fields! {
         buffers: Option<Leaf<'src>> => body::BUFFERS,
         /// How several samples of depth become one value, in place of what there is.
         depth: Option<Leaf<'src>> => resolves::DEPTH,
+        /// What `Color` becomes, in place of what there is.
+        color: Option<Leaf<'src>> => precision::COLOR,
+        /// What `Depth` and `DepthStencil` become, in place of what there is.
+        depth_format: Option<Leaf<'src>> => precision::DEPTH,
         /// What is changed.
         changes: Option<Leaf<'src>> => CHANGES,
     }
@@ -136,6 +144,8 @@ pub(super) struct Said<'t> {
     pub(super) passes: Option<Leaf<'t>>,
     pub(super) outputs: Option<Leaf<'t>>,
     pub(super) depth: Option<Leaf<'t>>,
+    pub(super) color: Option<Leaf<'t>>,
+    pub(super) depth_format: Option<Leaf<'t>>,
     pub(super) changes: Option<Leaf<'t>>,
 }
 
@@ -193,7 +203,7 @@ impl Layer {
             Role::Whole => {
                 let all: PipelineFields<'_> = reader.read(root, "the pipeline")?;
                 let [images, passes, outputs] = [all.images, all.passes, all.outputs].map(Some);
-                let common = common!(all: include settings presets views fragments textures buffers depth changes);
+                let common = common!(all: include settings presets views fragments textures buffers depth color depth_format changes);
                 Said { images, passes, outputs, ..common }
             }
             Role::Extending => {
@@ -203,14 +213,14 @@ impl Layer {
                         Diagnostic::new(passes.start(), "a pipeline that extends another has no `passes` of its own");
                     reader.report(wrong.help("say where they belong: `changes: [Insert(at: End, passes: […])]`"));
                 }
-                common!(all: include settings presets views fragments textures images buffers outputs depth changes)
+                common!(all: include settings presets views fragments textures images buffers outputs depth color depth_format changes)
             }
             Role::Extension => {
                 let all: ExtensionFields<'_> = reader.read(root, "the extension")?;
                 if let Some(about) = all.about {
                     reader.words(about, "a description");
                 }
-                common!(all: include settings presets views fragments textures images buffers depth changes)
+                common!(all: include settings presets views fragments textures images buffers depth color depth_format changes)
             }
         })
     }

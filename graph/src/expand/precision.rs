@@ -1,0 +1,254 @@
+//! Formats by policy: what images of the formats `Color` and `Depth` become, if the pipeline says how exact they are to be.
+//!
+//! Only images that passes of the frame alone draw and sample: what comes in, leaves, is a storage image, or is copied to or
+//! from buffers or by custom passes has the usual format, which others may rely on. Images that follow each other, and
+//! those that are copied texel for texel, have one format. Colour whose alpha counts keeps it.
+
+use super::order::State;
+use super::shader::Checked;
+use super::things::Things;
+use super::{Chosen, variant};
+use crate::describe::{self, Format as Described, Precision, Precisions};
+use crate::format::Format;
+use crate::frame::{Blend, ChosenFormat, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
+use crate::interface::AlphaUse;
+use crate::source::Span;
+use petgraph::unionfind::UnionFind;
+
+/// What a pipeline's words make of an image of the format `usual`, if another one.
+fn wanted(chosen: &Chosen<'_>, described: &Described, usual: Format) -> Option<(Format, ChosenFormat)> {
+    let pipeline = chosen.pipeline;
+    let policy = match described {
+        Described::Color { .. } => &pipeline.color,
+        Described::Depth | Described::DepthStencil => &pipeline.depth_format,
+        Described::Output | Described::Named(_) | Described::Like(_) => return None,
+    };
+    let Precisions { precision, said, .. } = policy.as_ref()?;
+    let format = match (described, precision) {
+        (Described::Color { hdr: true }, Precision::Smallest) => Format::B10G11R11_UFLOAT_PACK32,
+        (Described::Color { hdr: true }, Precision::Exact) => Format::R32G32B32A32_SFLOAT,
+        (Described::Color { hdr: false }, Precision::Exact) => Format::R16G16B16A16_UNORM,
+        (Described::Depth, Precision::Smallest) => Format::D16_UNORM,
+        (Described::Depth, Precision::Balanced) => Format::X8_D24_UNORM_PACK32,
+        (Described::DepthStencil, Precision::Smallest | Precision::Balanced) => Format::D24_UNORM_S8_UINT,
+        _ => usual,
+    };
+    (format != usual).then(|| (format, ChosenFormat { usual, because: said.clone() }))
+}
+
+/// Gives images the formats that the pipeline's words make of them. `states` are those of the pipeline's passes. Says of
+/// images whose colour must stay as it is, why.
+pub(super) fn choose(
+    chosen: &Chosen<'_>,
+    things: &mut Things,
+    states: &[State],
+    outputs: &[Output],
+    shaders: &mut Checked<'_>,
+) -> Vec<Remark> {
+    let pipeline = chosen.pipeline;
+    if pipeline.color.is_none() && pipeline.depth_format.is_none() {
+        return Vec::new();
+    }
+    let mut alike = UnionFind::<u32>::new(pipeline.images.len());
+    for (image, at) in pipeline.images.iter().zip(0..) {
+        if let Described::Like(of) = image.format.value {
+            alike.union(at, of.index.0);
+        }
+    }
+    let passes = running(states);
+    for [one, other] in passes.iter().filter_map(|pass| copied(things, pass)) {
+        alike.union(one.0, other.0);
+    }
+    let uses = Uses::find(chosen, things, states, outputs, shaders);
+    let mut remarks = Vec::new();
+    for group in groups(&mut alike, pipeline.images.len()) {
+        let format = |at: &u32| things.image(ImageIndex(*at)).map(|image| image.image.format);
+        let of_group = group.iter().filter_map(|at| {
+            let described = &pipeline.images[*at as usize];
+            wanted(chosen, &described.format.value, format(at)?).map(|wanted| (described, wanted))
+        });
+        // All that is in one group has one format; what stands in it first decides.
+        let Some((described, (format, choice))) = of_group.into_iter().next() else { continue };
+        let no_alpha = format.components() < choice.usual.components() && !format.is_depth();
+        let hindrance = group.iter().find_map(|at| uses.hindrance(ImageIndex(*at), no_alpha));
+        if let Some(Hindrance { why, span }) = hindrance {
+            let text = format!("{} is taken in spite of {}: {why}", choice.usual, choice.because);
+            remarks.push(Remark { subject: described.name.text.clone(), span, text });
+            continue;
+        }
+        for at in &group {
+            if let Some(image) = things.images[*at as usize].as_mut().map(|image| &mut image.image) {
+                (image.format, image.chosen) = (format, Some(choice.clone()));
+            }
+        }
+    }
+    remarks
+}
+
+/// Images that have one format together, each group in the order of the file.
+fn groups(alike: &mut UnionFind<u32>, images: usize) -> Vec<Vec<u32>> {
+    let mut groups = std::collections::BTreeMap::<u32, Vec<u32>>::new();
+    for at in (0_u32..).take(images) {
+        groups.entry(alike.find_mut(at)).or_default().push(at);
+    }
+    groups.into_values().collect()
+}
+
+/// The passes that run, those that stand in for others among them.
+fn running(states: &[State]) -> Vec<&Pass> {
+    let passes = states.iter().flat_map(|state| match state {
+        State::On(pass) => std::slice::from_ref(pass),
+        State::Off { stand_ins, .. } => stand_ins,
+    });
+    passes.collect()
+}
+
+/// Two images of one format that a pass copies one into the other.
+fn copied(things: &Things, pass: &Pass) -> Option<[ImageIndex; 2]> {
+    let pair = moved(pass)?;
+    let [one, other] = pair.map(|image| things.image(image).map(|image| image.image.format));
+    (one.is_some() && one == other).then_some(pair)
+}
+
+/// The images of which a pass takes one over into the other.
+fn moved(pass: &Pass) -> Option<[ImageIndex; 2]> {
+    match (&pass.work, &pass.transfers[..]) {
+        (Work::Forward { from, to, .. }, _) => Some([*from, *to]),
+        (Work::Copy | Work::Blit { .. }, [from, to]) => match (from.resource, to.resource) {
+            (Resource::Image(from), Resource::Image(to)) => Some([from, to]),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// Why an image keeps its usual format.
+#[derive(Clone)]
+struct Hindrance {
+    why: String,
+    span: Span,
+}
+
+/// What stands in the way of other formats, for each image.
+struct Uses {
+    /// Somebody relies on the very format.
+    fixed: Vec<Option<Hindrance>>,
+    /// The alpha counts.
+    alpha: Vec<Option<Hindrance>>,
+}
+
+impl Uses {
+    fn hindrance(&self, image: ImageIndex, no_alpha: bool) -> Option<Hindrance> {
+        let at = image.0 as usize;
+        self.fixed[at].clone().or_else(|| self.alpha[at].clone().filter(|_| no_alpha))
+    }
+
+    fn find(
+        chosen: &Chosen<'_>,
+        things: &Things,
+        states: &[State],
+        outputs: &[Output],
+        shaders: &mut Checked<'_>,
+    ) -> Uses {
+        let images = &chosen.pipeline.images;
+        let mut uses = Uses { fixed: vec![None; images.len()], alpha: vec![None; images.len()] };
+        for (image, fixed) in things.images.iter().zip(&mut uses.fixed) {
+            let Some(image) = image.as_ref().map(|image| &image.image) else { continue };
+            let why = match image.lifetime {
+                Lifetime::Imported { .. } => "it is handed in",
+                Lifetime::File(_) => "it comes from a file",
+                Lifetime::Transient | Lifetime::Persistent { .. } | Lifetime::History { .. } => continue,
+            };
+            *fixed = Some(Hindrance { why: why.to_owned(), span: image.span });
+        }
+        // Images that are dumped are looked at as they are.
+        for output in outputs.iter().filter(|output| output.span != Span::NONE) {
+            if let Resource::Image(image) = output.resource {
+                uses.fix(image, "it leaves the frame".to_owned(), output.span);
+            }
+        }
+        let passes = running(states);
+        for pass in &passes {
+            for storage in &pass.storage {
+                let name = &pass.name;
+                uses.fix(storage.image, format!("`{name}` uses it as a storage image"), storage.span);
+            }
+            let with_buffer = pass.transfers.iter().any(|used| matches!(used.resource, Resource::Buffer(_)));
+            if with_buffer || matches!(pass.work, Work::Custom { .. }) {
+                for used in &pass.transfers {
+                    if let Resource::Image(image) = used.resource {
+                        uses.fix(image, format!("`{}` moves its bytes", pass.name), used.span);
+                    }
+                }
+            }
+        }
+        uses.alpha(chosen, things, states, shaders);
+        uses
+    }
+
+    fn fix(&mut self, image: ImageIndex, why: String, span: Span) {
+        self.fixed[image.0 as usize].get_or_insert(Hindrance { why, span });
+    }
+
+    /// Finds the images whose alpha counts: somebody makes use of it, or it is handed on to where it counts.
+    fn alpha(&mut self, chosen: &Chosen<'_>, things: &Things, states: &[State], shaders: &mut Checked<'_>) {
+        let has_alpha =
+            |image: &ImageIndex| things.image(*image).is_some_and(|image| image.image.format.components() == 4);
+        // What others are told the format of may be looked at with its alpha.
+        for at in 0..self.fixed.len() {
+            self.alpha[at] = self.fixed[at].clone().filter(|_| has_alpha(&ImageIndex(at as u32)));
+        }
+        // From where to where it is handed on, by which pass, and where that is said.
+        let mut handed_on: Vec<(ImageIndex, ImageIndex, &Pass, Span)> = Vec::new();
+        for (state, described) in states.iter().zip(&chosen.pipeline.passes) {
+            let pass = match state {
+                State::On(pass) => pass,
+                State::Off { stand_ins, .. } => {
+                    let moves =
+                        stand_ins.iter().filter_map(|pass| moved(pass).map(|[from, to]| (from, to, pass, pass.span)));
+                    handed_on.extend(moves);
+                    continue;
+                }
+            };
+            handed_on.extend(moved(pass).map(|[from, to]| (from, to, pass, pass.span)));
+            let Some(alpha) = alpha_of(chosen, things, described, pass, shaders) else { continue };
+            for sampled in &pass.sampled {
+                let Some((_, used)) = alpha.iter().find(|(name, _)| **name == *sampled.binding) else { continue };
+                let weighs = |blend: Blend| matches!(blend, Blend::Alpha | Blend::Premultiplied);
+                let blends = pass.color.iter().any(|target| weighs(target.blend));
+                if *used == AlphaUse::Read || blends {
+                    let why = format!("its alpha counts for what `{}` draws", pass.name);
+                    self.alpha[sampled.image.0 as usize].get_or_insert(Hindrance { why, span: sampled.span });
+                }
+                handed_on.extend(pass.color.iter().map(|target| (sampled.image, target.image, pass, sampled.span)));
+            }
+        }
+        // Against the order of passes nearly all is found the first time; what lives longer than a frame may take more.
+        let mut found = true;
+        while std::mem::take(&mut found) {
+            for (from, to, pass, span) in handed_on.iter().rev() {
+                let (from, to) = (from.0 as usize, to.0 as usize);
+                if self.alpha[to].is_some() && self.alpha[from].is_none() {
+                    let target = &chosen.pipeline.images[to].name.text;
+                    let why = format!("`{}` hands its alpha on to `{target}`, where it counts", pass.name);
+                    self.alpha[from] = Some(Hindrance { why, span: *span });
+                    found = true;
+                }
+            }
+        }
+    }
+}
+
+/// What a pass's shader does with alpha; `None` if it has none, or it can't be had, which is reported elsewhere.
+fn alpha_of(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    described: &describe::Pass,
+    pass: &Pass,
+    shaders: &mut Checked<'_>,
+) -> Option<Vec<(String, AlphaUse)>> {
+    if pass.sampled.is_empty() {
+        return None;
+    }
+    shaders.interface(described, &variant::of(chosen, things, described), &mut Vec::new()).map(|found| found.alpha)
+}
