@@ -3,6 +3,7 @@
 use crate::convert;
 use crate::record::{Frame, Place, copy_between, fill};
 use ash::vk;
+use framewright_graph::frame::ParamValue;
 use framewright_graph::plan::{self, Access, BufferAccess, Subresources};
 use framewright_graph::vocabulary::{Accesses, FillValue};
 
@@ -47,6 +48,32 @@ impl<'f> CustomRecorder<'f> {
     #[must_use]
     pub fn pass(&self) -> &str {
         &self.pass.name
+    }
+
+    /// The view that the pass draws for; `None` if the Plan has none.
+    #[must_use]
+    pub fn view(&self) -> Option<&plan::View> {
+        let view = self.pass.view?;
+        self.frame.plan.views.get(view.0 as usize)
+    }
+
+    /// The number of the frame, from 0.
+    #[must_use]
+    pub fn frame(&self) -> u64 {
+        self.frame.number
+    }
+
+    /// By how many texels to the right and down what the pass's view shows is shifted in this frame.
+    #[must_use]
+    pub fn jitter(&self) -> [f64; 2] {
+        let jitter = self.view().and_then(|view| view.jitter.as_ref());
+        jitter.map_or([0.0; 2], |jitter| jitter.offset(self.frame.number))
+    }
+
+    /// A parameter that the pipeline gives the pass.
+    #[must_use]
+    pub fn param(&self, name: &str) -> Option<ParamValue> {
+        self.pass.params.iter().find(|param| *param.name == *name).map(|param| param.value)
     }
 
     /// The images and buffers that the pass reads by transfer, in the pipeline's order.

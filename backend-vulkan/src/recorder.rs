@@ -78,6 +78,7 @@ pub struct Recorder<'f> {
     has_pipeline: bool,
     plan: &'f plan::Pass,
     extent: [u32; 2],
+    frame: u64,
     bound: Vec<bool>,
     vertices: Option<u64>,
     indices: Option<u64>,
@@ -118,7 +119,7 @@ impl<'f> Recorder<'f> {
         kept: &'f mut Kept,
         drawn: &'f Drawn,
         plan: &'f plan::Pass,
-        extent: [u32; 2],
+        (extent, frame): ([u32; 2], u64),
     ) -> Recorder<'f> {
         let (pass, has_pipeline) = (&drawn.state, drawn.pipeline.is_some());
         let bound = pass.supplied.iter().map(|(_, needed)| !needed).collect();
@@ -131,6 +132,7 @@ impl<'f> Recorder<'f> {
             has_pipeline,
             plan,
             extent,
+            frame,
             bound,
             vertices,
             indices,
@@ -183,6 +185,12 @@ impl<'f> Recorder<'f> {
     #[must_use]
     pub fn extent(&self) -> [u32; 2] {
         self.extent
+    }
+
+    /// The number of the frame, from 0: what moves and what is shifted from frame to frame goes by it.
+    #[must_use]
+    pub fn frame(&self) -> u64 {
+        self.frame
     }
 
     /// Binds a group to the set number `set`, from 1 on.

@@ -24,20 +24,24 @@ pub(crate) const PIPELINES: Shipped = carried!(
     "library/depth_stripes.ron",
     "library/film.ron",
     "library/fxaa.ron",
+    "library/motion.ron",
     "library/over_bright.ron",
     "library/overlay.ron",
     "library/resolve.ron",
     "library/scale.ron",
     "library/sun_shadow.ron",
+    "library/taa.ron",
     "library/tone_mapping.ron",
+    "library/upscaler.ron",
     "post.ron",
     "shadows.ron",
     "snow.ron",
     "soft_focus.ron",
+    "temporal.ron",
 );
 
 /// The scenes in `examples/scenes`.
-pub(crate) const SCENES: Shipped = carried!("scenes": "courtyard.ron", "spheres_and_cubes.ron");
+pub(crate) const SCENES: Shipped = carried!("scenes": "courtyard.ron", "passing.ron", "spheres_and_cubes.ron");
 
 /// Names by which shipped files are asked for: of those in no folder, without their ending.
 pub(crate) fn names(files: Shipped) -> impl Iterator<Item = &'static str> {

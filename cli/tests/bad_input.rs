@@ -24,7 +24,7 @@ fn check(contents: impl AsRef<[u8]>) -> support::Outcome {
 fn a_missing_pipeline_is_said_with_the_names_of_shipped_ones() {
     Place::new().run(&["check", "nowhere.ron"]).exits(1).says(
         "error: there is no pipeline `nowhere.ron`, and none of that name is shipped (shipped: auto_exposure, deferred, \
-         deferred_mobile, forward, forward_overlay, image_quality, post, shadows, snow, soft_focus)",
+         deferred_mobile, forward, forward_overlay, image_quality, post, shadows, snow, soft_focus, temporal)",
     );
     // A shipped name in a folder is a path, and nothing else.
     Place::new().run(&["check", "here/forward.ron"]).exits(1).mentions("there is no pipeline `here/forward.ron`");
@@ -118,7 +118,7 @@ fn several_mistakes_are_reported_at_once_and_as_json_too() {
 fn a_missing_scene_is_said() {
     Place::new().run(&["inspect", "forward", "--scene", "none.glb"]).exits(1).says(
         "note: there is no file `forward` here; this is the shipped pipeline of that name\n\
-         error: there is no scene `none.glb`, and none of that name is shipped (shipped: courtyard, spheres_and_cubes)",
+         error: there is no scene `none.glb`, and none of that name is shipped (shipped: courtyard, passing, spheres_and_cubes)",
     );
 }
 

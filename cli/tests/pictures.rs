@@ -10,7 +10,7 @@ use support::{Outcome, Place, Vulkan};
 const SIZE: [u32; 2] = [160, 90];
 
 /// All shipped pipelines.
-const PIPELINES: [&str; 10] = [
+const PIPELINES: [&str; 11] = [
     "auto_exposure",
     "deferred",
     "deferred_mobile",
@@ -21,6 +21,7 @@ const PIPELINES: [&str; 10] = [
     "shadows",
     "snow",
     "soft_focus",
+    "temporal",
 ];
 
 /// Draws the shipped scene through a shipped pipeline; `None` where the driver or layer is missing.

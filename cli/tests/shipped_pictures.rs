@@ -14,9 +14,13 @@ const ACCEPT: &str =
 /// How all of them are drawn: in so many frames what persists has settled, and snow is falling.
 const HOW: [&str; 4] = ["--size", "320x180", "--frames", "4"];
 
-/// The scene that a pipeline draws: in the other one the sun casts no shadows.
+/// The scene that a pipeline draws: only in the first the sun casts shadows, and only in the second something moves.
 fn scene(pipeline: &str) -> &'static str {
-    if ["deferred", "shadows"].contains(&pipeline) { "courtyard" } else { "spheres_and_cubes" }
+    match pipeline {
+        "deferred" | "shadows" => "courtyard",
+        "temporal" => "passing",
+        _ => "spheres_and_cubes",
+    }
 }
 
 /// Names of the files of a folder that end so, without that.

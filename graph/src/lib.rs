@@ -16,6 +16,7 @@ pub mod file_path;
 pub mod format;
 pub mod frame;
 pub mod interface;
+pub mod jitter;
 pub mod plan;
 pub mod root;
 pub mod source;

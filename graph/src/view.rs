@@ -1,5 +1,6 @@
 //! The views of a frame: from where, and how large, each of its parts is drawn.
 
+use crate::jitter::Jitter;
 use crate::source::Span;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -21,6 +22,8 @@ pub struct View {
     pub camera: Option<Arc<str>>,
     /// What its passes may cost.
     pub allows: Allowances,
+    /// How what its camera sees is shifted from frame to frame; `None`: not at all.
+    pub jitter: Option<Jitter>,
 }
 
 /// What may be spent on a view. Conditions of a pipeline ask for it; the compiler only hands it on.

@@ -15,7 +15,8 @@ use raster::Raster;
 use std::sync::Arc;
 
 fn view(name: &str, extent: [u32; 2], camera: Option<&str>) -> View {
-    View { name: name.into(), span: Span::NONE, extent, camera: camera.map(Into::into), allows: Allowances::default() }
+    let (camera, allows) = (camera.map(Into::into), Allowances::default());
+    View { name: name.into(), span: Span::NONE, extent, camera, allows, jitter: None }
 }
 
 /// Two pictures, drawn for a view each, one after the other in one image.

@@ -2,7 +2,7 @@
 
 use framewright_graph::frame::DrawList;
 use framewright_passes::draw::draw_order;
-use framewright_passes::scene::{AlphaMode, Bounds, Camera, Material, Mesh, Object, Scene, Sky, Sun};
+use framewright_passes::scene::{AlphaMode, Bounds, Camera, Material, Mesh, Movement, Object, Scene, Sky, Sun};
 use glam::{DVec3, Mat4, Vec3};
 
 const BLACK: [f32; 3] = [0.0; 3];
@@ -30,7 +30,7 @@ fn scene(objects: &[(usize, usize, Vec3)]) -> Scene {
     };
     let object = |&(mesh, material, at)| {
         let transform = Mat4::from_translation(at);
-        Object { name: String::new(), mesh, material, transform, cross_fade: 1.0 }
+        Object { name: String::new(), mesh, material, transform, cross_fade: 1.0, movement: Movement::default() }
     };
     let camera = Camera::look_at(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y, 1.0, 0.1);
     Scene {

@@ -1,7 +1,7 @@
 //! Claims about which objects are left out because a camera can't see them, held against triangles that are clipped.
 
 use framewright_passes::draw::frustum::in_sight;
-use framewright_passes::scene::{Camera, Object, Scene, load};
+use framewright_passes::scene::{Camera, Movement, Object, Scene, load};
 use glam::{DVec3, EulerRot, Mat4, Quat, Vec3};
 use std::path::Path;
 
@@ -14,7 +14,7 @@ fn empty() -> Scene {
 }
 
 fn object(mesh: usize, transform: Mat4) -> Object {
-    Object { name: String::new(), mesh, material: 0, transform, cross_fade: 1.0 }
+    Object { name: String::new(), mesh, material: 0, transform, cross_fade: 1.0, movement: Movement::default() }
 }
 
 /// A camera at the origin that looks along −z, 90° from border to border.

@@ -32,6 +32,25 @@ float catmull_rom(float distance) {
     return x < 1.0 ? (1.5 * x - 2.5) * x * x + 1.0 : x < 2.0 ? ((-0.5 * x + 2.5) * x - 4.0) * x + 2.0 : 0.0;
 }
 
+// What lies at a place of the source, 0 to 1 from its upper left corner, by Catmull and Rom's curve along rows and columns.
+// Beyond its edges lie the outermost texels.
+vec4 curve_at(sampler2D source, vec2 place) {
+    const ivec2 texels = textureSize(source, 0);
+    const vec2 from_first = place * vec2(texels) - 0.5;
+    const ivec2 whole = ivec2(floor(from_first));
+    const vec2 share = from_first - vec2(whole);
+    vec4 sum = vec4(0.0);
+    for (int y = -1; y <= 2; ++y) {
+        vec4 row = vec4(0.0);
+        for (int x = -1; x <= 2; ++x) {
+            const ivec2 at = clamp(whole + ivec2(x, y), ivec2(0), texels - 1);
+            row += catmull_rom(float(x) - share.x) * guard_color(texelFetch(source, at, 0));
+        }
+        sum += catmull_rom(float(y) - share.y) * row;
+    }
+    return sum;
+}
+
 // The source at the middle of a pixel of a target of so many, by Catmull and Rom's curve along rows and columns; where the
 // target is the smaller one the curve is as much wider, so that every texel counts. It is sharper than a mean, and swings over
 // at edges: what falls below 0 there is cut off.

@@ -96,16 +96,36 @@ pub fn draw(
     options: &Options,
     frames: u32,
 ) -> Result<(Plan, Executor), Box<dyn Error>> {
-    let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
-    let plan = plan(device, setup, &mut shaders, options)?;
-    let mut draws = SceneDrawSource::for_plan(device, setup.scene, setup.extent, &plan)?;
     let how = ExecutorOptions { poison: options.poison, ..ExecutorOptions::default() };
-    let mut executor = Executor::new(device, &plan, &mut shaders, &how)?;
+    let (plan, mut executor, mut draws) = ready(device, setup, options, &how)?;
     for _ in 0..frames {
         executor.frame(&mut draws)?;
     }
     silent(device)?;
     Ok((plan, executor))
+}
+
+/// What draws frames by the Plan of `options`, before the first one.
+///
+/// # Errors
+/// Whatever keeps frames from being drawn.
+pub fn ready(
+    device: &Device,
+    setup: &Setup<'_>,
+    options: &Options,
+    how: &ExecutorOptions,
+) -> Result<(Plan, Executor, SceneDrawSource), Box<dyn Error>> {
+    let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
+    let plan = plan(device, setup, &mut shaders, options)?;
+    let draws = SceneDrawSource::for_plan(device, setup.scene, setup.extent, &plan)?;
+    let executor = Executor::new(device, &plan, &mut shaders, how)?;
+    Ok((plan, executor, draws))
+}
+
+/// Texels of 32-bit floats as numbers, channel by channel.
+#[must_use]
+pub fn floats(texels: &Texels) -> Vec<f64> {
+    texels.bytes.as_chunks::<4>().0.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect()
 }
 
 /// That the validation layer found nothing.

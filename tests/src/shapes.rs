@@ -1,6 +1,6 @@
 //! Simple scenes.
 
-use framewright_passes::scene::{AlphaMode, Bounds, Camera, Material, Mesh, Object, Scene, Sky, Sun};
+use framewright_passes::scene::{AlphaMode, Bounds, Camera, Material, Mesh, Movement, Object, Scene, Sky, Sun};
 use glam::{DVec3, Mat4, Vec3};
 
 /// A scene without objects or light, for passes that look at none.
@@ -77,8 +77,14 @@ pub fn sphere(rings: u32) -> Mesh {
 /// A scene of (mesh, material, transform) without light, seen from z = 5 towards −z with 60° from border to border.
 #[must_use]
 pub fn scene(meshes: Vec<Mesh>, materials: Vec<Material>, objects: Vec<(usize, usize, Mat4)>) -> Scene {
-    let object =
-        |(mesh, material, transform)| Object { name: String::new(), mesh, material, transform, cross_fade: 1.0 };
+    let object = |(mesh, material, transform)| Object {
+        name: String::new(),
+        mesh,
+        material,
+        transform,
+        cross_fade: 1.0,
+        movement: Movement::default(),
+    };
     Scene {
         meshes,
         materials,
@@ -87,6 +93,7 @@ pub fn scene(meshes: Vec<Mesh>, materials: Vec<Material>, objects: Vec<(usize, u
             transform: Mat4::from_translation(Vec3::new(0.0, 0.0, 5.0)),
             vertical_fov: std::f32::consts::FRAC_PI_3,
             near: 0.1,
+            movement: Movement::default(),
         },
         ..empty_scene()
     }

@@ -1,7 +1,7 @@
 //! Pictures are held against the ray-caster: object and base colour, at one and at four samples a pixel.
 
 use framewright_graph::vocabulary::Filter;
-use framewright_passes::scene::{Object, Sampler, Scene, Texture, Wrap, load};
+use framewright_passes::scene::{Movement, Object, Sampler, Scene, Texture, Wrap, load};
 use framewright_tests::agreement::agreement;
 use framewright_tests::raycast::texture::decode;
 use framewright_tests::render::{Setup, device, in_repository, render};
@@ -104,7 +104,14 @@ fn wrapped_squares() -> Scene {
         scene.materials.push(material);
         let at = Vec3::new((number % 3) as f32 - 1.0, (number / 3) as f32 - 1.0, 0.0) * 1.8;
         let transform = Mat4::from_translation(at) * Mat4::from_scale(Vec3::splat(0.8));
-        scene.objects.push(Object { name: String::new(), mesh: 0, material: number, transform, cross_fade: 1.0 });
+        scene.objects.push(Object {
+            name: String::new(),
+            mesh: 0,
+            material: number,
+            transform,
+            cross_fade: 1.0,
+            movement: Movement::default(),
+        });
     }
     scene
 }

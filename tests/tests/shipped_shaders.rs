@@ -44,6 +44,9 @@ const DRAWN: &[(&str, Draw)] = &[
     ("lit", OPAQUE),
     ("lit", TRANSPARENT),
     ("lit_masked", MASKED),
+    ("motion", OPAQUE),
+    ("motion_masked", MASKED),
+    ("motion_sky", Draw::Sky),
     ("over_bright", Draw::FullScreen),
     ("overlay", Draw::FullScreen),
     ("reinhard", Draw::FullScreen),
@@ -53,6 +56,7 @@ const DRAWN: &[(&str, Draw)] = &[
     ("sky", Draw::Sky),
     ("snow", Draw::Indirect),
     ("soft_focus", Draw::FullScreen),
+    ("taa", Draw::FullScreen),
     ("tone_map", Draw::FullScreen),
     ("tone_map_operator", Draw::FullScreen),
     ("vignette", Draw::FullScreen),
@@ -153,7 +157,7 @@ fn only_masked_shaders_discard() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Result<(), Box<dyn Error>> {
-    let cases: [(&str, &[&str], &[&str]); 32] = [
+    let cases: [(&str, &[&str], &[&str]); 33] = [
         ("accumulate", &["now", "before"], &["share"]),
         ("ambient_occlusion", &["depth", "normal"], &["radius", "strength"]),
         ("ambient_occlusion_blur", &["source", "depth"], &[]),
@@ -183,6 +187,7 @@ fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Resu
         ("scale_area", &["source"], &["target_width", "target_height"]),
         ("scale_catmull_rom", &["source"], &["target_width", "target_height"]),
         ("soft_focus", &["sharp", "soft"], &["strength"]),
+        ("taa", &["now", "before", "depth", "motion"], &["share", "deviations"]),
         ("tone_map", &["source"], &["exposure", "white_point"]),
         ("tone_map_operator", &["source"], &["exposure", "operator", "white_point"]),
         ("vignette", &[], &["strength", "aspect"]),

@@ -44,7 +44,7 @@ fn frame(views: &[Option<&str>]) -> Frame {
         let (extent, name) = (SIZES[number], format!("view {number}"));
         let (index, first) = (ViewIndex(number as u32), ImageIndex(frame.images.len() as u32));
         let (camera, allows) = (camera.map(Into::into), Allowances::default());
-        frame.views.push(View { name: name.as_str().into(), span, extent, camera, allows });
+        frame.views.push(View { name: name.as_str().into(), span, extent, camera, allows, jitter: None });
         frame.images.push(Image::new(&format!("picture {number}"), Format::R8G8B8A8_SRGB, extent[0], extent[1]));
         frame.images.push(Image::new(&format!("depth {number}"), Format::D32_SFLOAT, extent[0], extent[1]));
         for (list, clears, blend) in

@@ -122,7 +122,7 @@ impl Frame<'_> {
                 device.cmd_bind_descriptor_sets(commands, graphics, pass.state.layout, 0, &sets, &[]);
             }
         }
-        let mut recorder = Recorder::new(self.shared, commands, kept, pass, plan, extent);
+        let mut recorder = Recorder::new(self.shared, commands, kept, pass, plan, (extent, self.number));
         recorder.set_cull_mode(CullMode::None);
         recorder.set_front_face(FrontFace::CounterClockwise);
         let draws = match pass.draw {

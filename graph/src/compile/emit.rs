@@ -279,6 +279,7 @@ fn views(parts: &Parts<'_>) -> Vec<View> {
         extent: view.extent,
         camera: view.camera.clone(),
         allows: view.allows,
+        jitter: view.jitter.clone(),
     };
     parts.frame.views.iter().map(view).collect()
 }

@@ -14,6 +14,7 @@ use super::surroundings::Surroundings;
 use super::{Diagnostic, LARGEST_SIZE, Label, body, images, properties, shown_number, values};
 use crate::change::{Action, Change};
 use crate::fields;
+use crate::jitter::{self, Jitter};
 use crate::view::{Allowances, ViewIndex};
 use std::sync::Arc;
 
@@ -38,10 +39,18 @@ fields! {
         allows_hdr: Option<Leaf<'src>> => Form::Truth,
         /// What conditions see as `view.allows_scale`; true if left out.
         allows_scale: Option<Leaf<'src>> => Form::Truth,
+        /// Over how many frames, 1 to 256, what its camera sees is shifted by parts of a texel, each time otherwise; 1, not at
+        /// all, if left out.
+        jitter: Option<Leaf<'src>> => JITTER,
+        /// The size of the picture whose texels are meant, where `Output` is the view's size; that if left out.
+        jitter_size: Option<Leaf<'src>> => Form::Words(&SIZES),
         /// Values of settings that hold within it, whatever the user chooses.
         set: Option<Leaf<'src>> => choices::SET,
     }
 }
+
+/// How often a picture may be shifted otherwise.
+const JITTER: Form = Form::Whole(1, jitter::LONGEST as i64);
 
 /// The views of a pipeline.
 pub(super) const VIEWS: Form = Form::List(&Form::Fields(ViewFields::<'static>::table));
@@ -81,6 +90,8 @@ pub struct View {
     pub camera: Option<Name>,
     /// What may be spent on it.
     pub allows: Allowances,
+    /// How what its camera sees is shifted; `None`: not at all.
+    pub jitter: Option<Jitter>,
 }
 
 /// What expressions see that stand in a view.
@@ -237,20 +248,30 @@ fn view<'a>(
     let (msaa, hdr) = (allowed(fields.allows_msaa, all.msaa), allowed(fields.allows_hdr, all.hdr));
     let scale = allowed(fields.allows_scale, all.scale);
     let set = fields.set.map_or_else(|| Some(Vec::new()), |leaf| choices::set(reader, leaf, settings));
-    let view = View {
-        name: name?,
-        extent: extent?,
-        camera: camera?,
-        allows: Allowances { msaa: msaa?, hdr: hdr?, scale: scale? },
-    };
-    let surroundings = Surroundings { extent: view.extent, allows: view.allows, ..*surroundings };
     let mut given = scope.given.to_vec();
-    for Choice { setting, value, .. } in set? {
-        if let Some(given) = given.get_mut(setting) {
-            *given = Some(Given { value, decided: Vec::new() });
+    for Choice { setting, value, .. } in set.iter().flatten() {
+        if let Some(given) = given.get_mut(*setting) {
+            *given = Some(Given { value: value.clone(), decided: Vec::new() });
         }
     }
+    // Read even where something else is wrong, so that all mistakes are told.
+    let seen = Surroundings { extent: extent.unwrap_or(surroundings.extent), ..*surroundings };
+    let jitter = jitter(reader, &Scope { given: &given, surroundings: &seen, ..*scope }, fields);
+    set?;
+    let allows = Allowances { msaa: msaa?, hdr: hdr?, scale: scale? };
+    let view = View { name: name?, extent: extent?, camera: camera?, allows, jitter: jitter? };
+    let surroundings = Surroundings { extent: view.extent, allows, ..*surroundings };
     Some((view, Seen { surroundings, given }))
+}
+
+/// How what a view's camera sees is shifted. `scope` is the view's own.
+fn jitter(reader: &mut Reader, scope: &Scope<'_>, fields: &ViewFields<'_>) -> Option<Option<Jitter>> {
+    let range = 1..=i64::from(jitter::LONGEST);
+    let length = |leaf| values::whole::<u16>(reader, scope, leaf, "number of shifts", range);
+    let length = fields.jitter.map_or(Some(1), length);
+    let extent = fields.jitter_size.map_or(Some(scope.surroundings.extent), |leaf| size(reader, scope, leaf));
+    let (length, extent) = (length?, extent?);
+    Some((length > 1).then(|| Jitter::halton(length, extent)))
 }
 
 fn size(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<[u32; 2]> {

@@ -185,9 +185,10 @@ pub fn expand(
 }
 
 fn view(described: &describe::View) -> View {
-    let describe::View { name, extent, camera, allows } = described;
+    let describe::View { name, extent, camera, allows, jitter } = described;
     let camera = camera.as_ref().map(|camera| camera.text.clone());
-    View { name: name.text.clone(), span: name.span, extent: *extent, camera, allows: *allows }
+    let (allows, jitter) = (*allows, jitter.clone());
+    View { name: name.text.clone(), span: name.span, extent: *extent, camera, allows, jitter }
 }
 
 /// Says of mistakes in a fragment where it was used.

@@ -29,6 +29,7 @@
 use crate::change::Action;
 use crate::format::Format;
 use crate::frame::Shape;
+use crate::jitter::Jitter;
 use crate::source::Place;
 use crate::texture::TextureFile;
 use crate::view::Allowances;
@@ -151,7 +152,7 @@ pub struct Change {
 }
 
 /// A view: from where, and how large, passes draw.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct View {
     /// Unique name.
@@ -162,6 +163,8 @@ pub struct View {
     pub camera: Option<Arc<str>>,
     /// What its passes may cost.
     pub allows: Allowances,
+    /// How what its camera sees is shifted from frame to frame; `None`: not at all.
+    pub jitter: Option<Jitter>,
 }
 
 /// A physical image.

@@ -10,6 +10,7 @@ use super::{
 };
 use crate::encoding::Encoding;
 use crate::frame::{Blend, BufferRole, Cascade, Draw, DrawList, Groups, ParamValue, StencilState};
+use crate::jitter::Jitter;
 use crate::source::Place;
 use crate::texture::ColorSpace;
 use crate::view::Allowances;
@@ -327,7 +328,13 @@ fn view(view: &View) -> Node {
     let not = [(msaa, "MSAA"), (hdr, "HDR"), (scale, "scaling")];
     let not: Vec<&str> = not.iter().filter(|(allowed, _)| !allowed).map(|(_, what)| *what).collect();
     let not = if not.is_empty() { String::new() } else { format!(", without {}", not.join(", ")) };
-    Node::leaf(format!("`{}` {width}×{height}, {camera}{not}", Shown(&view.name)))
+    let jitter = view.jitter.as_ref().map_or_else(String::new, jitter);
+    Node::leaf(format!("`{}` {width}×{height}, {camera}{not}{jitter}", Shown(&view.name)))
+}
+
+fn jitter(jitter: &Jitter) -> String {
+    let [width, height] = jitter.extent;
+    format!(", shifted in turn by {} parts of a texel of {width}×{height}", jitter.offsets.len())
 }
 
 fn buffer(plan: &Plan, buffer: &Buffer) -> Node {

@@ -4,6 +4,7 @@ use super::Findings;
 use super::frames::{self, Frames};
 use super::violation::{Rule, Violation};
 use crate::frame::Shape;
+use crate::plan::names::Shown;
 use crate::plan::{Buffer, ChosenFormat, Image, Initial, Placement, Plan, Resource, Role};
 use crate::texture::format_problem;
 use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
@@ -23,6 +24,14 @@ pub(super) fn check(plan: &Plan, found: &mut Findings) -> Option<Frames> {
     }
     if plan.steps.len() > MOST_STEPS {
         found.structure(None, None, format!("{} steps are too many to number", plan.steps.len()));
+    }
+    for view in plan.views.iter().filter(|view| view.jitter.as_ref().is_some_and(|jitter| !jitter.is_sound())) {
+        let name = Shown(&view.name);
+        found.structure(
+            None,
+            None,
+            format!("view `{name}` is shifted by no texel, never, or by more than half of one"),
+        );
     }
     let buffers = plan.images.len() as u32;
     let mut names = HashSet::with_capacity(plan.images.len() + plan.buffers.len());

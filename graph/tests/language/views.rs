@@ -1,8 +1,9 @@
 //! Views: parts of a frame that have their own size, camera, allowances and values of settings.
 
-use crate::table::{INPUTS, right, set};
+use crate::table::{INPUTS, right, set, wrong};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Frame, Image, Pass};
+use framewright_graph::jitter::Jitter;
 use framewright_graph::view::{Allowances, ViewIndex};
 
 /// A pipeline with two views, these images and these passes after those that fill `screen` and `small`.
@@ -152,4 +153,30 @@ fn a_file_without_views_has_none() {
     let text = r#"Pipeline(version: 1, images: [(name: "screen", format: Output, size: Output)],
         passes: [(name: "show", draw: FullScreen("plain"), color: ["screen"])], outputs: ["screen"])"#;
     assert_eq!(right(text, &INPUTS).views, []);
+}
+
+#[test]
+fn a_view_is_shifted_by_parts_of_a_texel_of_what_is_drawn() {
+    let jitter = |fields: &str, chosen: &[(String, String)]| {
+        right(&pipeline(fields, "", ""), &Inputs { set: chosen, ..INPUTS }).views[1].jitter.clone()
+    };
+    let sized = "size: Fixed(320, 200)";
+    assert_eq!(jitter(sized, &[]), None);
+    assert_eq!(jitter(&format!("{sized}, jitter: 1"), &[]), None);
+    assert_eq!(jitter(&format!("{sized}, jitter: 8"), &[]), Some(Jitter::halton(8, [320, 200])));
+    // Of a smaller picture texels are larger; values of settings are the view's own.
+    let within =
+        format!("{sized}, jitter: \"if(glow, 1, msaa)\", jitter_size: Scaled(\"share\"), set: {{\"glow\": false}}");
+    assert_eq!(jitter(&within, &[]), Some(Jitter::halton(4, [80, 50])));
+    assert_eq!(jitter(&within, &set(&[("msaa", "1")])), None);
+}
+
+#[test]
+fn a_view_is_shifted_1_to_256_times() {
+    for (jitter, said) in [("0", "1 to 256"), ("257", "1 to 256"), ("2.5", "a whole number"), ("\"msaa * 100\"", "400")]
+    {
+        let text = pipeline(&format!("jitter: {jitter}"), "", "");
+        let mistakes = wrong(&text, &INPUTS);
+        assert!(mistakes.contains(said) && mistakes.contains(":8:"), "{jitter}: {mistakes}");
+    }
 }

@@ -4,8 +4,10 @@ use crate::hand_written_plans;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Shape};
 use framewright_graph::interface::{Component, Dimension, ImageShape};
-use framewright_graph::plan::{FORMAT_VERSION, Plan, PlanError, RenderScope, Resource, Role, Work};
+use framewright_graph::jitter::Jitter;
+use framewright_graph::plan::{FORMAT_VERSION, Plan, PlanError, RenderScope, Resource, Role, View, Work};
 use framewright_graph::verify::verify;
+use framewright_graph::view::Allowances;
 use framewright_graph::vocabulary::{Accesses, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage};
 use serde_json::Value;
 
@@ -30,11 +32,22 @@ fn declare(plan: &mut Plan, change: fn(&mut ImageShape)) {
     binding.texture = Some(texture);
 }
 
+/// A view that is shifted once.
+fn shifted(offset: [f64; 2]) -> View {
+    let jitter = Some(Jitter { extent: [8, 8], offsets: vec![offset] });
+    View { name: "main".into(), extent: [8, 8], camera: None, allows: Allowances::default(), jitter }
+}
+
 #[test]
 fn every_mistake_of_form_is_said() {
     type Change = fn(&mut Plan);
     let changes: &[(Change, &str)] = &[
         (|plan| plan.format_version = 1, "format version 1 is not known"),
+        (
+            |plan| plan.views.push(shifted([0.0, 0.6])),
+            "view `main` is shifted by no texel, never, or by more than half of one",
+        ),
+        (|plan| plan.views.push(shifted([f64::NAN, 0.0])), "view `main` is shifted by no texel, never"),
         (|plan| plan.images[1].name = "color".into(), "`color`: has the name of another image"),
         (|plan| plan.images[0].extent[0] = 0, "`color`: is empty"),
         (|plan| plan.images[3].mips = 20, "`screen`: has more mip levels than its size allows"),

@@ -16,6 +16,13 @@ pub(super) fn world_to_clip(camera: &Camera, aspect: f64) -> DMat4 {
     camera.projection(aspect).as_dmat4() * rotation
 }
 
+/// The same for a picture that is shifted to the right and down by shares of its width and height.
+pub(super) fn shifted(world_to_clip: DMat4, [right, down]: [f64; 2]) -> DMat4 {
+    // Clip space is two wide and two high; before the division by w everything in it is w times as large.
+    let [x, y, z, w] = [0, 1, 2, 3].map(|row| world_to_clip.row(row));
+    DMat4::from_cols(x + w * (2.0 * right), y + w * (2.0 * down), z, w).transpose()
+}
+
 /// Clip space from the shaders' world space, whose origin is at the camera, and back.
 pub(super) fn view_block(camera: &Camera, world_to_clip: DMat4) -> Vec<u8> {
     let mut block = Block::default();
@@ -66,6 +73,23 @@ pub(super) fn objects_block(scene: &Scene, camera: &Camera) -> Vec<u8> {
         block.uint(transparent);
         block.float(object.cross_fade);
         block.align();
+    }
+    block.bytes()
+}
+
+/// How what is seen moved since the frame before, as the block `motion` of `shaders/include/motion.glsl`: from world space to
+/// clip space now and then, neither shifted, and where every object was, with the camera of then as origin.
+pub(super) fn motion_block(
+    scene: &Scene,
+    now: DMat4,
+    (before, camera_before): (DMat4, &Camera),
+    frame_before: u64,
+) -> Vec<u8> {
+    let mut block = Block::default();
+    block.mat4(now.as_mat4());
+    block.mat4(before.as_mat4());
+    for object in &scene.objects {
+        block.mat4(object_to_world(camera_before, object.transform_at(frame_before)));
     }
     block.bytes()
 }

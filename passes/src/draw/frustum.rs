@@ -16,7 +16,12 @@ const ROUNDING: f64 = 16.0 * f32::EPSILON as f64;
 /// By object of the scene, whether a camera may see it in a picture of which `aspect` is width over height.
 #[must_use]
 pub fn in_sight(scene: &Scene, camera: &Camera, aspect: f64) -> Vec<bool> {
-    let (eye, world_to_clip) = (camera.position().as_dvec3(), world_to_clip(camera, aspect));
+    within(scene, camera, world_to_clip(camera, aspect))
+}
+
+/// The same for a picture that `world_to_clip` takes the shaders' world space to, which may be shifted.
+pub(super) fn within(scene: &Scene, camera: &Camera, world_to_clip: DMat4) -> Vec<bool> {
+    let eye = camera.position().as_dvec3();
     let seen = |bounds: Bounds, mut to_world: DMat4| {
         to_world.w_axis = (to_world.w_axis.truncate() - eye).extend(1.0);
         may_be_seen(bounds, to_world, world_to_clip)

@@ -1,5 +1,5 @@
-//! What every kind of draw brings along: vertex attributes, and the resources of `shaders/include/scene.glsl` and
-//! `shaders/include/material.glsl`.
+//! What every kind of draw brings along: vertex attributes, and the resources of `shaders/include/scene.glsl`,
+//! `shaders/include/motion.glsl` and `shaders/include/material.glsl`.
 
 use framewright_graph::frame::Draw;
 use framewright_graph::interface::{Attribute, DrawInterface, Supplied, SuppliedKind};
@@ -18,6 +18,8 @@ pub const OBJECTS_BINDING: u32 = 2;
 pub const CASCADES_BINDING: u32 = 3;
 /// Binding of which point lights reach which part of what is seen, in [`FRAME_SET`].
 pub const CLUSTERS_BINDING: u32 = 4;
+/// Binding of where camera and objects were in the frame before, in [`FRAME_SET`].
+pub const MOTION_BINDING: u32 = 5;
 /// Binding of the base colour's texture, in [`MATERIAL_SET`].
 pub const BASE_COLOR_TEXTURE_BINDING: u32 = 0;
 
@@ -35,6 +37,7 @@ pub fn interface(draw: Draw) -> DrawInterface {
         frame(OBJECTS_BINDING, "objects", SuppliedKind::StorageBlock),
         frame(CASCADES_BINDING, "cascades", SuppliedKind::UniformBlock),
         frame(CLUSTERS_BINDING, "clusters", SuppliedKind::StorageBlock),
+        frame(MOTION_BINDING, "motion", SuppliedKind::StorageBlock),
     ];
     match draw {
         Draw::Objects(_) | Draw::Casters(_) => {

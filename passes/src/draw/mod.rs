@@ -8,12 +8,13 @@ pub mod frustum;
 mod geometry;
 mod interface;
 mod lists;
+mod seen;
 mod source;
 mod textures;
 
 pub use interface::{
     BASE_COLOR_TEXTURE_BINDING, CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET,
-    OBJECTS_BINDING, VIEW_BINDING, interface,
+    MOTION_BINDING, OBJECTS_BINDING, VIEW_BINDING, interface,
 };
 pub use lists::{draw_order, draw_order_from};
 pub use source::{MOST_POINT_LIGHTS, SceneDrawSource};

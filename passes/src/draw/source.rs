@@ -1,20 +1,14 @@
 //! Draws a scene.
 
-use super::cascades::{self, Map, cascades_block, seen_by_sun};
-use super::clusters::Clusters;
-use super::frame_data::{lights_block, objects_block, view_block, world_to_clip};
-use super::frustum;
+use super::cascades;
 use super::geometry::Geometry;
-use super::interface::{
-    CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, OBJECTS_BINDING, VIEW_BINDING,
-    interface,
-};
-use super::lists::draw_order_from;
+use super::interface::{FRAME_SET, MATERIAL_SET, interface};
+use super::seen::{ObjectDraw, Seen, SeenBySun, Viewpoint, draws};
 use super::textures::Textures;
-use crate::scene::{Camera, Scene, limits};
+use crate::scene::{Scene, limits};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::plan::{Plan, View, ViewId};
-use framewright_vulkan::{BindGroup, BufferUsage, CullMode, Device, DrawSource, Error, FrontFace, Recorder, Resource};
+use framewright_vulkan::{BindGroup, Device, DrawSource, Error, Recorder};
 
 /// Point lights that a scene may have to be drawn. Those with a range are looked at where they reach; see
 /// [`super::clusters`].
@@ -23,40 +17,20 @@ pub const MOST_POINT_LIGHTS: usize = limits::POINT_LIGHTS;
 /// A scene on a device, ready to be drawn.
 ///
 /// It supplies what [`interface`] lists. Each object is one draw call, whose first instance is the object's index in the
-/// scene.
+/// scene. What moves is where it is at the frame that is drawn, and a view is shifted as the Plan says for it.
 pub struct SceneDrawSource {
+    device: Device,
+    /// The scene as far as it says where things are, at frame 0.
+    outline: Scene,
+    /// The frame that `views` are for.
+    frame: u64,
     /// By view, the main one first; at least one.
-    views: Vec<Seen>,
+    views: Vec<(Viewpoint, Seen)>,
     geometry: Geometry,
     textures: Textures,
     opaque: Vec<ObjectDraw>,
     masked: Vec<ObjectDraw>,
     culls: bool,
-}
-
-/// What a view's camera decides.
-struct Seen {
-    frame: BindGroup,
-    /// By object, whether it may be seen.
-    in_sight: Vec<bool>,
-    transparent: Vec<ObjectDraw>,
-    /// By cascade, the nearest first.
-    cascades: Vec<SeenBySun>,
-}
-
-/// What the sun sees of a cascade.
-struct SeenBySun {
-    frame: BindGroup,
-    /// By object, whether it may cast a shadow there.
-    casts: Vec<bool>,
-}
-
-/// One object, with the state that it wants.
-struct ObjectDraw {
-    object: u32,
-    mesh: usize,
-    texture: Option<usize>,
-    raster: (CullMode, FrontFace),
 }
 
 impl SceneDrawSource {
@@ -66,7 +40,8 @@ impl SceneDrawSource {
     /// # Errors
     /// More than [`MOST_POINT_LIGHTS`] point lights, a texture or scene larger than the device takes, or no memory.
     pub fn new(device: &Device, scene: &Scene, extent: [u32; 2]) -> Result<SceneDrawSource, Error> {
-        SceneDrawSource::seen_from(device, scene, &[(scene.camera, extent, Vec::new())])
+        let view = Viewpoint { camera: scene.camera, extent, maps: Vec::new(), jitter: None };
+        SceneDrawSource::seen_from(device, scene, vec![view])
     }
 
     /// Uploads a scene for the views of a Plan, each with its camera, and for the sun's shadows in each; a Plan without views
@@ -78,35 +53,50 @@ impl SceneDrawSource {
         let mut views = Vec::with_capacity(plan.views.len());
         for (number, view) in (0..).map(ViewId).zip(&plan.views) {
             let camera = scene.camera_named(view.camera.as_deref()).ok_or_else(|| no_camera(scene, view))?;
-            views.push((*camera, view.extent, cascades::of_plan(plan, Some(number))));
+            let maps = cascades::of_plan(plan, Some(number));
+            views.push(Viewpoint { camera: *camera, extent: view.extent, maps, jitter: view.jitter.clone() });
         }
         if views.is_empty() {
-            views.push((scene.camera, extent, cascades::of_plan(plan, None)));
+            let maps = cascades::of_plan(plan, None);
+            views.push(Viewpoint { camera: scene.camera, extent, maps, jitter: None });
         }
-        SceneDrawSource::seen_from(device, scene, &views)
+        SceneDrawSource::seen_from(device, scene, views)
     }
 
-    /// Uploads a scene, seen by cameras, each with its picture's size and the cascades of the sun's shadows.
-    fn seen_from(
-        device: &Device,
-        scene: &Scene,
-        views: &[(Camera, [u32; 2], Vec<Map>)],
-    ) -> Result<SceneDrawSource, Error> {
+    fn seen_from(device: &Device, scene: &Scene, views: Vec<Viewpoint>) -> Result<SceneDrawSource, Error> {
         let lights = scene.point_lights.len();
         if lights > MOST_POINT_LIGHTS {
             let what = format!("the scene has {lights} point lights, and at most {MOST_POINT_LIGHTS} can be drawn");
             return Err(Error::DrawSource { what });
         }
         let objects = interface(Draw::Objects(DrawList::Opaque));
-        let seen = |(camera, extent, maps): &(Camera, [u32; 2], Vec<Map>)| seen(device, scene, camera, *extent, maps);
+        let outline = scene.outline();
+        let views = views.into_iter().map(|view| {
+            let seen = Seen::new(device, &outline, &view, 0)?;
+            Ok::<_, Error>((view, seen))
+        });
         Ok(SceneDrawSource {
-            views: views.iter().map(seen).collect::<Result<_, _>>()?,
+            device: device.clone(),
+            frame: 0,
+            views: views.collect::<Result<_, _>>()?,
+            outline,
             geometry: Geometry::new(device, scene)?,
             textures: Textures::new(device, &objects, &scene.textures)?,
             opaque: draws(scene, &scene.camera, DrawList::Opaque),
             masked: draws(scene, &scene.camera, DrawList::Masked),
             culls: true,
         })
+    }
+
+    /// Sees to it that what is drawn is what a frame shows. Frames on their way keep what they are drawn from.
+    fn turn_to(&mut self, frame: u64) -> Result<(), Error> {
+        if self.frame != frame {
+            for (view, seen) in &mut self.views {
+                seen.turn_to(&self.device, &self.outline, view, frame)?;
+            }
+            self.frame = frame;
+        }
+        Ok(())
     }
 
     /// Whether objects are left out that lie outside of what a pass shows; they are unless this says otherwise. The picture
@@ -169,7 +159,7 @@ impl SceneDrawSource {
     /// What the view of a pass sees.
     fn seen(&self, recorder: &Recorder<'_>) -> Result<&Seen, Error> {
         let view = recorder.view().map_or(0, |view| view.0 as usize);
-        self.views.get(view).ok_or_else(|| {
+        self.views.get(view).map(|(_, seen)| seen).ok_or_else(|| {
             let (pass, views) = (recorder.pass(), self.views.len());
             Error::DrawSource { what: format!("pass `{pass}` draws for view {view}, and {views} were prepared") }
         })
@@ -178,6 +168,7 @@ impl SceneDrawSource {
 
 impl DrawSource for SceneDrawSource {
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
+        self.turn_to(recorder.frame())?;
         match draw {
             Draw::Objects(list) => {
                 let seen = self.seen(recorder)?;
@@ -203,55 +194,9 @@ impl DrawSource for SceneDrawSource {
     }
 }
 
-/// What a camera sees, and the sun for it.
-fn seen(device: &Device, scene: &Scene, camera: &Camera, extent: [u32; 2], maps: &[Map]) -> Result<Seen, Error> {
-    let [width, height] = extent.map(|side| f64::from(side.max(1)));
-    let aspect = width / height;
-    let by_sun: Vec<_> = maps.iter().map(|map| seen_by_sun(scene, camera, aspect, map.cascade, map.texels)).collect();
-    let in_clusters = Clusters::new(scene, camera, aspect);
-    let lights = device.buffer(BufferUsage::Storage, &lights_block(scene, camera, &in_clusters))?;
-    let clusters = device.buffer(BufferUsage::Storage, &in_clusters.block())?;
-    let by_object = device.buffer(BufferUsage::Storage, &objects_block(scene, camera))?;
-    let cascades = device.buffer(BufferUsage::Uniform, &cascades_block(&by_sun))?;
-    let objects = interface(Draw::Objects(DrawList::Opaque));
-    let frame = |world_to_clip| {
-        let view = device.buffer(BufferUsage::Uniform, &view_block(camera, world_to_clip))?;
-        let resources = [
-            (VIEW_BINDING, Resource::Buffer(&view)),
-            (LIGHTS_BINDING, Resource::Buffer(&lights)),
-            (OBJECTS_BINDING, Resource::Buffer(&by_object)),
-            (CASCADES_BINDING, Resource::Buffer(&cascades)),
-            (CLUSTERS_BINDING, Resource::Buffer(&clusters)),
-        ];
-        device.bind_group(&objects, FRAME_SET, &resources)
-    };
-    let cascade = |seen: &cascades::Seen| {
-        let casts = scene.objects.iter().map(|object| cascades::may_cast(scene, camera, seen, object)).collect();
-        Ok::<_, Error>(SeenBySun { frame: frame(seen.world_to_clip)?, casts })
-    };
-    Ok(Seen {
-        frame: frame(world_to_clip(camera, aspect))?,
-        in_sight: frustum::in_sight(scene, camera, aspect),
-        transparent: draws(scene, camera, DrawList::Transparent),
-        cascades: by_sun.iter().map(cascade).collect::<Result<_, _>>()?,
-    })
-}
-
 fn no_camera(scene: &Scene, view: &View) -> Error {
     let wanted = view.camera.as_deref().unwrap_or_default();
     let known: Vec<String> = scene.cameras.iter().map(|it| format!("`{}`", it.name)).collect();
     let known = if known.is_empty() { "none by a name".to_owned() } else { known.join(", ") };
     Error::DrawSource { what: format!("view `{}` asks for the camera `{wanted}`; the scene has {known}", view.name) }
-}
-
-/// The draws of a list, in order.
-fn draws(scene: &Scene, camera: &Camera, list: DrawList) -> Vec<ObjectDraw> {
-    let draw = |index: u32| {
-        let object = &scene.objects[index as usize];
-        let material = &scene.materials[object.material];
-        let cull = if material.double_sided { CullMode::None } else { CullMode::Back };
-        let front = if object.mirrored() { FrontFace::Clockwise } else { FrontFace::CounterClockwise };
-        ObjectDraw { object: index, mesh: object.mesh, texture: material.base_color_texture, raster: (cull, front) }
-    };
-    draw_order_from(scene, camera, list).into_iter().map(draw).collect()
 }

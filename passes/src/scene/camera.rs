@@ -1,6 +1,6 @@
 //! Where a scene is seen from.
 
-use crate::scene::Bounds;
+use crate::scene::{Bounds, Movement};
 use glam::{DMat4, DVec3, DVec4, Mat4, Vec3};
 
 /// A perspective camera without a far plane.
@@ -12,6 +12,8 @@ pub struct Camera {
     pub vertical_fov: f32,
     /// Distance of the near plane in metres, more than 0.
     pub near: f32,
+    /// How it moves from where `transform` says that it is at frame 0.
+    pub movement: Movement,
 }
 
 /// A camera that a view asks for by its name.
@@ -40,7 +42,7 @@ impl Camera {
         let right = if right.length() > 1e-6 { right.normalize() } else { return None };
         let axes = [right, back.cross(right), back].map(|axis| axis.extend(0.0));
         let transform = DMat4::from_cols(axes[0], axes[1], axes[2], position.extend(1.0)).as_mat4();
-        transform.is_finite().then_some(Camera { transform, vertical_fov, near })
+        transform.is_finite().then_some(Camera { transform, vertical_fov, near, movement: Movement::default() })
     }
 
     /// Frames a box: seen from the front right, somewhat above. The sphere around the box touches the picture's upper and
@@ -58,6 +60,7 @@ impl Camera {
             transform: DMat4::from_cols(axes[0], axes[1], axes[2], position).as_mat4(),
             vertical_fov: FRAMING_FOV as f32,
             near: (radius * FRAMING_NEAR).max(f64::from(f32::MIN_POSITIVE)) as f32,
+            movement: Movement::default(),
         }
     }
 

@@ -23,6 +23,7 @@ pub mod limits;
 mod load;
 mod material;
 mod mesh;
+mod movement;
 mod notes;
 mod pattern;
 mod peak;
@@ -35,6 +36,7 @@ pub use facts::Found;
 pub use light::{PointLight, Sky, Sun};
 pub use material::{AlphaMode, Material, Sampler, Texture, Wrap};
 pub use mesh::Mesh;
+pub use movement::{FRAME_SECONDS, Movement};
 
 use glam::{DMat3, Mat3, Mat4};
 pub use load::{SceneError, load};
@@ -83,6 +85,8 @@ pub struct Object {
     /// pattern; at −0.3 exactly the others. So what changes for something else fades into it without showing what is behind
     /// both. What is transparent fades by its opacity instead.
     pub cross_fade: f32,
+    /// How it moves from where `transform` says that it is at frame 0.
+    pub movement: Movement,
 }
 
 impl Object {

@@ -82,7 +82,9 @@ pub(super) fn peak(scene: &Scene) -> Peak {
 /// All light that can arrive anywhere on an object.
 fn arriving(scene: &Scene, object: &Object) -> DVec3 {
     let from_point = |light: &PointLight| {
-        let distance = distance(scene, object, vector(light.position));
+        // What moves may come as near as can be.
+        let moves = !object.movement.is_none();
+        let distance = if moves { 0.0 } else { distance(scene, object, vector(light.position)) };
         vector(light.color) * (f64::from(light.intensity) * light.falloff(distance))
     };
     let points = scene.point_lights.iter().filter(|light| light.shines()).map(from_point);

@@ -253,3 +253,40 @@ fn materials_are_what_the_file_says() {
     let materials: Vec<usize> = scene.objects.iter().map(|object| object.material).collect();
     assert_eq!(materials, [0, 1, 2, 3, 0], "copies take them by turns");
 }
+
+#[test]
+fn cameras_and_objects_move_and_spin_as_the_file_says() {
+    let text = scene(
+        "camera: (position: (0, 0, 9), target: (0, 0, 0), velocity: (3, 0, 0), spin: (0, 90, 0)),
+         cameras: [(name: \"still\", position: (0, 0, 9), target: (0, 0, 0))],",
+        "Sphere(material: \"grey\", position: (0, 2, 0), radius: 1, velocity: (0, -1, 0), spin: (0, 0, 180)),
+         Cube(material: \"grey\", size: 1)",
+    );
+    let scene = read(&text).unwrap_or_else(|said| panic!("{said}"));
+    assert!(scene.moves());
+    assert_eq!(scene.at(0), scene, "the first frame shows what the file says");
+    // Two seconds: six metres, half a turn; two metres down, a whole turn.
+    let later = scene.at(120);
+    let near = |is: Vec3, x: f32, y: f32, z: f32| assert!(is.abs_diff_eq(Vec3::new(x, y, z), 1e-5), "{is}");
+    near(later.camera.position(), 6.0, 0.0, 9.0);
+    near(later.camera.transform.transform_vector3(Vec3::NEG_Z), 0.0, 0.0, 1.0);
+    let ball = later.objects[0].transform;
+    near(ball.transform_point3(Vec3::ZERO), 0.0, 0.0, 0.0);
+    near(ball.transform_vector3(Vec3::X), 2.0, 0.0, 0.0);
+    near(scene.at(30).objects[0].transform.transform_vector3(Vec3::X), 0.0, 2.0, 0.0);
+    assert_eq!(later.objects[1], scene.objects[1]);
+    assert_eq!(later.cameras, scene.cameras);
+    assert!(!read(&ball_at_rest()).unwrap_or_else(|said| panic!("{said}")).moves());
+}
+
+fn ball_at_rest() -> String {
+    ball("radius: 1, velocity: (0, 0, 0)")
+}
+
+#[test]
+fn movements_that_cannot_be_are_told() {
+    let told = mistakes(&ball("radius: 1, velocity: (1, 2), spin: (0, 1e9, 0)"));
+    let [first, second] = &told[..] else { panic!("{told:#?}") };
+    assert!(first.contains("the velocity as `(x, y, z)`"), "{first}");
+    assert!(second.contains("the spin is 1000000000; expected -36000 to 36000"), "{second}");
+}

@@ -69,6 +69,7 @@ fn drawn(library: &mut ShaderLibrary, name: &'static str, text: &str) -> Shader 
     let vertex = SHADERS.iter().find(|(file, _)| *file == format!("{name}.vert")).map(|(_, text)| *text);
     let fits = DRAWS.iter().filter(|(kind, _)| match vertex {
         Some(_) if name == "sky" => *kind == "Sky",
+        Some(_) if name.starts_with("motion") => *kind == "Objects",
         Some(_) => *kind == "Indirect",
         None if name.starts_with("casters") => *kind == "Casters",
         None => *kind != "Indirect",
@@ -93,7 +94,9 @@ fn tell(shader: &Shader) -> String {
     let of_pass = shader.interface.bindings.iter().filter(|binding| binding.set == PASS_SET);
     let mut rows: Vec<[String; 4]> = of_pass.flat_map(|binding| self::rows(shader, binding)).collect();
     rows.extend(shader.interface.outputs.iter().map(|output| {
-        let about = comments::above(&shader.text, |line| line.ends_with(&format!(" out vec4 {};", output.name)));
+        let about = comments::above(&shader.text, |line| {
+            line.contains(") out vec") && line.ends_with(&format!(" {};", output.name))
+        });
         let ty = if output.components == 1 { "float".to_owned() } else { format!("vec{}", output.components) };
         ["color".to_owned(), output.name.clone(), code(&ty), about]
     }));

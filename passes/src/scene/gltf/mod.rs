@@ -27,7 +27,7 @@ mod problem;
 
 pub use problem::{GltfError, Problem};
 
-use super::{Bounds, Camera, Material, Mesh, NamedCamera, Notes, Object, Scene, defaults, limits};
+use super::{Bounds, Camera, Material, Mesh, Movement, NamedCamera, Notes, Object, Scene, defaults, limits};
 use accessor::Data;
 use document::{Document, follow};
 use framewright_graph::root::Root;
@@ -160,7 +160,14 @@ fn objects(
             }
             all = Some(all.map_or(bounds, |all| all.union(bounds)));
             let name = if index == 0 { name.clone() } else { format!("{name}, primitive {index}") };
-            objects.push(Object { name, mesh: part.mesh, material: part.material, transform, cross_fade: 1.0 });
+            objects.push(Object {
+                name,
+                mesh: part.mesh,
+                material: part.material,
+                transform,
+                cross_fade: 1.0,
+                movement: Movement::default(),
+            });
         }
     }
     Ok((objects, all))

@@ -28,8 +28,14 @@
 //! world's x, then y, then z. A plane lies flat and faces up; its size is width and depth. A grid's middle is the object's
 //! position; a ring lies around it, beginning in front (+z), and turns each copy with it. Copies take several materials
 //! by turns. A sun or light with `shadows: true` casts shadows, where a pipeline draws any. An object with `cross_fade: 0.3`
-//! is seen in three tenths of its pixels, one with `-0.3` in the others. `version`, `materials` and `objects` must be there; without a camera the objects are framed; without sun,
-//! ambient light or sky it is a clear day. Numbers beyond [`super::limits`], and sizes below a micrometre, are mistakes.
+//! is seen in three tenths of its pixels, one with `-0.3` in the others.
+//!
+//! Cameras and objects move steadily with `velocity: (1, 0, 0)`, metres a second, and turn about their own place with
+//! `spin: (0, 90, 0)`: the axis, as long as the degrees a second. A frame lasts [`super::FRAME_SECONDS`]; the first shows
+//! everything where the file says that it is. Copies move alike; lights stand still.
+//!
+//! `version`, `materials` and `objects` must be there; without a camera the objects are framed; without sun, ambient light or
+//! sky it is a clear day. Numbers beyond [`super::limits`], and sizes below a micrometre, are mistakes.
 
 mod materials;
 mod objects;
@@ -44,7 +50,7 @@ use glam::DVec3;
 use materials::{MaterialFields, Patterns};
 use objects::Objects;
 use std::sync::Arc;
-use values::{color, direction, number, place};
+use values::{color, direction, movement, number, place};
 
 /// The version of the format that this library reads.
 pub const VERSION: i64 = 1;
@@ -165,6 +171,8 @@ fields! {
         up: Option<Leaf<'s>>,
         fov: Option<Leaf<'s>>,
         near: Option<Leaf<'s>>,
+        velocity: Option<Leaf<'s>>,
+        spin: Option<Leaf<'s>>,
     }
 }
 
@@ -184,13 +192,14 @@ fn standing(reader: &mut Reader, fields: CameraFields<'_>) -> Option<Camera> {
     let up = fields.up.map_or(Some(DVec3::Y), |leaf| direction(reader, leaf, "the upward direction"));
     let fov = fields.fov.map_or(Some(FOV), |leaf| number(reader, leaf, "the field of view", 1.0, 170.0));
     let near = fields.near.map_or(Some(NEAR), |leaf| number(reader, leaf, "the near distance", 1e-6, 1e9));
-    let (position, target, up) = (position?, target?, up?);
+    let movement = movement(reader, fields.velocity, fields.spin);
+    let (position, target, up, movement) = (position?, target?, up?, movement?);
     let camera = Camera::look_at(position, target, up, fov?.to_radians() as f32, near? as f32);
     if camera.is_none() {
         let help = "position and target must differ, and the view must not run along `up`";
         reader.wrong(fields.target, "this leaves the camera's direction open", help);
     }
-    camera
+    camera.map(|camera| Camera { movement, ..camera })
 }
 
 fields! {
@@ -201,6 +210,8 @@ fields! {
         up: Option<Leaf<'s>>,
         fov: Option<Leaf<'s>>,
         near: Option<Leaf<'s>>,
+        velocity: Option<Leaf<'s>>,
+        spin: Option<Leaf<'s>>,
     }
 }
 
@@ -213,8 +224,8 @@ fn cameras<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Vec<NamedCamera>> 
         let written = name.as_ref().map(|name| name.text.to_string());
         names.give(reader, name);
         cameras.push(entry.and_then(|entry| {
-            let NamedCameraFields { position, target, up, fov, near, .. } = entry;
-            let camera = standing(reader, CameraFields { position, target, up, fov, near })?;
+            let NamedCameraFields { position, target, up, fov, near, velocity, spin, .. } = entry;
+            let camera = standing(reader, CameraFields { position, target, up, fov, near, velocity, spin })?;
             Some(NamedCamera { name: written?, camera })
         }));
     }

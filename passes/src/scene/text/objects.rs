@@ -1,6 +1,6 @@
 //! The objects of a scene file.
 
-use super::values::{angles, count, counts, number, place, size, sizes};
+use super::values::{angles, count, counts, movement, number, place, size, sizes};
 use crate::scene::{Bounds, Mesh, Object, limits, shapes};
 use framewright_graph::describe::text::{Leaf, Names, Reader, Shape};
 use framewright_graph::fields;
@@ -16,6 +16,8 @@ fields! {
         size: Leaf<'s>,
         repeat: Option<Leaf<'s>>,
         cross_fade: Option<Leaf<'s>>,
+        velocity: Option<Leaf<'s>>,
+        spin: Option<Leaf<'s>>,
     }
 }
 
@@ -29,6 +31,8 @@ fields! {
         radius: Leaf<'s>,
         repeat: Option<Leaf<'s>>,
         cross_fade: Option<Leaf<'s>>,
+        velocity: Option<Leaf<'s>>,
+        spin: Option<Leaf<'s>>,
     }
 }
 
@@ -88,6 +92,7 @@ impl Objects {
         let places = fields.repeat.map_or(Some(vec![DMat4::IDENTITY]), |leaf| repeat(reader, leaf));
         let fade = |leaf| number(reader, leaf, "the share that is seen", -1.0, 1.0);
         let cross_fade = fields.cross_fade.map_or(Some(1.0), fade);
+        let movement = movement(reader, fields.velocity, fields.spin);
         let (name, palette, places, position) = (name?, palette?, places?, position?);
         let turns = rotation?.to_array().map(f64::to_radians);
         let rotation =
@@ -98,12 +103,12 @@ impl Objects {
             self.full = true;
             return None;
         }
-        let (mesh, cross_fade) = (self.mesh(shape), cross_fade? as f32);
+        let (mesh, cross_fade, movement) = (self.mesh(shape), cross_fade? as f32, movement?);
         let own = DMat4::from_scale_rotation_translation(extents?, rotation, DVec3::ZERO);
         for (copy, (place, material)) in places.iter().zip(palette.iter().cycle()).enumerate() {
             let transform = (DMat4::from_translation(position) * *place * own).as_mat4();
             let name = if copy == 0 { name.clone() } else { format!("{name}, copy {copy}") };
-            self.objects.push(Object { name, mesh, material: *material, transform, cross_fade });
+            self.objects.push(Object { name, mesh, material: *material, transform, cross_fade, movement });
         }
         Some(())
     }
@@ -118,10 +123,12 @@ fn extents<'s>(
 ) -> Option<(ObjectFields<'s>, Option<DVec3>)> {
     if shape == "Sphere" {
         let form = "Sphere(material: \"…\", radius: 0.5)";
-        let SphereFields { name, material, position, rotation, radius, repeat, cross_fade } =
+        let SphereFields { name, material, position, rotation, radius, repeat, cross_fade, velocity, spin } =
             reader.inside(leaf, rest, form)?;
         let extents = size(reader, radius, "the radius").map(|radius| DVec3::splat(2.0 * radius));
-        return Some((ObjectFields { name, material, position, rotation, size: radius, repeat, cross_fade }, extents));
+        let size = radius;
+        let fields = ObjectFields { name, material, position, rotation, size, repeat, cross_fade, velocity, spin };
+        return Some((fields, extents));
     }
     let plane = shape == "Plane";
     let form = if plane { "Plane(material: \"…\", size: (10, 10))" } else { "Cube(material: \"…\", size: 1)" };

@@ -1,7 +1,7 @@
 //! Values that scenes are made of: numbers in ranges, vectors, colours.
 
-use crate::scene::limits;
 use crate::scene::material::decode_srgb;
+use crate::scene::{Movement, limits};
 use framewright_graph::describe::text::{Leaf, Reader, Shape};
 use glam::DVec3;
 
@@ -61,6 +61,23 @@ pub(super) fn direction<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str) -> 
 /// Angles about x, y and z in degrees.
 pub(super) fn angles<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<DVec3> {
     three(reader, leaf, "the rotation", "(about x, about y, about z)", -36_000.0, 36_000.0)
+}
+
+/// The fastest that anything moves, metres a second, and spins, degrees a second.
+const FASTEST: (f64, f64) = (1e6, 36_000.0);
+
+/// How something moves; not at all where the file says nothing.
+pub(super) fn movement<'s>(
+    reader: &mut Reader,
+    velocity: Option<Leaf<'s>>,
+    spin: Option<Leaf<'s>>,
+) -> Option<Movement> {
+    let mut rate = |leaf: Option<Leaf<'s>>, what, most: f64| match leaf {
+        Some(leaf) => three(reader, leaf, what, "(x, y, z)", -most, most),
+        None => Some(DVec3::ZERO),
+    };
+    let (velocity, spin) = (rate(velocity, "the velocity", FASTEST.0), rate(spin, "the spin", FASTEST.1));
+    Some(Movement { velocity: velocity?, spin: spin? * 1_f64.to_radians() })
 }
 
 /// The smallest and the largest extent of an object, metres.

@@ -1,0 +1,31 @@
+// How what is seen moved since the frame before. Motion is where something was less where it is, as a share of the picture's
+// width and height: add it to a place, 0 to 1 from the upper left corner, and there is where the same thing was seen. By how
+// much either frame is shifted (`jitter`) isn't part of it. CPU twin: passes/src/twin/motion.rs.
+#ifndef FRAMEWRIGHT_MOTION
+#define FRAMEWRIGHT_MOTION
+
+#include "include/scene.glsl"
+
+layout(set = 1, binding = 5, std430) readonly buffer Motion {
+    // As `view.world_to_clip`, but without shift.
+    mat4 world_to_clip;
+    // The same in the frame before, whose camera was the origin of its world space.
+    mat4 previous_world_to_clip;
+    // By gl_InstanceIndex: object space to the world space of the frame before.
+    mat4 previous_object_to_world[];
+} motion;
+
+// Stands for what was nowhere in the picture. Whatever lies in the picture is moved by less than 1.
+const float NOWHERE = 2.0;
+
+// From clip space (x, y and w) now and then.
+vec2 motion_between(vec3 now, vec3 before) {
+    if (before.z <= 0.0) {
+        return vec2(NOWHERE);
+    }
+    // Half, since clip space is two wide and two high.
+    const vec2 moved = 0.5 * (before.xy / before.z - now.xy / now.z);
+    return clamp(moved, -NOWHERE, NOWHERE);
+}
+
+#endif

@@ -1,0 +1,21 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/motion.glsl"
+
+layout(location = 0) in vec3 position;
+
+layout(location = 0) out vec3 now;
+layout(location = 1) out vec3 before;
+
+// The depth of the pass that drew the same objects must be met, bit by bit.
+invariant gl_Position;
+
+// Where the vertices of opaque objects are and were.
+void main() {
+    const vec4 world = objects.object[gl_InstanceIndex].object_to_world * vec4(position, 1.0);
+    const vec4 world_before = motion.previous_object_to_world[gl_InstanceIndex] * vec4(position, 1.0);
+    now = (motion.world_to_clip * world).xyw;
+    before = (motion.previous_world_to_clip * world_before).xyw;
+    gl_Position = view.world_to_clip * world;
+}

@@ -1,0 +1,29 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/cross_fade.glsl"
+#include "include/material.glsl"
+
+layout(location = 2) in vec2 texture_uv;
+layout(location = 3) flat in uint object_index;
+
+#ifndef DEPTH_ONLY
+#include "include/motion.glsl"
+
+layout(location = 0) in vec3 now;
+layout(location = 1) in vec3 before;
+
+// Where it was less where it is.
+layout(location = 0) out vec2 moved;
+#endif
+
+// As `motion`, with the holes that alpha and cross-fading cut.
+void main() {
+    if (base_color(object_index, texture_uv).a < objects.object[object_index].alpha_cutoff
+        || fades_out(objects.object[object_index].cross_fade, gl_FragCoord.xy)) {
+        discard;
+    }
+#ifndef DEPTH_ONLY
+    moved = motion_between(now, before);
+#endif
+}

@@ -1,0 +1,57 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/scale.glsl"
+#include "include/temporal.glsl"
+#include "include/texture.glsl"
+
+// Radiance of this frame, one sample a texel, shifted from frame to frame by parts of a texel.
+layout(set = 0, binding = 0) uniform sampler2D now;
+// What this shader made of the frame before; all zero before the first.
+layout(set = 0, binding = 1) uniform sampler2D before;
+// Depth of this frame, as large as its radiance.
+layout(set = 0, binding = 2) uniform sampler2D depth;
+// Where everything was less where it is, as `motion` and `motion_sky` draw it; as large.
+layout(set = 0, binding = 3) uniform sampler2D motion;
+layout(set = 0, binding = 4) uniform Params {
+    // How much this frame counts, more than 0 to 1: less is smoother, and follows changes more slowly.
+    float share;
+    // How many standard deviations from the 3 × 3 texels around history may be, 0 or more: more is smoother, and leaves more
+    // of what isn't there any more.
+    float deviations;
+} params;
+
+layout(location = 0) in vec2 uv;
+
+layout(location = 0) out vec4 color;
+
+// Temporal anti-aliasing, as in L. Yang, S. Liu, M. Salvi, "A Survey of Temporal Antialiasing Techniques", Computer Graphics
+// Forum 39 (2), 2020: what the frames before showed of the same place is looked up where it was then, by a curve that keeps it
+// sharp, as far as the colours around allow it. It is where the nearest of those around was, so that edges keep theirs. What was
+// outside of the picture, and what was before the first frame (alpha is 0 there), isn't looked up.
+void main() {
+    const ivec2 extent = textureSize(now, 0);
+    const ivec2 at = texel_at(uv, extent);
+    vec3 around[9];
+    ivec2 nearest = at;
+    float nearest_depth = -1.0;
+    for (int number = 0; number < 9; ++number) {
+        const ivec2 place = clamp(at + ivec2(number % 3, number / 3) - 1, ivec2(0), extent - 1);
+        around[number] = guard_radiance(texelFetch(now, place, 0).rgb);
+        const float place_depth = texelFetch(depth, place, 0).r;
+        if (place_depth > nearest_depth) {
+            nearest_depth = place_depth;
+            nearest = place;
+        }
+    }
+    const vec3 drawn = around[4];
+    const vec2 then = uv + texelFetch(motion, nearest, 0).rg;
+    const vec4 left = guard_color(curve_at(before, then));
+    const bool seen = all(lessThanEqual(abs(then - 0.5), vec2(0.5))) && left.a > 0.5;
+    const float share = clamp(params.share, 0.0, 1.0);
+    vec3 radiance = drawn;
+    if (seen) {
+        radiance = mixed(drawn, allowed_history(left.rgb, around, max(params.deviations, 0.0)), share);
+    }
+    color = vec4(guard_radiance(radiance), 1.0);
+}
