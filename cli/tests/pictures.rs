@@ -95,7 +95,11 @@ fn no_way_to_make_a_plan_changes_a_pixel() {
 }
 
 fn silent(vulkan: Vulkan, pipeline: &str, sees_attachments: bool) {
-    let sets = if pipeline.starts_with("deferred") { ["bloom=0.08", "bloom=1"] } else { ["msaa=4", "msaa=1"] };
+    let sets = match pipeline {
+        "deferred" | "deferred_mobile" => ["bloom=0.08", "bloom=1"],
+        "temporal" => ["taa=true", "taa=false"],
+        _ => ["msaa=4", "msaa=1"],
+    };
     for set in sets {
         let place = Place::new();
         let more = ["--validate", "--report", "report.json", "-o", "a.png", "--frames", "3", "--set", set];
