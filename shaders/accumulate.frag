@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/radiance.glsl"
+#include "include/texture.glsl"
 
 // What this frame shows.
 layout(set = 0, binding = 0) uniform sampler2D now;
@@ -20,7 +21,7 @@ layout(location = 0) out vec4 color;
 // Computer Graphics Forum 39 (2), 2020, here without reprojection. The first frame is taken as it is: alpha, which is 1 ever
 // after, tells it.
 void main() {
-    const vec3 drawn = guard_radiance(textureLod(now, uv, 0.0).rgb);
-    const vec4 kept = guard_color(textureLod(before, uv, 0.0));
+    const vec3 drawn = guard_radiance(found_in(now, now_st, uv).rgb);
+    const vec4 kept = guard_color(found_in(before, before_st, uv));
     color = vec4(guard_radiance(mix(drawn, kept.rgb, clamp(params.share, 0.0, 1.0) * kept.a)), 1.0);
 }

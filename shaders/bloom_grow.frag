@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/bloom.glsl"
+#include "include/texture.glsl"
 
 // Of the size that is drawn.
 layout(set = 0, binding = 0) uniform sampler2D own;
@@ -21,7 +22,7 @@ layout(location = 0) out vec4 color;
 // A level of a bloom chain with all below it mixed in. A mixture and no sum: however many levels there are, no light is
 // added.
 void main() {
-    const vec3 here = guard_radiance(textureLod(own, uv, 0.0).rgb);
-    const vec3 around = tent(below, uv, params.radius);
+    const vec3 here = guard_radiance(found_in(own, own_st, uv).rgb);
+    const vec3 around = tent(below, below_st, uv, params.radius);
     color = vec4(guard_radiance(mix(here, around, clamp(params.share, 0.0, 1.0))), 1.0);
 }

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/bloom.glsl"
+#include "include/texture.glsl"
 
 // What is in focus.
 layout(set = 0, binding = 0) uniform sampler2D sharp;
@@ -21,7 +22,7 @@ layout(location = 0) out vec4 color;
 // A sharp image with its bloom. What a lens scatters is missing where it was: a mixture and no sum. Alpha stays that of the
 // sharp image.
 void main() {
-    const vec4 focused = guard_color(textureLod(sharp, uv, 0.0));
-    const vec3 scattered = tent(bloom, uv, params.radius);
+    const vec4 focused = guard_color(found_in(sharp, sharp_st, uv));
+    const vec3 scattered = tent(bloom, bloom_st, uv, params.radius);
     color = vec4(guard_radiance(mix(focused.rgb, scattered, clamp(params.strength, 0.0, 1.0))), focused.a);
 }

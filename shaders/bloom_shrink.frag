@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/bloom.glsl"
+#include "include/texture.glsl"
 
 // Twice the size of what is drawn; needs a linear filter.
 layout(set = 0, binding = 0) uniform sampler2D source;
@@ -16,5 +17,5 @@ layout(location = 0) out vec4 color;
 
 // Half the size, each texel a mean of many around it: a chain of these doesn't flicker when small lights move.
 void main() {
-    color = vec4(guard_radiance(shrunk(source, uv, params.partial)), 1.0);
+    color = vec4(guard_radiance(shrunk(source, source_st, uv, params.partial)), 1.0);
 }

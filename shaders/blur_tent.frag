@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/bloom.glsl"
+#include "include/texture.glsl"
 
 // Radiance; needs a linear filter.
 layout(set = 0, binding = 0) uniform sampler2D source;
@@ -12,5 +13,5 @@ layout(location = 0) out vec4 color;
 
 // A small blur in one draw: a tent of 3 × 3 texels. Drawn n times it is nearly a Gaussian of √(n/2) texels' deviation.
 void main() {
-    color = vec4(tent(source, uv, 1.0), 1.0);
+    color = vec4(tent(source, source_st, uv, 1.0), 1.0);
 }

@@ -4,6 +4,7 @@
 #include "include/g_buffer.glsl"
 #include "include/lighting.glsl"
 #include "include/radiance.glsl"
+#include "include/texture.glsl"
 
 // What `g_buffer` draws first; all four of the size that is drawn, and sampled with `filter: Nearest`.
 layout(set = 0, binding = 0) uniform sampler2D base_color;
@@ -34,20 +35,20 @@ layout(location = 0) out vec4 color;
 
 // Lights what a G-buffer holds. Where no object is the result is black: the sky goes there.
 void main() {
-    const float place = textureLod(depth, uv, 0.0).r;
+    const float place = found_in(depth, depth_st, uv).r;
     if (place <= 0.0) {
         color = vec4(0.0, 0.0, 0.0, 1.0);
         return;
     }
     const vec4 from_camera = view.clip_to_world * vec4(uv * 2.0 - 1.0, place, 1.0);
-    const vec3 facing = from_octahedral(textureLod(normal, uv, 0.0).xy);
+    const vec3 facing = from_octahedral(found_in(normal, normal_st, uv).xy);
     const vec3 position = from_camera.xyz / from_camera.w;
 #ifdef HAS_ambient_occlusion
-    const float open = textureLod(ambient_occlusion, uv, 0.0).r;
+    const float open = found_in(ambient_occlusion, ambient_occlusion_st, uv).r;
 #else
     const float open = 1.0;
 #endif
     const Reflected reflected = reflect_light(position, facing, sunlit(position, facing), open);
-    const vec3 scattered = textureLod(base_color, uv, 0.0).rgb * reflected.diffuse;
-    color = vec4(guard_radiance(scattered + reflected.specular + textureLod(emissive, uv, 0.0).rgb), 1.0);
+    const vec3 scattered = found_in(base_color, base_color_st, uv).rgb * reflected.diffuse;
+    color = vec4(guard_radiance(scattered + reflected.specular + found_in(emissive, emissive_st, uv).rgb), 1.0);
 }

@@ -10,5 +10,5 @@ layout(location = 0) in vec2 uv;
 
 // For a pass that draws depth alone (`clear: 0.0, test: Always`): the mean of all samples, a depth that nothing may have.
 void main() {
-    gl_FragDepth = mean_depth(source, uv);
+    gl_FragDepth = mean_depth(source, source_st, uv);
 }

@@ -11,5 +11,5 @@ layout(location = 0) in vec2 uv;
 // For a pass that draws depth alone (`clear: 0.0, test: Always`): the greatest number of all samples, with reversed depth the
 // nearest.
 void main() {
-    gl_FragDepth = greatest_depth(source, uv);
+    gl_FragDepth = greatest_depth(source, source_st, uv);
 }

@@ -11,5 +11,5 @@ layout(location = 0) in vec2 uv;
 // For a pass that draws depth alone (`clear: 0.0, test: Always`): the least number of all samples, with reversed depth the
 // farthest.
 void main() {
-    gl_FragDepth = least_depth(source, uv);
+    gl_FragDepth = least_depth(source, source_st, uv);
 }

@@ -10,5 +10,5 @@ layout(location = 0) in vec2 uv;
 
 // For a pass that draws depth alone (`clear: 0.0, test: Always`): sample zero, which lies in one place of the texel.
 void main() {
-    gl_FragDepth = depth_of(source, uv, 0);
+    gl_FragDepth = depth_of(source, source_st, uv, 0);
 }

@@ -24,7 +24,7 @@ void main() {
     const float near = view.world_to_clip[3].z;
     float light = 0.0;
     for (int number = 0; number < samples_of(depth); ++number) {
-        light += stripe(found_at(depth, uv, 0, number).r, near, params.period);
+        light += stripe(found_in(depth, depth_st, uv, 0, number).r, near, params.period);
     }
     color = vec4(0.0, 0.0, 0.0, 1.0 - light / float(samples_of(depth)));
 }

@@ -3,6 +3,7 @@
 
 #include "include/hdr10.glsl"
 #include "include/radiance.glsl"
+#include "include/texture.glsl"
 
 // Radiance.
 layout(set = 0, binding = 0) uniform sampler2D source;
@@ -17,6 +18,6 @@ layout(location = 0) out vec4 color;
 
 // Encodes radiance as HDR10, for a target of 10 bits or more that is shown as it is: UNORM, not SRGB.
 void main() {
-    const vec3 radiance = guard_radiance(textureLod(source, uv, 0.0).rgb);
+    const vec3 radiance = guard_radiance(found_in(source, source_st, uv).rgb);
     color = vec4(encode_hdr10(radiance, guard_radiance(params.reference_white)), 1.0);
 }

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/radiance.glsl"
+#include "include/texture.glsl"
 #include "include/tone_mapping.glsl"
 
 // Radiance.
@@ -21,6 +22,6 @@ layout(location = 0) out vec4 color;
 
 // Tone mapping by the modified Reinhard curve, channel by channel, exposed as a buffer says.
 void main() {
-    const vec3 radiance = guard_radiance(guard_radiance(textureLod(source, uv, 0.0).rgb) * exposure.scale);
+    const vec3 radiance = guard_radiance(guard_radiance(found_in(source, source_st, uv).rgb) * exposure.scale);
     color = vec4(modified_reinhard(radiance, params.white_point), 1.0);
 }

@@ -25,7 +25,7 @@ const float EVEN = 1e-4;
 const int REACH = 16;
 
 vec4 texel(ivec2 at) {
-    return texelFetch(source, clamp(at, ivec2(0), textureSize(source, 0) - 1), 0);
+    return texelFetch(source, clamp(at, ivec2(0), used_of(source, source_st) - 1), 0);
 }
 
 // Brightness as it is seen: about evenly spaced to the eye, 0 to 1.
@@ -37,7 +37,7 @@ float brightness(ivec2 at) {
 // an edge is assumed, along a row or a column; from where its two ends lie follows how much of the texel it cuts off, and that
 // much of the texel beyond is mixed in. CPU twin: passes/src/twin/fxaa.rs.
 void main() {
-    const ivec2 at = texel_at(uv, textureSize(source, 0));
+    const ivec2 at = texel_at(uv, used_of(source, source_st));
     const vec4 own = texel(at);
     const float middle = brightness(at);
     const float north = brightness(at + ivec2(0, -1));

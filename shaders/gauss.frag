@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/radiance.glsl"
+#include "include/texture.glsl"
 
 // What is blurred; needs a linear filter unless its size is that of what is drawn.
 layout(set = 0, binding = 0) uniform sampler2D source;
@@ -22,7 +23,7 @@ const float LARGEST_RADIUS = 64.0;
 
 // One axis of a Gaussian as wide as one likes, its weights scaled to add up to 1.
 void main() {
-    const vec2 step_uv = vec2(params.direction_x, params.direction_y) / vec2(textureSize(source, 0));
+    const vec2 step_uv = vec2(params.direction_x, params.direction_y) / vec2(used_of(source, source_st));
     const float radius = clamp(params.radius, 0.0, LARGEST_RADIUS);
     const int reach = int(ceil(radius));
     vec4 sum = vec4(0.0);
@@ -30,7 +31,7 @@ void main() {
     for (int tap = -reach; tap <= reach; ++tap) {
         const float distance = tap == 0 ? 0.0 : 3.0 * float(tap) / radius;
         const float weight = exp(-0.5 * distance * distance);
-        sum += weight * guard_color(textureLod(source, uv + float(tap) * step_uv, 0.0));
+        sum += weight * guard_color(found_in(source, source_st, uv + float(tap) * step_uv));
         weights += weight;
     }
     color = guard_color(sum / weights);

@@ -3,6 +3,7 @@
 
 #include "include/luminance.glsl"
 #include "include/radiance.glsl"
+#include "include/texture.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
@@ -21,7 +22,7 @@ void main() {
     counted[gl_LocalInvocationIndex] = 0u;
     barrier();
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (all(lessThan(texel, textureSize(source, 0)))) {
+    if (all(lessThan(texel, used_of(source, source_st)))) {
         const vec3 radiance = guard_radiance(texelFetch(source, texel, 0).rgb);
         atomicAdd(counted[bin_of(luminance(radiance))], 1u);
     }

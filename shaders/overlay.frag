@@ -36,7 +36,7 @@ void main() {
         color = vec4(0.0);
         return;
     }
-    const vec4 found = found_at(shown, inside, params.layer, 0);
+    const vec4 found = found_in(shown, shown_st, inside, params.layer, 0);
     // The projection has no far plane: the near distance is the one number in its last column.
     const float near = view.world_to_clip[3].z;
     const vec3 shade = params.farthest > 0.0 ? vec3(shade_of_distance(found.r, near, params.farthest))

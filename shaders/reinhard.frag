@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/radiance.glsl"
+#include "include/texture.glsl"
 #include "include/tone_mapping.glsl"
 
 // Radiance.
@@ -13,5 +14,5 @@ layout(location = 0) out vec4 color;
 
 // Tone mapping by the Reinhard curve, channel by channel: no radiance is too bright to be shown.
 void main() {
-    color = vec4(reinhard(guard_radiance(textureLod(source, uv, 0.0).rgb)), 1.0);
+    color = vec4(reinhard(guard_radiance(found_in(source, source_st, uv).rgb)), 1.0);
 }

@@ -23,7 +23,7 @@ void main() {
     vec4 sum = vec4(0.0);
     float weights = 0.0;
     for (int number = 0; number < samples_of(source); ++number) {
-        const vec4 found = guard_color(found_at(source, uv, 0, number));
+        const vec4 found = guard_color(found_in(source, source_st, uv, 0, number));
         const float weight = resolve_weight(found.rgb);
         sum += vec4(found.rgb * weight, found.a);
         weights += weight;

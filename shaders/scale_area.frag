@@ -21,5 +21,5 @@ layout(location = 0) out vec4 color;
 // The final scale by a mean: each texel counts by how much of it a pixel covers. Right at every size.
 void main() {
     const ivec2 target = max(ivec2(params.target_width, params.target_height), 1);
-    color = guard_color(area_mean(source, texel_at(uv, target), target));
+    color = guard_color(area_mean(source, source_st, texel_at(uv, target), target));
 }

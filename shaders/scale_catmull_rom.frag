@@ -21,5 +21,5 @@ layout(location = 0) out vec4 color;
 // The final scale by a curve that is sharper than a mean and swings over at edges.
 void main() {
     const ivec2 target = max(ivec2(params.target_width, params.target_height), 1);
-    color = guard_color(sharpened(source, texel_at(uv, target), target));
+    color = guard_color(sharpened(source, source_st, texel_at(uv, target), target));
 }

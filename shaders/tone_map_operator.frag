@@ -25,7 +25,7 @@ layout(location = 0) out vec4 color;
 void main() {
     vec3 sum = vec3(0.0);
     for (int number = 0; number < samples_of(source); ++number) {
-        const vec3 radiance = guard_radiance(guard_radiance(found_at(source, uv, 0, number).rgb) * params.exposure);
+        const vec3 radiance = guard_radiance(guard_radiance(found_in(source, source_st, uv, 0, number).rgb) * params.exposure);
         sum += tone_mapped(radiance, params.operator, params.white_point);
     }
     color = vec4(sum / float(samples_of(source)), 1.0);

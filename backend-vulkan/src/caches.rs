@@ -3,9 +3,19 @@
 use crate::device::Shared;
 use crate::error::Error;
 use ash::vk;
+use framewright_graph::interface::MOST_PARTS;
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Mutex, PoisonError};
+
+/// Every stage may ask which part of an image is in use.
+pub(crate) const PARTS_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
+    vk::ShaderStageFlags::VERTEX.as_raw()
+        | vk::ShaderStageFlags::FRAGMENT.as_raw()
+        | vk::ShaderStageFlags::COMPUTE.as_raw(),
+);
+/// Bytes of push constants that tell it: four numbers each.
+const PARTS_BYTES: u32 = 16 * MOST_PARTS as u32;
 
 /// The caches of a device.
 #[derive(Default)]
@@ -136,10 +146,11 @@ impl Shared {
         })
     }
 
-    /// The pipeline layout with these set layouts.
+    /// The pipeline layout with these set layouts, and room for the parts of images that passes use.
     pub(crate) fn pipeline_layout(&self, sets: Vec<vk::DescriptorSetLayout>) -> Result<vk::PipelineLayout, Error> {
         self.caches.pipeline_layouts.get(sets, |sets| {
-            let info = vk::PipelineLayoutCreateInfo::default().set_layouts(sets);
+            let parts = [vk::PushConstantRange { stage_flags: PARTS_STAGES, offset: 0, size: PARTS_BYTES }];
+            let info = vk::PipelineLayoutCreateInfo::default().set_layouts(sets).push_constant_ranges(&parts);
             // SAFETY: the set layouts live as long as the device.
             unsafe { self.raw.create_pipeline_layout(&info, None) }.map_err(Error::vulkan("creating a pipeline layout"))
         })

@@ -176,6 +176,11 @@ impl Executor {
         self.frames.report(&self.plan, frame).ok_or_else(gone)?
     }
 
+    /// Whether transient images and buffers are filled with conspicuous values.
+    pub(crate) fn poisons(&self) -> bool {
+        self.options.poison
+    }
+
     /// Gives what outlives the frame its first contents, unless that is done.
     pub(crate) fn ready(&mut self) -> Result<(), Error> {
         if !self.initialised {

@@ -35,6 +35,7 @@ mod caches;
 mod canary;
 mod capabilities;
 mod carry;
+mod change;
 mod check;
 mod check_work;
 mod contents;

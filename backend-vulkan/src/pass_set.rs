@@ -11,7 +11,7 @@ use crate::memory::Kind;
 use crate::params::{self, PARAMS};
 use crate::physical::{Physical, part};
 use ash::vk;
-use framewright_graph::interface::{self, Component, Dimension, ImageShape, PASS_SET};
+use framewright_graph::interface::{self, Block, Component, Dimension, ImageShape, PASS_SET};
 use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource, Subresources};
 use framewright_graph::vocabulary::{self, Accesses, Aspects, Filter, Sampler, Stages};
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use std::sync::Arc;
 pub(crate) struct SetTemplate {
     pub(crate) layout: vk::DescriptorSetLayout,
     bindings: Vec<(LayoutBinding, Bound)>,
-    params: Option<Arc<RawBuffer>>,
+    params: Option<(Block, Arc<RawBuffer>)>,
 }
 
 /// What is bound to one name.
@@ -61,11 +61,7 @@ impl SetTemplate {
                 interface::BindingKind::UniformBlock(block)
                     if wanted.name == PARAMS && buffer_of(pass, PARAMS).is_none() =>
                 {
-                    let bytes = params::fill(block, &pass.params).map_err(mismatch)?;
-                    let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
-                    let mut buffer = RawBuffer::new(shared, PARAMS, bytes.len() as u64, usage, Kind::Upload)?;
-                    buffer.fill(&bytes)?;
-                    params = Some(Arc::new(buffer));
+                    params = Some((block.clone(), filled(shared, block, pass)?));
                     (vk::DescriptorType::UNIFORM_BUFFER, Bound::Params)
                 }
                 interface::BindingKind::UniformBlock(_) | interface::BindingKind::StorageBlock { .. } => {
@@ -89,6 +85,18 @@ impl SetTemplate {
         Ok(SetTemplate { layout: shared.set_layout(Vec::new())?, bindings: Vec::new(), params: None })
     }
 
+    /// The block `params` with the values that `pass` has now, for [`SetTemplate::take`]; `None`: the shader has none.
+    pub(crate) fn params_of(&self, shared: &Arc<Shared>, pass: &plan::Pass) -> Result<Option<Arc<RawBuffer>>, Error> {
+        self.params.as_ref().map(|(block, _)| filled(shared, block, pass)).transpose()
+    }
+
+    /// Puts other parameters in place of those that sets were filled with so far.
+    pub(crate) fn take(&mut self, filled: Arc<RawBuffer>) {
+        if let Some((_, params)) = &mut self.params {
+            *params = filled;
+        }
+    }
+
     /// What the set's contents depend on.
     pub(crate) fn resources(&self) -> impl Iterator<Item = Resource> {
         self.bindings.iter().filter_map(|(_, bound)| match bound {
@@ -104,7 +112,7 @@ impl SetTemplate {
         for (binding, bound) in &self.bindings {
             let target = match bound {
                 Bound::Params => match &self.params {
-                    Some(params) => {
+                    Some((_, params)) => {
                         buffers.push(params.clone());
                         Target::Buffer(params.raw)
                     }
@@ -127,6 +135,16 @@ impl SetTemplate {
         let set = DescriptorSet::new(shared, &targets)?;
         Ok(PassSet { set, _views: views, _buffers: buffers })
     }
+}
+
+/// A block `params` with the values of a pass.
+fn filled(shared: &Arc<Shared>, block: &Block, pass: &plan::Pass) -> Result<Arc<RawBuffer>, Error> {
+    let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
+    let bytes = params::fill(block, &pass.params).map_err(mismatch)?;
+    let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
+    let mut buffer = RawBuffer::new(shared, PARAMS, bytes.len() as u64, usage, Kind::Upload)?;
+    buffer.fill(&bytes)?;
+    Ok(Arc::new(buffer))
 }
 
 /// The access to the buffer that is bound to `name`.

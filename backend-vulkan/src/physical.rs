@@ -29,7 +29,8 @@ pub(crate) fn descriptor(image: &plan::Image) -> ImageDescriptor {
         Role::Persistent { .. } => image.usage | Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
         Role::External { .. } => image.usage | Usage::TRANSFER_SRC,
     };
-    let plan::Image { format, shape, extent, mips, layers, samples, sharing, .. } = *image;
+    let plan::Image { format, shape, extent, room, mips, layers, samples, sharing, .. } = *image;
+    let extent = room.map_or(extent, |[width, height]| [width, height, extent[2]]);
     ImageDescriptor { format, shape, extent, mips, layers, samples, usage, sharing }
 }
 

@@ -14,7 +14,7 @@ use crate::shaders::{CompiledShader, ShaderLibrary};
 use crate::standing::Turns;
 use ash::vk;
 use framewright_graph::frame::{BufferRole, Draw, Groups};
-use framewright_graph::interface::{DrawInterface, PASS_SET, ShaderInterfaces, ShaderProblem, Variant};
+use framewright_graph::interface::{DrawInterface, MOST_PARTS, PASS_SET, ShaderInterfaces, ShaderProblem, Variant};
 use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
 use framewright_graph::vocabulary::Accesses;
 use std::sync::Arc;
@@ -41,6 +41,8 @@ pub(crate) struct Compute {
     pub(crate) pipeline: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
     pub(crate) groups: WorkgroupCount,
+    /// Invocations of a workgroup.
+    pub(crate) size: [u32; 3],
 }
 
 /// How many workgroups.
@@ -69,17 +71,24 @@ fn indirect(plan: &Plan, pass: &plan::Pass, offset: u64, bytes: u64) -> Result<B
 }
 
 /// How the Plan has the shader of a pass compiled.
-fn variant(pass: &plan::Pass) -> Variant {
+fn variant(plan: &Plan, pass: &plan::Pass) -> Result<Variant, Error> {
+    let parts: Vec<_> = plan.parts(pass).map(|(name, _)| name.clone()).collect();
+    if parts.len() > MOST_PARTS {
+        let what = format!("it samples {} images in part, and can at most {MOST_PARTS}", parts.len());
+        return Err(Error::Mismatch { pass: pass.name.to_string(), what });
+    }
+
     let bindings = pass.accesses.iter().filter_map(|access| access.binding.as_ref());
     let sampled = bindings.clone().filter(|binding| binding.kind != BindingKind::Storage);
     let local = bindings.clone().filter(|binding| binding.kind == BindingKind::InputAttachment);
-    Variant {
+    Ok(Variant {
         textures: bindings.filter_map(|it| Some((it.name.clone(), it.texture?))).collect(),
         sampled: sampled.map(|binding| binding.name.clone()).collect(),
+        parts,
         local: local.map(|binding| binding.name.clone()).collect(),
         depth_only: pass.redraws.is_some(),
         alpha_to_coverage: pass.alpha_to_coverage,
-    }
+    })
 }
 
 /// The objects of a dispatch.
@@ -92,34 +101,44 @@ pub(crate) fn compute(
 ) -> Result<Compute, Error> {
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let shader = shaders
-        .compute(&pass.shader, &variant(pass))
+        .compute(&pass.shader, &variant(plan, pass)?)
         .map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
     let nothing = DrawInterface::default();
     check_limits(shared, &shader.interface, &nothing).map_err(mismatch)?;
     check_supplied(&shader.interface, &nothing).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     check_workgroup(shared, size).map_err(mismatch)?;
-    let groups = match pass.groups {
-        None => return Err(mismatch("a dispatch doesn't say how many workgroups".to_owned())),
-        Some(Groups::Count(count)) => WorkgroupCount::Direct(count),
-        Some(Groups::Invocations(wanted)) => {
-            WorkgroupCount::Direct([0, 1, 2].map(|axis| wanted[axis].div_ceil(size[axis].max(1))))
-        }
-        Some(Groups::Indirect { offset }) => {
-            WorkgroupCount::Indirect(indirect(plan, pass, offset, 12).map_err(mismatch)?, offset)
-        }
-    };
-    if let WorkgroupCount::Direct(count) = groups {
-        let most = shared.limits.max_compute_work_group_count;
-        if count.iter().zip(most).any(|(count, most)| *count > most) {
-            return Err(mismatch(format!("{count:?} workgroups are more than the {most:?} of this device")));
-        }
-    }
+    let groups = groups(shared, plan, pass, size).map_err(mismatch)?;
     let template = SetTemplate::new(shared, plan, pass, &shader.interface.bindings)?;
     let layout = shared.pipeline_layout(vec![template.layout])?;
     let pipeline = shared.compute_pipeline(&pass.name, shader.compute, layout)?;
     let sets = Turns::new(physical.period(template.resources()));
-    Ok(Compute { template, sets, pipeline, layout, groups })
+    Ok(Compute { template, sets, pipeline, layout, groups, size })
+}
+
+/// How many workgroups of `size` invocations a dispatch takes.
+///
+/// # Errors
+/// In words: if they are too many, or nothing says how many they are.
+pub(crate) fn groups(
+    shared: &Shared,
+    plan: &Plan,
+    pass: &plan::Pass,
+    size: [u32; 3],
+) -> Result<WorkgroupCount, String> {
+    let count = match pass.groups {
+        None => return Err("a dispatch doesn't say how many workgroups".to_owned()),
+        Some(Groups::Count(count)) => count,
+        Some(Groups::Invocations(wanted)) => [0, 1, 2].map(|axis| wanted[axis].div_ceil(size[axis].max(1))),
+        Some(Groups::Indirect { offset }) => {
+            return Ok(WorkgroupCount::Indirect(indirect(plan, pass, offset, 12)?, offset));
+        }
+    };
+    let most = shared.limits.max_compute_work_group_count;
+    if count.iter().zip(most).any(|(count, most)| *count > most) {
+        return Err(format!("{count:?} workgroups are more than the {most:?} of this device"));
+    }
+    Ok(WorkgroupCount::Direct(count))
 }
 
 /// The objects of a pass of a rendering scope.
@@ -154,7 +173,7 @@ pub(crate) fn drawn(
         indices,
         indirect,
     };
-    let shader = match shaders.compiled(&pass.shader, draw, &variant(pass)) {
+    let shader = match shaders.compiled(&pass.shader, draw, &variant(plan, pass)?) {
         Err(ShaderProblem::Missing { .. }) if draw == Draw::Custom => {
             let template = SetTemplate::empty(shared)?;
             return Ok(nothing(template));

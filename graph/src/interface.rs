@@ -34,7 +34,13 @@ pub struct ShaderInterface {
     pub writes_depth: bool,
     /// Invocations of a workgroup in x, y and z, each at least 1; of compute shaders only.
     pub workgroup_size: Option<[u32; 3]>,
+    /// Names of what it samples of which it asks for the part in use: where it mentions `NAME_st`.
+    pub asks_part: Vec<String>,
 }
+
+/// A pass samples at most this many images of which only a part is in use: where they lie takes all the bytes of push
+/// constants that every device has.
+pub const MOST_PARTS: usize = 8;
 
 /// What a shader does with the fourth component of an image that it samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -178,6 +184,9 @@ pub struct Variant {
     pub textures: Vec<(Arc<str>, ImageShape)>,
     /// The shader's names for what the pass samples: the macro `HAS_NAME` is defined.
     pub sampled: Vec<Arc<str>>,
+    /// Those of images of which only a part is in use, at most [`MOST_PARTS`]: `NAME_st` is where it lies then, and else all of
+    /// the image.
+    pub parts: Vec<Arc<str>>,
     /// The shader's names for what is read from the pass's own rendering scope, as devices with local reads let it: the
     /// macro `LOCAL_READ_NAME` is defined.
     pub local: Vec<Arc<str>>,

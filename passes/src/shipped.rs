@@ -52,6 +52,7 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "include/material.glsl",
     "include/motion.glsl",
     "include/overlay.glsl",
+    "include/part.glsl",
     "include/point_lights.glsl",
     "include/radiance.glsl",
     "include/random.glsl",

@@ -4,10 +4,12 @@
 #define FRAMEWRIGHT_SCALE
 
 #include "include/radiance.glsl"
+#include "include/texture.glsl"
 
-// The mean of what a pixel of a target of so many covers of the source: each texel counts by how much of it lies within.
-vec4 area_mean(sampler2D source, ivec2 pixel, ivec2 target) {
-    const uvec2 texels = uvec2(textureSize(source, 0));
+// The mean of what a pixel of a target of so many covers of the part `st` of the source: each texel counts by how much of it lies
+// within.
+vec4 area_mean(sampler2D source, vec4 st, ivec2 pixel, ivec2 target) {
+    const uvec2 texels = uvec2(used_of(source, st));
     const uvec2 pixels = uvec2(target);
     // In parts of a texel, of which there are as many as the target has pixels.
     const uvec2 begin = uvec2(pixel) * texels;
@@ -51,11 +53,11 @@ vec4 curve_at(sampler2D source, vec2 place) {
     return sum;
 }
 
-// The source at the middle of a pixel of a target of so many, by Catmull and Rom's curve along rows and columns; where the
-// target is the smaller one the curve is as much wider, so that every texel counts. It is sharper than a mean, and swings over
-// at edges: what falls below 0 there is cut off.
-vec4 sharpened(sampler2D source, ivec2 pixel, ivec2 target) {
-    const ivec2 texels = textureSize(source, 0);
+// The part `st` of the source at the middle of a pixel of a target of so many, by Catmull and Rom's curve along rows and columns;
+// where the target is the smaller one the curve is as much wider, so that every texel counts. It is sharper than a mean, and
+// swings over at edges: what falls below 0 there is cut off.
+vec4 sharpened(sampler2D source, vec4 st, ivec2 pixel, ivec2 target) {
+    const ivec2 texels = used_of(source, st);
     // The middle of the pixel, in texels from the middle of the first one and half a texel: whole and share.
     const uvec2 place = (2u * uvec2(pixel) + 1u) * uvec2(texels);
     const ivec2 whole = ivec2(place / uvec2(2 * target));

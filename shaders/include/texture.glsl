@@ -10,10 +10,15 @@
 //     vec4 texel_of(image, texel, layer, number)      a sample of a texel of a layer; uvec4 of integers
 //     vec4 found_at(image, uv, layer, number)         what lies at a place, 0 to 1 from the upper left corner, filtered as the
 //                                                     pass says; of samples the one of the texel around the place
+//     ivec2 used_of(image, st)                        width and height of the part in use; see part.glsl
+//     vec4 found_in(image, st, uv, layer, number)     what lies at a place of the part in use, 0 to 1 from its upper left corner
+//     vec4 found_in(image, st, uv)                    the same, of an image without layers or samples
 //
 // What has no layers or samples ignores their number.
 #ifndef FRAMEWRIGHT_TEXTURE
 #define FRAMEWRIGHT_TEXTURE
+
+#include "include/part.glsl"
 
 // The texel around a place of an image; beyond its edges the outermost one.
 ivec2 texel_at(vec2 uv, ivec2 extent) {
@@ -50,6 +55,17 @@ ivec2 texel_at(vec2 uv, ivec2 extent) {
     } \
     COLOR found_at(BOTH image, vec2 uv, int layer, int number) { \
         return texel_of(image, texel_at(uv, extent_of(image)), layer, number); \
+    } \
+    FRAMEWRIGHT_PART_OF(COLOR, FLAT) \
+    FRAMEWRIGHT_PART_OF(COLOR, LAYERED) \
+    FRAMEWRIGHT_PART_OF(COLOR, SAMPLED) \
+    FRAMEWRIGHT_PART_OF(COLOR, BOTH) \
+    COLOR found_in(FLAT image, vec4 st, vec2 uv) { return found_in(image, st, uv, 0, 0); }
+
+#define FRAMEWRIGHT_PART_OF(COLOR, IMAGE) \
+    ivec2 used_of(IMAGE image, vec4 st) { return part_extent(extent_of(image), st); } \
+    COLOR found_in(IMAGE image, vec4 st, vec2 uv, int layer, int number) { \
+        return found_at(image, uv_clamp(uv_adjust(uv, st), st, extent_of(image)), layer, number); \
     }
 
 FRAMEWRIGHT_TEXELS(vec4, sampler2D, sampler2DArray, sampler2DMS, sampler2DMSArray)

@@ -4,9 +4,11 @@ use super::Frame;
 use crate::error::Error;
 use crate::prepare_pass::{Compute, WorkgroupCount};
 use ash::vk;
+use framewright_graph::plan;
 
 impl Frame<'_> {
-    pub(super) fn dispatch(&self, commands: vk::CommandBuffer, pass: &Compute) -> Result<(), Error> {
+    pub(super) fn dispatch(&self, commands: vk::CommandBuffer, plan: &plan::Pass, pass: &Compute) -> Result<(), Error> {
+        self.tell_parts(commands, plan, pass.layout);
         let set = pass.sets.at(self.number).ok_or_else(super::scope::unprepared)?;
         let device = &self.shared.raw;
         // SAFETY: the command buffer is being recorded outside a scope, the set has the layout's only set layout, and counts

@@ -8,6 +8,7 @@ mod transfer;
 pub(crate) use barriers::{barriers, memory_barriers, state_change};
 pub(crate) use transfer::{Place, copy_between, fill};
 
+use crate::caches::PARTS_STAGES;
 use crate::custom::CustomRecorder;
 use crate::device::Shared;
 use crate::error::Error;
@@ -16,7 +17,7 @@ use crate::prepare::{Prepared, Step as Made};
 use crate::recorder::{DrawSource, Kept};
 use crate::timing::{Counts, Timing};
 use ash::vk;
-use framewright_graph::plan::{Plan, Resource, Step, Work};
+use framewright_graph::plan::{self, Plan, Resource, Step, Work};
 
 /// What a frame is recorded from.
 pub(crate) struct Frame<'f> {
@@ -61,8 +62,8 @@ impl Frame<'_> {
                 (Work::Render(plan), Made::Render(scope)) => {
                     self.render(commands, plan, scope, source, timing, recorded)?;
                 }
-                (Work::Dispatch(_), Made::Dispatch(pass)) => {
-                    self.dispatch(commands, pass)?;
+                (Work::Dispatch(plan), Made::Dispatch(pass)) => {
+                    self.dispatch(commands, plan, pass)?;
                     recorded.counts.push(Counts { draws: 1, culled: 0 });
                     timing.stamp(commands);
                 }
@@ -85,6 +86,18 @@ impl Frame<'_> {
             timing.stamp(commands);
             Ok(())
         })
+    }
+}
+
+impl Frame<'_> {
+    /// Tells the pass's shaders which parts of images are in use.
+    fn tell_parts(&self, commands: vk::CommandBuffer, pass: &plan::Pass, layout: vk::PipelineLayout) {
+        let parts: Vec<u8> = self.plan.parts(pass).flat_map(|(_, part)| part.map(f32::to_ne_bytes)).flatten().collect();
+        if !parts.is_empty() {
+            // SAFETY: the command buffer is being recorded, every layout has this range, and no more parts than fit were let
+            // through.
+            unsafe { self.shared.raw.cmd_push_constants(commands, layout, PARTS_STAGES, 0, &parts) };
+        }
     }
 }
 

@@ -121,6 +121,7 @@ impl Frame<'_> {
                 device.cmd_bind_pipeline(commands, graphics, pipeline);
                 device.cmd_bind_descriptor_sets(commands, graphics, pass.state.layout, 0, &sets, &[]);
             }
+            self.tell_parts(commands, plan, pass.state.layout);
         }
         let mut recorder = Recorder::new(self.shared, commands, kept, pass, plan, (extent, self.number));
         recorder.set_cull_mode(CullMode::None);

@@ -12,6 +12,9 @@ use std::collections::HashSet;
 /// Bindings are numbered below this: drivers make tables as long as the largest number.
 const BINDINGS: u32 = 256;
 
+/// The block of push constants that tells which parts of images are in use; see shaders/include/part.glsl.
+const PARTS: &str = "FramewrightParts";
+
 /// The resources. In the pass's own set every declared one counts, since that is what a pipeline file binds; in the
 /// others only what is used, since include libraries declare more than one shader needs.
 pub(super) fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) -> Result<Vec<Binding>, String> {
@@ -23,6 +26,10 @@ pub(super) fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) 
     let mut bindings = Vec::new();
     for (variable, instruction) in module.variables() {
         if storage_class(instruction) == Some(StorageClass::PushConstant) && used.contains(&variable) {
+            let ty = module.pointee(instruction).and_then(|ty| ty.result_id);
+            if ty.is_some_and(|ty| module.name(ty) == PARTS) {
+                continue;
+            }
             return Err("push constants: parameters come in the uniform block `params`".to_owned());
         }
         let set = module.decoration_number(variable, Decoration::DescriptorSet);

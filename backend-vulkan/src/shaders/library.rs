@@ -58,7 +58,8 @@ pub struct CompiledCompute {
 /// `NAME` locally, as an input attachment of its own rendering scope, its fragment stage is compiled with the macro
 /// `LOCAL_READ_NAME` and must declare it `subpassInput` then. Where a pass draws nothing but depth it is compiled with the
 /// macro `DEPTH_ONLY`: what is left decides which fragments stay. Where its alpha says how many samples are covered, it is
-/// compiled with the macro `ALPHA_TO_COVERAGE`. What was once read or compiled is kept for the library's
+/// compiled with the macro `ALPHA_TO_COVERAGE`. `NAME_st` in a stage's own file, which has to mention `NAME` by itself, too, stands
+/// for the part in use of the image that the pass gives as `NAME`. What was once read or compiled is kept for the library's
 /// lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
     files: ShaderFiles,
@@ -210,6 +211,9 @@ impl ShaderLibrary {
         for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
             let sampled = matches!(binding.kind, BindingKind::SampledImage(_));
             binding.adapts = sampled && mentioned.adapting.contains(&binding.name);
+            if sampled && mentioned.parts.contains(&binding.name) {
+                reflected.interface.asks_part.push(binding.name.clone());
+            }
         }
         let (file, shipped) = (found.shown.clone(), matches!(found.path, FilePath::Shipped(_)));
         Ok(Some(Arc::new(CompiledStage { file, shipped, spirv: spirv.into(), reflected })))
@@ -279,7 +283,14 @@ fn macros(mentioned: &Mentioned, variant: &Variant) -> Macros {
     let local = variant.local.iter().map(|name| (format!("LOCAL_READ_{name}"), String::new()));
     let depth_only = variant.depth_only.then(|| ("DEPTH_ONLY".to_owned(), String::new()));
     let covers = variant.alpha_to_coverage.then(|| ("ALPHA_TO_COVERAGE".to_owned(), String::new()));
-    textures.chain(sampled).chain(local).chain(depth_only).chain(covers).collect()
+    let place = |name: &String| variant.parts.iter().position(|part| **part == **name);
+    let parts = mentioned.parts.iter().map(|name| {
+        let part = place(name).map_or_else(|| WHOLE.to_owned(), |at| format!("framewright_parts.st[{at}]"));
+        (format!("{name}{PART}"), part)
+    });
+    let in_part = mentioned.parts.iter().any(|name| place(name).is_some());
+    let count = in_part.then(|| ("FRAMEWRIGHT_PARTS".to_owned(), variant.parts.len().to_string()));
+    textures.chain(sampled).chain(local).chain(depth_only).chain(covers).chain(parts).chain(count).collect()
 }
 
 /// Macros of this beginning stand for the types of what a pass samples.
@@ -288,21 +299,30 @@ const TEXTURE: &str = "TEXTURE_";
 /// Macros of this beginning are there if a pass samples what they name.
 const HAS: &str = "HAS_";
 
-/// The names that a GLSL text mentions behind [`TEXTURE`] and [`HAS`] outside comments, each once, in order.
+/// Macros of this ending stand for the part in use of what is sampled.
+const PART: &str = "_st";
+
+/// What they stand for where all of it is used.
+const WHOLE: &str = "vec4(1.0, 1.0, 0.0, 0.0)";
+
+/// The names that a GLSL text mentions behind [`TEXTURE`] and [`HAS`], and before [`PART`] if also by themselves, outside
+/// comments, each once, in order.
 struct Mentioned {
     adapting: Vec<String>,
     optional: Vec<String>,
+    parts: Vec<String>,
 }
 
 impl Mentioned {
     fn by(text: &str) -> Mentioned {
         let text = without_comments(text);
-        let behind = |beginning: &str| {
-            let words = text.split(|letter: char| letter != '_' && !letter.is_ascii_alphanumeric());
-            let names = words.filter_map(|word| word.strip_prefix(beginning)).map(str::to_owned);
-            names.collect::<BTreeSet<String>>().into_iter().collect()
-        };
-        Mentioned { adapting: behind(TEXTURE), optional: behind(HAS) }
+        let words = text.split(|letter: char| letter != '_' && !letter.is_ascii_alphanumeric());
+        let words: BTreeSet<&str> = words.collect();
+        let behind =
+            |beginning: &str| words.iter().filter_map(|word| word.strip_prefix(beginning)).map(str::to_owned).collect();
+        let parts = words.iter().filter_map(|word| word.strip_suffix(PART));
+        let parts = parts.filter(|name| words.contains(name)).map(str::to_owned).collect();
+        Mentioned { adapting: behind(TEXTURE), optional: behind(HAS), parts }
     }
 }
 
@@ -372,6 +392,14 @@ fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterf
         }
     }
     joined.bindings.sort_by_key(|it| (it.set, it.binding));
+    // Each stage that samples an image must ask.
+    let [mut others, seen] = [&vertex, &fragment].map(|stage| stage.reflected.interface.clone());
+    let silent = |stage: &ShaderInterface, name: &String| {
+        stage.bindings.iter().any(|it| it.set == PASS_SET && it.name == *name) && !stage.asks_part.contains(name)
+    };
+    joined.asks_part.retain(|name| !silent(&others, name));
+    others.asks_part.retain(|name| !silent(&seen, name) && !joined.asks_part.contains(name));
+    joined.asks_part.append(&mut others.asks_part);
     Ok(joined)
 }
 

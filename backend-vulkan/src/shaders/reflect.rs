@@ -103,6 +103,8 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
             .iter()
             .any(|it| matches!(&it.operands[..], [_, Operand::ExecutionMode(ExecutionMode::DepthReplacing), ..])),
         workgroup_size: (stage == Stage::Compute).then(|| workgroup_size(&module)),
+        // The text says it, not the SPIR-V.
+        asks_part: Vec::new(),
     };
     let input_attachments = module
         .variables()

@@ -211,6 +211,7 @@ pub(super) fn resources(frame: &Frame, structure: &Structure, settled: &Settled)
                 chosen: chosen.next_if(|(of, _)| *of == at).and_then(|(_, more)| chosen_format(frame, store, *more)),
                 shape: image.shape,
                 extent: image.extent,
+                room: adapted.room(at),
                 mips: image.mips,
                 layers: image.layers,
                 samples: image.samples,

@@ -121,6 +121,13 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
             let message = format!("`{}` is an output and comes from a file: no pass makes it", subject.name);
             errors.push(Diagnostic::new(output.span, message));
         }
+        if let Resource::Image(image) = output.resource
+            && frame.images[image.0 as usize].room.is_some()
+        {
+            let message = format!("`{}` is an output and changes its size", subject.name);
+            let help = "scale it into an image of a fixed size, and let that leave the frame";
+            errors.push(Diagnostic::new(output.span, message).help(help));
+        }
         errors.extend(wrong_encoding(frame, output));
         // Samples are resolved on the way out.
         let subject = Subject { samples: 1, ..subject };
@@ -152,10 +159,16 @@ fn image_problem(image: &Image) -> Option<String> {
     let [width, height, depth] = image.extent;
     let largest = width.max(height).max(depth);
     let levels = largest.checked_ilog2().map_or(0, |log| log + 1);
+    let short = image.room.is_some_and(|[wide, high]| wide < width || high < height);
+    let changes = image.room.is_some();
     if image.extent.contains(&0) {
         Some(format!("is {width}×{height}×{depth}; each side has at least 1 texel"))
     } else if !(1..=levels).contains(&image.mips) {
         Some(format!("has {} mip levels; its size allows 1 to {levels}", image.mips))
+    } else if short {
+        Some(format!("is {width}×{height}, and has no room for that"))
+    } else if changes && (image.shape != Shape::D2 || image.mips > 1 || image.lifetime != Lifetime::Transient) {
+        Some("changes its size, so it is transient, two-dimensional and has one mip level".to_owned())
     } else if image.layers == 0 {
         Some("has no layers".to_owned())
     } else if !matches!(image.samples, 1 | 2 | 4 | 8 | 16) {
@@ -351,6 +364,11 @@ impl Check<'_> {
             let image = &self.frame.images[storage.image.0 as usize];
             if image.samples > 1 {
                 self.wrong(storage.span, &format!("accesses `{}` as storage, which has several samples", image.name));
+            }
+            if image.room.is_some() {
+                let what =
+                    format!("accesses `{}` as storage, which changes its size: it can be drawn into", image.name);
+                self.wrong(storage.span, &what);
             }
             let meets = |other: ImageIndex, range: Subresources| {
                 other == storage.image && parts::overlap(image, range, storage.range)

@@ -7,6 +7,7 @@ use crate::frame::{Frame, ImageIndex, Resource};
 use crate::plan::{Inserted, Note, Subresources};
 use crate::view::ViewIndex;
 use crate::vocabulary::{Accesses, FillValue, Filter, Layout, ResolveMode, Stages, State, Usage};
+use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -77,7 +78,7 @@ impl Store {
     }
 
     /// Takes the size that the frame says now.
-    pub(super) fn resize(&mut self, frame: &Frame) {
+    fn resize(&mut self, frame: &Frame) {
         match (&mut self.kind, self.of) {
             (Kind::Image(image), Resource::Image(of)) => image.extent = frame.images[of.0 as usize].extent,
             (Kind::Buffer(buffer), Resource::Buffer(of)) => buffer.bytes = frame.buffers[of.0 as usize].bytes,
@@ -108,9 +109,27 @@ pub(super) struct Adapted {
     /// The frame's outputs, in its order.
     pub(super) outputs: Vec<StoreIndex>,
     pub(super) notes: Vec<Note>,
+    /// Width and height that images are made with whose size may change.
+    pub(super) rooms: HashMap<StoreIndex, [u32; 2]>,
 }
 
 impl Adapted {
+    /// Takes the sizes that the frame says now.
+    pub(super) fn resize(&mut self, frame: &Frame) {
+        self.stores.iter_mut().for_each(|store| store.resize(frame));
+        for (store, room) in &mut self.rooms {
+            if let Resource::Image(of) = self.stores[*store as usize].of {
+                *room = frame.images[of.0 as usize].room.unwrap_or(*room);
+            }
+        }
+    }
+
+    /// Width and height that a physical image is made with, if its size may change.
+    pub(super) fn room(&self, store: StoreIndex) -> Option<[u32; 2]> {
+        // Few frames have any.
+        if self.rooms.is_empty() { None } else { self.rooms.get(&store).copied() }
+    }
+
     /// The uses of operation number `op`.
     pub(super) fn uses(&self, op: u32) -> &[Use] {
         let Range { start, end } = self.ops[op as usize].uses;

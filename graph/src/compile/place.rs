@@ -7,6 +7,7 @@ use super::synchronise::NEVER;
 use crate::describe::Diagnostic;
 use crate::device::{ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
 use crate::format::Format;
+use crate::frame::with_room;
 use crate::plan::{Heap, Placement, StepId};
 use crate::source::Span;
 use crate::vocabulary::Usage;
@@ -86,7 +87,7 @@ pub(super) fn place(
     let mut members: Vec<Members> = Vec::new();
     let (overlaps, spans) = (spans.is_some(), spans.unwrap_or(lifetimes));
     // Images often follow others of their kind.
-    let mut last_needs: Option<(&ImageDescriptor, MemoryNeeds)> = None;
+    let mut last_needs: Option<(ImageDescriptor, MemoryNeeds)> = None;
     for ((store, at), [first, last]) in adapted.stores.iter().zip(0..).zip(lifetimes) {
         if *first == NEVER && store.is_transient() {
             placed.placements.push(None);
@@ -94,14 +95,15 @@ pub(super) fn place(
         }
         let (needs, lazily) = match &store.kind {
             Kind::Image(image) => {
+                let made = ImageDescriptor { extent: with_room(image.extent, adapted.room(at)), ..*image };
                 let transient = image.usage.contains(Usage::TRANSIENT_ATTACHMENT);
                 let needs = match last_needs {
-                    Some((of, needs)) if of == image => needs,
-                    _ => memory.image(image),
+                    Some((of, needs)) if of == made => needs,
+                    _ => memory.image(&made),
                 };
-                last_needs = Some((image, needs));
+                last_needs = Some((made, needs));
                 if let Some(usual) = store.usual {
-                    let usual = usual_needs(image, usual, device, memory);
+                    let usual = usual_needs(&made, usual, device, memory);
                     placed.chosen.push((at, needs.bytes.cast_signed().saturating_sub(usual.bytes.cast_signed())));
                 }
                 (needs, device.lazily_allocated_memory && transient)

@@ -85,7 +85,7 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
 /// forwards between images of the same proportions.
 pub(super) fn still_holds(frame: &Frame, live: &[u32], device: &Profile) -> bool {
     let passes = live.iter().map(|pass| &frame.passes[*pass as usize]);
-    frame.images.iter().all(|image| image.extent.iter().all(|side| *side <= largest(image, device)))
+    frame.images.iter().all(|image| image.made().iter().all(|side| *side <= largest(image, device)))
         && passes.into_iter().all(|pass| disagreement(frame, pass).is_none())
 }
 
@@ -117,7 +117,7 @@ pub(super) fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
     let mut add = |image: ImageIndex, used: Usage| usage[image.0 as usize] |= used;
     let shape = |image: ImageIndex| {
         let image = &frame.images[image.0 as usize];
-        (image.format, image.extent)
+        (image.format, image.extent, image.room)
     };
     pass.sampled.iter().for_each(|sampled| add(sampled.image, Usage::SAMPLED));
     pass.storage.iter().for_each(|storage| add(storage.image, Usage::STORAGE));
@@ -161,15 +161,17 @@ fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
     let shape = |(image, range): (ImageIndex, Subresources)| {
         let image = &frame.images[image.0 as usize];
         let part = parts::resolve(image, range);
-        (image.extent.map(|side| (side >> part.base_mip.min(31)).max(1)), part.layers, image.samples)
+        let size = image.extent.map(|side| (side >> part.base_mip.min(31)).max(1));
+        (size, image.room, part.layers, image.samples)
     };
     let mut attached = attachments(pass);
     let first = attached.next()?;
     let other = attached.find(|other| shape(*other) != shape(first))?;
     let words = |part| {
-        let ([width, height, _], layers, samples) = shape(part);
+        let ([width, height, _], room, layers, samples) = shape(part);
+        let room = room.map_or_else(String::new, |[width, height]| format!(" of up to {width}×{height}"));
         let layers = if layers == 1 { String::new() } else { format!(", {layers} layers") };
-        format!("{width}×{height}{layers} with {samples} samples")
+        format!("{width}×{height}{room}{layers} with {samples} samples")
     };
     let (a, b) = (&frame.images[first.0.0 as usize], &frame.images[other.0.0 as usize]);
     Some(
@@ -188,7 +190,7 @@ fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
 
 fn check_support(declared: &Image, used: Usage, supports: &Supports<'_>, errors: &mut Vec<Diagnostic>) {
     let device = supports.device;
-    let [width, height, depth] = declared.extent;
+    let [width, height, depth] = declared.made();
     let largest = largest(declared, device);
     if width.max(height).max(depth) > largest {
         let (size, limit) = match declared.shape {

@@ -132,7 +132,7 @@ impl Structure {
             return false;
         }
         let Structure { grids, adapted, uses, scheduled, same_areas, .. } = self;
-        adapted.stores.iter_mut().for_each(|store| store.resize(frame));
+        adapted.resize(frame);
         if !scope::same_areas(adapted, &scheduled.order, device).eq(same_areas.iter().copied()) {
             return false;
         }

@@ -38,7 +38,7 @@ pub(super) fn find(images: &[Option<Image>], buffers: &[Option<Buffer>], errors:
         along(&all, what, next, errors);
     };
     of_images("sizes", &|image| match image.size.value {
-        Size::Like(of) | Size::Scaled { of: Some(of), .. } => Some(of),
+        Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } => Some(of),
         _ => None,
     });
     of_images("formats", &|image| match image.format.value {

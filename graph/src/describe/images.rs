@@ -5,10 +5,10 @@ use super::known::REPEAT;
 use super::leaf::{Leaf, Shape};
 use super::pipeline::{ImageRef, Name, SettingKind};
 use super::reader::Reader;
-use super::resources::{Format, Image, Layers, Lifetime, Mips, Samples, Shape as ImageShape, Size};
+use super::resources::{Format, Image, Layers, Lifetime, Mips, Samples, Shape as ImageShape};
 use super::scope::{Quoted, Scope, joined};
 use super::values::Decided;
-use super::{Diagnostic, Spanned, lifetimes, parameters, parts, resolves, values, views};
+use super::{Diagnostic, Spanned, lifetimes, parameters, parts, resolves, sizes, values, views};
 use crate::expression::{Value, Wanted};
 use crate::fields;
 use crate::format;
@@ -42,7 +42,7 @@ fields! {
         /// What a texel holds.
         format: Leaf<'src> => Form::Words(&FORMATS),
         /// Width and height.
-        size: Leaf<'src> => Form::Words(&SIZES),
+        size: Leaf<'src> => sizes::SIZE,
         /// Samples a texel; 1 if left out.
         samples: Option<Leaf<'src>> => Form::Words(&SAMPLES),
         /// How several samples become one value where one is wanted; if left out colour is averaged, and depth is as the
@@ -87,25 +87,6 @@ static FORMATS: Words = Words {
         Word::new("Like", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Like(\"image\")"], "That of another image."),
     ],
 };
-
-static SIZES: Words = Words {
-    name: "Size",
-    what: "a size",
-    or: &[],
-    all: &[
-        Word::alone("Output", "The view's; without views the frame's."),
-        Word::new(
-            "Scaled",
-            &[Takes::Values(&[Form::Number]), Takes::Values(&[Form::Number, parts::WHOLE_IMAGE])],
-            &["Scaled(0.5)", "Scaled(0.5, \"image\")"],
-            "The view's or another image's, times a number above 0; rounded down, at least 1.",
-        ),
-        Word::new("Fixed", &[Takes::Values(&[EXTENT, EXTENT])], &["Fixed(640, 480)"], "So many texels wide and high."),
-        Word::new("Like", &[Takes::Values(&[parts::WHOLE_IMAGE])], &["Like(\"image\")"], "That of another image."),
-    ],
-};
-
-pub(super) const EXTENT: Form = Form::Whole(1, LARGEST_SIZE as i64);
 
 static SAMPLES: Words = Words {
     name: "Samples",
@@ -152,7 +133,7 @@ static SHAPES: Words = Words {
     or: &[],
     all: &[
         Word::alone("D2", "Two-dimensional, or an array of such layers."),
-        Word::new("D3", &[Takes::Values(&[EXTENT])], &["D3(64)"], "Three-dimensional, so many texels deep."),
+        Word::new("D3", &[Takes::Values(&[sizes::EXTENT])], &["D3(64)"], "Three-dimensional, so many texels deep."),
         Word::alone("Cube", "Six square layers that may be sampled as a cube, or several times six."),
     ],
 };
@@ -161,7 +142,7 @@ static SHAPES: Words = Words {
 pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &ImageFields<'src>) -> Option<Image> {
     let name = reader.name(fields.name, "an image");
     let format = format(reader, scope, fields.format);
-    let size = size(reader, scope, fields.size);
+    let size = sizes::lower(reader, scope, fields.size);
     let samples = match fields.samples {
         Some(leaf) => samples(reader, scope, leaf, &name).map(|(samples, because)| (leaf.spanned(samples), because)),
         None => name.as_ref().map(|name| (Spanned { value: Samples::Count(1), span: name.span }, None)),
@@ -210,7 +191,12 @@ fn or<'src, T>(
 }
 
 /// `("image")`, what stands behind `Like`.
-fn like<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>, rest: Option<Leaf<'src>>) -> Option<ImageRef> {
+pub(super) fn like<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    rest: Option<Leaf<'src>>,
+) -> Option<ImageRef> {
     let [image]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Like(\"image\")")?;
     scope.image(reader, image)
 }
@@ -247,68 +233,6 @@ fn format<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opt
             format::Format::from_name(vulkan).map(Format::Named)
         }
     }
-}
-
-fn size<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<Size>> {
-    let (word, rest) = reader.one_of(leaf, &SIZES)?;
-    match word {
-        "Output" => reader.bare(word, rest).map(|()| (Size::Output, None)),
-        "Like" => like(reader, scope, leaf, rest).map(|of| (Size::Like(of), None)),
-        "Fixed" => {
-            let [width, height]: [Leaf<'_>; 2] = reader.inside(leaf, rest, "Fixed(width, height)")?;
-            let (width, height) = (extent(reader, scope, width), extent(reader, scope, height));
-            Some((Size::Fixed([width?, height?]), None))
-        }
-        _ => {
-            let both = rest.and_then(Leaf::tuple);
-            let (by, of) = match both {
-                Some([by, of]) => (by, Some(scope.image(reader, of))),
-                None => {
-                    let [by]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Scaled(0.5)` or `Scaled(0.5, \"image\")")?;
-                    (by, None)
-                }
-            };
-            let (by, because) = scale(reader, scope, by)?;
-            match of {
-                Some(of) => Some((Size::Scaled { by, of: Some(of?) }, because)),
-                None => Some((Size::Scaled { by, of: None }, because)),
-            }
-        }
-    }
-}
-
-pub(super) fn extent<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<u32> {
-    if let Shape::Text = leaf.shape() {
-        return values::whole(reader, scope, leaf, "size", 1..=i64::from(LARGEST_SIZE));
-    }
-    let extent = reader.integer(leaf)?;
-    match u32::try_from(extent) {
-        Ok(extent @ 1..=LARGEST_SIZE) => Some(extent),
-        _ => {
-            reader.wrong(leaf, format!("{extent} is no size: 1 to {LARGEST_SIZE} texels are allowed"), "");
-            None
-        }
-    }
-}
-
-pub(super) fn scale<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<f64>> {
-    if let Shape::Text = leaf.shape()
-        && scope.known.settings
-        && let Quoted::Given(parameter, _) = scope.quoted(reader, leaf, SettingKind::is_number, "a number")?
-        && let Some(least) = parameter.least().filter(|least| *least <= 0.0)
-    {
-        let message = format!("a scale is greater than 0, but this setting allows {}", super::shown_number(least));
-        reader.wrong(leaf, message, "let the setting begin above 0");
-        return None;
-    }
-    let (by, because) = values::number_because(reader, scope, leaf)?;
-    if by <= 0.0 {
-        let wrong = format!("a scale is greater than 0, found {}", super::shown_number(by));
-        let because = scope.within_view(because.as_deref().unwrap_or_default());
-        scope.fault(reader, leaf, Diagnostic::new(leaf.span(), wrong).remark(because));
-        return None;
-    }
-    Some((by, because))
 }
 
 fn samples<'src>(

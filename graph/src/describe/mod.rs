@@ -54,6 +54,7 @@ mod resources;
 mod scope;
 mod scope_names;
 mod settings;
+mod sizes;
 mod suggest;
 mod surroundings;
 mod syntax;

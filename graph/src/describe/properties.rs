@@ -15,10 +15,12 @@ pub(super) fn of(image: &Image, known: &[Option<Properties>], frame: [u32; 2]) -
         Size::Output => Some(frame),
         Size::Fixed(extent) => Some(*extent),
         Size::Like(of) => followed(of).extent,
-        Size::Scaled { by, of } => match of.as_ref().map_or(Some(frame), |of| followed(of).extent) {
-            Some(base) => Some(scaled(image, base, *by)?),
-            None => None,
-        },
+        Size::Scaled { by, of } | Size::Dynamic { by, of, .. } => {
+            match of.as_ref().map_or(Some(frame), |of| followed(of).extent) {
+                Some(base) => Some(scaled(image, base, *by)?),
+                None => None,
+            }
+        }
     };
     let samples = match &image.samples.value {
         Samples::Count(count) => Some(*count),

@@ -103,6 +103,15 @@ pub enum Size {
         /// Of which image; `None`: of the view.
         of: Option<ImageRef>,
     },
+    /// As `Scaled`, in an image that has room for a factor as large as `up_to`: the factor may be another one in each frame.
+    Dynamic {
+        /// The factor, at most `up_to`.
+        by: f64,
+        /// The greatest factor.
+        up_to: f64,
+        /// Of which image; `None`: of the view.
+        of: Option<ImageRef>,
+    },
     /// So many texels, 1 to 16384 each.
     Fixed([u32; 2]),
     /// That of another image.

@@ -11,7 +11,7 @@ use super::pipeline::{Name, Setting};
 use super::reader::Reader;
 use super::scope::{Given, Scope};
 use super::surroundings::Surroundings;
-use super::{Diagnostic, LARGEST_SIZE, Label, body, images, properties, shown_number, values};
+use super::{Diagnostic, LARGEST_SIZE, Label, body, properties, shown_number, sizes, values};
 use crate::change::{Action, Change};
 use crate::fields;
 use crate::jitter::{self, Jitter};
@@ -70,12 +70,7 @@ static SIZES: Words = Words {
             &["Scaled(0.5)"],
             "The frame's, times a number above 0; rounded down, at least 1.",
         ),
-        Word::new(
-            "Fixed",
-            &[Takes::Values(&[images::EXTENT, images::EXTENT])],
-            &["Fixed(640, 360)"],
-            "So many pixels.",
-        ),
+        Word::new("Fixed", &[Takes::Values(&[sizes::EXTENT, sizes::EXTENT])], &["Fixed(640, 360)"], "So many pixels."),
     ],
 };
 
@@ -281,12 +276,12 @@ fn size(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<[u32; 
         "Output" => reader.bare(word, rest).map(|()| frame),
         "Fixed" => {
             let [width, height]: [Leaf<'_>; 2] = reader.inside(leaf, rest, "Fixed(width, height)")?;
-            let (width, height) = (images::extent(reader, scope, width), images::extent(reader, scope, height));
+            let (width, height) = (sizes::extent(reader, scope, width), sizes::extent(reader, scope, height));
             Some([width?, height?])
         }
         _ => {
             let [by]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Scaled(0.5)")?;
-            let (factor, because) = images::scale(reader, scope, by)?;
+            let (factor, because) = sizes::scale(reader, scope, by)?;
             match properties::times(frame, factor) {
                 Ok(extent) => Some(extent),
                 // No frame is known yet, or none of this.

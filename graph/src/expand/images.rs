@@ -25,13 +25,13 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
         },
         format,
     );
-    let extents = follow(
+    let areas = follow(
         images,
         |image| match image.size.value {
-            Size::Like(of) | Size::Scaled { of: Some(of), .. } => Some(of),
+            Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } => Some(of),
             _ => None,
         },
-        |image, followed| extent(image, chosen.extent(image.view), followed, errors),
+        |image, followed| area(image, chosen.extent(image.view), followed, errors),
     );
     let samples = follow(
         images,
@@ -62,11 +62,11 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
         },
     );
     let policy = chosen.pipeline.depth.as_ref();
-    let all = images.iter().zip(formats).zip(extents).zip(samples).zip(layers).zip(mips);
-    all.map(|(((((described, format), extent), samples), layers), mips)| {
-        let ([width, height], (samples, samples_because)) = (extent?, samples?);
-        let image =
-            Image { span: described.name.span, samples, ..Image::new(&described.name.text, format?, width, height) };
+    let all = images.iter().zip(formats).zip(areas).zip(samples).zip(layers).zip(mips);
+    all.map(|(((((described, format), area), samples), layers), mips)| {
+        let (Area { extent: [width, height], room }, (samples, samples_because)) = (area?, samples?);
+        let plain = Image::new(&described.name.text, format?, width, height);
+        let image = Image { span: described.name.span, samples, room, ..plain };
         let image = Image { resolve: asked(described, &image, policy, errors)?, ..image };
         let image = shapes::shaped(described, image, layers?, mips?, errors)?;
         Some(Resolved { image, samples_because })
@@ -142,20 +142,30 @@ fn asked(
     Some(Some(frame::Resolve { way, because: said.clone() }))
 }
 
-fn extent(
-    image: &describe::Image,
-    view: [u32; 2],
-    followed: Option<[u32; 2]>,
-    errors: &mut Vec<Diagnostic>,
-) -> Option<[u32; 2]> {
-    let (by, of) = match image.size.value {
-        Size::Output => return Some(view),
-        Size::Fixed(extent) => return Some(extent),
+/// Width and height of an image, and those of what it has room for if they may change.
+#[derive(Clone, Copy)]
+struct Area {
+    extent: [u32; 2],
+    room: Option<[u32; 2]>,
+}
+
+fn area(image: &describe::Image, view: [u32; 2], followed: Option<Area>, errors: &mut Vec<Diagnostic>) -> Option<Area> {
+    let whole = |extent| Some(Area { extent, room: None });
+    let (by, up_to, of) = match image.size.value {
+        Size::Output => return whole(view),
+        Size::Fixed(extent) => return whole(extent),
         Size::Like(_) => return followed,
-        Size::Scaled { by, of } => (by, of),
+        Size::Scaled { by, of } => (by, None, of),
+        Size::Dynamic { by, up_to, of } => (by, Some(up_to), of),
     };
-    let base = if of.is_some() { followed? } else { view };
-    describe::scaled(image, base, by).map_err(|wrong| errors.push(wrong)).ok()
+    let base = if of.is_some() { followed? } else { whole(view)? };
+    let mut scaled = |base, by| describe::scaled(image, base, by).map_err(|wrong| errors.push(wrong)).ok();
+    // What follows an image whose size changes has room for the greatest, too.
+    let room = match (base.room, up_to) {
+        (None, None) => None,
+        _ => Some(scaled(base.room.unwrap_or(base.extent), up_to.unwrap_or(by))?),
+    };
+    Some(Area { extent: scaled(base.extent, by)?, room })
 }
 
 fn samples(image: &describe::Image, followed: Option<(u32, Option<Arc<str>>)>) -> Option<(u32, Option<Arc<str>>)> {

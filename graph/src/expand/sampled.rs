@@ -7,8 +7,8 @@ use super::things::Things;
 use super::{Chosen, storage};
 use crate::describe::{self, Diagnostic, Face, nearest, suggestion};
 use crate::frame::{self, Pass, Sampled, Shape};
-use crate::interface::{BindingKind, Component, Dimension, ImageShape, PASS_SET, ShaderInterface};
-use crate::vocabulary::{Aspects, Filter, Sampler, Subresources};
+use crate::interface::{BindingKind, Component, Dimension, ImageShape, MOST_PARTS, PASS_SET, ShaderInterface};
+use crate::vocabulary::{AddressMode, Aspects, Filter, Sampler, Subresources};
 
 /// A sampled image as its shader declares it.
 #[derive(Clone, Copy)]
@@ -139,8 +139,10 @@ pub(super) fn check<'i>(
             check.filters(errors);
             check.address(errors);
             check.own_pixel(things, lowered, sampled.own_pixel, errors);
+            check.part(interface, sampled.own_pixel, errors);
         }
     }
+    too_many_parts(things, pass, errors);
     misspelt
 }
 
@@ -278,6 +280,29 @@ impl Check<'_> {
         errors.push(Diagnostic::new(address.span, message).help("leave `address` out"));
     }
 
+    /// Of what is used in part the shader must know which.
+    fn part(&self, interface: &ShaderInterface, own_pixel: bool, errors: &mut Vec<Diagnostic>) {
+        let (name, image) = (&self.sample.binding.text, &self.image.image);
+        if image.room.is_none() || own_pixel {
+            return;
+        }
+        let declared = self.chosen.image(self.sample.part.image.index).size.span;
+        if !interface.asks_part.iter().any(|asked| **asked == **name) {
+            let message = format!(
+                "shader `{}` samples `{name}` and doesn't ask which part of `{}` is in use",
+                self.shader, image.name
+            );
+            let wrong = Diagnostic::new(self.sample.part.image.span, message).label(declared, "its size may change");
+            let help = format!("include `include/part.glsl` and look it up by `uv_adjust(uv, {name}_st)`");
+            errors.push(wrong.help(help));
+        }
+        if let Some(address) = self.sample.address.filter(|address| address.value != AddressMode::ClampToEdge) {
+            let message = format!("`{}` is used in part, and beyond that it holds nothing", image.name);
+            let wrong = Diagnostic::new(address.span, message).label(declared, "its size may change");
+            errors.push(wrong.help("`Clamp` ends at the part's edges"));
+        }
+    }
+
     /// A fragment can read its own texel only of an image that lies under the pass's targets.
     fn own_pixel(&self, things: &Things, lowered: &Pass, own_pixel: bool, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
@@ -304,7 +329,7 @@ impl Check<'_> {
         };
         let (own, drawn) =
             (extent(image, self.cells.mips.start), extent(target, parts::cells(target, &range).mips.start));
-        if own != drawn || self.cells.mips.len() > 1 || self.cells.layers.len() > 1 {
+        if (own, image.room) != (drawn, target.room) || self.cells.mips.len() > 1 || self.cells.layers.len() > 1 {
             let message = format!(
                 "`{}` can't be read at the fragment's own position: it isn't the size of what pass `{}` draws into",
                 image.name, self.pass.name.text
@@ -315,6 +340,17 @@ impl Check<'_> {
             let targets = format!("`{}` is {}", target.name, words(drawn));
             errors.push(Diagnostic::new(span, message).remark(more).help(targets));
         }
+    }
+}
+
+/// A shader can be told of some parts only.
+fn too_many_parts(things: &Things, pass: &describe::Pass, errors: &mut Vec<Diagnostic>) {
+    let in_part = |sample: &&describe::Sample| {
+        things.image(sample.part.image.index).is_some_and(|image| image.image.room.is_some())
+    };
+    if let Some(surplus) = pass.sample.iter().filter(in_part).nth(MOST_PARTS) {
+        let message = format!("pass `{}` samples more than {MOST_PARTS} images that are used in part", pass.name.text);
+        errors.push(Diagnostic::new(surplus.part.image.span, message).help("give some of them a fixed size"));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Shape, layers and mip levels of an image, and what can't go together.
 
-use crate::describe::{self, Diagnostic, ImageShape as Described, Layers};
+use crate::describe::{self, Diagnostic, ImageShape as Described, Layers, Lifetime};
 use crate::frame::{Image, Shape};
 
 /// How many mip levels are asked for.
@@ -74,6 +74,18 @@ pub(super) fn shaped(
     if image.shape == Shape::D3 && image.format.is_depth() {
         let message = format!("`{name}` is three-dimensional and can't hold depth ({})", image.format);
         errors.push(Diagnostic::new(described.format.span, message).label(described.shape.span, "its shape"));
+    }
+    if image.room.is_some() {
+        let alone = [
+            (image.shape != Shape::D2, described.shape.span, "its shape"),
+            (image.mips > 1, described.mips.span, "its mip levels"),
+            (!matches!(described.lifetime.value, Lifetime::Transient), described.lifetime.span, "its lifetime"),
+        ];
+        if let Some((_, span, remark)) = alone.into_iter().find(|(wrong, ..)| *wrong) {
+            let message =
+                format!("`{name}` changes its size, so it is transient, two-dimensional and has one mip level");
+            errors.push(Diagnostic::new(described.size.span, message).label(span, remark));
+        }
     }
     if image.samples > 1 {
         let samples = image.samples;

@@ -17,8 +17,13 @@ pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) ->
         Some((sample.binding.text.clone(), texture(image, &parts::cells(image, &range), sample.face)))
     };
     let sampled = pass.sample.iter().map(|sample| sample.binding.text.clone()).collect();
+    let in_part = |sample: &&describe::Sample| {
+        things.image(sample.part.image.index).is_some_and(|image| image.image.room.is_some())
+    };
+    let parts = pass.sample.iter().filter(in_part).map(|sample| sample.binding.text.clone()).collect();
     let textures = pass.sample.iter().filter_map(texture).collect();
-    Variant { textures, sampled, alpha_to_coverage: covers_samples(things, pass), ..Variant::default() }
+    Variant { textures, sampled, parts, alpha_to_coverage: covers_samples(things, pass), ..Variant::default() }
+}
 }
 
 /// Whether the alpha that a pass draws says how many samples are covered: its targets have several.

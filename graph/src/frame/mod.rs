@@ -15,6 +15,7 @@ mod touch;
 
 pub use output::Output;
 pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Work};
+pub(crate) use resource::with_room;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, Shape};
 pub use touch::{
     Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,

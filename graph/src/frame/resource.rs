@@ -18,8 +18,12 @@ pub struct Image {
     pub format: Format,
     /// Flat, deep, or a cube.
     pub shape: Shape,
-    /// Width, height, depth in texels, each at least 1.
+    /// Width, height, depth in texels, each at least 1: of the part in use, if it has room for more.
     pub extent: [u32; 3],
+    /// Width and height that it is made with if `extent` may change from frame to frame, both at least as much as that: the
+    /// part in use begins in the upper left corner. `None`: it is made as large as `extent`. Flat, transient images of one
+    /// mip level may have room.
+    pub room: Option<[u32; 2]>,
     /// Mip levels, at least 1.
     pub mips: u32,
     /// Array layers, at least 1; of a cube 6 for each.
@@ -55,6 +59,7 @@ impl Image {
             format,
             shape: Shape::D2,
             extent: [width, height, 1],
+            room: None,
             mips: 1,
             layers: 1,
             samples: 1,
@@ -63,6 +68,17 @@ impl Image {
             lifetime: Lifetime::Transient,
         }
     }
+
+    /// Width, height and depth that it is made with.
+    #[must_use]
+    pub fn made(&self) -> [u32; 3] {
+        with_room(self.extent, self.room)
+    }
+}
+
+/// Width, height and depth of an image of which a part is in use.
+pub(crate) fn with_room(part: [u32; 3], room: Option<[u32; 2]>) -> [u32; 3] {
+    room.map_or(part, |[width, height]| [width, height, part[2]])
 }
 
 /// How several samples of an image become one value.

@@ -44,8 +44,10 @@ pub(crate) mod names;
 mod note;
 mod outline;
 mod output;
+mod part;
 mod totals;
 mod tree;
+mod values;
 mod work;
 
 pub use json::PlanError;
@@ -183,8 +185,11 @@ pub struct Image {
     pub chosen: Option<ChosenFormat>,
     /// Flat, deep, or a cube.
     pub shape: Shape,
-    /// Width, height, depth in texels.
+    /// Width, height, depth in texels: of the part in use, if it has room for more.
     pub extent: [u32; 3],
+    /// Width and height that it is made with, where `extent` is only the part that this frame uses, from the upper left
+    /// corner on; `None`: `extent`. Shaders find the part by what they know as `NAME_st`.
+    pub room: Option<[u32; 2]>,
     /// Mip levels.
     pub mips: u32,
     /// Array layers.

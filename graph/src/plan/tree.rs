@@ -390,7 +390,8 @@ fn fill_value(value: &FillValue) -> String {
 }
 
 fn image(plan: &Plan, image: &Image) -> Node {
-    let mut text = format!("`{}` {} {}", Shown(&image.name), image.format, size(image.extent));
+    let room = image.room.map_or_else(String::new, |[width, height]| format!(" of {width}×{height}"));
+    let mut text = format!("`{}` {} {}{room}", Shown(&image.name), image.format, size(image.extent));
     for (count, word) in [(image.mips, "mips"), (image.layers, "layers")] {
         if count > 1 {
             text += &format!(", {count} {word}");

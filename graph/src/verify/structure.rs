@@ -79,6 +79,14 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
     if !fits || image.shape == Shape::Cube && image.samples > 1 {
         wrong("has a size, layers or samples that its shape can't have");
     }
+    if let Some([width, height]) = image.room {
+        if width < image.extent[0] || height < image.extent[1] {
+            wrong("uses more than it has room for");
+        }
+        if image.shape != Shape::D2 || image.mips > 1 || matches!(image.role, Role::Persistent { .. }) {
+            wrong("changes its size and is deep, a cube, persistent or has several mip levels");
+        }
+    }
     if Usage::from_bits(image.usage.bits()).is_none() {
         wrong("has a usage that is not known");
     }

@@ -6,7 +6,7 @@ use crate::compile::model::{OpKind, StoreIndex, Use};
 use crate::compile::parts::outlives;
 use crate::describe::Diagnostic;
 use crate::device::ImageDescriptor;
-use crate::frame::{Frame, ImageIndex, Pass, Resource, Work};
+use crate::frame::{Frame, Image, ImageIndex, Pass, Resource, Work};
 use crate::vocabulary::Filter;
 
 /// For each image of the frame the last pass that stays and touches it, and the last that writes it.
@@ -64,8 +64,9 @@ impl Adapter<'_> {
         if moved && !outlives(&target_image.lifetime) {
             wanted = count;
         }
-        let alike =
-            (source_image.format, source_image.extent) == (target_image.format, target_image.extent) && count == wanted;
+        let size = |image: &Image| (image.extent, image.room);
+        let alike = (source_image.format, size(source_image)) == (target_image.format, size(target_image));
+        let alike = alike && count == wanted;
         let resolves = count > 1 && !alike;
         let why = format!(
             "`{}` is off ({because}) and forwards `{}` to `{}`",
@@ -82,7 +83,8 @@ impl Adapter<'_> {
         };
         let same = self.adapted.stores[source as usize].image().is_some_and(|held| {
             let ImageDescriptor { format, shape, extent, mips, layers, samples, .. } = *held;
-            (format, shape, extent) == (target_image.format, target_image.shape, target_image.extent)
+            let size = (extent, self.adapted.room(source));
+            (format, shape, size) == (target_image.format, target_image.shape, (target_image.extent, target_image.room))
                 && (mips, layers, samples) == (target_image.mips, target_image.layers, wanted)
         });
         if same && self.may_share(number, source, from, to) {
@@ -123,10 +125,10 @@ impl Adapter<'_> {
             self.errors.push(Diagnostic::new(pass.span, message).help("give both the same format, size and samples"));
             return;
         }
-        let filtered = held.extent != target_image.extent
-            && self.input.device.format(held.format).is_some_and(|support| support.linear_filter);
+        let same_size = (held.extent, self.adapted.room(source)) == (target_image.extent, target_image.room);
+        let filtered = !same_size && self.input.device.format(held.format).is_some_and(|support| support.linear_filter);
         let filter = if filtered { Filter::Linear } else { Filter::Nearest };
-        let differ = match (held.format == target_image.format, held.extent == target_image.extent) {
+        let differ = match (held.format == target_image.format, same_size) {
             (false, true) => format!("formats differ ({} and {})", held.format, target_image.format),
             (true, false) => "sizes differ".to_owned(),
             (false, false) => "formats and sizes differ".to_owned(),

@@ -73,13 +73,14 @@ fn view(old: &View, new: &View) -> Difference {
 }
 
 fn image(old: &Image, new: &Image) -> Difference {
-    let Image { name, span, format, shape, extent, mips, layers, samples, resolve, chosen, lifetime } = new;
+    let Image { name, span, format, shape, extent, room, mips, layers, samples, resolve, chosen, lifetime } = new;
     let same = same_name(&old.name, name)
         && old.span == *span
         && (&old.resolve, &old.chosen) == (resolve, chosen)
         && (old.format, old.shape, old.mips, old.layers, old.samples) == (*format, *shape, *mips, *layers, *samples)
+        && old.room.is_some() == room.is_some()
         && same_lifetime(&old.lifetime, lifetime);
-    if same { unless(old.extent == *extent, Sizes) } else { Structure }
+    if same { unless((old.extent, old.room) == (*extent, *room), Sizes) } else { Structure }
 }
 
 fn buffer(old: &Buffer, new: &Buffer) -> Difference {
@@ -211,7 +212,8 @@ pub(super) fn forwards(frame: &Frame) -> bool {
 
 /// Whether images that had one size have one size again, and others have others.
 pub(super) fn keeps_proportions(old: &Frame, new: &Frame) -> bool {
-    let mut sizes: Vec<_> = old.images.iter().zip(&new.images).map(|(old, new)| (old.extent, new.extent)).collect();
+    let mut sizes: Vec<_> =
+        old.images.iter().zip(&new.images).map(|(old, new)| ((old.extent, old.room), (new.extent, new.room))).collect();
     sizes.sort_unstable();
     sizes.dedup();
     let mut after: Vec<_> = sizes.iter().map(|(_, new)| *new).collect();

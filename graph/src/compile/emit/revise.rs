@@ -54,11 +54,11 @@ pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
     values(parts, plan);
     plan.views = views(parts);
     let Plan { images, buffers, .. } = plan;
-    for (store, placement) in parts.adapted.stores.iter().zip(&parts.placed.placements) {
+    for ((store, placement), index) in parts.adapted.stores.iter().zip(&parts.placed.placements).zip(0..) {
         let role = match &store.kind {
             Kind::Image(image) => {
                 let planned = &mut images[store.id as usize];
-                planned.extent = image.extent;
+                (planned.extent, planned.room) = (image.extent, parts.adapted.room(index));
                 &mut planned.role
             }
             Kind::Buffer(buffer) => {

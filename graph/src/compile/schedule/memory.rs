@@ -2,6 +2,7 @@
 
 use super::runs::Runs;
 use crate::compile::model::{Adapted, Kind, StoreIndex};
+use crate::frame::with_room;
 
 /// Bytes of what lives in shared memory, as its texels say: alignments and padding are the device's, and not known here.
 #[derive(Debug)]
@@ -34,11 +35,12 @@ impl Lifetimes {
 
 impl Memory {
     pub(super) fn of(adapted: &Adapted) -> Memory {
-        let bytes = adapted.stores.iter().map(|store| match &store.kind {
+        let bytes = adapted.stores.iter().zip(0..).map(|(store, index)| match &store.kind {
             _ if !store.is_transient() => 0,
             Kind::Buffer(buffer) => buffer.bytes,
             Kind::Image(image) => {
-                let sides = image.extent.iter().map(|side| u64::from(*side));
+                let made = with_room(image.extent, adapted.room(index));
+                let sides = made.iter().map(|side| u64::from(*side));
                 let texels = sides.fold(u64::from(image.layers), u64::saturating_mul);
                 // Each mip level takes a quarter of the one before it: a third together.
                 let texels = if image.mips > 1 { texels.saturating_add(texels / 3) } else { texels };

@@ -121,11 +121,14 @@ impl Scope {
     }
 }
 
-/// Width, height and depth, layers and samples of an attachment.
-fn area(adapted: &Adapted, target: Target) -> Option<([u32; 3], u32, u32)> {
+/// What attachments of one scope have in common: width, height and depth, room for more of them, layers and samples.
+type Area = ([u32; 3], Option<[u32; 2]>, u32, u32);
+
+fn area(adapted: &Adapted, target: Target) -> Option<Area> {
     let image = adapted.stores[target.store as usize].image()?;
     let mip = target.range.base_mip.min(31);
-    Some((image.extent.map(|side| (side >> mip).max(1)), target.range.layers, image.samples))
+    let size = image.extent.map(|side| (side >> mip).max(1));
+    Some((size, adapted.room(target.store), target.range.layers, image.samples))
 }
 
 /// For each draw that may meet the scope of a draw before it, in the given order, whether they have the same area: all that

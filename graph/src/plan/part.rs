@@ -1,0 +1,28 @@
+//! Which part of an image a frame uses.
+
+use super::{BindingKind, Image, Pass, Plan};
+use std::sync::Arc;
+
+impl Image {
+    /// Where the part in use lies among all of the image: its width and height as shares, and where it begins. That of a place
+    /// in the part, 0 to 1 from its upper left corner, is `place * [0..2] + [2..4]` in the image.
+    #[must_use]
+    pub fn part(&self) -> [f32; 4] {
+        #[allow(clippy::cast_possible_truncation, reason = "shaders calculate with as many bits")]
+        let share = |used: u32, all: u32| (f64::from(used) / f64::from(all)) as f32;
+        let [width, height] = self.room.unwrap_or([self.extent[0], self.extent[1]]);
+        [share(self.extent[0], width), share(self.extent[1], height), 0.0, 0.0]
+    }
+}
+
+impl Plan {
+    /// What the pass samples that may be used in part: the shader's names, in the order in which push constants hold it, and
+    /// [`Image::part`] of each.
+    pub fn parts<'p>(&'p self, pass: &'p Pass) -> impl Iterator<Item = (&'p Arc<str>, [f32; 4])> {
+        pass.accesses.iter().filter_map(|access| {
+            let binding = access.binding.as_ref().filter(|it| matches!(it.kind, BindingKind::Sampled(_)))?;
+            let image = self.image(access.image);
+            image.room.map(|_| (&binding.name, image.part()))
+        })
+    }
+}
