@@ -15,6 +15,7 @@ pub(crate) const PIPELINES: Shipped = carried!(
     "auto_exposure.ron",
     "deferred.ron",
     "deferred_mobile.ron",
+    "dynamic_resolution.ron",
     "forward.ron",
     "forward_overlay.ron",
     "image_quality.ron",

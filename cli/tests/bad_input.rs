@@ -24,7 +24,8 @@ fn check(contents: impl AsRef<[u8]>) -> support::Outcome {
 fn a_missing_pipeline_is_said_with_the_names_of_shipped_ones() {
     Place::new().run(&["check", "nowhere.ron"]).exits(1).says(
         "error: there is no pipeline `nowhere.ron`, and none of that name is shipped (shipped: auto_exposure, deferred, \
-         deferred_mobile, forward, forward_overlay, image_quality, post, shadows, snow, soft_focus, temporal)",
+         deferred_mobile, dynamic_resolution, forward, forward_overlay, image_quality, post, shadows, snow, soft_focus, \
+         temporal)",
     );
     // A shipped name in a folder is a path, and nothing else.
     Place::new().run(&["check", "here/forward.ron"]).exits(1).mentions("there is no pipeline `here/forward.ron`");

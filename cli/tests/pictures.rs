@@ -14,6 +14,7 @@ const PIPELINES: [&str; 11] = [
     "auto_exposure",
     "deferred",
     "deferred_mobile",
+    "dynamic_resolution",
     "forward",
     "forward_overlay",
     "image_quality",

@@ -35,6 +35,14 @@ pub(super) fn extent(image: &Image, mip: u32) -> [u32; 3] {
     image.extent.map(|extent| extent.checked_shr(mip).unwrap_or(0).max(1))
 }
 
+/// How large an image is, or a mip level of it, in words: "640×360", "640×360 of up to 1280×720".
+pub(super) fn size_words([width, height]: [u32; 2], image: &Image) -> String {
+    match image.room {
+        Some([wide, high]) => format!("{width}×{height} of up to {wide}×{high}"),
+        None => format!("{width}×{height}"),
+    }
+}
+
 /// The part that a pass names; all of the image if it names no more than the image, or after a mistake was reported.
 pub(super) fn range(
     chosen: &Chosen<'_>,

@@ -334,10 +334,10 @@ impl Check<'_> {
                 "`{}` can't be read at the fragment's own position: it isn't the size of what pass `{}` draws into",
                 image.name, self.pass.name.text
             );
-            let words = |[width, height]: [u32; 2]| format!("{width}×{height}");
+            let words = |size, image| parts::size_words(size, image);
             let levels = self.cells.mips.len();
-            let more = if levels > 1 { format!("{}, {levels} mip levels", words(own)) } else { words(own) };
-            let targets = format!("`{}` is {}", target.name, words(drawn));
+            let more = words(own, image) + &if levels > 1 { format!(", {levels} mip levels") } else { String::new() };
+            let targets = format!("`{}` is {}", target.name, words(drawn, target));
             errors.push(Diagnostic::new(span, message).remark(more).help(targets));
         }
     }

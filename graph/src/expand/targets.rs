@@ -5,7 +5,7 @@ use super::shader::component_words;
 use super::things::Things;
 use super::{Chosen, parts, transfers};
 use crate::describe::{self, Diagnostic, ImagePart, ImageRef};
-use crate::frame::{Blend, Image, Shape};
+use crate::frame::{Blend, Shape};
 use crate::interface::{Component, ShaderInterface};
 use crate::vocabulary::Aspects;
 
@@ -120,17 +120,13 @@ fn agree(pass: &describe::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
         let (one, another) = (&first.image.image, &other.image.image);
         let span = other.part.image.span;
         if (first.extent, one.room) != (other.extent, another.room) {
-            let size = |[width, height]: [u32; 2], image: &Image| match image.room {
-                Some([wide, high]) => format!("{width}×{height} of up to {wide}×{high}"),
-                None => format!("{width}×{height}"),
-            };
             let message = format!(
                 "pass `{}` draws into images of different sizes: `{}` and `{}`",
                 pass.name.text, one.name, another.name
             );
             let wrong = Diagnostic::new(span, message)
-                .remark(size(other.extent, another))
-                .label(first.part.image.span, size(first.extent, one));
+                .remark(parts::size_words(other.extent, another))
+                .label(first.part.image.span, parts::size_words(first.extent, one));
             let whole = (one.extent, one.room) != (another.extent, another.room);
             let help = format!("let one follow the other: `size: Like(\"{}\")`", one.name);
             errors.push(if whole { wrong.help(help) } else { wrong.help("draw into the same mip level of both") });

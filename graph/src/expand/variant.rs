@@ -24,7 +24,6 @@ pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) ->
     let textures = pass.sample.iter().filter_map(texture).collect();
     Variant { textures, sampled, parts, alpha_to_coverage: covers_samples(things, pass), ..Variant::default() }
 }
-}
 
 /// Whether the alpha that a pass draws says how many samples are covered: its targets have several.
 fn covers_samples(things: &Things, pass: &describe::Pass) -> bool {

@@ -52,6 +52,7 @@ pub(crate) fn output(id: u32, name: &str, format: Format, usage: Usage) -> Image
         chosen: None,
         shape: Shape::D2,
         extent: SIZE,
+        room: None,
         mips: 1,
         layers: 1,
         samples: 1,

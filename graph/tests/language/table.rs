@@ -50,7 +50,14 @@ fn outputs(count: u32, component: Component, components: u32) -> Vec<FragmentOut
 
 /// A full-screen shader with one colour output.
 fn full_screen(bindings: Vec<Binding>) -> ShaderInterface {
-    ShaderInterface { bindings, outputs: outputs(1, Component::Float, 4), ..ShaderInterface::default() }
+    let asks_part = sampled(&bindings);
+    ShaderInterface { bindings, outputs: outputs(1, Component::Float, 4), asks_part, ..ShaderInterface::default() }
+}
+
+/// What of these is sampled.
+fn sampled(bindings: &[Binding]) -> Vec<String> {
+    let sampled = bindings.iter().filter(|it| matches!(it.kind, BindingKind::SampledImage(_)));
+    sampled.map(|it| it.name.clone()).collect()
 }
 
 fn lit(discards: bool) -> ShaderInterface {
@@ -99,8 +106,10 @@ fn shaped(name: &str, dimension: Dimension, arrayed: bool) -> Binding {
 
 /// A compute shader with workgroups of this size.
 fn compute(size: [u32; 3], bindings: Vec<Binding>) -> ShaderInterface {
-    let bindings = bindings.into_iter().map(|binding| of_stage(binding, Stages::COMPUTE_SHADER)).collect();
-    ShaderInterface { bindings, workgroup_size: Some(size), ..ShaderInterface::default() }
+    let bindings: Vec<Binding> =
+        bindings.into_iter().map(|binding| of_stage(binding, Stages::COMPUTE_SHADER)).collect();
+    let asks_part = sampled(&bindings);
+    ShaderInterface { bindings, workgroup_size: Some(size), asks_part, ..ShaderInterface::default() }
 }
 
 fn uniform_block(name: &str, bytes: u32) -> Binding {
@@ -215,6 +224,7 @@ impl ShaderInterfaces for Table {
             "scale_area" | "scale_catmull_rom" => {
                 full_screen(vec![source(), params(&[("target_width", "int"), ("target_height", "int")])])
             }
+            "fxaa" => full_screen(vec![source(), params(&[("subpixel", "float")])]),
             "depth_stripes" => full_screen(vec![adapting("depth", variant), params(&[("period", "float")])]),
             "depth_stripes_copy" => {
                 full_screen(vec![source(), adapting("depth", variant), params(&[("period", "float")])])
@@ -304,6 +314,7 @@ impl ShaderInterfaces for Table {
                 texture("soft", 1, false, float),
                 params(&[("strength", "float")]),
             ]),
+            "deaf" => ShaderInterface { asks_part: Vec::new(), ..full_screen(vec![source()]) },
             "any_texture" => full_screen(vec![adapting("source", variant)]),
             "custom_resolve" => full_screen(vec![texture("source", 0, true, float)]),
             "count" => full_screen(vec![texture("source", 0, false, Component::Uint)]),

@@ -3,7 +3,7 @@
 use crate::table::{INPUTS, right, set};
 use framewright_graph::expand::{Facts, Inputs};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Face, ImageIndex, ParamValue, Resource, Work};
+use framewright_graph::frame::{Blend, Face, Image, ImageIndex, ParamValue, Resource, Work};
 use framewright_graph::vocabulary::{CompareOp, Filter};
 
 /// A pipeline that shows one full-screen draw, with more settings, images and passes before it.
@@ -38,6 +38,33 @@ fn sizes_follow_the_frame_or_an_image_and_are_rounded_down_to_at_least_one() {
     assert_eq!(extent("Fixed(640, 480)"), [640, 480]);
     assert_eq!(extent("Like(\"base\")"), [10, 7]);
     assert_eq!(extent("Scaled(0.5, \"base\")"), [5, 3]);
+}
+
+#[test]
+fn sizes_that_change_are_a_part_of_what_there_is_room_for_and_so_are_those_that_follow_them() {
+    let images = r#"(name: "a", format: Depth, size: Dynamic(by: "scale", up_to: 1.5)),
+                    (name: "b", format: Depth, size: Like("a")),
+                    (name: "c", format: Depth, size: Scaled(0.5, "b")),
+                    (name: "d", format: Depth, size: Dynamic(by: 0.5, up_to: 1, of: "c")),
+                    (name: "e", format: Depth, size: Dynamic(by: 0.25, up_to: 0.5, of: "fixed")),
+                    (name: "f", format: Depth, size: Fixed("width(c)", "height(d)")),
+                    (name: "fixed", format: Depth, size: Fixed(100, 9))"#;
+    let settings = r#"(name: "scale", value: Number(default: 1.0, min: 0.25, max: 1.5))"#;
+    let sizes = |scale: &str| {
+        let chosen = set(&[("scale", scale)]);
+        let inputs = Inputs { output_extent: [1000, 30], set: &chosen, ..INPUTS };
+        let frame = right(&pipeline(settings, images, ""), &inputs);
+        let size = |image: &Image| ([image.extent[0], image.extent[1]], image.room);
+        frame.images[1..7].iter().map(size).collect::<Vec<_>>()
+    };
+    let rooms = [Some([1500, 45]), Some([1500, 45]), Some([750, 22]), Some([750, 22]), Some([50, 4]), None];
+    for (scale, extents) in [
+        ("1", [[1000, 30], [1000, 30], [500, 15], [250, 7], [25, 2], [500, 7]]),
+        ("1.5", [[1500, 45], [1500, 45], [750, 22], [375, 11], [25, 2], [750, 11]]),
+        ("0.29", [[290, 8], [290, 8], [145, 4], [72, 2], [25, 2], [145, 2]]),
+    ] {
+        assert_eq!(sizes(scale), extents.into_iter().zip(rooms).collect::<Vec<_>>(), "{scale}");
+    }
 }
 
 #[test]
