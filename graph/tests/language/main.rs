@@ -6,6 +6,7 @@
 mod bad;
 mod bombs;
 mod choices;
+mod dynamic_sizes;
 mod encodings;
 mod extend;
 mod fragments;

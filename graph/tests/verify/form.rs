@@ -50,6 +50,12 @@ fn every_mistake_of_form_is_said() {
         (|plan| plan.views.push(shifted([f64::NAN, 0.0])), "view `main` is shifted by no texel, never"),
         (|plan| plan.images[1].name = "color".into(), "`color`: has the name of another image"),
         (|plan| plan.images[0].extent[0] = 0, "`color`: is empty"),
+        (|plan| plan.images[2].room = Some([1, 4096]), "`color.resolved`: uses more than it has room for"),
+        (|plan| plan.images[2].room = Some([4096, 1]), "`color.resolved`: uses more than it has room for"),
+        (
+            |plan| (plan.images[2].room, plan.images[2].mips) = (Some([4096, 4096]), 2),
+            "`color.resolved`: changes its size and is deep, a cube, persistent or has several mip levels",
+        ),
         (|plan| plan.images[3].mips = 20, "`screen`: has more mip levels than its size allows"),
         (|plan| plan.images[0].samples = 3, "`color`: has a sample count that is not"),
         (|plan| plan.images[2].usage = Usage::SAMPLED, "is used as COLOR_ATTACHMENT, which its usage leaves out"),
