@@ -220,9 +220,9 @@ pub(crate) struct Planning {
     /// Order of execution: the file's, the one that scores best, one that keeps little memory alive, or any.
     #[arg(long, value_name = "file|default|low-memory|random:SEED", default_value = "default", value_parser = order)]
     order: Order,
-    /// Leave full-screen draws in multisampled images, even where several samples gain nothing.
-    #[arg(long)]
-    no_demote: bool,
+    /// Do without a saving, to see what it is worth.
+    #[arg(long, value_name = "SAVING", value_enum)]
+    naive: Option<Saving>,
     /// Use one queue, even where the device has more.
     #[arg(long)]
     one_queue: bool,
@@ -242,10 +242,17 @@ impl Planning {
             alias: !self.no_alias,
             poison: self.poison,
             order: self.order,
-            demote: !self.no_demote,
+            demote: self.naive != Some(Saving::Resolves),
             queues: !self.one_queue,
         }
     }
+}
+
+/// What a Plan may do without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Saving {
+    /// Full-screen draws, which gain nothing from several samples, stay in multisampled images, so that more is resolved.
+    Resolves,
 }
 
 /// Form of an answer.
@@ -328,7 +335,7 @@ mod tests {
         };
         assert_eq!(options(&[]), Options::default());
         assert_eq!(options(&["--order", "random:3"]), Options { order: Order::Random(3), ..Options::default() });
-        assert_eq!(options(&["--no-demote"]), Options { demote: false, ..Options::default() });
+        assert_eq!(options(&["--naive", "resolves"]), Options { demote: false, ..Options::default() });
         assert_eq!(options(&["--one-queue"]), Options { queues: false, ..Options::default() });
         let both = Options { poison: true, alias: false, ..Options::default() };
         assert_eq!(options(&["--poison", "--no-alias"]), both);

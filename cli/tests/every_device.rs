@@ -89,7 +89,7 @@ fn every_way_of_making_a_plan_is_fine_on_every_device() {
         &["--order", "low-memory"],
         &["--order", "random:1"],
         &["--order", "random:18446744073709551615"],
-        &["--no-demote"],
+        &["--naive", "resolves"],
         &["--one-queue"],
         &["--poison", "--no-alias"],
     ] {

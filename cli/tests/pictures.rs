@@ -73,7 +73,7 @@ fn no_way_to_make_a_plan_changes_a_pixel() {
     let ways: [&[&str]; 7] = [
         &["--poison"],
         &["--no-alias"],
-        &["--no-demote"],
+        &["--naive", "resolves"],
         &["--one-queue"],
         &["--order", "file"],
         &["--order", "low-memory"],

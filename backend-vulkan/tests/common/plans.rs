@@ -122,6 +122,7 @@ fn image(id: ImageId, name: &str, samples: u32, usage: Usage, role: Role) -> Ima
         chosen: None,
         shape: Shape::D2,
         extent,
+        room: None,
         mips: 1,
         layers: 1,
         samples,

@@ -44,6 +44,7 @@ fn image(plan: &mut Plan, name: &str, role: Role) -> ImageId {
         chosen: None,
         shape: Shape::D2,
         extent: [16, 16, 1],
+        room: None,
         mips: 1,
         layers: 1,
         samples: 1,

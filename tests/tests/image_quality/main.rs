@@ -3,11 +3,13 @@
 //!
 //! | row | test | what turns it red |
 //! |---|---|---|
+//! | IQ-1 | `dynamic_resolution` | `part.glsl`: `uv_clamp` gives `uv` back |
 //! | IQ-1 | `plans::the_scene_is_drawn_at_the_scaled_size_and_one_draw_brings_it_to_the_screen`, `scale` | size of `color` `Output` |
 //! | IQ-2 | `plans::with_nothing_to_do_objects_are_drawn_straight_into_the_screen` | `map` whatever the operator |
 //! | IQ-3 | `plans::a_view_that_allows_nothing_takes_the_direct_path` | `view.allows_msaa` left out |
 //! | IQ-4 | `pictures::scale_two_is_the_mean_of_two_by_two_pixels`, `scale` | `scale.glsl`: `end = begin + pixels` |
 //! | IQ-4 | `pictures::light_is_averaged_before_tone_mapping_or_what_is_shown_after_it` | size of `scaled` for `mapped != 'pixels'` |
+//! | IQ-5 | `graph/tests/compile_raster.rs`, `graph/tests/shipped_devices.rs`, `cli/tests/every_device.rs`, `cli/tests/plans.rs` | `compile/samples.rs`: `chosen` is what was wanted |
 //! | IQ-6 | `samples::a_fragment_shader_runs_once_a_texel_whatever_the_samples` | `count_invocations.frag` reads `gl_SampleID` |
 //! | IQ-6 | `samples::edges_improve_with_samples_and_with_scale` | samples of `color` 1 |
 //! | IQ-6 | `samples::edges_of_holes_improve_with_samples_only_where_alpha_says_how_many_are_covered`, `alpha_coverage` | `alpha_coverage.glsl`: `+ 0.5` left out |
