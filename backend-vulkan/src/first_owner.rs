@@ -138,6 +138,7 @@ mod tests {
             chosen: None,
             shape: Shape::D2,
             extent: [2, 2, 1],
+            room: None,
             mips: 2,
             layers: 1,
             samples: 1,
