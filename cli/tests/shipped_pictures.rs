@@ -43,18 +43,18 @@ fn apart(ours: &RgbImage, theirs: &RgbImage, steps: u8) -> usize {
 
 #[test]
 fn each_shipped_pipeline_draws_the_picture_that_is_shown_of_it() {
-    hold(Vulkan::LAVAPIPE, std::env::var_os("FRAMEWRIGHT_UPDATE").is_some());
+    hold(Vulkan::LAVAPIPE, [100, 1000], std::env::var_os("FRAMEWRIGHT_UPDATE").is_some());
 }
 
 #[test]
 fn the_other_driver_draws_the_same_pictures() {
-    hold(Vulkan::SWIFTSHADER, false);
+    hold(Vulkan::SWIFTSHADER, [50, 200], false);
 }
 
-/// Draws every shipped pipeline, and takes its picture for the one that is shown or holds it against that: at most one pixel in
-/// 100 may be further away than 2/255, and one in 1000 further than 24/255. Another driver, or a processor with other vector
+/// Draws every shipped pipeline, and takes its picture for the one that is shown or holds it against that: one pixel in so many
+/// may be further away than 2/255, and one in so many further than 24/255. Another driver, or a processor with other vector
 /// instructions, rounds otherwise: an edge may fall on the other side of a pixel's middle.
-fn hold(vulkan: Vulkan, update: bool) {
+fn hold(vulkan: Vulkan, one_in: [usize; 2], update: bool) {
     let Some(variables) = vulkan.variables() else { return };
     let place = Place::new();
     for pipeline in names("examples/pipelines", ".ron") {
@@ -72,7 +72,7 @@ fn hold(vulkan: Vulkan, update: bool) {
         let [slightly, clearly] = [2, 24].map(|steps| apart(&drawn, &shown, steps));
         let all = drawn.pixels().len();
         assert!(
-            slightly * 100 <= all && clearly * 1000 <= all,
+            slightly * one_in[0] <= all && clearly * one_in[1] <= all,
             "{pipeline}: of {all} pixels {slightly} are further apart than 2/255, {clearly} further than 24/255; \
              accept: {ACCEPT}"
         );
