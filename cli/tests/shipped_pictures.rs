@@ -48,7 +48,7 @@ fn each_shipped_pipeline_draws_the_picture_that_is_shown_of_it() {
 
 #[test]
 fn the_other_driver_draws_the_same_pictures() {
-    hold(Vulkan::SWIFTSHADER, [50, 200], false);
+    hold(Vulkan::SWIFTSHADER, [20, 200], false);
 }
 
 /// Draws every shipped pipeline, and takes its picture for the one that is shown or holds it against that: one pixel in so many

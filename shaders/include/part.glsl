@@ -22,10 +22,11 @@ vec2 uv_adjust(vec2 uv, vec4 st) {
 }
 
 // The place of the part, in an image of so many texels, that is nearest to a place in that image: no further out than the middle
-// of the outermost texels, so that a linear filter mixes in nothing that lies beyond.
+// of the outermost texels, so that a linear filter mixes in nothing that lies beyond. A little further in, since the middle is
+// met up to rounding only: what lies beyond may be anything, and a trace of it may be too much.
 vec2 uv_clamp(vec2 uv, vec4 st, ivec2 texels) {
-    const vec2 half_texel = 0.5 / vec2(texels);
-    return is_whole(st) ? uv : clamp(uv, st.zw + half_texel, st.zw + st.xy - half_texel);
+    const vec2 margin = (0.5 + 1.0 / 512.0) / vec2(texels);
+    return is_whole(st) ? uv : clamp(uv, st.zw + margin, st.zw + st.xy - margin);
 }
 
 // How many texels wide and high the part is, in an image of so many.

@@ -11,5 +11,7 @@ layout(location = 0) out vec4 color;
 
 // The first four samples as they are.
 void main() {
-    color = vec4(depth_of(source, uv, 0), depth_of(source, uv, 1), depth_of(source, uv, 2), depth_of(source, uv, 3));
+    for (int number = 0; number < 4; ++number) {
+        color[number] = depth_of(source, source_st, uv, number);
+    }
 }

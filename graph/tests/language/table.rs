@@ -224,7 +224,6 @@ impl ShaderInterfaces for Table {
             "scale_area" | "scale_catmull_rom" => {
                 full_screen(vec![source(), params(&[("target_width", "int"), ("target_height", "int")])])
             }
-            "fxaa" => full_screen(vec![source(), params(&[("subpixel", "float")])]),
             "depth_stripes" => full_screen(vec![adapting("depth", variant), params(&[("period", "float")])]),
             "depth_stripes_copy" => {
                 full_screen(vec![source(), adapting("depth", variant), params(&[("period", "float")])])
