@@ -16,8 +16,14 @@ const BINDINGS: u32 = 256;
 const PARTS: &str = "FramewrightParts";
 
 /// The resources. In the pass's own set every declared one counts, since that is what a pipeline file binds; in the
-/// others only what is used, since include libraries declare more than one shader needs.
-pub(super) fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) -> Result<Vec<Binding>, String> {
+/// others only what is used, since include libraries declare more than one shader needs. `in_part`: push constants tell which
+/// parts of images are in use.
+pub(super) fn bindings(
+    module: &Indexed<'_>,
+    stage: Stage,
+    used: &HashSet<u32>,
+    in_part: bool,
+) -> Result<Vec<Binding>, String> {
     let stages = match stage {
         Stage::Vertex => Stages::VERTEX_SHADER,
         Stage::Fragment => Stages::FRAGMENT_SHADER,
@@ -27,7 +33,7 @@ pub(super) fn bindings(module: &Indexed<'_>, stage: Stage, used: &HashSet<u32>) 
     for (variable, instruction) in module.variables() {
         if storage_class(instruction) == Some(StorageClass::PushConstant) && used.contains(&variable) {
             let ty = module.pointee(instruction).and_then(|ty| ty.result_id);
-            if ty.is_some_and(|ty| module.name(ty) == PARTS) {
+            if in_part && ty.is_some_and(|ty| module.name(ty) == PARTS) {
                 continue;
             }
             return Err("push constants: parameters come in the uniform block `params`".to_owned());

@@ -58,7 +58,7 @@ pub struct CompiledCompute {
 /// `NAME` locally, as an input attachment of its own rendering scope, its fragment stage is compiled with the macro
 /// `LOCAL_READ_NAME` and must declare it `subpassInput` then. Where a pass draws nothing but depth it is compiled with the
 /// macro `DEPTH_ONLY`: what is left decides which fragments stay. Where its alpha says how many samples are covered, it is
-/// compiled with the macro `ALPHA_TO_COVERAGE`. `NAME_st` in a stage's own file, which has to mention `NAME` by itself, too, stands
+/// compiled with the macro `ALPHA_TO_COVERAGE`. `NAME_st` in a stage's own file, which declares the sampler `NAME`, stands
 /// for the part in use of the image that the pass gives as `NAME`. What was once read or compiled is kept for the library's
 /// lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
@@ -206,7 +206,7 @@ impl ShaderLibrary {
         };
         let spirv = compile(compiler, stage, found, &self.files, macros)
             .map_err(|messages| ShaderProblem::DoesNotCompile { messages })?;
-        let mut reflected = reflect(stage, &spirv)
+        let mut reflected = reflect(stage, &spirv, macros.iter().any(|(name, _)| name == PARTS))
             .map_err(|what| ShaderProblem::Unsupported { what: format!("{}: {what}", found.shown) })?;
         for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
             let sampled = matches!(binding.kind, BindingKind::SampledImage(_));
@@ -289,7 +289,7 @@ fn macros(mentioned: &Mentioned, variant: &Variant) -> Macros {
         (format!("{name}{PART}"), part)
     });
     let in_part = mentioned.parts.iter().any(|name| place(name).is_some());
-    let count = in_part.then(|| ("FRAMEWRIGHT_PARTS".to_owned(), variant.parts.len().to_string()));
+    let count = in_part.then(|| (PARTS.to_owned(), variant.parts.len().to_string()));
     textures.chain(sampled).chain(local).chain(depth_only).chain(covers).chain(parts).chain(count).collect()
 }
 
@@ -302,11 +302,14 @@ const HAS: &str = "HAS_";
 /// Macros of this ending stand for the part in use of what is sampled.
 const PART: &str = "_st";
 
+/// The macro that says how many parts push constants tell of, if they tell of any.
+const PARTS: &str = "FRAMEWRIGHT_PARTS";
+
 /// What they stand for where all of it is used.
 const WHOLE: &str = "vec4(1.0, 1.0, 0.0, 0.0)";
 
-/// The names that a GLSL text mentions behind [`TEXTURE`] and [`HAS`], and before [`PART`] if also by themselves, outside
-/// comments, each once, in order.
+/// The names that a GLSL text mentions behind [`TEXTURE`] and [`HAS`], and of the samplers that it declares those before [`PART`],
+/// outside comments, each once, in order.
 struct Mentioned {
     adapting: Vec<String>,
     optional: Vec<String>,
@@ -317,11 +320,14 @@ impl Mentioned {
     fn by(text: &str) -> Mentioned {
         let text = without_comments(text);
         let words = text.split(|letter: char| letter != '_' && !letter.is_ascii_alphanumeric());
-        let words: BTreeSet<&str> = words.collect();
+        let in_order: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        let sampled = in_order.windows(2).filter(|pair| pair[0].contains("sampler") || pair[0].starts_with(TEXTURE));
+        let sampled: BTreeSet<&str> = sampled.map(|pair| pair[1]).collect();
+        let words: BTreeSet<&str> = in_order.into_iter().collect();
         let behind =
             |beginning: &str| words.iter().filter_map(|word| word.strip_prefix(beginning)).map(str::to_owned).collect();
         let parts = words.iter().filter_map(|word| word.strip_suffix(PART));
-        let parts = parts.filter(|name| words.contains(name)).map(str::to_owned).collect();
+        let parts = parts.filter(|name| sampled.contains(name)).map(str::to_owned).collect();
         Mentioned { adapting: behind(TEXTURE), optional: behind(HAS), parts }
     }
 }
@@ -412,5 +418,12 @@ mod tests {
         let text = "// TEXTURE_a\nuniform TEXTURE_b b; /* TEXTURE_c\nTEXTURE_d */ uniform TEXTURE_e/**/e; // TEXTURE_f";
         assert_eq!(Mentioned::by(text).adapting, ["b", "e"]);
         assert_eq!(Mentioned::by("uniform TEXTURE_b b; /* TEXTURE_c").adapting, ["b"]);
+    }
+
+    #[test]
+    fn only_what_is_sampled_has_a_part() {
+        let text = "uniform sampler2D a; uniform TEXTURE_b b; in vec2 c; vec2 c_st = c * a_st.xy + b_st.zw; // d_st sampler2D d";
+        assert_eq!(Mentioned::by(text).parts, ["a", "b"]);
+        assert_eq!(Mentioned::by("usampler2DArray a ; vec4 x = e_st;").parts, [""; 0]);
     }
 }

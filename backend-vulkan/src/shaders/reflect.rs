@@ -62,11 +62,11 @@ const OWN_BYTES: u64 = 64 << 10;
 /// Bytes that the invocations of a workgroup share: Vulkan promises no more to all.
 const SHARED_BYTES: u64 = 16 << 10;
 
-/// Reads the interface of `stage` off `spirv`.
+/// Reads the interface of `stage` off `spirv`. `in_part`: it is told which parts of images are in use.
 ///
 /// # Errors
 /// In words: what it uses that can't be bound.
-pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, String> {
+pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool) -> Result<StageInterface, String> {
     let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
     let module = Indexed::new(&module);
     let used: HashSet<u32> =
@@ -84,7 +84,7 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32]) -> Result<StageInterface, Str
         }
     }
     let interface = ShaderInterface {
-        bindings: bindings(&module, stage, &used)?,
+        bindings: bindings(&module, stage, &used, in_part)?,
         vertex_inputs: match stage {
             Stage::Vertex => inputs.iter().cloned().map(vertex_input).collect(),
             Stage::Fragment | Stage::Compute => Vec::new(),

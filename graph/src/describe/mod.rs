@@ -83,7 +83,7 @@ pub use pipeline::{
     BufferRef, ImageRef, Instance, Name, Output, Pipeline, RemovedPass, ResourceRef, Setting, SettingKind, Spanned,
 };
 pub use pipeline_files::{PipelineFiles, Shipped};
-pub(crate) use properties::scaled;
+pub(crate) use properties::{Area, area};
 pub use render::{escape, render};
 pub use resources::{
     Buffer, Bytes, Fill, Format, Image, Layers, Lifetime, Mips, Precision, Precisions, Resolves, Samples,

@@ -11,17 +11,11 @@ const ROUNDING: f64 = 1e-6;
 /// Properties of an image that is lowered after those whose properties are `known`. `frame` is the size of the frame.
 pub(super) fn of(image: &Image, known: &[Option<Properties>], frame: [u32; 2]) -> Result<Properties, Diagnostic> {
     let followed = |of: &ImageRef| known.get(of.index.0 as usize).copied().flatten().unwrap_or_default();
-    let extent = match &image.size.value {
-        Size::Output => Some(frame),
-        Size::Fixed(extent) => Some(*extent),
-        Size::Like(of) => followed(of).extent,
-        Size::Scaled { by, of } | Size::Dynamic { by, of, .. } => {
-            match of.as_ref().map_or(Some(frame), |of| followed(of).extent) {
-                Some(base) => Some(scaled(image, base, *by)?),
-                None => None,
-            }
-        }
+    let follows = match &image.size.value {
+        Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } => followed(of).area,
+        _ => None,
     };
+    let area = area(image, frame, follows)?;
     let samples = match &image.samples.value {
         Samples::Count(count) => Some(*count),
         Samples::Like(of) => followed(of).samples,
@@ -35,17 +29,52 @@ pub(super) fn of(image: &Image, known: &[Option<Properties>], frame: [u32; 2]) -
     let depth = if let Shape::D3(depth) = image.shape.value { depth } else { 1 };
     let mips = match &image.mips.value {
         Mips::Count(count) => Some(*count),
-        Mips::Full => extent.map(|[width, height]| (width | height | depth).max(1).ilog2() + 1),
+        Mips::Full => area.map(|area| (area.extent[0] | area.extent[1] | depth).max(1).ilog2() + 1),
         Mips::Like(of) => followed(of).mips,
     };
-    Ok(Properties { extent, mips, layers, samples })
+    Ok(Properties { area, mips, layers, samples })
+}
+
+/// Width and height of an image, and those that it has room for if they may change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Area {
+    pub(crate) extent: [u32; 2],
+    pub(crate) room: Option<[u32; 2]>,
+}
+
+/// A linear filter reads two texels in each direction, the second with weight 0 where the first is met: both must be in use, since
+/// 0 times what was never drawn need not be 0.
+const LEAST_PART: u32 = 2;
+
+/// The area of an image in a view of this size, which follows another image's if its size says so; `None`: that isn't known.
+///
+/// # Errors
+/// If it is more than an image may have.
+pub(crate) fn area(image: &Image, view: [u32; 2], followed: Option<Area>) -> Result<Option<Area>, Diagnostic> {
+    let whole = |extent| Area { extent, room: None };
+    let (by, up_to, of) = match image.size.value {
+        Size::Output => return Ok(Some(whole(view))),
+        Size::Fixed(extent) => return Ok(Some(whole(extent))),
+        Size::Like(_) => return Ok(followed),
+        Size::Scaled { by, of } => (by, None, of),
+        Size::Dynamic { by, up_to, of } => (by, Some(up_to), of),
+    };
+    let Some(base) = (if of.is_some() { followed } else { Some(whole(view)) }) else { return Ok(None) };
+    let extent = scaled(image, base.extent, by)?;
+    if base.room.is_none() && up_to.is_none() {
+        return Ok(Some(whole(extent)));
+    }
+    // What follows an image whose size changes has room for the greatest, too.
+    let room = scaled(image, base.room.unwrap_or(base.extent), up_to.unwrap_or(by))?;
+    let least = [0, 1].map(|side| extent[side].max(room[side].min(LEAST_PART)));
+    Ok(Some(Area { extent: least, room: Some(room) }))
 }
 
 /// `base` times a factor, rounded down, at least 1.
 ///
 /// # Errors
 /// If that is more than an image may have.
-pub(crate) fn scaled(image: &Image, base: [u32; 2], factor: f64) -> Result<[u32; 2], Diagnostic> {
+fn scaled(image: &Image, base: [u32; 2], factor: f64) -> Result<[u32; 2], Diagnostic> {
     times(base, factor).map_err(|[width, height]| {
         let name = &image.name.text;
         let message = format!("image `{name}` would be {width}×{height}; {LARGEST_SIZE} texels are allowed");

@@ -5,6 +5,7 @@ use super::leaf::{Leaf, Shape};
 use super::names::Names;
 use super::parameters::{Parameter, ParameterKind};
 use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, SettingKind};
+use super::properties::Area;
 use super::reader::Reader;
 use super::surroundings::Surroundings;
 use super::{Diagnostic, Label};
@@ -50,7 +51,7 @@ pub(super) struct Level {
 /// What is known of an image that was lowered; `None`: it follows something further below.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Properties {
-    pub(super) extent: Option<[u32; 2]>,
+    pub(super) area: Option<Area>,
     pub(super) mips: Option<u32>,
     pub(super) layers: Option<u32>,
     pub(super) samples: Option<u32>,

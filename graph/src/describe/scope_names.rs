@@ -140,8 +140,8 @@ impl Values for Scope<'_> {
         let Some(known) = self.properties.get(at) else { return Err(below()) };
         let Some(known) = known else { return Err(Missing::Reported) };
         let value = match property {
-            Property::Width => known.extent.map(|[width, _]| width),
-            Property::Height => known.extent.map(|[_, height]| height),
+            Property::Width => known.area.map(|area| area.extent[0]),
+            Property::Height => known.area.map(|area| area.extent[1]),
             Property::Mips => known.mips,
             Property::Layers => known.layers,
             Property::Samples => known.samples,

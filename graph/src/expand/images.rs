@@ -31,7 +31,10 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
             Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } => Some(of),
             _ => None,
         },
-        |image, followed| area(image, chosen.extent(image.view), followed, errors),
+        |image, followed| {
+            let area = describe::area(image, chosen.extent(image.view), followed);
+            area.map_err(|wrong| errors.push(wrong)).ok().flatten()
+        },
     );
     let samples = follow(
         images,
@@ -64,7 +67,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
     let policy = chosen.pipeline.depth.as_ref();
     let all = images.iter().zip(formats).zip(areas).zip(samples).zip(layers).zip(mips);
     all.map(|(((((described, format), area), samples), layers), mips)| {
-        let (Area { extent: [width, height], room }, (samples, samples_because)) = (area?, samples?);
+        let (describe::Area { extent: [width, height], room }, (samples, samples_because)) = (area?, samples?);
         let plain = Image::new(&described.name.text, format?, width, height);
         let image = Image { span: described.name.span, samples, room, ..plain };
         let image = Image { resolve: asked(described, &image, policy, errors)?, ..image };
@@ -140,32 +143,6 @@ fn asked(
         return None;
     }
     Some(Some(frame::Resolve { way, because: said.clone() }))
-}
-
-/// Width and height of an image, and those of what it has room for if they may change.
-#[derive(Clone, Copy)]
-struct Area {
-    extent: [u32; 2],
-    room: Option<[u32; 2]>,
-}
-
-fn area(image: &describe::Image, view: [u32; 2], followed: Option<Area>, errors: &mut Vec<Diagnostic>) -> Option<Area> {
-    let whole = |extent| Some(Area { extent, room: None });
-    let (by, up_to, of) = match image.size.value {
-        Size::Output => return whole(view),
-        Size::Fixed(extent) => return whole(extent),
-        Size::Like(_) => return followed,
-        Size::Scaled { by, of } => (by, None, of),
-        Size::Dynamic { by, up_to, of } => (by, Some(up_to), of),
-    };
-    let base = if of.is_some() { followed? } else { whole(view)? };
-    let mut scaled = |base, by| describe::scaled(image, base, by).map_err(|wrong| errors.push(wrong)).ok();
-    // What follows an image whose size changes has room for the greatest, too.
-    let room = match (base.room, up_to) {
-        (None, None) => None,
-        _ => Some(scaled(base.room.unwrap_or(base.extent), up_to.unwrap_or(by))?),
-    };
-    Some(Area { extent: scaled(base.extent, by)?, room })
 }
 
 fn samples(image: &describe::Image, followed: Option<(u32, Option<Arc<str>>)>) -> Option<(u32, Option<Arc<str>>)> {

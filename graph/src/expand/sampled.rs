@@ -139,7 +139,7 @@ pub(super) fn check<'i>(
             check.filters(errors);
             check.address(errors);
             check.own_pixel(things, lowered, sampled.own_pixel, errors);
-            check.part(interface, sampled.own_pixel, errors);
+            check.part(interface, errors);
         }
     }
     too_many_parts(things, pass, errors);
@@ -281,9 +281,9 @@ impl Check<'_> {
     }
 
     /// Of what is used in part the shader must know which.
-    fn part(&self, interface: &ShaderInterface, own_pixel: bool, errors: &mut Vec<Diagnostic>) {
+    fn part(&self, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
-        if image.room.is_none() || own_pixel {
+        if image.room.is_none() || self.declared.input {
             return;
         }
         let declared = self.chosen.image(self.sample.part.image.index).size.span;

@@ -1,10 +1,13 @@
 //! Views: parts of a frame that have their own size, camera, allowances and values of settings.
 
 use crate::table::{INPUTS, right, set, wrong};
+use framewright_graph::compile::{Compiler, Options, compile};
+use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Frame, Image, Pass};
 use framewright_graph::jitter::Jitter;
 use framewright_graph::view::{Allowances, ViewIndex};
+use std::sync::Arc;
 
 /// A pipeline with two views, these images and these passes after those that fill `screen` and `small`.
 fn pipeline(preview: &str, images: &str, passes: &str) -> String {
@@ -169,6 +172,37 @@ fn a_view_is_shifted_by_parts_of_a_texel_of_what_is_drawn() {
         format!("{sized}, jitter: \"if(glow, 1, msaa)\", jitter_size: Scaled(\"share\"), set: {{\"glow\": false}}");
     assert_eq!(jitter(&within, &[]), Some(Jitter::halton(4, [80, 50])));
     assert_eq!(jitter(&within, &set(&[("msaa", "1")])), None);
+}
+
+#[test]
+fn a_compiler_that_remembers_the_last_frame_takes_over_how_views_are_shifted() {
+    let device = Arc::new(Profile::from_ron(SHIPPED_PROFILES[0].1).expect("a shipped profile"));
+    let mut compiler = Compiler::new();
+    for jitter in ["4", "8", "8, jitter_size: Scaled(0.5)", "2"] {
+        let frame = Arc::new(right(&pipeline(&format!("size: Fixed(320, 200), jitter: {jitter}"), "", ""), &INPUTS));
+        // Spans differ with the texts; what is compiled anew is the judge.
+        let [mut estimated, mut anew] = [Estimated(&device), Estimated(&device)];
+        let followed = compiler.compile(&frame, &device, &mut estimated, &Options::default()).expect("it compiles");
+        assert_eq!(
+            followed,
+            &compile(&frame, &device, &mut anew, &Options::default()).expect("it compiles"),
+            "{jitter}"
+        );
+    }
+    let by_setting = |share: &str| {
+        let text = pipeline("size: Fixed(320, 200), jitter: 8, jitter_size: Scaled(\"share\")", "", "");
+        Arc::new(right(&text, &Inputs { set: &set(&[("share", share)]), ..INPUTS }))
+    };
+    for share in ["0.25", "0.5", "1"] {
+        let frame = by_setting(share);
+        let [mut estimated, mut anew] = [Estimated(&device), Estimated(&device)];
+        let followed = compiler.compile(&frame, &device, &mut estimated, &Options::default()).expect("it compiles");
+        assert_eq!(
+            followed,
+            &compile(&frame, &device, &mut anew, &Options::default()).expect("it compiles"),
+            "{share}"
+        );
+    }
 }
 
 #[test]

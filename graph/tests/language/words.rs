@@ -62,6 +62,8 @@ fn sizes_that_change_are_a_part_of_what_there_is_room_for_and_so_are_those_that_
         ("1", [[1000, 30], [1000, 30], [500, 15], [250, 7], [25, 2], [500, 7]]),
         ("1.5", [[1500, 45], [1500, 45], [750, 22], [375, 11], [25, 2], [750, 11]]),
         ("0.29", [[290, 8], [290, 8], [145, 4], [72, 2], [25, 2], [145, 2]]),
+        // Two texels are the least where there is room for them.
+        ("0.25", [[250, 7], [250, 7], [125, 3], [62, 2], [25, 2], [125, 2]]),
     ] {
         assert_eq!(sizes(scale), extents.into_iter().zip(rooms).collect::<Vec<_>>(), "{scale}");
     }

@@ -10,6 +10,7 @@ use crate::plan::{Param, Pass, Plan, Role, Totals, Work};
 /// Brings clear values, parameters, counts of workgroups and settings up to date.
 pub(in crate::compile) fn values(parts: &Parts<'_>, plan: &mut Plan) {
     plan.settings = settings(parts);
+    plan.views = views(parts);
     for ((step, grouped), number) in plan.steps.iter_mut().zip(&parts.scoped.steps).zip(0_u32..) {
         match (&mut step.work, grouped) {
             (Work::Render(planned), Grouped::Scope(scope)) => {
@@ -52,7 +53,6 @@ fn pass_values(parts: &Parts<'_>, op: u32, planned: &mut Pass) {
 /// Brings everything up to date that sizes or values say, where steps and barriers are the same.
 pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
     values(parts, plan);
-    plan.views = views(parts);
     let Plan { images, buffers, .. } = plan;
     for ((store, placement), index) in parts.adapted.stores.iter().zip(&parts.placed.placements).zip(0..) {
         let role = match &store.kind {
