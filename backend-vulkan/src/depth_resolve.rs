@@ -26,7 +26,7 @@ use framewright_graph::vocabulary::{CompareOp, Filter, ResolveMode, Sampler, Sta
 pub(crate) struct DepthResolve {
     /// Those that the device has.
     pub(crate) has: Vec<ResolveMode>,
-    /// Those that it says it has.
+    /// Those that it says it has, and doesn't.
     pub(crate) refuted: Vec<ResolveMode>,
 }
 

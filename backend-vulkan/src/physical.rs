@@ -29,9 +29,8 @@ pub(crate) fn descriptor(image: &plan::Image) -> ImageDescriptor {
         Role::Persistent { .. } => image.usage | Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
         Role::External { .. } => image.usage | Usage::TRANSFER_SRC,
     };
-    let plan::Image { format, shape, extent, room, mips, layers, samples, sharing, .. } = *image;
-    let extent = room.map_or(extent, |[width, height]| [width, height, extent[2]]);
-    ImageDescriptor { format, shape, extent, mips, layers, samples, usage, sharing }
+    let plan::Image { format, shape, mips, layers, samples, sharing, .. } = *image;
+    ImageDescriptor { format, shape, extent: image.made(), mips, layers, samples, usage, sharing }
 }
 
 /// The description of a Plan's buffer on this device. What outlives the frame can be written and read back.

@@ -302,11 +302,11 @@ const HAS: &str = "HAS_";
 /// Macros of this ending stand for the part in use of what is sampled.
 const PART: &str = "_st";
 
-/// The macro that says how many parts push constants tell of, if they tell of any.
-const PARTS: &str = "FRAMEWRIGHT_PARTS";
-
 /// What they stand for where all of it is used.
 const WHOLE: &str = "vec4(1.0, 1.0, 0.0, 0.0)";
+
+/// The macro that says how many parts push constants tell of, if they tell of any.
+const PARTS: &str = "FRAMEWRIGHT_PARTS";
 
 /// The names that a GLSL text mentions behind [`TEXTURE`] and [`HAS`], and of the samplers that it declares those before [`PART`],
 /// outside comments, each once, in order.

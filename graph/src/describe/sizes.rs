@@ -14,7 +14,7 @@ use crate::fields;
 fields! {
     /// A factor that may change from frame to frame.
     struct DynamicFields<'src> {
-        /// The factor, above 0; sides are rounded down, and at least 1.
+        /// The factor, above 0; sides are rounded down, and at least 2 where there is room for that.
         by: Leaf<'src> => Form::Number,
         /// The greatest factor. Changing it takes other memory, changing `by` doesn't.
         up_to: Leaf<'src> => Form::Number,

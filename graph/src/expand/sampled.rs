@@ -4,7 +4,7 @@ use super::images::Resolved;
 use super::parts::{self, Cells};
 use super::shader::{component_words, shape_words};
 use super::things::Things;
-use super::{Chosen, storage};
+use super::{Chosen, storage, variant};
 use crate::describe::{self, Diagnostic, Face, nearest, suggestion};
 use crate::frame::{self, Pass, Sampled, Shape};
 use crate::interface::{BindingKind, Component, Dimension, ImageShape, MOST_PARTS, PASS_SET, ShaderInterface};
@@ -345,10 +345,7 @@ impl Check<'_> {
 
 /// A shader can be told of some parts only.
 fn too_many_parts(things: &Things, pass: &describe::Pass, errors: &mut Vec<Diagnostic>) {
-    let in_part = |sample: &&describe::Sample| {
-        things.image(sample.part.image.index).is_some_and(|image| image.image.room.is_some())
-    };
-    if let Some(surplus) = pass.sample.iter().filter(in_part).nth(MOST_PARTS) {
+    if let Some(surplus) = variant::in_part(things, pass).nth(MOST_PARTS) {
         let message = format!("pass `{}` samples more than {MOST_PARTS} images that are used in part", pass.name.text);
         errors.push(Diagnostic::new(surplus.part.image.span, message).help("give some of them a fixed size"));
     }

@@ -17,12 +17,15 @@ pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) ->
         Some((sample.binding.text.clone(), texture(image, &parts::cells(image, &range), sample.face)))
     };
     let sampled = pass.sample.iter().map(|sample| sample.binding.text.clone()).collect();
-    let in_part = |sample: &&describe::Sample| {
-        things.image(sample.part.image.index).is_some_and(|image| image.image.room.is_some())
-    };
-    let parts = pass.sample.iter().filter(in_part).map(|sample| sample.binding.text.clone()).collect();
+    let parts = in_part(things, pass).map(|sample| sample.binding.text.clone()).collect();
     let textures = pass.sample.iter().filter_map(texture).collect();
     Variant { textures, sampled, parts, alpha_to_coverage: covers_samples(things, pass), ..Variant::default() }
+}
+
+/// What a pass samples of which only a part is in use.
+pub(super) fn in_part<'p>(things: &'p Things, pass: &'p describe::Pass) -> impl Iterator<Item = &'p describe::Sample> {
+    let room = |sample: &&describe::Sample| things.image(sample.part.image.index).and_then(|image| image.image.room);
+    pass.sample.iter().filter(move |sample| room(sample).is_some())
 }
 
 /// Whether the alpha that a pass draws says how many samples are covered: its targets have several.

@@ -1,16 +1,23 @@
 //! Which part of an image a frame uses.
 
 use super::{BindingKind, Image, Pass, Plan};
+use crate::frame::with_room;
 use std::sync::Arc;
 
 impl Image {
+    /// Width, height and depth that it is made with.
+    #[must_use]
+    pub fn made(&self) -> [u32; 3] {
+        with_room(self.extent, self.room)
+    }
+
     /// Where the part in use lies among all of the image: its width and height as shares, and where it begins. That of a place
     /// in the part, 0 to 1 from its upper left corner, is `place * [0..2] + [2..4]` in the image.
     #[must_use]
     pub fn part(&self) -> [f32; 4] {
         #[allow(clippy::cast_possible_truncation, reason = "shaders calculate with as many bits")]
         let share = |used: u32, all: u32| (f64::from(used) / f64::from(all)) as f32;
-        let [width, height] = self.room.unwrap_or([self.extent[0], self.extent[1]]);
+        let [width, height, _] = self.made();
         [share(self.extent[0], width), share(self.extent[1], height), 0.0, 0.0]
     }
 }

@@ -1,20 +1,18 @@
 //! The tree form of a Plan, for people: what runs, in order, with what was inserted at its place and why.
 
+mod lists;
+mod words;
+
 use super::changes;
 use super::names::{Shown, vulkan};
 use super::outline::Node;
 use super::{
-    Access, Attachment, BindingKind, Buffer, BufferAccess, Cause, ChosenFormat, Hazard, Image, ImageBarrier, ImageId,
-    Initial, MemoryBarrier, Note, Output, Pass, Plan, Queue, RenderScope, Resource, Role, Side, Step, StepId,
-    Subresources, Totals, Transfer, View, Wait, Work,
+    Access, Attachment, BindingKind, BufferAccess, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
+    RenderScope, Resource, Side, Step, StepId, Subresources, Transfer, Wait, Work,
 };
-use crate::encoding::Encoding;
-use crate::frame::{Blend, BufferRole, Cascade, Draw, DrawList, Groups, ParamValue, StencilState};
-use crate::jitter::Jitter;
-use crate::source::Place;
-use crate::texture::ColorSpace;
-use crate::view::Allowances;
-use crate::vocabulary::{AddressMode, FillValue, Filter, Sampler};
+use crate::frame::{Blend, BufferRole, Draw, Groups, ParamValue, StencilState};
+use lists::{buffer, image, note, output, totals, view};
+use words::{bytes, casters, cause, fill_value, hazard, samples, size, words_of, words_of_list};
 
 /// The tree form.
 pub(super) fn tree(plan: &Plan) -> String {
@@ -36,7 +34,7 @@ pub(super) fn tree(plan: &Plan) -> String {
         parts.push(Node::new("buffers", plan.buffers.iter().map(|it| buffer(plan, it)).collect()));
     }
     parts.push(Node::new("outputs", plan.outputs.iter().filter_map(|it| output(plan, it)).collect()));
-    let notes: Vec<Node> = plan.notes.iter().filter(|note| !note.is_of_shipped_fragment()).map(note).collect();
+    let notes: Vec<_> = plan.notes.iter().filter(|note| !note.is_of_shipped_fragment()).map(note).collect();
     if !notes.is_empty() {
         parts.push(Node::new("notes", notes));
     }
@@ -290,217 +288,4 @@ impl Tree<'_> {
         let name = self.resource(Resource::Image(id));
         if whole { name } else { format!("{name} ({range})") }
     }
-}
-
-/// Who does what, after what.
-fn hazard(who: &str, hazard: Hazard, after: Option<StepId>) -> String {
-    let after = after.map_or("the frame before".to_owned(), |StepId(step)| format!("step {step}"));
-    match hazard {
-        Hazard::FirstUse => format!("first use, after {after}"),
-        Hazard::ReadAfterWrite => format!("{who} reads what {after} wrote"),
-        Hazard::WriteAfterRead => format!("{who} writes what {after} read"),
-        Hazard::WriteAfterWrite => format!("{who} writes what {after} wrote"),
-        Hazard::LayoutChange => format!("{who} reads what {after} read in another way"),
-        Hazard::Export => format!("promised state, after {after}"),
-        Hazard::Ownership => format!("another queue takes it over after {after}"),
-    }
-}
-
-fn words_of_list(list: DrawList) -> &'static str {
-    match list {
-        DrawList::Opaque => "opaque",
-        DrawList::Masked => "masked",
-        DrawList::Transparent => "transparent",
-    }
-}
-
-fn casters(cascade: Cascade) -> String {
-    let Cascade { list, index, of, .. } = cascade;
-    let (list, reach) = (words_of_list(list), cascade.reach_in_words());
-    format!("draws {list} objects as the sun sees them, cascade {index} of {of} through {reach}")
-}
-
-fn view(view: &View) -> Node {
-    let [width, height] = view.extent;
-    let camera =
-        view.camera.as_ref().map_or_else(|| "default camera".to_owned(), |it| format!("camera `{}`", Shown(it)));
-    let Allowances { msaa, hdr, scale } = view.allows;
-    let not = [(msaa, "MSAA"), (hdr, "HDR"), (scale, "scaling")];
-    let not: Vec<&str> = not.iter().filter(|(allowed, _)| !allowed).map(|(_, what)| *what).collect();
-    let not = if not.is_empty() { String::new() } else { format!(", without {}", not.join(", ")) };
-    let jitter = view.jitter.as_ref().map_or_else(String::new, jitter);
-    Node::leaf(format!("`{}` {width}×{height}, {camera}{not}{jitter}", Shown(&view.name)))
-}
-
-fn jitter(jitter: &Jitter) -> String {
-    let [width, height] = jitter.extent;
-    format!(", shifted in turn by {} parts of a texel of {width}×{height}", jitter.offsets.len())
-}
-
-fn buffer(plan: &Plan, buffer: &Buffer) -> Node {
-    let next = |at: u32| plan.buffers.get(at as usize).map_or("", |buffer| &buffer.name);
-    let text = format!("`{}` {}{}", Shown(&buffer.name), bytes(buffer.bytes), role(&buffer.role, &buffer.name, next));
-    Node::leaf(text + &cause(&buffer.cause))
-}
-
-/// Where the memory of the image or buffer `name` comes from.
-fn role<'p>(role: &Role, name: &str, next: impl Fn(u32) -> &'p str) -> String {
-    match role {
-        Role::Transient(placement) => {
-            let [first, last] = placement.lifetime;
-            let steps =
-                if first == last { format!("step {}", first.0) } else { format!("steps {}–{}", first.0, last.0) };
-            let [taken, offset] = [placement.bytes, placement.offset].map(bytes);
-            format!(": {taken} at {offset} in heap {}, {steps}", placement.heap)
-        }
-        Role::Persistent { initial: Initial::File(file), .. } => {
-            let decoded = match file.color_space {
-                ColorSpace::Srgb => "sRGB",
-                ColorSpace::Linear => "linear",
-            };
-            format!(": the file `{}` ({decoded}), only read", Shown(&file.path))
-        }
-        Role::Persistent { becomes, initial: Initial::Value(initial), .. } => {
-            let next = next(*becomes);
-            let becomes = if next == name { "stays".to_owned() } else { format!("becomes `{}`", Shown(next)) };
-            format!(": persistent, {becomes} in the next frame, at first {}", fill_value(initial))
-        }
-        Role::External { .. } => ": external".to_owned(),
-    }
-}
-
-/// A sampler, without what is usual.
-fn words_of(sampler: &Sampler) -> String {
-    let mut words = vulkan(&sampler.filter);
-    if sampler.mips == Filter::Linear {
-        words += ", between mip levels too";
-    }
-    if sampler.address != AddressMode::default() {
-        words += &format!(", {}", vulkan(&sampler.address));
-    }
-    words
-}
-
-fn fill_value(value: &FillValue) -> String {
-    match value {
-        FillValue::Color([red, green, blue, alpha]) => format!("({red}, {green}, {blue}, {alpha})"),
-        FillValue::Bits([red, green, blue, alpha]) => format!("({red}, {green}, {blue}, {alpha})"),
-        FillValue::Depth(depth, stencil) => format!("depth {depth}, stencil {stencil}"),
-    }
-}
-
-fn image(plan: &Plan, image: &Image) -> Node {
-    let room = image.room.map_or_else(String::new, |[width, height]| format!(" of {width}×{height}"));
-    let mut text = format!("`{}` {} {}{room}", Shown(&image.name), image.format, size(image.extent));
-    for (count, word) in [(image.mips, "mips"), (image.layers, "layers")] {
-        if count > 1 {
-            text += &format!(", {count} {word}");
-        }
-    }
-    text += &format!(", {}", samples(image.samples));
-    let next = |at: u32| plan.images.get(at as usize).map_or("", |image| &image.name);
-    text += &role(&image.role, &image.name, next);
-    Node::new(text + &cause(&image.cause), image.chosen.iter().map(chosen).collect())
-}
-
-fn chosen(chosen: &ChosenFormat) -> Node {
-    let ChosenFormat { because, usual, more_bytes } = chosen;
-    let amount = bytes(more_bytes.unsigned_abs());
-    let comes_to = match more_bytes {
-        0 => "as many bytes as".to_owned(),
-        1.. => format!("{amount} more than"),
-        ..0 => format!("{amount} fewer than"),
-    };
-    Node::leaf(format!("{}: {comes_to} in {usual}", Shown(because)))
-}
-
-fn output(plan: &Plan, output: &Output) -> Option<Node> {
-    let resource = output.resource;
-    let role = match resource {
-        Resource::Image(id) => &plan.images.get(id.0 as usize)?.role,
-        Resource::Buffer(id) => &plan.buffers.get(id.0 as usize)?.role,
-    };
-    let (Role::External { after, .. } | Role::Persistent { after, .. }) = role else { return None };
-    let name = Shown(plan.resource_name(resource));
-    let [layout, stages, accesses] = [vulkan(&after.layout), vulkan(&after.stages), vulkan(&after.accesses)];
-    let encoded = output.encoding.map_or_else(String::new, |encoding| {
-        let by = output.encoded.as_deref().unwrap_or("");
-        match encoding {
-            Encoding::Srgb => format!("; sRGB, encoded {}", Shown(by)),
-            Encoding::Hdr10 => format!("; HDR10, encoded {}", Shown(by)),
-            Encoding::Linear => "; linear light, not encoded".to_owned(),
-            Encoding::Unorm => "; shares from 0 to 1, not encoded".to_owned(),
-        }
-    });
-    Some(Node::leaf(match resource {
-        Resource::Image(_) => format!("`{name}` in {layout}, last {accesses} in {stages}{encoded}"),
-        Resource::Buffer(_) => format!("`{name}`, last {accesses} in {stages}"),
-    }))
-}
-
-fn note(note: &Note) -> Node {
-    let text = format!("{} `{}`: {}{}", vulkan(&note.stage), Shown(&note.subject), Shown(&note.text), place(&note.at));
-    Node::leaf(text)
-}
-
-fn totals(totals: &Totals) -> Node {
-    let Totals { transient_bytes, placed_bytes, live_peak_bytes, kept_bytes, .. } = *totals;
-    let ratio = if live_peak_bytes == 0 {
-        String::new()
-    } else {
-        format!(" ({:.3} × live peak {})", placed_bytes as f64 / live_peak_bytes as f64, bytes(live_peak_bytes))
-    };
-    let work = format!(
-        "{} ({} inserted) in {}, {} ({} folded), {}",
-        count(totals.passes.saturating_add(totals.inserted_passes), "pass", "passes"),
-        totals.inserted_passes,
-        count(totals.scopes, "scope", "scopes"),
-        count(totals.resolves, "resolve", "resolves"),
-        totals.folded_resolves,
-        count(totals.copies, "copy", "copies"),
-    );
-    let barriers = format!(
-        "{} and {} in {}",
-        count(totals.image_barriers, "image barrier", "image barriers"),
-        count(totals.memory_barriers, "memory barrier", "memory barriers"),
-        count(totals.barrier_calls, "call", "calls"),
-    );
-    let [transient, placed, kept] = [transient_bytes, placed_bytes, kept_bytes].map(bytes);
-    let memory = format!("transient {transient} placed in {placed}{ratio}, kept {kept}");
-    Node::new("totals", [work, barriers, memory].map(Node::leaf).into())
-}
-
-fn count(number: u32, one: &str, many: &str) -> String {
-    format!("{number} {}", if number == 1 { one } else { many })
-}
-
-fn samples(samples: u32) -> String {
-    count(samples, "sample", "samples")
-}
-
-/// Width × height, and depth if there is any.
-fn size([width, height, depth]: [u32; 3]) -> String {
-    if depth == 1 { format!("{width}×{height}") } else { format!("{width}×{height}×{depth}") }
-}
-
-/// Bytes in the largest unit that leaves at least 1.
-fn bytes(bytes: u64) -> String {
-    const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
-    if bytes < 1024 {
-        return format!("{bytes} B");
-    }
-    let unit = ((bytes.ilog2() / 10) as usize).min(UNITS.len());
-    format!("{:.1} {}", bytes as f64 / 1024_f64.powi(unit as i32), UNITS[unit - 1])
-}
-
-/// Where something was written, or why it was inserted.
-fn cause(cause: &Cause) -> String {
-    match cause {
-        Cause::Written(at) => place(at),
-        Cause::Inserted(why) => format!(": {}{}", Shown(&why.because), place(&why.at)),
-    }
-}
-
-fn place(at: &Option<Place>) -> String {
-    at.as_ref().map_or_else(String::new, |place| format!(" ({}:{})", Shown(&place.file), place.line))
 }

@@ -35,9 +35,7 @@ fn without_values(plan: &Plan) -> Plan {
     let mut plan = plan.clone();
     for image in &mut plan.images {
         image.cause = Cause::Written(None);
-        if let Some([width, height]) = image.room {
-            image.extent = [width, height, 1];
-        }
+        image.extent = image.made();
     }
     plan.buffers.iter_mut().for_each(|buffer| buffer.cause = Cause::Written(None));
     let Plan { images, steps, .. } = &mut plan;

@@ -5,10 +5,10 @@ use super::structure::is_of_file;
 use super::touches::{ATTACHMENT, attachments};
 use super::work::{Check, is_read_only, is_written};
 use crate::frame::{Blend, BufferRole, Draw, Groups, Shape};
-use crate::interface::{Component, Dimension, ImageShape};
+use crate::interface::{Component, Dimension, ImageShape, MOST_PARTS};
 use crate::plan::names::{Shown, vulkan};
-use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Pass, RenderScope};
-use crate::vocabulary::{Accesses, Aspects, CompareOp, Layout, Stages, StencilOp};
+use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Image, Pass, RenderScope};
+use crate::vocabulary::{Accesses, AddressMode, Aspects, CompareOp, Layout, Stages, StencilOp};
 
 const STORAGE: Accesses = Accesses::SHADER_STORAGE_READ.union(Accesses::SHADER_STORAGE_WRITE);
 const SHADER: Accesses = STORAGE.union(Accesses::SHADER_SAMPLED_READ).union(Accesses::INPUT_ATTACHMENT_READ);
@@ -19,6 +19,7 @@ const TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_T
 impl<'p> Check<'_, 'p> {
     pub(super) fn draw(&mut self, scope: &RenderScope, pass: &'p Pass) {
         self.named(&pass.name);
+        self.parts(pass);
         if pass.draw.is_none() || pass.groups.is_some() {
             self.wrong_pass(pass, "is in a rendering scope and draws nothing");
         }
@@ -109,6 +110,7 @@ impl<'p> Check<'_, 'p> {
 
     pub(super) fn dispatch(&mut self, pass: &'p Pass) {
         self.outside(pass);
+        self.parts(pass);
         match pass.groups {
             None => self.wrong_pass(pass, "is a dispatch and doesn't say of how many workgroups"),
             Some(Groups::Indirect { offset }) => {
@@ -191,10 +193,21 @@ impl<'p> Check<'_, 'p> {
         self.demand(!of_shader.is_empty(), access.image, "is bound without such an access");
         self.demand(possible.contains(of_shader), access.image, "is accessed by a shader without such a binding");
         let linear = matches!(binding.kind, BindingKind::Sampled(sampler) if sampler.is_linear());
-        let integer = self.plan.image(access.image).format.is_integer();
+        let Image { room, format, .. } = self.plan.image(access.image);
+        let ends = matches!(binding.kind, BindingKind::Sampled(sampler) if sampler.address == AddressMode::ClampToEdge);
+        let sampled = matches!(binding.kind, BindingKind::Sampled(_));
+        self.demand(room.is_none() || ends || !sampled, access.image, "is used in part and looked up beyond its edges");
+        let integer = format.is_integer();
         self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
         let declared = binding.texture.is_none_or(|texture| self.is_declared(access, texture));
         self.demand(declared, access.image, "isn't as its shader is made to declare it");
+    }
+
+    /// Shaders can be told of so many parts.
+    fn parts(&mut self, pass: &'p Pass) {
+        if self.plan.parts(pass).nth(MOST_PARTS).is_some() {
+            self.wrong_pass(pass, "samples more images in part than shaders can be told of");
+        }
     }
 
     /// Whether the part of an image that is sampled can be declared so.

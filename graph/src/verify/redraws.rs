@@ -43,7 +43,8 @@ fn wrong(
     let tests = pass.depth == original.depth && pass.stencil == original.stencil && pass.stencil.is_none();
     let (Some(depth), Some(drawn)) = (&scope.depth, &of.depth) else { return Some("draws no depth again") };
     let [copy, image] = [depth, drawn].map(|attachment| plan.image(attachment.image));
-    let fewer = scope.samples == 1 && of.samples > 1 && copy.format == image.format && copy.extent == image.extent;
+    let same_size = (copy.extent, copy.room) == (image.extent, image.room);
+    let fewer = scope.samples == 1 && of.samples > 1 && copy.format == image.format && same_size;
     let alone = pass.accesses.len() == 1 && pass.buffers.is_empty() && scope.color.is_empty();
     if original.redraws.is_some() || !same {
         Some("draws something else than the pass that it draws again")

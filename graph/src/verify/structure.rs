@@ -83,8 +83,12 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
         if width < image.extent[0] || height < image.extent[1] {
             wrong("uses more than it has room for");
         }
-        if image.shape != Shape::D2 || image.mips > 1 || matches!(image.role, Role::Persistent { .. }) {
-            wrong("changes its size and is deep, a cube, persistent or has several mip levels");
+        if image.shape != Shape::D2 || image.mips > 1 {
+            wrong("changes its size and is deep, a cube or has several mip levels");
+        }
+        // Whoever finds it outside of the frame, or reads it whole, would find what nobody made.
+        if !matches!(image.role, Role::Transient(_)) || image.usage.contains(Usage::STORAGE) {
+            wrong("changes its size and outlives the frame, or is used as storage");
         }
     }
     if Usage::from_bits(image.usage.bits()).is_none() {

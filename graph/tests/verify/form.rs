@@ -5,10 +5,10 @@ use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Shape};
 use framewright_graph::interface::{Component, Dimension, ImageShape};
 use framewright_graph::jitter::Jitter;
-use framewright_graph::plan::{FORMAT_VERSION, Plan, PlanError, RenderScope, Resource, Role, View, Work};
+use framewright_graph::plan::{BindingKind, FORMAT_VERSION, Plan, PlanError, RenderScope, Resource, Role, View, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::view::Allowances;
-use framewright_graph::vocabulary::{Accesses, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage};
+use framewright_graph::vocabulary::{Accesses, AddressMode, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage};
 use serde_json::Value;
 
 /// Images: 0 `color` at 4 samples, 1 `depth` at 4 samples, 2 `color.resolved`, 3 `screen`.
@@ -54,7 +54,36 @@ fn every_mistake_of_form_is_said() {
         (|plan| plan.images[2].room = Some([4096, 1]), "`color.resolved`: uses more than it has room for"),
         (
             |plan| (plan.images[2].room, plan.images[2].mips) = (Some([4096, 4096]), 2),
-            "`color.resolved`: changes its size and is deep, a cube, persistent or has several mip levels",
+            "`color.resolved`: changes its size and is deep, a cube or has several mip levels",
+        ),
+        (
+            |plan| plan.images[3].room = Some([4096, 4096]),
+            "`screen`: changes its size and outlives the frame, or is used as storage",
+        ),
+        (
+            |plan| {
+                let image = &mut plan.images[2];
+                (image.room, image.usage) = (Some([4096, 4096]), image.usage | Usage::STORAGE);
+            },
+            "`color.resolved`: changes its size and outlives the frame, or is used as storage",
+        ),
+        (
+            |plan| {
+                plan.images[2].room = Some([4096, 4096]);
+                let binding = scope(plan, 1).passes[0].accesses[0].binding.as_mut().expect("it is sampled");
+                let BindingKind::Sampled(sampler) = &mut binding.kind else { panic!("it is sampled") };
+                sampler.address = AddressMode::Repeat;
+            },
+            "`color.resolved`: is used in part and looked up beyond its edges",
+        ),
+        (
+            |plan| {
+                plan.images[2].room = Some([4096, 4096]);
+                let accesses = &mut scope(plan, 1).passes[0].accesses;
+                let sampled = accesses[0].clone();
+                accesses.extend(std::iter::repeat_n(sampled, 8));
+            },
+            "samples more images in part than shaders can be told of",
         ),
         (|plan| plan.images[3].mips = 20, "`screen`: has more mip levels than its size allows"),
         (|plan| plan.images[0].samples = 3, "`color`: has a sample count that is not"),

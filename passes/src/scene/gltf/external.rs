@@ -85,5 +85,10 @@ fn data(uri: &str) -> Result<Vec<u8>, String> {
     let (kind, data) = uri.split_once(',').ok_or("it has no comma before its data")?;
     let bytes: Vec<u8> = percent_decode_str(data).collect();
     let base64 = kind.rsplit(';').next().is_some_and(|last| last.eq_ignore_ascii_case("base64"));
-    if base64 { BASE64.decode(bytes).map_err(|error| error.to_string()) } else { Ok(bytes) }
+    if !base64 {
+        return Ok(bytes);
+    }
+    // Long lines are broken by some.
+    let data: Vec<u8> = bytes.into_iter().filter(|byte| !byte.is_ascii_whitespace()).collect();
+    BASE64.decode(data).map_err(|error| error.to_string())
 }

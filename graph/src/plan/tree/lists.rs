@@ -1,0 +1,140 @@
+//! What a Plan lists beside its steps: views, images, buffers, outputs, notes and totals.
+
+use super::words::{bytes, cause, count, fill_value, place, samples, size};
+use crate::encoding::Encoding;
+use crate::jitter::Jitter;
+use crate::plan::names::{Shown, vulkan};
+use crate::plan::outline::Node;
+use crate::plan::{Buffer, ChosenFormat, Image, Initial, Note, Output, Plan, Resource, Role, Totals, View};
+use crate::texture::ColorSpace;
+use crate::view::Allowances;
+
+pub(super) fn view(view: &View) -> Node {
+    let [width, height] = view.extent;
+    let camera =
+        view.camera.as_ref().map_or_else(|| "default camera".to_owned(), |it| format!("camera `{}`", Shown(it)));
+    let Allowances { msaa, hdr, scale } = view.allows;
+    let not = [(msaa, "MSAA"), (hdr, "HDR"), (scale, "scaling")];
+    let not: Vec<&str> = not.iter().filter(|(allowed, _)| !allowed).map(|(_, what)| *what).collect();
+    let not = if not.is_empty() { String::new() } else { format!(", without {}", not.join(", ")) };
+    let jitter = view.jitter.as_ref().map_or_else(String::new, jitter);
+    Node::leaf(format!("`{}` {width}×{height}, {camera}{not}{jitter}", Shown(&view.name)))
+}
+
+fn jitter(jitter: &Jitter) -> String {
+    let [width, height] = jitter.extent;
+    format!(", shifted in turn by {} parts of a texel of {width}×{height}", jitter.offsets.len())
+}
+
+pub(super) fn buffer(plan: &Plan, buffer: &Buffer) -> Node {
+    let next = |at: u32| plan.buffers.get(at as usize).map_or("", |buffer| &buffer.name);
+    let text = format!("`{}` {}{}", Shown(&buffer.name), bytes(buffer.bytes), role(&buffer.role, &buffer.name, next));
+    Node::leaf(text + &cause(&buffer.cause))
+}
+
+/// Where the memory of the image or buffer `name` comes from.
+fn role<'p>(role: &Role, name: &str, next: impl Fn(u32) -> &'p str) -> String {
+    match role {
+        Role::Transient(placement) => {
+            let [first, last] = placement.lifetime;
+            let steps =
+                if first == last { format!("step {}", first.0) } else { format!("steps {}–{}", first.0, last.0) };
+            let [taken, offset] = [placement.bytes, placement.offset].map(bytes);
+            format!(": {taken} at {offset} in heap {}, {steps}", placement.heap)
+        }
+        Role::Persistent { initial: Initial::File(file), .. } => {
+            let decoded = match file.color_space {
+                ColorSpace::Srgb => "sRGB",
+                ColorSpace::Linear => "linear",
+            };
+            format!(": the file `{}` ({decoded}), only read", Shown(&file.path))
+        }
+        Role::Persistent { becomes, initial: Initial::Value(initial), .. } => {
+            let next = next(*becomes);
+            let becomes = if next == name { "stays".to_owned() } else { format!("becomes `{}`", Shown(next)) };
+            format!(": persistent, {becomes} in the next frame, at first {}", fill_value(initial))
+        }
+        Role::External { .. } => ": external".to_owned(),
+    }
+}
+
+pub(super) fn image(plan: &Plan, image: &Image) -> Node {
+    let room = image.room.map_or_else(String::new, |[width, height]| format!(" of {width}×{height}"));
+    let mut text = format!("`{}` {} {}{room}", Shown(&image.name), image.format, size(image.extent));
+    for (count, word) in [(image.mips, "mips"), (image.layers, "layers")] {
+        if count > 1 {
+            text += &format!(", {count} {word}");
+        }
+    }
+    text += &format!(", {}", samples(image.samples));
+    let next = |at: u32| plan.images.get(at as usize).map_or("", |image| &image.name);
+    text += &role(&image.role, &image.name, next);
+    Node::new(text + &cause(&image.cause), image.chosen.iter().map(chosen).collect())
+}
+
+fn chosen(chosen: &ChosenFormat) -> Node {
+    let ChosenFormat { because, usual, more_bytes } = chosen;
+    let amount = bytes(more_bytes.unsigned_abs());
+    let comes_to = match more_bytes {
+        0 => "as many bytes as".to_owned(),
+        1.. => format!("{amount} more than"),
+        ..0 => format!("{amount} fewer than"),
+    };
+    Node::leaf(format!("{}: {comes_to} in {usual}", Shown(because)))
+}
+
+pub(super) fn output(plan: &Plan, output: &Output) -> Option<Node> {
+    let resource = output.resource;
+    let role = match resource {
+        Resource::Image(id) => &plan.images.get(id.0 as usize)?.role,
+        Resource::Buffer(id) => &plan.buffers.get(id.0 as usize)?.role,
+    };
+    let (Role::External { after, .. } | Role::Persistent { after, .. }) = role else { return None };
+    let name = Shown(plan.resource_name(resource));
+    let [layout, stages, accesses] = [vulkan(&after.layout), vulkan(&after.stages), vulkan(&after.accesses)];
+    let encoded = output.encoding.map_or_else(String::new, |encoding| {
+        let by = output.encoded.as_deref().unwrap_or("");
+        match encoding {
+            Encoding::Srgb => format!("; sRGB, encoded {}", Shown(by)),
+            Encoding::Hdr10 => format!("; HDR10, encoded {}", Shown(by)),
+            Encoding::Linear => "; linear light, not encoded".to_owned(),
+            Encoding::Unorm => "; shares from 0 to 1, not encoded".to_owned(),
+        }
+    });
+    Some(Node::leaf(match resource {
+        Resource::Image(_) => format!("`{name}` in {layout}, last {accesses} in {stages}{encoded}"),
+        Resource::Buffer(_) => format!("`{name}`, last {accesses} in {stages}"),
+    }))
+}
+
+pub(super) fn note(note: &Note) -> Node {
+    let text = format!("{} `{}`: {}{}", vulkan(&note.stage), Shown(&note.subject), Shown(&note.text), place(&note.at));
+    Node::leaf(text)
+}
+
+pub(super) fn totals(totals: &Totals) -> Node {
+    let Totals { transient_bytes, placed_bytes, live_peak_bytes, kept_bytes, .. } = *totals;
+    let ratio = if live_peak_bytes == 0 {
+        String::new()
+    } else {
+        format!(" ({:.3} × live peak {})", placed_bytes as f64 / live_peak_bytes as f64, bytes(live_peak_bytes))
+    };
+    let work = format!(
+        "{} ({} inserted) in {}, {} ({} folded), {}",
+        count(totals.passes.saturating_add(totals.inserted_passes), "pass", "passes"),
+        totals.inserted_passes,
+        count(totals.scopes, "scope", "scopes"),
+        count(totals.resolves, "resolve", "resolves"),
+        totals.folded_resolves,
+        count(totals.copies, "copy", "copies"),
+    );
+    let barriers = format!(
+        "{} and {} in {}",
+        count(totals.image_barriers, "image barrier", "image barriers"),
+        count(totals.memory_barriers, "memory barrier", "memory barriers"),
+        count(totals.barrier_calls, "call", "calls"),
+    );
+    let [transient, placed, kept] = [transient_bytes, placed_bytes, kept_bytes].map(bytes);
+    let memory = format!("transient {transient} placed in {placed}{ratio}, kept {kept}");
+    Node::new("totals", [work, barriers, memory].map(Node::leaf).into())
+}

@@ -1,0 +1,90 @@
+//! Single things in words.
+
+use crate::frame::{Cascade, DrawList};
+use crate::plan::names::{Shown, vulkan};
+use crate::plan::{Cause, Hazard, StepId};
+use crate::source::Place;
+use crate::vocabulary::{AddressMode, FillValue, Filter, Sampler};
+
+/// Who does what, after what.
+pub(super) fn hazard(who: &str, hazard: Hazard, after: Option<StepId>) -> String {
+    let after = after.map_or("the frame before".to_owned(), |StepId(step)| format!("step {step}"));
+    match hazard {
+        Hazard::FirstUse => format!("first use, after {after}"),
+        Hazard::ReadAfterWrite => format!("{who} reads what {after} wrote"),
+        Hazard::WriteAfterRead => format!("{who} writes what {after} read"),
+        Hazard::WriteAfterWrite => format!("{who} writes what {after} wrote"),
+        Hazard::LayoutChange => format!("{who} reads what {after} read in another way"),
+        Hazard::Export => format!("promised state, after {after}"),
+        Hazard::Ownership => format!("another queue takes it over after {after}"),
+    }
+}
+
+pub(super) fn words_of_list(list: DrawList) -> &'static str {
+    match list {
+        DrawList::Opaque => "opaque",
+        DrawList::Masked => "masked",
+        DrawList::Transparent => "transparent",
+    }
+}
+
+pub(super) fn casters(cascade: Cascade) -> String {
+    let Cascade { list, index, of, .. } = cascade;
+    let (list, reach) = (words_of_list(list), cascade.reach_in_words());
+    format!("draws {list} objects as the sun sees them, cascade {index} of {of} through {reach}")
+}
+
+/// A sampler, without what is usual.
+pub(super) fn words_of(sampler: &Sampler) -> String {
+    let mut words = vulkan(&sampler.filter);
+    if sampler.mips == Filter::Linear {
+        words += ", between mip levels too";
+    }
+    if sampler.address != AddressMode::default() {
+        words += &format!(", {}", vulkan(&sampler.address));
+    }
+    words
+}
+
+pub(super) fn fill_value(value: &FillValue) -> String {
+    match value {
+        FillValue::Color([red, green, blue, alpha]) => format!("({red}, {green}, {blue}, {alpha})"),
+        FillValue::Bits([red, green, blue, alpha]) => format!("({red}, {green}, {blue}, {alpha})"),
+        FillValue::Depth(depth, stencil) => format!("depth {depth}, stencil {stencil}"),
+    }
+}
+
+pub(super) fn count(number: u32, one: &str, many: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
+}
+
+pub(super) fn samples(samples: u32) -> String {
+    count(samples, "sample", "samples")
+}
+
+/// Width × height, and depth if there is any.
+pub(super) fn size([width, height, depth]: [u32; 3]) -> String {
+    if depth == 1 { format!("{width}×{height}") } else { format!("{width}×{height}×{depth}") }
+}
+
+/// Bytes in the largest unit that leaves at least 1.
+pub(super) fn bytes(bytes: u64) -> String {
+    const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
+    if bytes < 1024 {
+        return format!("{bytes} B");
+    }
+    let unit = ((bytes.ilog2() / 10) as usize).min(UNITS.len());
+    format!("{:.1} {}", bytes as f64 / 1024_f64.powi(unit as i32), UNITS[unit - 1])
+}
+
+/// Where something was written, or why it was inserted.
+pub(super) fn cause(cause: &Cause) -> String {
+    match cause {
+        Cause::Written(at) => place(at),
+        Cause::Inserted(why) => format!(": {}{}", Shown(&why.because), place(&why.at)),
+    }
+}
+
+pub(super) fn place(at: &Option<Place>) -> String {
+    at.as_ref().map_or_else(String::new, |place| format!(" ({}:{})", Shown(&place.file), place.line))
+}
