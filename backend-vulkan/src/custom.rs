@@ -27,6 +27,9 @@ pub struct CustomImage {
     pub raw: vk::Image,
     /// The part that the pass may touch.
     pub range: Subresources,
+    /// Width, height and depth in use, from the first texel on, of the first mip level of that part; where an image changes its
+    /// size from frame to frame it is made larger.
+    pub extent: [u32; 3],
     /// The layout that it is in and must be left in.
     pub layout: vk::ImageLayout,
     /// What the pass may do with it.
@@ -132,6 +135,7 @@ impl<'f> CustomRecorder<'f> {
         Some(CustomImage {
             raw: self.frame.prepared.physical.image(access.image, self.frame.number).raw,
             range: crate::physical::part(plan.image(access.image), access.range),
+            extent: self.extent(access),
             layout: convert::layout(access.layout),
             accesses: access.accesses,
         })

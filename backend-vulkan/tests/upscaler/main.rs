@@ -7,12 +7,14 @@ mod program;
 use common::{device, findings};
 use framewright_graph::compile::Options;
 use framewright_graph::jitter::Jitter;
+use framewright_graph::plan::Plan;
 use framewright_passes::draw::{SceneDrawSource, interface};
 use framewright_passes::scene::{Scene, load};
 use framewright_passes::shipped::SHADERS;
 use framewright_tests::render::{Setup, floats, in_repository, plan};
 use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderLibrary};
 use program::Upscaler;
+use std::collections::HashMap;
 
 const EXTENT: [u32; 2] = [96, 54];
 
@@ -36,18 +38,30 @@ fn number(bits: u16) -> f64 {
     if bits & 0x8000 == 0 { size } else { -size }
 }
 
+/// What draws frames of a Plan with the program's upscaler.
+struct Program {
+    executor: Executor,
+    upscaler: Upscaler,
+}
+
+impl Program {
+    fn new(device: &Device, scene: &Scene, plan: &Plan, shaders: &mut ShaderLibrary) -> Program {
+        let objects = SceneDrawSource::for_plan(device, scene, EXTENT, plan).expect("the scene fits");
+        let executor = Executor::new(device, plan, shaders, &ExecutorOptions::default()).expect("an executor");
+        Program { executor, upscaler: Upscaler::new(device, objects) }
+    }
+}
+
 /// So many frames, drawn with the program's upscaler, and by how much it was told that each is shifted.
 fn frames(device: &Device, scene: &Scene, external: &str, count: u32) -> (Vec<Frame>, Vec<[f64; 2]>) {
     let set = [("external", external)];
     let setup = Setup { pipeline: "tests/pipelines/upscaler.ron", set: &set, scene, extent: EXTENT };
     let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interface);
     let plan = plan(device, &setup, &mut shaders, &Options::default()).expect("a Plan");
-    let objects = SceneDrawSource::for_plan(device, scene, EXTENT, &plan).expect("the scene fits");
-    let mut program = Upscaler::new(device, objects);
-    let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default()).expect("an executor");
+    let Program { mut executor, mut upscaler } = Program::new(device, scene, &plan, &mut shaders);
     let mut frames = Vec::new();
     for _ in 0..count {
-        executor.frame(&mut program).expect("a frame");
+        executor.frame(&mut upscaler).expect("a frame");
         let [color, depth, motion, light] = [0, 1, 2, 3].map(|output| executor.read(output).expect("its texels"));
         frames.push(Frame {
             color: halves(&color.bytes),
@@ -56,7 +70,7 @@ fn frames(device: &Device, scene: &Scene, external: &str, count: u32) -> (Vec<Fr
             light: halves(&light.bytes),
         });
     }
-    (frames, program.told.clone())
+    (frames, upscaler.told.clone())
 }
 
 fn scene() -> Scene {
@@ -99,5 +113,40 @@ fn without_a_program_the_built_in_filter_takes_its_place() {
     assert!(told.is_empty(), "nobody asks the program");
     let Frame { color, light, .. } = &frames[1];
     assert!((0..light.len()).all(|pixel| light[pixel] == color[texel_under(pixel)]), "each texel becomes four pixels");
+    assert_eq!(findings(&device.messages()), []);
+}
+
+#[test]
+fn the_program_s_upscaler_is_told_what_is_rendered_where_that_changes_from_frame_to_frame() {
+    const SCALES: [&str; 6] = ["0.5", "1", "0.3", "0.3", "0.71", "0.5"];
+    let Some(device) = device() else { return };
+    let scene = scene();
+    for external in ["true", "false"] {
+        let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interface);
+        let mut planned = |pipeline, scale| {
+            let set = [("external", external), ("scale", scale)];
+            let setup = Setup { pipeline, set: &set, scene: &scene, extent: EXTENT };
+            plan(device, &setup, &mut shaders, &Options::default()).expect("a Plan")
+        };
+        let dynamic: HashMap<&str, Plan> =
+            SCALES.iter().map(|scale| (*scale, planned("tests/pipelines/dynamic_upscaler.ron", *scale))).collect();
+        let fixed: HashMap<&str, Plan> =
+            SCALES.iter().map(|scale| (*scale, planned("tests/pipelines/upscaler.ron", *scale))).collect();
+        let mut one = Program::new(device, &scene, &dynamic["0.71"], &mut shaders);
+        let (mut shown, mut told) = (Vec::new(), Vec::new());
+        for scale in SCALES {
+            one.executor.change(&dynamic[scale]).expect("other values");
+            one.upscaler.objects.change(&dynamic[scale]).expect("the same views");
+            one.executor.frame(&mut one.upscaler).expect("a frame");
+            shown.push(one.executor.read(0).expect("its texels").bytes);
+            told.push(one.upscaler.told.last().copied());
+        }
+        for (number, scale) in SCALES.into_iter().enumerate() {
+            let mut alone = Program::new(device, &scene, &fixed[scale], &mut shaders);
+            (0..=number).for_each(|_| drop(alone.executor.frame(&mut alone.upscaler).expect("a frame")));
+            assert!(shown[number] == alone.executor.read(3).expect("its texels").bytes, "frame {number}, {scale}");
+            assert_eq!(told[number], alone.upscaler.told.last().copied());
+        }
+    }
     assert_eq!(findings(&device.messages()), []);
 }

@@ -12,14 +12,14 @@ const SHADER: &str = "#version 460
     layout(set = 0, binding = 1) uniform sampler2D depth;
     layout(set = 0, binding = 2) uniform sampler2D motion;
     layout(set = 0, binding = 3, rgba16f) writeonly uniform image2D upscaled;
-    layout(push_constant) uniform Frame { vec2 jitter; } frame;
+    layout(push_constant) uniform Frame { vec2 jitter; ivec2 rendered; } frame;
     void main() {
         const ivec2 size = imageSize(upscaled);
         const ivec2 at = ivec2(gl_GlobalInvocationID.xy);
         if (any(greaterThanEqual(at, size))) {
             return;
         }
-        const ivec2 texel = at * textureSize(color, 0) / size;
+        const ivec2 texel = at * frame.rendered / size;
         const float moved = texelFetch(motion, texel, 0).r;
         const float distance = texelFetch(depth, texel, 0).r;
         imageStore(upscaled, at, vec4(texelFetch(color, texel, 0).rg, distance, moved + frame.jitter.x));
@@ -36,7 +36,7 @@ const IMAGES: [(&str, vk::Format, vk::ImageAspectFlags); 4] = [
 /// Draws a scene, and upscales.
 pub(crate) struct Upscaler {
     device: Device,
-    objects: SceneDrawSource,
+    pub(crate) objects: SceneDrawSource,
     set_layout: vk::DescriptorSetLayout,
     layout: vk::PipelineLayout,
     pipeline: vk::Pipeline,
@@ -72,7 +72,7 @@ impl Upscaler {
             let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
             let set_layout = raw.create_descriptor_set_layout(&info, None).expect("a set layout");
             let (layouts, constants) =
-                ([set_layout], [vk::PushConstantRange::default().stage_flags(vk::ShaderStageFlags::COMPUTE).size(8)]);
+                ([set_layout], [vk::PushConstantRange::default().stage_flags(vk::ShaderStageFlags::COMPUTE).size(16)]);
             let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts).push_constant_ranges(&constants);
             let layout = raw.create_pipeline_layout(&info, None).expect("a layout");
             let info = vk::ShaderModuleCreateInfo::default().code(spirv.as_binary());
@@ -147,7 +147,9 @@ impl DrawSource for Upscaler {
         let jitter = recorder.jitter();
         self.told.push(jitter);
         let set = self.set(recorder);
-        let bytes: Vec<u8> = jitter.iter().flat_map(|part| (*part as f32).to_ne_bytes()).collect();
+        let [across, down, _] = recorder.image("color").expect("the pass names it").extent;
+        let jitter = jitter.map(|part| (part as f32).to_ne_bytes());
+        let bytes: Vec<u8> = jitter.into_iter().chain([across, down].map(u32::to_ne_bytes)).flatten().collect();
         let (raw, commands) = (self.device.raw(), recorder.raw());
         // SAFETY: the commands are being recorded outside of rendering scopes, and touch what the pass says as it says.
         unsafe {

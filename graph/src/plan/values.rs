@@ -8,8 +8,8 @@ impl Plan {
     /// What tells `other` from this Plan beside values, in words; `None`: whoever executes this one can go on with the other one,
     /// with the memory, images, buffers and pipelines that it has.
     ///
-    /// Values are settings, parameters, clear and fill values, counts of workgroups, which part of an image is in use where
-    /// that may change, and all that explains.
+    /// Values are settings, parameters, clear and fill values, counts of workgroups, how views are shifted, which part of an
+    /// image is in use where that may change, and all that explains.
     #[must_use]
     pub fn differs_beyond_values(&self, other: &Plan) -> Option<String> {
         let [one, another] = [self, other].map(without_values);
@@ -33,6 +33,7 @@ impl Plan {
 /// A Plan without the values in it.
 fn without_values(plan: &Plan) -> Plan {
     let mut plan = plan.clone();
+    plan.views.iter_mut().for_each(|view| view.jitter = None);
     for image in &mut plan.images {
         image.cause = Cause::Written(None);
         image.extent = image.made();

@@ -121,10 +121,16 @@ impl Seen {
         if scene.moves() {
             *self = Seen::new(device, scene, view, frame)?;
         } else if view.jitter.is_some() {
-            let world_to_clip = view.world_to_clip(frame);
-            self.frame = group(device, &view.camera, world_to_clip, &self.buffers)?;
-            self.in_sight = frustum::within(scene, &view.camera, world_to_clip);
+            self.shift(device, scene, view, frame)?;
         }
+        Ok(())
+    }
+
+    /// Is shifted as `view` is at the frame that it is for already.
+    pub(super) fn shift(&mut self, device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<(), Error> {
+        let (camera, world_to_clip) = (view.camera.at(frame), view.world_to_clip(frame));
+        self.frame = group(device, &camera, world_to_clip, &self.buffers)?;
+        self.in_sight = frustum::within(&scene.at(frame), &camera, world_to_clip);
         Ok(())
     }
 }

@@ -88,6 +88,30 @@ impl SceneDrawSource {
         })
     }
 
+    /// Goes over to a Plan that differs in values alone, together with [`framewright_vulkan::Executor::change`]: its views are
+    /// shifted as it says. Frames on their way keep what they are drawn from.
+    ///
+    /// # Errors
+    /// [`Error::DrawSource`] if it has not as many views as the Plan before; no memory.
+    pub fn change(&mut self, plan: &Plan) -> Result<(), Error> {
+        let jitters: Vec<_> = if plan.views.is_empty() {
+            vec![None]
+        } else {
+            plan.views.iter().map(|view| view.jitter.clone()).collect()
+        };
+        if jitters.len() != self.views.len() {
+            let what = format!("the Plan has {} views, and {} were prepared", plan.views.len(), self.views.len());
+            return Err(Error::DrawSource { what });
+        }
+        for ((view, seen), jitter) in self.views.iter_mut().zip(jitters) {
+            if view.jitter != jitter {
+                view.jitter = jitter;
+                seen.shift(&self.device, &self.outline, view, self.frame)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Sees to it that what is drawn is what a frame shows. Frames on their way keep what they are drawn from.
     fn turn_to(&mut self, frame: u64) -> Result<(), Error> {
         if self.frame != frame {
