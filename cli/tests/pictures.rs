@@ -122,8 +122,10 @@ fn shipped_pipelines_are_silent_on_lavapipe_under_the_current_layer() {
 }
 
 #[test]
-fn forward_is_silent_on_lavapipe_under_the_distributions_layer() {
-    silent(Vulkan::LAVAPIPE_OLD, "forward", false);
+fn shipped_pipelines_are_silent_on_lavapipe_under_the_distributions_layer() {
+    for pipeline in PIPELINES {
+        silent(Vulkan::LAVAPIPE_OLD, pipeline, false);
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The pictures in `docs/pictures` are what the shipped pipelines draw.
+//! The pictures in `docs/pictures` are what the shipped pipelines draw, by the settings that their names speak of.
 
 mod support;
 
@@ -14,12 +14,23 @@ const ACCEPT: &str =
 /// How all of them are drawn: in so many frames what persists has settled, and snow is falling.
 const HOW: [&str; 4] = ["--size", "320x180", "--frames", "4"];
 
+/// Where to; each in turn.
+const DRAWN: &str = "drawn.png";
+
 /// The scene that a pipeline draws: only in the first the sun casts shadows, and only in the second something moves.
 fn scene(pipeline: &str) -> &'static str {
     match pipeline {
         "deferred" | "shadows" => "courtyard",
         "temporal" => "passing",
         _ => "spheres_and_cubes",
+    }
+}
+
+/// The settings that a picture's name speaks of: `blur=5` of `image_quality@blur=5`.
+fn set(name: &str) -> (&str, Vec<&str>) {
+    match name.split_once('@') {
+        Some((pipeline, choices)) => (pipeline, choices.split(',').flat_map(|choice| ["--set", choice]).collect()),
+        None => (name, Vec::new()),
     }
 }
 
@@ -57,23 +68,22 @@ fn the_other_driver_draws_the_same_pictures() {
 fn hold(vulkan: Vulkan, one_in: [usize; 2], update: bool) {
     let Some(variables) = vulkan.variables() else { return };
     let place = Place::new();
-    for pipeline in names("examples/pipelines", ".ron") {
-        let file = format!("{pipeline}.png");
-        place
-            .run_with(&variables, &[&["run", &*pipeline, "--scene", scene(&pipeline), "-o", &*file][..], &HOW].concat())
-            .exits(0);
-        let shown = repository("docs/pictures").join(&file);
+    for name in &names("examples/pipelines", ".ron") | &names("docs/pictures", ".png") {
+        let (pipeline, set) = set(&name);
+        let run = ["run", pipeline, "--scene", scene(pipeline), "-o", DRAWN];
+        place.run_with(&variables, &[&run[..], &HOW, &set].concat()).exits(0);
+        let shown = repository("docs/pictures").join(format!("{name}.png"));
         if update {
-            std::fs::copy(place.path(&file), &shown).expect("copied");
+            std::fs::copy(place.path(DRAWN), &shown).expect("copied");
             continue;
         }
-        let (drawn, shown) = (picture(&place.path(&file)), picture(&shown));
-        assert_eq!(drawn.dimensions(), shown.dimensions(), "{pipeline}; accept: {ACCEPT}");
+        let (drawn, shown) = (picture(&place.path(DRAWN)), picture(&shown));
+        assert_eq!(drawn.dimensions(), shown.dimensions(), "{name}; accept: {ACCEPT}");
         let [slightly, clearly] = [2, 24].map(|steps| apart(&drawn, &shown, steps));
         let all = drawn.pixels().len();
         assert!(
             slightly * one_in[0] <= all && clearly * one_in[1] <= all,
-            "{pipeline}: of {all} pixels {slightly} are further apart than 2/255, {clearly} further than 24/255; \
+            "{name}: of {all} pixels {slightly} are further apart than 2/255, {clearly} further than 24/255; \
              accept: {ACCEPT}"
         );
     }
@@ -81,5 +91,7 @@ fn hold(vulkan: Vulkan, one_in: [usize; 2], update: bool) {
 
 #[test]
 fn no_picture_is_left_over_from_a_pipeline_that_is_gone() {
-    assert_eq!(names("docs/pictures", ".png"), names("examples/pipelines", ".ron"));
+    let pipelines: BTreeSet<String> =
+        names("docs/pictures", ".png").iter().map(|name| set(name).0.to_owned()).collect();
+    assert_eq!(pipelines, names("examples/pipelines", ".ron"));
 }
