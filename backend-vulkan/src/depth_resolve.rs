@@ -33,7 +33,8 @@ pub(crate) struct DepthResolve {
 /// All modes, in the order of the four components that `expect.frag` writes.
 const MODES: [ResolveMode; 4] = [ResolveMode::SampleZero, ResolveMode::Average, ResolveMode::Min, ResolveMode::Max];
 
-const FORMAT: Format = Format::D32_SFLOAT;
+/// Depth alone: what has stencil too isn't resolved.
+const FORMATS: [Format; 3] = [Format::D16_UNORM, Format::X8_D24_UNORM_PACK32, Format::D32_SFLOAT];
 
 const SHADERS: &[(&str, &str)] = &[
     (
@@ -77,22 +78,36 @@ pub(crate) fn probe(device: &Device) -> DepthResolve {
     let kept = |mode: &ResolveMode| *mode == ResolveMode::SampleZero;
     match resolves_so(device, &said) {
         Ok(right) => {
-            let pairs = said.iter().zip(right);
-            let of =
-                |wanted: bool| pairs.clone().filter(|(_, right)| *right == wanted).map(|(mode, _)| *mode).collect();
-            DepthResolve { has: of(true), refuted: of(false) }
+            let (has, refuted) = said.into_iter().partition(|mode| right.contains(mode));
+            DepthResolve { has, refuted }
         }
         Err(_) => DepthResolve { has: said.into_iter().filter(kept).collect(), refuted: Vec::new() },
     }
 }
 
-/// Whether each of these modes gives what it has to.
-fn resolves_so(device: &Device, modes: &[ResolveMode]) -> Result<Vec<bool>, Error> {
+/// Those of these modes that give what they have to, in every format and with every number of samples.
+fn resolves_so(device: &Device, modes: &[ResolveMode]) -> Result<Vec<ResolveMode>, Error> {
     let claims = DepthResolve { has: modes.to_vec(), refuted: Vec::new() };
     let claimed = capabilities::profile(&device.shared, String::new(), &mut device.memory(), claims);
-    let Some(frame) = frame(&claimed, modes) else { return Ok(vec![true; modes.len()]) };
+    let mut right = modes.to_vec();
+    for format in FORMATS {
+        for samples in claimed.format(format).into_iter().flat_map(|it| &it.samples).filter(|count| **count > 1) {
+            let found = resolves_samples_so(device, &claimed, &frame(format, *samples, modes), modes)?;
+            right.retain(|mode| found.contains(mode));
+        }
+    }
+    Ok(right)
+}
+
+/// The same of one format and number of samples, by a frame that [`frame`] made.
+fn resolves_samples_so(
+    device: &Device,
+    claimed: &Profile,
+    frame: &Frame,
+    modes: &[ResolveMode],
+) -> Result<Vec<ResolveMode>, Error> {
     let failed = |what: String| Error::BadPlan { what };
-    let plan = compile(&frame, &claimed, &mut device.memory(), &Options::default());
+    let plan = compile(frame, claimed, &mut device.memory(), &Options::default());
     let plan = plan.map_err(|mistakes| failed(mistakes.into_iter().map(|it| it.message).collect()))?;
     let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
     let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
@@ -100,24 +115,25 @@ fn resolves_so(device: &Device, modes: &[ResolveMode]) -> Result<Vec<bool>, Erro
     let expected = floats(&executor.read(0)?.bytes);
     let expected =
         |mode: ResolveMode| MODES.iter().zip(&expected).find(|(it, _)| **it == mode).map(|(_, depth)| *depth);
-    let mut right = Vec::with_capacity(modes.len());
+    let mut right = Vec::new();
     for (output, mode) in (1..).zip(modes) {
         let found = floats(&executor.read(output)?.bytes).first().copied();
         let near = |(found, expected): (f32, f32)| (found - expected).abs() < TOLERANCE;
-        right.push(found.zip(expected(*mode)).is_some_and(near));
+        if found.zip(expected(*mode)).is_some_and(near) {
+            right.push(*mode);
+        }
     }
     Ok(right)
 }
 
-/// Draws the slope for each mode; `None` if the device has no several samples of depth.
-fn frame(device: &Profile, modes: &[ResolveMode]) -> Option<Frame> {
-    let samples = *device.format(FORMAT)?.samples.iter().filter(|count| **count > 1).min()?;
+/// Draws the slope for each mode.
+fn frame(format: Format, samples: u32, modes: &[ResolveMode]) -> Frame {
     let whole = Subresources::WHOLE;
     let mut frame = Frame::default();
     frame.images.push(Image::new("modes", Format::R32G32B32A32_SFLOAT, 1, 1));
     for (number, mode) in (1..).zip(modes) {
         let resolve = Some(Resolve { way: ResolveWay::By(*mode), because: "to see what it does".into() });
-        frame.images.push(Image { samples, resolve, ..Image::new(&format!("slope {number}"), FORMAT, 1, 1) });
+        frame.images.push(Image { samples, resolve, ..Image::new(&format!("slope {number}"), format, 1, 1) });
         let depth = DepthTarget {
             image: ImageIndex(number),
             range: whole,
@@ -147,7 +163,7 @@ fn frame(device: &Profile, modes: &[ResolveMode]) -> Option<Frame> {
     let output =
         |image| Output { resource: Resource::Image(ImageIndex(image)), span: Span::NONE, after: None, encoding: None };
     frame.outputs = (0..).take(frame.images.len()).map(output).collect();
-    Some(frame)
+    frame
 }
 
 fn full_screen(name: &str, shader: &str) -> Pass {

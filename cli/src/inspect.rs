@@ -5,6 +5,8 @@ use crate::error::{Error, Exit};
 use crate::planning::{self, View};
 use crate::{files, output, profiles, text};
 use framewright_graph::device::Estimated;
+use framewright_graph::frame::DrawList;
+use framewright_passes::scene::Scene;
 use std::path::Path;
 
 /// Prints or writes a Plan.
@@ -22,16 +24,17 @@ pub(crate) fn inspect(arguments: &Inspect) -> Result<Exit, Error> {
     let profile = profiles::choose(arguments.device.as_deref())?;
     let mut pipeline = planning::load(&arguments.pipeline)?;
     pipeline.spare(arguments.output.iter())?;
-    let facts = match &arguments.scene {
-        Some(path) => Some(files::scene(path)?.facts()),
-        None => None,
-    };
+    let scene = arguments.scene.as_deref().map(files::scene).transpose()?;
+    let facts = scene.as_ref().map(Scene::facts);
     let view = View { facts, size: arguments.size, dump: &[] };
     let plan = pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan;
     // Now its shaders are known.
     pipeline.spare(arguments.output.iter())?;
     let shown = match arguments.format {
-        PlanFormat::Tree => text::escape_lines(&plan.tree()) + "\n",
+        PlanFormat::Tree => {
+            let tree = scene.as_ref().map_or_else(|| plan.tree(), |scene| plan.tree_of(&|list| objects(scene, list)));
+            text::escape_lines(&tree) + "\n"
+        }
         PlanFormat::Json => text::json_text(&plan.to_json()?),
     };
     match &arguments.output {
@@ -39,4 +42,9 @@ pub(crate) fn inspect(arguments: &Inspect) -> Result<Exit, Error> {
         None => text::print(&shown).map_err(Error::Print)?,
     }
     Ok(Exit::Fine)
+}
+
+/// How many objects of a scene are in a draw list.
+fn objects(scene: &Scene, list: DrawList) -> usize {
+    scene.objects.iter().filter(|object| scene.draw_list(object) == list).count()
 }

@@ -5,9 +5,9 @@ use crate::error::{Error, Exit};
 use crate::planning::{self, Loaded, Planned, View};
 use crate::report::{Report, Setting, Validation};
 use crate::values::OutputFile;
-use crate::{files, interrupt, output, picture, placed, progress, rows, text};
+use crate::{files, interrupt, notes, output, picture, placed, progress, rows, text};
 use framewright_graph::frame::{Frame, Image, Lifetime, Resource};
-use framewright_graph::plan::{self, Totals};
+use framewright_graph::plan::{self, Stage, Totals};
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::Layout;
 use framewright_passes::draw::SceneDrawSource;
@@ -44,6 +44,10 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
     // Now its shaders are known.
     pipeline.spare(arguments.written())?;
     let wanted = wanted(arguments, &planned)?;
+    // What was asked for and isn't had changes the picture.
+    for line in notes::lines(planned.plan.notes.iter().filter(|note| note.stage == Stage::Fit)) {
+        text::say(&line);
+    }
     for name in not_handed_in(&planned.frame) {
         text::say(&format!("note: nobody hands in `{}` here: all of it is 0", text::escape(name)));
     }

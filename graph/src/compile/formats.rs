@@ -181,5 +181,5 @@ fn note(frame: &Frame, image: usize, made: Format, why: &str) -> Note {
         _ => "",
     };
     let text = format!("{} was asked for, {made} is made: {why}{gains}", declared.format);
-    Note { stage: Stage::Adapt, subject: declared.name.clone(), text, at: frame.sources.place(declared.span) }
+    Note { stage: Stage::Fit, subject: declared.name.clone(), text, at: frame.sources.place(declared.span) }
 }

@@ -256,7 +256,7 @@ fn lower(frame: &Frame, group: &[usize], supports: &Supports<'_>, negotiated: &m
         }
         let formats = formats.join(" with ");
         negotiated.notes.push(Note {
-            stage: Stage::Adapt,
+            stage: Stage::Fit,
             subject: first.name.clone(),
             text: format!(
                 "{wanted} samples were asked for, {chosen} are used: the most, up to {wanted}, that `{}` has for {formats}",

@@ -28,7 +28,7 @@
 
 use crate::change::Action;
 use crate::format::Format;
-use crate::frame::Shape;
+use crate::frame::{DrawList, Shape};
 use crate::jitter::Jitter;
 use crate::source::Place;
 use crate::texture::TextureFile;
@@ -475,6 +475,13 @@ impl Plan {
     /// The tree form for people.
     #[must_use]
     pub fn tree(&self) -> String {
-        tree::tree(self)
+        tree::tree(self, None)
+    }
+
+    /// The tree form for people, of a frame of a scene that has so many objects in each draw list: passes say how many they
+    /// draw at most.
+    #[must_use]
+    pub fn tree_of(&self, objects: &dyn Fn(DrawList) -> usize) -> String {
+        tree::tree(self, Some(objects))
     }
 }

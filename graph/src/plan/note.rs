@@ -40,6 +40,8 @@ pub enum Stage {
     Link,
     /// What reaches no output goes.
     Cull,
+    /// Sample counts and formats that the device has.
+    Fit,
     /// Samples, sizes and formats meet.
     Adapt,
     /// The order.

@@ -10,12 +10,15 @@ use super::{
     Access, Attachment, BindingKind, BufferAccess, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
     RenderScope, Resource, Side, Step, StepId, Subresources, Transfer, Wait, Work,
 };
-use crate::frame::{Blend, BufferRole, Draw, Groups, ParamValue, StencilState};
+use crate::frame::{Blend, BufferRole, Draw, DrawList, Groups, ParamValue, StencilState};
 use lists::{buffer, image, note, output, totals, view};
-use words::{bytes, casters, cause, fill_value, hazard, samples, size, words_of, words_of_list};
+use words::{bytes, cause, fill_value, hazard, samples, size, words_of, words_of_cascade, words_of_list};
 
-/// The tree form.
-pub(super) fn tree(plan: &Plan) -> String {
+/// How many objects of a scene are in a draw list.
+type Objects<'p> = &'p dyn Fn(DrawList) -> usize;
+
+/// The tree form, of a scene's frame if there is one.
+pub(super) fn tree(plan: &Plan, objects: Option<Objects<'_>>) -> String {
     let memory = if plan.device.exact_memory { "its own memory needs" } else { "estimated memory needs" };
     let mut parts = Vec::new();
     if !plan.settings.is_empty() {
@@ -28,7 +31,7 @@ pub(super) fn tree(plan: &Plan) -> String {
     if !plan.views.is_empty() {
         parts.push(Node::new("views", plan.views.iter().map(view).collect()));
     }
-    parts.extend((0..).map(StepId).zip(&plan.steps).map(|(id, step)| Tree { plan, id }.step(step)));
+    parts.extend((0..).map(StepId).zip(&plan.steps).map(|(id, step)| Tree { plan, objects, id }.step(step)));
     parts.push(Node::new("images", plan.images.iter().map(|it| image(plan, it)).collect()));
     if !plan.buffers.is_empty() {
         parts.push(Node::new("buffers", plan.buffers.iter().map(|it| buffer(plan, it)).collect()));
@@ -46,6 +49,7 @@ pub(super) fn tree(plan: &Plan) -> String {
 #[derive(Clone, Copy)]
 struct Tree<'p> {
     plan: &'p Plan,
+    objects: Option<Objects<'p>>,
     id: StepId,
 }
 
@@ -132,8 +136,10 @@ impl Tree<'_> {
 
     fn pass(self, pass: &Pass) -> Node {
         let work = match (pass.draw, pass.groups) {
-            (Some(Draw::Objects(list)), _) => format!("draws {} objects", words_of_list(list)),
-            (Some(Draw::Casters(cascade)), _) => casters(cascade),
+            (Some(Draw::Objects(list)), _) => format!("draws {}", self.objects(list)),
+            (Some(Draw::Casters(cascade)), _) => {
+                format!("draws {} as the sun sees them, {}", self.objects(cascade.list), words_of_cascade(cascade))
+            }
             (Some(Draw::Sky), _) => "draws the sky".to_owned(),
             (Some(Draw::FullScreen), _) => "draws the full screen".to_owned(),
             (Some(Draw::Vertices { count, instances }), _) => format!("draws {count} × {instances} vertices"),
@@ -187,6 +193,12 @@ impl Tree<'_> {
             parts.push(Node::leaf(format!("in the scope of the pass before: {}", Shown(merged))));
         }
         Node::new(text, parts)
+    }
+
+    /// What is outside of the picture isn't drawn, which no Plan knows.
+    fn objects(self, list: DrawList) -> String {
+        let most = self.objects.map_or_else(String::new, |objects| format!("up to {} ", objects(list)));
+        format!("{most}{} objects", words_of_list(list))
     }
 
     fn binding(self, access: &Access) -> Option<Node> {

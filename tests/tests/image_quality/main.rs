@@ -37,6 +37,7 @@
 //!
 //! Where no file is named it is `image_quality.ron`.
 
+mod depth;
 mod formats;
 mod pictures;
 mod plans;
@@ -57,6 +58,9 @@ use std::error::Error;
 const PIPELINE: &str = "examples/pipelines/image_quality.ron";
 /// Everything off.
 const DIRECT: [(&str, &str); 3] = [("msaa", "1"), ("hdr", "false"), ("tone_mapping", "clip")];
+
+/// How many samples along each axis of a pixel converge.
+const MANY: u32 = 16;
 
 type Set<'a> = &'a [(&'a str, &'a str)];
 

@@ -1,6 +1,6 @@
 //! What samples do for edges, and what they cost: held against pictures of 256 samples a pixel.
 
-use crate::{DIRECT, Picture, Set, picture, shining};
+use crate::{DIRECT, MANY, Picture, Set, picture, shining};
 use framewright_graph::compile::Options;
 use framewright_passes::scene::{AlphaMode, Material, Sampler, Scene, Texture};
 use framewright_tests::render::{Setup, device, draw, silent};
@@ -9,9 +9,6 @@ use glam::{Mat4, Vec3};
 use std::error::Error;
 
 const EXTENT: [u32; 2] = [32, 24];
-/// Along each axis.
-const MANY: u32 = 16;
-
 /// What is shown with one sample at so many times the size, averaged.
 fn converged(set: Set<'_>, light: f32) -> Result<Option<Picture>, Box<dyn Error>> {
     let large = picture(&[set, &[("msaa", "1")]].concat(), &shining([light; 3]), EXTENT.map(|side| side * MANY))?;

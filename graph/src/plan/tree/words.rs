@@ -28,10 +28,9 @@ pub(super) fn words_of_list(list: DrawList) -> &'static str {
     }
 }
 
-pub(super) fn casters(cascade: Cascade) -> String {
-    let Cascade { list, index, of, .. } = cascade;
-    let (list, reach) = (words_of_list(list), cascade.reach_in_words());
-    format!("draws {list} objects as the sun sees them, cascade {index} of {of} through {reach}")
+pub(super) fn words_of_cascade(cascade: Cascade) -> String {
+    let Cascade { index, of, .. } = cascade;
+    format!("cascade {index} of {of} through {}", cascade.reach_in_words())
 }
 
 /// A sampler, without what is usual.
