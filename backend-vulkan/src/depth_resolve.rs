@@ -1,12 +1,13 @@
 //! How a device really resolves depth: what it says, held against what it does. A driver is known that says it averages, and
 //! takes sample zero.
 //!
-//! A slope is drawn into depth of one texel and several samples, once for each mode; a pass works out from the single samples
-//! what each mode has to give. That is a frame like any other, with a Plan of its own.
+//! A slope is drawn into depth of one texel and several samples, once for each mode, in every depth format and with every number of samples;
+//! a pass works out from the single samples what each mode has to give. That is a frame like any other, with a Plan of its own.
 
 use crate::device::Device;
 use crate::error::Error;
 use crate::executor::{Executor, ExecutorOptions};
+use crate::readback::Texels;
 use crate::recorder::{DrawSource, Recorder};
 use crate::shaders::ShaderLibrary;
 use crate::{capabilities, convert};
@@ -117,7 +118,8 @@ fn resolves_samples_so(
         |mode: ResolveMode| MODES.iter().zip(&expected).find(|(it, _)| **it == mode).map(|(_, depth)| *depth);
     let mut right = Vec::new();
     for (output, mode) in (1..).zip(modes) {
-        let found = floats(&executor.read(output)?.bytes).first().copied();
+        let Texels { format, bytes, .. } = executor.read(output)?;
+        let found = first_depth(format, &bytes);
         let near = |(found, expected): (f32, f32)| (found - expected).abs() < TOLERANCE;
         if found.zip(expected(*mode)).is_some_and(near) {
             right.push(*mode);
@@ -168,6 +170,17 @@ fn frame(format: Format, samples: u32, modes: &[ResolveMode]) -> Frame {
 
 fn full_screen(name: &str, shader: &str) -> Pass {
     Pass::new(name, Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: false })
+}
+
+/// The depth of the first texel, 0 to 1.
+fn first_depth(format: Format, bytes: &[u8]) -> Option<f32> {
+    let word = || bytes.first_chunk().copied().map(u32::from_ne_bytes);
+    match format {
+        Format::D16_UNORM => bytes.first_chunk().map(|it| f32::from(u16::from_ne_bytes(*it)) / 65535.0),
+        #[allow(clippy::cast_precision_loss, reason = "24 bits are what an f32 holds")]
+        Format::X8_D24_UNORM_PACK32 => word().map(|it| (it & 0xff_ffff) as f32 / 16_777_215.0),
+        _ => word().map(f32::from_bits),
+    }
 }
 
 fn floats(bytes: &[u8]) -> Vec<f32> {
