@@ -210,7 +210,7 @@ fn an_unsupported_sample_count_is_lowered_and_said() {
         .expect("the frame is legal");
     let color = plan.images.iter().find(|image| &*image.name == "color").expect("there is a color");
     assert_eq!(color.samples, 2);
-    let text = note(&plan, Stage::Adapt, "color");
+    let text = note(&plan, Stage::Fit, "color");
     assert!(text.contains("8 samples were asked for, 2 are used"), "{text}");
 }
 
