@@ -90,7 +90,10 @@ fn a_choice_that_makes_no_picture_is_refused_with_what_is_allowed() {
         ("render_scale=-1", "it is a number from 0.25 to 4"),
         ("render_scale=NaN", "it is a number from 0.25 to 4"),
         ("render_scale=1e9", "it is a number from 0.25 to 4"),
+        ("render_scale=inf", "it is a number from 0.25 to 4"),
+        ("render_scale=-inf", "it is a number from 0.25 to 4"),
         ("white_point=0.5", "it is a number from 1 to 100"),
+        ("white_point=NaN", "it is a number from 1 to 100"),
         ("blur=-1", "it is a whole number from 0 to 5"),
         ("blur=10000", "it is a whole number from 0 to 5"),
         ("msaa=3", "it is one of 1, 2, 4, 8"),
@@ -98,5 +101,43 @@ fn a_choice_that_makes_no_picture_is_refused_with_what_is_allowed() {
     ];
     for (set, help) in cases {
         Place::new().run(&["check", "image_quality", "--set", set]).exits(2).mentions("doesn't allow").mentions(help);
+    }
+}
+
+/// What a file gives to the library's tone mapping.
+#[test]
+fn a_tone_mapping_that_is_not_there_is_refused_with_those_that_are() {
+    let cases = [
+        (
+            "\"operator\": \"'sepia'\"",
+            "error: parameter `operator` doesn't allow `sepia`",
+            "it is one of `clip`, `reinhard`, `white_point`, `filmic`, `neutral`",
+        ),
+        (
+            "\"white_point\": 0.5",
+            "error: parameter `white_point` doesn't allow `0.5`",
+            "it is a number of at least 1\n",
+        ),
+        ("\"white_point\": NaN", "error: parameter `white_point` is a finite number, found `NaN`", ""),
+    ];
+    for (with, message, help) in cases {
+        let place = Place::new();
+        let text = format!(
+            r#"Pipeline(
+                version: 1,
+                include: ["library/tone_mapping.ron"],
+                images: [
+                    (name: "color", format: Color(hdr: true), size: Output),
+                    (name: "screen", format: Output, size: Output),
+                ],
+                passes: [
+                    (name: "sky", draw: Sky, color: [(image: "color", clear: (0.0, 0.0, 0.0, 1.0))]),
+                    (use: "tone_mapping", name: "map", with: {{"source": "color", "target": "screen", {with}}}),
+                ],
+                outputs: ["screen"],
+            )"#
+        );
+        place.file("p.ron", text);
+        place.run(&["check", "p.ron"]).exits(1).mentions(message).mentions(help).mentions(" p.ron:10:");
     }
 }

@@ -60,7 +60,7 @@ pub(super) fn lower<'src>(
 
 /// How far shadows reach; `None`: through the whole scene.
 fn reach<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Option<Metres>> {
-    let (metres, because) = values::number_because(reader, scope, leaf)?;
+    let (metres, because) = values::number_because(reader, scope, leaf, "how far shadows reach")?;
     if metres == 0.0 {
         return Some(None);
     }

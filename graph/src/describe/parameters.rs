@@ -311,10 +311,25 @@ fn range<'src, T: PartialOrd + Copy + std::fmt::Display>(
     if let (Some(leaf), Some(default)) = (default_leaf, default)
         && (default < min || default > max)
     {
-        reader.wrong(leaf, format!("the default `{default}` lies outside {min} to {max}"), "");
+        let wrong = if default < min {
+            format!("the default `{default}` is less than `min` ({min})")
+        } else {
+            format!("the default `{default}` is greater than `max` ({max})")
+        };
+        reader.wrong(leaf, wrong, "");
         return None;
     }
     Some((default, min, max))
+}
+
+/// What a range allows, for people; an end of `whole` is none, since the file says none.
+pub(super) fn between<T: PartialEq + Copy>([min, max]: [T; 2], whole: [T; 2], shown: impl Fn(T) -> String) -> String {
+    match (min == whole[0], max == whole[1]) {
+        (false, false) => format!(" from {} to {}", shown(min), shown(max)),
+        (false, true) => format!(" of at least {}", shown(min)),
+        (true, false) => format!(" of at most {}", shown(max)),
+        (true, true) => String::new(),
+    }
 }
 
 /// A format by Vulkan's name.

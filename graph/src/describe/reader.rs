@@ -219,12 +219,18 @@ impl Reader {
 
     /// A finite number.
     pub fn number(&mut self, leaf: Leaf<'_>) -> Option<f64> {
+        self.number_as(leaf, None)
+    }
+
+    /// The same where it is known what it is: "a scale".
+    pub(super) fn number_as(&mut self, leaf: Leaf<'_>, what: Option<&str>) -> Option<f64> {
         #[allow(clippy::cast_precision_loss, reason = "the nearest number is meant")]
         let number = match (leaf.number(), leaf.shape()) {
             (Some(Number::Whole(number)), _) => number as f64,
             (Some(Number::Real(number) | Number::Huge(number)), _) => number,
             (Some(Number::NotFinite), _) | (None, Shape::Word("NaN" | "inf", None)) => {
-                self.wrong(leaf, format!("expected a finite number, found `{}`", leaf.text()), "");
+                let expected = what.map_or_else(|| "expected".to_owned(), |what| format!("{what} is"));
+                self.wrong(leaf, format!("{expected} a finite number, found `{}`", leaf.text()), "");
                 return None;
             }
             (None, _) => {

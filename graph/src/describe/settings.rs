@@ -2,6 +2,7 @@
 
 use super::forms::{Described, Form, Plain, Takes, Word, Words};
 use super::leaf::{Leaf, Shape};
+use super::parameters;
 use super::pipeline::{Setting, SettingKind};
 use super::reader::Reader;
 use crate::expression::{Type, Value};
@@ -138,11 +139,12 @@ impl SettingKind {
             }
             SettingKind::Number { min, max, step, .. } => {
                 let steps = step.map(|step| format!(" in steps of {}", shown(step))).unwrap_or_default();
-                format!("a number from {} to {}{steps}", shown(*min), shown(*max))
+                format!("a number{}{steps}", parameters::between([*min, *max], [f64::MIN, f64::MAX], shown))
             }
             SettingKind::Integer { min, max, step, .. } => {
                 let steps = if *step == 1 { String::new() } else { format!(" in steps of {step}") };
-                format!("a whole number from {min} to {max}{steps}")
+                let range = parameters::between([*min, *max], [i64::MIN, i64::MAX], |bound| bound.to_string());
+                format!("a whole number{range}{steps}")
             }
         }
     }

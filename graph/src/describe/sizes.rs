@@ -125,11 +125,12 @@ pub(super) fn scale<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'sr
         reader.wrong(leaf, message, "let the setting begin above 0");
         return None;
     }
-    let (by, because) = values::number_because(reader, scope, leaf)?;
+    let (by, because) = values::number_because(reader, scope, leaf, "a scale")?;
     if by <= 0.0 {
         let wrong = format!("a scale is greater than 0, found {}", shown_number(by));
         let because = scope.within_view(because.as_deref().unwrap_or_default());
-        scope.fault(reader, leaf, Diagnostic::new(leaf.span(), wrong).remark(because));
+        let help = "numbers above 0 are allowed: 1 is the same size, 0.5 half the width and half the height";
+        scope.fault(reader, leaf, Diagnostic::new(leaf.span(), wrong).remark(because).help(help));
         return None;
     }
     Some((by, because))

@@ -223,7 +223,7 @@ fn clear_color<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -
 }
 
 fn component<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<f32> {
-    let (number, because) = values::number_because(reader, scope, leaf)?;
+    let (number, because) = values::number_because(reader, scope, leaf, "a channel of a colour")?;
     #[allow(clippy::cast_possible_truncation, reason = "a colour is stored in single precision")]
     let component = number as f32;
     if component.is_finite() {
@@ -236,7 +236,7 @@ fn component<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> 
 }
 
 fn clear_depth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<f32> {
-    let (depth, because) = values::number_because(reader, scope, leaf)?;
+    let (depth, because) = values::number_because(reader, scope, leaf, "depth")?;
     if !(0.0..=1.0).contains(&depth) {
         let help = "depth is reversed: 0 is infinitely far, 1 is nearest";
         let wrong = format!("depth lies from 0 to 1, found {}", super::shown_number(depth));

@@ -127,7 +127,7 @@ fn argument(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>, parameter: &
                     unquoted(reader, scope, leaf, kind)?;
                     scope.evaluate(reader, leaf, wanted(kind)).map(given)?
                 }
-                _ => Given { value: plain(reader, leaf, kind)?, decided: Vec::new() },
+                _ => Given { value: plain(reader, leaf, parameter, kind)?, decided: Vec::new() },
             };
             allowed(reader, scope, leaf, parameter, kind, &given)?;
             Some(given)
@@ -145,11 +145,14 @@ const fn wanted(kind: &SettingKind) -> Wanted<'static> {
 }
 
 /// A value that stands there by itself.
-fn plain(reader: &mut Reader, leaf: Leaf<'_>, kind: &SettingKind) -> Option<Value> {
+fn plain(reader: &mut Reader, leaf: Leaf<'_>, parameter: &Parameter, kind: &SettingKind) -> Option<Value> {
     match kind {
         SettingKind::Bool { .. } => reader.truth(leaf).map(Value::Bool),
         SettingKind::OneOf { .. } | SettingKind::Integer { .. } => reader.integer(leaf).map(Value::Integer),
-        SettingKind::Number { .. } => reader.number(leaf).map(Value::Number),
+        SettingKind::Number { .. } => {
+            let what = format!("parameter `{}`", parameter.name.text);
+            reader.number_as(leaf, Some(&what)).map(Value::Number)
+        }
         SettingKind::Choice { .. } => {
             reader.expected(leaf, "a text in single quotes within quotes");
             None

@@ -87,14 +87,21 @@ fn constant<'src, T: TryFrom<i64>>(
     fitting
 }
 
-/// A number.
-pub(super) fn number<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<f64> {
-    number_because(reader, scope, leaf).map(|(number, _)| number)
+/// A number to fill with.
+fn number<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<f64> {
+    number_because(reader, scope, leaf, "a value to fill with").map(|(number, _)| number)
 }
 
-/// A number, and what decided it.
-pub(super) fn number_because<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<f64>> {
-    let Shape::Text = leaf.shape() else { return reader.number(leaf).map(|number| (number, None)) };
+/// A number, and what decided it. `what` names it: "a scale".
+pub(super) fn number_because<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    what: &str,
+) -> Option<Decided<f64>> {
+    let Shape::Text = leaf.shape() else {
+        return reader.number_as(leaf, Some(what)).map(|number| (number, None));
+    };
     let (value, because) = match scope.quoted(reader, leaf, SettingKind::is_number, "a number")? {
         Quoted::Given(parameter, given) => (given.value.clone(), scope.because(parameter, given)),
         Quoted::Expression => {
@@ -148,7 +155,7 @@ pub(super) fn param<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'sr
         Shape::Number | Shape::Word("NaN" | "inf", None) => {
             return Some(match leaf.number() {
                 Some(Number::Whole(number)) => (ParamValue::Integer(number), None),
-                _ => (ParamValue::Number(reader.number(leaf)?), None),
+                _ => (ParamValue::Number(reader.number_as(leaf, Some("a parameter"))?), None),
             });
         }
         _ => {
