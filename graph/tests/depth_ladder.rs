@@ -7,7 +7,7 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_SRGB};
-use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Resolve, ResolveWay};
+use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Output, Resolve, ResolveWay, Resource};
 use framewright_graph::plan::{Cause, Plan, RenderScope, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{CompareOp, LoadOp, ResolveMode, StoreOp, Usage};
@@ -102,6 +102,30 @@ fn iq_16_glass_behind_the_stripes_is_still_multisampled_and_tested_against_all_s
     let glass = scopes.iter().find(|scope| scope.passes.iter().any(|pass| &*pass.name == "glass")).expect("it runs");
     let depth = glass.depth.as_ref().expect("it is tested");
     assert_eq!((glass.samples, &*plan.image(depth.image).name), (4, "depth"));
+}
+
+#[test]
+fn iq_10_depth_is_averaged_only_where_its_image_says_so() {
+    let device = resolving(&[ResolveMode::SampleZero, ResolveMode::Average, ResolveMode::Min, ResolveMode::Max]);
+    let averages = |mode: Option<Option<ResolveMode>>, leaves: bool| {
+        let stripes = Stripes::new(4);
+        let depth = Resource::Image(stripes.depth);
+        let mut frame = stripes.frame(mode);
+        let output = Output { resource: depth, ..frame.outputs[0].clone() };
+        frame.outputs.extend(leaves.then_some(output));
+        let plan = on(&frame, &device).expect("the frame is legal");
+        scopes(&plan).into_iter().any(|scope| {
+            let folded = scope.depth.as_ref().and_then(|depth| depth.resolve.as_ref());
+            folded.is_some_and(|resolve| resolve.mode == ResolveMode::Average)
+                || scope.passes.iter().any(|pass| pass.shader.ends_with("average"))
+        })
+    };
+    for leaves in [false, true] {
+        for mode in [None, Some(None), Some(Some(ResolveMode::Min))] {
+            assert!(!averages(mode, leaves), "{mode:?}");
+        }
+        assert!(averages(Some(Some(ResolveMode::Average)), leaves), "as it says");
+    }
 }
 
 #[test]

@@ -128,6 +128,29 @@ fn neutral_takes_what_glossy_surfaces_reflect_from_colours_that_are_not_bright()
     assert_eq!(neutral([0.0; 3]), [0.0; 3]);
 }
 
+/// Worked out by hand from the specification's formulas with F90 = 0.04, Ks = 0.76 and Kd = 0.15, where
+/// pn = 1 − 0.24² / (p − 0.52) and g = 1 / (0.15 (p − pn) + 1).
+#[test]
+fn neutral_gives_what_the_specification_does() {
+    let cases = [
+        // x = 2 is more than 0.08, so f = 0.04 and p = 1.96: pn = 1 − 0.0576 / 1.44. Grey has no colour to lose.
+        ([2.0, 2.0, 2.0], [0.96, 0.96, 0.96]),
+        // x = 0, so f = 0 and p = 2: pn = 1 − 0.0576 / 1.48 = 0.961081, g = 1 / (0.15 · 1.038919 + 1) = 0.865173;
+        // red becomes pn, the others (1 − g) pn = 0.134827 · 0.961081.
+        ([2.0, 0.0, 0.0], [0.961_081, 0.129_579, 0.129_579]),
+        // x = 0.02, so f = 0.02 − 0.0004 / 0.16 = 0.0175 and p = 0.9825: pn = 1 − 0.0576 / 0.4625 = 0.875459,
+        // g = 1 / (0.15 · 0.107041 + 1) = 0.984198; green becomes 0.4825 pn/p g + (1 − g) pn = 0.423139 + 0.013834, and blue
+        // 0.0025 pn/p g + (1 − g) pn = 0.002192 + 0.013834.
+        ([1.0, 0.5, 0.02], [0.875_459, 0.436_973, 0.016_027]),
+        // x = 0.05, so f = 0.05 − 0.0025 / 0.16 = 0.034375, and nothing is compressed.
+        ([0.05, 0.05, 0.05], [0.015_625, 0.015_625, 0.015_625]),
+    ];
+    for (radiance, expected) in cases {
+        let mapped = neutral(radiance);
+        assert!(mapped.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{radiance:?} became {mapped:?}");
+    }
+}
+
 #[test]
 fn neutral_stays_between_zero_and_one_and_keeps_the_hue() {
     for radiance in colours() {

@@ -143,3 +143,28 @@ fn a_scene_whose_sun_casts_no_shadows_has_no_maps_and_all_of_its_light() -> Resu
     assert!(with[0].bytes == without[0].bytes, "what has no shadow is not drawn as without any");
     Ok(())
 }
+
+/// IQ-25: neither the size of the maps nor what is in them follows the picture's size.
+#[test]
+fn shadow_maps_are_the_same_at_every_render_scale() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let yard = yard();
+    for cascades in ["1", "4"] {
+        let [usual, half, twice] = ["1", "0.5", "2"].map(|scale| {
+            let set = [("cascades", cascades), ("render_scale", scale)];
+            render(
+                device,
+                &Setup { pipeline: "tests/pipelines/shadow_map.ron", set: &set, scene: &yard, extent: EXTENT },
+            )
+        });
+        let (usual, [half, twice]) = (usual?, [half?, twice?]);
+        assert_eq!([half[1].extent, twice[1].extent], [[60, 45, 1], [240, 180, 1]], "the picture's size follows");
+        for other in [&half[0], &twice[0]] {
+            assert_eq!((other.extent, other.layers.to_string()), ([MAP, MAP, 1], cascades.to_owned()));
+            assert!(other.bytes == usual[0].bytes, "{cascades} cascades: another map");
+        }
+        let drawn = usual[0].bytes.iter().filter(|byte| **byte != 0).count();
+        assert!(drawn > MAP as usize, "{cascades} cascades: something is in the map");
+    }
+    Ok(())
+}

@@ -106,6 +106,16 @@ pub(crate) fn outcome(command: &mut Command) -> Outcome {
     }
 }
 
+/// The names of all pipelines that are shipped, sorted.
+pub(crate) fn shipped_pipelines() -> Vec<String> {
+    let files = repository("examples/pipelines").read_dir().expect("the folder of shipped pipelines");
+    let paths = files.map(|file| file.expect("an entry").path()).filter(|path| path.is_file());
+    let mut names: Vec<String> = paths.map(|path| path.file_stem().expect("a name").display().to_string()).collect();
+    names.sort();
+    assert!(names.len() > 10, "{names:?}");
+    names
+}
+
 /// A folder or file of this repository.
 pub(crate) fn repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)

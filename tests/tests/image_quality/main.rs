@@ -39,6 +39,7 @@
 
 mod depth;
 mod formats;
+mod frames_by_hand;
 mod pictures;
 mod plans;
 mod samples;

@@ -2,6 +2,7 @@
 
 use crate::{DIRECT, PIPELINE, drawn_by, listing, plan, plan_of, shining, shining_behind_glass};
 use framewright_graph::format::Format;
+use framewright_graph::frame::{Blend, Draw};
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::vocabulary::{LoadOp, StoreOp};
 use std::collections::BTreeMap;
@@ -54,6 +55,20 @@ fn a_view_that_allows_nothing_takes_the_direct_path() -> Result<(), Box<dyn Erro
     let Some(plan) = plan_of("tests/pipelines/image_quality_preview.ron", &set, &scene, true)? else { return Ok(()) };
     assert!(plan.images.iter().all(|image| image.samples == 1 && image.extent == [65, 47, 1]), "{}", plan.tree());
     assert_eq!(format_of(&plan, "opaque"), Some(Format::R8G8B8A8_SRGB));
+    Ok(())
+}
+
+/// IQ-3: whatever the user chose, or just that.
+#[test]
+fn a_view_brings_effects_of_its_own_or_takes_the_users() -> Result<(), Box<dyn Error>> {
+    let (set, scene) = ([("blur", "5"), ("depth_stripes", "blended")], shining_behind_glass([4.0; 3]));
+    for (pipeline, blurs, stripes) in [("image_quality_effects", 2, 0), ("image_quality_preview", 5, 1)] {
+        let pipeline = format!("tests/pipelines/{pipeline}.ron");
+        let Some(plan) = plan_of(&pipeline, &set, &scene, true)? else { return Ok(()) };
+        let draws = listing(&plan);
+        let count = |start: &str| draws.iter().filter(|draw| draw.starts_with(start)).count();
+        assert_eq!((count("soften.blur"), count("stripes.stripes")), (blurs, stripes), "{pipeline}: {draws:?}");
+    }
     Ok(())
 }
 
@@ -132,9 +147,9 @@ fn a_blur_takes_as_many_draws_as_its_strength_and_works_on_8_bits() -> Result<()
     Ok(())
 }
 
-/// IQ-18: whoever writes an image first finds nothing in it; whoever loads finds what was stored.
+/// IQ-18: whoever writes an image first finds nothing in it; whoever loads finds what was stored, and shows some of it.
 #[test]
-fn nothing_is_loaded_that_was_not_kept() -> Result<(), Box<dyn Error>> {
+fn nothing_is_loaded_that_was_not_kept_or_is_drawn_over() -> Result<(), Box<dyn Error>> {
     let choices: [&[(&str, &str)]; 5] = [
         &[],
         &[("blur", "5")],
@@ -142,12 +157,19 @@ fn nothing_is_loaded_that_was_not_kept() -> Result<(), Box<dyn Error>> {
         &[("depth_stripes", "blended"), ("overlay", "true")],
         &[("render_scale", "2"), ("mapped", "samples")],
     ];
-    let mut loads = 0;
+    let (mut loads, mut drawn_over) = (0, 0);
     for set in choices {
         let Some(plan) = plan(set)? else { return Ok(()) };
         let mut stored = BTreeMap::new();
         for step in &plan.steps {
             let Work::Render(scope) = &step.work else { continue };
+            let [first, ..] = &scope.passes[..] else { continue };
+            for (attachment, blend) in scope.color.iter().zip(&first.blend) {
+                let covers = first.draw == Some(Draw::FullScreen) && *blend == Blend::Replace && !first.discards;
+                let wanted = if covers { LoadOp::DontCare } else { attachment.load };
+                assert_eq!(attachment.load, wanted, "{set:?}: `{}` covers all: {}", first.name, plan.tree());
+                drawn_over += usize::from(covers && stored.contains_key(&attachment.image));
+            }
             for attachment in scope.color.iter().chain(&scope.depth) {
                 let before = stored.insert(attachment.image, attachment.store);
                 let loaded = attachment.load == LoadOp::Load;
@@ -157,6 +179,7 @@ fn nothing_is_loaded_that_was_not_kept() -> Result<(), Box<dyn Error>> {
         }
     }
     assert!(loads > 0, "some are drawn into twice");
+    assert!(drawn_over > 0, "some are drawn over");
     Ok(())
 }
 
