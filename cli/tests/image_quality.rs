@@ -110,7 +110,7 @@ fn a_tone_mapping_that_is_not_there_is_refused_with_those_that_are() {
     let cases = [
         (
             "\"operator\": \"'sepia'\"",
-            "error: parameter `operator` doesn't allow `sepia`",
+            "error: parameter `operator` doesn't allow `'sepia'`",
             "it is one of `clip`, `reinhard`, `white_point`, `filmic`, `neutral`",
         ),
         (

@@ -84,6 +84,27 @@ fn whatever_part_is_in_use_a_plan_differs_in_values_alone_and_takes_the_same_mem
 }
 
 #[test]
+fn a_part_is_two_texels_wide_and_high_at_least_where_there_is_room() {
+    let text = r#"Pipeline(
+        version: 1,
+        images: [
+            (name: "least", format: R8_UNORM, size: Dynamic(by: 0.01, up_to: 1.0)),
+            (name: "row", format: R8_UNORM, size: Dynamic(by: 0.01, up_to: 0.04)),
+            (name: "screen", format: Output, size: Output),
+        ],
+        passes: [
+            (name: "fill", fill: (to: "least", value: 0)), (name: "fill_row", fill: (to: "row", value: 0)),
+            (name: "sky", draw: Sky, color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]),
+        ],
+        outputs: ["screen"],
+    )"#;
+    let images = right(text, &Inputs { output_extent: [64, 36], ..INPUTS }).images;
+    let size = |at: usize| (images[at].extent, images[at].room);
+    assert_eq!(size(0), ([2, 2, 1], Some([64, 36])));
+    assert_eq!(size(1), ([2, 1, 1], Some([2, 1])), "there is room for no more");
+}
+
+#[test]
 fn a_part_as_large_as_the_screen_is_no_image_of_the_screen() {
     // At this scale all sizes are the same: what would become one image otherwise stays two.
     let whole = planned(&frame("1", ""));

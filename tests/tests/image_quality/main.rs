@@ -7,33 +7,48 @@
 //! | IQ-1 | `plans::the_scene_is_drawn_at_the_scaled_size_and_one_draw_brings_it_to_the_screen`, `scale` | size of `color` `Output` |
 //! | IQ-2 | `plans::with_nothing_to_do_objects_are_drawn_straight_into_the_screen` | `map` whatever the operator |
 //! | IQ-3 | `plans::a_view_that_allows_nothing_takes_the_direct_path` | `view.allows_msaa` left out |
+//! | IQ-3 | `plans::a_view_brings_effects_of_its_own_or_takes_the_users` | `describe/views.rs`: `set.iter().flatten().take(0)` |
 //! | IQ-4 | `pictures::scale_two_is_the_mean_of_two_by_two_pixels`, `scale` | `scale.glsl`: `end = begin + pixels` |
 //! | IQ-4 | `pictures::light_is_averaged_before_tone_mapping_or_what_is_shown_after_it` | size of `scaled` for `mapped != 'pixels'` |
 //! | IQ-5 | `graph/tests/compile_raster.rs`, `graph/tests/shipped_devices.rs`, `cli/tests/every_device.rs`, `cli/tests/plans.rs` | `compile/samples.rs`: `chosen` is what was wanted |
-//! | IQ-6 | `samples::a_fragment_shader_runs_once_a_texel_whatever_the_samples` | `count_invocations.frag` reads `gl_SampleID` |
+//! | IQ-4, IQ-6 | `samples::pictures_of_256_samples_show_what_rays_meet` | `scene/camera.rs`: `vertical_fov` times 0.51 |
+//! | IQ-6 | `samples::a_fragment_shader_runs_once_a_texel_whatever_the_samples` | `backend-vulkan/src/pipeline.rs`: `sample_shading_enable(true)`, with a share of 1 |
 //! | IQ-6 | `samples::edges_improve_with_samples_and_with_scale` | samples of `color` 1 |
 //! | IQ-6 | `samples::edges_of_holes_improve_with_samples_only_where_alpha_says_how_many_are_covered`, `alpha_coverage` | `alpha_coverage.glsl`: `+ 0.5` left out |
 //! | IQ-7 | `plans::multisampled_colour_is_resolved_before_what_samples_it`, `texture_declarations` | samples of `color` 1 |
 //! | IQ-8 | `plans::a_resolve_serves_every_reader_until_the_next_write` | `post.ron`: objects are drawn before `show_light` |
 //! | IQ-9 | `plans::a_blur_of_five_draws_takes_one_resolve_where_the_file_asks_for_three` | `shown` with one sample |
-//! | IQ-10, IQ-12, IQ-15 | `graph/tests/depth_ladder.rs` | `compile/adapt/resolve.rs`: depth without a word is averaged |
+//! | IQ-7, IQ-9, IQ-16, IQ-22 | `frames_by_hand` | `compile/adapt/demote.rs`: nothing moves; `compile/scope.rs`: nothing folds |
+//! | IQ-10 | `graph/tests/depth_ladder.rs` | `compile/adapt/resolve.rs`: depth without a word is averaged where it is sampled, or where it leaves the frame |
+//! | IQ-11 | `graph/tests/depth_ladder.rs` | `compile/adapt.rs`: depth is resolved whatever its samples |
+//! | IQ-11 | `graph/tests/language/samplers.rs` | `expand/sampled.rs`: depth is filtered as colour is |
+//! | IQ-12 | `graph/tests/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `writers` are cleared whatever `start`, so that one is left |
+//! | IQ-12: refused | `graph/tests/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `Draw::Custom` is let through |
 //! | IQ-12, IQ-24 | `cli/tests/image_quality.rs`, `depth_stripes` | `depth_stripes.ron`: `"depth"` for `DepthOnly("depth")` |
 //! | IQ-13 | `cli/tests/depth_ladder.rs` | `lit_masked.frag`: no `fades_out`, or no cut-off, with `DEPTH_ONLY` |
-//! | IQ-14 | `cli/tests/depth_ladder.rs`, `graph/tests/depth_ladder.rs` | `depth_resolve_min.frag`: `greatest_depth` |
+//! | IQ-14 | `cli/tests/depth_ladder.rs` | `depth_resolve_min.frag`: `greatest_depth` |
+//! | IQ-14 | `graph/tests/depth_ladder.rs` | `compile/adapt/resolve.rs`: modes that were refuted are taken |
+//! | IQ-15 | `graph/tests/depth_ladder.rs` | `compile/retain.rs`: what is written is stored even if nobody comes next |
 //! | IQ-16 | `plans::stripes_take_one_resolve_as_a_blend_and_two_as_a_copy`, `depth_stripes` | `stripes_back` off |
 //! | IQ-16 | `pictures::both_forms_of_the_stripes_draw_the_same_picture` | `depth_stripes.ron`: `blend` left out |
 //! | IQ-17 | `plans::a_blur_takes_as_many_draws_as_its_strength_and_works_on_8_bits`, `effects` | format of `shown` `Like("color")` |
-//! | IQ-18 | `plans::nothing_is_loaded_that_was_not_kept` | `retain.rs`: `Start::Discard` loads (the checker says so first) |
+//! | IQ-18 | `plans::nothing_is_loaded_that_was_not_kept_or_is_drawn_over` | `compile/adapt.rs`: `Start::Discard` only of images that nobody wrote before |
 //! | IQ-19 | `plans::colour_is_floating_point_only_where_something_makes_use_of_it` | `scene.peak_radiance` left out |
 //! | IQ-20 | `samples::a_lamp_does_not_spoil_edges_where_bright_samples_weigh_less`, `resolves` | `weighted_resolve.glsl`: weight 1 |
-//! | IQ-20 | `graph/tests/weighted_resolve.rs`, `resolves` | `resolves.ron`: `resolve` left out |
+//! | IQ-20 | `resolves` | `resolves.ron`: `resolve` left out |
+//! | IQ-20 | `graph/tests/weighted_resolve.rs` | `compile/adapt/resolve.rs`: `Weighted` is averaged like any other |
 //! | IQ-21 | `pictures::tone_mapping_without_hdr_makes_one_half_of_white`, `tone_mapping_operators` | `tone_mapping.glsl`: `radiance / (2.0 + radiance)` |
 //! | IQ-21 | `pictures::the_white_point_decides_how_much_is_compressed`, `twin_tone_mapping` | `tone_mapping.glsl`: `radiance / white` |
 //! | IQ-22 | `plans::tone_mapping_is_the_resolving_draw_if_samples_are_mapped` | `tone_mapping.ron`: `Resolved("source")` for `Samples("source")` |
 //! | IQ-22 | `samples::a_lamp_does_not_spoil_edges_where_samples_are_tone_mapped`, `resolves` | the same |
 //! | IQ-23 | `pictures::the_over_bright_view_is_what_is_beyond_white`, `effects` | `over_bright.frag`: `- 0.5` |
 //! | IQ-24 | `plans::the_listing_shows_resolves_in_their_place`, `cli/tests/image_quality.rs` | `stripes_back` off |
-//! | IQ-25 | `shadows`, `passes/tests/cascades.rs` | `sun_shadow.glsl`: `caster < depth`; `cascades.rs`: places not rounded to texels |
+//! | IQ-25: order | `plans::with_nothing_to_do_objects_are_drawn_straight_into_the_screen` | `sky` behind `transparent` |
+//! | IQ-25: order | `passes/tests/draw_lists.rs` | `draw/lists.rs`: `a` and `b` exchanged where depths are compared |
+//! | IQ-25: alpha clip | `shadows` | `lit_masked.frag`: `is_hole = false` |
+//! | IQ-25: cross-fade | `cross_fade` | `cross_fade.glsl`: `threshold > share + 0.2` |
+//! | IQ-25: shadows | `shadows`, `passes/tests/cascades.rs` | `sun_shadow.glsl`: `caster < depth`; `cascades.rs`: places not rounded to texels |
+//! | IQ-25: size of shadows | `shadows` | `tests/pipelines/shadows.ron`: size of `shadow` `Scaled("render_scale")`, or `reach` times it |
 //!
 //! Where no file is named it is `image_quality.ron`.
 
