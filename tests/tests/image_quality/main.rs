@@ -4,6 +4,7 @@
 //! | row | test | what turns it red |
 //! |---|---|---|
 //! | IQ-1 | `dynamic_resolution` | `part.glsl`: `uv_clamp` gives `uv` back |
+//! | IQ-1 | `dynamic_resolution`, `graph/tests/language/dynamic_sizes.rs` | `describe/properties.rs`: `LEAST_PART` 1 |
 //! | IQ-1 | `plans::the_scene_is_drawn_at_the_scaled_size_and_one_draw_brings_it_to_the_screen`, `scale` | size of `color` `Output` |
 //! | IQ-2 | `plans::with_nothing_to_do_objects_are_drawn_straight_into_the_screen` | `map` whatever the operator |
 //! | IQ-3 | `plans::a_view_that_allows_nothing_takes_the_direct_path` | `view.allows_msaa` left out |
@@ -24,10 +25,11 @@
 //! | IQ-11 | `graph/tests/language/samplers.rs` | `expand/sampled.rs`: depth is filtered as colour is |
 //! | IQ-12 | `graph/tests/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `writers` are cleared whatever `start`, so that one is left |
 //! | IQ-12: refused | `graph/tests/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `Draw::Custom` is let through |
-//! | IQ-12, IQ-24 | `cli/tests/image_quality.rs`, `depth_stripes` | `depth_stripes.ron`: `"depth"` for `DepthOnly("depth")` |
+//! | IQ-12, IQ-24 | `cli/tests/image_quality.rs`, `depth_stripes`, `frames_by_hand` | `depth_stripes.ron`: `"depth"` for `Resolved("depth")` |
 //! | IQ-13 | `cli/tests/depth_ladder.rs` | `lit_masked.frag`: no `fades_out`, or no cut-off, with `DEPTH_ONLY` |
 //! | IQ-14 | `cli/tests/depth_ladder.rs` | `depth_resolve_min.frag`: `greatest_depth` |
 //! | IQ-14 | `graph/tests/depth_ladder.rs` | `compile/adapt/resolve.rs`: modes that were refuted are taken |
+//! | IQ-14 | `depth::each_way_to_see_depth_has_its_error_and_every_sample_the_least` | `each_sample` left out |
 //! | IQ-15 | `graph/tests/depth_ladder.rs` | `compile/retain.rs`: what is written is stored even if nobody comes next |
 //! | IQ-16 | `plans::stripes_take_one_resolve_as_a_blend_and_two_as_a_copy`, `depth_stripes` | `stripes_back` off |
 //! | IQ-16 | `pictures::both_forms_of_the_stripes_draw_the_same_picture` | `depth_stripes.ron`: `blend` left out |
