@@ -145,7 +145,7 @@ fn damaged(reason: impl std::fmt::Display) -> TextureProblem {
 fn check_space(kind: ImageFormat, file: &TextureFile, format: Format) -> Result<(), TextureProblem> {
     let floats = matches!(kind, ImageFormat::Hdr | ImageFormat::OpenExr);
     let why = if floats && file.color_space == ColorSpace::Srgb {
-        Some("HDR and EXR hold linear light: declare it linear")
+        Some("HDR and EXR hold linear light: say `color_space: Linear`")
     } else {
         format_problem(file, format)
     };

@@ -93,7 +93,7 @@ fn exr_and_hdr_hold_light_beyond_one_and_are_never_srgb() {
     assert_eq!(textures.info(&file("a.hdr", Linear)).map(|info| info.format), Ok(format));
     for name in ["a.exr", "a.hdr"] {
         let problem = textures.info(&file(name, Srgb)).expect_err("light is linear").to_string();
-        assert!(problem.ends_with("HDR and EXR hold linear light: declare it linear"), "{problem}");
+        assert!(problem.ends_with("HDR and EXR hold linear light: say `color_space: Linear`"), "{problem}");
     }
 }
 

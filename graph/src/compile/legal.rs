@@ -122,11 +122,14 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
             errors.push(Diagnostic::new(output.span, message));
         }
         if let Resource::Image(image) = output.resource
-            && frame.images[image.0 as usize].room.is_some()
+            && let image = &frame.images[image.0 as usize]
+            && image.room.is_some()
         {
-            let message = format!("`{}` is an output and changes its size", subject.name);
+            // Of what is dumped no file says that it is an output.
+            let span = if output.span == Span::NONE { image.span } else { output.span };
+            let message = format!("`{}` can't leave the frame: its size may change from frame to frame", subject.name);
             let help = "scale it into an image of a fixed size, and let that leave the frame";
-            errors.push(Diagnostic::new(output.span, message).help(help));
+            errors.push(Diagnostic::new(span, message).help(help));
         }
         errors.extend(wrong_encoding(frame, output));
         // Samples are resolved on the way out.

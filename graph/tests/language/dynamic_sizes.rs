@@ -144,6 +144,6 @@ fn what_changes_its_size_neither_leaves_the_frame_nor_is_stored_into() {
     let device = device();
     let errors = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect_err("it can't be");
     let said = render(&frame.sources, &errors);
-    assert!(said.contains("`toned` is an output and changes its size"), "{said}");
+    assert!(said.contains("`toned` can't leave the frame: its size may change from frame to frame"), "{said}");
     assert!(said.contains("scale it into an image of a fixed size"), "{said}");
 }
