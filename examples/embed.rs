@@ -6,7 +6,7 @@
 
 use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
-use framewright_graph::{compile, describe, expand, verify};
+use framewright_graph::{compile, describe, expand, verify, view};
 use framewright_passes::draw::{self, SceneDrawSource};
 use framewright_passes::{scene, shipped};
 use framewright_vulkan::{Device, DeviceOptions, Executor, ExecutorOptions, ShaderLibrary};
@@ -35,6 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         output_extent: EXTENT,
         dump: &[],
         device: None,
+        stereo: view::Stereo::Off,
     };
     let frame = expand::expand(&pipeline, sources.clone(), &inputs, &mut shaders)
         .map_err(|mistakes| describe::render(&sources, &mistakes))?;

@@ -162,8 +162,13 @@ fn frame(format: Format, samples: u32, modes: &[ResolveMode]) -> Frame {
     let target =
         ColorTarget { image: ImageIndex(0), range: whole, span: Span::NONE, clear: None, blend: Blend::Replace };
     frame.passes.push(Pass { sampled: vec![slope], color: vec![target], ..full_screen("expect", "expect") });
-    let output =
-        |image| Output { resource: Resource::Image(ImageIndex(image)), span: Span::NONE, after: None, encoding: None };
+    let output = |image| Output {
+        resource: Resource::Image(ImageIndex(image)),
+        span: Span::NONE,
+        after: None,
+        encoding: None,
+        eye: None,
+    };
     frame.outputs = (0..).take(frame.images.len()).map(output).collect();
     frame
 }

@@ -92,6 +92,7 @@ fn chain(long: bool) -> Frame {
             span: Span::NONE,
             after: None,
             encoding: None,
+            eye: None,
         }],
         ..Frame::default()
     }

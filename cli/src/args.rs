@@ -4,6 +4,7 @@ use crate::text;
 use crate::values::{Assignment, DEFAULT_SIZE, Dump, OutputFile, Size, assignment, dump, order, output_file};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use framewright_graph::compile::{Options, Order};
+use framewright_graph::view::Stereo;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -212,6 +213,27 @@ pub(crate) struct Pipeline {
     /// Read files that the pipeline names wherever they lie. For files that you trust.
     #[arg(long)]
     pub(crate) allow_outside: bool,
+    /// How to draw for two eyes what each has of its own. Pictures of both stand side by side.
+    #[arg(long, value_name = "off|multi-pass", default_value = "off", value_enum)]
+    pub(crate) stereo: StereoMode,
+}
+
+/// How a frame is drawn for two eyes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StereoMode {
+    /// For one.
+    Off,
+    /// For one after the other.
+    MultiPass,
+}
+
+impl From<StereoMode> for Stereo {
+    fn from(mode: StereoMode) -> Stereo {
+        match mode {
+            StereoMode::Off => Stereo::Off,
+            StereoMode::MultiPass => Stereo::MultiPass,
+        }
+    }
 }
 
 /// How a Plan is made. None of this may change a picture.

@@ -15,6 +15,7 @@ use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem, Textures};
 use framewright_graph::verify;
+use framewright_graph::view::Stereo;
 use framewright_passes::draw;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::texture_files::TextureFiles;
@@ -36,6 +37,8 @@ pub(crate) struct Loaded {
     pictures: Vec<PathBuf>,
     /// Settings that the user chose, and their values, of which the last counts.
     pub(crate) set: Vec<(String, String)>,
+    /// How it is drawn for two eyes.
+    pub(crate) stereo: Stereo,
 }
 
 /// A frame and its Plan.
@@ -112,6 +115,7 @@ pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
         pictures: named.pictures,
         shaders: ShaderLibrary::new(root.into_iter().collect(), SHADERS, draw::interface),
         set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
+        stereo: arguments.stereo.into(),
     })
 }
 
@@ -173,7 +177,7 @@ impl Loaded {
     /// What is wrong with the command line, the pipeline or its shaders.
     pub(crate) fn frame(&mut self, view: View<'_>, device: &Profile) -> Result<Frame, Error> {
         self.check_command_line(view)?;
-        let inputs = Inputs { device: Some(device), ..inputs(&self.set, view) };
+        let inputs = Inputs { device: Some(device), ..inputs(&self.set, self.stereo, view) };
         expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.shaders)
             .map_err(|diagnostics| wrong(&self.sources, diagnostics))
     }
@@ -183,7 +187,7 @@ impl Loaded {
     /// # Errors
     /// What is wrong with the command line.
     pub(crate) fn check_command_line(&self, view: View<'_>) -> Result<(), Error> {
-        let diagnostics = expand::check_inputs(&self.pipeline, &inputs(&self.set, view));
+        let diagnostics = expand::check_inputs(&self.pipeline, &inputs(&self.set, self.stereo, view));
         if diagnostics.is_empty() {
             return Ok(());
         }
@@ -210,7 +214,7 @@ impl Loaded {
     }
 }
 
-fn inputs<'a>(set: &'a [(String, String)], view: View<'a>) -> Inputs<'a> {
+fn inputs<'a>(set: &'a [(String, String)], stereo: Stereo, view: View<'a>) -> Inputs<'a> {
     Inputs {
         set,
         facts: view.facts.unwrap_or(Facts::UNKNOWN),
@@ -218,6 +222,7 @@ fn inputs<'a>(set: &'a [(String, String)], view: View<'a>) -> Inputs<'a> {
         output_extent: [view.size.width, view.size.height],
         dump: view.dump,
         device: None,
+        stereo,
     }
 }
 

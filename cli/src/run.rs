@@ -7,13 +7,15 @@ use crate::report::{Report, Setting, Validation};
 use crate::values::OutputFile;
 use crate::{files, interrupt, notes, output, picture, placed, progress, rows, text};
 use framewright_graph::frame::{Frame, Image, Lifetime, Resource};
-use framewright_graph::plan::{self, Stage, Totals};
+use framewright_graph::plan::{self, Plan, Stage, Totals};
 use framewright_graph::source::Span;
+use framewright_graph::view::Eye;
 use framewright_graph::vocabulary::Layout;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, DeviceChoice, DeviceOptions, Executor, ExecutorOptions, FrameReport, Texels};
 use std::ffi::OsStr;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// A picture that is ready to be written.
@@ -181,9 +183,10 @@ fn draw(
     }
     progress.finish_and_clear();
     let mut pictures = Vec::new();
-    for Wanted { output, name, path, file } in wanted {
-        let Texels { format, extent: [width, height, _], bytes, .. } = executor.read(output)?;
-        let encoding = planned.plan.outputs.get(output).and_then(|output| output.encoding);
+    for Wanted { outputs, name, path, file } in wanted {
+        let eyes = outputs.clone().map(|output| executor.read(output)).collect::<Result<Vec<_>, _>>()?;
+        let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(eyes);
+        let encoding = planned.plan.outputs.get(outputs.start).and_then(|output| output.encoding);
         let picture = picture::Picture { format, encoding, extent: [width, height], bytes: &bytes };
         let contents = file.write(&picture).map_err(|problem| Error::Picture { image: name.to_owned(), problem })?;
         if let Some(loss) = file.loses(format) {
@@ -199,8 +202,8 @@ fn draw(
 
 /// An output that is written.
 struct Wanted<'a> {
-    /// Its number.
-    output: usize,
+    /// Its number, or those of both eyes.
+    outputs: Range<usize>,
     /// Its image's name.
     name: &'a str,
     /// Where to.
@@ -225,7 +228,7 @@ fn wanted<'a>(arguments: &'a Run, planned: &'a Planned) -> Result<Vec<Wanted<'a>
             Some(plan::Resource::Image(image)) if !file.holds(plan.image(image).format) => {
                 Err(Error::NotFloats { image: name.to_owned(), format: plan.image(image).format })
             }
-            _ => Ok(Wanted { output, name, path, file }),
+            _ => Ok(Wanted { outputs: output..output + eyes(plan, output), name, path, file }),
         }
     };
     let mut wanted = Vec::new();
@@ -238,10 +241,34 @@ fn wanted<'a>(arguments: &'a Run, planned: &'a Planned) -> Result<Vec<Wanted<'a>
         wanted.push(written(at, name, file)?);
     }
     for dump in &arguments.dump {
-        let output = (0..frame.outputs.len()).find_map(|at| Some((at, image(at).filter(|name| *name == dump.image)?)));
+        let names = [dump.image.clone(), of_left_eye(&dump.image)];
+        let is_it = |name: &&str| names.iter().any(|it| it == name);
+        let output = (0..frame.outputs.len()).find_map(|at| Some((at, image(at).filter(is_it)?)));
         wanted.extend(output.map(|(at, name)| written(at, name, &dump.file)).transpose()?);
     }
     Ok(wanted)
+}
+
+/// How many outputs show one image: two if each eye has its own, and this is the left one's.
+fn eyes(plan: &Plan, output: usize) -> usize {
+    if plan.outputs.get(output).is_some_and(|output| output.eye == Some(Eye::Left)) { 2 } else { 1 }
+}
+
+/// What the left eye's image is called, of one that each eye has of its own.
+fn of_left_eye(image: &str) -> String {
+    format!("{image} ({})", Eye::Left.name())
+}
+
+/// Pictures of the same size and format beside each other, the first one on the left.
+fn side_by_side(mut eyes: Vec<Texels>) -> Texels {
+    let mut all = eyes.swap_remove(0);
+    for other in eyes {
+        let row = |texels: &Texels| texels.bytes.len() / texels.extent[1].max(1) as usize;
+        let rows = all.bytes.chunks(row(&all)).zip(other.bytes.chunks(row(&other)));
+        all.bytes = rows.flat_map(|(left, right)| [left, right].concat()).collect();
+        all.extent[0] += other.extent[0];
+    }
+    all
 }
 
 /// The name of an output.
@@ -261,7 +288,8 @@ fn declared(frame: &Frame) -> impl Iterator<Item = usize> {
 
 /// The number of the output of that name, if the pipeline has it.
 fn named_output(frame: &Frame, name: &str) -> Option<usize> {
-    declared(frame).find(|at| output_name(frame, *at) == name)
+    let names = [name.to_owned(), of_left_eye(name)];
+    declared(frame).find(|at| names.contains(&output_name(frame, *at)))
 }
 
 fn no_output(frame: &Frame, name: &str) -> Error {

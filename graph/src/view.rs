@@ -9,6 +9,49 @@ use std::sync::Arc;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct ViewIndex(pub u32);
 
+/// An eye of a viewer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Eye {
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
+}
+
+impl Eye {
+    /// Both, the left one first.
+    pub const BOTH: [Eye; 2] = [Eye::Left, Eye::Right];
+
+    /// Its name in lower case.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Eye::Left => "left",
+            Eye::Right => "right",
+        }
+    }
+}
+
+/// How a frame is drawn for two eyes. The pipeline file is the same for all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+pub enum Stereo {
+    /// It is drawn for one: images that each eye has of its own are there once.
+    #[default]
+    Off,
+    /// Whatever an eye has of its own is drawn for one eye and then for the other, into images of their own.
+    MultiPass,
+}
+
+/// The eye that a view is seen with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ViewEye {
+    /// Which one.
+    pub eye: Eye,
+    /// The view between both eyes.
+    pub of: ViewIndex,
+}
+
 /// One view of a frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
@@ -24,6 +67,8 @@ pub struct View {
     pub allows: Allowances,
     /// How what its camera sees is shifted from frame to frame; `None`: not at all.
     pub jitter: Option<Jitter>,
+    /// The eye that it is seen with; `None`: it is seen from between the eyes, or there is one.
+    pub eye: Option<ViewEye>,
 }
 
 /// What may be spent on a view. Conditions of a pipeline ask for it; the compiler only hands it on.

@@ -145,6 +145,7 @@ fn what_was_read_locally_is_drawn_over_behind_a_barrier() {
         span: Span::NONE,
         after: None,
         encoding: None,
+        eye: None,
     });
     let options = Options { demote: false, order: Order::File, ..Options::default() };
     let plan = compile(&frame, &device(true), &mut Estimated(&device(true)), &options).expect("the frame is legal");

@@ -79,7 +79,13 @@ impl Builder {
     }
 
     fn output(mut self, image: ImageIndex) -> Frame {
-        self.0.outputs.push(Output { resource: Resource::Image(image), span: Span::NONE, after: None, encoding: None });
+        self.0.outputs.push(Output {
+            resource: Resource::Image(image),
+            span: Span::NONE,
+            after: None,
+            encoding: None,
+            eye: None,
+        });
         self.0
     }
 }

@@ -205,6 +205,7 @@ fn frame(passes: &[Vec<u8>], about: [bool; IMAGES.len()], outputs: &[u8]) -> Fra
                 span: Span::NONE,
                 after: None,
                 encoding: None,
+                eye: None,
             });
         }
     }

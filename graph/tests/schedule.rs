@@ -106,6 +106,7 @@ fn passes_that_do_not_depend_on_each_other_share_a_barrier_call() {
         span: Span::NONE,
         after: None,
         encoding: None,
+        eye: None,
     });
     frame.outputs.extend(outputs);
     assert_eq!(compiled(&frame, Order::Default).totals.barrier_calls, 5);

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 fn view(name: &str, extent: [u32; 2], camera: Option<&str>) -> View {
     let (camera, allows) = (camera.map(Into::into), Allowances::default());
-    View { name: name.into(), span: Span::NONE, extent, camera, allows, jitter: None }
+    View { name: name.into(), span: Span::NONE, extent, camera, allows, jitter: None, eye: None }
 }
 
 /// Two pictures, drawn for a view each, one after the other in one image.

@@ -58,7 +58,7 @@ Reflected reflect_light(vec3 position, vec3 normal, float sunlit, float open) {
     for (uint i = 0u; i < reach.count; ++i) {
         diffuse += from_point(light_of(reach, i), position, normal);
     }
-    return Reflected(diffuse, from_sun * highlight(normal, direction_of(-position), lights.sun_direction));
+    return Reflected(diffuse, from_sun * highlight(normal, direction_of(view.eye_position - position), lights.sun_direction));
 }
 
 // Radiance of the sky towards a unit vector, without the sun.

@@ -1,7 +1,7 @@
 // What the shipped draw source binds: set 1 for the frame, set 2 for the material. The same table for the CPU:
 // passes/src/draw/interface.rs.
 //
-// World space here has the axes of the scene but its origin at the camera: differences to the camera are taken on the CPU
+// World space here has the axes of the scene but its origin at the camera, for both eyes between them: differences to the camera are taken on the CPU
 // in 64 bits, so that a scene a million units from its origin doesn't shake.
 #ifndef FRAMEWRIGHT_SCENE
 #define FRAMEWRIGHT_SCENE
@@ -36,8 +36,10 @@ layout(set = 1, binding = 0, std140) uniform View {
     // Reversed depth: 1 at the near plane, 0 infinitely far.
     mat4 world_to_clip;
     mat4 clip_to_world;
-    // Where the camera stands in the scene's own coordinates.
+    // Where the camera stands in the scene's own coordinates; where there are two eyes, between them.
     vec3 camera_position;
+    // Where the eye is in world space: at the origin, unless there are two.
+    vec3 eye_position;
 } view;
 
 layout(set = 1, binding = 1, std430) readonly buffer Lights {

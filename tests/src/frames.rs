@@ -92,6 +92,7 @@ impl Builder {
             span: Span::NONE,
             after: None,
             encoding: None,
+            eye: None,
         };
         self.0.outputs = images.iter().map(output).collect();
         self.0

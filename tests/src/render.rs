@@ -7,6 +7,7 @@ use framewright_graph::plan::Plan;
 use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
+use framewright_graph::view::Stereo;
 use framewright_passes::draw::{SceneDrawSource, interface};
 use framewright_passes::scene::Scene;
 use framewright_passes::shipped::SHADERS;
@@ -78,7 +79,15 @@ pub fn plan(
     let pipeline = pipeline.map_err(rendered)?;
     let set: Vec<_> = setup.set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
     let facts = setup.scene.facts();
-    let inputs = Inputs { set: &set, facts, facts_known: true, output_extent: setup.extent, dump: &[], device: None };
+    let inputs = Inputs {
+        set: &set,
+        facts,
+        facts_known: true,
+        output_extent: setup.extent,
+        dump: &[],
+        device: None,
+        stereo: Stereo::Off,
+    };
     let frame = expand::expand(&pipeline, sources.clone(), &inputs, shaders).map_err(rendered)?;
     let plan = compile::compile(&frame, &device.profile(), &mut device.memory(), options);
     let plan = plan.map_err(rendered)?;

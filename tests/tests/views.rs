@@ -44,7 +44,7 @@ fn frame(views: &[Option<&str>]) -> Frame {
         let (extent, name) = (SIZES[number], format!("view {number}"));
         let (index, first) = (ViewIndex(number as u32), ImageIndex(frame.images.len() as u32));
         let (camera, allows) = (camera.map(Into::into), Allowances::default());
-        frame.views.push(View { name: name.as_str().into(), span, extent, camera, allows, jitter: None });
+        frame.views.push(View { name: name.as_str().into(), span, extent, camera, allows, jitter: None, eye: None });
         frame.images.push(Image::new(&format!("picture {number}"), Format::R8G8B8A8_SRGB, extent[0], extent[1]));
         frame.images.push(Image::new(&format!("depth {number}"), Format::D32_SFLOAT, extent[0], extent[1]));
         for (list, clears, blend) in
@@ -59,7 +59,7 @@ fn frame(views: &[Option<&str>]) -> Frame {
             pass.depth = Some(DepthTarget { image, range, span, clear, test, write: clears, stencil: None });
             frame.passes.push(pass);
         }
-        frame.outputs.push(Output { resource: Resource::Image(first), span, after: None, encoding: None });
+        frame.outputs.push(Output { resource: Resource::Image(first), span, after: None, encoding: None, eye: None });
     }
     frame
 }

@@ -124,7 +124,7 @@ impl Small {
     }
 
     pub(crate) fn output(&mut self, resource: Resource) {
-        self.frame.outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None });
+        self.frame.outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None, eye: None });
     }
 
     pub(crate) fn image_output(&mut self, image: ImageIndex) {

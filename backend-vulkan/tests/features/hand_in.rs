@@ -117,6 +117,7 @@ fn an_output_is_left_in_the_state_that_was_asked_for() {
         span: Span::NONE,
         after: Some(SAMPLED),
         encoding: None,
+        eye: None,
     });
     everywhere(&small.frame, SHADERS, |executor| {
         for _ in 0..2 {

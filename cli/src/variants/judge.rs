@@ -13,6 +13,7 @@ use framewright_graph::frame::Frame;
 use framewright_graph::plan::Totals;
 use framewright_graph::source::Sources;
 use framewright_graph::verify;
+use framewright_graph::view::Stereo;
 use std::sync::Arc;
 
 /// What all variants have in common.
@@ -27,6 +28,8 @@ pub(crate) struct Subject<'a> {
     pub(crate) devices: Vec<Arc<Profile>>,
     /// How Plans are made.
     pub(crate) options: Options,
+    /// How frames are drawn for two eyes.
+    pub(crate) stereo: Stereo,
 }
 
 /// What one thread judges variants with.
@@ -97,6 +100,7 @@ impl<'a> Judge<'a> {
             facts_known: true,
             output_extent: [check::VIEW.size.width, check::VIEW.size.height],
             dump: check::VIEW.dump,
+            stereo: self.subject.stereo,
             device: self.subject.devices.get(axes::device(choice)).map(|device| &**device),
         };
         expand::expand(pipeline, Arc::clone(sources), &inputs, &mut self.shaders)

@@ -63,14 +63,20 @@ fn report(arguments: &Check) -> Result<Report, Error> {
     let devices = devices(arguments)?;
     let loaded = planning::load(&arguments.pipeline)?;
     loaded.check_command_line(check::VIEW)?;
-    let Loaded { pipeline, sources, shaders, set, .. } = loaded;
+    let Loaded { pipeline, sources, shaders, set, stereo, .. } = loaded;
     let (names, devices): (Vec<String>, _) = devices.into_iter().unzip();
     let axes = Axes::of(&pipeline, &sources, &set, &names);
     let sizes = axes.sizes();
     let presets = axes.variants_of_presets();
     let space = if arguments.pairwise { Space::pairwise(&sizes, presets)? } else { Space::all(sizes, presets)? };
-    let subject =
-        Subject { pipeline: &pipeline, sources: &sources, axes, devices, options: arguments.planning.options() };
+    let subject = Subject {
+        pipeline: &pipeline,
+        sources: &sources,
+        axes,
+        devices,
+        options: arguments.planning.options(),
+        stereo,
+    };
     // Until here nothing is lost when the system ends the program.
     interrupt::watch();
 

@@ -10,6 +10,7 @@ use framewright_graph::interface::{
     ShaderInterfaces, ShaderProblem, Variant,
 };
 use framewright_graph::source::Sources;
+use framewright_graph::view::Stereo;
 use framewright_graph::vocabulary::Stages;
 use std::sync::Arc;
 
@@ -76,7 +77,15 @@ fn frame(text: String) -> Frame {
     let mut sources = Sources::default();
     let pipeline = describe::read(&mut sources, "many.ron", "many.ron", text).expect("the file is sound");
     let facts = Facts::UNKNOWN;
-    let inputs = Inputs { set: &[], facts, facts_known: false, output_extent: [1920, 1080], dump: &[], device: None };
+    let inputs = Inputs {
+        set: &[],
+        facts,
+        facts_known: false,
+        output_extent: [1920, 1080],
+        dump: &[],
+        device: None,
+        stereo: Stereo::Off,
+    };
     expand(&pipeline, Arc::new(sources), &inputs, &mut FullScreen).expect("the pipeline fits its shaders")
 }
 

@@ -24,7 +24,8 @@ use crate::device::Profile;
 use crate::frame::{Frame, Lifetime, Resource as Declared, Work as FrameWork};
 use crate::plan::{
     Buffer, BufferId, Cause, Change, ChosenFormat, DeviceUsed, FORMAT_VERSION, Image, ImageId, Initial, Note,
-    Placement, Plan, Queue, Resource, Role, SettingUsed, Stage, Step, Subresources, Totals, View, Work,
+    Placement, Plan, Queue, Resource, Role, SettingUsed, Stage, Step, Subresources, Totals, View, ViewEye, ViewId,
+    Work,
 };
 use crate::source::Place;
 use crate::vocabulary::{FillValue, State};
@@ -281,6 +282,7 @@ fn views(parts: &Parts<'_>) -> Vec<View> {
         camera: view.camera.clone(),
         allows: view.allows,
         jitter: view.jitter.clone(),
+        eye: view.eye.map(|crate::view::ViewEye { eye, of }| ViewEye { eye, of: ViewId(of.0) }),
     };
     parts.frame.views.iter().map(view).collect()
 }

@@ -58,23 +58,18 @@ const FACE: Form = Form::Words(&FACES);
 static FACES: Words = Words {
     name: "Face",
     what: "a face of an image",
-    or: &[parts::WHOLE_IMAGE],
+    or: &[parts::EYE_IMAGE],
     all: &[
-        Word::new(
-            "Samples",
-            &[Takes::Values(&[parts::WHOLE_IMAGE])],
-            &["Samples(\"image\")"],
-            "Each sample by itself.",
-        ),
+        Word::new("Samples", &[Takes::Values(&[parts::EYE_IMAGE])], &["Samples(\"image\")"], "Each sample by itself."),
         Word::new(
             "Resolved",
-            &[Takes::Values(&[parts::WHOLE_IMAGE])],
+            &[Takes::Values(&[parts::EYE_IMAGE])],
             &["Resolved(\"image\")"],
             "One value a texel. Where the image has several samples its `resolve` says what becomes of them.",
         ),
         Word::new(
             "DepthOnly",
-            &[Takes::Values(&[parts::WHOLE_IMAGE])],
+            &[Takes::Values(&[parts::EYE_IMAGE])],
             &["DepthOnly(\"image\")"],
             "One value of depth a texel. Where the image has several samples, whatever drew it is drawn again with one, and \
              nothing but its depth: that of the middle of each texel.",
@@ -109,7 +104,7 @@ fields! {
     /// ```
     struct StorageFields<'src> {
         /// Which image.
-        image: Option<Leaf<'src>> => parts::WHOLE_IMAGE,
+        image: Option<Leaf<'src>> => parts::EYE_IMAGE,
         /// Or which buffer.
         buffer: Option<Leaf<'src>> => parts::WHOLE_BUFFER,
         /// The mip level, from 0; it must be named if there are several.
@@ -224,7 +219,7 @@ fn sampler<T: Copy>(
 
 /// An image's name, and which of its faces is meant.
 fn face<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(Leaf<'src>, Face)> {
-    if let Shape::Text = leaf.shape() {
+    if let Shape::Text | Shape::Word("Eye", _) = leaf.shape() {
         return Some((leaf, Face::Plain));
     }
     let (word, rest) = reader.one_of(leaf, &FACES)?;

@@ -56,6 +56,9 @@ fields! {
         shape: Option<Leaf<'src>> => Form::Words(&SHAPES),
         /// How long its contents live; `Transient` if left out.
         lifetime: Option<Leaf<'src>> => lifetimes::LIFETIME,
+        /// Whether each eye has one of its own where a frame is drawn for two; if left out as the image whose size it follows,
+        /// and not if it follows none.
+        per_eye: Option<Leaf<'src>> => Form::Truth,
     }
 }
 
@@ -155,6 +158,7 @@ pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &Image
         Some(leaf) => lifetimes::lower(reader, scope, leaf, lifetimes::Of::Image),
         None => name.as_ref().map(|name| Spanned { value: Lifetime::Transient, span: name.span }),
     };
+    let per_eye = fields.per_eye.map(|leaf| values::truth(reader, scope, leaf).map(|own| leaf.spanned(own)));
     let ((size, size_because), (samples, samples_because)) = (size?, samples?);
     Some(Image {
         name: name?,
@@ -171,6 +175,10 @@ pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &Image
         layers: layers?,
         shape: shape?,
         lifetime: lifetime?,
+        per_eye: match per_eye {
+            Some(per_eye) => Some(per_eye?),
+            None => None,
+        },
         view: ViewIndex::default(),
         instance: None,
     })

@@ -63,7 +63,7 @@ pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, list: Leaf<'sr
 
 fn output<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Output> {
     let Shape::Parentheses = leaf.shape() else {
-        return Some(Output { resource: scope.resource(reader, leaf)?, after: None, encoding: None });
+        return Some(Output { resource: scope.resource(reader, leaf)?, after: None, encoding: None, eye: None });
     };
     let fields: OutputFields<'_> = reader.read(leaf, "an output")?;
     let (resource, of) = match (fields.image, fields.buffer) {
@@ -98,5 +98,5 @@ fn output<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opt
         }
         (None, _) => Some(None),
     };
-    Some(Output { resource: resource?, after: after?, encoding: encoding? })
+    Some(Output { resource: resource?, after: after?, encoding: encoding?, eye: None })
 }

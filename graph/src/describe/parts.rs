@@ -1,14 +1,15 @@
 //! Parts of images and buffers, as passes name them: mip levels, layers, planes, earlier frames.
 
-use super::forms::{Described, Form, Table, Word, Words, names};
+use super::forms::{Described, Form, Table, Takes, Word, Words, names};
 use super::leaf::{Leaf, Shape};
 use super::pass::{BufferPart, ImagePart, Part, Selection};
 use super::pipeline::{BufferRef, ImageRef};
 use super::reader::Reader;
 use super::scope::Scope;
-use super::values;
+use super::{Spanned, values};
 use crate::fields;
 use crate::frame::Resource;
+use crate::view::Eye;
 use crate::vocabulary::{Aspects, Subresources};
 
 /// An image or buffer can be read at most this many frames back.
@@ -24,7 +25,7 @@ fields! {
     /// ```
     struct PartFields<'src> {
         /// Which image.
-        image: Option<Leaf<'src>> => WHOLE_IMAGE,
+        image: Option<Leaf<'src>> => EYE_IMAGE,
         /// Or which buffer.
         buffer: Option<Leaf<'src>> => WHOLE_BUFFER,
         /// The first mip level, from 0.
@@ -51,14 +52,33 @@ pub(super) const WHOLE_BUFFER: Form = Form::Reference("a buffer");
 /// The name of an image or buffer.
 pub(super) const WHOLE_RESOURCE: Form = Form::Reference("an image or buffer");
 
+/// The name of an image, or one eye's of it.
+pub(super) const EYE_IMAGE: Form = Form::Words(&EYES);
+
+static EYES: Words = Words {
+    name: "EyeImage",
+    what: "an image",
+    or: &[WHOLE_IMAGE],
+    all: &[Word::new(
+        "Eye",
+        &[Takes::Values(&[EYE, WHOLE_IMAGE])],
+        &["Eye(Left, \"image\")", "Eye(Right, \"image\")"],
+        "That of one eye, of an image that each eye has of its own.",
+    )],
+};
+
+const EYE: Form = Form::Choice("an eye", || names(&EYE_NAMES));
+
+const EYE_NAMES: [(&str, Eye); 2] = [("Left", Eye::Left), ("Right", Eye::Right)];
+
 /// An image or a part of it.
-pub(super) const IMAGE: Form = Form::Either(&[WHOLE_IMAGE, PART]);
+pub(super) const IMAGE: Form = Form::Either(&[EYE_IMAGE, PART]);
 
 /// A buffer, of this frame or an earlier one.
 pub(super) const BUFFER: Form = Form::Either(&[WHOLE_BUFFER, PART]);
 
 /// An image, a part of one, or a buffer.
-pub(super) const ANY: Form = Form::Either(&[WHOLE_RESOURCE, PART]);
+pub(super) const ANY: Form = Form::Either(&[WHOLE_RESOURCE, EYE_IMAGE, PART]);
 
 const PART: Form = Form::Fields(part);
 
@@ -106,6 +126,7 @@ pub(super) fn any<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>
             Resource::Image(index) => Part::Image(ImagePart::whole(ImageRef { index, span: leaf.span() })),
             Resource::Buffer(index) => Part::Buffer(whole_buffer(BufferRef { index, span: leaf.span() })),
         }),
+        Shape::Word(..) => image_part(reader, scope, leaf, Selected::default()).map(Part::Image),
         Shape::Parentheses => {
             let fields: PartFields<'_> = reader.read(leaf, "a part of an image or buffer")?;
             let PartFields { image, buffer, mip, mips, layer, layers, plane, previous } = fields;
@@ -200,7 +221,10 @@ pub(super) fn image_part<'src>(
     name: Leaf<'src>,
     selected: Selected<'src>,
 ) -> Option<ImagePart> {
-    let image = scope.image(reader, name);
+    let image = match name.shape() {
+        Shape::Word(..) => one_eyes(reader, scope, name),
+        _ => scope.image(reader, name).map(|image| (image, None)),
+    };
     let mips = selection(reader, scope, selected.mip, selected.mips, "mip level", "number of mip levels");
     let layers = selection(reader, scope, selected.layer, selected.layers, "layer", "number of layers");
     let plane = match selected.plane {
@@ -208,7 +232,21 @@ pub(super) fn image_part<'src>(
         None => Some(None),
     };
     let previous = frames(reader, scope, selected.previous);
-    Some(ImagePart { image: image?, mips: mips?, layers: layers?, plane: plane?, previous: previous? })
+    let (image, eye) = image?;
+    Some(ImagePart { image, mips: mips?, layers: layers?, plane: plane?, previous: previous?, eye })
+}
+
+/// `Eye(Left, "name")`.
+fn one_eyes<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+) -> Option<(ImageRef, Option<Spanned<Eye>>)> {
+    let (_, rest) = reader.one_of(leaf, &EYES)?;
+    let [eye, name]: [Leaf<'_>; 2] = reader.inside(leaf, rest, "Eye(Left, \"image\")")?;
+    let image = scope.image(reader, name);
+    let chosen = values::choice(reader, eye, "an eye", &EYE_NAMES)?;
+    Some((image?, Some(eye.spanned(chosen))))
 }
 
 fn frames<'src>(

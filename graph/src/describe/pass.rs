@@ -4,7 +4,7 @@ use super::pipeline::{BufferRef, ImageRef, Name, ResourceRef, Spanned};
 use super::resources::Fill;
 use crate::frame::{Blend, Cascade, DrawList, ParamValue, StencilState};
 use crate::source::Span;
-use crate::view::ViewIndex;
+use crate::view::{Eye, ViewIndex};
 use crate::vocabulary::{AddressMode, Aspects, CompareOp, Filter};
 use std::sync::Arc;
 
@@ -180,6 +180,8 @@ pub struct ImagePart {
     pub plane: Option<Spanned<Aspects>>,
     /// Of how many frames before this one.
     pub previous: Option<Spanned<u32>>,
+    /// The eye whose image it is; `None`: whichever the pass is drawn for.
+    pub eye: Option<Spanned<Eye>>,
 }
 
 /// A buffer, of this frame or an earlier one.
@@ -329,7 +331,7 @@ impl ImagePart {
     #[must_use]
     pub const fn whole(image: ImageRef) -> ImagePart {
         let all = Selection { first: None, count: None };
-        ImagePart { image, mips: all, layers: all, plane: None, previous: None }
+        ImagePart { image, mips: all, layers: all, plane: None, previous: None, eye: None }
     }
 }
 

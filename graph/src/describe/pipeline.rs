@@ -6,6 +6,7 @@ use super::views::View;
 use crate::encoding::Encoding;
 use crate::frame::{BufferIndex, ImageIndex, Resource};
 use crate::source::Span;
+use crate::view::Eye;
 use std::sync::Arc;
 
 /// A pipeline with all that it was made for put in: flat lists, names unique, every reference found, every expression
@@ -68,6 +69,8 @@ pub struct Output {
     pub after: Option<Spanned<State>>,
     /// What its numbers mean, if the file says it.
     pub encoding: Option<Spanned<Encoding>>,
+    /// The eye whose it is; no file says it.
+    pub eye: Option<Eye>,
 }
 
 /// A value and where it was written.

@@ -34,6 +34,8 @@ pub struct Image {
     pub shape: Spanned<Shape>,
     /// How long its contents live.
     pub lifetime: Spanned<Lifetime>,
+    /// Whether each eye has one of its own, if the file says so; `None`: as the image whose size it follows, else not.
+    pub per_eye: Option<Spanned<bool>>,
     /// The view whose size `Output` and plain factors mean.
     pub view: ViewIndex,
     /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).

@@ -19,7 +19,7 @@ fields! {
     /// ```
     struct ColorTargetFields<'src> {
         /// Which image.
-        image: Leaf<'src> => parts::WHOLE_IMAGE,
+        image: Leaf<'src> => parts::EYE_IMAGE,
         /// The mip level, from 0; it must be named if there are several.
         mip: Option<Leaf<'src>> => parts::FIRST,
         /// The first layer, from 0.
@@ -40,7 +40,7 @@ fields! {
     /// ```
     struct DepthTargetFields<'src> {
         /// Which image.
-        image: Leaf<'src> => parts::WHOLE_IMAGE,
+        image: Leaf<'src> => parts::EYE_IMAGE,
         /// The mip level, from 0; it must be named if there are several.
         mip: Option<Leaf<'src>> => parts::FIRST,
         /// The first layer, from 0.
@@ -77,10 +77,10 @@ fields! {
 
 /// What `color` takes.
 pub(super) const COLOR: Form =
-    Form::List(&Form::Either(&[parts::WHOLE_IMAGE, Form::Fields(ColorTargetFields::<'static>::table)]));
+    Form::List(&Form::Either(&[parts::EYE_IMAGE, Form::Fields(ColorTargetFields::<'static>::table)]));
 
 /// What `depth` takes.
-pub(super) const DEPTH: Form = Form::Either(&[parts::WHOLE_IMAGE, Form::Fields(DepthTargetFields::<'static>::table)]);
+pub(super) const DEPTH: Form = Form::Either(&[parts::EYE_IMAGE, Form::Fields(DepthTargetFields::<'static>::table)]);
 
 const TEST: Form = Form::Choice("a comparison", || names(&TESTS));
 const BYTE: Form = Form::Whole(0, 255);
@@ -122,7 +122,9 @@ pub(super) fn color<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'sr
 fn color_target<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Color> {
     let replace = leaf.spanned(Blend::Replace);
     match leaf.shape() {
-        Shape::Text => Some(Color { part: parts::image(reader, scope, leaf)?, clear: None, blend: replace }),
+        Shape::Text | Shape::Word(..) => {
+            Some(Color { part: parts::image(reader, scope, leaf)?, clear: None, blend: replace })
+        }
         Shape::Parentheses => {
             let fields: ColorTargetFields<'_> = reader.read(leaf, "a colour target")?;
             let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
@@ -150,7 +152,7 @@ fn color_target<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) 
 pub(super) fn depth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Depth> {
     let (test, write) = (CompareOp::GreaterOrEqual, true);
     match leaf.shape() {
-        Shape::Text => {
+        Shape::Text | Shape::Word(..) => {
             let part = parts::image(reader, scope, leaf)?;
             Some(Depth { part, clear: None, test, write, stencil: None })
         }

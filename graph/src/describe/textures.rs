@@ -153,6 +153,7 @@ fn image(
         layers: Spanned { value: Layers::Default, span },
         shape: fields.shape.unwrap_or(from).spanned(shape),
         lifetime: from.spanned(Lifetime::File(Arc::clone(file))),
+        per_eye: Some(Spanned { value: false, span }),
         view: ViewIndex::default(),
         instance: None,
     }

@@ -15,7 +15,7 @@ use super::{Diagnostic, LARGEST_SIZE, Label, body, properties, shown_number, siz
 use crate::change::{Action, Change};
 use crate::fields;
 use crate::jitter::{self, Jitter};
-use crate::view::{Allowances, ViewIndex};
+use crate::view::{Allowances, ViewEye, ViewIndex};
 use std::sync::Arc;
 
 fields! {
@@ -87,6 +87,8 @@ pub struct View {
     pub allows: Allowances,
     /// How what its camera sees is shifted; `None`: not at all.
     pub jitter: Option<Jitter>,
+    /// The eye that it is seen with; no file says it.
+    pub eye: Option<ViewEye>,
 }
 
 /// What expressions see that stand in a view.
@@ -254,7 +256,7 @@ fn view<'a>(
     let jitter = jitter(reader, &Scope { given: &given, surroundings: &seen, ..*scope }, fields);
     set?;
     let allows = Allowances { msaa: msaa?, hdr: hdr?, scale: scale? };
-    let view = View { name: name?, extent: extent?, camera: camera?, allows, jitter: jitter? };
+    let view = View { name: name?, extent: extent?, camera: camera?, allows, jitter: jitter?, eye: None };
     let surroundings = Surroundings { extent: view.extent, allows, ..*surroundings };
     Some((view, Seen { surroundings, given }))
 }

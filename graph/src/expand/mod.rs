@@ -7,6 +7,7 @@
 
 mod casters;
 mod depth_only;
+mod eyes;
 mod fills;
 mod images;
 mod local;
@@ -41,7 +42,7 @@ use crate::encoding::Encoding;
 use crate::frame::{Frame, ImageIndex, Output, Resource, SwitchedOff};
 use crate::interface::ShaderInterfaces;
 use crate::source::{Sources, Span};
-use crate::view::{Allowances, View, ViewIndex};
+use crate::view::{Allowances, Eye, Stereo, View, ViewIndex};
 use std::sync::Arc;
 use things::Things;
 
@@ -61,6 +62,8 @@ pub struct Inputs<'a> {
     pub device: Option<&'a Profile>,
     /// Names of further images that leave the frame.
     pub dump: &'a [String],
+    /// How it is drawn for two eyes.
+    pub stereo: Stereo,
 }
 
 /// What expansion asks everywhere.
@@ -125,6 +128,7 @@ pub fn expand(
             return Err(errors);
         }
     };
+    let pipeline = eyes::split(pipeline, inputs.stereo, inputs.output_extent, &mut errors);
     let chosen = Chosen { pipeline: &pipeline, extent: inputs.output_extent };
     let mut said = once::Said::default();
     let mut things = Things::resolve(&chosen, &mut errors);
@@ -185,10 +189,10 @@ pub fn expand(
 }
 
 fn view(described: &describe::View) -> View {
-    let describe::View { name, extent, camera, allows, jitter } = described;
+    let describe::View { name, extent, camera, allows, jitter, eye } = described;
     let camera = camera.as_ref().map(|camera| camera.text.clone());
     let (allows, jitter) = (*allows, jitter.clone());
-    View { name: name.text.clone(), span: name.span, extent: *extent, camera, allows, jitter }
+    View { name: name.text.clone(), span: name.span, extent: *extent, camera, allows, jitter, eye: *eye }
 }
 
 /// Says of mistakes in a fragment where it was used.
@@ -210,7 +214,7 @@ fn outputs(chosen: &Chosen<'_>, things: &Things, dump: &[String], errors: &mut V
         let describe::ResourceRef { resource, span } = output.resource;
         let after = output.after.and_then(|after| things.left(chosen, resource, after, errors));
         let encoding = output.encoding.filter(|encoding| encoded(chosen, things, resource, *encoding, errors));
-        outputs.push(Output { resource, span, after, encoding: encoding.map(|encoding| encoding.value) });
+        outputs.push(Output { resource, span, after, encoding: encoding.map(|it| it.value), eye: output.eye });
     }
     dumped(pipeline, dump, &mut outputs, errors);
     outputs
@@ -239,19 +243,28 @@ fn encoded(
 /// Adds images that are dumped.
 fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, errors: &mut Vec<Diagnostic>) {
     for name in dump {
-        let Some(index) = pipeline.images.iter().position(|image| *image.name.text == **name) else {
+        let of_eyes = Eye::BOTH.map(|eye| eyes::named(name, eye));
+        let is_it = |image: &describe::Image| *image.name.text == **name || of_eyes.contains(&image.name.text);
+        let found: Vec<(usize, Option<Eye>)> = (0..)
+            .zip(&pipeline.images)
+            .filter(|(_, image)| is_it(image))
+            .map(|(at, image)| (at, Eye::BOTH.into_iter().find(|eye| of_eyes[*eye as usize] == image.name.text)))
+            .collect();
+        if found.is_empty() {
             let help = suggestion(name, pipeline.images.iter().map(|image| &*image.name.text));
             errors.push(Diagnostic { help, ..nowhere(format!("there is no image named `{name}` to dump")) });
-            continue;
-        };
-        if let describe::Lifetime::File(file) = &pipeline.images[index].lifetime.value {
-            errors.push(nowhere(format!("`{name}` can't be dumped: no pass makes it, it comes from `{}`", file.path)));
-            continue;
         }
-        let Ok(index) = u32::try_from(index) else { continue };
-        let resource = Resource::Image(ImageIndex(index));
-        if outputs.iter().all(|output| output.resource != resource) {
-            outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None });
+        for (index, eye) in found {
+            if let describe::Lifetime::File(file) = &pipeline.images[index].lifetime.value {
+                let why = format!("`{name}` can't be dumped: no pass makes it, it comes from `{}`", file.path);
+                errors.push(nowhere(why));
+                continue;
+            }
+            let Ok(index) = u32::try_from(index) else { continue };
+            let resource = Resource::Image(ImageIndex(index));
+            if outputs.iter().all(|output| output.resource != resource) {
+                outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None, eye });
+            }
         }
     }
 }

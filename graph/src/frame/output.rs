@@ -3,6 +3,7 @@
 use super::Resource;
 use crate::encoding::Encoding;
 use crate::source::Span;
+use crate::view::Eye;
 use crate::vocabulary::State;
 
 /// An image or buffer that leaves the frame.
@@ -16,4 +17,6 @@ pub struct Output {
     pub after: Option<State>,
     /// What its numbers mean, which its format must be able to hold; `None`: what the format says.
     pub encoding: Option<Encoding>,
+    /// The eye whose it is; `None`: both share it, or there is one.
+    pub eye: Option<Eye>,
 }

@@ -32,7 +32,7 @@ use crate::frame::{DrawList, Shape};
 use crate::jitter::Jitter;
 use crate::source::Place;
 use crate::texture::TextureFile;
-use crate::view::Allowances;
+use crate::view::{Allowances, Eye};
 pub use crate::vocabulary::Subresources;
 use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
 use serde::{Deserialize, Serialize};
@@ -60,7 +60,7 @@ pub use work::{
 };
 
 /// The version of the JSON form that this library writes and reads.
-pub const FORMAT_VERSION: u32 = 6;
+pub const FORMAT_VERSION: u32 = 7;
 
 /// Index of an image in [`Plan::images`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -167,6 +167,18 @@ pub struct View {
     pub allows: Allowances,
     /// How what its camera sees is shifted from frame to frame; `None`: not at all.
     pub jitter: Option<Jitter>,
+    /// The eye that it is seen with; `None`: it is seen from between the eyes, or there is one.
+    pub eye: Option<ViewEye>,
+}
+
+/// The eye that a view is seen with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ViewEye {
+    /// Which one.
+    pub eye: Eye,
+    /// The view between both eyes, which is none of theirs.
+    pub of: ViewId,
 }
 
 /// A physical image.

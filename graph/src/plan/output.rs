@@ -2,6 +2,7 @@
 
 use super::Resource;
 use crate::encoding::Encoding;
+use crate::view::Eye;
 use serde::{Deserialize, Serialize};
 
 /// An image or a buffer that leaves the frame.
@@ -14,11 +15,13 @@ pub struct Output {
     pub encoding: Option<Encoding>,
     /// Where the encoding happens, in the reader's words; `None` where there is none: numbers are as they are.
     pub encoded: Option<String>,
+    /// The eye whose it is; `None`: both share it, or there is one.
+    pub eye: Option<Eye>,
 }
 
 impl From<Resource> for Output {
     /// An output of whose numbers nothing is said.
     fn from(resource: Resource) -> Output {
-        Output { resource, encoding: None, encoded: None }
+        Output { resource, encoding: None, encoded: None, eye: None }
     }
 }

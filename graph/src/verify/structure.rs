@@ -33,6 +33,13 @@ pub(super) fn check(plan: &Plan, found: &mut Findings) -> Option<Frames> {
             format!("view `{name}` is shifted by no texel, never, or by more than half of one"),
         );
     }
+    for (view, eye) in plan.views.iter().filter_map(|view| Some((view, view.eye?))) {
+        let of = plan.views.get(eye.of.0 as usize);
+        if of.is_none_or(|of| of.eye.is_some()) {
+            let name = Shown(&view.name);
+            found.structure(None, None, format!("view `{name}` is an eye of no view, or of another eye's"));
+        }
+    }
     let buffers = plan.images.len() as u32;
     let mut names = HashSet::with_capacity(plan.images.len() + plan.buffers.len());
     for (image, index) in plan.images.iter().zip(0..) {

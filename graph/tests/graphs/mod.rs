@@ -99,7 +99,7 @@ impl Builder {
     /// The frame, made for `output`.
     pub(crate) fn output(mut self, output: ImageIndex) -> Frame {
         let resource = Resource::Image(output);
-        self.frame.outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None });
+        self.frame.outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None, eye: None });
         self.frame
     }
 }

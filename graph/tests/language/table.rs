@@ -11,6 +11,7 @@ use framewright_graph::interface::{
 };
 use framewright_graph::source::Sources;
 use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
+use framewright_graph::view::Stereo;
 use framewright_graph::vocabulary::Stages;
 use std::sync::Arc;
 
@@ -407,8 +408,15 @@ impl ShaderInterfaces for Table {
 }
 
 /// What a test puts a pipeline together with.
-pub(crate) const INPUTS: Inputs<'static> =
-    Inputs { set: &[], facts: Facts::UNKNOWN, facts_known: false, output_extent: [640, 360], dump: &[], device: None };
+pub(crate) const INPUTS: Inputs<'static> = Inputs {
+    set: &[],
+    facts: Facts::UNKNOWN,
+    facts_known: false,
+    output_extent: [640, 360],
+    dump: &[],
+    device: None,
+    stereo: Stereo::Off,
+};
 
 /// The text of a shipped pipeline.
 pub(crate) fn shipped(name: &str) -> String {

@@ -60,7 +60,13 @@ impl Raster {
     pub(crate) fn outputs(mut self, images: &[ImageIndex]) -> Frame {
         self.0.outputs = images
             .iter()
-            .map(|image| Output { resource: Resource::Image(*image), span: Span::NONE, after: None, encoding: None })
+            .map(|image| Output {
+                resource: Resource::Image(*image),
+                span: Span::NONE,
+                after: None,
+                encoding: None,
+                eye: None,
+            })
             .collect();
         self.0
     }

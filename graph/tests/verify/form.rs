@@ -35,7 +35,7 @@ fn declare(plan: &mut Plan, change: fn(&mut ImageShape)) {
 /// A view that is shifted once.
 fn shifted(offset: [f64; 2]) -> View {
     let jitter = Some(Jitter { extent: [8, 8], offsets: vec![offset] });
-    View { name: "main".into(), extent: [8, 8], camera: None, allows: Allowances::default(), jitter }
+    View { name: "main".into(), extent: [8, 8], camera: None, allows: Allowances::default(), jitter, eye: None }
 }
 
 #[test]

@@ -23,12 +23,13 @@ pub(super) fn shifted(world_to_clip: DMat4, [right, down]: [f64; 2]) -> DMat4 {
     DMat4::from_cols(x + w * (2.0 * right), y + w * (2.0 * down), z, w).transpose()
 }
 
-/// Clip space from the shaders' world space, whose origin is at the camera, and back.
-pub(super) fn view_block(camera: &Camera, world_to_clip: DMat4) -> Vec<u8> {
+/// Clip space from the shaders' world space, whose origin is at the camera, and back, and where in it the eye is.
+pub(super) fn view_block(camera: &Camera, world_to_clip: DMat4, eye: DVec3) -> Vec<u8> {
     let mut block = Block::default();
     block.mat4(world_to_clip.as_mat4());
     block.mat4(world_to_clip.inverse().as_mat4());
     block.vec3(camera.position().to_array());
+    block.vec3(eye.as_vec3().to_array());
     block.bytes()
 }
 

@@ -3,6 +3,7 @@
 mod block;
 pub mod cascades;
 pub mod clusters;
+mod eyes;
 mod frame_data;
 pub mod frustum;
 mod geometry;
@@ -12,6 +13,7 @@ mod seen;
 mod source;
 mod textures;
 
+pub use eyes::{EyeSight, Eyes};
 pub use interface::{
     BASE_COLOR_TEXTURE_BINDING, CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET,
     MOTION_BINDING, OBJECTS_BINDING, VIEW_BINDING, interface,

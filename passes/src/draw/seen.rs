@@ -2,6 +2,7 @@
 
 use super::cascades::{self, Map, cascades_block, seen_by_sun};
 use super::clusters::Clusters;
+use super::eyes::{EyeSight, Eyes};
 use super::frame_data::{lights_block, motion_block, objects_block, shifted, view_block, world_to_clip};
 use super::frustum;
 use super::interface::{
@@ -13,12 +14,16 @@ use crate::scene::{Camera, Scene};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::jitter::Jitter;
 use framewright_vulkan::{BindGroup, Buffer, BufferUsage, CullMode, Device, Error, FrontFace, Resource};
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 
 /// From where, and how, a view sees the scene.
 pub(super) struct Viewpoint {
-    /// At frame 0.
+    /// At frame 0; of an eye the one between both.
     pub(super) camera: Camera,
+    /// The eye that sees it, if there are two.
+    pub(super) eye: Option<EyeSight>,
+    /// Both eyes, of a view that is seen with either or from between them.
+    pub(super) eyes: Option<Eyes>,
     /// Width and height of its picture, of which only the ratio counts.
     pub(super) extent: [u32; 2],
     /// The cascades of the sun's shadows in it, the nearest first.
@@ -32,10 +37,28 @@ impl Viewpoint {
         width / height
     }
 
+    /// The camera at a frame that sees all that this view shares with those of other eyes.
+    fn around(&self, frame: u64) -> Camera {
+        let camera = self.camera.at(frame);
+        self.eyes.map_or(camera, |eyes| eyes.around(&camera, self.aspect()))
+    }
+
+    /// Where the eye is at a frame, in the shaders' world space.
+    fn eye(&self, frame: u64) -> DVec3 {
+        self.eye.map_or(DVec3::ZERO, |eye| eye.from_between(&self.camera.at(frame)))
+    }
+
+    /// From world space to clip space at a frame, not shifted.
+    fn straight(&self, frame: u64) -> DMat4 {
+        let (camera, aspect) = (self.camera.at(frame), self.aspect());
+        let straight = world_to_clip(&camera, aspect);
+        self.eye.map_or(straight, |eye| eye.world_to_clip(&camera, aspect, straight))
+    }
+
     /// From world space to clip space at a frame.
     fn world_to_clip(&self, frame: u64) -> DMat4 {
         let shift = self.jitter.as_ref().map(|jitter| jitter.shift(frame));
-        let straight = world_to_clip(&self.camera.at(frame), self.aspect());
+        let straight = self.straight(frame);
         shift.map_or(straight, |shift| shifted(straight, shift))
     }
 }
@@ -82,10 +105,16 @@ impl Seen {
         // The first frame comes after itself: nothing has moved.
         let frame_before = frame.saturating_sub(1);
         let (camera, before) = (view.camera.at(frame), view.camera.at(frame_before));
-        let straight = |camera| world_to_clip(camera, view.aspect());
-        let motion = motion_block(scene, straight(&camera), (straight(&before), &before), frame_before);
+        let (now, then) = (view.straight(frame), (view.straight(frame_before), &before));
+        let motion = motion_block(scene, now, then, frame_before);
         let scene = &scene.at(frame);
-        let by_sun = |map: &Map| seen_by_sun(scene, &camera, view.aspect(), map.cascade, map.texels);
+        // Both eyes look up the same maps.
+        let around = view.around(frame);
+        let to_around = DMat4::from_translation((camera.position() - around.position()).as_dvec3());
+        let by_sun = |map: &Map| {
+            let seen = seen_by_sun(scene, &around, view.aspect(), map.cascade, map.texels);
+            cascades::Seen { world_to_clip: seen.world_to_clip * to_around, ..seen }
+        };
         let by_sun: Vec<_> = view.maps.iter().map(by_sun).collect();
         let clusters = Clusters::new(scene, &camera, view.aspect());
         let buffers = Buffers {
@@ -97,11 +126,14 @@ impl Seen {
         };
         let cascade = |seen: &cascades::Seen| {
             let casts = scene.objects.iter().map(|object| cascades::may_cast(scene, &camera, seen, object)).collect();
-            Ok::<_, Error>(SeenBySun { frame: group(device, &camera, seen.world_to_clip, &buffers)?, casts })
+            Ok::<_, Error>(SeenBySun {
+                frame: group(device, &camera, (seen.world_to_clip, DVec3::ZERO), &buffers)?,
+                casts,
+            })
         };
         let world_to_clip = view.world_to_clip(frame);
         Ok(Seen {
-            frame: group(device, &camera, world_to_clip, &buffers)?,
+            frame: group(device, &camera, (world_to_clip, view.eye(frame)), &buffers)?,
             in_sight: frustum::within(scene, &camera, world_to_clip),
             transparent: draws(scene, &camera, DrawList::Transparent),
             cascades: by_sun.iter().map(cascade).collect::<Result<_, _>>()?,
@@ -129,15 +161,20 @@ impl Seen {
     /// Is shifted as `view` is at the frame that it is for already.
     pub(super) fn shift(&mut self, device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<(), Error> {
         let (camera, world_to_clip) = (view.camera.at(frame), view.world_to_clip(frame));
-        self.frame = group(device, &camera, world_to_clip, &self.buffers)?;
+        self.frame = group(device, &camera, (world_to_clip, view.eye(frame)), &self.buffers)?;
         self.in_sight = frustum::within(&scene.at(frame), &camera, world_to_clip);
         Ok(())
     }
 }
 
 /// The set of what stays the same for a whole frame.
-fn group(device: &Device, camera: &Camera, world_to_clip: DMat4, buffers: &Buffers) -> Result<BindGroup, Error> {
-    let view = device.buffer(BufferUsage::Uniform, &view_block(camera, world_to_clip))?;
+fn group(
+    device: &Device,
+    camera: &Camera,
+    (world_to_clip, eye): (DMat4, DVec3),
+    buffers: &Buffers,
+) -> Result<BindGroup, Error> {
+    let view = device.buffer(BufferUsage::Uniform, &view_block(camera, world_to_clip, eye))?;
     let Buffers { lights, objects, cascades, clusters, motion } = buffers;
     let resources = [
         (VIEW_BINDING, Resource::Buffer(&view)),

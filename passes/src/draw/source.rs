@@ -1,6 +1,7 @@
 //! Draws a scene.
 
 use super::cascades;
+use super::eyes::Eyes;
 use super::geometry::Geometry;
 use super::interface::{FRAME_SET, MATERIAL_SET, interface};
 use super::seen::{ObjectDraw, Seen, SeenBySun, Viewpoint, draws};
@@ -40,25 +41,49 @@ impl SceneDrawSource {
     /// # Errors
     /// More than [`MOST_POINT_LIGHTS`] point lights, a texture or scene larger than the device takes, or no memory.
     pub fn new(device: &Device, scene: &Scene, extent: [u32; 2]) -> Result<SceneDrawSource, Error> {
-        let view = Viewpoint { camera: scene.camera, extent, maps: Vec::new(), jitter: None };
+        let view = Viewpoint { camera: scene.camera, eye: None, eyes: None, extent, maps: Vec::new(), jitter: None };
         SceneDrawSource::seen_from(device, scene, vec![view])
     }
 
     /// Uploads a scene for the views of a Plan, each with its camera, and for the sun's shadows in each; a Plan without views
-    /// is for the default camera's, of which `extent` is as in [`SceneDrawSource::new`].
+    /// is for the default camera's, of which `extent` is as in [`SceneDrawSource::new`]. Where it is for two eyes, those are
+    /// usual ones.
     ///
     /// # Errors
     /// Those of [`SceneDrawSource::new`]; [`Error::DrawSource`] if the scene has no camera that a view names.
     pub fn for_plan(device: &Device, scene: &Scene, extent: [u32; 2], plan: &Plan) -> Result<SceneDrawSource, Error> {
+        SceneDrawSource::for_eyes(device, scene, extent, plan, &Eyes::default())
+    }
+
+    /// The same for eyes that are known.
+    ///
+    /// # Errors
+    /// Those of [`SceneDrawSource::for_plan`].
+    pub fn for_eyes(
+        device: &Device,
+        scene: &Scene,
+        extent: [u32; 2],
+        plan: &Plan,
+        eyes: &Eyes,
+    ) -> Result<SceneDrawSource, Error> {
         let mut views = Vec::with_capacity(plan.views.len());
         for (number, view) in (0..).map(ViewId).zip(&plan.views) {
             let camera = scene.camera_named(view.camera.as_deref()).ok_or_else(|| no_camera(scene, view))?;
-            let maps = cascades::of_plan(plan, Some(number));
-            views.push(Viewpoint { camera: *camera, extent: view.extent, maps, jitter: view.jitter.clone() });
+            let between = view.eye.map_or(number, |eye| eye.of);
+            let two = plan.views.iter().any(|view| view.eye.is_some_and(|eye| eye.of == between));
+            views.push(Viewpoint {
+                camera: *camera,
+                eye: view.eye.map(|eye| eyes.of(eye.eye)),
+                eyes: two.then_some(*eyes),
+                extent: view.extent,
+                maps: cascades::of_plan(plan, Some(between)),
+                jitter: view.jitter.clone(),
+            });
         }
         if views.is_empty() {
             let maps = cascades::of_plan(plan, None);
-            views.push(Viewpoint { camera: scene.camera, extent, maps, jitter: None });
+            let camera = scene.camera;
+            views.push(Viewpoint { camera, eye: None, eyes: None, extent, maps, jitter: None });
         }
         SceneDrawSource::seen_from(device, scene, views)
     }

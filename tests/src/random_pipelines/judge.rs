@@ -15,6 +15,7 @@ use framewright_graph::plan::{Plan, Resource};
 use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
+use framewright_graph::view::Stereo;
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::{
@@ -184,6 +185,7 @@ impl Judge {
             output_extent: [1, 1],
             dump: &[],
             device: None,
+            stereo: Stereo::Off,
         };
         expand::expand(&described, sources.clone(), &inputs, &mut self.shaders).map_err(refused)
     }

@@ -41,7 +41,13 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
     frame.passes = pipeline.passes.iter().map(|pass| to_pass(pipeline, pass)).collect();
     for output in &pipeline.outputs {
         let after = asked_for(pipeline, *output);
-        frame.outputs.push(frame::Output { resource: resource(*output), span: Span::NONE, after, encoding: None });
+        frame.outputs.push(frame::Output {
+            resource: resource(*output),
+            span: Span::NONE,
+            after,
+            encoding: None,
+            eye: None,
+        });
     }
     frame
 }

@@ -56,6 +56,7 @@ fn filament_7448_depth_is_never_averaged() {
         span: Span::NONE,
         after: None,
         encoding: None,
+        eye: None,
     });
     let plan = right(&frame, &Options::default());
     let of_depth = attachments(&plan).filter(|attachment| !attachment.range.aspects.contains(Aspects::COLOR));

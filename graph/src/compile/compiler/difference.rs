@@ -67,8 +67,9 @@ pub(super) fn between(old: &Frame, new: &Frame) -> Difference {
 }
 
 fn view(old: &View, new: &View) -> Difference {
-    let View { name, span, extent, camera, allows, jitter } = new;
-    let same = old.name == *name && old.span == *span && old.camera == *camera && old.allows == *allows;
+    let View { name, span, extent, camera, allows, jitter, eye } = new;
+    let same =
+        old.name == *name && old.span == *span && old.camera == *camera && old.allows == *allows && old.eye == *eye;
     if same { unless(old.jitter == *jitter, Values).max(unless(old.extent == *extent, Sizes)) } else { Structure }
 }
 

@@ -19,7 +19,7 @@ pub(super) fn outputs(parts: &Parts<'_>) -> Vec<Output> {
             }
             _ => None,
         };
-        Output { resource: resource(store), encoding, encoded }
+        Output { resource: resource(store), encoding, encoded, eye: declared.eye }
     });
     outputs.collect()
 }

@@ -5,7 +5,7 @@ use crate::encoding::Encoding;
 use crate::jitter::Jitter;
 use crate::plan::names::{Shown, vulkan};
 use crate::plan::outline::Node;
-use crate::plan::{Buffer, ChosenFormat, Image, Initial, Note, Output, Plan, Resource, Role, Totals, View};
+use crate::plan::{Buffer, ChosenFormat, Image, Initial, Note, Output, Plan, Resource, Role, Totals, View, ViewEye};
 use crate::texture::ColorSpace;
 use crate::view::Allowances;
 
@@ -17,8 +17,9 @@ pub(super) fn view(view: &View) -> Node {
     let not = [(msaa, "MSAA"), (hdr, "HDR"), (scale, "scaling")];
     let not: Vec<&str> = not.iter().filter(|(allowed, _)| !allowed).map(|(_, what)| *what).collect();
     let not = if not.is_empty() { String::new() } else { format!(", without {}", not.join(", ")) };
+    let eye = view.eye.map_or_else(String::new, |ViewEye { eye, .. }| format!(", {} eye", eye.name()));
     let jitter = view.jitter.as_ref().map_or_else(String::new, jitter);
-    Node::leaf(format!("`{}` {width}×{height}, {camera}{not}{jitter}", Shown(&view.name)))
+    Node::leaf(format!("`{}` {width}×{height}, {camera}{eye}{not}{jitter}", Shown(&view.name)))
 }
 
 fn jitter(jitter: &Jitter) -> String {

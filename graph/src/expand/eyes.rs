@@ -1,0 +1,299 @@
+//! A pipeline is taken apart for two eyes: what each has of its own is there twice, and so is every pass that draws into it.
+//!
+//! A pass that draws into what each eye has of its own runs for each of them, and reads and writes what is that eye's. All others
+//! run once. That is decided, and mistakes in it are found, whether the frame is drawn for two eyes or for one.
+
+use crate::describe::{
+    self, Diagnostic, Forward, Groups, ImagePart, ImageRef, Name, Output, Part, Pass, Pipeline, Size, StandIn,
+    StorageAccess, View, Work,
+};
+use crate::frame::{ImageIndex, Resource};
+use crate::source::Span;
+use crate::view::{Allowances, Eye, Stereo, ViewEye, ViewIndex};
+use std::sync::Arc;
+
+/// For whom a pass runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum For {
+    /// Once, for neither eye or for both together.
+    Both,
+    /// For one eye.
+    One(Eye),
+    /// For each eye by itself.
+    Each,
+}
+
+/// Where the images of both eyes are.
+struct Images {
+    /// By image, whether each eye has its own.
+    own: Vec<bool>,
+    /// By image, that of the right eye; the left eye's has kept its place.
+    right: Vec<ImageIndex>,
+}
+
+/// Takes `pipeline` apart for the eyes that `stereo` asks for. `extent` is the frame's width and height.
+pub(super) fn split(
+    mut pipeline: Pipeline,
+    stereo: Stereo,
+    extent: [u32; 2],
+    errors: &mut Vec<Diagnostic>,
+) -> Pipeline {
+    let own = own(&pipeline);
+    errors.extend(pipeline.passes.iter_mut().flat_map(|pass| foreign_eyes(&own, &mut pass.clone(), &pipeline.images)));
+    if !own.contains(&true) {
+        return pipeline;
+    }
+    let before = errors.len();
+    let whose: Vec<For> = pipeline.passes.iter_mut().map(|pass| whose(&own, pass, &pipeline.images, errors)).collect();
+    if stereo == Stereo::Off || errors.len() > before {
+        return pipeline;
+    }
+    let views = views(&mut pipeline, extent);
+    let images = images(&mut pipeline, own);
+    let passes = std::mem::take(&mut pipeline.passes);
+    pipeline.passes = passes
+        .into_iter()
+        .zip(whose)
+        .flat_map(|(pass, whose)| match whose {
+            For::Both => vec![of_eye(&images, &views, pass, None, false)],
+            For::One(eye) => vec![of_eye(&images, &views, pass, Some(eye), false)],
+            For::Each => Eye::BOTH.map(|eye| of_eye(&images, &views, pass.clone(), Some(eye), true)).into(),
+        })
+        .collect();
+    let outputs = std::mem::take(&mut pipeline.outputs);
+    pipeline.outputs = outputs.into_iter().flat_map(|output| images.output(output)).collect();
+    pipeline
+}
+
+/// By image, whether each eye has its own: as the file says, or as the image whose size it follows.
+fn own(pipeline: &Pipeline) -> Vec<bool> {
+    let follows = |at: usize| match pipeline.images[at].size.value {
+        Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } => Some(of.index),
+        _ => None,
+    };
+    let mut known: Vec<Option<bool>> =
+        pipeline.images.iter().map(|image| image.per_eye.map(|per_eye| per_eye.value)).collect();
+    for at in 0..known.len() {
+        let mut chain = vec![at];
+        let mut found = known[at];
+        // No image follows itself: that was refused before.
+        while let (None, Some(next)) = (found, chain.last().and_then(|last| follows(*last))) {
+            chain.push(next.0 as usize);
+            found = known[next.0 as usize];
+        }
+        chain.into_iter().for_each(|at| known[at] = known[at].or(Some(found.unwrap_or(false))));
+    }
+    known.into_iter().map(Option::unwrap_or_default).collect()
+}
+
+/// Shows every part of an image that a pass names, and whether the pass writes it.
+fn visit<'p>(pass: &'p mut Pass, see: &mut dyn FnMut(&'p mut ImagePart, bool)) {
+    let left_out = pass.left_out.iter_mut().filter_map(|left_out| left_out.sample.as_mut());
+    pass.sample.iter_mut().chain(left_out).for_each(|sample| see(&mut sample.part, false));
+    for storage in &mut pass.storage {
+        let reads = storage.access.is_some_and(|access| access.value == StorageAccess::Read);
+        of_part(&mut storage.part, !reads, see);
+    }
+    pass.color.iter_mut().for_each(|color| see(&mut color.part, true));
+    pass.depth.iter_mut().for_each(|depth| see(&mut depth.part, true));
+    match &mut pass.work {
+        Work::Copy { from, to } | Work::Blit { from, to, .. } => {
+            of_part(from, false, see);
+            of_part(to, true, see);
+        }
+        Work::Fill { to, .. } => of_part(to, true, see),
+        Work::Custom { reads, writes, .. } => {
+            reads.iter_mut().for_each(|part| of_part(part, false, see));
+            writes.iter_mut().for_each(|part| of_part(part, true, see));
+        }
+        Work::Dispatch { groups, .. } => {
+            if let Groups::Texels(part) = &mut groups.value {
+                see(part, false);
+            }
+        }
+        Work::Draw { .. } => {}
+    }
+}
+
+fn of_part<'p>(part: &'p mut Part, write: bool, see: &mut dyn FnMut(&'p mut ImagePart, bool)) {
+    if let Part::Image(part) = part {
+        see(part, write);
+    }
+}
+
+/// Buffers that a pass writes: both eyes share them.
+fn written_buffers(pass: &Pass) -> impl Iterator<Item = (Resource, Span)> {
+    let storage = pass.storage.iter().filter_map(|storage| {
+        let reads = storage.access.is_some_and(|access| access.value == StorageAccess::Read);
+        (!reads).then_some(&storage.part)
+    });
+    let transfers: Vec<&Part> = match &pass.work {
+        Work::Copy { to, .. } | Work::Blit { to, .. } | Work::Fill { to, .. } => vec![to],
+        Work::Custom { writes, .. } => writes.iter().collect(),
+        Work::Draw { .. } | Work::Dispatch { .. } => Vec::new(),
+    };
+    storage.chain(transfers).filter_map(|part| match part {
+        Part::Buffer(part) => Some((Resource::Buffer(part.buffer.index), part.buffer.span)),
+        Part::Image(_) => None,
+    })
+}
+
+/// Says where an eye of something is named that both share.
+fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[describe::Image]) -> Vec<Diagnostic> {
+    let mut errors = Vec::new();
+    visit(pass, &mut |part, _| {
+        let at = part.image.index.0 as usize;
+        if part.eye.is_some() && !own[at] {
+            let name = &images[at].name.text;
+            let wrong = Diagnostic::new(part.image.span, format!("`{name}` is the same for both eyes"));
+            let wrong = wrong.label(images[at].name.span, "declared here");
+            errors.push(wrong.help(format!("write `\"{name}\"`, or say `per_eye: true` of it")));
+        }
+    });
+    errors
+}
+
+/// For whom a pass runs. Reports what can't be so.
+fn whose(own: &[bool], pass: &mut Pass, images: &[describe::Image], errors: &mut Vec<Diagnostic>) -> For {
+    let name = pass.name.text.clone();
+    let mut shared: Vec<(Option<Name>, Span)> = written_buffers(pass).map(|(_, span)| (None, span)).collect();
+    let (mut read, mut written, mut eyes) = (None, None, Vec::new());
+    visit(pass, &mut |part, write| {
+        let at = part.image.index.0 as usize;
+        match (own[at], part.eye, write) {
+            (true, None, true) => written = written.or(Some(part.image)),
+            (true, None, false) => read = read.or(Some(part.image)),
+            (true, Some(eye), true) => eyes.push((eye.value, part.image)),
+            (false, _, true) => shared.push((Some(images[at].name.clone()), part.image.span)),
+            (false, _, false) | (true, Some(_), false) => {}
+        }
+    });
+    let image = |of: ImageRef| &images[of.index.0 as usize].name.text;
+    match (written, eyes.first(), shared.first(), read) {
+        (Some(written), _, Some((_, span)), _) => {
+            let message = format!("pass `{name}` runs once for each eye, and both would write this");
+            let wrong = Diagnostic::new(*span, message);
+            let wrong = wrong.label(written.span, "each eye has its own");
+            errors.push(wrong.help(
+                "write it in a pass of its own; of an image say `per_eye: true`; of what is only read `access: Read`",
+            ));
+            For::Each
+        }
+        (Some(written), Some((_, one)), ..) => {
+            let message =
+                format!("pass `{name}` runs once for each eye, and both would write this one's `{}`", image(*one));
+            let wrong = Diagnostic::new(one.span, message).label(written.span, "each eye has its own");
+            errors.push(wrong.help(format!("write `\"{}\"`: each eye's is meant", image(*one))));
+            For::Each
+        }
+        (Some(_), None, None, _) => For::Each,
+        (None, Some((eye, _)), None, _) if eyes.iter().all(|(other, _)| other == eye) => For::One(*eye),
+        (None, _, _, Some(read)) if !eyes.is_empty() || !shared.is_empty() => {
+            let message = format!("pass `{name}` runs once, and each eye has a `{}` of its own", image(read));
+            let mut wrong = Diagnostic::new(read.span, message);
+            let target = shared.first().map(|(_, span)| *span).or_else(|| eyes.first().map(|(_, image)| image.span));
+            if let Some(target) = target {
+                wrong = wrong.label(target, "what it writes is there once");
+            }
+            let shared = shared.first().and_then(|(name, _)| name.as_ref());
+            let own = shared.map_or_else(String::new, |name| format!("say `per_eye: true` of `{}`, or ", name.text));
+            errors.push(wrong.help(format!("{own}read one eye's: `Eye(Left, \"{}\")`", image(read))));
+            For::Both
+        }
+        (None, None, None, Some(_)) => For::Each,
+        (None, ..) => For::Both,
+    }
+}
+
+/// By view, those of both eyes; they are added.
+fn views(pipeline: &mut Pipeline, extent: [u32; 2]) -> Vec<[ViewIndex; 2]> {
+    if pipeline.views.is_empty() {
+        let name = Name { text: "main".into(), span: Span::NONE };
+        let allows = Allowances::default();
+        pipeline.views.push(View { name, extent, camera: None, allows, jitter: None, eye: None });
+    }
+    let count = pipeline.views.len();
+    let mut added = |of: usize, eye: Eye| {
+        let at = index(pipeline.views.len());
+        let mut view = pipeline.views[of].clone();
+        view.name.text = named(&view.name.text, eye);
+        view.eye = Some(ViewEye { eye, of: ViewIndex(index(of)) });
+        pipeline.views.push(view);
+        ViewIndex(at)
+    };
+    (0..count).map(|of| Eye::BOTH.map(|eye| added(of, eye))).collect()
+}
+
+/// Makes what each eye has of its own twice.
+fn images(pipeline: &mut Pipeline, own: Vec<bool>) -> Images {
+    let mut right: Vec<ImageIndex> = (0..own.len()).map(|at| ImageIndex(index(at))).collect();
+    for (at, _) in own.iter().enumerate().filter(|(_, own)| **own) {
+        let mut image = pipeline.images[at].clone();
+        right[at] = ImageIndex(index(pipeline.images.len()));
+        image.name.text = named(&image.name.text, Eye::Right);
+        pipeline.images.push(image);
+        let left = &mut pipeline.images[at].name.text;
+        *left = named(left, Eye::Left);
+    }
+    Images { own, right }
+}
+
+/// What is one eye's of something has the eye in its name.
+pub(super) fn named(name: &str, eye: Eye) -> Arc<str> {
+    format!("{name} ({})", eye.name()).into()
+}
+
+/// No pipeline has as many images or views as don't fit.
+fn index(at: usize) -> u32 {
+    u32::try_from(at).unwrap_or(u32::MAX)
+}
+
+impl Images {
+    /// One eye's image, where each has its own.
+    fn of(&self, eye: Option<Eye>, image: &mut ImageRef) {
+        if eye == Some(Eye::Right) {
+            image.index = self.right[image.index.0 as usize];
+        }
+    }
+
+    /// What leaves the frame, of each eye if each has its own.
+    fn output(&self, output: Output) -> Vec<Output> {
+        match output.resource.resource {
+            Resource::Image(image) if self.own[image.0 as usize] => {
+                let right = describe::ResourceRef {
+                    resource: Resource::Image(self.right[image.0 as usize]),
+                    ..output.resource
+                };
+                vec![
+                    Output { eye: Some(Eye::Left), ..output },
+                    Output { resource: right, eye: Some(Eye::Right), ..output },
+                ]
+            }
+            _ => vec![output],
+        }
+    }
+}
+
+/// A pass as it is for an eye, by a name of its own if it runs for the other one too.
+fn of_eye(images: &Images, views: &[[ViewIndex; 2]], mut pass: Pass, eye: Option<Eye>, twice: bool) -> Pass {
+    visit(&mut pass, &mut |part, _| {
+        let eye = part.eye.map(|eye| eye.value).or(eye);
+        images.of(eye, &mut part.image);
+    });
+    for stand_in in &mut pass.otherwise {
+        match stand_in {
+            StandIn::Forward(Forward { from, to }) => {
+                images.of(eye, from);
+                images.of(eye, to);
+            }
+            StandIn::Clear { to, .. } => images.of(eye, to),
+        }
+    }
+    if let Some(eye) = eye {
+        pass.view = views[pass.view.0 as usize][eye as usize];
+        if twice {
+            pass.name.text = named(&pass.name.text, eye);
+        }
+    }
+    pass
+}
