@@ -70,6 +70,20 @@ pub fn plan(
     shaders: &mut ShaderLibrary,
     options: &Options,
 ) -> Result<Plan, Box<dyn Error>> {
+    plan_for(device, setup, Stereo::Off, shaders, options)
+}
+
+/// The same of a frame that is drawn so for two eyes.
+///
+/// # Errors
+/// Those of [`plan`].
+pub fn plan_for(
+    device: &Device,
+    setup: &Setup<'_>,
+    stereo: Stereo,
+    shaders: &mut ShaderLibrary,
+    options: &Options,
+) -> Result<Plan, Box<dyn Error>> {
     let mut sources = Sources::default();
     let text = std::fs::read_to_string(in_repository(setup.pipeline))?;
     let mut named = PipelineFiles::beside(Root::new(in_repository("")), setup.pipeline, &[]);
@@ -79,15 +93,8 @@ pub fn plan(
     let pipeline = pipeline.map_err(rendered)?;
     let set: Vec<_> = setup.set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
     let facts = setup.scene.facts();
-    let inputs = Inputs {
-        set: &set,
-        facts,
-        facts_known: true,
-        output_extent: setup.extent,
-        dump: &[],
-        device: None,
-        stereo: Stereo::Off,
-    };
+    let inputs =
+        Inputs { set: &set, facts, facts_known: true, output_extent: setup.extent, dump: &[], device: None, stereo };
     let frame = expand::expand(&pipeline, sources.clone(), &inputs, shaders).map_err(rendered)?;
     let plan = compile::compile(&frame, &device.profile(), &mut device.memory(), options);
     let plan = plan.map_err(rendered)?;

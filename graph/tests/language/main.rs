@@ -9,6 +9,7 @@ mod choices;
 mod dynamic_sizes;
 mod encodings;
 mod extend;
+mod eyes;
 mod fragments;
 mod library;
 mod many_changes;

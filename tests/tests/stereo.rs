@@ -1,0 +1,126 @@
+//! What two eyes see, held against what one sees that stands where they are (ST-1, ST-3).
+
+use framewright_graph::compile::Options;
+use framewright_graph::frame::Draw;
+use framewright_graph::plan::{Plan, Work};
+use framewright_graph::root::Root;
+use framewright_graph::view::{Eye, Stereo};
+use framewright_passes::draw::{Eyes, SceneDrawSource, interface};
+use framewright_passes::scene::{Camera, Scene, load};
+use framewright_passes::shipped::SHADERS;
+use framewright_tests::render::{Setup, device, in_repository, plan_for, silent};
+use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderLibrary};
+use glam::{DMat3, DVec3};
+use std::error::Error;
+
+/// Pipelines whose images each eye has of its own, and a scene for each.
+const PIPELINES: [(&str, &str, &[(&str, &str)]); 7] = [
+    ("forward", "spheres_and_cubes", &[]),
+    ("image_quality", "spheres_and_cubes", &[]),
+    ("image_quality", "spheres_and_cubes", &[("render_scale", "0.7"), ("depth_stripes", "copied"), ("blur", "3")]),
+    ("post", "spheres_and_cubes", &[]),
+    ("soft_focus", "spheres_and_cubes", &[]),
+    ("temporal", "passing", &[]),
+    ("shadows", "courtyard", &[]),
+];
+/// Odd, so that halves would be of different widths.
+const EXTENT: [u32; 2] = [97, 61];
+const FRAMES: u32 = 3;
+
+/// The first outputs of the last frame: one for each eye, if there are two.
+fn shown(
+    device: &Device,
+    (pipeline, set): (&str, &[(&str, &str)]),
+    scene: &Scene,
+    stereo: Stereo,
+    eyes: &Eyes,
+) -> Result<(Plan, Vec<Vec<u8>>), Box<dyn Error>> {
+    let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
+    let pipeline = format!("examples/pipelines/{pipeline}.ron");
+    let setup = Setup { pipeline: &pipeline, set, scene, extent: EXTENT };
+    let plan = plan_for(device, &setup, stereo, &mut shaders, &Options::default())?;
+    let mut draws = SceneDrawSource::for_eyes(device, scene, EXTENT, &plan, eyes)?;
+    let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
+    for _ in 0..FRAMES {
+        executor.frame(&mut draws)?;
+    }
+    let count = plan.outputs.iter().filter(|output| output.eye.is_some()).count().max(1);
+    let pictures = (0..count).map(|at| Ok(executor.read(at)?.bytes)).collect::<Result<_, Box<dyn Error>>>()?;
+    silent(device)?;
+    Ok((plan, pictures))
+}
+
+/// A scene whose camera has gone so far to its right.
+fn beside(scene: &Scene, metres: f64) -> Scene {
+    let mut scene = scene.clone();
+    let right = DMat3::from_mat4(scene.camera.transform.as_dmat4()) * DVec3::new(metres, 0.0, 0.0);
+    scene.camera.transform.w_axis += right.as_vec3().extend(0.0);
+    scene
+}
+
+/// How many pixels differ by more than one step in any channel.
+fn apart(one: &[u8], other: &[u8]) -> usize {
+    assert_eq!(one.len(), other.len());
+    let pixels = one.as_chunks::<4>().0.iter().zip(other.as_chunks::<4>().0);
+    pixels.filter(|(one, other)| one.iter().zip(*other).any(|(one, other)| one.abs_diff(*other) > 1)).count()
+}
+
+#[test]
+fn each_eye_sees_what_a_camera_in_its_place_sees() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    // A binary fraction, and no small one, so that neither place is rounded much.
+    let eyes = Eyes::apart(0.25);
+    for (pipeline, scene, set) in PIPELINES {
+        let scene = load(&in_repository(&format!("examples/scenes/{scene}.ron")))?;
+        let (_, both) = shown(device, (pipeline, set), &scene, Stereo::MultiPass, &eyes)?;
+        let [left, right] = &both[..] else { return Err(format!("{pipeline} has {} pictures", both.len()).into()) };
+        let pixels = left.len() / 4;
+        assert!(apart(left, right) > pixels / 20, "{pipeline}: both eyes see the same");
+        for (picture, eye) in [(left, Eye::Left), (right, Eye::Right)] {
+            let there = beside(&scene, eyes.of(eye).place.x);
+            let (_, alone) = shown(device, (pipeline, set), &there, Stereo::Off, &eyes)?;
+            let apart = apart(picture, &alone[0]);
+            // Edges fall on the other side of a pixel's middle, and shadows are drawn from a place between the eyes.
+            println!("{pipeline} {set:?} {eye:?}: {apart} of {pixels}");
+            let bound = if pipeline == "shadows" { pixels / 10 } else { pixels / 100 };
+            assert!(apart <= bound, "{pipeline} {set:?}, {eye:?}: {apart} of {pixels} differ");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn what_both_eyes_share_is_drawn_once() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let scene = load(&in_repository("examples/scenes/courtyard.ron"))?;
+    let casters = |plan: &Plan| {
+        let passes = plan.steps.iter().filter_map(|step| match &step.work {
+            Work::Render(scope) => Some(&scope.passes),
+            _ => None,
+        });
+        passes.flatten().filter(|pass| matches!(pass.draw, Some(Draw::Casters(_)))).count()
+    };
+    let eyes = Eyes::default();
+    let [one, two] = [Stereo::Off, Stereo::MultiPass]
+        .map(|stereo| shown(device, ("shadows", &[]), &scene, stereo, &eyes).map(|(plan, _)| casters(&plan)));
+    let (one, two) = (one?, two?);
+    assert!(one > 0 && one == two, "{one} and {two}");
+    Ok(())
+}
+
+#[test]
+fn eyes_far_from_the_origin_stay_apart() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let near = load(&in_repository("examples/scenes/spheres_and_cubes.ron"))?;
+    // A million metres away places are rounded to 6 centimetres, as much as the eyes are apart: objects and camera alike.
+    let mut far = near.clone();
+    let by = DVec3::new(1_048_576.0, 0.0, 0.0).as_vec3().extend(0.0);
+    far.camera.transform.w_axis += by;
+    far.objects.iter_mut().for_each(|object| object.transform.w_axis += by);
+    far.point_lights.iter_mut().for_each(|light| light.position[0] += by.x);
+    let Camera { transform, .. } = far.camera;
+    assert_eq!((transform.w_axis.x - by.x).fract() * 16.0 % 1.0, 0.0);
+    let (_, both) = shown(device, ("forward", &[]), &far, Stereo::MultiPass, &Eyes::default())?;
+    assert!(apart(&both[0], &both[1]) > both[0].len() / 4 / 50, "both eyes see the same");
+    Ok(())
+}
