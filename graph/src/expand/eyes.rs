@@ -39,12 +39,18 @@ pub(super) fn split(
     errors: &mut Vec<Diagnostic>,
 ) -> Pipeline {
     let own = own(&pipeline);
-    errors.extend(pipeline.passes.iter_mut().flat_map(|pass| foreign_eyes(&own, &mut pass.clone(), &pipeline.images)));
+    let before = errors.len();
+    let mut none = Vec::new();
+    let mut of_pass = |pass: &mut Pass| {
+        // What a pass that is off would do wrong does no harm.
+        let errors = if pass.off.is_some() { &mut none } else { &mut *errors };
+        foreign_eyes(&own, pass, &pipeline.images, errors);
+        whose(&own, pass, &pipeline.images, errors)
+    };
+    let whose: Vec<For> = pipeline.passes.iter_mut().map(&mut of_pass).collect();
     if !own.contains(&true) {
         return pipeline;
     }
-    let before = errors.len();
-    let whose: Vec<For> = pipeline.passes.iter_mut().map(|pass| whose(&own, pass, &pipeline.images, errors)).collect();
     if stereo == Stereo::Off || errors.len() > before {
         return pipeline;
     }
@@ -139,8 +145,7 @@ fn written_buffers(pass: &Pass) -> impl Iterator<Item = (Resource, Span)> {
 }
 
 /// Says where an eye of something is named that both share.
-fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[describe::Image]) -> Vec<Diagnostic> {
-    let mut errors = Vec::new();
+fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[describe::Image], errors: &mut Vec<Diagnostic>) {
     visit(pass, &mut |part, _| {
         let at = part.image.index.0 as usize;
         if part.eye.is_some() && !own[at] {
@@ -150,7 +155,6 @@ fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[describe::Image]) -> Ve
             errors.push(wrong.help(format!("write `\"{name}\"`, or say `per_eye: true` of it")));
         }
     });
-    errors
 }
 
 /// For whom a pass runs. Reports what can't be so.

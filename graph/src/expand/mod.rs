@@ -113,6 +113,21 @@ pub fn expand(
     inputs: &Inputs<'_>,
     shaders: &mut dyn ShaderInterfaces,
 ) -> Result<Frame, Vec<Diagnostic>> {
+    let expanded = expand_so(document, Arc::clone(&sources), inputs, shaders);
+    if expanded.is_ok() || inputs.stereo == Stereo::Off {
+        return expanded;
+    }
+    // What is wrong for one eye is told once.
+    let one = expand_so(document, sources, &Inputs { stereo: Stereo::Off, ..*inputs }, shaders);
+    one.and(expanded)
+}
+
+fn expand_so(
+    document: &Document,
+    sources: Arc<Sources>,
+    inputs: &Inputs<'_>,
+    shaders: &mut dyn ShaderInterfaces,
+) -> Result<Frame, Vec<Diagnostic>> {
     let mut errors = Vec::new();
     let values = settings::choose(document, inputs.set, &mut errors);
     let before = errors.len();

@@ -137,3 +137,11 @@ fn what_can_not_be_for_each_eye_is_a_mistake_in_every_mode() {
         wrong(&pipeline("", r#"(name: "x", draw: FullScreen("plain"), color: [Eye(Middle, "screen")]),"#), &INPUTS);
     assert!(said.contains("`Middle`") && said.contains("`Left`"), "{said}");
 }
+
+#[test]
+fn what_is_wrong_for_both_eyes_is_told_once() {
+    let more = r#"(name: "odd", draw: FullScreen("no_such"), sample: {"source": "color"}, color: ["screen"]),"#;
+    let [one, two] = [INPUTS, TWO].map(|inputs| wrong(&pipeline("", more), &inputs));
+    assert_eq!(one, two);
+    assert_eq!(two.matches("no_such").count(), 2, "in the message and in the line that it shows: {two}");
+}
