@@ -137,6 +137,7 @@ pub(crate) fn whole_word(words: &str, word: &str) -> String {
         "Change" => format!("Pipeline(version: 1, extends: \"base.ron\", changes: [{word}])"),
         "Count" => whole("Part", &format!("(image: \"image\", mip: 0, mips: {word})")),
         "Face" => whole("Sample", word),
+        "EyeImage" => whole("ColorTarget", word).replace("mips: 3,", "mips: 3, per_eye: true,"),
         _ => panic!("say in tests/reference/examples.rs where a word of {words} stands"),
     }
 }
