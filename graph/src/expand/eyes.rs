@@ -4,12 +4,13 @@
 //! run once. That is decided, and mistakes in it are found, whether the frame is drawn for two eyes or for one.
 
 use crate::describe::{
-    self, Diagnostic, Forward, Groups, ImagePart, ImageRef, Name, Output, Part, Pass, Pipeline, Size, StandIn,
+    self, Diagnostic, Draw, Forward, Groups, ImagePart, ImageRef, Name, Output, Part, Pass, Pipeline, Size, StandIn,
     StorageAccess, View, Work,
 };
-use crate::frame::{ImageIndex, Resource};
+use crate::frame::{ImageIndex, Remark, Resource};
 use crate::source::Span;
 use crate::view::{Allowances, Eye, Stereo, ViewEye, ViewIndex};
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// For whom a pass runs.
@@ -31,13 +32,14 @@ struct Images {
     right: Vec<ImageIndex>,
 }
 
-/// Takes `pipeline` apart for the eyes that `stereo` asks for. `extent` is the frame's width and height.
+/// Takes `pipeline` apart for the eyes that `stereo` asks for, and says what is allowed and probably not meant. `extent` is the
+/// frame's width and height.
 pub(super) fn split(
     mut pipeline: Pipeline,
     stereo: Stereo,
     extent: [u32; 2],
     errors: &mut Vec<Diagnostic>,
-) -> Pipeline {
+) -> (Pipeline, Vec<Remark>) {
     let own = own(&pipeline);
     let before = errors.len();
     let mut none = Vec::new();
@@ -48,11 +50,9 @@ pub(super) fn split(
         whose(&own, pass, &pipeline.images, errors)
     };
     let whose: Vec<For> = pipeline.passes.iter_mut().map(&mut of_pass).collect();
-    if !own.contains(&true) {
-        return pipeline;
-    }
-    if stereo == Stereo::Off || errors.len() > before {
-        return pipeline;
+    let remarks = remarks(&own, &pipeline, &whose);
+    if stereo == Stereo::Off || !own.contains(&true) || errors.len() > before {
+        return (pipeline, remarks);
     }
     let views = views(&mut pipeline, extent);
     let images = images(&mut pipeline, own);
@@ -68,7 +68,30 @@ pub(super) fn split(
         .collect();
     let outputs = std::mem::take(&mut pipeline.outputs);
     pipeline.outputs = outputs.into_iter().flat_map(|output| images.output(output)).collect();
-    pipeline
+    (pipeline, remarks)
+}
+
+/// Passes that draw what a camera sees into what both eyes share, where passes for each eye look it up: nothing forbids it, and
+/// neither eye sees it from where it is.
+fn remarks(own: &[bool], pipeline: &Pipeline, whose: &[For]) -> Vec<Remark> {
+    if !own.contains(&true) {
+        return Vec::new();
+    }
+    let passes = || pipeline.passes.iter().zip(whose).filter(|(pass, _)| pass.off.is_none());
+    let read: HashSet<ImageIndex> = passes()
+        .filter(|(_, whose)| **whose != For::Both)
+        .flat_map(|(pass, _)| pass.sample.iter().map(|sample| sample.part.image.index))
+        .collect();
+    let sees = |pass: &Pass| matches!(pass.work, Work::Draw { draw: Draw::Objects(_) | Draw::Sky, .. });
+    let remark = |pass: &Pass| {
+        let shared = pass.color.iter().map(|color| color.part.image).find(|image| read.contains(&image.index))?;
+        let name = &pipeline.images[shared.index.0 as usize].name.text;
+        let text = format!(
+            "draws `{name}` once for both eyes, and what each eye sees is made of it: say `per_eye: true` of it"
+        );
+        Some(Remark { subject: pass.name.text.clone(), span: shared.span, text })
+    };
+    passes().filter(|(pass, whose)| **whose == For::Both && sees(pass)).filter_map(|(pass, _)| remark(pass)).collect()
 }
 
 /// By image, whether each eye has its own: as the file says, or as the image whose size it follows.

@@ -143,7 +143,7 @@ fn expand_so(
             return Err(errors);
         }
     };
-    let pipeline = eyes::split(pipeline, inputs.stereo, inputs.output_extent, &mut errors);
+    let (pipeline, shared) = eyes::split(pipeline, inputs.stereo, inputs.output_extent, &mut errors);
     let chosen = Chosen { pipeline: &pipeline, extent: inputs.output_extent };
     let mut said = once::Said::default();
     let mut things = Things::resolve(&chosen, &mut errors);
@@ -192,7 +192,7 @@ fn expand_so(
             let passes = states.into_iter().flat_map(order::State::into_passes).collect();
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
-            let remarks = [views::remarks(&chosen), kept].concat();
+            let remarks = [shared, views::remarks(&chosen), kept].concat();
             Ok(Frame { sources, settings, changes, views, images, buffers, passes, outputs, switched_off, remarks })
         }
         _ => {

@@ -145,3 +145,17 @@ fn what_is_wrong_for_both_eyes_is_told_once() {
     assert_eq!(one, two);
     assert_eq!(two.matches("no_such").count(), 2, "in the message and in the line that it shows: {two}");
 }
+
+#[test]
+fn what_a_camera_sees_for_both_eyes_at_once_is_remarked_where_each_eye_is_shown_it() {
+    let text = pipeline("", "");
+    assert!(right(&text, &INPUTS).remarks.is_empty());
+    let shared = text.replace("size: Output, per_eye: true)", "size: Output)");
+    let shared = shared.replace("size: Like(\"color\"))", "size: Output, per_eye: true)");
+    for inputs in [INPUTS, TWO] {
+        let frame = right(&shared, &inputs);
+        let said: Vec<_> = frame.remarks.iter().map(|remark| (&*remark.subject, &*remark.text)).collect();
+        let text = "draws `color` once for both eyes, and what each eye sees is made of it: say `per_eye: true` of it";
+        assert_eq!(said, [("opaque", text)]);
+    }
+}
