@@ -88,9 +88,10 @@ fn each_eye_sees_what_a_camera_in_its_place_sees() -> Result<(), Box<dyn Error>>
             let there = beside(&scene, place);
             let (_, alone) = shown(device, (pipeline, set), &there, Stereo::Off, &eyes)?;
             let apart = apart(picture, &alone[0]);
-            // Edges fall on the other side of a pixel's middle, and shadows are drawn from a place between the eyes.
+            // Edges fall on the other side of a pixel's middle; shadows are drawn from a place between the eyes, and history that
+            // hardly fits is taken or left.
             println!("{pipeline} {set:?} {place}: {apart} of {pixels}");
-            let bound = if pipeline == "shadows" { pixels / 200 } else { pixels / 1000 };
+            let bound = if ["shadows", "temporal"].contains(&pipeline) { pixels / 200 } else { pixels / 1000 };
             assert!(apart <= bound, "{pipeline} {set:?}, {place}: {apart} of {pixels} differ");
         }
     }
