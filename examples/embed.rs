@@ -5,6 +5,7 @@
 //! it is asked for them.
 
 use framewright_graph::root::Root;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
 use framewright_graph::{compile, describe, expand, verify, view};
 use framewright_passes::draw::{self, SceneDrawSource};
@@ -33,6 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         facts: scene.facts(),
         facts_known: true,
         output_extent: EXTENT,
+        rotation: Rotation::Identity,
         dump: &[],
         device: None,
         stereo: view::Stereo::Off,

@@ -3,6 +3,7 @@
 
 #include "include/cross_fade.glsl"
 #include "include/material.glsl"
+#include "include/rotation.glsl"
 
 layout(location = 2) in vec2 texture_uv;
 layout(location = 3) flat in uint object_index;
@@ -17,7 +18,7 @@ layout(location = 1) in vec3 world_normal;
 void main() {
     const vec4 base = base_color(object_index, texture_uv);
     if (base.a < objects.object[object_index].alpha_cutoff
-        || fades_out(objects.object[object_index].cross_fade, gl_FragCoord.xy)) {
+        || fades_out(objects.object[object_index].cross_fade, frag_coord().xy)) {
         discard;
     }
 #ifndef DEPTH_ONLY

@@ -12,6 +12,7 @@ layout(set = 0, binding = 8) uniform Params {
 
 #include "include/cross_fade.glsl"
 #include "include/material.glsl"
+#include "include/rotation.glsl"
 
 layout(location = 2) in vec2 texture_uv;
 layout(location = 3) flat in uint object_index;
@@ -41,7 +42,7 @@ void main() {
 #else
     const bool is_hole = base.a < cutoff;
 #endif
-    if (is_hole || fades_out(objects.object[object_index].cross_fade, gl_FragCoord.xy)) {
+    if (is_hole || fades_out(objects.object[object_index].cross_fade, frag_coord().xy)) {
         discard;
     }
 #ifndef DEPTH_ONLY

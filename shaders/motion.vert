@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/motion.glsl"
+#include "include/rotation.glsl"
 
 layout(location = 0) in vec3 position;
 
@@ -17,5 +18,5 @@ void main() {
     const vec4 world_before = motion.previous_object_to_world[gl_InstanceIndex] * vec4(position, 1.0);
     now = (motion.world_to_clip * world).xyw;
     before = (motion.previous_world_to_clip * world_before).xyw;
-    gl_Position = view.world_to_clip * world;
+    gl_Position = rotate_clip(view.world_to_clip * world);
 }

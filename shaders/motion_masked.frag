@@ -3,6 +3,7 @@
 
 #include "include/cross_fade.glsl"
 #include "include/material.glsl"
+#include "include/rotation.glsl"
 
 layout(location = 2) in vec2 texture_uv;
 layout(location = 3) flat in uint object_index;
@@ -20,7 +21,7 @@ layout(location = 0) out vec2 moved;
 // As `motion`, with the holes that alpha and cross-fading cut.
 void main() {
     if (base_color(object_index, texture_uv).a < objects.object[object_index].alpha_cutoff
-        || fades_out(objects.object[object_index].cross_fade, gl_FragCoord.xy)) {
+        || fades_out(objects.object[object_index].cross_fade, frag_coord().xy)) {
         discard;
     }
 #ifndef DEPTH_ONLY

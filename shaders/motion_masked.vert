@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/motion.glsl"
+#include "include/rotation.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec2 uv;
@@ -22,5 +23,5 @@ void main() {
     before = (motion.previous_world_to_clip * world_before).xyw;
     texture_uv = uv;
     object_index = gl_InstanceIndex;
-    gl_Position = view.world_to_clip * world;
+    gl_Position = rotate_clip(view.world_to_clip * world);
 }

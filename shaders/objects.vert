@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "include/rotation.glsl"
 #include "include/scene.glsl"
 
 layout(location = 0) in vec3 position;
@@ -22,5 +23,5 @@ void main() {
     world_normal = object.normal_to_world * normal;
     texture_uv = uv;
     object_index = gl_InstanceIndex;
-    gl_Position = view.world_to_clip * world;
+    gl_Position = rotate_clip(view.world_to_clip * world);
 }

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "include/rotation.glsl"
 #include "include/snow.glsl"
 
 // The flakes of this frame, 16 bytes each.
@@ -23,5 +24,5 @@ void main() {
     across = vec2(corner & 1u, corner >> 1) * 2.0 - 1.0;
     // The farther, the fainter.
     alpha = apparent(0.9, flake.distance);
-    gl_Position = vec4(flake.position + apparent(NEAREST_SIZE, flake.distance) * across, 0.0, 1.0);
+    gl_Position = rotate_clip(vec4(flake.position + apparent(NEAREST_SIZE, flake.distance) * across, 0.0, 1.0));
 }

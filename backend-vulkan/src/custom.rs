@@ -5,6 +5,7 @@ use crate::record::{Frame, Place, copy_between, fill};
 use ash::vk;
 use framewright_graph::frame::ParamValue;
 use framewright_graph::plan::{self, Access, BufferAccess, Subresources};
+use framewright_graph::rotation::Rotation;
 use framewright_graph::vocabulary::{Accesses, FillValue};
 
 /// Records a custom pass, outside of rendering scopes. The pass's images and buffers go by the names that the Plan gives
@@ -30,6 +31,8 @@ pub struct CustomImage {
     /// Width, height and depth in use, from the first texel on, of the first mip level of that part; where an image changes its
     /// size from frame to frame it is made larger.
     pub extent: [u32; 3],
+    /// By how much the picture is turned that it holds, or is to hold; `extent` is that of the turned picture.
+    pub rotation: Rotation,
     /// The layout that it is in and must be left in.
     pub layout: vk::ImageLayout,
     /// What the pass may do with it.
@@ -109,7 +112,7 @@ impl<'f> CustomRecorder<'f> {
     }
 
     /// Copies the first mip level that the pass may read of one image or buffer to that of another. Between images formats
-    /// and extents must agree; between buffers the shorter says how much; beside a buffer texels follow each other without
+    /// extents and rotations must agree; between buffers the shorter says how much; beside a buffer texels follow each other without
     /// gaps.
     pub fn copy(&mut self, source: &str, target: &str) {
         let (Some(from), Some(to)) =
@@ -118,7 +121,7 @@ impl<'f> CustomRecorder<'f> {
             return;
         };
         if !self.agree(&from, &to) {
-            return self.misused(|| format!("`{source}` and `{target}` differ in format or extent"));
+            return self.misused(|| format!("`{source}` and `{target}` differ in format, extent or rotation"));
         }
         copy_between(self.frame.shared, self.commands, self.place(&from), self.place(&to));
         self.recorded += 1;
@@ -136,6 +139,7 @@ impl<'f> CustomRecorder<'f> {
             raw: self.frame.prepared.physical.image(access.image, self.frame.number).raw,
             range: crate::physical::part(plan.image(access.image), access.range),
             extent: self.extent(access),
+            rotation: plan.image(access.image).rotation,
             layout: convert::layout(access.layout),
             accesses: access.accesses,
         })
@@ -206,6 +210,7 @@ impl<'f> CustomRecorder<'f> {
             let range = crate::physical::part(image, access.range);
             (image.format, image.samples, self.extent(access), range.layers, range.aspects)
         };
+        let rotation = |access: &Access| plan.image(access.image).rotation;
         let fits = |access: &Access, buffer: &BufferAccess| {
             let (format, samples, extent, layers, aspects) = texels(access);
             let sides = extent.iter().fold(u64::from(layers), |all, side| all.saturating_mul(u64::from(*side)));
@@ -213,7 +218,7 @@ impl<'f> CustomRecorder<'f> {
             samples == 1 && needed <= plan.buffers[buffer.buffer.0 as usize].bytes
         };
         match (from, to) {
-            (Named::Image(from), Named::Image(to)) => texels(from) == texels(to),
+            (Named::Image(from), Named::Image(to)) => texels(from) == texels(to) && rotation(from) == rotation(to),
             (Named::Image(image), Named::Buffer(buffer)) | (Named::Buffer(buffer), Named::Image(image)) => {
                 fits(image, buffer)
             }

@@ -19,6 +19,7 @@ use framewright_graph::frame::{
     Sampled, Work,
 };
 use framewright_graph::interface::DrawInterface;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{CompareOp, Filter, ResolveMode, Sampler, Stages, Subresources};
 
@@ -168,6 +169,7 @@ fn frame(format: Format, samples: u32, modes: &[ResolveMode]) -> Frame {
         after: None,
         encoding: None,
         eye: None,
+        rotation: Rotation::Identity,
     };
     frame.outputs = (0..).take(frame.images.len()).map(output).collect();
     frame

@@ -8,6 +8,7 @@ use crate::first_owner::before_first_frame;
 use crate::image::Image;
 use crate::physical::{buffer_descriptor, descriptor};
 use crate::readback::{Readback, Texels, first_plane, mip_extent, plane_bytes};
+use crate::turn;
 use ash::vk;
 use framewright_graph::plan::{BufferId, ImageId, Queue, Resource, Role};
 use framewright_graph::vocabulary::{Aspects, Layout, State, Usage};
@@ -61,7 +62,7 @@ impl Executor {
         self.shared.submit_once("reading an image back", queue, |commands| {
             readback.record_image(&self.shared, commands, image, state);
         })?;
-        readback.texels(&image.descriptor)
+        readback.texels(&image.descriptor, self.plan.image(id).rotation)
     }
 
     /// What frame `frame` left in the output number `output`, an image. The frame must have been waited for, no later one
@@ -76,7 +77,8 @@ impl Executor {
         };
         self.frames.wait(frame)?;
         let descriptor = self.prepared.physical.image(image, frame).descriptor;
-        self.frames.kept(frame, output).ok_or_else(bad)?.texels(&descriptor)
+        let rotation = self.plan.image(image).rotation;
+        self.frames.kept(frame, output).ok_or_else(bad)?.texels(&descriptor, rotation)
     }
 
     /// The same of an output that is a buffer.
@@ -92,7 +94,7 @@ impl Executor {
     }
 
     /// Sets one plane of a mip level of the image `name`, which outlives the frame, for the next frame to find: layer after
-    /// layer, rows from the top, without padding. Frames in flight are waited for.
+    /// layer, rows from the top, without padding, upright. Frames in flight are waited for.
     ///
     /// # Errors
     /// [`Error::BadResource`] if there is no such image, plane or level, if the number of bytes doesn't fit, or the Plan
@@ -114,7 +116,13 @@ impl Executor {
         if bytes.len() as u64 != expected {
             return Err(bad(format!("{} bytes were given, {expected} are needed", bytes.len())));
         }
-        write_image(&self.shared, queue, image, (plane, mip), state, bytes)
+        let rotation = self.plan.image(id).rotation;
+        if !rotation.turns() {
+            return write_image(&self.shared, queue, image, (plane, mip), state, bytes);
+        }
+        let texel_bytes = usize::try_from(plane_bytes(image.descriptor.format, plane)).unwrap_or(1);
+        let turned = turn::turned(bytes, rotation.extent([sides[0], sides[1]]), texel_bytes, rotation);
+        write_image(&self.shared, queue, image, (plane, mip), state, &turned)
     }
 
     /// Sets the buffer `name`, which outlives the frame, for the next frame to find. Frames in flight are waited for.

@@ -116,6 +116,7 @@ mod tests {
     use framewright_graph::format::Format;
     use framewright_graph::frame::Shape;
     use framewright_graph::plan::{Access, Cause, DeviceUsed, Hazard, Image, Initial, Totals};
+    use framewright_graph::rotation::Rotation;
     use framewright_graph::vocabulary::{Accesses, FillValue, Stages, State, Usage};
 
     const FORMAT: Format = Format::R32_UINT;
@@ -139,6 +140,7 @@ mod tests {
             shape: Shape::D2,
             extent: [2, 2, 1],
             room: None,
+            rotation: Rotation::Identity,
             mips: 2,
             layers: 1,
             samples: 1,

@@ -73,8 +73,10 @@ mod shader_fit;
 pub mod shaders;
 mod standing;
 mod submit;
+mod surface;
 mod textures;
 mod timing;
+mod turn;
 mod uses;
 mod validation;
 
@@ -94,5 +96,6 @@ pub use readback::Texels;
 pub use recorder::{CullMode, DrawSource, FrontFace, IndexType, Recorder};
 pub use resources::{Buffer, BufferUsage, Texture};
 pub use shaders::ShaderLibrary;
+pub use surface::rotation_of_surface;
 pub use timing::{FrameReport, PassReport, StepReport};
 pub use validation::{Message, MessageKind, Messages, Severity};

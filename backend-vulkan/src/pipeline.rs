@@ -8,6 +8,7 @@ use ash::vk;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, StencilState};
 use framewright_graph::plan::DepthState;
+use framewright_graph::rotation::Rotation;
 
 /// Everything that a graphics pipeline is made of. Viewport, scissor, cull mode and front face are set while recording.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -28,6 +29,29 @@ pub(crate) struct PipelineDescriptor {
     pub(crate) samples: u32,
     pub(crate) alpha_to_coverage: bool,
     pub(crate) local: Option<LocalRead>,
+    pub(crate) turned: Option<Turned>,
+}
+
+/// What its shaders are told of a picture that they draw turned: shaders/include/rotation.glsl has the same numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct Turned {
+    pub(crate) rotation: Rotation,
+    /// Width and height of the turned picture; 0 for shaders that don't ask, which serve for all sizes then.
+    pub(crate) extent: [u32; 2],
+}
+
+impl Turned {
+    /// The number of the first of its constants.
+    const FIRST: u32 = 100;
+
+    fn constants(self) -> Vec<u8> {
+        let [width, height] = self.extent;
+        [self.rotation.quarters(), width, height].into_iter().flat_map(u32::to_ne_bytes).collect()
+    }
+
+    fn entries() -> [vk::SpecializationMapEntry; 3] {
+        [0, 1, 2].map(|at| vk::SpecializationMapEntry { constant_id: Turned::FIRST + at, offset: 4 * at, size: 4 })
+    }
 }
 
 /// How a pass of a rendering scope with local reads sees the scope's colour attachments.
@@ -120,8 +144,12 @@ fn create(
     vertex: &Module<'_>,
     fragment: Option<&Module<'_>>,
 ) -> Result<vk::Pipeline, Error> {
+    let (entries, constants) = (Turned::entries(), descriptor.turned.map(Turned::constants));
+    let constants = constants.as_deref();
+    let specialization = constants.map(|data| vk::SpecializationInfo::default().map_entries(&entries).data(data));
     let stage = |stage, module: &Module<'_>| {
-        vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module.raw).name(c"main")
+        let info = vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module.raw).name(c"main");
+        specialization.as_ref().map_or(info, |specialization| info.specialization_info(specialization))
     };
     let fragment = fragment.map(|fragment| stage(vk::ShaderStageFlags::FRAGMENT, fragment));
     let stages: Vec<_> = [stage(vk::ShaderStageFlags::VERTEX, vertex)].into_iter().chain(fragment).collect();

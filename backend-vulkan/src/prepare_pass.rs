@@ -5,7 +5,7 @@ use crate::device::Shared;
 use crate::error::Error;
 use crate::pass_set::{PassSet, SetTemplate};
 use crate::physical::Physical;
-use crate::pipeline::{LocalRead, PipelineDescriptor};
+use crate::pipeline::{LocalRead, PipelineDescriptor, Turned};
 use crate::recorder::PassState;
 use crate::shader_fit::{
     brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
@@ -204,6 +204,9 @@ pub(crate) fn drawn(
     let local = local_read(shared, scope, pass, &shader, &targets).map_err(mismatch)?;
     let format = |attachment: &plan::Attachment| plan.image(attachment.image).format;
     let blend = |number: &usize| pass.blend.get(*number).copied().filter(|_| targets.contains(number));
+    let rotation = plan.rotation(scope);
+    let extent = if shader.interface.uses_frag_coord { scope.extent } else { [0; 2] };
+    let turned = rotation.turns().then_some(Turned { rotation, extent });
     let descriptor = PipelineDescriptor {
         vertex: shader.vertex.clone(),
         fragment: shader.fragment.clone(),
@@ -218,6 +221,7 @@ pub(crate) fn drawn(
         samples: scope.samples,
         alpha_to_coverage: pass.alpha_to_coverage,
         local: local.clone(),
+        turned,
     };
     let pipeline = Some(shared.pipeline(&pass.name, descriptor)?);
     let supplied = (PASS_SET + 1..).zip(supplied).map(|(set, layout)| (layout, reads(set))).collect();

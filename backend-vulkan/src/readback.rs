@@ -7,14 +7,16 @@ use crate::error::Error;
 use crate::image::Image;
 use crate::memory::Kind;
 use crate::record::{Place, barriers, copy_between, state_change};
+use crate::turn;
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::format::Format;
 use framewright_graph::plan::Subresources;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::vocabulary::{Accesses, Aspects, Layout, Stages, State};
 use std::sync::Arc;
 
-/// Texels of one plane of one mip level of an image.
+/// Texels of one plane of one mip level of an image: of the upright picture, where the image holds a rotated one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Texels {
     /// What a texel is. Of depth-stencil formats one plane is read: the depth takes 2 bytes for `D16_UNORM`, else 4; the
@@ -96,10 +98,17 @@ impl Readback {
         self.buffer.contents(usize::try_from(self.bytes).unwrap_or(usize::MAX)).map(<[u8]>::to_vec)
     }
 
-    /// The texels of an image of this description. The copy must have been waited for.
-    pub(crate) fn texels(&self, descriptor: &ImageDescriptor) -> Result<Texels, Error> {
-        let extent = mip_extent(descriptor, self.mip);
-        Ok(Texels { format: descriptor.format, extent, layers: descriptor.layers, bytes: self.bytes()? })
+    /// The texels of the upright picture that an image of this description holds, turned so. The copy must have been waited
+    /// for.
+    pub(crate) fn texels(&self, descriptor: &ImageDescriptor, rotation: Rotation) -> Result<Texels, Error> {
+        let [width, height, depth] = mip_extent(descriptor, self.mip);
+        let (format, layers, mut bytes) = (descriptor.format, descriptor.layers, self.bytes()?);
+        if rotation.turns() {
+            let texel_bytes = usize::try_from(plane_bytes(format, self.plane)).unwrap_or(1);
+            bytes = turn::upright(&bytes, [width, height], texel_bytes, rotation);
+        }
+        let [width, height] = rotation.extent([width, height]);
+        Ok(Texels { format, extent: [width, height, depth], layers, bytes })
     }
 }
 

@@ -9,6 +9,7 @@ use crate::resources::Buffer;
 use ash::vk;
 use framewright_graph::frame::Draw;
 use framewright_graph::plan;
+use framewright_graph::rotation::Rotation;
 use std::ops::Range;
 
 /// Whoever draws the objects and the sky, and records custom passes. An engine supplies its own.
@@ -77,13 +78,22 @@ pub struct Recorder<'f> {
     pass: &'f PassState,
     has_pipeline: bool,
     plan: &'f plan::Pass,
-    extent: [u32; 2],
-    frame: u64,
+    target: Target,
     bound: Vec<bool>,
     vertices: Option<u64>,
     indices: Option<u64>,
     culled: u32,
     misuse: Option<String>,
+}
+
+/// What a pass draws into.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Target {
+    /// Width and height, those of the turned picture.
+    pub(crate) extent: [u32; 2],
+    pub(crate) rotation: Rotation,
+    /// The number of the frame.
+    pub(crate) frame: u64,
 }
 
 /// What a frame's commands use: it is kept until the device is done with them, whatever the draw source drops.
@@ -119,7 +129,7 @@ impl<'f> Recorder<'f> {
         kept: &'f mut Kept,
         drawn: &'f Drawn,
         plan: &'f plan::Pass,
-        (extent, frame): ([u32; 2], u64),
+        target: Target,
     ) -> Recorder<'f> {
         let (pass, has_pipeline) = (&drawn.state, drawn.pipeline.is_some());
         let bound = pass.supplied.iter().map(|(_, needed)| !needed).collect();
@@ -131,8 +141,7 @@ impl<'f> Recorder<'f> {
             pass,
             has_pipeline,
             plan,
-            extent,
-            frame,
+            target,
             bound,
             vertices,
             indices,
@@ -181,16 +190,61 @@ impl<'f> Recorder<'f> {
         self.commands
     }
 
-    /// Width and height of what is drawn into.
+    /// Width and height of the picture that is drawn, upright.
     #[must_use]
     pub fn extent(&self) -> [u32; 2] {
-        self.extent
+        self.target.rotation.extent(self.target.extent)
+    }
+
+    /// By how much the picture is turned in what is drawn into. Shaders that know of it turn what they place themselves
+    /// (`include/rotation.glsl`); who draws by [`Recorder::raw`] with a pipeline of its own turns it, too.
+    #[must_use]
+    pub fn rotation(&self) -> Rotation {
+        self.target.rotation
+    }
+
+    /// Width and height of what is drawn into: of the turned picture.
+    #[must_use]
+    pub fn target_extent(&self) -> [u32; 2] {
+        self.target.extent
+    }
+
+    /// Says to which rectangle of the upright picture clip space is stretched from now on: its left and upper edge, then its
+    /// width and height, in texels. At first it is all of the picture.
+    pub fn set_viewport(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2]) {
+        let upright = self.extent().map(f64::from);
+        let turned = self.target.rotation.rectangle(upright, [x, y, width, height]);
+        let within = |side: f64| side.is_finite() && side.abs() <= 16384.0;
+        if !turned.into_iter().all(within) || turned[2] <= 0.0 || turned[3] <= 0.0 {
+            return self.misused(|| format!("a viewport of {width}×{height} at {x}, {y}"));
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "viewports are 32-bit floats")]
+        let [x, y, width, height] = turned.map(|side| side as f32);
+        let viewport = vk::Viewport { x, y, width, height, min_depth: 0.0, max_depth: 1.0 };
+        // SAFETY: the command buffer is being recorded, the state is dynamic in every pipeline, and the numbers are in range.
+        unsafe { self.shared.raw.cmd_set_viewport(self.commands, 0, &[viewport]) };
+    }
+
+    /// Says in which rectangle of the upright picture texels may change from now on: its left and upper edge, then its width
+    /// and height, in texels. What lies outside the picture is left out. At first it is all of the picture.
+    pub fn set_scissor(&mut self, corner: [u32; 2], size: [u32; 2]) {
+        let upright = self.extent();
+        let begin = [0, 1].map(|axis| corner[axis].min(upright[axis]));
+        let end = [0, 1].map(|axis| corner[axis].saturating_add(size[axis]).min(upright[axis]));
+        let rectangle = [begin[0], begin[1], end[0] - begin[0], end[1] - begin[1]].map(f64::from);
+        let turned = self.target.rotation.rectangle(upright.map(f64::from), rectangle);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers within the picture")]
+        let [x, y, width, height] = turned.map(|side| side as u32);
+        let offset = vk::Offset2D { x: x.cast_signed(), y: y.cast_signed() };
+        let scissor = vk::Rect2D { offset, extent: vk::Extent2D { width, height } };
+        // SAFETY: the command buffer is being recorded, the state is dynamic in every pipeline, and it lies within the target.
+        unsafe { self.shared.raw.cmd_set_scissor(self.commands, 0, &[scissor]) };
     }
 
     /// The number of the frame, from 0: what moves and what is shifted from frame to frame goes by it.
     #[must_use]
     pub fn frame(&self) -> u64 {
-        self.frame
+        self.target.frame
     }
 
     /// Binds a group to the set number `set`, from 1 on.

@@ -7,6 +7,7 @@ use framewright_graph::format::Format;
 use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Face, Frame, ImageIndex, Output, Pass, Sampled, Work};
 use framewright_graph::interface::DrawInterface;
 use framewright_graph::plan::{Plan, Role};
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{Filter, Sampler, Stages, Subresources};
 use framewright_vulkan::{Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, ShaderLibrary};
@@ -93,6 +94,7 @@ fn chain(long: bool) -> Frame {
             after: None,
             encoding: None,
             eye: None,
+            rotation: Rotation::Identity,
         }],
         ..Frame::default()
     }

@@ -1,9 +1,10 @@
 //! The command line: what can be said, and what each word means.
 
 use crate::text;
-use crate::values::{Assignment, DEFAULT_SIZE, Dump, OutputFile, Size, assignment, dump, order, output_file};
+use crate::values::{Assignment, DEFAULT_SIZE, Dump, OutputFile, Size, assignment, dump, order, output_file, rotation};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use framewright_graph::compile::{Options, Order};
+use framewright_graph::rotation::Rotation;
 use framewright_graph::view::Stereo;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -254,6 +255,10 @@ pub(crate) struct Planning {
     /// Give each image and buffer memory of its own.
     #[arg(long)]
     no_alias: bool,
+    /// Draw what is shown on a screen turned by so many degrees clockwise, as a screen that is mounted so wants it. Pictures
+    /// are read back upright.
+    #[arg(long, value_name = "0|90|180|270", default_value = "0", value_parser = rotation)]
+    pub(crate) rotate: Rotation,
 }
 
 impl Planning {

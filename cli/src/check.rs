@@ -38,7 +38,9 @@ pub(crate) struct Verdict {
 }
 
 /// How a pipeline is looked at: nothing is known of a scene.
-pub(crate) const VIEW: View<'static> = View { facts: None, size: DEFAULT_SIZE, dump: &[] };
+pub(crate) fn view(arguments: &Check) -> View<'static> {
+    View { facts: None, size: DEFAULT_SIZE, rotation: arguments.planning.rotate, dump: &[] }
+}
 
 /// Checks a pipeline.
 ///
@@ -69,7 +71,7 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
 fn plan(arguments: &Check, profile: &Profile) -> Result<Plan, Error> {
     let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline)?;
-    let frame = pipeline.frame(VIEW, profile)?;
+    let frame = pipeline.frame(view(arguments), profile)?;
     busy.set_message(progress::compiling(&frame, &profile.name));
     pipeline.compile(&frame, profile, &mut Estimated(profile), &arguments.planning.options())
 }

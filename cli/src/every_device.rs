@@ -64,7 +64,7 @@ fn compile(arguments: &Check) -> Result<Vec<Checked>, Error> {
     for (name, profile) in profiles::all()? {
         let frame = match same.take() {
             Some(frame) => Ok(frame),
-            None => pipeline.frame(check::VIEW, &profile),
+            None => pipeline.frame(check::view(arguments), &profile),
         };
         let result = match frame {
             Ok(frame) => {

@@ -26,7 +26,7 @@ pub(crate) fn inspect(arguments: &Inspect) -> Result<Exit, Error> {
     pipeline.spare(arguments.output.iter())?;
     let scene = arguments.scene.as_deref().map(files::scene).transpose()?;
     let facts = scene.as_ref().map(Scene::facts);
-    let view = View { facts, size: arguments.size, dump: &[] };
+    let view = View { facts, size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
     let plan = pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan;
     // Now its shaders are known.
     pipeline.spare(arguments.output.iter())?;

@@ -12,6 +12,7 @@ use framewright_graph::file_path::FilePath;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Plan;
 use framewright_graph::root::Root;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
 use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem, Textures};
 use framewright_graph::verify;
@@ -57,6 +58,8 @@ pub(crate) struct View<'a> {
     pub(crate) facts: Option<Facts>,
     /// Size of the output.
     pub(crate) size: Size,
+    /// By how much what is shown on a screen is turned.
+    pub(crate) rotation: Rotation,
     /// Names of images that are dumped.
     pub(crate) dump: &'a [String],
 }
@@ -220,6 +223,7 @@ fn inputs<'a>(set: &'a [(String, String)], stereo: Stereo, view: View<'a>) -> In
         facts: view.facts.unwrap_or(Facts::UNKNOWN),
         facts_known: view.facts.is_some(),
         output_extent: [view.size.width, view.size.height],
+        rotation: view.rotation,
         dump: view.dump,
         device: None,
         stereo,

@@ -109,7 +109,8 @@ pub(crate) fn choice(device: Option<&OsStr>) -> Result<DeviceChoice, Error> {
 /// Plans the frame for the device, and says what dumping changes.
 fn planned(arguments: &Run, pipeline: &mut Loaded, scene: &Scene, device: &Device) -> Result<Planned, Error> {
     let dump: Vec<String> = arguments.dump.iter().map(|dump| dump.image.clone()).collect();
-    let view = View { facts: Some(scene.facts()), size: arguments.size, dump: &dump };
+    let rotation = arguments.planning.rotate;
+    let view = View { facts: Some(scene.facts()), size: arguments.size, rotation, dump: &dump };
     let options = arguments.planning.options();
     let (profile, mut memory) = (device.profile(), device.memory());
     let planned = pipeline.plan(view, &profile, &mut memory, &options)?;

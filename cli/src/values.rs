@@ -2,6 +2,7 @@
 
 use crate::picture::File;
 use framewright_graph::compile::Order;
+use framewright_graph::rotation::Rotation;
 use std::path::PathBuf;
 
 /// Width and height of the output where the command line says none, in pixels.
@@ -99,6 +100,15 @@ pub(crate) fn order(text: &str) -> Result<Order, String> {
             _ => Err("expected file, default, low-memory or random:SEED, such as random:7".to_owned()),
         },
     }
+}
+
+/// Reads `0`, `90`, `180` or `270`.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn rotation(text: &str) -> Result<Rotation, String> {
+    let degrees = text.parse().ok().filter(|_| text.bytes().all(|byte| byte.is_ascii_digit()));
+    degrees.and_then(Rotation::from_degrees).ok_or_else(|| "expected 0, 90, 180 or 270".to_owned())
 }
 
 /// Reads `IMAGE=FILE.png`.

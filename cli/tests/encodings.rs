@@ -16,6 +16,7 @@ use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{
     Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work,
 };
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Filter, Sampler, Stages, Subresources};
@@ -84,7 +85,14 @@ fn drawn(frame: &mut Frame, shader: &str, format: Format, from: Option<ImageInde
 }
 
 fn leaves(frame: &mut Frame, image: ImageIndex, encoding: Option<Encoding>) {
-    frame.outputs.push(Output { resource: Resource::Image(image), span: Span::NONE, after: None, encoding });
+    frame.outputs.push(Output {
+        resource: Resource::Image(image),
+        span: Span::NONE,
+        after: None,
+        encoding,
+        rotation: Rotation::Identity,
+        eye: None,
+    });
 }
 
 /// The first output of a frame, with what the Plan says of where it is encoded.

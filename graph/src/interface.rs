@@ -34,6 +34,8 @@ pub struct ShaderInterface {
     pub writes_depth: bool,
     /// Invocations of a workgroup in x, y and z, each at least 1; of compute shaders only.
     pub workgroup_size: Option<[u32; 3]>,
+    /// What of it goes wrong where the picture that it draws is turned, as far as that can be told.
+    pub unturned: Vec<Unturned>,
     /// Names of what it samples of which it asks for the part in use: where it mentions `NAME_st`.
     pub asks_part: Vec<String>,
 }
@@ -41,6 +43,17 @@ pub struct ShaderInterface {
 /// A pass samples at most this many images of which only a part is in use: where they lie takes all the bytes of push
 /// constants that every device has.
 pub const MOST_PARTS: usize = 8;
+
+/// What of a shader doesn't follow where the picture that it draws is turned; shaders/include/rotation.glsl has what does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Unturned {
+    /// Where its vertex stage places vertices.
+    Vertices,
+    /// It reads where its fragments lie.
+    FragCoord,
+    /// It takes derivatives to the right or down.
+    Derivatives,
+}
 
 /// What a shader does with the fourth component of an image that it samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

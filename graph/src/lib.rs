@@ -19,6 +19,7 @@ pub mod interface;
 pub mod jitter;
 pub mod plan;
 pub mod root;
+pub mod rotation;
 pub mod source;
 mod states;
 pub mod texture;

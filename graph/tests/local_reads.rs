@@ -9,6 +9,7 @@ use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{R8G8B8A8_SRGB, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Output, Resource};
 use framewright_graph::plan::{BindingKind, Plan, RenderScope, Stage, Work};
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Accesses, Layout, Stages, StoreOp, Usage};
@@ -146,6 +147,7 @@ fn what_was_read_locally_is_drawn_over_behind_a_barrier() {
         after: None,
         encoding: None,
         eye: None,
+        rotation: Rotation::Identity,
     });
     let options = Options { demote: false, order: Order::File, ..Options::default() };
     let plan = compile(&frame, &device(true), &mut Estimated(&device(true)), &options).expect("the frame is legal");

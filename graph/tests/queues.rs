@@ -11,6 +11,7 @@ use framewright_graph::frame::{
     Lifetime, Output, Pass, Resource, Sampled, Storage, TransferUse, Work,
 };
 use framewright_graph::plan::{self, Plan, Queue, Role, Sharing};
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{
@@ -85,6 +86,7 @@ impl Builder {
             after: None,
             encoding: None,
             eye: None,
+            rotation: Rotation::Identity,
         });
         self.0
     }

@@ -5,6 +5,7 @@ mod raster;
 mod symbolic;
 
 use framewright_graph::compile::{Options, compile};
+use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::{
@@ -12,10 +13,12 @@ use framewright_graph::frame::{
     ResolveWay, Resource, Sampled, Storage, Work,
 };
 use framewright_graph::plan::{self, Plan};
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{CompareOp, Filter, Sampler, Stages, Subresources};
 use proptest::prelude::*;
+use std::cell::Cell;
 
 /// Images of every random frame: format and samples.
 const IMAGES: [(Format, u32); 10] = [
@@ -206,6 +209,7 @@ fn frame(passes: &[Vec<u8>], about: [bool; IMAGES.len()], outputs: &[u8]) -> Fra
                 after: None,
                 encoding: None,
                 eye: None,
+                rotation: Rotation::Identity,
             });
         }
     }
@@ -254,6 +258,47 @@ fn whatever_the_options_the_checker_finds_nothing_and_the_outputs_hold_what_the_
             assert_eq!(symbolic::of_plan(&plan), expected, "{}\n{}", words(frame), plan.tree());
         }
     });
+}
+
+/// PR-1, PR-2, PR-7: whatever is turned together with an output, and wherever it stays upright.
+#[test]
+fn outputs_that_leave_rotated_hold_the_same_or_are_refused_beside_other_targets() {
+    let (turned, drawn_so) = (Cell::new(0), Cell::new(0));
+    check(1500, |frame, device| {
+        let expected = symbolic::of_frame(frame);
+        let mut frame = frame.clone();
+        let Frame { images, outputs, .. } = &mut frame;
+        let color = |output: &&mut Output| match output.resource {
+            Resource::Image(image) => !images[image.0 as usize].format.is_depth(),
+            Resource::Buffer(_) => false,
+        };
+        outputs.iter_mut().filter(color).for_each(|output| output.rotation = Rotation::Rotate90);
+        let options = Options { demote: false, ..Options::default() };
+        let plan = match compile(&frame, device, &mut Estimated(device), &options) {
+            Ok(plan) => plan,
+            Err(errors) => {
+                let beside =
+                    |error: &Diagnostic| error.message.contains("which leaves the frame rotated by 90°, and into");
+                let undrawable = |error: &Diagnostic| error.message.contains("can't be drawn into");
+                assert!(errors.iter().all(|error| beside(error) || undrawable(error)), "{errors:?}\n{}", words(&frame));
+                return;
+            }
+        };
+        assert_eq!(verify(&plan), [], "{}\n{}", words(&frame), plan.tree());
+        assert_eq!(symbolic::of_plan(&plan), expected, "{}\n{}", words(&frame), plan.tree());
+        let demoted = compiled(&frame, device, &Options::default());
+        assert_eq!(verify(&demoted), [], "{}\n{}", words(&frame), demoted.tree());
+        let leaves = plan.outputs.iter().filter_map(|output| match output.resource {
+            plan::Resource::Image(image) => Some(plan.image(image)),
+            plan::Resource::Buffer(_) => None,
+        });
+        for image in leaves.filter(|image| !image.format.is_depth()) {
+            assert_eq!(image.rotation, Rotation::Rotate90, "{}", plan.tree());
+            turned.set(turned.get() + 1);
+        }
+        drawn_so.set(drawn_so.get() + plan.images.iter().filter(|image| image.rotation.turns()).count());
+    });
+    assert!(turned.get() > 500 && drawn_so.get() > turned.get() + 100, "{} {}", turned.get(), drawn_so.get());
 }
 
 #[test]

@@ -9,6 +9,7 @@ use framewright_graph::device::Estimated;
 use framewright_graph::format::Format::{R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Output, Resource};
 use framewright_graph::plan::{Plan, Work};
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use raster::graphs::{self, Builder};
@@ -107,6 +108,7 @@ fn passes_that_do_not_depend_on_each_other_share_a_barrier_call() {
         after: None,
         encoding: None,
         eye: None,
+        rotation: Rotation::Identity,
     });
     frame.outputs.extend(outputs);
     assert_eq!(compiled(&frame, Order::Default).totals.barrier_calls, 5);

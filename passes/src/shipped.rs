@@ -56,6 +56,7 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "include/point_lights.glsl",
     "include/radiance.glsl",
     "include/random.glsl",
+    "include/rotation.glsl",
     "include/scale.glsl",
     "include/scan.glsl",
     "include/scene.glsl",

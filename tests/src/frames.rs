@@ -6,6 +6,7 @@ use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Output, Pass, Resource,
     Sampled, Storage, Work,
 };
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{CompareOp, Filter, ResolveMode, Sampler, Stages, Subresources, Usage};
 
@@ -93,6 +94,7 @@ impl Builder {
             after: None,
             encoding: None,
             eye: None,
+            rotation: Rotation::Identity,
         };
         self.0.outputs = images.iter().map(output).collect();
         self.0

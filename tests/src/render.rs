@@ -5,6 +5,7 @@ use framewright_graph::describe::{self, Diagnostic, PipelineFiles};
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::plan::Plan;
 use framewright_graph::root::Root;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
 use framewright_graph::view::Stereo;
@@ -70,17 +71,26 @@ pub fn plan(
     shaders: &mut ShaderLibrary,
     options: &Options,
 ) -> Result<Plan, Box<dyn Error>> {
-    plan_for(device, setup, Stereo::Off, shaders, options)
+    plan_for(device, setup, Ways::default(), shaders, options)
 }
 
-/// The same of a frame that is drawn so for two eyes.
+/// How a frame is drawn for those who look at it.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Ways {
+    /// For two eyes.
+    pub stereo: Stereo,
+    /// By how much what is shown on a screen is turned.
+    pub rotation: Rotation,
+}
+
+/// The same of a frame that is drawn so.
 ///
 /// # Errors
 /// Those of [`plan`].
 pub fn plan_for(
     device: &Device,
     setup: &Setup<'_>,
-    stereo: Stereo,
+    Ways { stereo, rotation }: Ways,
     shaders: &mut ShaderLibrary,
     options: &Options,
 ) -> Result<Plan, Box<dyn Error>> {
@@ -93,8 +103,16 @@ pub fn plan_for(
     let pipeline = pipeline.map_err(rendered)?;
     let set: Vec<_> = setup.set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
     let facts = setup.scene.facts();
-    let inputs =
-        Inputs { set: &set, facts, facts_known: true, output_extent: setup.extent, dump: &[], device: None, stereo };
+    let inputs = Inputs {
+        set: &set,
+        facts,
+        facts_known: true,
+        output_extent: setup.extent,
+        dump: &[],
+        device: None,
+        rotation,
+        stereo,
+    };
     let frame = expand::expand(&pipeline, sources.clone(), &inputs, shaders).map_err(rendered)?;
     let plan = compile::compile(&frame, &device.profile(), &mut device.memory(), options);
     let plan = plan.map_err(rendered)?;
@@ -121,6 +139,28 @@ pub fn draw(
     Ok((plan, executor))
 }
 
+/// As [`draw`], with what is shown on a screen turned.
+///
+/// # Errors
+/// Those of [`draw`].
+pub fn draw_rotated(
+    device: &Device,
+    setup: &Setup<'_>,
+    options: &Options,
+    frames: u32,
+    rotation: Rotation,
+) -> Result<(Plan, Executor), Box<dyn Error>> {
+    let mut shaders = library();
+    let plan = plan_for(device, setup, Ways { rotation, ..Ways::default() }, &mut shaders, options)?;
+    let mut draws = SceneDrawSource::for_plan(device, setup.scene, setup.extent, &plan)?;
+    let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
+    for _ in 0..frames {
+        executor.frame(&mut draws)?;
+    }
+    silent(device)?;
+    Ok((plan, executor))
+}
+
 /// What draws frames by the Plan of `options`, before the first one.
 ///
 /// # Errors
@@ -131,11 +171,17 @@ pub fn ready(
     options: &Options,
     how: &ExecutorOptions,
 ) -> Result<(Plan, Executor, SceneDrawSource), Box<dyn Error>> {
-    let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
+    let mut shaders = library();
     let plan = plan(device, setup, &mut shaders, options)?;
     let draws = SceneDrawSource::for_plan(device, setup.scene, setup.extent, &plan)?;
     let executor = Executor::new(device, &plan, &mut shaders, how)?;
     Ok((plan, executor, draws))
+}
+
+/// The shaders of the tests, and those that are shipped.
+#[must_use]
+pub fn library() -> ShaderLibrary {
+    ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface)
 }
 
 /// Texels of 32-bit floats as numbers, channel by channel.

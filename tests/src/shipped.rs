@@ -5,6 +5,7 @@ use framewright_graph::describe::{self, Document, PipelineFiles, SettingKind};
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::frame::Frame;
 use framewright_graph::root::Root;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
 use framewright_graph::view::Stereo;
 use framewright_passes::draw::interface;
@@ -72,8 +73,16 @@ pub fn frames(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
         let sources = Arc::new(sources);
         let opaque = Facts { has_alpha_clip: false, has_cross_fade: false, has_transparent: false, ..Facts::UNKNOWN };
         for (set, facts) in combinations(&pipeline).iter().flat_map(|set| [(set, Facts::UNKNOWN), (set, opaque)]) {
-            let inputs =
-                Inputs { set, facts, facts_known: true, output_extent, dump: &[], device: None, stereo: Stereo::Off };
+            let inputs = Inputs {
+                set,
+                facts,
+                facts_known: true,
+                output_extent,
+                dump: &[],
+                device: None,
+                rotation: Rotation::Identity,
+                stereo: Stereo::Off,
+            };
             let frame = expand(&pipeline, sources.clone(), &inputs, &mut shaders)
                 .unwrap_or_else(|wrong| panic!("{}", describe::render(&sources, &wrong)));
             frames.push(ShippedFrame { how: format!("{name} {set:?} {facts:?}"), frame });

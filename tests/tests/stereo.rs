@@ -12,11 +12,12 @@ use framewright_graph::compile::Options;
 use framewright_graph::frame::Draw;
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::root::Root;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::view::Stereo;
 use framewright_passes::draw::{Eyes, SceneDrawSource, interface};
 use framewright_passes::scene::{Camera, Scene, load};
 use framewright_passes::shipped::SHADERS;
-use framewright_tests::render::{Setup, device, in_repository, plan_for, silent};
+use framewright_tests::render::{Setup, Ways, device, in_repository, plan_for, silent};
 use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderLibrary};
 use glam::{DMat3, DVec3};
 use std::error::Error;
@@ -34,19 +35,20 @@ const PIPELINES: [(&str, &str, &[(&str, &str)]); 7] = [
 /// Odd, so that halves would be of different widths.
 const EXTENT: [u32; 2] = [97, 61];
 const FRAMES: u32 = 3;
+const TWO: Ways = Ways { stereo: Stereo::MultiPass, rotation: Rotation::Identity };
 
 /// The first outputs of the last frame: one for each eye, if there are two.
 fn shown(
     device: &Device,
     (pipeline, set): (&str, &[(&str, &str)]),
     scene: &Scene,
-    stereo: Stereo,
+    ways: Ways,
     eyes: &Eyes,
 ) -> Result<(Plan, Vec<Vec<u8>>), Box<dyn Error>> {
     let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
     let pipeline = format!("examples/pipelines/{pipeline}.ron");
     let setup = Setup { pipeline: &pipeline, set, scene, extent: EXTENT };
-    let plan = plan_for(device, &setup, stereo, &mut shaders, &Options::default())?;
+    let plan = plan_for(device, &setup, ways, &mut shaders, &Options::default())?;
     let mut draws = SceneDrawSource::for_eyes(device, scene, EXTENT, &plan, eyes)?;
     let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
     for _ in 0..FRAMES {
@@ -80,13 +82,13 @@ fn each_eye_sees_what_a_camera_in_its_place_sees() -> Result<(), Box<dyn Error>>
     let eyes = Eyes::apart(0.25);
     for (pipeline, scene, set) in PIPELINES {
         let scene = load(&in_repository(&format!("examples/scenes/{scene}.ron")))?;
-        let (_, both) = shown(device, (pipeline, set), &scene, Stereo::MultiPass, &eyes)?;
+        let (_, both) = shown(device, (pipeline, set), &scene, TWO, &eyes)?;
         let [left, right] = &both[..] else { return Err(format!("{pipeline} has {} pictures", both.len()).into()) };
         let pixels = left.len() / 4;
         assert!(apart(left, right) > pixels / 20, "{pipeline}: both eyes see the same");
         for (picture, place) in [(left, -0.125), (right, 0.125)] {
             let there = beside(&scene, place);
-            let (_, alone) = shown(device, (pipeline, set), &there, Stereo::Off, &eyes)?;
+            let (_, alone) = shown(device, (pipeline, set), &there, Ways::default(), &eyes)?;
             let apart = apart(picture, &alone[0]);
             // Edges fall on the other side of a pixel's middle; shadows are drawn from a place between the eyes, and history that
             // hardly fits is taken or left.
@@ -110,8 +112,8 @@ fn what_both_eyes_share_is_drawn_once() -> Result<(), Box<dyn Error>> {
         passes.flatten().filter(|pass| matches!(pass.draw, Some(Draw::Casters(_)))).count()
     };
     let eyes = Eyes::default();
-    let [one, two] = [Stereo::Off, Stereo::MultiPass]
-        .map(|stereo| shown(device, ("shadows", &[]), &scene, stereo, &eyes).map(|(plan, _)| casters(&plan)));
+    let [one, two] = [Ways::default(), TWO]
+        .map(|ways| shown(device, ("shadows", &[]), &scene, ways, &eyes).map(|(plan, _)| casters(&plan)));
     let (one, two) = (one?, two?);
     assert!(one > 0 && one == two, "{one} and {two}");
     Ok(())
@@ -129,7 +131,25 @@ fn eyes_far_from_the_origin_stay_apart() -> Result<(), Box<dyn Error>> {
     far.point_lights.iter_mut().for_each(|light| light.position[0] += by.x);
     let Camera { transform, .. } = far.camera;
     assert_eq!((transform.w_axis.x - by.x).fract() * 16.0 % 1.0, 0.0);
-    let (_, both) = shown(device, ("forward", &[]), &far, Stereo::MultiPass, &Eyes::default())?;
+    let (_, both) = shown(device, ("forward", &[]), &far, TWO, &Eyes::default())?;
     assert!(apart(&both[0], &both[1]) > both[0].len() / 4 / 50, "both eyes see the same");
+    Ok(())
+}
+
+#[test]
+fn on_a_rotated_screen_each_eye_sees_the_same() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let scene = load(&in_repository("examples/scenes/spheres_and_cubes.ron"))?;
+    for pipeline in [("forward", &[][..]), ("image_quality", &[("render_scale", "0.7")][..])] {
+        let (_, upright) = shown(device, pipeline, &scene, TWO, &Eyes::default())?;
+        for rotation in [Rotation::Rotate90, Rotation::Rotate180, Rotation::Rotate270] {
+            let (plan, turned) = shown(device, pipeline, &scene, Ways { rotation, ..TWO }, &Eyes::default())?;
+            assert_eq!(plan.images.iter().filter(|image| image.rotation == rotation).count(), 2, "both eyes' screens");
+            for (upright, turned) in upright.iter().zip(&turned) {
+                let apart = apart(upright, turned);
+                assert!(apart <= upright.len() / 4 / 1000, "{pipeline:?} turned by {rotation:?}: {apart} differ");
+            }
+        }
+    }
     Ok(())
 }

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::pipeline::LocalRead;
 use crate::prepare::{Scope, Views};
 use crate::prepare_pass::Drawn;
-use crate::recorder::{CullMode, DrawSource, FrontFace, Kept, Recorder};
+use crate::recorder::{CullMode, DrawSource, FrontFace, Kept, Recorder, Target};
 use crate::timing::{Counts, Timing};
 use ash::vk;
 use framewright_graph::frame::Draw;
@@ -44,14 +44,10 @@ impl Frame<'_> {
         if let Some(stencil) = &stencil {
             rendering = rendering.stencil_attachment(stencil);
         }
-        #[allow(clippy::cast_precision_loss, reason = "attachments are at most 2^24 texels wide")]
-        let viewport = vk::Viewport::default().width(width as f32).height(height as f32).max_depth(1.0);
         // SAFETY: the command buffer is being recorded outside a scope; views and formats are those that the pipelines
         // were made for.
         unsafe {
             device.cmd_begin_rendering(commands, &rendering);
-            device.cmd_set_viewport(commands, 0, &[viewport]);
-            device.cmd_set_scissor(commands, 0, &[area]);
         }
         let has_local_reads = scope.passes.iter().any(|pass| pass.local.is_some());
         for (pass, made) in plan.passes.iter().zip(&scope.passes) {
@@ -62,7 +58,8 @@ impl Frame<'_> {
                 if has_local_reads {
                     self.see_attachments(commands, plan.color.len(), made.local.as_ref());
                 }
-                self.draw(commands, pass, made, plan.extent, source, &mut recorded.kept)
+                let target = Target { extent: plan.extent, rotation: self.plan.rotation(plan), frame: self.number };
+                self.draw(commands, pass, made, target, source, &mut recorded.kept)
             });
             timing.stamp(commands);
             recorded.counts.push(drawn?);
@@ -107,7 +104,7 @@ impl Frame<'_> {
         commands: vk::CommandBuffer,
         plan: &plan::Pass,
         pass: &Drawn,
-        extent: [u32; 2],
+        target: Target,
         source: &mut dyn DrawSource,
         kept: &mut Kept,
     ) -> Result<Counts, Error> {
@@ -123,7 +120,10 @@ impl Frame<'_> {
             }
             self.tell_parts(commands, plan, pass.state.layout);
         }
-        let mut recorder = Recorder::new(self.shared, commands, kept, pass, plan, (extent, self.number));
+        let mut recorder = Recorder::new(self.shared, commands, kept, pass, plan, target);
+        let [width, height] = recorder.extent();
+        recorder.set_viewport([0.0, 0.0], [width, height].map(f64::from));
+        recorder.set_scissor([0, 0], [width, height]);
         recorder.set_cull_mode(CullMode::None);
         recorder.set_front_face(FrontFace::CounterClockwise);
         let draws = match pass.draw {

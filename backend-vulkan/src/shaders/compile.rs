@@ -26,7 +26,7 @@ pub(super) enum Stage {
 
 /// Compiles one stage: GLSL 4.60 to SPIR-V for Vulkan 1.3.
 ///
-/// `macros` are names with what they stand for. Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs.
+/// `macros` are names with what they stand for; fragment stages have the macro `FRAMEWRIGHT_FRAGMENT` besides. Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs.
 ///
 /// # Errors
 /// The compiler's messages, each with the file and line that it is about.
@@ -48,6 +48,9 @@ pub(super) fn compile(
     options.set_target_spirv(if stage == Stage::Compute { SpirvVersion::V1_5 } else { SpirvVersion::V1_6 });
     options.set_optimization_level(OptimizationLevel::Zero);
     options.set_suppress_warnings();
+    if stage == Stage::Fragment {
+        options.add_macro_definition("FRAMEWRIGHT_FRAGMENT", None);
+    }
     for (name, value) in macros {
         options.add_macro_definition(name, Some(value));
     }

@@ -397,6 +397,10 @@ fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterf
             None => joined.alpha.push((name.clone(), *used)),
         }
     }
+    joined.unturned.extend(
+        vertex.reflected.interface.unturned.iter().filter(|it| !fragment.reflected.interface.unturned.contains(it)),
+    );
+    joined.unturned.sort_unstable();
     joined.bindings.sort_by_key(|it| (it.set, it.binding));
     // Each stage that samples an image must ask.
     let [mut others, seen] = [&vertex, &fragment].map(|stage| stage.reflected.interface.clone());

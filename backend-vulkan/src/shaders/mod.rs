@@ -7,5 +7,6 @@ mod files;
 mod library;
 mod module;
 mod reflect;
+mod rotation;
 
 pub use library::{CompiledCompute, CompiledShader, ShaderLibrary, Spirv};

@@ -4,6 +4,7 @@ use super::alpha;
 use super::bindings::{bindings, component_of};
 use super::compile::Stage;
 use super::module::{Indexed, id, number, storage_class};
+use super::rotation;
 use framewright_graph::interface::{AlphaUse, FragmentOutput, PASS_SET, ShaderInterface, VertexInput};
 use rspirv::dr::Operand;
 use rspirv::spirv::{BuiltIn, Capability, Decoration, ExecutionMode, Op, StorageClass};
@@ -103,6 +104,7 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool) -> Result<Stag
             .iter()
             .any(|it| matches!(&it.operands[..], [_, Operand::ExecutionMode(ExecutionMode::DepthReplacing), ..])),
         workgroup_size: (stage == Stage::Compute).then(|| workgroup_size(&module)),
+        unturned: rotation::unturned(&module, stage),
         // The text says it, not the SPIR-V.
         asks_part: Vec::new(),
     };

@@ -8,6 +8,7 @@ use framewright_graph::plan::{
     Image, ImageBarrier, ImageId, Param, Pass, Placement, Plan, Queue, RenderScope, Resource, Role, Sharing, Step,
     StepId, Subresources, Totals, Work,
 };
+use framewright_graph::rotation::Rotation;
 use framewright_graph::vocabulary::{
     Accesses, Filter, Layout, LoadOp, ResolveMode, Sampler, Stages, State, StoreOp, Usage,
 };
@@ -123,6 +124,7 @@ fn image(id: ImageId, name: &str, samples: u32, usage: Usage, role: Role) -> Ima
         shape: Shape::D2,
         extent,
         room: None,
+        rotation: Rotation::Identity,
         mips: 1,
         layers: 1,
         samples,

@@ -9,6 +9,7 @@ use framewright_graph::frame::{
 };
 use framewright_graph::interface::DrawInterface;
 use framewright_graph::plan::Plan;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Aspects, Filter, Sampler, Stages, Subresources};
@@ -124,7 +125,14 @@ impl Small {
     }
 
     pub(crate) fn output(&mut self, resource: Resource) {
-        self.frame.outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None, eye: None });
+        self.frame.outputs.push(Output {
+            resource,
+            span: Span::NONE,
+            after: None,
+            encoding: None,
+            rotation: Rotation::Identity,
+            eye: None,
+        });
     }
 
     pub(crate) fn image_output(&mut self, image: ImageIndex) {

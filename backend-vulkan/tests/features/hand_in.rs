@@ -6,6 +6,7 @@ use crate::frames::{
 use framewright_graph::compile::Options;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime, Output, Resource};
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{Accesses, Aspects, Layout, Stages, State, Subresources};
 use framewright_vulkan::ash::vk;
@@ -118,6 +119,7 @@ fn an_output_is_left_in_the_state_that_was_asked_for() {
         after: Some(SAMPLED),
         encoding: None,
         eye: None,
+        rotation: Rotation::Identity,
     });
     everywhere(&small.frame, SHADERS, |executor| {
         for _ in 0..2 {

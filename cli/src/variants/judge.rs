@@ -4,7 +4,7 @@ use super::axes::{self, Axes};
 use super::identity::{self, Identity};
 use super::shaders::Shared;
 use super::space::Choice;
-use crate::check;
+use crate::planning::View;
 use framewright_graph::compile::{Compiler, Options};
 use framewright_graph::describe::{Diagnostic, Document};
 use framewright_graph::device::{Estimated, Profile};
@@ -22,6 +22,8 @@ pub(crate) struct Subject<'a> {
     pub(crate) pipeline: &'a Document,
     /// The texts that it was read from.
     pub(crate) sources: &'a Arc<Sources>,
+    /// How it is looked at.
+    pub(crate) view: View<'static>,
     /// What varies.
     pub(crate) axes: Axes,
     /// The devices, in the order of their axis.
@@ -93,13 +95,14 @@ impl<'a> Judge<'a> {
     }
 
     fn expand(&mut self, choice: &Choice) -> Result<Frame, Vec<Diagnostic>> {
-        let Subject { pipeline, sources, axes, .. } = self.subject;
+        let Subject { pipeline, sources, view, axes, .. } = self.subject;
         let inputs = Inputs {
             set: &axes.settings(choice),
             facts: axes.facts(choice),
             facts_known: true,
-            output_extent: [check::VIEW.size.width, check::VIEW.size.height],
-            dump: check::VIEW.dump,
+            output_extent: [view.size.width, view.size.height],
+            rotation: view.rotation,
+            dump: view.dump,
             stereo: self.subject.stereo,
             device: self.subject.devices.get(axes::device(choice)).map(|device| &**device),
         };

@@ -62,7 +62,8 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
 fn report(arguments: &Check) -> Result<Report, Error> {
     let devices = devices(arguments)?;
     let loaded = planning::load(&arguments.pipeline)?;
-    loaded.check_command_line(check::VIEW)?;
+    let view = check::view(arguments);
+    loaded.check_command_line(view)?;
     let Loaded { pipeline, sources, shaders, set, stereo, .. } = loaded;
     let (names, devices): (Vec<String>, _) = devices.into_iter().unzip();
     let axes = Axes::of(&pipeline, &sources, &set, &names);
@@ -72,6 +73,7 @@ fn report(arguments: &Check) -> Result<Report, Error> {
     let subject = Subject {
         pipeline: &pipeline,
         sources: &sources,
+        view,
         axes,
         devices,
         options: arguments.planning.options(),

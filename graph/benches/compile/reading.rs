@@ -9,6 +9,7 @@ use framewright_graph::interface::{
     Binding, BindingKind, Component, Dimension, DrawInterface, FragmentOutput, ImageShape, ShaderInterface,
     ShaderInterfaces, ShaderProblem, Variant,
 };
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
 use framewright_graph::view::Stereo;
 use framewright_graph::vocabulary::Stages;
@@ -85,6 +86,7 @@ fn frame(text: String) -> Frame {
         dump: &[],
         device: None,
         stereo: Stereo::Off,
+        rotation: Rotation::Identity,
     };
     expand(&pipeline, Arc::new(sources), &inputs, &mut FullScreen).expect("the pipeline fits its shaders")
 }

@@ -6,7 +6,7 @@ use super::emit::{self, Parts};
 use super::model::OpKind;
 use super::structure::{Settled, Settling, Structure};
 use super::synchronise::Pending;
-use super::{Options, legal, retain};
+use super::{Options, legal, retain, rotate};
 use crate::describe::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
@@ -51,6 +51,9 @@ pub enum Reuse {
 /// The last frame and what came of it.
 #[derive(Debug)]
 struct Last {
+    /// As it was given.
+    given: Arc<Frame>,
+    /// The same with images that are turned.
     frame: Arc<Frame>,
     device: Arc<Profile>,
     options: Options,
@@ -91,7 +94,10 @@ impl Compiler {
         });
         let last = match known {
             Some(last) => last.follow(frame, memory)?,
-            None => Box::new(Last::new(frame, device, memory, options)?),
+            None => {
+                let last = Last::new(&turned(frame)?, device, memory, options)?;
+                Box::new(Last { given: frame.clone(), ..last })
+            }
         };
         Ok(&self.last.insert(last).plan)
     }
@@ -103,7 +109,13 @@ impl Compiler {
     }
 }
 
+/// The frame with images that are turned.
+fn turned(frame: &Arc<Frame>) -> Result<Arc<Frame>, Vec<Diagnostic>> {
+    Ok(rotate::rotate(frame)?.map_or_else(|| frame.clone(), Arc::new))
+}
+
 impl Last {
+    /// Of a frame with images that are turned.
     fn new(
         frame: &Arc<Frame>,
         device: &Arc<Profile>,
@@ -117,6 +129,7 @@ impl Last {
         let resources = emit::resources(planned, &structure, &settled);
         let plan = emit::emit(&Parts::new(planned, device, &structure, &settled), resources);
         Ok(Last {
+            given: frame.clone(),
             frame: frame.clone(),
             device: device.clone(),
             options: *options,
@@ -137,9 +150,11 @@ impl Last {
         memory: &mut dyn MemoryProvider,
     ) -> Result<Box<Last>, Vec<Diagnostic>> {
         self.reuse = Reuse::Everything;
-        if Arc::ptr_eq(&self.frame, frame) {
+        if Arc::ptr_eq(&self.given, frame) {
             return Ok(self);
         }
+        let given = frame;
+        let frame = &turned(given)?;
         let reuse = match difference::between(&self.frame, frame) {
             Difference::None => Reuse::Everything,
             _ if self.fell_back => Reuse::Nothing,
@@ -157,7 +172,7 @@ impl Last {
         if !done {
             *self = Last::new(frame, &self.device, memory, &self.options)?;
         }
-        self.frame = frame.clone();
+        (self.given, self.frame) = (given.clone(), frame.clone());
         Ok(self)
     }
 

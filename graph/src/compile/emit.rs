@@ -27,6 +27,7 @@ use crate::plan::{
     Placement, Plan, Queue, Resource, Role, SettingUsed, Stage, Step, Subresources, Totals, View, ViewEye, ViewId,
     Work,
 };
+use crate::rotation::Rotation;
 use crate::source::Place;
 use crate::vocabulary::{FillValue, State};
 use std::sync::Arc;
@@ -194,9 +195,12 @@ pub(super) fn resources(frame: &Frame, structure: &Structure, settled: &Settled)
     let stores = adapted.stores.iter().zip(0_u32..).zip(states).zip(&settled.placed.placements);
     for (((store, at), states), placement) in stores {
         let name = store_name(frame, adapted, at).clone();
-        let span = match store.of {
-            Declared::Image(image) => frame.images[image.0 as usize].span,
-            Declared::Buffer(buffer) => frame.buffers[buffer.0 as usize].span,
+        let (span, rotation) = match store.of {
+            Declared::Image(image) => {
+                let declared = &frame.images[image.0 as usize];
+                (declared.span, declared.rotation)
+            }
+            Declared::Buffer(buffer) => (frame.buffers[buffer.0 as usize].span, Rotation::Identity),
         };
         let cause = match &store.inserted {
             Some(why) => Cause::Inserted(why.clone()),
@@ -213,6 +217,7 @@ pub(super) fn resources(frame: &Frame, structure: &Structure, settled: &Settled)
                 shape: image.shape,
                 extent: image.extent,
                 room: adapted.room(at),
+                rotation,
                 mips: image.mips,
                 layers: image.layers,
                 samples: image.samples,

@@ -1,7 +1,7 @@
 //! A frame becomes a Plan: one file per stage, each a function from data to data.
 //!
 //! ```text
-//! legal ─► parts ─► link ─► cull ─► samples ─► adapt ─► schedule ─► scope ─► retain ─► queues
+//! rotate ─► legal ─► parts ─► link ─► cull ─► samples ─► adapt ─► schedule ─► scope ─► retain ─► queues
 //!       ─► synchronise ─► outlive ─► purpose ─► usable ─► place ─► occupy ─► take_over ─► batch
 //!       ─► hand_over ─► emit
 //! ```
@@ -37,6 +37,7 @@ mod place;
 mod purpose;
 mod queues;
 mod retain;
+mod rotate;
 mod samples;
 mod schedule;
 mod scope;
@@ -95,6 +96,8 @@ pub fn compile(
     memory: &mut dyn MemoryProvider,
     options: &Options,
 ) -> Result<Plan, Vec<Diagnostic>> {
+    let turned = rotate::rotate(frame)?;
+    let frame = turned.as_ref().unwrap_or(frame);
     let (mut structure, substitute) = Structure::find_with_fallback(frame, device, options, false)?;
     let mut settled = structure.settle_for_good(device, memory, options)?;
     let frame = substitute.as_ref().unwrap_or(frame);

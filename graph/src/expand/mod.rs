@@ -17,6 +17,7 @@ mod params;
 mod parts;
 mod passes;
 mod precision;
+mod rotation;
 mod sampled;
 mod settings;
 mod shader;
@@ -41,6 +42,7 @@ use crate::device::Profile;
 use crate::encoding::Encoding;
 use crate::frame::{Frame, ImageIndex, Output, Resource, SwitchedOff};
 use crate::interface::ShaderInterfaces;
+use crate::rotation::Rotation;
 use crate::source::{Sources, Span};
 use crate::view::{Allowances, Eye, Stereo, View, ViewIndex};
 use std::sync::Arc;
@@ -60,6 +62,9 @@ pub struct Inputs<'a> {
     /// The device that the frame is for; `None`: one that can do just what Vulkan 1.3 demands. Only pipelines that ask for
     /// properties of the device depend on it.
     pub device: Option<&'a Profile>,
+    /// By how much what is shown on a screen is turned: outputs whose image has `format: Output`, or that leave the frame as
+    /// `Hdr10`. Sizes are those of the upright picture.
+    pub rotation: Rotation,
     /// Names of further images that leave the frame.
     pub dump: &'a [String],
     /// How it is drawn for two eyes.
@@ -178,7 +183,7 @@ fn expand_so(
     }
     depth_only::note(&chosen, &things, &mut states, &mut checked);
     casters::agree(&pipeline, &states, &mut errors);
-    let outputs = outputs(&chosen, &things, inputs.dump, &mut errors);
+    let outputs = outputs(&chosen, &things, inputs, &mut errors);
     let before = errors.len();
     order::check(&chosen, &things, &states, &outputs, &mut errors);
     said.each_once(&mut errors, before);
@@ -222,17 +227,32 @@ fn used_here(pipeline: &Pipeline, instance: Option<u32>, errors: &mut [Diagnosti
 }
 
 /// The pipeline's outputs, then dumped images that aren't among them.
-fn outputs(chosen: &Chosen<'_>, things: &Things, dump: &[String], errors: &mut Vec<Diagnostic>) -> Vec<Output> {
+fn outputs(chosen: &Chosen<'_>, things: &Things, inputs: &Inputs<'_>, errors: &mut Vec<Diagnostic>) -> Vec<Output> {
+    let dump = inputs.dump;
     let pipeline = chosen.pipeline;
     let mut outputs = Vec::with_capacity(pipeline.outputs.len() + dump.len());
     for output in &pipeline.outputs {
         let describe::ResourceRef { resource, span } = output.resource;
         let after = output.after.and_then(|after| things.left(chosen, resource, after, errors));
         let encoding = output.encoding.filter(|encoding| encoded(chosen, things, resource, *encoding, errors));
-        outputs.push(Output { resource, span, after, encoding: encoding.map(|it| it.value), eye: output.eye });
+        let encoding = encoding.map(|encoding| encoding.value);
+        let rotation = if shown(chosen, resource, encoding) { inputs.rotation } else { Rotation::Identity };
+        outputs.push(Output { resource, span, after, encoding, rotation, eye: output.eye });
+    }
+    if inputs.rotation.turns() && !outputs.iter().any(|output| output.rotation.turns()) {
+        let degrees = inputs.rotation.degrees();
+        let message = format!("nothing can be rotated by {degrees}°: no output is made to be shown on a screen");
+        let span = pipeline.outputs.first().map_or(Span::NONE, |output| output.resource.span);
+        errors.push(Diagnostic::new(span, message).help("give the image of an output `format: Output`"));
     }
     dumped(pipeline, dump, &mut outputs, errors);
     outputs
+}
+
+/// Whether an output is made to be shown on a screen.
+fn shown(chosen: &Chosen<'_>, resource: Resource, encoding: Option<Encoding>) -> bool {
+    let Resource::Image(image) = resource else { return false };
+    chosen.image(image).format.value == describe::Format::Output || encoding == Some(Encoding::Hdr10)
 }
 
 /// Whether an output's format can hold its encoding.
@@ -278,7 +298,8 @@ fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, error
             let Ok(index) = u32::try_from(index) else { continue };
             let resource = Resource::Image(ImageIndex(index));
             if outputs.iter().all(|output| output.resource != resource) {
-                outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None, eye });
+                let rotation = Rotation::Identity;
+                outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None, rotation, eye });
             }
         }
     }

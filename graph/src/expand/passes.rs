@@ -3,7 +3,8 @@
 use super::shader::Checked;
 use super::things::Things;
 use super::{
-    Chosen, fills, local, params, parts, sampled, shader, storage, supplied, targets, transfers, variant, work,
+    Chosen, fills, local, params, parts, rotation, sampled, shader, storage, supplied, targets, transfers, variant,
+    work,
 };
 use crate::describe::{self, Diagnostic, StandIn, Work as Described};
 use crate::frame::{BufferRole, BufferUse, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
@@ -29,6 +30,7 @@ pub(super) fn lower(
     }
     work::check(chosen, things, pass, &lowered, interface.as_ref(), errors);
     if let Some(interface) = &interface {
+        lowered.no_rotation = rotation::hindrance(&lowered.work, interface);
         supplied::check(shaders, pass, interface, errors);
         let before = errors.len();
         let mut misspelt = sampled::check(chosen, things, pass, &lowered, interface, errors);

@@ -2,6 +2,7 @@
 
 use super::Resource;
 use crate::encoding::Encoding;
+use crate::rotation::Rotation;
 use crate::source::Span;
 use crate::view::Eye;
 use crate::vocabulary::State;
@@ -19,4 +20,7 @@ pub struct Output {
     pub encoding: Option<Encoding>,
     /// The eye whose it is; `None`: both share it, or there is one.
     pub eye: Option<Eye>,
+    /// By how much it is turned when it leaves the frame; of flat colour images of one mip level. It is drawn so, with
+    /// whatever is drawn beside it or becomes it, where nothing else reads that.
+    pub rotation: Rotation,
 }

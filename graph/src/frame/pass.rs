@@ -34,6 +34,10 @@ pub struct Pass {
     pub alpha_to_coverage: bool,
     /// Why its shader can't draw its depth alone, for images of fewer samples, if it can't.
     pub no_depth_only: Option<Arc<str>>,
+    /// Why its shader can't draw into an image that is turned, if it can't, behind the name of the pass.
+    pub no_rotation: Option<Arc<str>>,
+    /// Why the compiler inserted it; in frames that it is given, nothing is.
+    pub inserted: Option<Arc<str>>,
     /// Buffers that it reads or writes by anything but a copy or fill.
     pub buffers: Vec<BufferUse>,
     /// What a copy, blit, fill or custom pass reads and writes by transfer: source before target.
@@ -59,6 +63,8 @@ impl Pass {
             depth: None,
             alpha_to_coverage: false,
             no_depth_only: None,
+            no_rotation: None,
+            inserted: None,
             buffers: Vec::new(),
             transfers: Vec::new(),
             side_effect: false,

@@ -1,6 +1,7 @@
 //! Images and buffers of a frame.
 
 use crate::format::Format;
+use crate::rotation::Rotation;
 use crate::source::Span;
 use crate::texture::TextureFile;
 use crate::vocabulary::{FillValue, ResolveMode, State};
@@ -24,6 +25,9 @@ pub struct Image {
     /// part in use begins in the upper left corner. `None`: it is made as large as `extent`. Flat, transient images of one
     /// mip level may have room.
     pub room: Option<[u32; 2]>,
+    /// By how much what it holds is turned; `extent` and `room` are those of the turned picture then. The compiler turns
+    /// images for [`Output::rotation`](super::Output::rotation): in frames that it is given none is.
+    pub rotation: Rotation,
     /// Mip levels, at least 1.
     pub mips: u32,
     /// Array layers, at least 1; of a cube 6 for each.
@@ -60,6 +64,7 @@ impl Image {
             shape: Shape::D2,
             extent: [width, height, 1],
             room: None,
+            rotation: Rotation::Identity,
             mips: 1,
             layers: 1,
             samples: 1,

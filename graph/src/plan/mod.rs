@@ -30,6 +30,7 @@ use crate::change::Action;
 use crate::format::Format;
 use crate::frame::{DrawList, Shape};
 use crate::jitter::Jitter;
+use crate::rotation::Rotation;
 use crate::source::Place;
 use crate::texture::TextureFile;
 use crate::view::{Allowances, Eye};
@@ -202,6 +203,9 @@ pub struct Image {
     /// Width and height that it is made with, where `extent` is only the part that this frame uses, from the upper left
     /// corner on; `None`: `extent`. Shaders find the part by what they know as `NAME_st`.
     pub room: Option<[u32; 2]>,
+    /// By how much what it holds is turned: it is only drawn into, filled or left to a program that knows. `extent` and
+    /// `room` are those of the turned picture.
+    pub rotation: Rotation,
     /// Mip levels.
     pub mips: u32,
     /// Array layers.
@@ -482,6 +486,13 @@ impl Plan {
     #[must_use]
     pub fn image(&self, id: ImageId) -> &Image {
         &self.images[id.0 as usize]
+    }
+
+    /// By how much what a rendering scope draws is turned: as its attachments are.
+    #[must_use]
+    pub fn rotation(&self, scope: &RenderScope) -> Rotation {
+        let first = scope.color.iter().chain(&scope.depth).chain(&scope.stencil).next();
+        first.and_then(|first| self.images.get(first.image.0 as usize)).map_or(Rotation::Identity, |it| it.rotation)
     }
 
     /// The tree form for people.

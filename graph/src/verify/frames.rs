@@ -80,8 +80,14 @@ fn check_alike(plan: &Plan, found: &mut Findings) {
         if let Role::Persistent { becomes, .. } = image.role {
             let other = &plan.images[becomes as usize];
             let of = |image: &Image| {
-                let extent =
-                    (image.format, image.shape, (image.extent, image.room), image.mips, image.layers, image.samples);
+                let extent = (
+                    image.format,
+                    image.shape,
+                    (image.extent, image.room, image.rotation),
+                    image.mips,
+                    image.layers,
+                    image.samples,
+                );
                 (extent, image.usage, image.sharing)
             };
             check_pair(found, index, of(image) == of(other), [&image.role, &other.role]);

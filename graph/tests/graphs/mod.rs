@@ -5,6 +5,7 @@ use framewright_graph::format::Format;
 use framewright_graph::frame::{
     Face, Frame, Groups, Image, ImageIndex, Output, Pass, Resource, Sampled, Storage, Work,
 };
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{Filter, ResolveMode, Sampler, Stages, Subresources, Usage};
 use std::sync::Arc;
@@ -99,7 +100,14 @@ impl Builder {
     /// The frame, made for `output`.
     pub(crate) fn output(mut self, output: ImageIndex) -> Frame {
         let resource = Resource::Image(output);
-        self.frame.outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None, eye: None });
+        self.frame.outputs.push(Output {
+            resource,
+            span: Span::NONE,
+            after: None,
+            encoding: None,
+            rotation: Rotation::Identity,
+            eye: None,
+        });
         self.frame
     }
 }

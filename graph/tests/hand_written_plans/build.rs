@@ -4,6 +4,7 @@ use super::lifetime;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, BufferRole, Draw, Groups, Shape};
 use framewright_graph::plan::*;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Place;
 use framewright_graph::vocabulary::{
     self, Accesses, BufferUsage, Filter, Layout, LoadOp, Sampler, Stages, StoreOp, Usage,
@@ -53,6 +54,7 @@ pub(crate) fn output(id: u32, name: &str, format: Format, usage: Usage) -> Image
         shape: Shape::D2,
         extent: SIZE,
         room: None,
+        rotation: Rotation::Identity,
         mips: 1,
         layers: 1,
         samples: 1,

@@ -9,6 +9,7 @@ use framewright_graph::interface::{
     AlphaUse, Attribute, Binding, BindingKind, Block, Component, Dimension, DrawInterface, FragmentOutput, ImageShape,
     Member, ShaderInterface, ShaderInterfaces, ShaderProblem, Supplied, SuppliedKind, Variant, VertexInput,
 };
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
 use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
 use framewright_graph::view::Stereo;
@@ -416,6 +417,7 @@ pub(crate) const INPUTS: Inputs<'static> = Inputs {
     dump: &[],
     device: None,
     stereo: Stereo::Off,
+    rotation: Rotation::Identity,
 };
 
 /// The text of a shipped pipeline.

@@ -9,6 +9,7 @@ use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Image, ImageIndex, Output, Pass, Resource, Sampled,
     Work,
 };
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{CompareOp, Filter, Sampler, Stages, Subresources};
 pub(crate) use graphs::device;
@@ -57,6 +58,13 @@ impl Raster {
         self.outputs(&[image])
     }
 
+    /// A frame whose output leaves it turned.
+    pub(crate) fn rotated(self, image: ImageIndex, rotation: Rotation) -> Frame {
+        let mut frame = self.output(image);
+        frame.outputs[0].rotation = rotation;
+        frame
+    }
+
     pub(crate) fn outputs(mut self, images: &[ImageIndex]) -> Frame {
         self.0.outputs = images
             .iter()
@@ -66,6 +74,7 @@ impl Raster {
                 after: None,
                 encoding: None,
                 eye: None,
+                rotation: Rotation::Identity,
             })
             .collect();
         self.0

@@ -122,7 +122,7 @@ pub(crate) fn of_plan(plan: &Plan) -> Vec<u64> {
                         LoadOp::DontCare => *value = ANYTHING,
                     }
                 }
-                scope.passes.iter().for_each(|pass| plan_pass(pass, Some(scope), &mut held));
+                scope.passes.iter().for_each(|pass| plan_pass(plan, pass, Some(scope), &mut held));
                 for attachment in attachments() {
                     let value = held[attachment.image.0 as usize];
                     if let Some(resolve) = &attachment.resolve {
@@ -133,7 +133,7 @@ pub(crate) fn of_plan(plan: &Plan) -> Vec<u64> {
                     }
                 }
             }
-            plan::Work::Dispatch(pass) => plan_pass(pass, None, &mut held),
+            plan::Work::Dispatch(pass) => plan_pass(plan, pass, None, &mut held),
             plan::Work::Resolve(it) => held[side(&it.target)] = resolved(held[side(&it.source)]),
             plan::Work::Copy(it) => held[side(&it.target)] = held[side(&it.source)],
             plan::Work::Custom(_) | plan::Work::Blit(_) | plan::Work::Fill(_) => unreachable!("these frames have none"),
@@ -154,7 +154,15 @@ fn number(resource: plan::Resource) -> usize {
     }
 }
 
-fn plan_pass(pass: &plan::Pass, scope: Option<&plan::RenderScope>, held: &mut [u64]) {
+/// Whether a copy by a draw does nothing but turn what it copies.
+fn only_turns(plan: &Plan, pass: &plan::Pass, target: &plan::Image) -> bool {
+    let source = pass.accesses.iter().find(|access| access.binding.is_some());
+    source.map(|source| plan.image(source.image)).is_some_and(|source| {
+        (source.format, source.samples) == (target.format, target.samples) && source.rotation != target.rotation
+    })
+}
+
+fn plan_pass(plan: &Plan, pass: &plan::Pass, scope: Option<&plan::RenderScope>, held: &mut [u64]) {
     let bound = |accesses: Accesses| {
         let some = pass.accesses.iter().filter(move |access| access.accesses.intersects(accesses));
         some.filter_map(|access| Some((access.binding.as_ref()?.name.to_string(), access.image.0 as usize)))
@@ -170,6 +178,7 @@ fn plan_pass(pass: &plan::Pass, scope: Option<&plan::RenderScope>, held: &mut [u
     for (location, attachment) in scope.color.iter().enumerate() {
         let value = &mut held[attachment.image.0 as usize];
         *value = match &*pass.shader {
+            "shipped:copy" if only_turns(plan, pass, plan.image(attachment.image)) => read[0].1,
             "shipped:copy" => drawn(read[0].1),
             "shipped:resolve_weighted" => weighted(read[0].1),
             _ => made(&pass.name, &format!("color {location}"), *value, depth, &read),

@@ -6,6 +6,7 @@ use framewright_graph::frame::{Blend, Shape};
 use framewright_graph::interface::{Component, Dimension, ImageShape};
 use framewright_graph::jitter::Jitter;
 use framewright_graph::plan::{BindingKind, FORMAT_VERSION, Plan, PlanError, RenderScope, Resource, Role, View, Work};
+use framewright_graph::rotation::Rotation;
 use framewright_graph::verify::verify;
 use framewright_graph::view::Allowances;
 use framewright_graph::vocabulary::{Accesses, AddressMode, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage};
@@ -84,6 +85,22 @@ fn every_mistake_of_form_is_said() {
                 accesses.extend(std::iter::repeat_n(sampled, 8));
             },
             "samples more images in part than shaders can be told of",
+        ),
+        (
+            |plan| plan.images[2].rotation = Rotation::Rotate180,
+            "`color.resolved`: is rotated, and a shader takes it to be upright",
+        ),
+        (
+            |plan| plan.images[2].rotation = Rotation::Rotate180,
+            "`color.resolved`: is drawn beside an image that is rotated otherwise",
+        ),
+        (
+            |plan| plan.images[1].rotation = Rotation::Rotate180,
+            "`depth`: is drawn beside an image that is rotated otherwise",
+        ),
+        (
+            |plan| (plan.images[3].rotation, plan.images[3].mips) = (Rotation::Rotate180, 2),
+            "`screen`: is rotated and isn't flat, or has several mip levels",
         ),
         (|plan| plan.images[3].mips = 20, "`screen`: has more mip levels than its size allows"),
         (|plan| plan.images[0].samples = 3, "`color`: has a sample count that is not"),

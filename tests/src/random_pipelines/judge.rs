@@ -13,6 +13,7 @@ use framewright_graph::expand::{self, Facts, Inputs};
 use framewright_graph::frame::{self, Frame};
 use framewright_graph::plan::{Plan, Resource};
 use framewright_graph::root::Root;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
 use framewright_graph::view::Stereo;
@@ -183,6 +184,7 @@ impl Judge {
             facts: Facts::UNKNOWN,
             facts_known: false,
             output_extent: [1, 1],
+            rotation: Rotation::Identity,
             dump: &[],
             device: None,
             stereo: Stereo::Off,

@@ -8,6 +8,7 @@ use super::pipeline::{
 use super::{shader, texels};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Face, Frame, ImageIndex, Lifetime, Resource};
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Sampler, Stages, State, Subresources};
 
@@ -47,6 +48,7 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
             after,
             encoding: None,
             eye: None,
+            rotation: Rotation::Identity,
         });
     }
     frame

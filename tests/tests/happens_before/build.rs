@@ -7,6 +7,7 @@ use framewright_graph::plan::{
     Initial, MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Sharing, Step, StepId, Subresources, Totals,
     Wait, Work,
 };
+use framewright_graph::rotation::Rotation;
 use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Sampler, Stages, State, Usage};
 
 pub(crate) const R: Accesses = Accesses::SHADER_SAMPLED_READ;
@@ -45,6 +46,7 @@ fn image(plan: &mut Plan, name: &str, role: Role) -> ImageId {
         shape: Shape::D2,
         extent: [16, 16, 1],
         room: None,
+        rotation: Rotation::Identity,
         mips: 1,
         layers: 1,
         samples: 1,

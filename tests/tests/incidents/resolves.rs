@@ -3,6 +3,7 @@
 use super::{attachments, bound, resolves, right, scopes};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{ImageIndex, Output, Resource};
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{Aspects, ResolveMode, StoreOp};
 use framewright_tests::incidents::{depth_sampled, forward, prepass, scaled, two_versions, weighted};
@@ -57,6 +58,7 @@ fn filament_7448_depth_is_never_averaged() {
         after: None,
         encoding: None,
         eye: None,
+        rotation: Rotation::Identity,
     });
     let plan = right(&frame, &Options::default());
     let of_depth = attachments(&plan).filter(|attachment| !attachment.range.aspects.contains(Aspects::COLOR));

@@ -7,6 +7,7 @@ use crate::compile::parts::outlives;
 use crate::describe::Diagnostic;
 use crate::device::ImageDescriptor;
 use crate::frame::{Frame, Image, ImageIndex, Pass, Resource, Work};
+use crate::rotation::Rotation;
 use crate::vocabulary::Filter;
 
 /// For each image of the frame the last pass that stays and touches it, and the last that writes it.
@@ -64,13 +65,16 @@ impl Adapter<'_> {
         if moved && !outlives(&target_image.lifetime) {
             wanted = count;
         }
-        let size = |image: &Image| (image.extent, image.room);
+        let size = |image: &Image| (image.extent, image.room, image.rotation);
         let alike = (source_image.format, size(source_image)) == (target_image.format, size(target_image));
         let alike = alike && count == wanted;
         let resolves = count > 1 && !alike;
-        let why = format!(
-            "`{}` is off ({because}) and forwards `{}` to `{}`",
-            pass.name, source_image.name, target_image.name
+        let why = pass.inserted.as_deref().map_or_else(
+            || {
+                let [from, to] = [source_image, target_image].map(|image| &image.name);
+                format!("`{}` is off ({because}) and forwards `{from}` to `{to}`", pass.name)
+            },
+            str::to_owned,
         );
         let source = if resolves {
             let why = format!("{why}; `{}` has {count} samples", source_image.name);
@@ -83,8 +87,8 @@ impl Adapter<'_> {
         };
         let same = self.adapted.stores[source as usize].image().is_some_and(|held| {
             let ImageDescriptor { format, shape, extent, mips, layers, samples, .. } = *held;
-            let size = (extent, self.adapted.room(source));
-            (format, shape, size) == (target_image.format, target_image.shape, (target_image.extent, target_image.room))
+            let held = (extent, self.adapted.room(source), self.rotation(source));
+            (format, shape, held) == (target_image.format, target_image.shape, size(target_image))
                 && (mips, layers, samples) == (target_image.mips, target_image.layers, wanted)
         });
         if same && self.may_share(number, source, from, to) {
@@ -125,13 +129,17 @@ impl Adapter<'_> {
             self.errors.push(Diagnostic::new(pass.span, message).help("give both the same format, size and samples"));
             return;
         }
-        let same_size = (held.extent, self.adapted.room(source)) == (target_image.extent, target_image.room);
+        let rotation = self.rotation(source);
+        let upright = |extent: [u32; 3], rotation: Rotation| rotation.extent([extent[0], extent[1]]);
+        let same_size = upright(held.extent, rotation) == upright(target_image.extent, target_image.rotation)
+            && self.adapted.room(source) == target_image.room;
         let filtered = !same_size && self.input.device.format(held.format).is_some_and(|support| support.linear_filter);
         let filter = if filtered { Filter::Linear } else { Filter::Nearest };
         let differ = match (held.format == target_image.format, same_size) {
             (false, true) => format!("formats differ ({} and {})", held.format, target_image.format),
             (true, false) => "sizes differ".to_owned(),
             (false, false) => "formats and sizes differ".to_owned(),
+            (true, true) if rotation != target_image.rotation => "orientations differ".to_owned(),
             (true, true) => "sample counts differ".to_owned(),
         };
         let target = self.written(to, false);

@@ -5,6 +5,7 @@ use crate::compile::model::{Home, Kind, Store, StoreIndex, Use};
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
 use crate::plan::{Inserted, Sharing};
+use crate::rotation::Rotation;
 use crate::vocabulary::{BufferUsage, FillValue, Usage};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -48,6 +49,14 @@ impl Adapter<'_> {
     /// The samples of a physical image.
     pub(super) fn samples(&self, store: StoreIndex) -> u32 {
         self.adapted.stores[store as usize].image().map_or(1, |descriptor| descriptor.samples)
+    }
+
+    /// By how much what a physical image holds is turned.
+    pub(super) fn rotation(&self, store: StoreIndex) -> Rotation {
+        match self.adapted.stores[store as usize].of {
+            Resource::Image(image) => self.input.frame.images[image.0 as usize].rotation,
+            Resource::Buffer(_) => Rotation::Identity,
+        }
     }
 
     /// The physical image that takes the next version: another one if nothing is kept and the last draws moved to fewer

@@ -74,11 +74,13 @@ fn view(old: &View, new: &View) -> Difference {
 }
 
 fn image(old: &Image, new: &Image) -> Difference {
-    let Image { name, span, format, shape, extent, room, mips, layers, samples, resolve, chosen, lifetime } = new;
+    let Image { name, span, format, shape, extent, room, rotation, mips, layers, samples, resolve, chosen, lifetime } =
+        new;
     let same = same_name(&old.name, name)
         && old.span == *span
         && (&old.resolve, &old.chosen) == (resolve, chosen)
         && (old.format, old.shape, old.mips, old.layers, old.samples) == (*format, *shape, *mips, *layers, *samples)
+        && old.rotation == *rotation
         && old.room.is_some() == room.is_some()
         && same_lifetime(&old.lifetime, lifetime);
     if same { unless((old.extent, old.room) == (*extent, *room), Sizes) } else { Structure }
@@ -111,6 +113,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         depth,
         alpha_to_coverage,
         no_depth_only,
+        no_rotation,
+        inserted,
         buffers,
         transfers,
         side_effect,
@@ -121,6 +125,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         && old.view == *view
         && (old.side_effect, old.alpha_to_coverage) == (*side_effect, *alpha_to_coverage)
         && old.no_depth_only == *no_depth_only
+        && (&old.no_rotation, &old.inserted) == (no_rotation, inserted)
         && same_lists(&old.sampled, sampled, same_sampled)
         && same_lists(&old.storage, storage, same_storage)
         && old.buffers == *buffers

@@ -68,6 +68,9 @@ pub(super) fn image(plan: &Plan, image: &Image) -> Node {
         }
     }
     text += &format!(", {}", samples(image.samples));
+    if image.rotation.turns() {
+        text += &format!(", rotated by {}°", image.rotation.degrees());
+    }
     let next = |at: u32| plan.images.get(at as usize).map_or("", |image| &image.name);
     text += &role(&image.role, &image.name, next);
     Node::new(text + &cause(&image.cause), image.chosen.iter().map(chosen).collect())

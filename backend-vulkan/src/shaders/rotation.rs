@@ -1,0 +1,83 @@
+//! What of a shader stage goes wrong where the picture that it draws is turned.
+//!
+//! A stage knows of the rotation by the specialization constant of `include/rotation.glsl`. A function that reads where the
+//! fragment lies, or differentiates to one side, and looks at that constant too is taken to know what it does; so is a vertex
+//! stage that looks at it anywhere. What a function hands to another can't be followed, nor can positions that a vertex stage
+//! only partly turns.
+
+use super::compile::Stage;
+use super::module::{Indexed, id};
+use framewright_graph::interface::Unturned;
+use rspirv::dr::{Function, Instruction, Operand};
+use rspirv::spirv::{BuiltIn, Decoration, Op};
+use std::collections::HashSet;
+
+/// The number of the constant that says by how much the picture is turned.
+const ROTATION: u32 = 100;
+
+/// What goes wrong.
+pub(super) fn unturned(module: &Indexed<'_>, stage: Stage) -> Vec<Unturned> {
+    let rotation = known_by(module);
+    let functions = module.module.functions.iter();
+    let mut functions = functions.filter(|function| !code(function).any(|it| mentions(it, &rotation)));
+    match stage {
+        Stage::Compute => Vec::new(),
+        Stage::Vertex => {
+            let all = module.module.functions.len();
+            if functions.count() == all { vec![Unturned::Vertices] } else { Vec::new() }
+        }
+        Stage::Fragment => {
+            let places = places(module);
+            let (mut reads, mut differentiates) = (false, false);
+            for function in functions.by_ref() {
+                reads |= code(function).any(|it| mentions(it, &places) && !is_beyond_y(module, it));
+                differentiates |= code(function).any(|it| is_sideways(it.class.opcode));
+            }
+            let found = [(reads, Unturned::FragCoord), (differentiates, Unturned::Derivatives)];
+            found.into_iter().filter(|(found, _)| *found).map(|(_, what)| what).collect()
+        }
+    }
+}
+
+fn code(function: &Function) -> impl Iterator<Item = &Instruction> {
+    function.blocks.iter().flat_map(|it| &it.instructions)
+}
+
+fn mentions(instruction: &Instruction, ids: &HashSet<u32>) -> bool {
+    instruction.operands.iter().filter_map(Operand::id_ref_any).any(|id| ids.contains(&id))
+}
+
+/// The constant and all constants that follow from it.
+fn known_by(module: &Indexed<'_>) -> HashSet<u32> {
+    let mut known = HashSet::new();
+    // SPIR-V declares a constant after those that it is made of.
+    for it in &module.module.types_global_values {
+        let Some(result) = it.result_id else { continue };
+        let is_it = || module.decoration_number(result, Decoration::SpecId) == Some(ROTATION);
+        let of_it = it.class.opcode == Op::SpecConstantOp && mentions(it, &known);
+        if of_it || it.class.opcode == Op::SpecConstant && is_it() {
+            known.insert(result);
+        }
+    }
+    known
+}
+
+/// The variables that say where in the picture a fragment or sample lies.
+fn places(module: &Indexed<'_>) -> HashSet<u32> {
+    let is_place = |id: u32| {
+        let built_in = module.decoration(id, Decoration::BuiltIn).flatten();
+        matches!(built_in, Some(Operand::BuiltIn(BuiltIn::FragCoord | BuiltIn::SamplePosition)))
+    };
+    module.variables().map(|(id, _)| id).filter(|id| is_place(*id)).collect()
+}
+
+/// Whether an instruction only reaches for depth or 1/w, which no rotation changes.
+fn is_beyond_y(module: &Indexed<'_>, it: &Instruction) -> bool {
+    let component = || id(it, 1).and_then(|index| module.constant(index));
+    it.class.opcode == Op::AccessChain && component().is_some_and(|component| component >= 2)
+}
+
+/// Whether an instruction differentiates to one side; the sum over both sides stays what it is.
+fn is_sideways(opcode: Op) -> bool {
+    matches!(opcode, Op::DPdx | Op::DPdy | Op::DPdxFine | Op::DPdyFine | Op::DPdxCoarse | Op::DPdyCoarse)
+}

@@ -1,0 +1,150 @@
+//! `rotate`: outputs that leave the frame turned are drawn turned. With them goes whatever is drawn beside them or becomes
+//! them: depth, and images of several samples that are resolved into them, since a resolve turns nothing.
+//!
+//! What a shader reads stays upright: it looks texels up where the upright picture has them. So an output that passes also
+//! read is split where it is drawn anew, or drawn upright and turned by one more draw.
+
+mod separate;
+mod together;
+
+use super::parts::Grids;
+use super::{cull, legal, link};
+use crate::describe::Diagnostic;
+use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Resource, Shape, Work};
+use crate::rotation::Rotation;
+use crate::source::Span;
+use crate::vocabulary::Layout;
+use std::collections::BTreeSet;
+use together::{Hindrance, Together, becomes};
+
+/// The frame with turned images; `None`: nothing is turned.
+pub(super) fn rotate(frame: &Frame) -> Result<Option<Frame>, Vec<Diagnostic>> {
+    if let Some(image) = frame.images.iter().find(|image| image.rotation.turns()) {
+        let message = format!("`{}` is turned, which only the compiler does", image.name);
+        return Err(vec![Diagnostic::new(image.span, message).help("set the rotation of an output")]);
+    }
+    if !frame.outputs.iter().any(|output| output.rotation.turns()) {
+        return Ok(None);
+    }
+    legal::check(frame)?;
+    let live = cull::cull(frame, &link::link(frame, &Grids::new(frame))?).passes;
+    let mut turner = Turner { frame: frame.clone(), live, errors: Vec::new() };
+    for output in frame.outputs.iter().filter(|output| output.rotation.turns()) {
+        turner.output(output);
+    }
+    turner.forwarded();
+    if turner.errors.is_empty() { Ok(Some(turner.frame)) } else { Err(turner.errors) }
+}
+
+struct Turner {
+    frame: Frame,
+    /// Passes that stay.
+    live: Vec<u32>,
+    errors: Vec<Diagnostic>,
+}
+
+impl Turner {
+    fn output(&mut self, output: &Output) {
+        let Resource::Image(image) = output.resource else {
+            let message = "a buffer leaves the frame rotated: only images can".to_owned();
+            return self.errors.push(Diagnostic::new(output.span, message));
+        };
+        let declared = &self.frame.images[image.0 as usize];
+        if declared.rotation == output.rotation {
+            return;
+        }
+        if let Some(what) = unfit(declared) {
+            let message = format!("`{}` leaves the frame {}, and {what}", declared.name, degrees(output.rotation));
+            return self.errors.push(Diagnostic::new(output.span, message));
+        }
+        let hindrance = match self.together(&self.frame, image, output.rotation, true) {
+            Ok(together) => return self.turn(&together, output.rotation),
+            Err(Hindrance::Wrong(wrong)) => return self.errors.push(*wrong),
+            Err(Hindrance::Upright(because, at)) => (because, at),
+        };
+        if let Some(split) = separate::where_drawn_anew(&self.frame, &self.live, image) {
+            match self.together(&split, image, output.rotation, true) {
+                Ok(together) => {
+                    self.frame = split;
+                    return self.turn(&together, output.rotation);
+                }
+                Err(Hindrance::Wrong(wrong)) => return self.errors.push(*wrong),
+                Err(Hindrance::Upright(..)) => {}
+            }
+        }
+        self.by_a_draw(image, output, hindrance);
+    }
+
+    /// Draws an output upright, and turns it at the end.
+    fn by_a_draw(&mut self, image: ImageIndex, output: &Output, (because, at): (String, Span)) {
+        let name = self.frame.images[image.0 as usize].name.clone();
+        let why = format!("`{name}` leaves the frame {}, and {because}", degrees(output.rotation));
+        let last = separate::draw_upright(&mut self.frame, &self.live, image, why, at);
+        self.live.push(last);
+        self.turn(&BTreeSet::from([image]), output.rotation);
+    }
+
+    /// Turns what is forwarded to turned images, if it can be: then it needn't be drawn into them.
+    fn forwarded(&mut self) {
+        loop {
+            let forwards = self.live.iter().filter_map(|pass| match self.frame.passes[*pass as usize].work {
+                Work::Forward { from, to, .. } => Some((from, to)),
+                _ => None,
+            });
+            let images = &self.frame.images;
+            let found =
+                forwards.filter(|(from, _)| !images[from.0 as usize].rotation.turns()).find_map(|(from, to)| {
+                    let (source, target) = (&images[from.0 as usize], &images[to.0 as usize]);
+                    let rotation = target.rotation;
+                    let may = rotation.turns() && becomes(source, target, rotation);
+                    may.then(|| self.together(&self.frame, from, rotation, false).ok())
+                        .flatten()
+                        .map(|all| (all, rotation))
+                });
+            let Some((together, rotation)) = found else { return };
+            self.turn(&together, rotation);
+        }
+    }
+
+    fn together(
+        &self,
+        frame: &Frame,
+        image: ImageIndex,
+        rotation: Rotation,
+        is_output: bool,
+    ) -> Result<BTreeSet<ImageIndex>, Hindrance> {
+        Together { frame, live: &self.live, rotation, start: image, is_output }.find()
+    }
+
+    fn turn(&mut self, images: &BTreeSet<ImageIndex>, rotation: Rotation) {
+        for image in images {
+            let image = &mut self.frame.images[image.0 as usize];
+            if image.rotation == rotation {
+                continue;
+            }
+            let [width, height, depth] = image.extent;
+            let [width, height] = rotation.extent([width, height]);
+            image.extent = [width, height, depth];
+            image.room = image.room.map(|room| rotation.extent(room));
+            image.rotation = rotation;
+        }
+    }
+}
+
+/// Why an output can't leave the frame turned, whatever the passes do.
+fn unfit(image: &Image) -> Option<&'static str> {
+    match image.lifetime {
+        _ if image.format.is_depth() => Some("holds depth: only colour can be rotated"),
+        _ if image.shape != Shape::D2 => Some("isn't flat: only flat images can be rotated"),
+        _ if image.mips > 1 => Some("has several mip levels: only images of one can be rotated"),
+        Lifetime::Imported { before, .. } if before.layout != Layout::Undefined => {
+            Some("is handed in with contents: nobody could tell how they are turned")
+        }
+        _ => None,
+    }
+}
+
+/// "rotated by 90°"
+fn degrees(rotation: Rotation) -> String {
+    format!("rotated by {}°", rotation.degrees())
+}

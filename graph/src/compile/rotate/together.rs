@@ -1,0 +1,168 @@
+//! Which images are turned together, since they are drawn in the same passes.
+
+use crate::describe::Diagnostic;
+use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, ResolveWay, Resource, Shape, Work};
+use crate::rotation::Rotation;
+use crate::source::Span;
+use std::collections::BTreeSet;
+
+/// Why an image can't be turned.
+#[derive(Debug)]
+pub(super) enum Hindrance {
+    /// It must stay upright: why, and where that stands.
+    Upright(String, Span),
+    /// It is the user's mistake.
+    Wrong(Box<Diagnostic>),
+}
+
+/// Whether an image that is still upright is forwarded to another by nothing but a resolve, once both are turned: a draw would
+/// read it.
+pub(super) fn becomes(from: &Image, to: &Image, rotation: Rotation) -> bool {
+    let upright = |extent: [u32; 2]| if to.rotation.turns() { rotation.extent(extent) } else { extent };
+    (from.format, from.shape, from.layers, from.mips) == (to.format, to.shape, to.layers, to.mips)
+        && [from.extent[0], from.extent[1]] == upright([to.extent[0], to.extent[1]])
+        && from.room == to.room.map(upright)
+        && (to.samples == 1 || to.samples == from.samples)
+}
+
+/// The search for what is turned together with an image.
+pub(super) struct Together<'f> {
+    pub(super) frame: &'f Frame,
+    /// Passes that stay.
+    pub(super) live: &'f [u32],
+    pub(super) rotation: Rotation,
+    /// Where it begins.
+    pub(super) start: ImageIndex,
+    /// Whether that leaves the frame turned; else it only becomes what does.
+    pub(super) is_output: bool,
+}
+
+impl Together<'_> {
+    /// The image and all that must be turned with it.
+    pub(super) fn find(&self) -> Result<BTreeSet<ImageIndex>, Hindrance> {
+        let (mut all, mut left) = (BTreeSet::from([self.start]), vec![self.start]);
+        while let Some(image) = left.pop() {
+            if self.frame.images[image.0 as usize].rotation == self.rotation {
+                continue;
+            }
+            self.may_turn(image)?;
+            for pass in self.live.iter().map(|pass| &self.frame.passes[*pass as usize]) {
+                self.is_only_drawn(pass, image, &all)?;
+                for beside in self.beside(pass, image, &all)? {
+                    if all.insert(beside) {
+                        left.push(beside);
+                    }
+                }
+            }
+        }
+        Ok(all)
+    }
+
+    fn name(&self, image: ImageIndex) -> &str {
+        &self.frame.images[image.0 as usize].name
+    }
+
+    /// What an image is by itself.
+    fn may_turn(&self, image: ImageIndex) -> Result<(), Hindrance> {
+        let declared = &self.frame.images[image.0 as usize];
+        let upright = |what: &str| Err(Hindrance::Upright(format!("`{}` {what}", declared.name), declared.span));
+        let weighted = declared.resolve.as_ref().is_some_and(|resolve| resolve.way == ResolveWay::Weighted);
+        let mut outputs = self.frame.outputs.iter();
+        match declared.lifetime {
+            _ if declared.rotation.turns() => upright("is turned otherwise"),
+            _ if declared.shape != Shape::D2 || declared.mips > 1 => upright("isn't flat, or has several mip levels"),
+            _ if weighted && declared.samples > 1 => upright("is resolved by a draw, which reads it"),
+            _ if outputs.any(|it| it.resource == Resource::Image(image) && it.rotation != self.rotation) => {
+                upright("leaves the frame upright")
+            }
+            Lifetime::Imported { .. } if image != self.start => upright("is handed in"),
+            _ => Ok(()),
+        }
+    }
+
+    /// Passes may draw into it and replace it whole; nobody may read it.
+    fn is_only_drawn(&self, pass: &Pass, image: ImageIndex, all: &BTreeSet<ImageIndex>) -> Result<(), Hindrance> {
+        let upright = |verb: &str, span: Span| {
+            Err(Hindrance::Upright(format!("`{}` {verb} `{}`", pass.name, self.name(image)), span))
+        };
+        if let Some(sampled) = pass.sampled.iter().find(|sampled| sampled.image == image) {
+            return upright("samples", sampled.span);
+        }
+        if let Some(storage) = pass.storage.iter().find(|storage| storage.image == image) {
+            return upright("accesses as storage", storage.span);
+        }
+        for transfer in pass.transfers.iter().filter(|transfer| transfer.resource == Resource::Image(image)) {
+            let whole = matches!(pass.work, Work::Fill { .. } | Work::Custom { .. }) && transfer.write;
+            if !whole {
+                return upright("copies", transfer.span);
+            }
+        }
+        match pass.work {
+            Work::Forward { from, to, .. } if from == image && to != image => {
+                let images = &self.frame.images;
+                let (from, target) = (&images[image.0 as usize], &images[to.0 as usize]);
+                let turned = all.contains(&to) || target.rotation == self.rotation;
+                if turned && becomes(from, target, self.rotation) { Ok(()) } else { upright("passes on", pass.span) }
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The other attachments of a pass that draws into it.
+    fn beside(&self, pass: &Pass, image: ImageIndex, all: &BTreeSet<ImageIndex>) -> Result<Vec<ImageIndex>, Hindrance> {
+        let depth = pass.depth.as_ref().map(|depth| depth.image);
+        if depth != Some(image) && pass.color.iter().all(|target| target.image != image) {
+            return Ok(Vec::new());
+        }
+        if let Some(why) = &pass.no_rotation {
+            return Err(self.wrong_shader(pass, image, why));
+        }
+        let is_turned = |other: ImageIndex| {
+            let leaves =
+                |it: &crate::frame::Output| it.resource == Resource::Image(other) && it.rotation == self.rotation;
+            all.contains(&other)
+                || self.frame.images[other.0 as usize].rotation == self.rotation
+                || self.frame.outputs.iter().any(leaves)
+        };
+        let mut beside: Vec<ImageIndex> = depth.into_iter().collect();
+        for target in &pass.color {
+            if !is_turned(target.image) {
+                return Err(self.several_targets(pass, image, target.image, target.span));
+            }
+            beside.push(target.image);
+        }
+        Ok(beside)
+    }
+
+    fn wrong_shader(&self, pass: &Pass, image: ImageIndex, why: &str) -> Hindrance {
+        let what = format!("`{}` {why}", pass.name);
+        if !self.is_output {
+            return Hindrance::Upright(what, pass.span);
+        }
+        let (name, degrees) = (self.name(image), super::degrees(self.rotation));
+        let help = format!(
+            "use `frag_coord()`, `ddx()`, `ddy()` and `rotate_clip()` of `include/rotation.glsl`; or draw into another image, \
+             and from that into `{name}`"
+        );
+        Hindrance::Wrong(Box::new(
+            Diagnostic::new(pass.span, format!("{what}; it draws into `{name}`, which is {degrees}")).help(help),
+        ))
+    }
+
+    fn several_targets(&self, pass: &Pass, image: ImageIndex, other: ImageIndex, span: Span) -> Hindrance {
+        let (name, other) = (self.name(image), self.name(other));
+        if !(self.is_output && image == self.start) {
+            return Hindrance::Upright(format!("`{}` draws `{other}` beside `{name}`", pass.name), pass.span);
+        }
+        let degrees = super::degrees(self.rotation);
+        let message = format!(
+            "`{}` draws into `{name}`, which leaves the frame {degrees}, and into `{other}`, which doesn't",
+            pass.name
+        );
+        let own = pass.color.iter().find(|target| target.image == image).map_or(pass.span, |target| target.span);
+        let wrong = Diagnostic::new(own, message).label(span, "stays upright");
+        Hindrance::Wrong(Box::new(wrong.help(format!(
+            "let it draw into an image of its own in place of `{name}`, and another pass from that into `{name}`"
+        ))))
+    }
+}

@@ -1,0 +1,8 @@
+#version 460
+
+layout(location = 0) out vec4 color;
+
+// White.
+void main() {
+    color = vec4(1.0);
+}
