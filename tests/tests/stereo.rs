@@ -22,8 +22,13 @@ use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderLibrary};
 use glam::{DMat3, DVec3};
 use std::error::Error;
 
+type Set<'a> = &'a [(&'a str, &'a str)];
+
+/// The Plan, and what it showed each eye.
+type Shown = Result<(Plan, Vec<Vec<u8>>), Box<dyn Error>>;
+
 /// Pipelines whose images each eye has of its own, and a scene for each.
-const PIPELINES: [(&str, &str, &[(&str, &str)]); 7] = [
+const PIPELINES: [(&str, &str, Set<'_>); 7] = [
     ("forward", "spheres_and_cubes", &[]),
     ("image_quality", "spheres_and_cubes", &[]),
     ("image_quality", "spheres_and_cubes", &[("render_scale", "0.7"), ("depth_stripes", "copied"), ("blur", "3")]),
@@ -38,13 +43,7 @@ const FRAMES: u32 = 3;
 const TWO: Ways = Ways { stereo: Stereo::MultiPass, rotation: Rotation::Identity };
 
 /// The first outputs of the last frame: one for each eye, if there are two.
-fn shown(
-    device: &Device,
-    (pipeline, set): (&str, &[(&str, &str)]),
-    scene: &Scene,
-    ways: Ways,
-    eyes: &Eyes,
-) -> Result<(Plan, Vec<Vec<u8>>), Box<dyn Error>> {
+fn shown(device: &Device, (pipeline, set): (&str, Set<'_>), scene: &Scene, ways: Ways, eyes: &Eyes) -> Shown {
     let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
     let pipeline = format!("examples/pipelines/{pipeline}.ron");
     let setup = Setup { pipeline: &pipeline, set, scene, extent: EXTENT };

@@ -89,14 +89,14 @@ impl Eyes {
 
 impl EyeSight {
     /// Where it is, seen from between the eyes, metres along the axes of the world.
-    pub(super) fn from_between(&self, camera: &Camera) -> DVec3 {
+    pub(super) fn offset(&self, camera: &Camera) -> DVec3 {
         DMat3::from_mat4(camera.transform.as_dmat4()) * self.place
     }
 
     /// What takes the shaders' world space, whose origin is between the eyes, to this eye's clip space, if `world_to_clip` does
     /// so from between the eyes.
     pub(super) fn world_to_clip(&self, camera: &Camera, aspect: f64, world_to_clip: DMat4) -> DMat4 {
-        self.window(camera, aspect) * world_to_clip * DMat4::from_translation(-self.from_between(camera))
+        self.window(camera, aspect) * world_to_clip * DMat4::from_translation(-self.offset(camera))
     }
 
     /// The tangents of what it sees.

@@ -45,7 +45,7 @@ impl Viewpoint {
 
     /// Where the eye is at a frame, in the shaders' world space.
     fn eye(&self, frame: u64) -> DVec3 {
-        self.eye.map_or(DVec3::ZERO, |eye| eye.from_between(&self.camera.at(frame)))
+        self.eye.map_or(DVec3::ZERO, |eye| eye.offset(&self.camera.at(frame)))
     }
 
     /// From world space to clip space at a frame, not shifted.
