@@ -1,7 +1,7 @@
 //! A pipeline is taken apart for two eyes: what each has of its own is there twice, and so is every pass that draws into it.
 //!
 //! A pass that draws into what each eye has of its own runs for each of them, and reads and writes what is that eye's. All others
-//! run once. That is decided, and mistakes in it are found, whether the frame is drawn for two eyes or for one.
+//! run once. What can't be is a mistake where the frame is drawn for two eyes, and a remark where it is drawn for one.
 
 use crate::describe::{
     self, Diagnostic, Draw, Forward, Groups, ImagePart, ImageRef, Name, Output, Part, Pass, Pipeline, Size, StandIn,
@@ -42,15 +42,26 @@ pub(super) fn split(
 ) -> (Pipeline, Vec<Remark>) {
     let own = own(&pipeline);
     let before = errors.len();
-    let mut none = Vec::new();
+    let (mut none, mut for_one) = (Vec::new(), Vec::new());
     let mut of_pass = |pass: &mut Pass| {
         // What a pass that is off would do wrong does no harm.
         let errors = if pass.off.is_some() { &mut none } else { &mut *errors };
         foreign_eyes(&own, pass, &pipeline.images, errors);
-        whose(&own, pass, &pipeline.images, errors)
+        if stereo != Stereo::Off || pass.off.is_some() {
+            return whose(&own, pass, &pipeline.images, errors);
+        }
+        // For one eye nothing is wrong about it.
+        let mut mistakes = Vec::new();
+        let found = whose(&own, pass, &pipeline.images, &mut mistakes);
+        for_one.extend(mistakes.into_iter().map(|mistake| Remark {
+            subject: pass.name.text.clone(),
+            span: mistake.labels.first().map_or(pass.name.span, |label| label.span),
+            text: format!("can't be drawn for two eyes: {}", mistake.message),
+        }));
+        found
     };
     let whose: Vec<For> = pipeline.passes.iter_mut().map(&mut of_pass).collect();
-    let remarks = remarks(&own, &pipeline, &whose);
+    let remarks = [for_one, remarks(&own, &pipeline, &whose)].concat();
     if stereo == Stereo::Off || !own.contains(&true) || errors.len() > before {
         return (pipeline, remarks);
     }

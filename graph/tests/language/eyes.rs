@@ -104,7 +104,7 @@ fn one_eye_can_be_named_as_source_and_as_target() {
 }
 
 #[test]
-fn what_can_not_be_for_each_eye_is_a_mistake_in_every_mode() {
+fn what_can_not_be_for_each_eye_is_a_mistake_for_two_and_a_remark_for_one() {
     let mistakes = [
         (
             r#"(name: "mirror", format: Color, size: Output),"#,
@@ -113,7 +113,7 @@ fn what_can_not_be_for_each_eye_is_a_mistake_in_every_mode() {
         ),
         (
             r#"(name: "shared", format: Color, size: Output),"#,
-            r#"(name: "two", draw: FullScreen("g_buffer"), color: ["color", "shared"]),"#,
+            r#"(name: "two", custom: "it", writes: ["color", "shared"]),"#,
             "pass `two` runs once for each eye, and both would write this",
         ),
         (
@@ -123,16 +123,20 @@ fn what_can_not_be_for_each_eye_is_a_mistake_in_every_mode() {
         ),
         (
             r#"(name: "other", format: Output, size: Like("color")),"#,
-            r#"(name: "mixed", draw: FullScreen("g_buffer"), color: ["screen", Eye(Left, "other")]),"#,
+            r#"(name: "mixed", custom: "it", writes: ["screen", Eye(Left, "other")]),"#,
             "pass `mixed` runs once for each eye, and both would write this one's `other`",
         ),
     ];
     for (images, more, expected) in mistakes {
-        for inputs in [INPUTS, TWO] {
-            let said = wrong(&pipeline(images, more), &inputs);
-            assert!(said.contains(expected), "{expected}: {said}");
-        }
+        let said = wrong(&pipeline(images, more), &TWO);
+        assert!(said.contains(expected), "{expected}: {said}");
     }
+    let (images, more, expected) = mistakes[0];
+    let frame = right(&pipeline(images, more), &INPUTS);
+    let said: Vec<_> = frame.remarks.iter().map(|remark| &*remark.text).collect();
+    assert_eq!(said, [format!("can't be drawn for two eyes: {expected}")]);
+    let foreign = wrong(&pipeline(mistakes[2].0, mistakes[2].1), &INPUTS);
+    assert!(foreign.contains(mistakes[2].2), "{foreign}");
     let said =
         wrong(&pipeline("", r#"(name: "x", draw: FullScreen("plain"), color: [Eye(Middle, "screen")]),"#), &INPUTS);
     assert!(said.contains("`Middle`") && said.contains("`Left`"), "{said}");

@@ -31,12 +31,14 @@ pub(super) struct Map {
     pub(super) texels: u32,
 }
 
-/// The cascades that a Plan draws for a view, the nearest first. The list that they hold is none's in particular.
+/// The cascades that a Plan draws for a view, or for an eye of it, the nearest first. The list that they hold is none's in
+/// particular.
 pub(super) fn of_plan(plan: &Plan, view: Option<ViewId>) -> Vec<Map> {
     let mut maps = BTreeMap::new();
+    let between = |of: ViewId| plan.views.get(of.0 as usize).and_then(|view| view.eye).map_or(of, |eye| eye.of);
     for step in &plan.steps {
         let Work::Render(scope) = &step.work else { continue };
-        for pass in scope.passes.iter().filter(|pass| pass.view == view) {
+        for pass in scope.passes.iter().filter(|pass| pass.view.map(between) == view) {
             if let Some(Draw::Casters(cascade)) = pass.draw {
                 let texels = scope.extent[0].min(scope.extent[1]);
                 maps.entry(cascade.index).or_insert(Map { cascade, texels });

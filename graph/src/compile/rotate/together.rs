@@ -75,7 +75,7 @@ impl Together<'_> {
             _ if outputs.any(|it| it.resource == Resource::Image(image) && it.rotation != self.rotation) => {
                 upright("leaves the frame upright")
             }
-            Lifetime::Imported { .. } if image != self.start => upright("is handed in"),
+            Lifetime::Imported { .. } if image != self.start || !self.is_output => upright("is handed in"),
             _ => Ok(()),
         }
     }
