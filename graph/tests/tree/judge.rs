@@ -139,6 +139,11 @@ fn differ(text: &str) -> bool {
         let before = text[..at].chars().next_back().is_some_and(|c| c.is_ascii_hexdigit() || matches!(c, '.' | '_'));
         before && text[at..].starts_with(['i', 'u', 'f'])
     };
+    let exponent = |at: usize| {
+        let before = text[..at].chars().next_back().is_some_and(|c| c.is_ascii_digit() || matches!(c, '.' | '_'));
+        let after = text[at..].strip_prefix(['e', 'E']);
+        before && after.is_some_and(|after| after.trim_start_matches(['+', '-']).starts_with('_'))
+    };
     let bytes = text.match_indices('b').any(|(at, _)| text[at + 1..].starts_with(['"', '\'', 'r']));
     text.contains("..")
         || text.match_indices("r#").any(|(at, _)| !text[at + 2..].starts_with(['"', '#']))
@@ -146,7 +151,7 @@ fn differ(text: &str) -> bool {
         || text.contains("inff")
         || text.contains("NaNf")
         || bytes
-        || (0..text.len()).filter(|at| text.is_char_boundary(*at)).any(typed)
+        || (0..text.len()).filter(|at| text.is_char_boundary(*at)).any(|at| typed(at) || exponent(at))
 }
 
 /// Both read a text, and in the same way, or neither does.
