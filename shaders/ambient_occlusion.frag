@@ -31,15 +31,15 @@ vec3 place_at(ivec2 texel, ivec2 extent, float depth_there) {
 // The share of light from everywhere that reaches each surface past those around it; 1 where none is. In squares of 4 × 4
 // texels each one looks elsewhere: for `ambient_occlusion_blur`.
 void main() {
-    const ivec2 extent = textureSize(depth, 0);
+    const ivec2 extent = used_of(depth, depth_st);
     const ivec2 texel = texel_at(uv, extent);
-    const float depth_here = texelFetch(depth, texel, 0).r;
+    const float depth_here = texel_in(depth, depth_st, texel).r;
     color = vec4(1.0);
     if (depth_here <= 0.0) {
         return;
     }
     const vec3 here = place_at(texel, extent, depth_here);
-    const vec3 facing = from_octahedral(texelFetch(normal, texel, 0).xy);
+    const vec3 facing = from_octahedral(texel_in(normal, normal_st, texel).xy);
     // The projection has no far plane: the near distance is the one number in its last column.
     const float away = view.world_to_clip[3].z / depth_here;
     const mat3 rows = transpose(mat3(view.world_to_clip));
@@ -51,7 +51,7 @@ void main() {
         const vec2 beside = vec2(cos(place.y), sin(place.y)) * place.x * reach;
         const ivec2 there = ivec2(floor(vec2(texel) + 0.5 + clamp(beside, vec2(-1e6), vec2(1e6))));
         if (all(greaterThanEqual(there, ivec2(0))) && all(lessThan(there, extent))) {
-            const float depth_there = texelFetch(depth, there, 0).r;
+            const float depth_there = texel_in(depth, depth_st, there).r;
             if (depth_there > 0.0) {
                 sum += occlusion_by(place_at(there, extent, depth_there) - here, facing, away, params.radius);
             }

@@ -23,7 +23,7 @@ layout(location = 0) out vec4 color;
 // The grain of film, another one in each frame: in shares of the light, as grains of silver let it through. Black stays black.
 void main() {
     const ivec2 pixel = texel_at(uv, used_of(source, source_st));
-    const vec4 found = guard_color(texelFetch(source, pixel, 0));
+    const vec4 found = guard_color(texel_in(source, source_st, pixel));
     const float strength = clamp(params.strength, 0.0, 1.0);
     color = guard_color(vec4(found.rgb * (1.0 + strength * grain(uvec2(pixel), frame.number)), found.a));
 }

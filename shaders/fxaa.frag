@@ -25,7 +25,7 @@ const float EVEN = 1e-4;
 const int REACH = 16;
 
 vec4 texel(ivec2 at) {
-    return texelFetch(source, clamp(at, ivec2(0), used_of(source, source_st) - 1), 0);
+    return texel_in(source, source_st, clamp(at, ivec2(0), used_of(source, source_st) - 1));
 }
 
 // Brightness as it is seen: about evenly spaced to the eye, 0 to 1.

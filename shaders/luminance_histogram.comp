@@ -23,7 +23,7 @@ void main() {
     barrier();
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(texel, used_of(source, source_st)))) {
-        const vec3 radiance = guard_radiance(texelFetch(source, texel, 0).rgb);
+        const vec3 radiance = guard_radiance(texel_in(source, source_st, texel).rgb);
         atomicAdd(counted[bin_of(luminance(radiance))], 1u);
     }
     barrier();

@@ -30,23 +30,23 @@ layout(location = 0) out vec4 color;
 // sharp, as far as the colours around allow it. It is where the nearest of those around was, so that edges keep theirs. What was
 // outside of the picture, and what was before the first frame (alpha is 0 there), isn't looked up.
 void main() {
-    const ivec2 extent = textureSize(now, 0);
+    const ivec2 extent = used_of(now, now_st);
     const ivec2 at = texel_at(uv, extent);
     vec3 around[9];
     ivec2 nearest = at;
     float nearest_depth = -1.0;
     for (int number = 0; number < 9; ++number) {
         const ivec2 place = clamp(at + ivec2(number % 3, number / 3) - 1, ivec2(0), extent - 1);
-        around[number] = guard_radiance(texelFetch(now, place, 0).rgb);
-        const float place_depth = texelFetch(depth, place, 0).r;
+        around[number] = guard_radiance(texel_in(now, now_st, place).rgb);
+        const float place_depth = texel_in(depth, depth_st, place).r;
         if (place_depth > nearest_depth) {
             nearest_depth = place_depth;
             nearest = place;
         }
     }
     const vec3 drawn = around[4];
-    const vec2 then = uv + texelFetch(motion, nearest, 0).rg;
-    const vec4 left = guard_color(curve_at(before, then));
+    const vec2 then = uv + texel_in(motion, motion_st, nearest).rg;
+    const vec4 left = guard_color(curve_at(before, before_st, then));
     const bool seen = all(lessThanEqual(abs(then - 0.5), vec2(0.5))) && left.a > 0.5;
     const float share = clamp(params.share, 0.0, 1.0);
     vec3 radiance = drawn;

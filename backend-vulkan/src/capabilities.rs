@@ -71,6 +71,11 @@ pub(crate) fn profile(
         (instance.get_physical_device_properties(physical), instance.get_physical_device_memory_properties(physical))
     };
     let limits = properties.limits;
+    let features = Features::of(instance, physical, false);
+    let mut views = vk::PhysicalDeviceVulkan11Properties::default();
+    let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut views);
+    // SAFETY: `physical` belongs to `instance`, and the chained structure outlives the call.
+    unsafe { instance.get_physical_device_properties2(physical, &mut all) };
     let formats: Vec<_> = Format::ALL.iter().filter_map(|format| support(instance, physical, *format)).collect();
     Profile {
         name: crate::device::text(properties.device_name_as_c_str()),
@@ -98,6 +103,9 @@ pub(crate) fn profile(
             sharing: Sharing::Exclusive,
         },
         local_read: shared.local_read.is_some(),
+        max_multiview_views: if features.multiview() { views.max_multiview_view_count } else { 1 },
+        vertex_layer: features.vertex_layer(),
+        max_clip_distances: if features.clip_distances() { limits.max_clip_distances } else { 0 },
         depth_resolve: depth_resolve.has,
         refuted_depth_resolve: depth_resolve.refuted,
         memory: MemoryModel::fitted(needs, &formats),

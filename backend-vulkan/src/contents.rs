@@ -97,7 +97,7 @@ fn set_image(
     before: State,
     initial: FillValue,
 ) {
-    let whole = Subresources::all(image.format, image.mips, image.layers);
+    let whole = Subresources::all(image.format, image.mips, image.made_layers());
     let mut state = UNUSED;
     if made.descriptor.usage.contains(Usage::TRANSFER_DST) {
         barriers(shared, commands, &[], &[state_change(made.raw, whole, UNUSED, WRITTEN)]);

@@ -154,6 +154,7 @@ fn frame(format: Format, samples: u32, modes: &[ResolveMode]) -> Frame {
         range: whole,
         frames_ago: 0,
         span: Span::NONE,
+        eye: None,
         face: Face::Samples,
         texture: None,
         own_pixel: false,

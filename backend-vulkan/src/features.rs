@@ -6,6 +6,7 @@ use ash::vk;
 #[derive(Default)]
 pub(crate) struct Features {
     core: vk::PhysicalDeviceFeatures,
+    v1_1: vk::PhysicalDeviceVulkan11Features<'static>,
     v1_2: vk::PhysicalDeviceVulkan12Features<'static>,
     v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
     local_read: vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR<'static>,
@@ -49,23 +50,27 @@ const MINIMUM_FEATURES: [(&str, Flag); 12] = [
 impl Features {
     /// What `physical` has. `local_read`: whether its extension is there.
     pub(crate) fn of(instance: &ash::Instance, physical: vk::PhysicalDevice, local_read: bool) -> Features {
+        let mut v1_1 = vk::PhysicalDeviceVulkan11Features::default();
         let mut v1_2 = vk::PhysicalDeviceVulkan12Features::default();
         let mut v1_3 = vk::PhysicalDeviceVulkan13Features::default();
         let mut local = vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR::default();
-        let mut all = vk::PhysicalDeviceFeatures2::default().push_next(&mut v1_2).push_next(&mut v1_3);
+        let mut all = vk::PhysicalDeviceFeatures2::default();
+        all = all.push_next(&mut v1_1).push_next(&mut v1_2).push_next(&mut v1_3);
         if local_read {
             all = all.push_next(&mut local);
         }
         // SAFETY: `physical` belongs to `instance`, and the chained structures outlive the call.
         unsafe { instance.get_physical_device_features2(physical, &mut all) };
         let core = all.features;
+        v1_1.p_next = std::ptr::null_mut();
         v1_2.p_next = std::ptr::null_mut();
         v1_3.p_next = std::ptr::null_mut();
         local.p_next = std::ptr::null_mut();
-        Features { core, v1_2, v1_3, local_read: local }
+        Features { core, v1_1, v1_2, v1_3, local_read: local }
     }
 
-    /// The features that are switched on: the minimum, and beyond it cube arrays and local reads where the device has them.
+    /// The features that are switched on: the minimum, and beyond it cube arrays, what draws for two eyes at once, and local
+    /// reads where the device has them.
     pub(crate) fn used(has: &Features, local_read: bool) -> Features {
         let mut features = Features::default();
         for (_, flag) in MINIMUM_FEATURES {
@@ -73,6 +78,9 @@ impl Features {
         }
         features.local_read.dynamic_rendering_local_read = local_read.into();
         features.core.image_cube_array = has.core.image_cube_array;
+        features.core.shader_clip_distance = has.core.shader_clip_distance;
+        features.v1_1.multiview = has.v1_1.multiview;
+        features.v1_2.shader_output_layer = has.v1_2.shader_output_layer;
         features
     }
 
@@ -86,6 +94,21 @@ impl Features {
         self.local_read.dynamic_rendering_local_read == vk::TRUE
     }
 
+    /// Whether rendering scopes can draw several views at once.
+    pub(crate) fn multiview(&self) -> bool {
+        self.v1_1.multiview == vk::TRUE
+    }
+
+    /// Whether vertex shaders can choose the layer that they draw into.
+    pub(crate) fn vertex_layer(&self) -> bool {
+        self.v1_2.shader_output_layer == vk::TRUE
+    }
+
+    /// Whether shaders have clip distances.
+    pub(crate) fn clip_distances(&self) -> bool {
+        self.core.shader_clip_distance == vk::TRUE
+    }
+
     /// Whether shaders can see several cubes at once.
     pub(crate) fn cube_arrays(&self) -> bool {
         self.core.image_cube_array == vk::TRUE
@@ -93,7 +116,8 @@ impl Features {
 
     /// Switches these features on in a device's creation.
     pub(crate) fn chain<'i>(&'i mut self, info: vk::DeviceCreateInfo<'i>) -> vk::DeviceCreateInfo<'i> {
-        let info = info.enabled_features(&self.core).push_next(&mut self.v1_2).push_next(&mut self.v1_3);
+        let info = info.enabled_features(&self.core);
+        let info = info.push_next(&mut self.v1_1).push_next(&mut self.v1_2).push_next(&mut self.v1_3);
         if self.local_read.dynamic_rendering_local_read == vk::TRUE {
             info.push_next(&mut self.local_read)
         } else {

@@ -56,7 +56,7 @@ impl HandIn {
         match self.resource {
             Resource::Image(id) if before.layout != Layout::Undefined => {
                 let image = frame.plan.image(id);
-                let whole = Subresources::all(image.format, image.mips, image.layers);
+                let whole = Subresources::all(image.format, image.mips, image.made_layers());
                 let raw = frame.prepared.physical.image(id, frame.number).raw;
                 barriers(frame.shared, commands, &[], &[state_change(raw, whole, after, before)]);
             }

@@ -13,6 +13,7 @@ use crate::physical::{Physical, part};
 use ash::vk;
 use framewright_graph::interface::{self, Block, Component, Dimension, ImageShape, PASS_SET};
 use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource, Subresources};
+use framewright_graph::view::EyeForm;
 use framewright_graph::vocabulary::{self, Accesses, Aspects, Filter, Sampler, Stages};
 use std::sync::Arc;
 
@@ -207,6 +208,9 @@ fn image(
     let (access, kind) = bound.ok_or_else(|| format!("nothing is bound to `{name}`"))?;
     let image = plan.image(access.image);
     let mut range = part(image, access.range);
+    if let (Some(EyeForm::Layers), Some(eye)) = (image.eyes, access.eye) {
+        range = Subresources { base_layer: eye as u32, layers: 1, ..range };
+    }
     if image.format.aspects().contains(Aspects::DEPTH | Aspects::STENCIL) && range.aspects != Aspects::STENCIL {
         // A shader reads one plane at a time.
         range.aspects = Aspects::DEPTH;
@@ -230,7 +234,8 @@ fn image(
         (interface::BindingKind::SampledImage(shape), BindingKind::Sampled(sampler)) => {
             samples(shape.multisampled)?;
             read(shape.component)?;
-            let shape = view_shape(shared, name, *shape, image, range)?;
+            let arrayed = shape.arrayed || range.layers > 1 && image.eyes.is_some();
+            let shape = view_shape(shared, name, ImageShape { arrayed, ..*shape }, image, range)?;
             Ok((vk::DescriptorType::COMBINED_IMAGE_SAMPLER, whole(shape, Some(sampler))))
         }
         (interface::BindingKind::StorageImage { shape, format, writable, .. }, BindingKind::Storage) => {

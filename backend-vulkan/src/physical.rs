@@ -9,6 +9,7 @@ use crate::standing::Standing;
 use ash::vk;
 use framewright_graph::device::{BufferDescriptor, ImageDescriptor};
 use framewright_graph::plan::{self, BufferId, ImageId, Placement, Plan, Resource, Role, Subresources};
+use framewright_graph::view::EyeForm;
 use framewright_graph::vocabulary::{BufferUsage, Usage};
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -29,7 +30,8 @@ pub(crate) fn descriptor(image: &plan::Image) -> ImageDescriptor {
         Role::Persistent { .. } => image.usage | Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
         Role::External { .. } => image.usage | Usage::TRANSFER_SRC,
     };
-    let plan::Image { format, shape, mips, layers, samples, sharing, .. } = *image;
+    let plan::Image { format, shape, mips, samples, sharing, .. } = *image;
+    let layers = image.made_layers();
     ImageDescriptor { format, shape, extent: image.made(), mips, layers, samples, usage, sharing }
 }
 
@@ -44,12 +46,15 @@ pub(crate) fn buffer_descriptor(buffer: &plan::Buffer) -> BufferDescriptor {
     BufferDescriptor { bytes: buffer.bytes, usage, sharing: buffer.sharing }
 }
 
-/// `range` of `image` with its counts as numbers.
+/// `range` of `image` with its counts as numbers; of both eyes' layers both.
 pub(crate) fn part(image: &plan::Image, range: Subresources) -> Subresources {
-    Subresources {
-        mips: range.mips.min(image.mips.saturating_sub(range.base_mip)),
-        layers: range.layers.min(image.layers.saturating_sub(range.base_layer)),
-        ..range
+    let mips = range.mips.min(image.mips.saturating_sub(range.base_mip));
+    match image.eyes {
+        Some(EyeForm::Layers) => Subresources { mips, base_layer: 0, layers: image.made_layers(), ..range },
+        Some(EyeForm::Halves) | None => {
+            let layers = range.layers.min(image.layers.saturating_sub(range.base_layer));
+            Subresources { mips, layers, ..range }
+        }
     }
 }
 

@@ -26,6 +26,8 @@ pub(crate) struct PipelineDescriptor {
     pub(crate) depth: Option<DepthState>,
     pub(crate) stencil_format: Option<Format>,
     pub(crate) stencil: Option<StencilState>,
+    /// Views that are drawn at once, a bit for each; 0 where there are none.
+    pub(crate) view_mask: u32,
     pub(crate) samples: u32,
     pub(crate) alpha_to_coverage: bool,
     pub(crate) local: Option<LocalRead>,
@@ -202,6 +204,7 @@ fn create(
     let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
     let formats: Vec<_> = descriptor.color.iter().map(|(format, _)| convert::format(*format)).collect();
     let mut rendering = vk::PipelineRenderingCreateInfo::default()
+        .view_mask(descriptor.view_mask)
         .color_attachment_formats(&formats)
         .depth_attachment_format(descriptor.depth_format.map_or(vk::Format::UNDEFINED, convert::format))
         .stencil_attachment_format(descriptor.stencil_format.map_or(vk::Format::UNDEFINED, convert::format));

@@ -14,8 +14,11 @@ use crate::shaders::{CompiledShader, ShaderLibrary};
 use crate::standing::Turns;
 use ash::vk;
 use framewright_graph::frame::{BufferRole, Draw, Groups};
-use framewright_graph::interface::{DrawInterface, MOST_PARTS, PASS_SET, ShaderInterfaces, ShaderProblem, Variant};
+use framewright_graph::interface::{
+    DrawInterface, EyeSource, MOST_PARTS, PASS_SET, ShaderInterfaces, ShaderProblem, Variant,
+};
 use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
+use framewright_graph::view::{EyeForm, Stereo};
 use framewright_graph::vocabulary::Accesses;
 use std::sync::Arc;
 
@@ -70,14 +73,26 @@ fn indirect(plan: &Plan, pass: &plan::Pass, offset: u64, bytes: u64) -> Result<B
     Ok(buffer)
 }
 
-/// How the Plan has the shader of a pass compiled.
-fn variant(plan: &Plan, pass: &plan::Pass) -> Result<Variant, Error> {
+/// How the Plan has the shader of a pass compiled, which draws into images that hold both eyes' parts so.
+fn variant(plan: &Plan, pass: &plan::Pass, form: Option<EyeForm>) -> Result<Variant, Error> {
     let parts: Vec<_> = plan.parts(pass).map(|(name, _)| name.clone()).collect();
     if parts.len() > MOST_PARTS {
         let what = format!("it samples {} images in part, and can at most {MOST_PARTS}", parts.len());
         return Err(Error::Mismatch { pass: pass.name.to_string(), what });
     }
 
+    let of_view = pass.view.and_then(|view| plan.views.get(view.0 as usize)?.eye);
+    let eye = match (plan.stereo, form) {
+        (Stereo::Multiview, Some(_)) => Some(EyeSource::ViewIndex),
+        (Stereo::DoubleWide, Some(_)) => Some(EyeSource::InstanceBit),
+        (_, Some(_)) => Some(EyeSource::InstanceParity),
+        (_, None) => of_view.map(|of| EyeSource::One(of.eye)),
+    };
+    let eyes = pass.accesses.iter().filter_map(|access| {
+        let binding = access.binding.as_ref().filter(|it| matches!(it.kind, BindingKind::Sampled(_)))?;
+        Some((binding.name.clone(), plan.image(access.image).eyes?, access.eye))
+    });
+    let eyes = eyes.collect();
     let bindings = pass.accesses.iter().filter_map(|access| access.binding.as_ref());
     let sampled = bindings.clone().filter(|binding| binding.kind != BindingKind::Storage);
     let local = bindings.clone().filter(|binding| binding.kind == BindingKind::InputAttachment);
@@ -85,6 +100,9 @@ fn variant(plan: &Plan, pass: &plan::Pass) -> Result<Variant, Error> {
         textures: bindings.filter_map(|it| Some((it.name.clone(), it.texture?))).collect(),
         sampled: sampled.map(|binding| binding.name.clone()).collect(),
         parts,
+        eye,
+        form,
+        eyes,
         local: local.map(|binding| binding.name.clone()).collect(),
         depth_only: pass.redraws.is_some(),
         alpha_to_coverage: pass.alpha_to_coverage,
@@ -101,7 +119,7 @@ pub(crate) fn compute(
 ) -> Result<Compute, Error> {
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let shader = shaders
-        .compute(&pass.shader, &variant(plan, pass)?)
+        .compute(&pass.shader, &variant(plan, pass, None)?)
         .map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
     let nothing = DrawInterface::default();
     check_limits(shared, &shader.interface, &nothing).map_err(mismatch)?;
@@ -173,7 +191,8 @@ pub(crate) fn drawn(
         indices,
         indirect,
     };
-    let shader = match shaders.compiled(&pass.shader, draw, &variant(plan, pass)?) {
+    let form = plan.eyes(scope);
+    let shader = match shaders.compiled(&pass.shader, draw, &variant(plan, pass, form)?) {
         Err(ShaderProblem::Missing { .. }) if draw == Draw::Custom => {
             let template = SetTemplate::empty(shared)?;
             return Ok(nothing(template));
@@ -206,7 +225,8 @@ pub(crate) fn drawn(
     let blend = |number: &usize| pass.blend.get(*number).copied().filter(|_| targets.contains(number));
     let rotation = plan.rotation(scope);
     let extent = if shader.interface.uses_frag_coord { scope.extent } else { [0; 2] };
-    let turned = rotation.turns().then_some(Turned { rotation, extent });
+    let placed = form == Some(EyeForm::Halves) && shader.interface.uses_frag_coord;
+    let turned = (rotation.turns() || placed).then_some(Turned { rotation, extent });
     let descriptor = PipelineDescriptor {
         vertex: shader.vertex.clone(),
         fragment: shader.fragment.clone(),
@@ -218,6 +238,7 @@ pub(crate) fn drawn(
         depth: pass.depth,
         stencil_format: scope.stencil.as_ref().map(format),
         stencil: pass.stencil,
+        view_mask: view_mask(plan, scope),
         samples: scope.samples,
         alpha_to_coverage: pass.alpha_to_coverage,
         local: local.clone(),
@@ -230,6 +251,11 @@ pub(crate) fn drawn(
     let state = PassState { layout, supplied, vertex_stride: brought_stride, usual_vertices };
     let sets = Turns::new(physical.period(template.resources()));
     Ok(Drawn { sets, pipeline, local, state, vertices, ..nothing(template) })
+}
+
+/// The views that a scope draws at once, a bit for each; 0 where it draws none but its own.
+pub(crate) fn view_mask(plan: &Plan, scope: &RenderScope) -> u32 {
+    if plan.stereo == Stereo::Multiview && plan.eyes(scope).is_some() { 0b11 } else { 0 }
 }
 
 /// The colour attachments of the scope that the pass writes, by the shader's locations.

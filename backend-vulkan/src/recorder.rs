@@ -1,5 +1,7 @@
 //! How whoever draws records its draws.
 
+mod area;
+
 use crate::custom::CustomRecorder;
 use crate::descriptors::BindGroup;
 use crate::device::Shared;
@@ -10,6 +12,7 @@ use ash::vk;
 use framewright_graph::frame::Draw;
 use framewright_graph::plan;
 use framewright_graph::rotation::Rotation;
+use framewright_graph::view::{EyeForm, Stereo};
 use std::ops::Range;
 
 /// Whoever draws the objects and the sky, and records custom passes. An engine supplies its own.
@@ -83,15 +86,20 @@ pub struct Recorder<'f> {
     vertices: Option<u64>,
     indices: Option<u64>,
     culled: u32,
+    /// The rectangles of viewport and scissor, where they aren't all of the picture and each eye's half has its own.
+    viewport: Option<[f64; 4]>,
+    scissor: Option<[f64; 4]>,
     misuse: Option<String>,
 }
 
 /// What a pass draws into.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Target {
-    /// Width and height, those of the turned picture.
+    /// Width and height, those of the turned picture; of two eyes one's.
     pub(crate) extent: [u32; 2],
     pub(crate) rotation: Rotation,
+    /// How both eyes are drawn for at once, and into what, if they are.
+    pub(crate) eyes: Option<(Stereo, EyeForm)>,
     /// The number of the frame.
     pub(crate) frame: u64,
 }
@@ -146,6 +154,8 @@ impl<'f> Recorder<'f> {
             vertices,
             indices,
             culled: 0,
+            viewport: None,
+            scissor: None,
             misuse,
         }
     }
@@ -207,38 +217,6 @@ impl<'f> Recorder<'f> {
     #[must_use]
     pub fn target_extent(&self) -> [u32; 2] {
         self.target.extent
-    }
-
-    /// Says to which rectangle of the upright picture clip space is stretched from now on: its left and upper edge, then its
-    /// width and height, in texels. At first it is all of the picture.
-    pub fn set_viewport(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2]) {
-        let upright = self.extent().map(f64::from);
-        let turned = self.target.rotation.rectangle(upright, [x, y, width, height]);
-        let within = |side: f64| side.is_finite() && side.abs() <= 16384.0;
-        if !turned.into_iter().all(within) || turned[2] <= 0.0 || turned[3] <= 0.0 {
-            return self.misused(|| format!("a viewport of {width}×{height} at {x}, {y}"));
-        }
-        #[allow(clippy::cast_possible_truncation, reason = "viewports are 32-bit floats")]
-        let [x, y, width, height] = turned.map(|side| side as f32);
-        let viewport = vk::Viewport { x, y, width, height, min_depth: 0.0, max_depth: 1.0 };
-        // SAFETY: the command buffer is being recorded, the state is dynamic in every pipeline, and the numbers are in range.
-        unsafe { self.shared.raw.cmd_set_viewport(self.commands, 0, &[viewport]) };
-    }
-
-    /// Says in which rectangle of the upright picture texels may change from now on: its left and upper edge, then its width
-    /// and height, in texels. What lies outside the picture is left out. At first it is all of the picture.
-    pub fn set_scissor(&mut self, corner: [u32; 2], size: [u32; 2]) {
-        let upright = self.extent();
-        let begin = [0, 1].map(|axis| corner[axis].min(upright[axis]));
-        let end = [0, 1].map(|axis| corner[axis].saturating_add(size[axis]).min(upright[axis]));
-        let rectangle = [begin[0], begin[1], end[0] - begin[0], end[1] - begin[1]].map(f64::from);
-        let turned = self.target.rotation.rectangle(upright.map(f64::from), rectangle);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers within the picture")]
-        let [x, y, width, height] = turned.map(|side| side as u32);
-        let offset = vk::Offset2D { x: x.cast_signed(), y: y.cast_signed() };
-        let scissor = vk::Rect2D { offset, extent: vk::Extent2D { width, height } };
-        // SAFETY: the command buffer is being recorded, the state is dynamic in every pipeline, and it lies within the target.
-        unsafe { self.shared.raw.cmd_set_scissor(self.commands, 0, &[scissor]) };
     }
 
     /// The number of the frame, from 0: what moves and what is shifted from frame to frame goes by it.
@@ -328,12 +306,10 @@ impl<'f> Recorder<'f> {
         }
         if self.may_draw() {
             let count = vertices.end.saturating_sub(vertices.start);
-            let instance_count = instances.end.saturating_sub(instances.start);
-            // SAFETY: everything that the pipeline reads is bound and large enough.
-            unsafe {
-                let (device, commands) = (&self.shared.raw, self.commands);
-                device.cmd_draw(commands, count, instance_count, vertices.start, instances.start);
-            }
+            self.for_eyes(instances, |device, commands, first, instances| {
+                // SAFETY: everything that the pipeline reads is bound and large enough.
+                unsafe { device.cmd_draw(commands, count, instances, vertices.start, first) };
+            });
         }
     }
 
@@ -348,28 +324,28 @@ impl<'f> Recorder<'f> {
         }
         if self.may_draw() {
             let count = indices.end.saturating_sub(indices.start);
-            let instance_count = instances.end.saturating_sub(instances.start);
-            // SAFETY: everything that the pipeline reads is bound, the indices exist, and with robustBufferAccess an
-            // index beyond the vertices reads no foreign memory.
-            unsafe {
-                let (device, commands) = (&self.shared.raw, self.commands);
-                device.cmd_draw_indexed(commands, count, instance_count, indices.start, base_vertex, instances.start);
-            }
+            self.for_eyes(instances, |device, commands, first, instances| {
+                // SAFETY: everything that the pipeline reads is bound, the indices exist, and with robustBufferAccess an
+                // index beyond the vertices reads no foreign memory.
+                unsafe { device.cmd_draw_indexed(commands, count, instances, indices.start, base_vertex, first) };
+            });
         }
     }
 
     /// Draws the vertices, or the indices, of the pass's own buffers, which were bound and are large enough.
     pub(crate) fn draw_own(&mut self, count: u32, instances: u32, indexed: bool) {
         if self.may_draw() {
-            // SAFETY: everything that the pipeline reads is bound, and with robustBufferAccess an index beyond the vertices
-            // reads no foreign memory.
-            unsafe {
-                if indexed {
-                    self.shared.raw.cmd_draw_indexed(self.commands, count, instances, 0, 0, 0);
-                } else {
-                    self.shared.raw.cmd_draw(self.commands, count, instances, 0, 0);
+            self.for_eyes(0..instances, |device, commands, first, instances| {
+                // SAFETY: everything that the pipeline reads is bound, and with robustBufferAccess an index beyond the vertices
+                // reads no foreign memory.
+                unsafe {
+                    if indexed {
+                        device.cmd_draw_indexed(commands, count, instances, 0, 0, first);
+                    } else {
+                        device.cmd_draw(commands, count, instances, 0, first);
+                    }
                 }
-            }
+            });
         }
     }
 

@@ -3,6 +3,7 @@
 use crate::batches::Batch;
 use crate::device::Shared;
 use crate::error::Error;
+use crate::prepare_pass::view_mask;
 use ash::vk;
 use framewright_graph::plan::{Pass, Plan, Queue, Work};
 use std::sync::Arc;
@@ -50,7 +51,8 @@ pub(crate) struct Counts {
     pub(crate) culled: u32,
 }
 
-/// The timestamps of one frame: one when each batch begins, one at the end of each pass, one at the end of each step.
+/// The timestamps of one frame: one when each batch begins, one at the end of each pass, one at the end of each step. Inside
+/// scopes that draw several views at once a timestamp takes a query for each of them.
 pub(crate) struct Timing {
     shared: Arc<Shared>,
     pool: vk::QueryPool,
@@ -63,7 +65,7 @@ pub(crate) struct Timing {
 impl Timing {
     /// Timestamps for the frames of `plan`.
     pub(crate) fn new(shared: &Arc<Shared>, plan: &Plan, batches: usize) -> Result<Timing, Error> {
-        let passes: usize = plan.steps.iter().map(|step| passes(&step.work).len()).sum();
+        let passes: usize = plan.steps.iter().map(|step| passes(&step.work).len() * views(plan, &step.work)).sum();
         let count = u32::try_from((batches + plan.steps.len() + passes).max(1))
             .map_err(|_| Error::BadPlan { what: "it has too many passes to time them".to_owned() })?;
         let info = vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(count);
@@ -87,13 +89,18 @@ impl Timing {
 
     /// Writes the next timestamp, once everything before it is done.
     pub(crate) fn stamp(&mut self, commands: vk::CommandBuffer) {
-        if self.next < self.count {
+        self.stamp_views(commands, 1);
+    }
+
+    /// The same inside a scope that draws so many views at once.
+    pub(crate) fn stamp_views(&mut self, commands: vk::CommandBuffer, views: u32) {
+        if self.next + views <= self.count {
             if self.bits > 0 {
                 let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
                 // SAFETY: the command buffer is being recorded, its queue has timestamps, and the query was reset.
                 unsafe { self.shared.raw.cmd_write_timestamp2(commands, stage, self.pool, self.next) };
             }
-            self.next += 1;
+            self.next += views;
         }
     }
 
@@ -114,8 +121,10 @@ impl Timing {
             for step in &plan.steps[batch.steps.clone()] {
                 let mut began = step_began;
                 let mut reports = Vec::new();
+                let views = views(plan, &step.work);
                 for pass in passes(&step.work) {
-                    let ended = next();
+                    // Only one of the views' queries need have the time.
+                    let ended = (0..views).filter_map(|_| next().filter(|stamp| *stamp > 0 || views == 1)).max();
                     let milliseconds = clock.between(began, ended);
                     let Counts { draws, culled } = counts.next().unwrap_or_default();
                     reports.push(PassReport { name: pass.name.to_string(), draws, culled, milliseconds });
@@ -184,5 +193,13 @@ fn passes(work: &Work) -> &[Pass] {
         Work::Render(scope) => &scope.passes,
         Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
         _ => &[],
+    }
+}
+
+/// Queries that a timestamp inside a step takes.
+fn views(plan: &Plan, work: &Work) -> usize {
+    match work {
+        Work::Render(scope) => view_mask(plan, scope).count_ones().max(1) as usize,
+        _ => 1,
     }
 }

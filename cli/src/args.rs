@@ -1,11 +1,12 @@
 //! The command line: what can be said, and what each word means.
 
 use crate::text;
-use crate::values::{Assignment, DEFAULT_SIZE, Dump, OutputFile, Size, assignment, dump, order, output_file, rotation};
+use crate::values::{
+    Assignment, DEFAULT_SIZE, Dump, Modes, OutputFile, Size, assignment, dump, order, output_file, rotation, stereo,
+};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use framewright_graph::compile::{Options, Order};
 use framewright_graph::rotation::Rotation;
-use framewright_graph::view::Stereo;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -214,27 +215,10 @@ pub(crate) struct Pipeline {
     /// Read files that the pipeline names wherever they lie. For files that you trust.
     #[arg(long)]
     pub(crate) allow_outside: bool,
-    /// How to draw for two eyes what each has of its own. Pictures of both stand side by side.
-    #[arg(long, value_name = "off|multi-pass", default_value = "off", value_enum)]
-    pub(crate) stereo: StereoMode,
-}
-
-/// How a frame is drawn for two eyes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum StereoMode {
-    /// For one.
-    Off,
-    /// For one after the other.
-    MultiPass,
-}
-
-impl From<StereoMode> for Stereo {
-    fn from(mode: StereoMode) -> Stereo {
-        match mode {
-            StereoMode::Off => Stereo::Off,
-            StereoMode::MultiPass => Stereo::MultiPass,
-        }
-    }
+    /// How to draw for two eyes what each has of its own: `off`, `multi-pass`, `double-wide`, `instanced` or `multiview`; of several
+    /// with commas between them the first that the device can draw, `auto`: the fastest. Pictures of both stand side by side.
+    #[arg(long, value_name = "off|auto|MODE[,MODE]", default_value = "off", value_parser = stereo)]
+    pub(crate) stereo: Modes,
 }
 
 /// How a Plan is made. None of this may change a picture.

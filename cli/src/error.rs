@@ -182,6 +182,14 @@ pub(crate) enum Error {
         /// What `verify` found, escaped.
         violations: Vec<String>,
     },
+    /// The device can't draw for two eyes as was asked.
+    #[error(
+        "{why}\nhelp: `--stereo auto` takes the fastest way that it has; several, as `--stereo multiview,double-wide`, the first"
+    )]
+    Stereo {
+        /// What it lacks, for each way.
+        why: String,
+    },
     /// A picture was asked for of something that is none.
     #[error(
         "`{}` is a buffer, and only images become pictures: leave out `-o`, or dump an image",
@@ -324,7 +332,7 @@ impl Error {
             | Error::NoName { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
             Error::Interrupted { .. } => Exit::Interrupted,
-            Error::Write { .. } | Error::Print(_) | Error::Restart(_) => Exit::Environment,
+            Error::Write { .. } | Error::Print(_) | Error::Restart(_) | Error::Stereo { .. } => Exit::Environment,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Exit, Wrong};
 use crate::files::{self, PipelineFile};
-use crate::values::Size;
+use crate::values::{Modes, Size};
 use crate::{args, output, shipped};
 use framewright_graph::compile::{self, Options};
 use framewright_graph::describe::{self, Diagnostic, Document, Files, Found, PipelineFiles, Unread};
@@ -39,7 +39,7 @@ pub(crate) struct Loaded {
     /// Settings that the user chose, and their values, of which the last counts.
     pub(crate) set: Vec<(String, String)>,
     /// How it is drawn for two eyes.
-    pub(crate) stereo: Stereo,
+    pub(crate) stereo: Modes,
 }
 
 /// A frame and its Plan.
@@ -118,7 +118,7 @@ pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
         pictures: named.pictures,
         shaders: ShaderLibrary::new(root.into_iter().collect(), SHADERS, draw::interface),
         set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
-        stereo: arguments.stereo.into(),
+        stereo: arguments.stereo.clone(),
     })
 }
 
@@ -180,7 +180,8 @@ impl Loaded {
     /// What is wrong with the command line, the pipeline or its shaders.
     pub(crate) fn frame(&mut self, view: View<'_>, device: &Profile) -> Result<Frame, Error> {
         self.check_command_line(view)?;
-        let inputs = Inputs { device: Some(device), ..inputs(&self.set, self.stereo, view) };
+        let stereo = self.stereo.first(device)?;
+        let inputs = Inputs { device: Some(device), ..inputs(&self.set, stereo, view) };
         expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.shaders)
             .map_err(|diagnostics| wrong(&self.sources, diagnostics))
     }
@@ -190,7 +191,7 @@ impl Loaded {
     /// # Errors
     /// What is wrong with the command line.
     pub(crate) fn check_command_line(&self, view: View<'_>) -> Result<(), Error> {
-        let diagnostics = expand::check_inputs(&self.pipeline, &inputs(&self.set, self.stereo, view));
+        let diagnostics = expand::check_inputs(&self.pipeline, &inputs(&self.set, self.stereo.0[0], view));
         if diagnostics.is_empty() {
             return Ok(());
         }

@@ -7,15 +7,14 @@ use crate::report::{Report, Setting, Validation};
 use crate::values::OutputFile;
 use crate::{files, interrupt, notes, output, picture, placed, progress, rows, text};
 use framewright_graph::frame::{Frame, Image, Lifetime, Resource};
-use framewright_graph::plan::{self, Plan, Stage, Totals};
+use framewright_graph::plan::{self, Stage, Totals};
 use framewright_graph::source::Span;
-use framewright_graph::view::Eye;
+use framewright_graph::view::{Eye, EyeForm};
 use framewright_graph::vocabulary::Layout;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, DeviceChoice, DeviceOptions, Executor, ExecutorOptions, FrameReport, Texels};
 use std::ffi::OsStr;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// A picture that is ready to be written.
@@ -46,6 +45,10 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
     // Now its shaders are known.
     pipeline.spare(arguments.written())?;
     let wanted = wanted(arguments, &planned)?;
+    let modes = &arguments.pipeline.stereo.0;
+    if modes.len() > 1 {
+        text::say(&format!("note: it is drawn for two eyes by `--stereo {}`", planned.plan.stereo.name()));
+    }
     // What was asked for and isn't had changes the picture.
     for line in notes::lines(planned.plan.notes.iter().filter(|note| note.stage == Stage::Fit)) {
         text::say(&line);
@@ -184,10 +187,11 @@ fn draw(
     }
     progress.finish_and_clear();
     let mut pictures = Vec::new();
-    for Wanted { outputs, name, path, file } in wanted {
-        let eyes = outputs.clone().map(|output| executor.read(output)).collect::<Result<Vec<_>, _>>()?;
+    for Wanted { outputs, in_layers, name, path, file } in wanted {
+        let read = outputs.iter().map(|output| executor.read(*output)).collect::<Result<Vec<_>, _>>()?;
+        let eyes = read.into_iter().flat_map(|texels| if in_layers { layers(texels) } else { vec![texels] }).collect();
         let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(eyes);
-        let encoding = planned.plan.outputs.get(outputs.start).and_then(|output| output.encoding);
+        let encoding = planned.plan.outputs.get(outputs[0]).and_then(|output| output.encoding);
         let picture = picture::Picture { format, encoding, extent: [width, height], bytes: &bytes };
         let contents = file.write(&picture).map_err(|problem| Error::Picture { image: name.to_owned(), problem })?;
         if let Some(loss) = file.loses(format) {
@@ -204,7 +208,9 @@ fn draw(
 /// An output that is written.
 struct Wanted<'a> {
     /// Its number, or those of both eyes.
-    outputs: Range<usize>,
+    outputs: Vec<usize>,
+    /// Whether its layers are both eyes'.
+    in_layers: bool,
     /// Its image's name.
     name: &'a str,
     /// Where to.
@@ -223,41 +229,62 @@ fn wanted<'a>(arguments: &'a Run, planned: &'a Planned) -> Result<Vec<Wanted<'a>
         Resource::Image(image) => frame.images.get(image.0 as usize).map(|image| &*image.name),
         Resource::Buffer(_) => None,
     };
-    let written = |output: usize, name: &'a str, path: &'a Path| {
+    let written = |outputs: Vec<usize>, name: &'a str, path: &'a Path| {
         let file = picture::File::of(path).unwrap_or(picture::File::Png);
-        match plan.outputs.get(output).map(|output| output.resource) {
-            Some(plan::Resource::Image(image)) if !file.holds(plan.image(image).format) => {
-                Err(Error::NotFloats { image: name.to_owned(), format: plan.image(image).format })
+        let planned = match plan.outputs.get(outputs[0]).map(|output| output.resource) {
+            Some(plan::Resource::Image(image)) => Some(plan.image(image)),
+            _ => None,
+        };
+        match planned {
+            Some(image) if !file.holds(image.format) => {
+                Err(Error::NotFloats { image: name.to_owned(), format: image.format })
             }
-            _ => Ok(Wanted { outputs: output..output + eyes(plan, output), name, path, file }),
+            image => {
+                let in_layers = image.is_some_and(|image| image.eyes == Some(EyeForm::Layers));
+                Ok(Wanted { outputs, in_layers, name, path, file })
+            }
         }
     };
+    let all = 0..frame.outputs.len();
     let mut wanted = Vec::new();
     for OutputFile { output, file } in &arguments.output {
         let at = match output {
-            Some(name) => named_output(frame, name).ok_or_else(|| no_output(frame, name))?,
-            None => 0,
+            Some(name) => outputs_named(frame, name, declared(frame)),
+            None => of_both_eyes(frame, 0),
         };
-        let name = image(at).ok_or_else(|| Error::NoPicture { output: output_name(frame, at) })?;
+        let first = at.first().copied().ok_or_else(|| no_output(frame, output.as_deref().unwrap_or_default()))?;
+        let name = image(first).ok_or_else(|| Error::NoPicture { output: output_name(frame, first) })?;
         wanted.push(written(at, name, file)?);
     }
     for dump in &arguments.dump {
-        let names = [dump.image.clone(), of_left_eye(&dump.image)];
-        let is_it = |name: &&str| names.iter().any(|it| it == name);
-        let output = (0..frame.outputs.len()).find_map(|at| Some((at, image(at).filter(is_it)?)));
-        wanted.extend(output.map(|(at, name)| written(at, name, &dump.file)).transpose()?);
+        let outputs = outputs_named(frame, &dump.image, all.clone());
+        if let Some(name) = outputs.first().and_then(|at| image(*at)) {
+            wanted.push(written(outputs, name, &dump.file)?);
+        }
     }
     Ok(wanted)
 }
 
-/// How many outputs show one image: two if each eye has its own, and this is the left one's.
-fn eyes(plan: &Plan, output: usize) -> usize {
-    if plan.outputs.get(output).is_some_and(|output| output.eye == Some(Eye::Left)) { 2 } else { 1 }
+/// The output of that name among some, or else those of both eyes that have it.
+fn outputs_named(frame: &Frame, name: &str, among: impl Iterator<Item = usize> + Clone) -> Vec<usize> {
+    let is = |at: &usize, name: &str| output_name(frame, *at) == name;
+    let one = among.clone().find(|at| is(at, name));
+    let of = |eye: Eye| among.clone().find(|at| is(at, &eye.named(name)));
+    one.map_or_else(|| Eye::BOTH.into_iter().filter_map(of).collect(), |one| vec![one])
 }
 
-/// What the left eye's image is called, of one that each eye has of its own.
-fn of_left_eye(image: &str) -> String {
-    format!("{image} ({})", Eye::Left.name())
+/// An output, with the right eye's behind it if it is the left one's.
+fn of_both_eyes(frame: &Frame, output: usize) -> Vec<usize> {
+    let eye = |at: usize| frame.outputs.get(at).and_then(|output| output.eye);
+    let both = eye(output) == Some(Eye::Left) && eye(output + 1) == Some(Eye::Right);
+    (output..frame.outputs.len()).take(if both { 2 } else { 1 }).collect()
+}
+
+/// The layers of an image by themselves.
+fn layers(texels: Texels) -> Vec<Texels> {
+    let bytes = texels.bytes.len() / texels.layers.max(1) as usize;
+    let layer = |bytes: &[u8]| Texels { layers: 1, bytes: bytes.to_vec(), ..texels };
+    texels.bytes.chunks(bytes.max(1)).map(layer).collect()
 }
 
 /// Pictures of the same size and format beside each other, the first one on the left.
@@ -283,14 +310,8 @@ fn output_name(frame: &Frame, output: usize) -> String {
 }
 
 /// Numbers of the outputs that the pipeline names; dumped images stand in no file.
-fn declared(frame: &Frame) -> impl Iterator<Item = usize> {
+fn declared(frame: &Frame) -> impl Iterator<Item = usize> + Clone {
     (0..frame.outputs.len()).filter(|at| frame.outputs[*at].span != Span::NONE)
-}
-
-/// The number of the output of that name, if the pipeline has it.
-fn named_output(frame: &Frame, name: &str) -> Option<usize> {
-    let names = [name.to_owned(), of_left_eye(name)];
-    declared(frame).find(|at| names.contains(&output_name(frame, *at)))
 }
 
 fn no_output(frame: &Frame, name: &str) -> Error {

@@ -1,8 +1,11 @@
 //! What single arguments of the command line can say.
 
+use crate::error::Error;
 use crate::picture::File;
 use framewright_graph::compile::Order;
+use framewright_graph::device::Profile;
 use framewright_graph::rotation::Rotation;
+use framewright_graph::view::Stereo;
 use std::path::PathBuf;
 
 /// Width and height of the output where the command line says none, in pixels.
@@ -109,6 +112,34 @@ pub(crate) fn order(text: &str) -> Result<Order, String> {
 pub(crate) fn rotation(text: &str) -> Result<Rotation, String> {
     let degrees = text.parse().ok().filter(|_| text.bytes().all(|byte| byte.is_ascii_digit()));
     degrees.and_then(Rotation::from_degrees).ok_or_else(|| "expected 0, 90, 180 or 270".to_owned())
+}
+
+/// Ways of drawing for two eyes, the first one first.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Modes(pub(crate) Vec<Stereo>);
+
+impl Modes {
+    /// The first that a device can draw.
+    ///
+    /// # Errors
+    /// [`Error::Stereo`], if it can draw none of them.
+    pub(crate) fn first(&self, device: &Profile) -> Result<Stereo, Error> {
+        Stereo::first_fit(&self.0, device).map_err(|why| Error::Stereo { why })
+    }
+}
+
+/// Reads ways of drawing for two eyes.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn stereo(text: &str) -> Result<Modes, String> {
+    if text == "auto" {
+        return Ok(Modes(Stereo::FASTEST_FIRST.into()));
+    }
+    let known = |name: &str| Stereo::ALL.into_iter().find(|stereo| stereo.name() == name);
+    let modes: Option<Vec<Stereo>> = text.split(',').map(known).collect();
+    let expected = || Stereo::ALL.map(Stereo::name).join(", ");
+    modes.map(Modes).ok_or_else(|| format!("expected auto, or some of {} with commas between them", expected()))
 }
 
 /// Reads `IMAGE=FILE.png`.

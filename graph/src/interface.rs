@@ -7,6 +7,7 @@ pub use shape::{Component, Dimension, ImageShape};
 use crate::file_path::FilePath;
 use crate::format::Format;
 use crate::frame::Draw;
+use crate::view::{Eye, EyeForm};
 use crate::vocabulary::Stages;
 use std::sync::Arc;
 
@@ -200,6 +201,12 @@ pub struct Variant {
     /// Those of images of which only a part is in use, at most [`MOST_PARTS`]: `NAME_st` is where it lies then, and else all of
     /// the image.
     pub parts: Vec<Arc<str>>,
+    /// How its stages learn which eye they draw for; `None`: there is one, or both see the same.
+    pub eye: Option<EyeSource>,
+    /// How what it draws into holds both eyes' parts, if it draws for both at once.
+    pub form: Option<EyeForm>,
+    /// Those of images that hold both eyes' parts, with how and whose is sampled; `None`: that of the eye that is drawn for.
+    pub eyes: Vec<(Arc<str>, EyeForm, Option<Eye>)>,
     /// The shader's names for what is read from the pass's own rendering scope, as devices with local reads let it: the
     /// macro `LOCAL_READ_NAME` is defined.
     pub local: Vec<Arc<str>>,
@@ -208,6 +215,19 @@ pub struct Variant {
     pub depth_only: bool,
     /// Whether its alpha says how many samples are covered: the macro `ALPHA_TO_COVERAGE` is defined in its fragment stage.
     pub alpha_to_coverage: bool,
+}
+
+/// How the stages of a shader learn which eye they draw for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum EyeSource {
+    /// They draw for this one only.
+    One(Eye),
+    /// The device draws for each (`gl_ViewIndex`).
+    ViewIndex,
+    /// By the highest bit of the instance's number, which counts instances of one eye else.
+    InstanceBit,
+    /// By the lowest bit of the instance's number, which counts those of both eyes in turn.
+    InstanceParity,
 }
 
 /// Where shader interfaces come from: a compiler and reflection over files on disk, or a table in a test.

@@ -61,6 +61,7 @@ pub const SHADERS: &[(&str, &str)] = shaders![
     "include/scan.glsl",
     "include/scene.glsl",
     "include/snow.glsl",
+    "include/stereo.glsl",
     "include/sun_shadow.glsl",
     "include/surface.glsl",
     "include/temporal.glsl",

@@ -7,10 +7,10 @@
 #include "include/scene.glsl"
 
 layout(set = 1, binding = 5, std430) readonly buffer Motion {
-    // As `view.world_to_clip`, but without shift.
-    mat4 world_to_clip;
+    // As `view.world_to_clip`, but without shift: of both eyes.
+    mat4 world_to_clip[2];
     // The same in the frame before, whose camera was the origin of its world space.
-    mat4 previous_world_to_clip;
+    mat4 previous_world_to_clip[2];
     // By gl_InstanceIndex: object space to the world space of the frame before.
     mat4 previous_object_to_world[];
 } motion;

@@ -1,7 +1,7 @@
-// Images of which a frame may use only a part: one whose size changes from frame to frame is made once, for the largest, and
-// used from its upper left corner on. NAME_st stands for the part of the image that the pass samples as NAME: how wide and high
-// it is, as shares of the image, and where it begins. Where all of the image is used that is a constant, and nothing is left of
-// these functions.
+// Images of which a pass may see only a part: one whose size changes from frame to frame is made once, for the largest, and
+// used from its upper left corner on; of one that holds both eyes' pictures side by side each eye sees its half. NAME_st stands
+// for the part of the image that the pass samples as NAME: how wide and high it is, as shares of the image, and where it begins.
+// Where all of the image is seen that is a constant, and nothing is left of these functions.
 #ifndef FRAMEWRIGHT_PART
 #define FRAMEWRIGHT_PART
 
@@ -21,12 +21,37 @@ vec2 uv_adjust(vec2 uv, vec4 st) {
     return uv * st.xy + st.zw;
 }
 
-// The place of the part, in an image of so many texels, that is nearest to a place in that image: no further out than the middle
+// Two such places.
+vec4 uv_adjust(vec4 uvs, vec4 st) {
+    return uvs * st.xyxy + st.zwzw;
+}
+
+// The same before a division by w.
+vec2 uv_adjust(vec2 uv, vec4 st, float w) {
+    return uv * st.xy + st.zw * w;
+}
+
+// A place in an image as a place in its part, 0 to 1 from that's upper left corner.
+vec2 uv_unadjust(vec2 uv, vec4 st) {
+    return (uv - st.zw) / st.xy;
+}
+
+// The place of the part, in an image (or a mip level of it) of so many texels, that is nearest to a place in that image: no further out than the middle
 // of the outermost texels, so that a linear filter mixes in nothing that lies beyond. A little further in, since the middle is
 // met up to rounding only: what lies beyond may be anything, and a trace of it may be too much.
 vec2 uv_clamp(vec2 uv, vec4 st, ivec2 texels) {
     const vec2 margin = (0.5 + 1.0 / 512.0) / vec2(texels);
     return is_whole(st) ? uv : clamp(uv, st.zw + margin, st.zw + st.xy - margin);
+}
+
+// Two such places.
+vec4 uv_clamp(vec4 uvs, vec4 st, ivec2 texels) {
+    return vec4(uv_clamp(uvs.xy, st, texels), uv_clamp(uvs.zw, st, texels));
+}
+
+// The first texel of the part, in an image of so many.
+ivec2 part_origin(ivec2 texels, vec4 st) {
+    return is_whole(st) ? ivec2(0) : ivec2(round(vec2(texels) * st.zw));
 }
 
 // How many texels wide and high the part is, in an image of so many.

@@ -26,14 +26,19 @@ vec4 rotate_clip(vec4 upright) {
 }
 
 #ifdef FRAMEWRIGHT_FRAGMENT
-// `gl_FragCoord` of the upright picture.
+// `gl_FragCoord` of the upright picture, of two eyes that lie side by side of the picture of the one that is drawn for.
 vec4 frag_coord() {
     const vec2 turned = vec2(framewright_turned_width, framewright_turned_height);
+    vec4 coord = gl_FragCoord;
+#ifdef FRAMEWRIGHT_HALVES
+    const vec2 towards = rotate_direction(vec2(framewright_eye == 0 ? -1.0 : 1.0, 0.0));
+    coord.xy -= turned * max(towards, vec2(0.0));
+#endif
     switch (framewright_rotation) {
-        case 1u: return vec4(gl_FragCoord.y, turned.x - gl_FragCoord.x, gl_FragCoord.zw);
-        case 2u: return vec4(turned - gl_FragCoord.xy, gl_FragCoord.zw);
-        case 3u: return vec4(turned.y - gl_FragCoord.y, gl_FragCoord.x, gl_FragCoord.zw);
-        default: return gl_FragCoord;
+        case 1u: return vec4(coord.y, turned.x - coord.x, coord.zw);
+        case 2u: return vec4(turned - coord.xy, coord.zw);
+        case 3u: return vec4(turned.y - coord.y, coord.x, coord.zw);
+        default: return coord;
     }
 }
 

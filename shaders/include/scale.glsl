@@ -19,7 +19,7 @@ vec4 area_mean(sampler2D source, vec4 st, ivec2 pixel, ivec2 target) {
         vec4 row = vec4(0.0);
         for (uint x = begin.x / pixels.x; x * pixels.x < end.x; ++x) {
             const uint within = min(end.x, (x + 1u) * pixels.x) - max(begin.x, x * pixels.x);
-            row += float(within) * guard_color(texelFetch(source, ivec2(x, y), 0));
+            row += float(within) * guard_color(texel_in(source, st, ivec2(x, y)));
         }
         const uint within = min(end.y, (y + 1u) * pixels.y) - max(begin.y, y * pixels.y);
         sum += float(within) * (row / float(texels.x));
@@ -34,10 +34,10 @@ float catmull_rom(float distance) {
     return x < 1.0 ? (1.5 * x - 2.5) * x * x + 1.0 : x < 2.0 ? ((-0.5 * x + 2.5) * x - 4.0) * x + 2.0 : 0.0;
 }
 
-// What lies at a place of the source, 0 to 1 from its upper left corner, by Catmull and Rom's curve along rows and columns.
+// What lies at a place of the part `st` of the source, 0 to 1 from its upper left corner, by Catmull and Rom's curve along rows and columns.
 // Beyond its edges lie the outermost texels.
-vec4 curve_at(sampler2D source, vec2 place) {
-    const ivec2 texels = textureSize(source, 0);
+vec4 curve_at(sampler2D source, vec4 st, vec2 place) {
+    const ivec2 texels = used_of(source, st);
     const vec2 from_first = place * vec2(texels) - 0.5;
     const ivec2 whole = ivec2(floor(from_first));
     const vec2 share = from_first - vec2(whole);
@@ -46,7 +46,7 @@ vec4 curve_at(sampler2D source, vec2 place) {
         vec4 row = vec4(0.0);
         for (int x = -1; x <= 2; ++x) {
             const ivec2 at = clamp(whole + ivec2(x, y), ivec2(0), texels - 1);
-            row += catmull_rom(float(x) - share.x) * guard_color(texelFetch(source, at, 0));
+            row += catmull_rom(float(x) - share.x) * guard_color(texel_in(source, st, at));
         }
         sum += catmull_rom(float(y) - share.y) * row;
     }
@@ -72,7 +72,7 @@ vec4 sharpened(sampler2D source, vec4 st, ivec2 pixel, ivec2 target) {
         float across = 0.0;
         for (int x = first.x; x <= last.x; ++x) {
             const float weight = catmull_rom((float(x) - share.x) / wide.x);
-            row += weight * guard_color(texelFetch(source, clamp(whole + ivec2(x, y), ivec2(0), texels - 1), 0));
+            row += weight * guard_color(texel_in(source, st, clamp(whole + ivec2(x, y), ivec2(0), texels - 1)));
             across += weight;
         }
         const float weight = catmull_rom((float(y) - share.y) / wide.y);

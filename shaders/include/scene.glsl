@@ -6,6 +6,8 @@
 #ifndef FRAMEWRIGHT_SCENE
 #define FRAMEWRIGHT_SCENE
 
+#include "include/stereo.glsl"
+
 struct Object {
     // Object space to world space.
     mat4 object_to_world;
@@ -32,7 +34,8 @@ struct PointLight {
     vec3 intensity;
 };
 
-layout(set = 1, binding = 0, std140) uniform View {
+// What an eye sees, or whoever else looks at the scene.
+struct Sight {
     // Reversed depth: 1 at the near plane, 0 infinitely far.
     mat4 world_to_clip;
     mat4 clip_to_world;
@@ -40,7 +43,14 @@ layout(set = 1, binding = 0, std140) uniform View {
     vec3 camera_position;
     // Where the eye is in world space: at the origin, unless there are two.
     vec3 eye_position;
+};
+
+layout(set = 1, binding = 0, std140) uniform View {
+    // The left eye's and the right one's; the same twice where one looks.
+    Sight sight[2];
 } view;
+// That of the eye that is drawn for: `view.world_to_clip`.
+#define view view.sight[eye_index]
 
 layout(set = 1, binding = 1, std430) readonly buffer Lights {
     // Unit vector towards the sun.

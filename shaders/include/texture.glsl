@@ -10,8 +10,10 @@
 //     vec4 texel_of(image, texel, layer, number)      a sample of a texel of a layer; uvec4 of integers
 //     vec4 found_at(image, uv, layer, number)         what lies at a place, 0 to 1 from the upper left corner, filtered as the
 //                                                     pass says; of samples the one of the texel around the place
-//     ivec2 used_of(image, st)                        width and height of the part in use; see part.glsl
-//     vec4 found_in(image, st, uv, layer, number)     what lies at a place of the part in use, 0 to 1 from its upper left corner
+//     ivec2 used_of(image, st)                        width and height of the part that is seen; see part.glsl
+//     vec4 texel_in(image, st, texel, layer, number)  a sample of a texel of that part
+//     vec4 texel_in(image, st, texel)                 the same, of an image without layers or samples
+//     vec4 found_in(image, st, uv, layer, number)     what lies at a place of the part, 0 to 1 from its upper left corner
 //     vec4 found_in(image, st, uv)                    the same, of an image without layers or samples
 //
 // What has no layers or samples ignores their number.
@@ -60,10 +62,14 @@ ivec2 texel_at(vec2 uv, ivec2 extent) {
     FRAMEWRIGHT_PART_OF(COLOR, LAYERED) \
     FRAMEWRIGHT_PART_OF(COLOR, SAMPLED) \
     FRAMEWRIGHT_PART_OF(COLOR, BOTH) \
+    COLOR texel_in(FLAT image, vec4 st, ivec2 texel) { return texel_in(image, st, texel, 0, 0); } \
     COLOR found_in(FLAT image, vec4 st, vec2 uv) { return found_in(image, st, uv, 0, 0); }
 
 #define FRAMEWRIGHT_PART_OF(COLOR, IMAGE) \
     ivec2 used_of(IMAGE image, vec4 st) { return part_extent(extent_of(image), st); } \
+    COLOR texel_in(IMAGE image, vec4 st, ivec2 texel, int layer, int number) { \
+        return texel_of(image, texel + part_origin(extent_of(image), st), layer, number); \
+    } \
     COLOR found_in(IMAGE image, vec4 st, vec2 uv, int layer, int number) { \
         return found_at(image, uv_clamp(uv_adjust(uv, st), st, extent_of(image)), layer, number); \
     }

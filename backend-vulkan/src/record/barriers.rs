@@ -20,7 +20,7 @@ impl Frame<'_> {
             .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
             .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
             .image(self.prepared.physical.image(barrier.image, self.number).raw)
-            .subresource_range(convert::range(barrier.range));
+            .subresource_range(convert::range(crate::physical::part(self.plan.image(barrier.image), barrier.range)));
         match barrier.ownership {
             None => recorded,
             Some([from, to]) => {

@@ -5,12 +5,13 @@ use crate::convert;
 use crate::error::Error;
 use crate::pipeline::LocalRead;
 use crate::prepare::{Scope, Views};
-use crate::prepare_pass::Drawn;
+use crate::prepare_pass::{Drawn, view_mask};
 use crate::recorder::{CullMode, DrawSource, FrontFace, Kept, Recorder, Target};
 use crate::timing::{Counts, Timing};
 use ash::vk;
 use framewright_graph::frame::Draw;
 use framewright_graph::plan::{self, Attachment, RenderScope};
+use framewright_graph::view::EyeForm;
 use framewright_graph::vocabulary::{Aspects, LoadOp};
 
 /// Nothing was made for the frame: [`crate::prepare::Prepared::turn_to`] comes before recording.
@@ -34,10 +35,15 @@ impl Frame<'_> {
         let color: Vec<_> = plan.color.iter().zip(&views.color).map(info).collect();
         let depth = plan.depth.as_ref().zip(views.depth.as_deref()).map(info);
         let stencil = plan.stencil.as_ref().zip(views.stencil.as_deref()).map(info);
-        let [width, height] = plan.extent;
+        let (form, rotation) = (self.plan.eyes(plan), self.plan.rotation(plan));
+        let [width, height, _] = EyeForm::extent(form, [plan.extent[0], plan.extent[1], 1], rotation);
         let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } };
-        let mut rendering =
-            vk::RenderingInfo::default().render_area(area).layer_count(plan.layers).color_attachments(&color);
+        let view_mask = view_mask(self.plan, plan);
+        let mut rendering = vk::RenderingInfo::default()
+            .render_area(area)
+            .layer_count(EyeForm::layers(form, plan.layers))
+            .view_mask(view_mask)
+            .color_attachments(&color);
         if let Some(depth) = &depth {
             rendering = rendering.depth_attachment(depth);
         }
@@ -58,10 +64,11 @@ impl Frame<'_> {
                 if has_local_reads {
                     self.see_attachments(commands, plan.color.len(), made.local.as_ref());
                 }
-                let target = Target { extent: plan.extent, rotation: self.plan.rotation(plan), frame: self.number };
+                let eyes = form.map(|form| (self.plan.stereo, form));
+                let target = Target { extent: plan.extent, rotation, eyes, frame: self.number };
                 self.draw(commands, pass, made, target, source, &mut recorded.kept)
             });
-            timing.stamp(commands);
+            timing.stamp_views(commands, view_mask.count_ones().max(1));
             recorded.counts.push(drawn?);
         }
         // SAFETY: the scope was begun above.

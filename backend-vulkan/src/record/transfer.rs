@@ -5,6 +5,7 @@ use crate::convert::{self, Clear};
 use crate::device::Shared;
 use ash::vk;
 use framewright_graph::plan::{Fill, ImageId, Resource, Side, Subresources, Transfer};
+use framewright_graph::view::EyeForm;
 use framewright_graph::vocabulary::{Aspects, Filter, Layout};
 
 /// One side of a transfer, on the device.
@@ -28,10 +29,11 @@ impl Frame<'_> {
     }
 
     pub(crate) fn image_place(&self, image: ImageId, range: Subresources, extent: [u32; 3], layout: Layout) -> Place {
+        let planned = self.plan.image(image);
         Place::Image {
             image: self.prepared.physical.image(image, self.number).raw,
-            range: crate::physical::part(self.plan.image(image), range),
-            extent: convert::extent(extent),
+            range: crate::physical::part(planned, range),
+            extent: convert::extent(EyeForm::extent(planned.eyes, extent, planned.rotation)),
             layout: convert::layout(layout),
         }
     }

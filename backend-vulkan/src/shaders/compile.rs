@@ -26,7 +26,7 @@ pub(super) enum Stage {
 
 /// Compiles one stage: GLSL 4.60 to SPIR-V for Vulkan 1.3.
 ///
-/// `macros` are names with what they stand for; fragment stages have the macro `FRAMEWRIGHT_FRAGMENT` besides. Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs.
+/// `text` is that of `source`, or made of it; `macros` are names with what they stand for; fragment stages have the macro `FRAMEWRIGHT_FRAGMENT` besides. Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs.
 ///
 /// # Errors
 /// The compiler's messages, each with the file and line that it is about.
@@ -34,6 +34,7 @@ pub(super) fn compile(
     compiler: &Compiler,
     stage: Stage,
     source: &Found,
+    text: &str,
     files: &ShaderFiles,
     macros: &[(String, String)],
 ) -> Result<Vec<u32>, Vec<String>> {
@@ -73,7 +74,7 @@ pub(super) fn compile(
         Stage::Fragment => ShaderKind::Fragment,
         Stage::Compute => ShaderKind::Compute,
     };
-    match compiler.compile_into_spirv(&source.text, kind, &source.shown, "main", Some(&options)) {
+    match compiler.compile_into_spirv(text, kind, &source.shown, "main", Some(&options)) {
         Ok(artifact) => Ok(artifact.as_binary().to_vec()),
         Err(shaderc::Error::CompilationError(_, text)) => Err(lines(&text)),
         Err(error) => Err(vec![format!("{}: {error}", source.shown)]),

@@ -1,15 +1,19 @@
 //! Shaders by name, for a kind of draw.
 
 use super::compile::{Stage, compile};
+use super::eyes::{BothEyes, EYE};
 use super::files::{Found, ShaderFiles};
+use super::layers;
 use super::reflect::{StageInterface, reflect};
 use framewright_graph::file_path::FilePath;
 use framewright_graph::frame::Draw;
 use framewright_graph::interface::{
-    BindingKind, DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
+    BindingKind, DrawInterface, EyeSource, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
 };
 use framewright_graph::root::{NoFile, Root};
+use framewright_graph::view::{Eye, EyeForm};
 use shaderc::Compiler;
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
@@ -76,8 +80,8 @@ struct Source {
     mentioned: Mentioned,
 }
 
-/// A stage by its file and macros.
-type StageKey = (String, Stage, Macros);
+/// A stage by its file, its macros, how it draws for both eyes, and what it samples in layers.
+type StageKey = (String, Stage, Macros, Option<BothEyes>, Vec<String>);
 
 /// Macros and what they stand for.
 type Macros = Vec<(String, String)>;
@@ -127,7 +131,7 @@ impl ShaderLibrary {
         let (vertex, usual_vertices) = match self.stage(format!("{name}.vert"), Stage::Vertex, &own)? {
             Some(own) if own.shipped == fragment.shipped => (own, false),
             _ => {
-                let usual = self.usual_vertex_stage(name, draw)?;
+                let usual = self.usual_vertex_stage(name, draw, variant)?;
                 let shipped = usual.shipped;
                 (usual, shipped)
             }
@@ -158,25 +162,32 @@ impl ShaderLibrary {
     }
 
     /// The vertex stage of a kind of draw, for the shader `name`, which has none of its own.
-    fn usual_vertex_stage(&mut self, name: &str, draw: Draw) -> Result<Arc<CompiledStage>, ShaderProblem> {
+    fn usual_vertex_stage(
+        &mut self,
+        name: &str,
+        draw: Draw,
+        variant: &Variant,
+    ) -> Result<Arc<CompiledStage>, ShaderProblem> {
         let file = vertex_shader_of(draw);
         let what = || format!("no vertex shader: neither `{name}.vert` nor `{file}` was found");
         let usual = match FilePath::of_text(name) {
             FilePath::Own(_) => FilePath::Own(file.into()),
             FilePath::Shipped(_) => FilePath::Shipped(file.into()),
         };
-        let stage = self.stage(usual.to_string(), Stage::Vertex, &Variant::default())?;
+        let bare = Variant { eye: variant.eye, form: variant.form, ..Variant::default() };
+        let stage = self.stage(usual.to_string(), Stage::Vertex, &bare)?;
         stage.ok_or_else(|| ShaderProblem::Unsupported { what: what() })
     }
 
     /// One stage by its file name; `None` if there is no such file.
     fn stage(&mut self, file: String, stage: Stage, variant: &Variant) -> StageResult {
         let Some(source) = self.source(&file)? else { return Ok(None) };
-        let key = (file, stage, macros(&source.mentioned, variant));
+        let both = both_eyes(variant);
+        let key = (file, stage, macros(&source.mentioned, variant, stage), both, in_layers(variant, stage));
         if let Some(known) = self.stages.get(&key) {
             return known.clone();
         }
-        let result = self.compile_stage(&source, stage, &key.2);
+        let result = self.compile_stage(&source, &key);
         self.stages.insert(key, result.clone());
         result
     }
@@ -196,18 +207,24 @@ impl ShaderLibrary {
         source
     }
 
-    fn compile_stage(&mut self, source: &Source, stage: Stage, macros: &Macros) -> StageResult {
+    fn compile_stage(&mut self, source: &Source, key: &StageKey) -> StageResult {
         let Source { found, mentioned } = source;
+        let (_, stage, macros, both, in_layers) = key;
+        let stage = *stage;
         let compiler = match &mut self.compiler {
             Some(compiler) => compiler,
             none => none.insert(Compiler::new().map_err(|error| ShaderProblem::Unsupported {
                 what: format!("the shader compiler doesn't start: {error}"),
             })?),
         };
-        let spirv = compile(compiler, stage, found, &self.files, macros)
+        let text = both.map_or_else(|| Cow::Borrowed(&*found.text), |both| both.around(&found.text, stage).into());
+        let spirv = compile(compiler, stage, found, &text, &self.files, macros)
             .map_err(|messages| ShaderProblem::DoesNotCompile { messages })?;
-        let mut reflected = reflect(stage, &spirv, macros.iter().any(|(name, _)| name == PARTS))
-            .map_err(|what| ShaderProblem::Unsupported { what: format!("{}: {what}", found.shown) })?;
+        let unsupported = |what| ShaderProblem::Unsupported { what: format!("{}: {what}", found.shown) };
+        let parts = macros.iter().any(|(name, _)| name == PARTS);
+        let mut reflected = reflect(stage, &spirv, parts, both.is_some()).map_err(unsupported)?;
+        let names: Vec<&str> = in_layers.iter().map(String::as_str).collect();
+        let spirv = if names.is_empty() { spirv } else { layers::by_eye(&spirv, &names).map_err(unsupported)? };
         for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
             let sampled = matches!(binding.kind, BindingKind::SampledImage(_));
             binding.adapts = sampled && mentioned.adapting.contains(&binding.name);
@@ -271,8 +288,22 @@ fn changes_nothing(fragment: &ShaderInterface) -> bool {
     !fragment.discards && !fragment.writes_depth && !fragment.bindings.iter().any(|binding| writes(&binding.kind))
 }
 
+/// How a variant draws for both eyes at once, if it does.
+fn both_eyes(variant: &Variant) -> Option<BothEyes> {
+    Some(BothEyes { source: variant.eye?, form: variant.form? })
+}
+
+/// What a variant samples in the layer of the eye that is drawn for.
+fn in_layers(variant: &Variant, stage: Stage) -> Vec<String> {
+    if stage == Stage::Compute {
+        return Vec::new();
+    }
+    let own = variant.eyes.iter().filter(|(_, form, eye)| *form == EyeForm::Layers && eye.is_none());
+    own.map(|(name, ..)| name.to_string()).collect()
+}
+
 /// What the macros that depend on a pass stand for in a stage whose file mentions such names.
-fn macros(mentioned: &Mentioned, variant: &Variant) -> Macros {
+fn macros(mentioned: &Mentioned, variant: &Variant, stage: Stage) -> Macros {
     let textures = mentioned.adapting.iter().map(|name| {
         let given = variant.textures.iter().find(|(given, _)| **given == **name);
         let texture = given.map_or_else(|| "sampler2D".to_owned(), |(_, texture)| texture.to_string());
@@ -285,12 +316,30 @@ fn macros(mentioned: &Mentioned, variant: &Variant) -> Macros {
     let covers = variant.alpha_to_coverage.then(|| ("ALPHA_TO_COVERAGE".to_owned(), String::new()));
     let place = |name: &String| variant.parts.iter().position(|part| **part == **name);
     let parts = mentioned.parts.iter().map(|name| {
-        let part = place(name).map_or_else(|| WHOLE.to_owned(), |at| format!("framewright_parts.st[{at}]"));
+        let part = place(name).map(|at| format!("framewright_parts.st[{at}]"));
+        let halves = variant.eyes.iter().find(|(known, form, _)| **known == **name && *form == EyeForm::Halves);
+        let part = match (part, halves) {
+            (Some(part), None) => part,
+            (None, None) => WHOLE.to_owned(),
+            (part, Some((_, _, eye))) => half(&part.unwrap_or_else(|| LEFT_HALF.to_owned()), *eye),
+        };
         (format!("{name}{PART}"), part)
     });
     let in_part = mentioned.parts.iter().any(|name| place(name).is_some());
     let count = in_part.then(|| (PARTS.to_owned(), variant.parts.len().to_string()));
-    textures.chain(sampled).chain(local).chain(depth_only).chain(covers).chain(parts).chain(count).collect()
+    let one = match variant.eye {
+        Some(EyeSource::One(Eye::Right)) if mentioned.eye => Some(("eye_index".to_owned(), "1".to_owned())),
+        _ => None,
+    };
+    let both = both_eyes(variant).into_iter().flat_map(|both| both.macros(stage));
+    let own = textures.chain(sampled).chain(local).chain(depth_only).chain(covers).chain(parts).chain(count);
+    own.chain(one).chain(both).collect()
+}
+
+/// The part that one eye has of what is used in halves, of which the left one's is `left`.
+fn half(left: &str, eye: Option<Eye>) -> String {
+    let eye = eye.map_or_else(|| format!("float({EYE})"), |eye| format!("{}.0", eye as u32));
+    format!("({left} + vec4(0.0, 0.0, {left}.x * {eye}, 0.0))")
 }
 
 /// Macros of this beginning stand for the types of what a pass samples.
@@ -305,6 +354,9 @@ const PART: &str = "_st";
 /// What they stand for where all of it is used.
 const WHOLE: &str = "vec4(1.0, 1.0, 0.0, 0.0)";
 
+/// And for the left eye where both eyes' parts lie side by side.
+const LEFT_HALF: &str = "vec4(0.5, 1.0, 0.0, 0.0)";
+
 /// The macro that says how many parts push constants tell of, if they tell of any.
 const PARTS: &str = "FRAMEWRIGHT_PARTS";
 
@@ -314,6 +366,8 @@ struct Mentioned {
     adapting: Vec<String>,
     optional: Vec<String>,
     parts: Vec<String>,
+    /// Whether it asks which eye it draws for.
+    eye: bool,
 }
 
 impl Mentioned {
@@ -328,7 +382,8 @@ impl Mentioned {
             |beginning: &str| words.iter().filter_map(|word| word.strip_prefix(beginning)).map(str::to_owned).collect();
         let parts = words.iter().filter_map(|word| word.strip_suffix(PART));
         let parts = parts.filter(|name| sampled.contains(name)).map(str::to_owned).collect();
-        Mentioned { adapting: behind(TEXTURE), optional: behind(HAS), parts }
+        let eye = words.contains("eye_index");
+        Mentioned { adapting: behind(TEXTURE), optional: behind(HAS), parts, eye }
     }
 }
 

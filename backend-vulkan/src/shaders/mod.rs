@@ -3,7 +3,9 @@
 mod alpha;
 mod bindings;
 mod compile;
+mod eyes;
 mod files;
+mod layers;
 mod library;
 mod module;
 mod reflect;

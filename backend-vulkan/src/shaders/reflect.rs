@@ -51,6 +51,10 @@ const CAPABILITIES: [Capability; 14] = [
     Capability::ImageCubeArray,
 ];
 
+/// What shaders need besides that draw for both eyes at once.
+const FOR_BOTH_EYES: [Capability; 4] =
+    [Capability::MultiView, Capability::ClipDistance, Capability::ShaderLayer, Capability::ShaderViewportIndexLayerEXT];
+
 /// Locations between stages and of vertex attributes are below these: Vulkan promises no more to all. The compiler itself
 /// limits those of colour outputs.
 const VARYINGS: u32 = 15;
@@ -63,17 +67,18 @@ const OWN_BYTES: u64 = 64 << 10;
 /// Bytes that the invocations of a workgroup share: Vulkan promises no more to all.
 const SHARED_BYTES: u64 = 16 << 10;
 
-/// Reads the interface of `stage` off `spirv`. `in_part`: it is told which parts of images are in use.
+/// Reads the interface of `stage` off `spirv`. `in_part`: it is told which parts of images are in use; `both_eyes`: it was made to
+/// draw for both eyes at once, for a device that can.
 ///
 /// # Errors
 /// In words: what it uses that can't be bound.
-pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool) -> Result<StageInterface, String> {
+pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool, both_eyes: bool) -> Result<StageInterface, String> {
     let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
     let module = Indexed::new(&module);
     let used: HashSet<u32> =
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
     let fragment = stage == Stage::Fragment;
-    check_capabilities(&module)?;
+    check_capabilities(&module, both_eyes)?;
     check_own_memory(&module)?;
     check_shared_memory(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
@@ -157,12 +162,13 @@ fn check_shared_memory(module: &Indexed<'_>) -> Result<(), String> {
 }
 
 /// Nothing that a device of the minimum may lack, unless it is refused elsewhere.
-fn check_capabilities(module: &Indexed<'_>) -> Result<(), String> {
+fn check_capabilities(module: &Indexed<'_>, both_eyes: bool) -> Result<(), String> {
     let needed = module.module.capabilities.iter().filter_map(|it| match it.operands.first() {
         Some(Operand::Capability(capability)) => Some(*capability),
         _ => None,
     });
-    match needed.into_iter().find(|it| !CAPABILITIES.contains(it)) {
+    let allowed = |it: &Capability| CAPABILITIES.contains(it) || both_eyes && FOR_BOTH_EYES.contains(it);
+    match needed.into_iter().find(|it| !allowed(it)) {
         Some(capability) => Err(format!("SPIR-V's capability {capability:?}: not every device has it")),
         None => Ok(()),
     }

@@ -5,6 +5,7 @@ use super::identity::{self, Identity};
 use super::shaders::Shared;
 use super::space::Choice;
 use crate::planning::View;
+use crate::values::Modes;
 use framewright_graph::compile::{Compiler, Options};
 use framewright_graph::describe::{Diagnostic, Document};
 use framewright_graph::device::{Estimated, Profile};
@@ -31,7 +32,7 @@ pub(crate) struct Subject<'a> {
     /// How Plans are made.
     pub(crate) options: Options,
     /// How frames are drawn for two eyes.
-    pub(crate) stereo: Stereo,
+    pub(crate) stereo: Modes,
 }
 
 /// What one thread judges variants with.
@@ -82,7 +83,10 @@ impl<'a> Judge<'a> {
     }
 
     fn frame(&mut self, choice: &Choice) -> Made {
-        let same_for_all = usize::from(!self.subject.pipeline.asks_device());
+        // What both eyes have of their own lies in one image or another, by what the device can do.
+        let by_device =
+            self.subject.pipeline.asks_device() || self.subject.stereo.0.iter().any(|it| *it > Stereo::MultiPass);
+        let same_for_all = usize::from(!by_device);
         let without_device = &choice[..choice.len().saturating_sub(same_for_all)];
         match &self.last {
             Some((last, frame)) if last == without_device => frame.clone(),
@@ -96,6 +100,9 @@ impl<'a> Judge<'a> {
 
     fn expand(&mut self, choice: &Choice) -> Result<Frame, Vec<Diagnostic>> {
         let Subject { pipeline, sources, view, axes, .. } = self.subject;
+        let device = self.subject.devices.get(axes::device(choice)).map(|device| &**device);
+        let stereo = device.map_or(Ok(Stereo::Off), |device| Stereo::first_fit(&self.subject.stereo.0, device));
+        let stereo = stereo.map_err(|why| vec![Diagnostic { message: why, labels: Vec::new(), help: None }])?;
         let inputs = Inputs {
             set: &axes.settings(choice),
             facts: axes.facts(choice),
@@ -103,8 +110,8 @@ impl<'a> Judge<'a> {
             output_extent: [view.size.width, view.size.height],
             rotation: view.rotation,
             dump: view.dump,
-            stereo: self.subject.stereo,
-            device: self.subject.devices.get(axes::device(choice)).map(|device| &**device),
+            stereo,
+            device,
         };
         expand::expand(pipeline, Arc::clone(sources), &inputs, &mut self.shaders)
     }

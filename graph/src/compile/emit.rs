@@ -118,6 +118,7 @@ pub(super) fn emit(parts: &Parts<'_>, (images, buffers): Resources) -> Plan {
         device: DeviceUsed { name: parts.device.name.clone(), exact_memory: parts.exact_memory },
         settings: settings(parts),
         changes: changes(parts),
+        stereo: parts.frame.stereo,
         views: views(parts),
         images,
         buffers,
@@ -195,12 +196,12 @@ pub(super) fn resources(frame: &Frame, structure: &Structure, settled: &Settled)
     let stores = adapted.stores.iter().zip(0_u32..).zip(states).zip(&settled.placed.placements);
     for (((store, at), states), placement) in stores {
         let name = store_name(frame, adapted, at).clone();
-        let (span, rotation) = match store.of {
+        let (span, rotation, eyes) = match store.of {
             Declared::Image(image) => {
                 let declared = &frame.images[image.0 as usize];
-                (declared.span, declared.rotation)
+                (declared.span, declared.rotation, declared.eyes)
             }
-            Declared::Buffer(buffer) => (frame.buffers[buffer.0 as usize].span, Rotation::Identity),
+            Declared::Buffer(buffer) => (frame.buffers[buffer.0 as usize].span, Rotation::Identity, None),
         };
         let cause = match &store.inserted {
             Some(why) => Cause::Inserted(why.clone()),
@@ -218,6 +219,7 @@ pub(super) fn resources(frame: &Frame, structure: &Structure, settled: &Settled)
                 extent: image.extent,
                 room: adapted.room(at),
                 rotation,
+                eyes,
                 mips: image.mips,
                 layers: image.layers,
                 samples: image.samples,

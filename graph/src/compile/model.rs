@@ -3,9 +3,10 @@
 use super::parts::{Grid, Grids};
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::format::Format;
-use crate::frame::{Frame, ImageIndex, Resource};
+use crate::frame::{Frame, ImageIndex, Resource, with_room};
 use crate::plan::{Inserted, Note, Subresources};
-use crate::view::ViewIndex;
+use crate::rotation::Rotation;
+use crate::view::{EyeForm, ViewIndex};
 use crate::vocabulary::{Accesses, FillValue, Filter, Layout, ResolveMode, Stages, State, Usage};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -111,6 +112,8 @@ pub(super) struct Adapted {
     pub(super) notes: Vec<Note>,
     /// Width and height that images are made with whose size may change.
     pub(super) rooms: HashMap<StoreIndex, [u32; 2]>,
+    /// How images hold both eyes' parts, and how they are turned.
+    pub(super) eyes: HashMap<StoreIndex, (EyeForm, Rotation)>,
 }
 
 impl Adapted {
@@ -128,6 +131,22 @@ impl Adapted {
     pub(super) fn room(&self, store: StoreIndex) -> Option<[u32; 2]> {
         // Few frames have any.
         if self.rooms.is_empty() { None } else { self.rooms.get(&store).copied() }
+    }
+
+    /// How a physical image holds both eyes' parts, if it does.
+    pub(super) fn eyes(&self, store: StoreIndex) -> Option<EyeForm> {
+        if self.eyes.is_empty() { None } else { self.eyes.get(&store).map(|(form, _)| *form) }
+    }
+
+    /// What a physical image is made as.
+    pub(super) fn made(&self, store: StoreIndex, image: &ImageDescriptor) -> ImageDescriptor {
+        let extent = with_room(image.extent, self.room(store));
+        let Some((form, rotation)) = self.eyes.get(&store).filter(|_| !self.eyes.is_empty()).copied() else {
+            return ImageDescriptor { extent, ..*image };
+        };
+        let (extent, layers) =
+            (EyeForm::extent(Some(form), extent, rotation), EyeForm::layers(Some(form), image.layers));
+        ImageDescriptor { extent, layers, ..*image }
     }
 
     /// The uses of operation number `op`.

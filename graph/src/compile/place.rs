@@ -7,7 +7,6 @@ use super::synchronise::NEVER;
 use crate::describe::Diagnostic;
 use crate::device::{ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
 use crate::format::Format;
-use crate::frame::with_room;
 use crate::plan::{Heap, Placement, StepId};
 use crate::source::Span;
 use crate::vocabulary::Usage;
@@ -95,7 +94,7 @@ pub(super) fn place(
         }
         let (needs, lazily) = match &store.kind {
             Kind::Image(image) => {
-                let made = ImageDescriptor { extent: with_room(image.extent, adapted.room(at)), ..*image };
+                let made = adapted.made(at, image);
                 let transient = image.usage.contains(Usage::TRANSIENT_ATTACHMENT);
                 let needs = match last_needs {
                     Some((of, needs)) if of == made => needs,

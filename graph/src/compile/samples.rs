@@ -117,7 +117,7 @@ pub(super) fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
     let mut add = |image: ImageIndex, used: Usage| usage[image.0 as usize] |= used;
     let shape = |image: ImageIndex| {
         let image = &frame.images[image.0 as usize];
-        (image.format, image.extent, image.room)
+        (image.format, image.extent, image.room, image.eyes)
     };
     pass.sampled.iter().for_each(|sampled| add(sampled.image, Usage::SAMPLED));
     pass.storage.iter().for_each(|storage| add(storage.image, Usage::STORAGE));
@@ -162,13 +162,13 @@ fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
         let image = &frame.images[image.0 as usize];
         let part = parts::resolve(image, range);
         let size = image.extent.map(|side| (side >> part.base_mip.min(31)).max(1));
-        (size, image.room, part.layers, image.samples)
+        (size, image.room, image.eyes, part.layers, image.samples)
     };
     let mut attached = attachments(pass);
     let first = attached.next()?;
     let other = attached.find(|other| shape(*other) != shape(first))?;
     let words = |part| {
-        let ([width, height, _], room, layers, samples) = shape(part);
+        let ([width, height, _], room, _, layers, samples) = shape(part);
         let room = room.map_or_else(String::new, |[width, height]| format!(" of up to {width}×{height}"));
         let layers = if layers == 1 { String::new() } else { format!(", {layers} layers") };
         format!("{width}×{height}{room}{layers} with {samples} samples")
@@ -202,8 +202,9 @@ fn check_support(declared: &Image, used: Usage, supports: &Supports<'_>, errors:
         let help = format!("`{}` has images from {least} to {limit}", device.name);
         errors.push(Diagnostic::new(declared.span, message).help(help));
     }
-    if declared.layers > device.max_layers {
-        let message = format!("`{}` has {} layers", declared.name, declared.layers);
+    let layers = declared.made_layers();
+    if layers > device.max_layers {
+        let message = format!("`{}` has {layers} layers", declared.name);
         let help = format!("`{}` has images of up to {} layers", device.name, device.max_layers);
         errors.push(Diagnostic::new(declared.span, message).help(help));
     }

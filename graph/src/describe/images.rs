@@ -175,6 +175,7 @@ pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &Image
         layers: layers?,
         shape: shape?,
         lifetime: lifetime?,
+        eyes: None,
         per_eye: match per_eye {
             Some(per_eye) => Some(per_eye?),
             None => None,

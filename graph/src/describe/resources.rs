@@ -5,7 +5,7 @@ use crate::format;
 use crate::frame::ResolveWay;
 use crate::source::Span;
 use crate::texture::TextureFile;
-use crate::view::ViewIndex;
+use crate::view::{EyeForm, ViewIndex};
 use crate::vocabulary;
 use std::sync::Arc;
 
@@ -36,6 +36,8 @@ pub struct Image {
     pub lifetime: Spanned<Lifetime>,
     /// Whether each eye has one of its own, if the file says so; `None`: as the image whose size it follows, else not.
     pub per_eye: Option<Spanned<bool>>,
+    /// How it holds both eyes' parts, if it does; no file says it.
+    pub eyes: Option<EyeForm>,
     /// The view whose size `Output` and plain factors mean.
     pub view: ViewIndex,
     /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).

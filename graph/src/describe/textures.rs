@@ -154,6 +154,7 @@ fn image(
         shape: fields.shape.unwrap_or(from).spanned(shape),
         lifetime: from.spanned(Lifetime::File(Arc::clone(file))),
         per_eye: Some(Spanned { value: false, span }),
+        eyes: None,
         view: ViewIndex::default(),
         instance: None,
     }

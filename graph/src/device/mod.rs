@@ -46,6 +46,15 @@ pub struct Profile {
     /// (`VK_KHR_dynamic_rendering_local_read`).
     #[serde(default)]
     pub local_read: bool,
+    /// Most views that a rendering scope draws at once (`maxMultiviewViewCount`).
+    #[serde(default = "least_views", deserialize_with = "sound::views")]
+    pub max_multiview_views: u32,
+    /// Whether vertex shaders can choose the layer that they draw into (`shaderOutputLayer`).
+    #[serde(default)]
+    pub vertex_layer: bool,
+    /// Most clip distances of a shader; 0 if it has none (`shaderClipDistance`).
+    #[serde(default)]
+    pub max_clip_distances: u32,
     /// How depth can be resolved by the rendering scope that draws it, as far as the device does what it says.
     #[serde(default = "least_depth_resolve")]
     pub depth_resolve: Vec<ResolveMode>,
@@ -74,6 +83,11 @@ const fn least_extent_3d() -> u32 {
 /// The least that Vulkan demands.
 const fn least_layers() -> u32 {
     256
+}
+
+/// The least that Vulkan demands.
+const fn least_views() -> u32 {
+    6
 }
 
 /// The least that Vulkan demands.

@@ -28,6 +28,11 @@ pub(super) fn attachments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<
     within(deserializer, 1, 64)
 }
 
+/// A number of views.
+pub(super) fn views<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
+    within(deserializer, 1, 32)
+}
+
 fn within<'de, D: Deserializer<'de>>(deserializer: D, least: u32, most: u32) -> Result<u32, D::Error> {
     match u32::deserialize(deserializer)? {
         value if (least..=most).contains(&value) => Ok(value),

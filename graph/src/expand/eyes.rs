@@ -1,17 +1,20 @@
 //! A pipeline is taken apart for two eyes: what each has of its own is there twice, and so is every pass that draws into it.
 //!
 //! A pass that draws into what each eye has of its own runs for each of them, and reads and writes what is that eye's. All others
-//! run once. What can't be is a mistake where the frame is drawn for two eyes, and a remark where it is drawn for one.
+//! run once. What can't be is a mistake where the frame is drawn for two eyes, and a remark where it is drawn for one. In modes
+//! that draw both eyes at once images hold both eyes' parts where they can, and passes run once for both (`at_once`).
+
+mod at_once;
 
 use crate::describe::{
-    self, Diagnostic, Draw, Forward, Groups, ImagePart, ImageRef, Name, Output, Part, Pass, Pipeline, Size, StandIn,
-    StorageAccess, View, Work,
+    self, Diagnostic, Draw, Forward, Groups, ImagePart, ImageRef, Name, Output, Part, Pass, Pipeline, Size, Spanned,
+    StandIn, StorageAccess, View, Work,
 };
 use crate::frame::{ImageIndex, Remark, Resource};
 use crate::source::Span;
-use crate::view::{Allowances, Eye, Stereo, ViewEye, ViewIndex};
+use crate::view::{Allowances, Eye, EyeForm, Stereo, ViewEye, ViewIndex};
+use at_once::Apart;
 use std::collections::HashSet;
-use std::sync::Arc;
 
 /// For whom a pass runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,15 +31,17 @@ enum For {
 struct Images {
     /// By image, whether each eye has its own.
     own: Vec<bool>,
-    /// By image, that of the right eye; the left eye's has kept its place.
+    /// By image, that of the right eye; the left eye's has kept its place. Where one image holds both eyes' parts it is the same.
     right: Vec<ImageIndex>,
+    /// By image, whether it holds both eyes' parts.
+    both: Vec<bool>,
 }
 
-/// Takes `pipeline` apart for the eyes that `stereo` asks for, and says what is allowed and probably not meant. `extent` is the
-/// frame's width and height.
+/// Takes `pipeline` apart for the eyes that `stereo` asks for, and says what is allowed and probably not meant. `form` is how
+/// images hold both eyes' parts, `extent` the frame's width and height.
 pub(super) fn split(
     mut pipeline: Pipeline,
-    stereo: Stereo,
+    (stereo, form): (Stereo, Option<EyeForm>),
     extent: [u32; 2],
     errors: &mut Vec<Diagnostic>,
 ) -> (Pipeline, Vec<Remark>) {
@@ -61,25 +66,42 @@ pub(super) fn split(
         found
     };
     let whose: Vec<For> = pipeline.passes.iter_mut().map(&mut of_pass).collect();
-    let remarks = [for_one, remarks(&own, &pipeline, &whose)].concat();
+    let mut remarks = [for_one, remarks(&own, &pipeline, &whose)].concat();
     if stereo == Stereo::Off || !own.contains(&true) || errors.len() > before {
         return (pipeline, remarks);
     }
+    let apart = form.map(|form| Apart::of(&pipeline, &own, &whose, stereo, form));
+    remarks.extend(apart.iter().flat_map(|apart| images_apart(apart, &pipeline)));
+    let at_once = |pass: &Pass| apart.as_ref().is_some_and(|apart| apart.at_once(pass, &own, stereo));
+    let at_once: Vec<bool> = pipeline.passes.iter().map(at_once).collect();
     let views = views(&mut pipeline, extent);
-    let images = images(&mut pipeline, own);
+    let both =
+        own.iter().zip(0..).map(|(own, at)| *own && apart.as_ref().is_some_and(|apart| apart.is_one(ImageIndex(at))));
+    let images = images(&mut pipeline, both.collect(), own, form);
     let passes = std::mem::take(&mut pipeline.passes);
     pipeline.passes = passes
         .into_iter()
-        .zip(whose)
+        .zip(whose.into_iter().zip(at_once))
         .flat_map(|(pass, whose)| match whose {
-            For::Both => vec![of_eye(&images, &views, pass, None, false)],
-            For::One(eye) => vec![of_eye(&images, &views, pass, Some(eye), false)],
-            For::Each => Eye::BOTH.map(|eye| of_eye(&images, &views, pass.clone(), Some(eye), true)).into(),
+            (For::Each, true) | (For::Both, _) => vec![of_eye(&images, &views, pass, None, false)],
+            (For::One(eye), _) => vec![of_eye(&images, &views, pass, Some(eye), false)],
+            (For::Each, false) => Eye::BOTH.map(|eye| of_eye(&images, &views, pass.clone(), Some(eye), true)).into(),
         })
         .collect();
     let outputs = std::mem::take(&mut pipeline.outputs);
     pipeline.outputs = outputs.into_iter().flat_map(|output| images.output(output)).collect();
     (pipeline, remarks)
+}
+
+/// Images that are one for each eye where both are drawn at once, and why.
+fn images_apart(apart: &Apart, pipeline: &Pipeline) -> Vec<Remark> {
+    let images = pipeline.images.iter().enumerate();
+    let remark = |(at, image): (usize, &describe::Image)| {
+        let why = apart.why(at)?;
+        let text = format!("is drawn for one eye after the other: {why}");
+        Some(Remark { subject: image.name.text.clone(), span: image.name.span, text })
+    };
+    images.filter_map(remark).collect()
 }
 
 /// Passes that draw what a camera sees into what both eyes share, where passes for each eye look it up: nothing forbids it, and
@@ -254,7 +276,7 @@ fn views(pipeline: &mut Pipeline, extent: [u32; 2]) -> Vec<[ViewIndex; 2]> {
     let mut added = |of: usize, eye: Eye| {
         let at = index(pipeline.views.len());
         let mut view = pipeline.views[of].clone();
-        view.name.text = named(&view.name.text, eye);
+        view.name.text = eye.named(&view.name.text);
         view.eye = Some(ViewEye { eye, of: ViewIndex(index(of)) });
         pipeline.views.push(view);
         ViewIndex(at)
@@ -262,23 +284,22 @@ fn views(pipeline: &mut Pipeline, extent: [u32; 2]) -> Vec<[ViewIndex; 2]> {
     (0..count).map(|of| Eye::BOTH.map(|eye| added(of, eye))).collect()
 }
 
-/// Makes what each eye has of its own twice.
-fn images(pipeline: &mut Pipeline, own: Vec<bool>) -> Images {
+/// Makes what each eye has of its own twice, or for both.
+fn images(pipeline: &mut Pipeline, both: Vec<bool>, own: Vec<bool>, form: Option<EyeForm>) -> Images {
     let mut right: Vec<ImageIndex> = (0..own.len()).map(|at| ImageIndex(index(at))).collect();
     for (at, _) in own.iter().enumerate().filter(|(_, own)| **own) {
+        if both[at] {
+            pipeline.images[at].eyes = form;
+            continue;
+        }
         let mut image = pipeline.images[at].clone();
         right[at] = ImageIndex(index(pipeline.images.len()));
-        image.name.text = named(&image.name.text, Eye::Right);
+        image.name.text = Eye::Right.named(&image.name.text);
         pipeline.images.push(image);
         let left = &mut pipeline.images[at].name.text;
-        *left = named(left, Eye::Left);
+        *left = Eye::Left.named(left);
     }
-    Images { own, right }
-}
-
-/// What is one eye's of something has the eye in its name.
-pub(super) fn named(name: &str, eye: Eye) -> Arc<str> {
-    format!("{name} ({})", eye.name()).into()
+    Images { own, right, both }
 }
 
 /// No pipeline has as many images or views as don't fit.
@@ -297,7 +318,7 @@ impl Images {
     /// What leaves the frame, of each eye if each has its own.
     fn output(&self, output: Output) -> Vec<Output> {
         match output.resource.resource {
-            Resource::Image(image) if self.own[image.0 as usize] => {
+            Resource::Image(image) if self.own[image.0 as usize] && !self.both[image.0 as usize] => {
                 let right = describe::ResourceRef {
                     resource: Resource::Image(self.right[image.0 as usize]),
                     ..output.resource
@@ -316,6 +337,10 @@ impl Images {
 fn of_eye(images: &Images, views: &[[ViewIndex; 2]], mut pass: Pass, eye: Option<Eye>, twice: bool) -> Pass {
     visit(&mut pass, &mut |part, _| {
         let eye = part.eye.map(|eye| eye.value).or(eye);
+        // Of one for both it is the part that counts.
+        if images.both[part.image.index.0 as usize] {
+            part.eye = eye.map(|value| Spanned { value, span: part.image.span });
+        }
         images.of(eye, &mut part.image);
     });
     for stand_in in &mut pass.otherwise {
@@ -330,7 +355,7 @@ fn of_eye(images: &Images, views: &[[ViewIndex; 2]], mut pass: Pass, eye: Option
     if let Some(eye) = eye {
         pass.view = views[pass.view.0 as usize][eye as usize];
         if twice {
-            pass.name.text = named(&pass.name.text, eye);
+            pass.name.text = eye.named(&pass.name.text);
         }
     }
     pass

@@ -69,7 +69,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
     all.map(|(((((described, format), area), samples), layers), mips)| {
         let (describe::Area { extent: [width, height], room }, (samples, samples_because)) = (area?, samples?);
         let plain = Image::new(&described.name.text, format?, width, height);
-        let image = Image { span: described.name.span, samples, room, ..plain };
+        let image = Image { span: described.name.span, samples, room, eyes: described.eyes, ..plain };
         let image = Image { resolve: asked(described, &image, policy, errors)?, ..image };
         let image = shapes::shaped(described, image, layers?, mips?, errors)?;
         Some(Resolved { image, samples_because })

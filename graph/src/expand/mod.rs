@@ -148,7 +148,9 @@ fn expand_so(
             return Err(errors);
         }
     };
-    let (pipeline, shared) = eyes::split(pipeline, inputs.stereo, inputs.output_extent, &mut errors);
+    let stereo = inputs.stereo;
+    let (pipeline, shared) =
+        eyes::split(pipeline, (stereo, stereo.form(inputs.device)), inputs.output_extent, &mut errors);
     let chosen = Chosen { pipeline: &pipeline, extent: inputs.output_extent };
     let mut said = once::Said::default();
     let mut things = Things::resolve(&chosen, &mut errors);
@@ -198,7 +200,19 @@ fn expand_so(
             let changes = document.changes().to_vec();
             let views = pipeline.views.iter().map(view).collect();
             let remarks = [shared, views::remarks(&chosen), kept].concat();
-            Ok(Frame { sources, settings, changes, views, images, buffers, passes, outputs, switched_off, remarks })
+            Ok(Frame {
+                sources,
+                settings,
+                changes,
+                stereo,
+                views,
+                images,
+                buffers,
+                passes,
+                outputs,
+                switched_off,
+                remarks,
+            })
         }
         _ => {
             document.tell_origins(&mut errors);
@@ -278,7 +292,7 @@ fn encoded(
 /// Adds images that are dumped.
 fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, errors: &mut Vec<Diagnostic>) {
     for name in dump {
-        let of_eyes = Eye::BOTH.map(|eye| eyes::named(name, eye));
+        let of_eyes = Eye::BOTH.map(|eye| eye.named(name));
         let is_it = |image: &describe::Image| *image.name.text == **name || of_eyes.contains(&image.name.text);
         let found: Vec<(usize, Option<Eye>)> = (0..)
             .zip(&pipeline.images)

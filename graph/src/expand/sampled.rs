@@ -78,6 +78,7 @@ pub(super) fn lower(
         range,
         frames_ago: sample.part.previous.map_or(0, |previous| previous.value),
         span: sample.part.image.span,
+        eye: sample.part.eye.filter(|_| image.eyes.is_some()).map(|eye| eye.value),
         face,
         texture,
         own_pixel: sample.own_pixel.map_or(input, |own| own.value),

@@ -5,7 +5,7 @@
 
 use crate::change::Change;
 use crate::source::{Sources, Span};
-use crate::view::View;
+use crate::view::{Stereo, View};
 use std::sync::Arc;
 
 mod output;
@@ -47,6 +47,8 @@ pub struct Frame {
     pub settings: Vec<(Arc<str>, String)>,
     /// What files did to the pipeline that they extend, in the order in which they did it.
     pub changes: Vec<Change>,
+    /// How it is drawn for two eyes: what passes do that draw into images that hold both eyes' parts.
+    pub stereo: Stereo,
     /// The views, the main one first. None: one that is the scene's default camera's.
     pub views: Vec<View>,
     /// The images that passes name.

@@ -4,6 +4,7 @@ use crate::format::Format;
 use crate::rotation::Rotation;
 use crate::source::Span;
 use crate::texture::TextureFile;
+use crate::view::EyeForm;
 use crate::vocabulary::{FillValue, ResolveMode, State};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -28,6 +29,10 @@ pub struct Image {
     /// By how much what it holds is turned; `extent` and `room` are those of the turned picture then. The compiler turns
     /// images for [`Output::rotation`](super::Output::rotation): in frames that it is given none is.
     pub rotation: Rotation,
+    /// How it holds what both eyes have of their own; `None`: it is both eyes' together, or one's. All else that is said of it
+    /// is said of one eye's part then: a flat one of one layer and one mip level, which draws replace for both eyes and which
+    /// is sampled, copied to others of its kind, or filled.
+    pub eyes: Option<EyeForm>,
     /// Mip levels, at least 1.
     pub mips: u32,
     /// Array layers, at least 1; of a cube 6 for each.
@@ -65,6 +70,7 @@ impl Image {
             extent: [width, height, 1],
             room: None,
             rotation: Rotation::Identity,
+            eyes: None,
             mips: 1,
             layers: 1,
             samples: 1,
@@ -77,7 +83,13 @@ impl Image {
     /// Width, height and depth that it is made with.
     #[must_use]
     pub fn made(&self) -> [u32; 3] {
-        with_room(self.extent, self.room)
+        EyeForm::extent(self.eyes, with_room(self.extent, self.room), self.rotation)
+    }
+
+    /// Array layers that it is made with.
+    #[must_use]
+    pub fn made_layers(&self) -> u32 {
+        EyeForm::layers(self.eyes, self.layers)
     }
 }
 

@@ -4,6 +4,7 @@ use super::{BufferIndex, ImageIndex, Resource};
 use crate::format::Format;
 use crate::interface::ImageShape;
 use crate::source::Span;
+use crate::view::Eye;
 use crate::vocabulary::{Aspects, CompareOp, Sampler, Stages, StencilOp, Subresources};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -22,6 +23,9 @@ pub struct Sampled {
     pub frames_ago: u32,
     /// Where the image was named.
     pub span: Span,
+    /// Whose part it is, of an image that holds both eyes'; `None`: that of the eye for which the pass draws, which is for
+    /// both.
+    pub eye: Option<Eye>,
     /// What the shader reads of each texel.
     pub face: Face,
     /// As what the shader declares it, if the shader leaves that to the pass; single samples only if they are read. Where the

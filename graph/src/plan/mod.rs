@@ -29,11 +29,10 @@
 use crate::change::Action;
 use crate::format::Format;
 use crate::frame::{DrawList, Shape};
-use crate::jitter::Jitter;
 use crate::rotation::Rotation;
 use crate::source::Place;
 use crate::texture::TextureFile;
-use crate::view::{Allowances, Eye};
+use crate::view::{EyeForm, Stereo};
 pub use crate::vocabulary::Subresources;
 use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
 use serde::{Deserialize, Serialize};
@@ -49,19 +48,21 @@ mod part;
 mod totals;
 mod tree;
 mod values;
+mod view;
 mod work;
 
 pub use json::PlanError;
 pub use note::{Note, Stage};
 pub use output::Output;
 pub use totals::Totals;
+pub use view::{View, ViewEye};
 pub use work::{
     Access, Attachment, AttachmentResolve, Binding, BindingKind, BufferAccess, DepthState, Fill, Param, Pass,
     RenderScope, Side, Transfer, Work,
 };
 
 /// The version of the JSON form that this library writes and reads.
-pub const FORMAT_VERSION: u32 = 7;
+pub const FORMAT_VERSION: u32 = 8;
 
 /// Index of an image in [`Plan::images`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -105,6 +106,8 @@ pub struct Plan {
     pub settings: Vec<SettingUsed>,
     /// What files did to the pipeline that they extend, in the order in which they did it.
     pub changes: Vec<Change>,
+    /// How it is drawn for two eyes: what scopes do whose attachments hold both eyes' parts ([`Image::eyes`]).
+    pub stereo: Stereo,
     /// The views that passes draw for, the main one first; empty if the frame names none. A [`ViewId`] is an index into this
     /// list.
     pub views: Vec<View>,
@@ -154,34 +157,6 @@ pub struct Change {
     pub at: Option<Place>,
 }
 
-/// A view: from where, and how large, passes draw.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct View {
-    /// Unique name.
-    pub name: Arc<str>,
-    /// Width and height of its picture in texels.
-    pub extent: [u32; 2],
-    /// The scene's camera of that name; `None`: the scene's default camera.
-    pub camera: Option<Arc<str>>,
-    /// What its passes may cost.
-    pub allows: Allowances,
-    /// How what its camera sees is shifted from frame to frame; `None`: not at all.
-    pub jitter: Option<Jitter>,
-    /// The eye that it is seen with; `None`: it is seen from between the eyes, or there is one.
-    pub eye: Option<ViewEye>,
-}
-
-/// The eye that a view is seen with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ViewEye {
-    /// Which one.
-    pub eye: Eye,
-    /// The view between both eyes, which is none of theirs.
-    pub of: ViewId,
-}
-
 /// A physical image.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -206,6 +181,10 @@ pub struct Image {
     /// By how much what it holds is turned: it is only drawn into, filled or left to a program that knows. `extent` and
     /// `room` are those of the turned picture.
     pub rotation: Rotation,
+    /// How it holds both eyes' parts, if it does. Everything else that is said of it here, and wherever it is named, is said
+    /// of one eye's part then, and what is done to it is done to both; it is made with [`Image::made`] and
+    /// [`Image::made_layers`].
+    pub eyes: Option<EyeForm>,
     /// Mip levels.
     pub mips: u32,
     /// Array layers.
@@ -491,8 +470,18 @@ impl Plan {
     /// By how much what a rendering scope draws is turned: as its attachments are.
     #[must_use]
     pub fn rotation(&self, scope: &RenderScope) -> Rotation {
+        self.first_attachment(scope).map_or(Rotation::Identity, |it| it.rotation)
+    }
+
+    /// How a rendering scope's attachments hold both eyes' parts, if they do: then each of its draws is for both.
+    #[must_use]
+    pub fn eyes(&self, scope: &RenderScope) -> Option<EyeForm> {
+        self.first_attachment(scope).and_then(|it| it.eyes)
+    }
+
+    fn first_attachment(&self, scope: &RenderScope) -> Option<&Image> {
         let first = scope.color.iter().chain(&scope.depth).chain(&scope.stencil).next();
-        first.and_then(|first| self.images.get(first.image.0 as usize)).map_or(Rotation::Identity, |it| it.rotation)
+        first.and_then(|first| self.images.get(first.image.0 as usize))
     }
 
     /// The tree form for people.

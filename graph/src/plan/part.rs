@@ -2,17 +2,24 @@
 
 use super::{BindingKind, Image, Pass, Plan};
 use crate::frame::with_room;
+use crate::view::EyeForm;
 use std::sync::Arc;
 
 impl Image {
     /// Width, height and depth that it is made with.
     #[must_use]
     pub fn made(&self) -> [u32; 3] {
-        with_room(self.extent, self.room)
+        EyeForm::extent(self.eyes, with_room(self.extent, self.room), self.rotation)
     }
 
-    /// Where the part in use lies among all of the image: its width and height as shares, and where it begins. That of a place
-    /// in the part, 0 to 1 from its upper left corner, is `place * [0..2] + [2..4]` in the image.
+    /// Array layers that it is made with.
+    #[must_use]
+    pub fn made_layers(&self) -> u32 {
+        EyeForm::layers(self.eyes, self.layers)
+    }
+
+    /// Where the part in use, of two eyes the left one's, lies among all of the upright image: its width and height as shares,
+    /// and where it begins; the right eye's begins where it ends. That of a place in the part, 0 to 1 from its upper left corner, is `place * [0..2] + [2..4]` in the image.
     #[must_use]
     pub fn part(&self) -> [f32; 4] {
         #[allow(clippy::cast_possible_truncation, reason = "shaders calculate with as many bits")]

@@ -17,6 +17,7 @@ impl Plan {
         let counts = [one.steps.len(), another.steps.len()];
         match () {
             () if one.device != another.device => Some("it is for another device".to_owned()),
+            () if one.stereo != another.stereo => Some("it is drawn for two eyes in another way".to_owned()),
             () if one.views != another.views => Some("its views are others".to_owned()),
             () if one.images != another.images => Some("its images are others".to_owned()),
             () if one.buffers != another.buffers => Some("its buffers are others".to_owned()),
@@ -36,7 +37,7 @@ fn without_values(plan: &Plan) -> Plan {
     plan.views.iter_mut().for_each(|view| view.jitter = None);
     for image in &mut plan.images {
         image.cause = Cause::Written(None);
-        image.extent = image.made();
+        image.extent = crate::frame::with_room(image.extent, image.room);
     }
     plan.buffers.iter_mut().for_each(|buffer| buffer.cause = Cause::Written(None));
     let Plan { images, steps, .. } = &mut plan;

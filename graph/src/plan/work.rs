@@ -3,6 +3,7 @@
 use super::{BufferId, Cause, ImageId, Resource, Subresources, ViewId};
 use crate::frame::{Blend, BufferRole, Draw, Groups, ParamValue, StencilState};
 use crate::interface::ImageShape;
+use crate::view::Eye;
 use crate::vocabulary::{
     Accesses, CompareOp, FillValue, Filter, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
 };
@@ -188,6 +189,8 @@ pub struct Access {
     pub image: ImageId,
     /// Which part of it.
     pub range: Subresources,
+    /// Whose part it is, of an image that holds both eyes'; `None`: that of the eye that is drawn for, or both.
+    pub eye: Option<Eye>,
     /// Stages.
     pub stages: Stages,
     /// Accesses.

@@ -23,13 +23,25 @@ pub(super) fn shifted(world_to_clip: DMat4, [right, down]: [f64; 2]) -> DMat4 {
     DMat4::from_cols(x + w * (2.0 * right), y + w * (2.0 * down), z, w).transpose()
 }
 
-/// Clip space from the shaders' world space, whose origin is at the camera, and back, and where in it the eye is.
-pub(super) fn view_block(camera: &Camera, world_to_clip: DMat4, eye: DVec3) -> Vec<u8> {
+/// What an eye sees, or whoever else looks at a scene.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sight {
+    /// Clip space from the shaders' world space, whose origin is at the camera.
+    pub(super) world_to_clip: DMat4,
+    /// Where in world space the eye is.
+    pub(super) eye: DVec3,
+}
+
+/// The block `view`: what the left eye sees and the right one.
+pub(super) fn view_block(camera: &Camera, sights: [Sight; 2]) -> Vec<u8> {
     let mut block = Block::default();
-    block.mat4(world_to_clip.as_mat4());
-    block.mat4(world_to_clip.inverse().as_mat4());
-    block.vec3(camera.position().to_array());
-    block.vec3(eye.as_vec3().to_array());
+    for Sight { world_to_clip, eye } in sights {
+        block.mat4(world_to_clip.as_mat4());
+        block.mat4(world_to_clip.inverse().as_mat4());
+        block.vec3(camera.position().to_array());
+        block.vec3(eye.as_vec3().to_array());
+        block.align();
+    }
     block.bytes()
 }
 
@@ -78,17 +90,16 @@ pub(super) fn objects_block(scene: &Scene, camera: &Camera) -> Vec<u8> {
     block.bytes()
 }
 
-/// How what is seen moved since the frame before, as the block `motion` of `shaders/include/motion.glsl`: from world space to
-/// clip space now and then, neither shifted, and where every object was, with the camera of then as origin.
+/// How what is seen moved since the frame before, as the block `motion` of `shaders/include/motion.glsl`: for both eyes from world
+/// space to clip space now and then, neither shifted, and where every object was, with the camera of then as origin.
 pub(super) fn motion_block(
     scene: &Scene,
-    now: DMat4,
-    (before, camera_before): (DMat4, &Camera),
+    now: [DMat4; 2],
+    (before, camera_before): ([DMat4; 2], &Camera),
     frame_before: u64,
 ) -> Vec<u8> {
     let mut block = Block::default();
-    block.mat4(now.as_mat4());
-    block.mat4(before.as_mat4());
+    now.into_iter().chain(before).for_each(|matrix| block.mat4(matrix.as_mat4()));
     for object in &scene.objects {
         block.mat4(object_to_world(camera_before, object.transform_at(frame_before)));
     }

@@ -2,8 +2,8 @@
 
 use super::cascades::{self, Map, cascades_block, seen_by_sun};
 use super::clusters::Clusters;
-use super::eyes::{EyeSight, Eyes};
-use super::frame_data::{lights_block, motion_block, objects_block, shifted, view_block, world_to_clip};
+use super::eyes::Eyes;
+use super::frame_data::{Sight, lights_block, motion_block, objects_block, shifted, view_block, world_to_clip};
 use super::frustum;
 use super::interface::{
     CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MOTION_BINDING, OBJECTS_BINDING, VIEW_BINDING,
@@ -13,16 +13,15 @@ use super::lists::draw_order_from;
 use crate::scene::{Camera, Scene};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::jitter::Jitter;
+use framewright_graph::view::Eye;
 use framewright_vulkan::{BindGroup, Buffer, BufferUsage, CullMode, Device, Error, FrontFace, Resource};
 use glam::{DMat4, DVec3};
 
 /// From where, and how, a view sees the scene.
 pub(super) struct Viewpoint {
-    /// At frame 0; of an eye the one between both.
+    /// At frame 0; of two eyes the one between both.
     pub(super) camera: Camera,
-    /// The eye that sees it, if there are two.
-    pub(super) eye: Option<EyeSight>,
-    /// Both eyes, of a view that is seen with either or from between them.
+    /// The eyes that see it, if there are two.
     pub(super) eyes: Option<Eyes>,
     /// Width and height of its picture, of which only the ratio counts.
     pub(super) extent: [u32; 2],
@@ -37,42 +36,57 @@ impl Viewpoint {
         width / height
     }
 
-    /// The camera at a frame that sees all that this view shares with those of other eyes.
+    /// The camera at a frame that sees all that both eyes see.
     fn around(&self, frame: u64) -> Camera {
         let camera = self.camera.at(frame);
         self.eyes.map_or(camera, |eyes| eyes.around(&camera, self.aspect()))
     }
 
-    /// Where the eye is at a frame, in the shaders' world space.
-    fn eye(&self, frame: u64) -> DVec3 {
-        self.eye.map_or(DVec3::ZERO, |eye| eye.offset(&self.camera.at(frame)))
+    /// By how much the picture is shifted at a frame, in shares of its width and height.
+    fn shift(&self, frame: u64) -> [f64; 2] {
+        self.jitter.as_ref().map_or([0.0; 2], |jitter| jitter.shift(frame))
     }
 
-    /// From world space to clip space at a frame, not shifted.
-    fn straight(&self, frame: u64) -> DMat4 {
-        let (camera, aspect) = (self.camera.at(frame), self.aspect());
-        let straight = world_to_clip(&camera, aspect);
-        self.eye.map_or(straight, |eye| eye.world_to_clip(&camera, aspect, straight))
+    /// What is seen at a frame from between the eyes, not shifted.
+    fn straight(&self, frame: u64) -> Sight {
+        Sight { world_to_clip: world_to_clip(&self.camera.at(frame), self.aspect()), eye: DVec3::ZERO }
     }
 
-    /// From world space to clip space at a frame.
-    fn world_to_clip(&self, frame: u64) -> DMat4 {
-        let shift = self.jitter.as_ref().map(|jitter| jitter.shift(frame));
-        let straight = self.straight(frame);
-        shift.map_or(straight, |shift| shifted(straight, shift))
+    /// What each eye sees, not shifted; the same twice if there is one.
+    fn straight_by_eye(&self, frame: u64) -> [Sight; 2] {
+        let (straight, camera) = (self.straight(frame), self.camera.at(frame));
+        Eye::BOTH.map(|eye| {
+            let Some(eye) = self.eyes.map(|eyes| eyes.of(eye)) else { return straight };
+            let world_to_clip = eye.world_to_clip(&camera, self.aspect(), straight.world_to_clip);
+            Sight { world_to_clip, eye: eye.offset(&camera) }
+        })
+    }
+
+    /// The same with the shift of the frame.
+    fn shifted(&self, sight: Sight, frame: u64) -> Sight {
+        Sight { world_to_clip: shifted(sight.world_to_clip, self.shift(frame)), ..sight }
     }
 }
 
-/// What a view's camera decides.
+/// What a view's camera decides, or both eyes'.
 pub(super) struct Seen {
     pub(super) frame: BindGroup,
     /// By object, whether it may be seen.
     pub(super) in_sight: Vec<bool>,
+    pub(super) by_eye: Option<SeenByEyes>,
     pub(super) transparent: Vec<ObjectDraw>,
     /// By cascade, the nearest first.
     pub(super) cascades: Vec<SeenBySun>,
     /// All that `frame` holds, but for what shifts.
     buffers: Buffers,
+}
+
+/// What two eyes see.
+pub(super) struct SeenByEyes {
+    /// For passes that draw for both at once. What either may see is what the view's own list has.
+    pub(super) both: BindGroup,
+    /// For those that draw for one.
+    pub(super) each: [(BindGroup, Vec<bool>); 2],
 }
 
 /// What the sun sees of a cascade.
@@ -105,8 +119,8 @@ impl Seen {
         // The first frame comes after itself: nothing has moved.
         let frame_before = frame.saturating_sub(1);
         let (camera, before) = (view.camera.at(frame), view.camera.at(frame_before));
-        let (now, then) = (view.straight(frame), (view.straight(frame_before), &before));
-        let motion = motion_block(scene, now, then, frame_before);
+        let straight = |frame| view.straight_by_eye(frame).map(|sight| sight.world_to_clip);
+        let motion = motion_block(scene, straight(frame), (straight(frame_before), &before), frame_before);
         let scene = &scene.at(frame);
         // Both eyes look up the same maps.
         let around = view.around(frame);
@@ -126,15 +140,14 @@ impl Seen {
         };
         let cascade = |seen: &cascades::Seen| {
             let casts = scene.objects.iter().map(|object| cascades::may_cast(scene, &camera, seen, object)).collect();
-            Ok::<_, Error>(SeenBySun {
-                frame: group(device, &camera, (seen.world_to_clip, DVec3::ZERO), &buffers)?,
-                casts,
-            })
+            let sight = Sight { world_to_clip: seen.world_to_clip, eye: DVec3::ZERO };
+            Ok::<_, Error>(SeenBySun { frame: group(device, &camera, [sight; 2], &buffers)?, casts })
         };
-        let world_to_clip = view.world_to_clip(frame);
+        let Sights { frame, in_sight, by_eye } = Sights::new(device, scene, view, frame, &buffers)?;
         Ok(Seen {
-            frame: group(device, &camera, (world_to_clip, view.eye(frame)), &buffers)?,
-            in_sight: frustum::within(scene, &camera, world_to_clip),
+            frame,
+            in_sight,
+            by_eye,
             transparent: draws(scene, &camera, DrawList::Transparent),
             cascades: by_sun.iter().map(cascade).collect::<Result<_, _>>()?,
             buffers,
@@ -160,21 +173,46 @@ impl Seen {
 
     /// Is shifted as `view` is at the frame that it is for already.
     pub(super) fn shift(&mut self, device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<(), Error> {
-        let (camera, world_to_clip) = (view.camera.at(frame), view.world_to_clip(frame));
-        self.frame = group(device, &camera, (world_to_clip, view.eye(frame)), &self.buffers)?;
-        self.in_sight = frustum::within(&scene.at(frame), &camera, world_to_clip);
+        let sights = Sights::new(device, &scene.at(frame), view, frame, &self.buffers)?;
+        (self.frame, self.in_sight, self.by_eye) = (sights.frame, sights.in_sight, sights.by_eye);
         Ok(())
     }
 }
 
+/// What shifts.
+struct Sights {
+    frame: BindGroup,
+    in_sight: Vec<bool>,
+    by_eye: Option<SeenByEyes>,
+}
+
+impl Sights {
+    /// Of a scene that is given as it is at the frame.
+    fn new(device: &Device, scene: &Scene, view: &Viewpoint, frame: u64, buffers: &Buffers) -> Result<Sights, Error> {
+        let camera = view.camera.at(frame);
+        let own = view.shifted(view.straight(frame), frame);
+        let group = |sights| group(device, &camera, sights, buffers);
+        if view.eyes.is_none() {
+            let in_sight = frustum::within(scene, &camera, own.world_to_clip);
+            return Ok(Sights { frame: group([own; 2])?, in_sight, by_eye: None });
+        }
+        // A picture that is shifted shows at most so much more on each side, of all that both eyes see.
+        let around = view.around(frame);
+        let share = view.shift(frame).into_iter().fold(0.0, |most: f64, side| most.max(side.abs()));
+        let narrower = DVec3::new((1.0 + 2.0 * share).recip(), (1.0 + 2.0 * share).recip(), 1.0);
+        let all = DMat4::from_scale(narrower) * world_to_clip(&around, view.aspect());
+        let eyes = view.straight_by_eye(frame).map(|sight| view.shifted(sight, frame));
+        let each =
+            |sight: Sight| Ok::<_, Error>((group([sight; 2])?, frustum::within(scene, &camera, sight.world_to_clip)));
+        let by_eye = SeenByEyes { both: group(eyes)?, each: [each(eyes[0])?, each(eyes[1])?] };
+        let in_sight = frustum::within(scene, &around, all);
+        Ok(Sights { frame: group([own; 2])?, in_sight, by_eye: Some(by_eye) })
+    }
+}
+
 /// The set of what stays the same for a whole frame.
-fn group(
-    device: &Device,
-    camera: &Camera,
-    (world_to_clip, eye): (DMat4, DVec3),
-    buffers: &Buffers,
-) -> Result<BindGroup, Error> {
-    let view = device.buffer(BufferUsage::Uniform, &view_block(camera, world_to_clip, eye))?;
+fn group(device: &Device, camera: &Camera, sights: [Sight; 2], buffers: &Buffers) -> Result<BindGroup, Error> {
+    let view = device.buffer(BufferUsage::Uniform, &view_block(camera, sights))?;
     let Buffers { lights, objects, cascades, clusters, motion } = buffers;
     let resources = [
         (VIEW_BINDING, Resource::Buffer(&view)),

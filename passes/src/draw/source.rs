@@ -9,7 +9,9 @@ use super::textures::Textures;
 use crate::scene::{Scene, limits};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::plan::{Plan, View, ViewId};
+use framewright_graph::view::Eye;
 use framewright_vulkan::{BindGroup, Device, DrawSource, Error, Recorder};
+use std::collections::BTreeMap;
 
 /// Point lights that a scene may have to be drawn. Those with a range are looked at where they reach; see
 /// [`super::clusters`].
@@ -25,13 +27,16 @@ pub struct SceneDrawSource {
     outline: Scene,
     /// The frame that `views` are for.
     frame: u64,
-    /// By view, the main one first; at least one.
+    /// Views that are nobody's eye, the main one first; at least one.
     views: Vec<(Viewpoint, Seen)>,
+    /// By view of the Plan its place in `views`, and whose eye it is.
+    by_view: Vec<(usize, Option<Eye>)>,
     geometry: Geometry,
     textures: Textures,
     opaque: Vec<ObjectDraw>,
     masked: Vec<ObjectDraw>,
     culls: bool,
+    culls_once: bool,
 }
 
 impl SceneDrawSource {
@@ -41,8 +46,8 @@ impl SceneDrawSource {
     /// # Errors
     /// More than [`MOST_POINT_LIGHTS`] point lights, a texture or scene larger than the device takes, or no memory.
     pub fn new(device: &Device, scene: &Scene, extent: [u32; 2]) -> Result<SceneDrawSource, Error> {
-        let view = Viewpoint { camera: scene.camera, eye: None, eyes: None, extent, maps: Vec::new(), jitter: None };
-        SceneDrawSource::seen_from(device, scene, vec![view])
+        let view = Viewpoint { camera: scene.camera, eyes: None, extent, maps: Vec::new(), jitter: None };
+        SceneDrawSource::seen_from(device, scene, vec![view], Vec::new())
     }
 
     /// Uploads a scene for the views of a Plan, each with its camera, and for the sun's shadows in each; a Plan without views
@@ -67,28 +72,38 @@ impl SceneDrawSource {
         eyes: &Eyes,
     ) -> Result<SceneDrawSource, Error> {
         let mut views = Vec::with_capacity(plan.views.len());
-        for (number, view) in (0..).map(ViewId).zip(&plan.views) {
+        let mut places = BTreeMap::new();
+        for (number, view) in (0..).map(ViewId).zip(&plan.views).filter(|(_, view)| view.eye.is_none()) {
             let camera = scene.camera_named(view.camera.as_deref()).ok_or_else(|| no_camera(scene, view))?;
-            let between = view.eye.map_or(number, |eye| eye.of);
-            let two = plan.views.iter().any(|view| view.eye.is_some_and(|eye| eye.of == between));
+            let two = plan.views.iter().any(|view| view.eye.is_some_and(|eye| eye.of == number));
+            places.insert(number, views.len());
             views.push(Viewpoint {
                 camera: *camera,
-                eye: view.eye.map(|eye| eyes.of(eye.eye)),
                 eyes: two.then_some(*eyes),
                 extent: view.extent,
-                maps: cascades::of_plan(plan, Some(between)),
+                maps: cascades::of_plan(plan, Some(number)),
                 jitter: view.jitter.clone(),
             });
         }
         if views.is_empty() {
             let maps = cascades::of_plan(plan, None);
             let camera = scene.camera;
-            views.push(Viewpoint { camera, eye: None, eyes: None, extent, maps, jitter: None });
+            views.push(Viewpoint { camera, eyes: None, extent, maps, jitter: None });
         }
-        SceneDrawSource::seen_from(device, scene, views)
+        let of_view = |(number, view): (ViewId, &View)| {
+            let of = view.eye.map_or(number, |eye| eye.of);
+            (places.get(&of).copied().unwrap_or(0), view.eye.map(|eye| eye.eye))
+        };
+        let by_view = (0..).map(ViewId).zip(&plan.views).map(of_view).collect();
+        SceneDrawSource::seen_from(device, scene, views, by_view)
     }
 
-    fn seen_from(device: &Device, scene: &Scene, views: Vec<Viewpoint>) -> Result<SceneDrawSource, Error> {
+    fn seen_from(
+        device: &Device,
+        scene: &Scene,
+        views: Vec<Viewpoint>,
+        by_view: Vec<(usize, Option<Eye>)>,
+    ) -> Result<SceneDrawSource, Error> {
         let lights = scene.point_lights.len();
         if lights > MOST_POINT_LIGHTS {
             let what = format!("the scene has {lights} point lights, and at most {MOST_POINT_LIGHTS} can be drawn");
@@ -104,12 +119,14 @@ impl SceneDrawSource {
             device: device.clone(),
             frame: 0,
             views: views.collect::<Result<_, _>>()?,
+            by_view,
             outline,
             geometry: Geometry::new(device, scene)?,
             textures: Textures::new(device, &objects, &scene.textures)?,
             opaque: draws(scene, &scene.camera, DrawList::Opaque),
             masked: draws(scene, &scene.camera, DrawList::Masked),
             culls: true,
+            culls_once: false,
         })
     }
 
@@ -122,7 +139,7 @@ impl SceneDrawSource {
         let jitters: Vec<_> = if plan.views.is_empty() {
             vec![None]
         } else {
-            plan.views.iter().map(|view| view.jitter.clone()).collect()
+            plan.views.iter().filter(|view| view.eye.is_none()).map(|view| view.jitter.clone()).collect()
         };
         if jitters.len() != self.views.len() {
             let what = format!("the Plan has {} views, and {} were prepared", plan.views.len(), self.views.len());
@@ -152,6 +169,12 @@ impl SceneDrawSource {
     /// is the same. Passes whose shaders bring a vertex shader of their own are always given all objects.
     pub fn set_culling(&mut self, on: bool) {
         self.culls = on;
+    }
+
+    /// Whether passes that draw for one eye are given what either may see, as those are that draw for both at once; else what
+    /// their own may see. The picture is the same.
+    pub fn set_shared_culling(&mut self, on: bool) {
+        self.culls_once = on;
     }
 
     /// Records those of a draw list that are `wanted`, by object, and returns how many. State is set only where it differs
@@ -205,12 +228,31 @@ impl SceneDrawSource {
         })
     }
 
-    /// What the view of a pass sees.
-    fn seen(&self, recorder: &Recorder<'_>) -> Result<&Seen, Error> {
+    /// What the view of a pass sees, and the eye for which it draws.
+    fn seen_with(&self, recorder: &Recorder<'_>) -> Result<(&Seen, Option<Eye>), Error> {
         let view = recorder.view().map_or(0, |view| view.0 as usize);
-        self.views.get(view).map(|(_, seen)| seen).ok_or_else(|| {
+        let (place, eye) = self.by_view.get(view).copied().unwrap_or((view, None));
+        self.views.get(place).map(|(_, seen)| (seen, eye)).ok_or_else(|| {
             let (pass, views) = (recorder.pass(), self.views.len());
             Error::DrawSource { what: format!("pass `{pass}` draws for view {view}, and {views} were prepared") }
+        })
+    }
+
+    /// What the view of a pass sees.
+    fn seen(&self, recorder: &Recorder<'_>) -> Result<&Seen, Error> {
+        self.seen_with(recorder).map(|(seen, _)| seen)
+    }
+
+    /// What is bound for a pass, and which objects it may see.
+    fn sight(&self, recorder: &Recorder<'_>) -> Result<(&BindGroup, &[bool]), Error> {
+        let (seen, eye) = self.seen_with(recorder)?;
+        Ok(match (&seen.by_eye, eye) {
+            (Some(by_eye), _) if recorder.both_eyes().is_some() => (&by_eye.both, &seen.in_sight),
+            (Some(by_eye), Some(eye)) => {
+                let (group, in_sight) = &by_eye.each[eye as usize];
+                (group, if self.culls_once { &seen.in_sight } else { in_sight })
+            }
+            (None, _) | (_, None) => (&seen.frame, &seen.in_sight),
         })
     }
 }
@@ -220,8 +262,8 @@ impl DrawSource for SceneDrawSource {
         self.turn_to(recorder.frame())?;
         match draw {
             Draw::Objects(list) => {
-                let seen = self.seen(recorder)?;
-                Ok(self.record_objects(self.list(list, seen), &seen.in_sight, &seen.frame, recorder))
+                let (group, in_sight) = self.sight(recorder)?;
+                Ok(self.record_objects(self.list(list, self.seen(recorder)?), in_sight, group, recorder))
             }
             Draw::Casters(cascade) => {
                 let seen = self.seen_by_sun(cascade.index, recorder)?;
@@ -229,8 +271,7 @@ impl DrawSource for SceneDrawSource {
                 Ok(self.record_objects(list, &seen.casts, &seen.frame, recorder))
             }
             Draw::Sky | Draw::FullScreen => {
-                let seen = self.seen(recorder)?;
-                recorder.bind_group(FRAME_SET, &seen.frame);
+                recorder.bind_group(FRAME_SET, self.sight(recorder)?.0);
                 recorder.draw(0..3, 0..1);
                 Ok(1)
             }

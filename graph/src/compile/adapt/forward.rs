@@ -65,7 +65,7 @@ impl Adapter<'_> {
         if moved && !outlives(&target_image.lifetime) {
             wanted = count;
         }
-        let size = |image: &Image| (image.extent, image.room, image.rotation);
+        let size = |image: &Image| (image.extent, image.room, image.rotation, image.eyes);
         let alike = (source_image.format, size(source_image)) == (target_image.format, size(target_image));
         let alike = alike && count == wanted;
         let resolves = count > 1 && !alike;
@@ -87,7 +87,7 @@ impl Adapter<'_> {
         };
         let same = self.adapted.stores[source as usize].image().is_some_and(|held| {
             let ImageDescriptor { format, shape, extent, mips, layers, samples, .. } = *held;
-            let held = (extent, self.adapted.room(source), self.rotation(source));
+            let held = (extent, self.adapted.room(source), self.rotation(source), self.adapted.eyes(source));
             (format, shape, held) == (target_image.format, target_image.shape, size(target_image))
                 && (mips, layers, samples) == (target_image.mips, target_image.layers, wanted)
         });

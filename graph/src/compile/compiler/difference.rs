@@ -54,8 +54,9 @@ fn of_lists<T>(old: &[T], new: &[T], of: impl Fn(&T, &T) -> Difference) -> Diffe
 }
 
 pub(super) fn between(old: &Frame, new: &Frame) -> Difference {
-    let Frame { sources, settings, changes, views, images, buffers, passes, outputs, switched_off, remarks } = new;
-    let same = old.sources == *sources && old.changes == *changes && old.outputs == *outputs;
+    let Frame { sources, settings, changes, stereo, views, images, buffers, passes, outputs, switched_off, remarks } =
+        new;
+    let same = old.sources == *sources && old.changes == *changes && old.outputs == *outputs && old.stereo == *stereo;
     if !same || old.switched_off != *switched_off || old.remarks != *remarks {
         return Structure;
     }
@@ -74,13 +75,27 @@ fn view(old: &View, new: &View) -> Difference {
 }
 
 fn image(old: &Image, new: &Image) -> Difference {
-    let Image { name, span, format, shape, extent, room, rotation, mips, layers, samples, resolve, chosen, lifetime } =
-        new;
+    let Image {
+        name,
+        span,
+        format,
+        shape,
+        extent,
+        room,
+        rotation,
+        eyes,
+        mips,
+        layers,
+        samples,
+        resolve,
+        chosen,
+        lifetime,
+    } = new;
     let same = same_name(&old.name, name)
         && old.span == *span
         && (&old.resolve, &old.chosen) == (resolve, chosen)
         && (old.format, old.shape, old.mips, old.layers, old.samples) == (*format, *shape, *mips, *layers, *samples)
-        && old.rotation == *rotation
+        && (old.rotation, old.eyes) == (*rotation, *eyes)
         && old.room.is_some() == room.is_some()
         && same_lifetime(&old.lifetime, lifetime);
     if same { unless((old.extent, old.room) == (*extent, *room), Sizes) } else { Structure }
@@ -143,9 +158,9 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
 }
 
 fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
-    let Sampled { binding, image, range, frames_ago, span, face, texture, own_pixel, sampler, stages } = new;
+    let Sampled { binding, image, range, frames_ago, span, eye, face, texture, own_pixel, sampler, stages } = new;
     (old.image, old.range, old.frames_ago, old.span) == (*image, *range, *frames_ago, *span)
-        && (old.face, old.own_pixel, old.sampler, old.stages) == (*face, *own_pixel, *sampler, *stages)
+        && (old.eye, old.face, old.own_pixel, old.sampler, old.stages) == (*eye, *face, *own_pixel, *sampler, *stages)
         && old.texture == *texture
         && same_name(&old.binding, binding)
 }

@@ -131,7 +131,8 @@ pub(super) fn pass(parts: &Parts<'_>, number: u32) -> Pass {
     planned.accesses = Vec::with_capacity(uses.len());
     for used in uses {
         if parts.subjects[used.store as usize].is_image {
-            planned.accesses.push(access(parts, used, binding(parts, used, declared)));
+            let eye = if used.role == Role::Sampled { declared.sampled[used.entry as usize].eye } else { None };
+            planned.accesses.push(Access { eye, ..access(parts, used, binding(parts, used, declared)) });
         } else {
             planned.buffers.push(buffer_access(parts, used, declared));
         }
@@ -273,7 +274,7 @@ fn access(parts: &Parts<'_>, used: &Use, binding: Option<Binding>) -> Access {
     let subject = &parts.subjects[used.store as usize];
     let range = parts.adapted.ranges.get(used.range as usize).copied().unwrap_or(subject.all);
     let image = ImageId(subject.id);
-    Access { image, range, stages: used.stages, accesses: used.accesses, layout: used.layout, binding }
+    Access { image, range, eye: None, stages: used.stages, accesses: used.accesses, layout: used.layout, binding }
 }
 
 fn buffer_access(parts: &Parts<'_>, used: &Use, declared: &FramePass) -> BufferAccess {

@@ -2,7 +2,6 @@
 
 use super::runs::Runs;
 use crate::compile::model::{Adapted, Kind, StoreIndex};
-use crate::frame::with_room;
 
 /// Bytes of what lives in shared memory, as its texels say: alignments and padding are the device's, and not known here.
 #[derive(Debug)]
@@ -39,9 +38,9 @@ impl Memory {
             _ if !store.is_transient() => 0,
             Kind::Buffer(buffer) => buffer.bytes,
             Kind::Image(image) => {
-                let made = with_room(image.extent, adapted.room(index));
-                let sides = made.iter().map(|side| u64::from(*side));
-                let texels = sides.fold(u64::from(image.layers), u64::saturating_mul);
+                let made = adapted.made(index, image);
+                let sides = made.extent.iter().map(|side| u64::from(*side));
+                let texels = sides.fold(u64::from(made.layers), u64::saturating_mul);
                 // Each mip level takes a quarter of the one before it: a third together.
                 let texels = if image.mips > 1 { texels.saturating_add(texels / 3) } else { texels };
                 texels.saturating_mul(image.format.texel_bytes()).saturating_mul(u64::from(image.samples))

@@ -3,6 +3,7 @@
 use super::{Scope, Target, colors_of, plane_of};
 use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
 use crate::device::Profile;
+use crate::view::EyeForm;
 
 /// What comes of a scope and the pass after it.
 pub(super) enum Meeting {
@@ -121,14 +122,15 @@ impl Scope {
     }
 }
 
-/// What attachments of one scope have in common: width, height and depth, room for more of them, layers and samples.
-type Area = ([u32; 3], Option<[u32; 2]>, u32, u32);
+/// What attachments of one scope have in common: width, height and depth, room for more of them, whether they hold both eyes'
+/// parts, layers and samples.
+type Area = ([u32; 3], Option<[u32; 2]>, Option<EyeForm>, u32, u32);
 
 fn area(adapted: &Adapted, target: Target) -> Option<Area> {
     let image = adapted.stores[target.store as usize].image()?;
     let mip = target.range.base_mip.min(31);
     let size = image.extent.map(|side| (side >> mip).max(1));
-    Some((size, adapted.room(target.store), target.range.layers, image.samples))
+    Some((size, adapted.room(target.store), adapted.eyes(target.store), target.range.layers, image.samples))
 }
 
 /// For each draw that may meet the scope of a draw before it, in the given order, whether they have the same area: all that

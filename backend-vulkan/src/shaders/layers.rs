@@ -1,0 +1,284 @@
+//! What a shader samples as flat and is two layers of one image, one an eye: every look-up is given its layer.
+//!
+//! It is done to SPIR-V, so that shaders are written for one eye. Images become arrays where they are declared, handed on and
+//! looked up; functions that are handed such an image, and one that stays as it is elsewhere, are there twice afterwards.
+
+use super::eyes::EYE;
+use super::module::{Indexed, id, number, storage_class};
+use rspirv::binary::Assemble;
+use rspirv::dr::{Builder, Function, Instruction, Operand};
+use rspirv::spirv::{Dim, ImageFormat, Op, StorageClass};
+use std::collections::HashMap;
+
+/// The module with what it samples as `names` in layers, that of the eye which it draws for.
+///
+/// # Errors
+/// In words: what it does with such an image that can't be given a layer.
+pub(super) fn by_eye(spirv: &[u32], names: &[&str]) -> Result<Vec<u32>, String> {
+    let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
+    let (mut found, mut eye) = (Vec::new(), None);
+    let indexed = Indexed::new(&module);
+    for (variable, instruction) in indexed.variables() {
+        let name = indexed.name(variable);
+        match storage_class(instruction) {
+            Some(StorageClass::Private) if name == EYE => eye = Some(variable),
+            Some(StorageClass::UniformConstant) if names.contains(&name) => {
+                let image = indexed
+                    .pointee(instruction)
+                    .filter(|ty| ty.class.opcode == Op::TypeSampledImage)
+                    .and_then(|ty| indexed.global(id(ty, 0)?))
+                    .ok_or_else(|| format!("`{name}` is no image with its sampler"))?;
+                found.push((variable, Flat::of(image).ok_or_else(|| format!("`{name}` isn't declared flat"))?));
+            }
+            _ => {}
+        }
+    }
+    let (Some(eye), false) = (eye, found.is_empty()) else { return Ok(spirv.to_vec()) };
+    let mut layers = Layers::new(Builder::new_from_module(module), eye);
+    for (variable, flat) in found {
+        layers.declare(variable, flat);
+    }
+    layers.functions()?;
+    Ok(layers.builder.module().assemble())
+}
+
+/// A flat image's type, as far as it isn't the same for all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+struct Flat {
+    sampled: u32,
+    depth: u32,
+    multisampled: u32,
+}
+
+impl Flat {
+    fn of(image: &Instruction) -> Option<Flat> {
+        let literal = |at: usize| image.operands.get(at).and_then(number);
+        let flat = image.operands.get(1) == Some(&Operand::Dim(Dim::Dim2D)) && literal(3) == Some(0);
+        let (depth, multisampled) = (literal(2)?, literal(4)?);
+        flat.then_some(Flat { sampled: id(image, 0)?, depth, multisampled })
+    }
+}
+
+/// The types of an image in layers.
+#[derive(Debug, Clone, Copy)]
+struct Arrayed {
+    image: u32,
+    sampled_image: u32,
+    pointer: u32,
+}
+
+struct Layers {
+    builder: Builder,
+    /// The variable that says which eye is drawn for.
+    eye: u32,
+    float: u32,
+    int: u32,
+    /// Image variables in layers.
+    variables: HashMap<u32, Arrayed>,
+    /// Functions as they were.
+    originals: HashMap<u32, Function>,
+    /// By function and by which of its parameters are in layers, what it is then.
+    lifted: HashMap<(u32, Vec<Option<u32>>), u32>,
+    /// Those that are to be made.
+    wanted: Vec<(u32, Vec<Option<Arrayed>>, u32)>,
+}
+
+impl Layers {
+    fn new(mut builder: Builder, eye: u32) -> Layers {
+        let (float, int) = (builder.type_float(32, None), builder.type_int(32, 1));
+        let functions = builder.module_ref().functions.iter();
+        let originals = functions.filter_map(|it| Some((it.def.as_ref()?.result_id?, it.clone()))).collect();
+        let (variables, lifted, wanted) = (HashMap::new(), HashMap::new(), Vec::new());
+        Layers { builder, eye, float, int, variables, originals, lifted, wanted }
+    }
+
+    /// Declares a variable in layers. It comes last then, behind its type.
+    fn declare(&mut self, variable: u32, flat: Flat) {
+        let Flat { sampled, depth, multisampled } = flat;
+        let format = ImageFormat::Unknown;
+        let image = self.builder.type_image(sampled, Dim::Dim2D, depth, 1, multisampled, 1, format, None);
+        let sampled_image = self.builder.type_sampled_image(image);
+        let pointer = self.builder.type_pointer(None, StorageClass::UniformConstant, sampled_image);
+        self.variables.insert(variable, Arrayed { image, sampled_image, pointer });
+        let globals = &mut self.builder.module_mut().types_global_values;
+        if let Some(at) = globals.iter().position(|it| it.result_id == Some(variable)) {
+            let mut declared = globals.remove(at);
+            declared.result_type = Some(pointer);
+            globals.push(declared);
+        }
+    }
+
+    fn functions(&mut self) -> Result<(), String> {
+        let given = std::mem::take(&mut self.builder.module_mut().functions);
+        let mut made = Vec::with_capacity(given.len());
+        for function in given {
+            made.push(self.rewritten(function, self.variables.clone())?);
+        }
+        while let Some((of, parameters, name)) = self.wanted.pop() {
+            let Some(original) = self.originals.get(&of).cloned() else { continue };
+            let function = self.copied(original, &parameters, name);
+            let mut known = self.variables.clone();
+            let ids = function.parameters.iter().filter_map(|it| it.result_id);
+            known.extend(ids.zip(parameters).filter_map(|(id, arrayed)| Some((id, arrayed?))));
+            made.push(self.rewritten(function, known)?);
+        }
+        self.builder.module_mut().functions = made;
+        Ok(())
+    }
+
+    /// The function `name`, like another one but for its parameters. All ids in it are new.
+    fn copied(&mut self, mut function: Function, parameters: &[Option<Arrayed>], name: u32) -> Function {
+        let mut ids = HashMap::new();
+        let all = |function: &mut Function, each: &mut dyn FnMut(&mut Instruction)| {
+            let Function { def, end, parameters, blocks } = function;
+            def.iter_mut().chain(parameters).for_each(&mut *each);
+            for block in blocks {
+                block.label.iter_mut().chain(&mut block.instructions).for_each(&mut *each);
+            }
+            end.iter_mut().for_each(each);
+        };
+        all(&mut function, &mut |it| {
+            if let Some(old) = it.result_id {
+                ids.insert(old, self.builder.id());
+            }
+        });
+        ids.extend(function.def.as_ref().and_then(|def| def.result_id).map(|old| (old, name)));
+        all(&mut function, &mut |it| {
+            it.result_id = it.result_id.map(|old| ids[&old]);
+            for operand in it.operands.iter_mut().filter_map(Operand::id_ref_any_mut) {
+                *operand = ids.get(operand).copied().unwrap_or(*operand);
+            }
+        });
+        for (parameter, arrayed) in function.parameters.iter_mut().zip(parameters) {
+            parameter.result_type = arrayed.map_or(parameter.result_type, |arrayed| Some(arrayed.pointer));
+        }
+        let types: Vec<u32> = function.parameters.iter().filter_map(|it| it.result_type).collect();
+        if let Some(def) = &mut function.def {
+            let ty = self.builder.type_function(def.result_type.unwrap_or(0), types);
+            if let Some(last) = def.operands.last_mut() {
+                *last = Operand::IdRef(ty);
+            }
+        }
+        function
+    }
+
+    /// A function in which what is `known` to be in layers, and what comes of it, is looked up so.
+    fn rewritten(&mut self, mut function: Function, mut known: HashMap<u32, Arrayed>) -> Result<Function, String> {
+        let mut types = HashMap::new();
+        for it in function.blocks.iter().flat_map(|it| &it.instructions).chain(&function.parameters) {
+            types.extend(it.result_id.zip(it.result_type));
+        }
+        for block in &mut function.blocks {
+            let given = std::mem::take(&mut block.instructions);
+            for it in given {
+                self.step(it, &mut known, &types, &mut block.instructions)?;
+            }
+        }
+        Ok(function)
+    }
+
+    fn step(
+        &mut self,
+        mut it: Instruction,
+        known: &mut HashMap<u32, Arrayed>,
+        types: &HashMap<u32, u32>,
+        made: &mut Vec<Instruction>,
+    ) -> Result<(), String> {
+        if it.class.opcode == Op::FunctionCall {
+            self.call(&mut it, known);
+            made.push(it);
+            return Ok(());
+        }
+        let Some(arrayed) = id(&it, 0).and_then(|image| known.get(&image).copied()) else {
+            made.push(it);
+            return Ok(());
+        };
+        match it.class.opcode {
+            Op::Load => {
+                it.result_type = Some(arrayed.sampled_image);
+                known.extend(it.result_id.map(|result| (result, arrayed)));
+                made.push(it);
+            }
+            Op::Image => {
+                it.result_type = Some(arrayed.image);
+                known.extend(it.result_id.map(|result| (result, arrayed)));
+                made.push(it);
+            }
+            Op::ImageSampleImplicitLod | Op::ImageSampleExplicitLod | Op::ImageGather => {
+                self.give_layer(&mut it, self.float, types, made)?;
+                made.push(it);
+            }
+            Op::ImageFetch => {
+                self.give_layer(&mut it, self.int, types, made)?;
+                made.push(it);
+            }
+            Op::ImageQuerySizeLod | Op::ImageQuerySize => {
+                let size = self.builder.type_vector(self.int, 3);
+                let (flat, result) = (it.result_type, it.result_id);
+                let all = self.builder.id();
+                (it.result_type, it.result_id) = (Some(size), Some(all));
+                made.push(it);
+                let parts =
+                    [Operand::IdRef(all), Operand::IdRef(all), Operand::LiteralBit32(0), Operand::LiteralBit32(1)];
+                made.push(Instruction::new(Op::VectorShuffle, flat, result, parts.into()));
+            }
+            Op::ImageQueryLevels | Op::ImageQuerySamples | Op::ImageQueryLod => made.push(it),
+            opcode => return Err(format!("Op{opcode:?} of an image that both eyes have of their own")),
+        }
+        Ok(())
+    }
+
+    /// Adds the layer to the coordinate of a look-up.
+    fn give_layer(
+        &mut self,
+        it: &mut Instruction,
+        component: u32,
+        types: &HashMap<u32, u32>,
+        made: &mut Vec<Instruction>,
+    ) -> Result<(), String> {
+        let flat = self.builder.type_vector(component, 2);
+        let coordinate = id(it, 1).filter(|coordinate| self.type_of(*coordinate, types) == Some(flat));
+        let coordinate = coordinate.ok_or_else(|| format!("Op{:?} with an unusual coordinate", it.class.opcode))?;
+        let eye = self.builder.id();
+        made.push(Instruction::new(Op::Load, Some(self.int), Some(eye), vec![Operand::IdRef(self.eye)]));
+        let layer = if component == self.float {
+            let layer = self.builder.id();
+            made.push(Instruction::new(Op::ConvertSToF, Some(self.float), Some(layer), vec![Operand::IdRef(eye)]));
+            layer
+        } else {
+            eye
+        };
+        let (ty, place) = (self.builder.type_vector(component, 3), self.builder.id());
+        let parts = vec![Operand::IdRef(coordinate), Operand::IdRef(layer)];
+        made.push(Instruction::new(Op::CompositeConstruct, Some(ty), Some(place), parts));
+        it.operands[1] = Operand::IdRef(place);
+        Ok(())
+    }
+
+    /// The type of a value of a function, or of a constant.
+    fn type_of(&self, value: u32, types: &HashMap<u32, u32>) -> Option<u32> {
+        let globals = || self.builder.module_ref().types_global_values.iter();
+        types.get(&value).copied().or_else(|| globals().find(|it| it.result_id == Some(value))?.result_type)
+    }
+
+    /// Calls the function that takes what it is given.
+    fn call(&mut self, it: &mut Instruction, known: &HashMap<u32, Arrayed>) {
+        let Some(callee) = id(it, 0) else { return };
+        let given = it.operands[1..].iter().map(|it| known.get(&it.id_ref_any()?).copied());
+        let given: Vec<Option<Arrayed>> = given.collect();
+        if given.iter().all(Option::is_none) {
+            return;
+        }
+        let key = (callee, given.iter().map(|it| it.map(|it| it.pointer)).collect());
+        let name = match self.lifted.get(&key) {
+            Some(name) => *name,
+            None => {
+                let name = self.builder.id();
+                self.lifted.insert(key, name);
+                self.wanted.push((callee, given, name));
+                name
+            }
+        };
+        it.operands[0] = Operand::IdRef(name);
+    }
+}

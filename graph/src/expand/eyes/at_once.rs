@@ -1,0 +1,197 @@
+//! Which images hold both eyes' parts in one, so that a pass can draw both at once.
+//!
+//! Only draws, fills and copies of whole images do what they do for both eyes at once. What anything else makes, or reads
+//! otherwise than by sampling, is an image for each eye; so is all that is drawn from such an image, and beside it.
+
+use super::For;
+use crate::describe::{
+    Draw, Image, ImagePart, ImageShape, Layers, Lifetime, Mips, Part, Pass, Pipeline, Sample, StandIn, Storage,
+    StorageAccess, Work,
+};
+use crate::frame::ImageIndex;
+use crate::view::{EyeForm, Stereo};
+use crate::vocabulary::AddressMode;
+
+/// By image that each eye has of its own why it isn't one for both; `None`: it is, or both eyes share it.
+pub(super) struct Apart {
+    why: Vec<Option<String>>,
+}
+
+impl Apart {
+    /// Finds them out for a mode that keeps both eyes' images in one of this form.
+    pub(super) fn of(pipeline: &Pipeline, own: &[bool], whose: &[For], stereo: Stereo, form: EyeForm) -> Apart {
+        let why = pipeline.images.iter().zip(own).map(|(image, own)| own.then(|| by_itself(image)).flatten());
+        let mut apart = Apart { why: why.collect() };
+        let running = || pipeline.passes.iter().zip(whose).filter(|(pass, _)| pass.off.is_none());
+        for (pass, whose) in running() {
+            let name = &pass.name.text;
+            let own_part = |part: &&ImagePart| own[index(part.image.index)];
+            for part in looked_up(pass).chain(written_alone(pass)).filter(own_part) {
+                apart.part(part.image.index, || format!("`{name}` uses it otherwise than by sampling or drawing"));
+            }
+            for part in written(pass).filter(own_part).filter(|part| part.eye.is_some() || *whose != For::Each) {
+                apart.part(part.image.index, || format!("`{name}` writes one eye's"));
+            }
+            let wraps = |sample: &&Sample| {
+                let address = sample.address.map(|address| address.value);
+                form == EyeForm::Halves && address.is_some_and(|address| address != AddressMode::ClampToEdge)
+            };
+            for sample in pass.sample.iter().filter(wraps).filter(|sample| own_part(&&sample.part)) {
+                apart.part(sample.part.image.index, || format!("`{name}` reads beyond its edges"));
+            }
+            if *whose == For::Each
+                && let Some(why) = only_one_by_one(pass, stereo)
+            {
+                apart.all(written(pass).filter(own_part), &format!("`{name}` {why}"));
+            }
+        }
+        while apart.spread(pipeline, own, running()) {}
+        apart
+    }
+
+    /// Whether an image, which each eye has of its own, is one for both.
+    pub(super) fn is_one(&self, image: ImageIndex) -> bool {
+        self.why[index(image)].is_none()
+    }
+
+    /// Whether a pass that runs for each eye does so at once.
+    pub(super) fn at_once(&self, pass: &Pass, own: &[bool], stereo: Stereo) -> bool {
+        let apart =
+            |part: &ImagePart| own[index(part.image.index)] && part.eye.is_none() && !self.is_one(part.image.index);
+        only_one_by_one(pass, stereo).is_none() && !sampled(pass).chain(written(pass)).any(apart)
+    }
+
+    /// Why an image is one for each eye.
+    pub(super) fn why(&self, image: usize) -> Option<&str> {
+        self.why[image].as_deref()
+    }
+
+    fn part(&mut self, image: ImageIndex, why: impl FnOnce() -> String) -> bool {
+        let known = &mut self.why[index(image)];
+        let new = known.is_none();
+        known.get_or_insert_with(why);
+        new
+    }
+
+    fn all<'p>(&mut self, parts: impl Iterator<Item = &'p ImagePart>, why: &str) -> bool {
+        parts.fold(false, |found, part| self.part(part.image.index, || why.to_owned()) || found)
+    }
+
+    /// What is drawn from or beside an image for each eye is one, too. Whether that found any.
+    fn spread<'p>(
+        &mut self,
+        pipeline: &Pipeline,
+        own: &[bool],
+        running: impl Iterator<Item = (&'p Pass, &'p For)>,
+    ) -> bool {
+        let mut found = false;
+        for (pass, _) in running.filter(|(_, whose)| **whose == For::Each) {
+            let is_own = |part: &&ImagePart| own[index(part.image.index)];
+            let each = |part: &&ImagePart| is_own(part) && part.eye.is_none();
+            let cause = sampled(pass).chain(written(pass)).filter(each).find(|part| !self.is_one(part.image.index));
+            if let Some(cause) = cause {
+                let image = &pipeline.images[index(cause.image.index)].name.text;
+                let why =
+                    format!("`{}` draws it for one eye after the other, as it does with `{image}`", pass.name.text);
+                found |= self.all(written(pass).filter(is_own), &why);
+            }
+        }
+        // What takes the place of a pass that is off hands on one image for both, or two.
+        for pass in pipeline.passes.iter().filter(|pass| pass.off.is_some()) {
+            for stand_in in &pass.otherwise {
+                let StandIn::Forward(forward) = stand_in else { continue };
+                let [from, to] = [forward.from, forward.to].map(|image| image.index);
+                if own[index(from)] && own[index(to)] && self.is_one(from) != self.is_one(to) {
+                    let why = || format!("`{}` is off and hands it on", pass.name.text);
+                    found |= self.part(from, why) | self.part(to, why);
+                }
+            }
+        }
+        found
+    }
+}
+
+fn index(image: ImageIndex) -> usize {
+    image.0 as usize
+}
+
+/// Why an image can't hold both eyes' parts, whatever passes do.
+fn by_itself(image: &Image) -> Option<String> {
+    let what = match () {
+        () if image.shape.value != ImageShape::D2 => "it isn't flat",
+        () if !matches!(image.layers.value, Layers::Default | Layers::Count(1)) => "it has layers of its own",
+        () if image.mips.value != Mips::Count(1) => "it has mip levels",
+        () if matches!(image.lifetime.value, Lifetime::File(_)) => "it comes from a file",
+        () => return None,
+    };
+    Some(what.to_owned())
+}
+
+/// Why a pass can't do what it does for both eyes at once.
+fn only_one_by_one(pass: &Pass, stereo: Stereo) -> Option<&'static str> {
+    match &pass.work {
+        Work::Draw { draw: Draw::Indirect(_), .. } if stereo != Stereo::Multiview => {
+            Some("draws the instances that a buffer says")
+        }
+        Work::Draw { .. } | Work::Fill { .. } => None,
+        Work::Copy { from: Part::Image(_), to: Part::Image(_) } => None,
+        Work::Copy { .. } => Some("copies to or from a buffer"),
+        Work::Blit { .. } => Some("scales by a blit"),
+        Work::Dispatch { .. } => Some("runs a compute shader"),
+        Work::Custom { .. } => Some("is recorded by the program"),
+    }
+}
+
+fn sampled(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
+    pass.sample.iter().map(|sample| &sample.part)
+}
+
+/// What a pass writes.
+fn written(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
+    let color = pass.color.iter().map(|color| &color.part);
+    let depth = pass.depth.iter().map(|depth| &depth.part);
+    let reads = |storage: &&Storage| storage.access.is_none_or(|access| access.value != StorageAccess::Read);
+    let storage = pass.storage.iter().filter(reads).filter_map(|storage| image(&storage.part));
+    let transfers: &[Part] = match &pass.work {
+        Work::Copy { to, .. } | Work::Blit { to, .. } | Work::Fill { to, .. } => std::slice::from_ref(to),
+        Work::Custom { writes, .. } => writes,
+        Work::Draw { .. } | Work::Dispatch { .. } => &[],
+    };
+    color.chain(depth).chain(storage).chain(transfers.iter().filter_map(image))
+}
+
+/// What a pass reads otherwise than by sampling it, but for copies of whole images.
+fn looked_up(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
+    let transfers: &[Part] = match &pass.work {
+        Work::Copy { from: from @ Part::Image(part), to } if is_part(part) || !whole(to) => std::slice::from_ref(from),
+        Work::Blit { from, .. } => std::slice::from_ref(from),
+        Work::Custom { reads, .. } => reads,
+        _ => &[],
+    };
+    pass.storage.iter().filter_map(|storage| image(&storage.part)).chain(transfers.iter().filter_map(image))
+}
+
+/// What a copy or fill writes only a part of.
+fn written_alone(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
+    let to = match &pass.work {
+        Work::Copy { from, to } if !whole(to) || !whole(from) => image(to),
+        Work::Fill { to, .. } if !whole(to) => image(to),
+        _ => None,
+    };
+    to.into_iter()
+}
+
+fn whole(part: &Part) -> bool {
+    image(part).is_some_and(|part| !is_part(part))
+}
+
+fn is_part(part: &ImagePart) -> bool {
+    part.eye.is_some() || part.plane.is_some() || part.previous.is_some()
+}
+
+fn image(part: &Part) -> Option<&ImagePart> {
+    match part {
+        Part::Image(part) => Some(part),
+        Part::Buffer(_) => None,
+    }
+}
