@@ -57,12 +57,13 @@ pub(crate) fn version(packed: u32) -> String {
     format!("{major}.{}.{}", vk::api_version_minor(packed), vk::api_version_patch(packed))
 }
 
-/// The capabilities of an open device, which resolves depth so.
+/// The capabilities of an open device, which resolves depth so, and draws several views at once if it says that and `draws_views`.
 pub(crate) fn profile(
     shared: &Shared,
     source: String,
     needs: &mut dyn MemoryProvider,
     depth_resolve: DepthResolve,
+    draws_views: bool,
 ) -> Profile {
     let (instance, physical) = (&shared.instance.raw, shared.physical);
     let families = &shared.queues.families;
@@ -103,7 +104,8 @@ pub(crate) fn profile(
             sharing: Sharing::Exclusive,
         },
         local_read: shared.local_read.is_some(),
-        max_multiview_views: if features.multiview() { views.max_multiview_view_count } else { 1 },
+        max_multiview_views: if features.multiview() && draws_views { views.max_multiview_view_count } else { 1 },
+        refuted_multiview: features.multiview() && !draws_views,
         vertex_layer: features.vertex_layer(),
         max_clip_distances: if features.clip_distances() { limits.max_clip_distances } else { 0 },
         depth_resolve: depth_resolve.has,

@@ -10,7 +10,7 @@ use framewright_graph::plan::{
     Attachment, BindingKind, ImageId, Pass, Plan, RenderScope, Resource, Side, Step, Transfer, Work,
 };
 use framewright_graph::rotation::Rotation;
-use framewright_graph::view::EyeForm;
+use framewright_graph::view::{EyeForm, Stereo};
 use framewright_graph::vocabulary::{Filter, Layout};
 
 /// Whether the device can execute such a step, on the queue that it names.
@@ -54,6 +54,20 @@ fn renderable(shared: &Shared, plan: &Plan, scope: &RenderScope) -> Result<(), E
     if !fits {
         let (count, layers) = (scope.color.len(), scope.layers);
         return bad(format!("{count} colour attachments of {width}×{height}, {layers} layers: too many or too large"));
+    }
+    let draws_so = match (plan.stereo, plan.eyes(scope)) {
+        (_, None) => true,
+        (Stereo::Multiview, Some(form)) => shared.multiview && form == EyeForm::Layers,
+        (Stereo::Instanced, Some(EyeForm::Layers)) => shared.vertex_layer && shared.clip_distances,
+        (Stereo::Instanced | Stereo::DoubleWide, Some(EyeForm::Halves)) => shared.clip_distances,
+        (Stereo::Off | Stereo::MultiPass | Stereo::DoubleWide, Some(_)) => false,
+    };
+    if !draws_so {
+        return bad(format!(
+            "it draws for both eyes at once ({}) as {} can't",
+            plan.stereo.name(),
+            shared.summary.name
+        ));
     }
     for attachment in scope.color.iter().chain(&scope.depth).chain(&scope.stencil) {
         let image = plan.image(attachment.image);

@@ -90,7 +90,7 @@ pub(crate) fn probe(device: &Device) -> DepthResolve {
 /// Those of these modes that give what they have to, in every format and with every number of samples.
 fn resolves_so(device: &Device, modes: &[ResolveMode]) -> Result<Vec<ResolveMode>, Error> {
     let claims = DepthResolve { has: modes.to_vec(), refuted: Vec::new() };
-    let claimed = capabilities::profile(&device.shared, String::new(), &mut device.memory(), claims);
+    let claimed = capabilities::profile(&device.shared, String::new(), &mut device.memory(), claims, false);
     let mut right = modes.to_vec();
     for format in FORMATS {
         for samples in claimed.format(format).into_iter().flat_map(|it| &it.samples).filter(|count| **count > 1) {
@@ -196,7 +196,7 @@ fn floats(bytes: &[u8]) -> Vec<f32> {
 }
 
 /// Full-screen draws need nothing brought along.
-struct Nothing;
+pub(crate) struct Nothing;
 
 impl DrawSource for Nothing {
     fn record(&mut self, _: Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::features::Features;
 use crate::instance::Instance;
 use crate::memory::LiveMemory;
+use crate::multiview;
 use crate::queues::{Families, Queues};
 use crate::validation::Messages;
 use ash::{ext, khr, vk};
@@ -80,6 +81,12 @@ pub(crate) struct Shared {
     pub(crate) local_read: Option<khr::dynamic_rendering_local_read::Device>,
     /// Whether shaders can see several cubes at once.
     pub(crate) cube_arrays: bool,
+    /// Whether rendering scopes can draw several views at once, as it says.
+    pub(crate) multiview: bool,
+    /// Whether vertex shaders can choose their layer.
+    pub(crate) vertex_layer: bool,
+    /// Whether shaders have clip distances.
+    pub(crate) clip_distances: bool,
     /// Whether images can be in the layout `PRESENT_SRC_KHR`.
     pub(crate) presents: bool,
     pub(crate) queues: Queues,
@@ -88,6 +95,8 @@ pub(crate) struct Shared {
     allocator: ManuallyDrop<Mutex<Allocator>>,
     /// How it resolves depth, once that was tried.
     depth_resolve: OnceLock<DepthResolve>,
+    /// Whether it draws several views at once, once that was tried.
+    draws_views: OnceLock<bool>,
     abandoned: OnceLock<Unfinished>,
     pub(crate) instance: ManuallyDrop<Instance>,
 }
@@ -123,6 +132,8 @@ impl Device {
         let has_local_read = capabilities::has_local_read(&instance.raw, physical);
         let mut features = Features::used(&Features::of(&instance.raw, physical, false), has_local_read);
         let cube_arrays = features.cube_arrays();
+        let (multiview, vertex_layer) = (features.multiview(), features.vertex_layer());
+        let clip_distances = features.clip_distances();
         let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
         let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();
         // Without swapchains there is no layout PRESENT_SRC_KHR.
@@ -163,12 +174,16 @@ impl Device {
             labels,
             local_read,
             cube_arrays,
+            multiview,
+            vertex_layer,
+            clip_distances,
             presents,
             queues: Queues::new(&raw, families),
             summary,
             caches: crate::caches::Caches::default(),
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
             depth_resolve: OnceLock::new(),
+            draws_views: OnceLock::new(),
             abandoned: OnceLock::new(),
             raw,
             instance: ManuallyDrop::new(instance),
@@ -176,13 +191,14 @@ impl Device {
         Ok(Device { shared: Arc::new(shared) })
     }
 
-    /// What the device can do, as far as Plans depend on it. The first time it is tried how the device resolves depth, which
-    /// takes one small frame.
+    /// What the device can do, as far as Plans depend on it. The first time it is tried how the device resolves depth, and
+    /// whether it draws several views at once, which takes small frames.
     #[must_use]
     pub fn profile(&self) -> Profile {
         let source = format!("read from {}, Vulkan {}", self.shared.summary.driver, self.shared.summary.vulkan);
         let depth_resolve = self.shared.depth_resolve.get_or_init(|| depth_resolve::probe(self));
-        capabilities::profile(&self.shared, source, &mut self.memory(), depth_resolve.clone())
+        let draws_views = *self.shared.draws_views.get_or_init(|| multiview::probe(self));
+        capabilities::profile(&self.shared, source, &mut self.memory(), depth_resolve.clone(), draws_views)
     }
 
     /// What images and buffers take of this device's memory, for [`framewright_graph::compile`].

@@ -57,6 +57,7 @@ mod keep;
 mod labels;
 pub mod layer;
 mod memory;
+mod multiview;
 mod params;
 mod pass_set;
 mod physical;

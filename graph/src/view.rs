@@ -98,6 +98,9 @@ impl Stereo {
     #[must_use]
     pub fn lacks(self, device: &Profile) -> Option<String> {
         match self {
+            Stereo::Multiview if device.refuted_multiview => {
+                Some("it says that it draws several views at once, and a test showed that it doesn't".to_owned())
+            }
             Stereo::Multiview if device.max_multiview_views < 2 => {
                 Some(format!("it draws {} views at once, and two are needed", device.max_multiview_views))
             }

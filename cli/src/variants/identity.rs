@@ -41,7 +41,8 @@ pub(super) fn of(plan: &Plan) -> Identity {
     let DeviceUsed { name: _, exact_memory } = device;
     let mut hashing = Hashing::default();
     // A Plan of which a part can't be written is known by the parts before it.
-    let _ = (exact_memory, stereo, views, images, buffers, heaps, steps, outputs, notes, totals).serialize(&mut hashing);
+    let _ =
+        (exact_memory, stereo, views, images, buffers, heaps, steps, outputs, notes, totals).serialize(&mut hashing);
     Identity { plan: hashing.whole.finish(), shape: hashing.shape.finish() }
 }
 

@@ -1,5 +1,6 @@
 //! Before `link`: a frame that was built in memory may hold what no pipeline file can say.
 
+mod eyes;
 mod lifetimes;
 mod transfers;
 
@@ -25,7 +26,8 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         return Err(vec![Diagnostic::new(Span::NONE, message)]);
     }
     for image in &frame.images {
-        let problem = image_problem(image).map(|what| Diagnostic::new(image.span, format!("`{}` {what}", image.name)));
+        let problem = image_problem(image).or_else(|| eyes::image_problem(image, frame.stereo));
+        let problem = problem.map(|what| Diagnostic::new(image.span, format!("`{}` {what}", image.name)));
         errors.extend(problem.or_else(|| lifetimes::check(&image.lifetime, image.span, of_image(image))));
     }
     for buffer in &frame.buffers {
@@ -43,6 +45,7 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
             check.work();
             check.storage();
             check.files();
+            eyes::pass(frame, pass, &mut errors);
         }
     }
     outputs(frame, &mut errors);

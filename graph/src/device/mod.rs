@@ -49,6 +49,10 @@ pub struct Profile {
     /// Most views that a rendering scope draws at once (`maxMultiviewViewCount`).
     #[serde(default = "least_views", deserialize_with = "sound::views")]
     pub max_multiview_views: u32,
+    /// Whether the device says that it draws several views at once, and a test showed that it doesn't: then
+    /// `max_multiview_views` is 1.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub refuted_multiview: bool,
     /// Whether vertex shaders can choose the layer that they draw into (`shaderOutputLayer`).
     #[serde(default)]
     pub vertex_layer: bool,

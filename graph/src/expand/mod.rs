@@ -9,6 +9,7 @@ mod casters;
 mod depth_only;
 mod eyes;
 mod fills;
+mod halves;
 mod images;
 mod local;
 mod once;

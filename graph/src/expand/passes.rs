@@ -3,8 +3,8 @@
 use super::shader::Checked;
 use super::things::Things;
 use super::{
-    Chosen, fills, local, params, parts, rotation, sampled, shader, storage, supplied, targets, transfers, variant,
-    work,
+    Chosen, fills, halves, local, params, parts, rotation, sampled, shader, storage, supplied, targets, transfers,
+    variant, work,
 };
 use crate::describe::{self, Diagnostic, StandIn, Work as Described};
 use crate::frame::{BufferRole, BufferUse, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
@@ -45,6 +45,7 @@ pub(super) fn lower(
         sampled::check_left_out(pass, whole.as_ref(), errors);
         lowered.params = params::give(pass, interface, whole.as_ref(), errors);
         targets::fed(things, pass, interface, errors);
+        halves::check(chosen, things, pass, interface, errors);
     } else if let Described::Custom { .. } = pass.work {
         lowered.params = params::as_written(pass);
     }

@@ -8,6 +8,7 @@ use super::{Chosen, storage, variant};
 use crate::describe::{self, Diagnostic, Face, nearest, suggestion};
 use crate::frame::{self, Pass, Sampled, Shape};
 use crate::interface::{BindingKind, Component, Dimension, ImageShape, MOST_PARTS, PASS_SET, ShaderInterface};
+use crate::view::EyeForm;
 use crate::vocabulary::{AddressMode, Aspects, Filter, Sampler, Subresources};
 
 /// A sampled image as its shader declares it.
@@ -284,8 +285,12 @@ impl Check<'_> {
     /// Of what is used in part the shader must know which.
     fn part(&self, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
         let (name, image) = (&self.sample.binding.text, &self.image.image);
-        if image.room.is_none() || self.declared.input {
+        let halves = image.eyes == Some(EyeForm::Halves);
+        if image.room.is_none() && !halves || self.declared.input {
             return;
+        }
+        if halves && image.room.is_none() {
+            return self.half(interface, errors);
         }
         let declared = self.chosen.image(self.sample.part.image.index).size.span;
         if !interface.asks_part.iter().any(|asked| **asked == **name) {
@@ -302,6 +307,24 @@ impl Check<'_> {
             let wrong = Diagnostic::new(address.span, message).label(declared, "its size may change");
             errors.push(wrong.help("`Clamp` ends at the part's edges"));
         }
+    }
+
+    /// Of what both eyes have side by side the shader must know which half.
+    fn half(&self, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
+        let (name, image) = (&self.sample.binding.text, &self.image.image);
+        if interface.asks_part.iter().any(|asked| **asked == **name) {
+            return;
+        }
+        let message = format!(
+            "shader `{}` samples `{name}` and doesn't ask which half of `{}` is its eye's",
+            self.shader, image.name
+        );
+        let declared = self.chosen.image(self.sample.part.image.index).name.span;
+        let wrong = Diagnostic::new(self.sample.part.image.span, message);
+        let wrong = wrong.label(declared, "both eyes' pictures lie side by side in it");
+        errors.push(wrong.help(format!(
+            "include `include/texture.glsl` and look it up by `found_in({name}, {name}_st, uv)` or `texel_in({name}, {name}_st, texel)`"
+        )));
     }
 
     /// A fragment can read its own texel only of an image that lies under the pass's targets.

@@ -11,6 +11,7 @@ use super::{
     RenderScope, Resource, Side, Step, StepId, Subresources, Transfer, Wait, Work,
 };
 use crate::frame::{Blend, BufferRole, Draw, DrawList, Groups, ParamValue, StencilState};
+use crate::view::{EyeForm, Stereo};
 use lists::{buffer, image, note, output, totals, view};
 use words::{bytes, cause, fill_value, hazard, samples, size, words_of, words_of_cascade, words_of_list};
 
@@ -63,7 +64,8 @@ impl Tree<'_> {
                 self.scope(scope, &mut parts);
                 let [width, height] = scope.extent;
                 let layers = if scope.layers == 1 { String::new() } else { format!(", {} layers", scope.layers) };
-                format!("rendering scope, {width}×{height}{layers}, {}", samples(scope.samples))
+                let eyes = self.plan.eyes(scope).map_or_else(String::new, |form| self.both_eyes(form));
+                format!("rendering scope, {width}×{height}{layers}, {}{eyes}", samples(scope.samples))
             }
             Work::Dispatch(pass) => {
                 parts.push(self.pass(pass));
@@ -93,6 +95,17 @@ impl Tree<'_> {
             Queue::Transfer => " on the transfer queue",
         };
         Node::new(format!("step {}{queue}: {title}", self.id.0), parts)
+    }
+
+    /// How a scope draws for both eyes.
+    fn both_eyes(self, form: EyeForm) -> String {
+        let how = match (self.plan.stereo, form) {
+            (Stereo::Instanced, EyeForm::Layers) => "twice the instances, each in the layer of its eye",
+            (Stereo::Instanced, EyeForm::Halves) => "twice the instances, cut at the seam by clip distances",
+            (Stereo::DoubleWide, _) => "each draw twice, cut at the seam by clip distances",
+            (Stereo::Off | Stereo::MultiPass | Stereo::Multiview, _) => "two views at once",
+        };
+        format!(", for both eyes: {how}")
     }
 
     fn wait(self, wait: &Wait) -> Node {

@@ -15,6 +15,7 @@ mod cells;
 mod clocks;
 mod contents;
 mod dependencies;
+mod eyes;
 mod frames;
 mod memory;
 mod ownership;
@@ -55,6 +56,7 @@ pub fn verify(plan: &Plan) -> Vec<Violation> {
         totals::check(plan, &mut found);
         redraws::check(plan, &mut found);
         rotation::check(plan, &mut found);
+        eyes::check(plan, &mut found);
         walk::walk(plan, &program, frames, &mut found);
     }
     found.violations

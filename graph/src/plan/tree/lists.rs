@@ -7,7 +7,7 @@ use crate::plan::names::{Shown, vulkan};
 use crate::plan::outline::Node;
 use crate::plan::{Buffer, ChosenFormat, Image, Initial, Note, Output, Plan, Resource, Role, Totals, View, ViewEye};
 use crate::texture::ColorSpace;
-use crate::view::Allowances;
+use crate::view::{Allowances, EyeForm};
 
 pub(super) fn view(view: &View) -> Node {
     let [width, height] = view.extent;
@@ -68,6 +68,11 @@ pub(super) fn image(plan: &Plan, image: &Image) -> Node {
         }
     }
     text += &format!(", {}", samples(image.samples));
+    match image.eyes {
+        Some(EyeForm::Layers) => text += ", a layer for each eye",
+        Some(EyeForm::Halves) => text += ", both eyes' side by side",
+        None => {}
+    }
     if image.rotation.turns() {
         text += &format!(", rotated by {}°", image.rotation.degrees());
     }

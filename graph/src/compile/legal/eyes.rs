@@ -1,0 +1,60 @@
+//! What holds both eyes' parts is used for both eyes at once.
+
+use crate::describe::Diagnostic;
+use crate::frame::{Frame, Image, ImageIndex, Pass, Resource, Shape, Work};
+use crate::source::Span;
+use crate::view::{EyeForm, Stereo};
+
+/// Why an image can't hold both eyes' parts as it says.
+pub(super) fn image_problem(image: &Image, stereo: Stereo) -> Option<String> {
+    let form = image.eyes?;
+    let fits = match stereo {
+        Stereo::Off | Stereo::MultiPass => false,
+        Stereo::DoubleWide => form == EyeForm::Halves,
+        Stereo::Instanced => true,
+        Stereo::Multiview => form == EyeForm::Layers,
+    };
+    if !fits {
+        Some(format!("holds both eyes' parts, which isn't how the frame is drawn for two eyes ({})", stereo.name()))
+    } else if image.shape != Shape::D2 || image.layers > 1 || image.mips > 1 {
+        Some("holds both eyes' parts, so each is flat and has one layer and one mip level".to_owned())
+    } else {
+        None
+    }
+}
+
+/// Reports what a pass does with such images that isn't for both eyes at once.
+pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
+    let eyes = |image: ImageIndex| frame.images[image.0 as usize].eyes;
+    let mut wrong = |image: ImageIndex, span: Span, what: &str| {
+        let name = &frame.images[image.0 as usize].name;
+        errors.push(Diagnostic::new(span, format!("`{}` {what} `{name}`, which holds both eyes' parts", pass.name)));
+    };
+    let own = pass.color.first().map(|it| it.image).or(pass.depth.as_ref().map(|it| it.image)).and_then(eyes);
+    for storage in pass.storage.iter().filter(|it| eyes(it.image).is_some()) {
+        wrong(storage.image, storage.span, "accesses as storage");
+    }
+    for sampled in pass.sampled.iter().filter(|it| eyes(it.image).is_some() && it.eye.is_none() && own.is_none()) {
+        wrong(sampled.image, sampled.span, "draws for one eye and doesn't say which it samples of");
+    }
+    let transfers = || {
+        pass.transfers.iter().filter_map(|it| match it.resource {
+            Resource::Image(image) => Some((image, it.span)),
+            Resource::Buffer(_) => None,
+        })
+    };
+    let all_alike = transfers().map(|(image, _)| eyes(image)).collect::<std::collections::HashSet<_>>().len() < 2;
+    let whole = match pass.work {
+        Work::Copy => all_alike && transfers().count() == 2,
+        Work::Fill { .. } => true,
+        _ => false,
+    };
+    for (image, span) in transfers().filter(|(image, _)| eyes(*image).is_some() && !whole) {
+        wrong(image, span, "transfers");
+    }
+    if let Work::Forward { from, to, .. } = pass.work
+        && eyes(from) != eyes(to)
+    {
+        wrong(if eyes(from).is_some() { from } else { to }, pass.span, "forwards from or to");
+    }
+}

@@ -1,0 +1,28 @@
+//! Whether what draws can draw into both eyes' pictures where they lie side by side, as far as its shader tells.
+
+use super::Chosen;
+use super::things::Things;
+use crate::describe::{self, Diagnostic};
+use crate::interface::{ShaderInterface, Unturned};
+use crate::view::EyeForm;
+
+/// Reports a shader that takes where its fragments lie for their place in one eye's picture.
+pub(super) fn check(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    pass: &describe::Pass,
+    interface: &ShaderInterface,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let targets = pass.color.iter().map(|target| target.part.image).chain(pass.depth.iter().map(|it| it.part.image));
+    let halves = |image: &describe::ImageRef| {
+        things.image(image.index).is_some_and(|image| image.image.eyes == Some(EyeForm::Halves))
+    };
+    let Some(target) = targets.into_iter().find(halves) else { return };
+    let (Some(shader), true) = (pass.shader(), interface.unturned.contains(&Unturned::FragCoord)) else { return };
+    let name = &chosen.image(target.index).name.text;
+    let message = format!("shader `{}` reads `gl_FragCoord` without `frag_coord()`", shader.text);
+    let wrong = Diagnostic::new(shader.span, message);
+    let wrong = wrong.label(target.span, format!("both eyes' pictures lie side by side in `{name}`"));
+    errors.push(wrong.help("`frag_coord()` of `include/rotation.glsl` is the place in the eye's own picture"));
+}

@@ -1,0 +1,102 @@
+//! Whether what holds both eyes' parts is used for both eyes at once, or by shaders that say whose they look up.
+
+use super::Findings;
+use super::touches::attachments;
+use crate::frame::Shape;
+use crate::plan::{Access, ImageId, Plan, RenderScope, Side, StepId, Transfer, Work};
+use crate::view::{EyeForm, Stereo};
+use crate::vocabulary::Accesses;
+
+pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
+    if !plan.images.iter().any(|image| image.eyes.is_some()) {
+        return;
+    }
+    for image in plan.images.iter().filter(|image| image.eyes.is_some()) {
+        let forms: &[EyeForm] = match plan.stereo {
+            Stereo::Off | Stereo::MultiPass => &[],
+            Stereo::DoubleWide => &[EyeForm::Halves],
+            Stereo::Instanced => &[EyeForm::Layers, EyeForm::Halves],
+            Stereo::Multiview => &[EyeForm::Layers],
+        };
+        if !image.eyes.is_some_and(|form| forms.contains(&form)) {
+            let how = plan.stereo.name();
+            found.structure(None, Some(image.id.0), format!("holds both eyes' parts as `{how}` doesn't draw them"));
+        }
+        if image.shape != Shape::D2 || image.layers > 1 || image.mips > 1 {
+            found.structure(
+                None,
+                Some(image.id.0),
+                "holds both eyes' parts, which aren't flat or have layers of their own",
+            );
+        }
+    }
+    for (id, step) in (0..).map(StepId).zip(&plan.steps) {
+        match &step.work {
+            Work::Render(scope) => {
+                all_or_none(plan, id, scope, found);
+                for pass in &scope.passes {
+                    of_an_eye(plan, id, &pass.accesses, plan.eyes(scope).is_some(), found);
+                }
+            }
+            Work::Dispatch(pass) | Work::Custom(pass) => of_an_eye(plan, id, &pass.accesses, false, found),
+            Work::Copy(transfer) | Work::Resolve(transfer) => same_on_both_sides(plan, id, transfer, found),
+            Work::Blit(transfer) => {
+                for side in [&transfer.source, &transfer.target] {
+                    if let Side::Image { image, .. } = side
+                        && plan.image(*image).eyes.is_some()
+                    {
+                        found.structure(Some(id), Some(image.0), "holds both eyes' parts and is scaled by a blit");
+                    }
+                }
+            }
+            Work::Fill(_) | Work::Export => {}
+        }
+    }
+}
+
+/// All attachments of a scope, and what they are resolved into, hold both eyes' parts alike, or none does.
+fn all_or_none(plan: &Plan, id: StepId, scope: &RenderScope, found: &mut Findings<'_>) {
+    let images = attachments(scope).flat_map(|(attachment, _)| {
+        let resolved = attachment.resolve.as_ref().map(|resolve| resolve.image);
+        std::iter::once(attachment.image).chain(resolved)
+    });
+    let mut first = None;
+    for image in images {
+        let eyes = plan.image(image).eyes;
+        if *first.get_or_insert(eyes) != eyes {
+            found.structure(Some(id), Some(image.0), "is drawn beside an image that holds both eyes' parts otherwise");
+        }
+    }
+}
+
+/// Shaders look up the part of an eye: their own if they draw for both, else one that is named.
+fn of_an_eye(plan: &Plan, id: StepId, accesses: &[Access], both: bool, found: &mut Findings<'_>) {
+    let stored = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
+    let moved = Accesses::TRANSFER_READ | Accesses::TRANSFER_WRITE;
+    for access in accesses.iter().filter(|access| plan.image(access.image).eyes.is_some()) {
+        let image: ImageId = access.image;
+        if access.accesses.intersects(stored | moved) {
+            found.structure(Some(id), Some(image.0), "holds both eyes' parts, and a pass accesses it as one");
+        } else if !both && access.eye.is_none() {
+            found.structure(Some(id), Some(image.0), "holds both eyes' parts, and a pass doesn't say whose it reads");
+        }
+    }
+    for access in accesses.iter().filter(|access| access.eye.is_some()) {
+        if plan.image(access.image).eyes.is_none() {
+            found.structure(Some(id), Some(access.image.0), "is no eye's, and a pass reads one eye's part of it");
+        }
+    }
+}
+
+/// What is moved is moved for both eyes.
+fn same_on_both_sides(plan: &Plan, id: StepId, transfer: &Transfer, found: &mut Findings<'_>) {
+    let eyes = |side: &Side| match side {
+        Side::Image { image, .. } => (plan.image(*image).eyes, Some(*image)),
+        Side::Buffer { .. } => (None, None),
+    };
+    let ((from, source), (to, target)) = (eyes(&transfer.source), eyes(&transfer.target));
+    if from != to {
+        let image: Option<ImageId> = target.or(source);
+        found.structure(Some(id), image.map(|image| image.0), "is copied, and holds both eyes' parts on only one side");
+    }
+}
