@@ -7,8 +7,8 @@
 mod at_once;
 
 use crate::describe::{
-    self, Diagnostic, Draw, Forward, Groups, ImagePart, ImageRef, Name, Output, Part, Pass, Pipeline, Size, Spanned,
-    StandIn, StorageAccess, View, Work,
+    self, Diagnostic, Draw, Forward, ImagePart, ImageRef, Name, Output, Part, Pass, Pipeline, Size, Spanned, StandIn,
+    StorageAccess, View, Work,
 };
 use crate::frame::{ImageIndex, Remark, Resource};
 use crate::source::Span;
@@ -168,12 +168,8 @@ fn visit<'p>(pass: &'p mut Pass, see: &mut dyn FnMut(&'p mut ImagePart, bool)) {
             reads.iter_mut().for_each(|part| of_part(part, false, see));
             writes.iter_mut().for_each(|part| of_part(part, true, see));
         }
-        Work::Dispatch { groups, .. } => {
-            if let Groups::Texels(part) = &mut groups.value {
-                see(part, false);
-            }
-        }
-        Work::Draw { .. } => {}
+        // Of what workgroups are counted by only the size counts, which is the same for both eyes.
+        Work::Dispatch { .. } | Work::Draw { .. } => {}
     }
 }
 
