@@ -239,6 +239,25 @@ fn what_could_not_be_drawn_rotated_is_no_mistake_where_a_later_pass_reads_the_ou
     }
 }
 
+/// What is handed in is as it is: nobody turned it before.
+#[test]
+fn what_is_handed_in_stays_upright_where_it_is_forwarded_to_the_output() {
+    let state = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout: Layout::TransferDstOptimal };
+    let mut raster = Raster::default();
+    let [picture, screen] = ["picture", "screen"].map(|name| raster.image(name, R8G8B8A8_SRGB, 1));
+    raster.objects("overlay").clear(picture);
+    raster.forward("anti_aliasing", picture, screen);
+    let mut frame = raster.rotated(screen, TURN);
+    wide(&mut frame);
+    let plan = compiled(&frame);
+    assert_eq!(turned(&plan), [("screen", [64, 96])], "one image of both names");
+    frame.images[0].lifetime = Lifetime::Imported { before: state, after: None };
+    frame.passes[0].color[0].clear = None;
+    let plan = compiled(&frame);
+    assert_eq!(turned(&plan), [("screen", [64, 96])], "{}", plan.tree());
+    assert_eq!((plan.images.len(), plan.totals.inserted_passes), (2, 1), "{}", plan.tree());
+}
+
 #[test]
 fn depth_contents_from_outside_and_what_is_turned_already_are_refused() {
     let wrong = |change: &dyn Fn(&mut Frame)| {
