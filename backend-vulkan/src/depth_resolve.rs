@@ -1,8 +1,9 @@
 //! How a device really resolves depth: what it says, held against what it does. A driver is known that says it averages, and
 //! takes sample zero.
 //!
-//! A slope is drawn into depth of one texel and several samples, once for each mode, in every depth format and with every number of samples;
-//! a pass works out from the single samples what each mode has to give. That is a frame like any other, with a Plan of its own.
+//! A slope is drawn into depth of one texel and several samples, once for each mode, in every depth format and with every
+//! number of samples; a pass works out from the single samples what each mode has to give. That is a frame like any other, with
+//! a Plan of its own.
 
 use crate::device::Device;
 use crate::error::Error;
