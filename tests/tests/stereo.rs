@@ -6,6 +6,7 @@
 //! | ST-1 | `graph/tests/language/eyes.rs` | `expand/eyes.rs`: `of` gives the left eye's image |
 //! | ST-3 | `what_both_eyes_share_is_drawn_once` | `expand/eyes.rs`: `For::Both` runs for each |
 //! | ST-3 | `passes/tests/eyes.rs` | `draw/eyes.rs`: no step back |
+//! | ST-3 | `shadow_maps_of_each_eyes_own_give_what_shared_ones_give` | `draw/cascades.rs`: no maps of eyes' views |
 //! | NU-4 | `eyes_far_from_the_origin_see_what_they_see_near_it` | `draw/eyes.rs`: an eye's place in 32 bits |
 
 use framewright_graph::compile::Options;
@@ -123,6 +124,18 @@ fn casters(plan: &Plan) -> usize {
         _ => None,
     });
     passes.flatten().filter(|pass| matches!(pass.draw, Some(Draw::Casters(_)))).count()
+}
+
+#[test]
+fn shadow_maps_of_each_eyes_own_give_what_shared_ones_give() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let scene = load(&in_repository("examples/scenes/courtyard.ron"))?;
+    let [shared, own] = [&shipped("shadows"), "tests/pipelines/shadows_per_eye.ron"]
+        .map(|pipeline| shown(device, (pipeline, &[]), &scene, TWO, &Eyes::default()));
+    let ((shared, as_shared), (own, as_own)) = (shared?, own?);
+    assert_eq!(casters(&own), 2 * casters(&shared));
+    assert!(as_own == as_shared, "another picture");
+    Ok(())
 }
 
 #[test]
