@@ -7,6 +7,7 @@
 //! | ST-3 | `what_both_eyes_share_is_drawn_once` | `expand/eyes.rs`: `For::Both` runs for each |
 //! | ST-3 | `passes/tests/eyes.rs` | `draw/eyes.rs`: no step back |
 //! | ST-3 | `shadow_maps_of_each_eyes_own_give_what_shared_ones_give` | `draw/cascades.rs`: no maps of eyes' views |
+//! | ST-1 | `point_lights_reach_what_an_eye_sees_behind_the_camera_between_both` | `point_lights.glsl`: tiles as ahead |
 //! | NU-4 | `eyes_far_from_the_origin_see_what_they_see_near_it` | `draw/eyes.rs`: an eye's place in 32 bits |
 
 use framewright_graph::compile::Options;
@@ -16,7 +17,7 @@ use framewright_graph::root::Root;
 use framewright_graph::rotation::Rotation;
 use framewright_graph::view::Stereo;
 use framewright_passes::draw::{Eyes, SceneDrawSource, interface};
-use framewright_passes::scene::{Scene, load};
+use framewright_passes::scene::{Camera, PointLight, Scene, load};
 use framewright_passes::shipped::SHADERS;
 use framewright_tests::render::{Setup, Ways, device, in_repository, plan_for, silent};
 use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderLibrary};
@@ -135,6 +136,33 @@ fn shadow_maps_of_each_eyes_own_give_what_shared_ones_give() -> Result<(), Box<d
     let ((shared, as_shared), (own, as_own)) = (shared?, own?);
     assert_eq!(casters(&own), 2 * casters(&shared));
     assert!(as_own == as_shared, "another picture");
+    Ok(())
+}
+
+#[test]
+fn point_lights_reach_what_an_eye_sees_behind_the_camera_between_both() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let mut scene = load(&in_repository("examples/scenes/spheres_and_cubes.ron"))?;
+    scene.camera = Camera::look_at(DVec3::new(0.3, 0.5, 6.0), DVec3::new(0.0, 0.5, -9.0), DVec3::Y, 1.0, 0.05)
+        .ok_or("no direction")?;
+    // All over the floor around the camera.
+    let light = |number: u32| {
+        let position = [(number % 40) as f32 * 0.1 - 2.0, 0.05, (number / 40) as f32 * 0.08 + 5.5];
+        PointLight { position, color: [0.5, 0.4, 1.0], intensity: 0.3, range: Some(0.15), shadows: false }
+    };
+    scene.point_lights = (0..1600).map(light).collect();
+    let mut eyes = Eyes::apart(0.25);
+    (eyes.left.place.z, eyes.right.place.z) = (3.0, 2.0);
+    let (_, pictures) = shown(device, ("tests/pipelines/point_lights_per_eye.ron", &[]), &scene, TWO, &eyes)?;
+    let [left, right, all_of_left, all_of_right] = &pictures[..] else { return Err("no four pictures".into()) };
+    for (eye, by_clusters, one_by_one) in [("left", left, all_of_left), ("right", right, all_of_right)] {
+        // Alpha is how many lights were looked at.
+        let colors = |texels: &[u8]| texels.as_chunks::<16>().0.iter().map(|it| it[..12].to_vec()).collect::<Vec<_>>();
+        let (found, expected) = (colors(by_clusters), colors(one_by_one));
+        assert!(found.iter().filter(|color| color.iter().any(|byte| *byte != 0)).count() > 1000, "{eye}: no light");
+        let apart = found.iter().zip(&expected).filter(|(found, expected)| found != expected).count();
+        assert_eq!(apart, 0, "{eye}: pixels that lack light");
+    }
     Ok(())
 }
 
