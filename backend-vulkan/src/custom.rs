@@ -111,9 +111,9 @@ impl<'f> CustomRecorder<'f> {
         self.recorded += 1;
     }
 
-    /// Copies the first mip level that the pass may read of one image or buffer to that of another. Between images formats
-    /// extents and rotations must agree; between buffers the shorter says how much; beside a buffer texels follow each other without
-    /// gaps.
+    /// Copies the first mip level that the pass may read of one image or buffer to that of another. Between images formats,
+    /// extents and rotations must agree; between buffers the shorter says how much; beside a buffer texels follow each other
+    /// without gaps.
     pub fn copy(&mut self, source: &str, target: &str) {
         let (Some(from), Some(to)) =
             (self.find(source, Accesses::TRANSFER_READ), self.find(target, Accesses::TRANSFER_WRITE))

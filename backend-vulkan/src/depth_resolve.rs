@@ -1,8 +1,9 @@
 //! How a device really resolves depth: what it says, held against what it does. A driver is known that says it averages, and
 //! takes sample zero.
 //!
-//! A slope is drawn into depth of one texel and several samples, once for each mode, in every depth format and with every number of samples;
-//! a pass works out from the single samples what each mode has to give. That is a frame like any other, with a Plan of its own.
+//! A slope is drawn into depth of one texel and several samples, once for each mode, in every depth format and with every
+//! number of samples; a pass works out from the single samples what each mode has to give. That is a frame like any other, with
+//! a Plan of its own.
 
 use crate::device::Device;
 use crate::error::Error;
@@ -15,11 +16,10 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Profile;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, Face, Frame, Image, ImageIndex, Output, Pass, Resolve, ResolveWay, Resource,
+    Blend, ColorTarget, DepthTarget, Draw, Face, Frame, Image, ImageIndex, Pass, Resolve, ResolveWay, Resource,
     Sampled, Work,
 };
 use framewright_graph::interface::DrawInterface;
-use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{CompareOp, Filter, ResolveMode, Sampler, Stages, Subresources};
 
@@ -164,15 +164,7 @@ fn frame(format: Format, samples: u32, modes: &[ResolveMode]) -> Frame {
     let target =
         ColorTarget { image: ImageIndex(0), range: whole, span: Span::NONE, clear: None, blend: Blend::Replace };
     frame.passes.push(Pass { sampled: vec![slope], color: vec![target], ..full_screen("expect", "expect") });
-    let output = |image| Output {
-        resource: Resource::Image(ImageIndex(image)),
-        span: Span::NONE,
-        after: None,
-        encoding: None,
-        eye: None,
-        rotation: Rotation::Identity,
-    };
-    frame.outputs = (0..).take(frame.images.len()).map(output).collect();
+    frame.outputs = (0..).take(frame.images.len()).map(|image| Resource::Image(ImageIndex(image)).into()).collect();
     frame
 }
 

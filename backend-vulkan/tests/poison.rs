@@ -4,10 +4,9 @@ mod common;
 
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Face, Frame, ImageIndex, Output, Pass, Sampled, Work};
+use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Face, Frame, ImageIndex, Pass, Sampled, Work};
 use framewright_graph::interface::DrawInterface;
 use framewright_graph::plan::{Plan, Role};
-use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{Filter, Sampler, Stages, Subresources};
 use framewright_vulkan::{Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, ShaderLibrary};
@@ -88,14 +87,7 @@ fn chain(long: bool) -> Frame {
             third,
             pass("last", "next", &[("source", 2)], 3),
         ],
-        outputs: vec![Output {
-            resource: frame::Resource::Image(ImageIndex(3)),
-            span: Span::NONE,
-            after: None,
-            encoding: None,
-            eye: None,
-            rotation: Rotation::Identity,
-        }],
+        outputs: vec![frame::Resource::Image(ImageIndex(3)).into()],
         ..Frame::default()
     }
 }

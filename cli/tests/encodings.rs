@@ -16,7 +16,6 @@ use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{
     Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work,
 };
-use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Filter, Sampler, Stages, Subresources};
@@ -85,14 +84,7 @@ fn drawn(frame: &mut Frame, shader: &str, format: Format, from: Option<ImageInde
 }
 
 fn leaves(frame: &mut Frame, image: ImageIndex, encoding: Option<Encoding>) {
-    frame.outputs.push(Output {
-        resource: Resource::Image(image),
-        span: Span::NONE,
-        after: None,
-        encoding,
-        rotation: Rotation::Identity,
-        eye: None,
-    });
+    frame.outputs.push(Output { encoding, ..Resource::Image(image).into() });
 }
 
 /// The first output of a frame, with what the Plan says of where it is encoded.

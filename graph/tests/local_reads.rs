@@ -7,10 +7,8 @@ mod raster;
 use framewright_graph::compile::{Compiler, Options, Order, Reuse, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{R8G8B8A8_SRGB, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
-use framewright_graph::frame::{Blend, Frame, ImageIndex, Output, Resource};
+use framewright_graph::frame::{Blend, Frame, ImageIndex, Resource};
 use framewright_graph::plan::{BindingKind, Plan, RenderScope, Stage, Work};
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Accesses, Layout, Stages, StoreOp, Usage};
 use raster::Raster;
@@ -141,14 +139,7 @@ fn what_was_read_locally_is_drawn_over_behind_a_barrier() {
     marks.color.truncate(1);
     marks.color[0].clear = None;
     frame.passes.insert(2, marks);
-    frame.outputs.push(Output {
-        resource: Resource::Image(ImageIndex(0)),
-        span: Span::NONE,
-        after: None,
-        encoding: None,
-        eye: None,
-        rotation: Rotation::Identity,
-    });
+    frame.outputs.push(Resource::Image(ImageIndex(0)).into());
     let options = Options { demote: false, order: Order::File, ..Options::default() };
     let plan = compile(&frame, &device(true), &mut Estimated(&device(true)), &options).expect("the frame is legal");
     assert_eq!(verify(&plan), [], "{}", plan.tree());

@@ -8,10 +8,9 @@ use framewright_graph::device::{Estimated, Profile, Queues};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Face, Frame, Groups, Image, ImageIndex,
-    Lifetime, Output, Pass, Resource, Sampled, Storage, TransferUse, Work,
+    Lifetime, Pass, Resource, Sampled, Storage, TransferUse, Work,
 };
 use framewright_graph::plan::{self, Plan, Queue, Role, Sharing};
-use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{
@@ -80,14 +79,7 @@ impl Builder {
     }
 
     fn output(mut self, image: ImageIndex) -> Frame {
-        self.0.outputs.push(Output {
-            resource: Resource::Image(image),
-            span: Span::NONE,
-            after: None,
-            encoding: None,
-            eye: None,
-            rotation: Rotation::Identity,
-        });
+        self.0.outputs.push(Resource::Image(image).into());
         self.0
     }
 }

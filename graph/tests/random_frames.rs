@@ -203,14 +203,7 @@ fn frame(passes: &[Vec<u8>], about: [bool; IMAGES.len()], outputs: &[u8]) -> Fra
         if let Some(image) = maker.pick(|maker, image| {
             maker.written[image] && image != 9 && !listed.contains(&Resource::Image(ImageIndex(image as u32)))
         }) {
-            maker.frame.outputs.push(Output {
-                resource: Resource::Image(ImageIndex(image as u32)),
-                span: Span::NONE,
-                after: None,
-                encoding: None,
-                eye: None,
-                rotation: Rotation::Identity,
-            });
+            maker.frame.outputs.push(Resource::Image(ImageIndex(image as u32)).into());
         }
     }
     maker.frame

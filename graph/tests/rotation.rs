@@ -172,7 +172,8 @@ fn other_outputs_stay_upright() {
 fn an_output_beside_other_targets_is_refused_by_name() {
     let mut raster = Raster::default();
     let [screen, ids] = ["screen", "ids"].map(|name| raster.image(name, R8G8B8A8_SRGB, 1));
-    raster.objects("opaque").clear(screen).clear(ids);
+    let depth = raster.image("depth", D32_SFLOAT, 1);
+    raster.objects("opaque").clear(screen).clear(ids).clear_depth(depth);
     let frame = raster.rotated(screen, TURN);
     let error = refused(&frame);
     let expected = "`opaque` draws into `screen`, which leaves the frame rotated by 90°, and into `ids`, which doesn't";
@@ -183,7 +184,7 @@ fn an_output_beside_other_targets_is_refused_by_name() {
         resource: framewright_graph::frame::Resource::Image(ids),
         ..frame.outputs[0].clone()
     });
-    assert_eq!(turned(&compiled(&both)).len(), 2, "both are shown");
+    assert_eq!(turned(&compiled(&both)).len(), 3, "both are shown");
     let mut upright = frame;
     upright.outputs[0].rotation = Rotation::Identity;
     compiled(&upright);
@@ -208,6 +209,53 @@ fn a_shader_that_knows_of_no_rotation_is_refused_where_it_draws_the_back_buffer(
     let plan = compiled(&frame);
     assert_eq!(turned(&plan), [("screen", [64, 64])], "{}", plan.tree());
     assert_eq!(plan.totals.inserted_passes, 1);
+}
+
+/// PR-2: neither matters where the output is read and so stays upright, be it by a later pass.
+#[test]
+fn what_could_not_be_drawn_rotated_is_no_mistake_where_a_later_pass_reads_the_output_or_its_depth() {
+    let why = Some("has the shader `opaque`, which reads `gl_FragCoord`".into());
+    for (reads_depth, beside) in [(false, false), (false, true), (true, false), (true, true)] {
+        let mut raster = Raster::default();
+        let [screen, color, ids] = ["screen", "color", "ids"].map(|name| raster.image(name, R8G8B8A8_SRGB, 1));
+        let depth = raster.image("depth", D32_SFLOAT, 1);
+        let opaque = raster.objects("opaque").clear(screen).clear_depth(depth);
+        if beside {
+            opaque.clear(ids);
+        }
+        raster.full_screen("fog").sample(if reads_depth { depth } else { screen }).color(color, Blend::Replace);
+        raster.full_screen("mix").sample(color).color(screen, Blend::Alpha);
+        let mut frame = raster.outputs(&[screen, ids][..1 + usize::from(beside)]);
+        frame.outputs[0].rotation = TURN;
+        wide(&mut frame);
+        if !beside {
+            frame.passes[0].no_rotation.clone_from(&why);
+        }
+        let plan = compiled(&frame);
+        assert_eq!(turned(&plan), [("screen", [64, 96])], "{}", plan.tree());
+        let read = if reads_depth { "depth" } else { "screen" };
+        let why = format!("`screen` leaves the frame rotated by 90°, and `fog` samples `{read}`; orientations differ");
+        assert_eq!(inserted(&plan), [("screen (rotated)".to_owned(), why)]);
+    }
+}
+
+/// What is handed in is as it is: nobody turned it before.
+#[test]
+fn what_is_handed_in_stays_upright_where_it_is_forwarded_to_the_output() {
+    let state = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout: Layout::TransferDstOptimal };
+    let mut raster = Raster::default();
+    let [picture, screen] = ["picture", "screen"].map(|name| raster.image(name, R8G8B8A8_SRGB, 1));
+    raster.objects("overlay").clear(picture);
+    raster.forward("anti_aliasing", picture, screen);
+    let mut frame = raster.rotated(screen, TURN);
+    wide(&mut frame);
+    let plan = compiled(&frame);
+    assert_eq!(turned(&plan), [("screen", [64, 96])], "one image of both names");
+    frame.images[0].lifetime = Lifetime::Imported { before: state, after: None };
+    frame.passes[0].color[0].clear = None;
+    let plan = compiled(&frame);
+    assert_eq!(turned(&plan), [("screen", [64, 96])], "{}", plan.tree());
+    assert_eq!((plan.images.len(), plan.totals.inserted_passes), (2, 1), "{}", plan.tree());
 }
 
 #[test]

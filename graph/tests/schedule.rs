@@ -7,10 +7,8 @@ mod raster;
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::Estimated;
 use framewright_graph::format::Format::{R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
-use framewright_graph::frame::{Blend, Frame, ImageIndex, Output, Resource};
+use framewright_graph::frame::{Blend, Frame, ImageIndex, Resource};
 use framewright_graph::plan::{Plan, Work};
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use raster::graphs::{self, Builder};
 use raster::{Raster, device};
@@ -102,14 +100,7 @@ fn passes_that_do_not_depend_on_each_other_share_a_barrier_call() {
     builder.pass("last", &ends, &[(last, false)]);
     let mut frame = builder.output(last);
     // Images of their own memory: no call serves a hand-over.
-    let outputs = (0..frame.images.len() as u32 - 1).map(|image| Output {
-        resource: Resource::Image(ImageIndex(image)),
-        span: Span::NONE,
-        after: None,
-        encoding: None,
-        eye: None,
-        rotation: Rotation::Identity,
-    });
+    let outputs = (0..frame.images.len() as u32 - 1).map(|image| Resource::Image(ImageIndex(image)).into());
     frame.outputs.extend(outputs);
     assert_eq!(compiled(&frame, Order::Default).totals.barrier_calls, 5);
     assert!(compiled(&frame, Order::File).totals.barrier_calls > 5);

@@ -46,6 +46,8 @@ proptest! {
         lights in lights(), camera in cameras(), aspect in 0.3_f64..3.0,
         // Beyond the picture's borders too: samples at edges of triangles may lie there.
         places in prop::collection::vec((prop::array::uniform2(-1.1_f64..1.1), 0.0_f64..1.0), 200),
+        // Where an eye sees that stands farther back: to the right, up and back, in near planes and in metres.
+        others in prop::collection::vec((prop::array::uniform3(-3.0_f64..3.0), any::<bool>()), 100),
     ) {
         let Some(camera) = camera else { return Ok(()) };
         let scene = scene(lights);
@@ -53,9 +55,14 @@ proptest! {
         let mut once = clusters.order.clone();
         once.sort_unstable();
         prop_assert!(once.iter().copied().eq(0..scene.point_lights.len() as u32), "not each light once: {once:?}");
-        for (at, depth) in places {
-            // From the near plane to far behind everything.
-            let place = seen(&camera, aspect, at, f64::from(camera.near) * (1e5_f64).powf(depth));
+        let near = f64::from(camera.near);
+        // From the near plane to far behind everything.
+        let before = places.into_iter().map(|(at, depth)| seen(&camera, aspect, at, near * (1e5_f64).powf(depth)));
+        let back = others.into_iter().map(|([right, up, back], metres)| {
+            let back = back.max(-1.0) * if metres && back > 0.0 { 1.0 } else { near };
+            camera.transform.as_dmat4().transform_vector3(DVec3::new(right, up, back))
+        });
+        for place in before.chain(back) {
             let found = clusters.at(place);
             for (order, number) in clusters.order.iter().enumerate().skip(clusters.everywhere as usize) {
                 let light = &scene.point_lights[*number as usize];

@@ -19,8 +19,10 @@ struct Reach {
 Reach reach_of(vec3 position) {
     const vec4 place = clusters.world_to_cluster * vec4(position, 1.0);
     const float along = max(place.w, 1e-30);
-    const vec2 last = vec2(clusters.tiles_across, clusters.tiles_down) - 1.0;
-    const uvec2 tile = uvec2(clamp(place.xy / along, vec2(0.0), last));
+    const vec2 tiles = vec2(clusters.tiles_across, clusters.tiles_down);
+    // An eye may see what is behind the camera between both: there nothing but the side counts.
+    const vec2 at = place.w > 0.0 ? place.xy / along : step(0.5 * tiles * place.w, place.xy) * tiles;
+    const uvec2 tile = uvec2(clamp(at, vec2(0.0), tiles - 1.0));
     const float depth = log2(along * clusters.inverse_nearest) * clusters.slices_per_doubling;
     const uint slice = uint(clamp(depth, 0.0, float(clusters.slices) - 1.0));
     const uint cluster = (slice * clusters.tiles_down + tile.y) * clusters.tiles_across + tile.x;

@@ -3,10 +3,9 @@
 use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Output, Pass, Resource,
-    Sampled, Storage, Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled,
+    Storage, Work,
 };
-use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{CompareOp, Filter, ResolveMode, Sampler, Stages, Subresources, Usage};
 
@@ -88,15 +87,7 @@ impl Builder {
     /// The frame, made for these images.
     #[must_use]
     pub fn outputs(mut self, images: &[ImageIndex]) -> Frame {
-        let output = |image: &ImageIndex| Output {
-            resource: Resource::Image(*image),
-            span: Span::NONE,
-            after: None,
-            encoding: None,
-            eye: None,
-            rotation: Rotation::Identity,
-        };
-        self.0.outputs = images.iter().map(output).collect();
+        self.0.outputs = images.iter().map(|image| Resource::Image(*image).into()).collect();
         self.0
     }
 }

@@ -6,7 +6,9 @@
 //! | ST-1 | `graph/tests/language/eyes.rs` | `expand/eyes.rs`: `of` gives the left eye's image |
 //! | ST-3 | `what_both_eyes_share_is_drawn_once` | `expand/eyes.rs`: `For::Both` runs for each |
 //! | ST-3 | `passes/tests/eyes.rs` | `draw/eyes.rs`: no step back |
-//! | NU | `eyes_far_from_the_origin_stay_apart` | `draw/frame_data.rs`: the origin at each eye, in 32 bits |
+//! | ST-3 | `shadow_maps_of_each_eyes_own_give_what_shared_ones_give` | `draw/cascades.rs`: no maps of eyes' views |
+//! | ST-1 | `point_lights_reach_what_an_eye_sees_behind_the_camera_between_both` | `point_lights.glsl`: tiles as ahead |
+//! | NU-4 | `eyes_far_from_the_origin_see_what_they_see_near_it` | `draw/eyes.rs`: an eye's place in 32 bits |
 
 use framewright_graph::compile::Options;
 use framewright_graph::frame::Draw;
@@ -15,7 +17,7 @@ use framewright_graph::root::Root;
 use framewright_graph::rotation::Rotation;
 use framewright_graph::view::Stereo;
 use framewright_passes::draw::{Eyes, SceneDrawSource, interface};
-use framewright_passes::scene::{Camera, Scene, load};
+use framewright_passes::scene::{Camera, PointLight, Scene, load};
 use framewright_passes::shipped::SHADERS;
 use framewright_tests::render::{Setup, Ways, device, in_repository, plan_for, silent};
 use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderLibrary};
@@ -42,11 +44,15 @@ const EXTENT: [u32; 2] = [97, 61];
 const FRAMES: u32 = 3;
 const TWO: Ways = Ways { stereo: Stereo::MultiPass, rotation: Rotation::Identity };
 
-/// The first outputs of the last frame: one for each eye, if there are two.
+/// A pipeline file that is shipped.
+fn shipped(name: &str) -> String {
+    format!("examples/pipelines/{name}.ron")
+}
+
+/// The first output of the last frame; for two eyes what each has, output by output.
 fn shown(device: &Device, (pipeline, set): (&str, Set<'_>), scene: &Scene, ways: Ways, eyes: &Eyes) -> Shown {
     let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
-    let pipeline = format!("examples/pipelines/{pipeline}.ron");
-    let setup = Setup { pipeline: &pipeline, set, scene, extent: EXTENT };
+    let setup = Setup { pipeline, set, scene, extent: EXTENT };
     let plan = plan_for(device, &setup, ways, &mut shaders, &Options::default())?;
     let mut draws = SceneDrawSource::for_eyes(device, scene, EXTENT, &plan, eyes)?;
     let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
@@ -81,13 +87,14 @@ fn each_eye_sees_what_a_camera_in_its_place_sees() -> Result<(), Box<dyn Error>>
     let eyes = Eyes::apart(0.25);
     for (pipeline, scene, set) in PIPELINES {
         let scene = load(&in_repository(&format!("examples/scenes/{scene}.ron")))?;
-        let (_, both) = shown(device, (pipeline, set), &scene, TWO, &eyes)?;
+        let file = shipped(pipeline);
+        let (_, both) = shown(device, (&file, set), &scene, TWO, &eyes)?;
         let [left, right] = &both[..] else { return Err(format!("{pipeline} has {} pictures", both.len()).into()) };
         let pixels = left.len() / 4;
         assert!(apart(left, right) > pixels / 20, "{pipeline}: both eyes see the same");
         for (picture, place) in [(left, -0.125), (right, 0.125)] {
             let there = beside(&scene, place);
-            let (_, alone) = shown(device, (pipeline, set), &there, Ways::default(), &eyes)?;
+            let (_, alone) = shown(device, (&file, set), &there, Ways::default(), &eyes)?;
             let apart = apart(picture, &alone[0]);
             // Edges fall on the other side of a pixel's middle; shadows are drawn from a place between the eyes, and history that
             // hardly fits is taken or left.
@@ -103,35 +110,85 @@ fn each_eye_sees_what_a_camera_in_its_place_sees() -> Result<(), Box<dyn Error>>
 fn what_both_eyes_share_is_drawn_once() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let scene = load(&in_repository("examples/scenes/courtyard.ron"))?;
-    let casters = |plan: &Plan| {
-        let passes = plan.steps.iter().filter_map(|step| match &step.work {
-            Work::Render(scope) => Some(&scope.passes),
-            _ => None,
-        });
-        passes.flatten().filter(|pass| matches!(pass.draw, Some(Draw::Casters(_)))).count()
-    };
     let eyes = Eyes::default();
     let [one, two] = [Ways::default(), TWO]
-        .map(|ways| shown(device, ("shadows", &[]), &scene, ways, &eyes).map(|(plan, _)| casters(&plan)));
+        .map(|ways| shown(device, (&shipped("shadows"), &[]), &scene, ways, &eyes).map(|(plan, _)| casters(&plan)));
     let (one, two) = (one?, two?);
     assert!(one > 0 && one == two, "{one} and {two}");
     Ok(())
 }
 
+/// How many passes draw what casts shadows.
+fn casters(plan: &Plan) -> usize {
+    let passes = plan.steps.iter().filter_map(|step| match &step.work {
+        Work::Render(scope) => Some(&scope.passes),
+        _ => None,
+    });
+    passes.flatten().filter(|pass| matches!(pass.draw, Some(Draw::Casters(_)))).count()
+}
+
 #[test]
-fn eyes_far_from_the_origin_stay_apart() -> Result<(), Box<dyn Error>> {
+fn shadow_maps_of_each_eyes_own_give_what_shared_ones_give() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
-    let near = load(&in_repository("examples/scenes/spheres_and_cubes.ron"))?;
-    // A million metres away places are rounded to 6 centimetres, as much as the eyes are apart: objects and camera alike.
-    let mut far = near.clone();
-    let by = DVec3::new(1_048_576.0, 0.0, 0.0).as_vec3().extend(0.0);
-    far.camera.transform.w_axis += by;
-    far.objects.iter_mut().for_each(|object| object.transform.w_axis += by);
-    far.point_lights.iter_mut().for_each(|light| light.position[0] += by.x);
-    let Camera { transform, .. } = far.camera;
-    assert_eq!((transform.w_axis.x - by.x).fract() * 16.0 % 1.0, 0.0);
-    let (_, both) = shown(device, ("forward", &[]), &far, TWO, &Eyes::default())?;
-    assert!(apart(&both[0], &both[1]) > both[0].len() / 4 / 50, "both eyes see the same");
+    let scene = load(&in_repository("examples/scenes/courtyard.ron"))?;
+    let [shared, own] = [&shipped("shadows"), "tests/pipelines/shadows_per_eye.ron"]
+        .map(|pipeline| shown(device, (pipeline, &[]), &scene, TWO, &Eyes::default()));
+    let ((shared, as_shared), (own, as_own)) = (shared?, own?);
+    assert_eq!(casters(&own), 2 * casters(&shared));
+    assert!(as_own == as_shared, "another picture");
+    Ok(())
+}
+
+#[test]
+fn point_lights_reach_what_an_eye_sees_behind_the_camera_between_both() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let mut scene = load(&in_repository("examples/scenes/spheres_and_cubes.ron"))?;
+    scene.camera = Camera::look_at(DVec3::new(0.3, 0.5, 6.0), DVec3::new(0.0, 0.5, -9.0), DVec3::Y, 1.0, 0.05)
+        .ok_or("no direction")?;
+    // All over the floor around the camera.
+    let light = |number: u32| {
+        let position = [(number % 40) as f32 * 0.1 - 2.0, 0.05, (number / 40) as f32 * 0.08 + 5.5];
+        PointLight { position, color: [0.5, 0.4, 1.0], intensity: 0.3, range: Some(0.15), shadows: false }
+    };
+    scene.point_lights = (0..1600).map(light).collect();
+    let mut eyes = Eyes::apart(0.25);
+    (eyes.left.place.z, eyes.right.place.z) = (3.0, 2.0);
+    let (_, pictures) = shown(device, ("tests/pipelines/point_lights_per_eye.ron", &[]), &scene, TWO, &eyes)?;
+    let [left, right, all_of_left, all_of_right] = &pictures[..] else { return Err("no four pictures".into()) };
+    for (eye, by_clusters, one_by_one) in [("left", left, all_of_left), ("right", right, all_of_right)] {
+        // Alpha is how many lights were looked at.
+        let colors = |texels: &[u8]| texels.as_chunks::<16>().0.iter().map(|it| it[..12].to_vec()).collect::<Vec<_>>();
+        let (found, expected) = (colors(by_clusters), colors(one_by_one));
+        assert!(found.iter().filter(|color| color.iter().any(|byte| *byte != 0)).count() > 1000, "{eye}: no light");
+        let apart = found.iter().zip(&expected).filter(|(found, expected)| found != expected).count();
+        assert_eq!(apart, 0, "{eye}: pixels that lack light");
+    }
+    Ok(())
+}
+
+#[test]
+fn eyes_far_from_the_origin_see_what_they_see_near_it() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let mut far = load(&in_repository("examples/scenes/spheres_and_cubes.ron"))?;
+    // A million metres away places are rounded to 6 centimetres, as much as the eyes are apart.
+    let by = 1_048_576.0;
+    let shift = |scene: &mut Scene, by: f32| {
+        scene.camera.transform.w_axis.x += by;
+        scene.objects.iter_mut().for_each(|object| object.transform.w_axis.x += by);
+        scene.point_lights.iter_mut().for_each(|light| light.position[0] += by);
+    };
+    shift(&mut far, by);
+    // The way back rounds nothing: everything stands as it does there.
+    let mut near = far.clone();
+    shift(&mut near, -by);
+    let [(_, far), (_, near)] = [
+        shown(device, (&shipped("forward"), &[]), &far, TWO, &Eyes::default())?,
+        shown(device, (&shipped("forward"), &[]), &near, TWO, &Eyes::default())?,
+    ];
+    assert!(apart(&near[0], &near[1]) > near[0].len() / 4 / 50, "both eyes see the same");
+    for (eye, (far, near)) in ["left", "right"].iter().zip(far.iter().zip(&near)) {
+        assert!(far == near, "the {eye} eye: {} differ", apart(far, near));
+    }
     Ok(())
 }
 
@@ -139,10 +196,11 @@ fn eyes_far_from_the_origin_stay_apart() -> Result<(), Box<dyn Error>> {
 fn on_a_rotated_screen_each_eye_sees_the_same() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let scene = load(&in_repository("examples/scenes/spheres_and_cubes.ron"))?;
-    for pipeline in [("forward", &[][..]), ("image_quality", &[("render_scale", "0.7")][..])] {
-        let (_, upright) = shown(device, pipeline, &scene, TWO, &Eyes::default())?;
+    for (pipeline, set) in [("forward", &[][..]), ("image_quality", &[("render_scale", "0.7")][..])] {
+        let file = shipped(pipeline);
+        let (_, upright) = shown(device, (&file, set), &scene, TWO, &Eyes::default())?;
         for rotation in [Rotation::Rotate90, Rotation::Rotate180, Rotation::Rotate270] {
-            let (plan, turned) = shown(device, pipeline, &scene, Ways { rotation, ..TWO }, &Eyes::default())?;
+            let (plan, turned) = shown(device, (&file, set), &scene, Ways { rotation, ..TWO }, &Eyes::default())?;
             assert_eq!(plan.images.iter().filter(|image| image.rotation == rotation).count(), 2, "both eyes' screens");
             for (upright, turned) in upright.iter().zip(&turned) {
                 let apart = apart(upright, turned);

@@ -3,9 +3,8 @@
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Image, ImageIndex, Output, Pass, Resource, Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Image, ImageIndex, Pass, Resource, Work,
 };
-use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::view::{Allowances, View, ViewIndex};
@@ -60,14 +59,7 @@ fn frame(views: &[Option<&str>]) -> Frame {
             pass.depth = Some(DepthTarget { image, range, span, clear, test, write: clears, stencil: None });
             frame.passes.push(pass);
         }
-        frame.outputs.push(Output {
-            resource: Resource::Image(first),
-            span,
-            after: None,
-            encoding: None,
-            rotation: Rotation::Identity,
-            eye: None,
-        });
+        frame.outputs.push(Resource::Image(first).into());
     }
     frame
 }

@@ -5,11 +5,10 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Face, Frame, Groups, Image,
-    ImageIndex, Lifetime, Output, Pass, Resource, Sampled, Storage, TransferUse, Work,
+    ImageIndex, Lifetime, Pass, Resource, Sampled, Storage, TransferUse, Work,
 };
 use framewright_graph::interface::DrawInterface;
 use framewright_graph::plan::Plan;
-use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Aspects, Filter, Sampler, Stages, Subresources};
@@ -125,14 +124,7 @@ impl Small {
     }
 
     pub(crate) fn output(&mut self, resource: Resource) {
-        self.frame.outputs.push(Output {
-            resource,
-            span: Span::NONE,
-            after: None,
-            encoding: None,
-            rotation: Rotation::Identity,
-            eye: None,
-        });
+        self.frame.outputs.push(resource.into());
     }
 
     pub(crate) fn image_output(&mut self, image: ImageIndex) {

@@ -6,8 +6,6 @@ use crate::frames::{
 use framewright_graph::compile::Options;
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime, Output, Resource};
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{Accesses, Aspects, Layout, Stages, State, Subresources};
 use framewright_vulkan::ash::vk;
 use framewright_vulkan::{Device, Executor, ExecutorOptions};
@@ -113,14 +111,7 @@ fn an_output_is_left_in_the_state_that_was_asked_for() {
     let mut small = Small::default();
     let shown = small.image("shown", Format::R32_UINT, [2, 2]);
     small.pass(draw("number", Draw::FullScreen).draws(shown, WHOLE, None));
-    small.frame.outputs.push(Output {
-        resource: Resource::Image(shown),
-        span: Span::NONE,
-        after: Some(SAMPLED),
-        encoding: None,
-        eye: None,
-        rotation: Rotation::Identity,
-    });
+    small.frame.outputs.push(Output { after: Some(SAMPLED), ..Resource::Image(shown).into() });
     everywhere(&small.frame, SHADERS, |executor| {
         for _ in 0..2 {
             frame(executor);

@@ -313,8 +313,7 @@ fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, error
             let Ok(index) = u32::try_from(index) else { continue };
             let resource = Resource::Image(ImageIndex(index));
             if outputs.iter().all(|output| output.resource != resource) {
-                let rotation = Rotation::Identity;
-                outputs.push(Output { resource, span: Span::NONE, after: None, encoding: None, rotation, eye });
+                outputs.push(Output { eye, ..resource.into() });
             }
         }
     }

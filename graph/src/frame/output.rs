@@ -24,3 +24,11 @@ pub struct Output {
     /// whatever is drawn beside it or becomes it, where nothing else reads that.
     pub rotation: Rotation,
 }
+
+/// Just that: named nowhere, left as its last use leaves it, its numbers as the format has them, upright, and no eye's own.
+impl From<Resource> for Output {
+    fn from(resource: Resource) -> Output {
+        let (after, encoding, eye) = (None, None, None);
+        Output { resource, span: Span::NONE, after, encoding, eye, rotation: Rotation::Identity }
+    }
+}

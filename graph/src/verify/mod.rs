@@ -5,8 +5,8 @@
 //! each image and for each buffer, whether every access comes after what it conflicts with (`dependencies`), finds its
 //! image in the layout that it names (`walk`) and on its own queue (`ownership`), reads what was written (`contents`) and
 //! has its memory to itself (`memory`); and whether the Plan is well formed at all (`structure`, `barriers`, `work`,
-//! `passes`, `redraws`, `rotation`, `transfers`). The steps are walked at least twice in a row, for what crosses frames, and as often as it takes
-//! for everything with history to have been everything (`frames`).
+//! `passes`, `redraws`, `rotation`, `transfers`). The steps are walked at least twice in a row, for what
+//! crosses frames, and as often as it takes for everything with history to have been everything (`frames`).
 //!
 //! The work is linear in steps, barriers and accesses: see `clocks`, `parts` and `program`.
 

@@ -2,10 +2,7 @@
 
 use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{
-    Face, Frame, Groups, Image, ImageIndex, Output, Pass, Resource, Sampled, Storage, Work,
-};
-use framewright_graph::rotation::Rotation;
+use framewright_graph::frame::{Face, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled, Storage, Work};
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{Filter, ResolveMode, Sampler, Stages, Subresources, Usage};
 use std::sync::Arc;
@@ -99,15 +96,7 @@ impl Builder {
 
     /// The frame, made for `output`.
     pub(crate) fn output(mut self, output: ImageIndex) -> Frame {
-        let resource = Resource::Image(output);
-        self.frame.outputs.push(Output {
-            resource,
-            span: Span::NONE,
-            after: None,
-            encoding: None,
-            rotation: Rotation::Identity,
-            eye: None,
-        });
+        self.frame.outputs.push(Resource::Image(output).into());
         self.frame
     }
 }

@@ -6,8 +6,7 @@ pub(crate) mod graphs;
 
 use framewright_graph::format::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Image, ImageIndex, Output, Pass, Resource, Sampled,
-    Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Image, ImageIndex, Pass, Resource, Sampled, Work,
 };
 use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
@@ -66,17 +65,7 @@ impl Raster {
     }
 
     pub(crate) fn outputs(mut self, images: &[ImageIndex]) -> Frame {
-        self.0.outputs = images
-            .iter()
-            .map(|image| Output {
-                resource: Resource::Image(*image),
-                span: Span::NONE,
-                after: None,
-                encoding: None,
-                eye: None,
-                rotation: Rotation::Identity,
-            })
-            .collect();
+        self.0.outputs = images.iter().map(|image| Resource::Image(*image).into()).collect();
         self.0
     }
 }

@@ -8,6 +8,10 @@
 //! stand before the others and are looked at by all.
 //!
 //! Clusters at the borders of the picture reach on without end, as do the nearest and the farthest: every place lies in one.
+//!
+//! Two eyes share the clusters of the camera between them. An eye that stands farther back than that sees places that the
+//! camera doesn't: before its near plane, and behind it. They lie in the nearest slice, those behind in the four tiles at its
+//! corners, by whether they are left or right of the camera, and above or below.
 
 use super::block::Block;
 use crate::scene::{Camera, PointLight, Scene};
@@ -142,8 +146,11 @@ impl Clusters {
         let place = self.to_cluster * from_camera.extend(1.0);
         let [across, down, slices] = self.grid;
         let number = |at: f64, of: usize| at.clamp(0.0, of as f64 - 1.0) as usize;
-        let [column, row] = [(place.x, across), (place.y, down)].map(|(at, of)| number(at / place.w, of));
-        let slice = number((place.w / self.nearest).log2() * self.slices_per_doubling, slices);
+        let [column, row] = [(place.x, across), (place.y, down)].map(|(at, of)| match place.w > 0.0 {
+            true => number(at / place.w, of),
+            false => number(if at < 0.5 * of as f64 * place.w { 0.0 } else { of as f64 }, of),
+        });
+        let slice = number((place.w.max(0.0) / self.nearest).log2() * self.slices_per_doubling, slices);
         &self.lists[(slice * down + row) * across + column]
     }
 

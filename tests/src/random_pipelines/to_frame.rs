@@ -8,7 +8,6 @@ use super::pipeline::{
 use super::{shader, texels};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Face, Frame, ImageIndex, Lifetime, Resource};
-use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Sampler, Stages, State, Subresources};
 
@@ -42,14 +41,7 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
     frame.passes = pipeline.passes.iter().map(|pass| to_pass(pipeline, pass)).collect();
     for output in &pipeline.outputs {
         let after = asked_for(pipeline, *output);
-        frame.outputs.push(frame::Output {
-            resource: resource(*output),
-            span: Span::NONE,
-            after,
-            encoding: None,
-            eye: None,
-            rotation: Rotation::Identity,
-        });
+        frame.outputs.push(frame::Output { after, ..resource(*output).into() });
     }
     frame
 }

@@ -2,9 +2,7 @@
 
 use super::{attachments, bound, resolves, right, scopes};
 use framewright_graph::compile::Options;
-use framewright_graph::frame::{ImageIndex, Output, Resource};
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Span;
+use framewright_graph::frame::{ImageIndex, Resource};
 use framewright_graph::vocabulary::{Aspects, ResolveMode, StoreOp};
 use framewright_tests::incidents::{depth_sampled, forward, prepass, scaled, two_versions, weighted};
 
@@ -52,14 +50,7 @@ fn o3de_4832_and_unity_1494_samples_that_are_only_resolved_never_leave_their_sco
 #[test]
 fn filament_7448_depth_is_never_averaged() {
     let mut frame = forward(true);
-    frame.outputs.push(Output {
-        resource: Resource::Image(ImageIndex(1)),
-        span: Span::NONE,
-        after: None,
-        encoding: None,
-        eye: None,
-        rotation: Rotation::Identity,
-    });
+    frame.outputs.push(Resource::Image(ImageIndex(1)).into());
     let plan = right(&frame, &Options::default());
     let of_depth = attachments(&plan).filter(|attachment| !attachment.range.aspects.contains(Aspects::COLOR));
     let modes: Vec<_> = of_depth.filter_map(|attachment| Some(attachment.resolve.as_ref()?.mode)).collect();

@@ -1,7 +1,7 @@
 //! Which images are turned together, since they are drawn in the same passes.
 
 use crate::describe::Diagnostic;
-use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, ResolveWay, Resource, Shape, Work};
+use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource, Shape, Work};
 use crate::rotation::Rotation;
 use crate::source::Span;
 use std::collections::BTreeSet;
@@ -38,9 +38,11 @@ pub(super) struct Together<'f> {
 }
 
 impl Together<'_> {
-    /// The image and all that must be turned with it.
+    /// The image and all that must be turned with it. Where anything keeps it upright nothing is a mistake, so that is looked
+    /// for everywhere before a mistake is told.
     pub(super) fn find(&self) -> Result<BTreeSet<ImageIndex>, Hindrance> {
         let (mut all, mut left) = (BTreeSet::from([self.start]), vec![self.start]);
+        let mut mistake = None;
         while let Some(image) = left.pop() {
             if self.frame.images[image.0 as usize].rotation == self.rotation {
                 continue;
@@ -48,14 +50,20 @@ impl Together<'_> {
             self.may_turn(image)?;
             for pass in self.live.iter().map(|pass| &self.frame.passes[*pass as usize]) {
                 self.is_only_drawn(pass, image, &all)?;
-                for beside in self.beside(pass, image, &all)? {
-                    if all.insert(beside) {
-                        left.push(beside);
-                    }
+                let depth = pass.depth.as_ref().map(|depth| depth.image);
+                if depth != Some(image) && pass.color.iter().all(|target| target.image != image) {
+                    continue;
                 }
+                match self.may_draw(pass, image, &all) {
+                    Err(Hindrance::Wrong(wrong)) => _ = mistake.get_or_insert(wrong),
+                    may => may?,
+                }
+                let targets = pass.color.iter().map(|target| target.image).filter(|it| self.is_turned(*it, &all));
+                let beside: Vec<ImageIndex> = depth.into_iter().chain(targets).collect();
+                left.extend(beside.into_iter().filter(|image| all.insert(*image)));
             }
         }
-        Ok(all)
+        mistake.map_or(Ok(all), |wrong| Err(Hindrance::Wrong(wrong)))
     }
 
     fn name(&self, image: ImageIndex) -> &str {
@@ -108,30 +116,23 @@ impl Together<'_> {
         }
     }
 
-    /// The other attachments of a pass that draws into it.
-    fn beside(&self, pass: &Pass, image: ImageIndex, all: &BTreeSet<ImageIndex>) -> Result<Vec<ImageIndex>, Hindrance> {
-        let depth = pass.depth.as_ref().map(|depth| depth.image);
-        if depth != Some(image) && pass.color.iter().all(|target| target.image != image) {
-            return Ok(Vec::new());
-        }
+    /// Whether a pass that draws into it can draw it turned.
+    fn may_draw(&self, pass: &Pass, image: ImageIndex, all: &BTreeSet<ImageIndex>) -> Result<(), Hindrance> {
         if let Some(why) = &pass.no_rotation {
             return Err(self.wrong_shader(pass, image, why));
         }
-        let is_turned = |other: ImageIndex| {
-            let leaves =
-                |it: &crate::frame::Output| it.resource == Resource::Image(other) && it.rotation == self.rotation;
-            all.contains(&other)
-                || self.frame.images[other.0 as usize].rotation == self.rotation
-                || self.frame.outputs.iter().any(leaves)
-        };
-        let mut beside: Vec<ImageIndex> = depth.into_iter().collect();
-        for target in &pass.color {
-            if !is_turned(target.image) {
-                return Err(self.several_targets(pass, image, target.image, target.span));
-            }
-            beside.push(target.image);
+        match pass.color.iter().find(|target| !self.is_turned(target.image, all)) {
+            Some(other) => Err(self.several_targets(pass, image, other.image, other.span)),
+            None => Ok(()),
         }
-        Ok(beside)
+    }
+
+    /// Whether a colour image is turned, or will be.
+    fn is_turned(&self, image: ImageIndex, all: &BTreeSet<ImageIndex>) -> bool {
+        let leaves = |it: &Output| it.resource == Resource::Image(image) && it.rotation == self.rotation;
+        all.contains(&image)
+            || self.frame.images[image.0 as usize].rotation == self.rotation
+            || self.frame.outputs.iter().any(leaves)
     }
 
     fn wrong_shader(&self, pass: &Pass, image: ImageIndex, why: &str) -> Hindrance {
@@ -150,17 +151,18 @@ impl Together<'_> {
     }
 
     fn several_targets(&self, pass: &Pass, image: ImageIndex, other: ImageIndex, span: Span) -> Hindrance {
-        let (name, other) = (self.name(image), self.name(other));
-        if !(self.is_output && image == self.start) {
-            return Hindrance::Upright(format!("`{}` draws `{other}` beside `{name}`", pass.name), pass.span);
-        }
-        let degrees = super::degrees(self.rotation);
+        let other = self.name(other);
+        let own = pass.color.iter().find(|target| self.is_output && target.image == self.start);
+        let Some(own) = own else {
+            let what = format!("`{}` draws `{other}` beside `{}`", pass.name, self.name(image));
+            return Hindrance::Upright(what, pass.span);
+        };
+        let (name, degrees) = (self.name(self.start), super::degrees(self.rotation));
         let message = format!(
             "`{}` draws into `{name}`, which leaves the frame {degrees}, and into `{other}`, which doesn't",
             pass.name
         );
-        let own = pass.color.iter().find(|target| target.image == image).map_or(pass.span, |target| target.span);
-        let wrong = Diagnostic::new(own, message).label(span, "stays upright");
+        let wrong = Diagnostic::new(own.span, message).label(span, "stays upright");
         Hindrance::Wrong(Box::new(wrong.help(format!(
             "let it draw into an image of its own in place of `{name}`, and another pass from that into `{name}`"
         ))))
