@@ -56,6 +56,7 @@ fn pass(name: &str, shader: &str, sampled: &[(&str, u32)], target: u32) -> Pass 
         range: Subresources::WHOLE,
         frames_ago: 0,
         span: Span::NONE,
+        eye: None,
         face: Face::Resolved,
         texture: None,
         own_pixel: false,

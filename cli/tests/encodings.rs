@@ -71,6 +71,7 @@ fn drawn(frame: &mut Frame, shader: &str, format: Format, from: Option<ImageInde
         range: Subresources::WHOLE,
         frames_ago: 0,
         span: Span::NONE,
+        eye: None,
         face: Face::Resolved,
         texture: None,
         own_pixel: false,

@@ -91,6 +91,7 @@ fn sampled(image: ImageIndex, stages: Stages) -> Sampled {
         range: Subresources::WHOLE,
         frames_ago: 0,
         span: Span::NONE,
+        eye: None,
         face: Face::Resolved,
         texture: None,
         own_pixel: false,

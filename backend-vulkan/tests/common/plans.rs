@@ -9,6 +9,7 @@ use framewright_graph::plan::{
     StepId, Subresources, Totals, Work,
 };
 use framewright_graph::rotation::Rotation;
+use framewright_graph::view::Stereo;
 use framewright_graph::vocabulary::{
     Accesses, Filter, Layout, LoadOp, ResolveMode, Sampler, Stages, State, StoreOp, Usage,
 };
@@ -42,6 +43,7 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
         device: DeviceUsed { name: device.profile().name, exact_memory: true },
         settings: Vec::new(),
         changes: Vec::new(),
+        stereo: Stereo::Off,
         views: Vec::new(),
         images: Vec::new(),
         buffers: Vec::new(),
@@ -125,6 +127,7 @@ fn image(id: ImageId, name: &str, samples: u32, usage: Usage, role: Role) -> Ima
         extent,
         room: None,
         rotation: Rotation::Identity,
+        eyes: None,
         mips: 1,
         layers: 1,
         samples,
@@ -190,6 +193,7 @@ fn access(image: ImageId, state: State) -> Access {
     Access {
         image,
         range: range(),
+        eye: None,
         stages: state.stages,
         accesses: state.accesses,
         layout: state.layout,

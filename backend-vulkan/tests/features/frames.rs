@@ -210,6 +210,7 @@ fn sampled(pass: &Pass, binding: &str, image: ImageIndex, range: Subresources) -
         range,
         frames_ago: 0,
         span: Span::NONE,
+        eye: None,
         face: Face::Resolved,
         texture: None,
         own_pixel: false,

@@ -28,6 +28,10 @@ pub(crate) fn device() -> Profile {
         max_layers: u32::MAX,
         queues: Queues::default(),
         local_read: false,
+        max_multiview_views: 6,
+        refuted_multiview: false,
+        vertex_layer: true,
+        max_clip_distances: 8,
         depth_resolve: vec![ResolveMode::SampleZero],
         refuted_depth_resolve: Vec::new(),
         memory: MemoryModel {
@@ -71,6 +75,7 @@ impl Builder {
             range: Subresources::WHOLE,
             frames_ago: 0,
             span: Span::NONE,
+            eye: None,
             face: Face::Resolved,
             texture: None,
             own_pixel: false,

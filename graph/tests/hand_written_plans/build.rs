@@ -6,6 +6,7 @@ use framewright_graph::frame::{Blend, BufferRole, Draw, Groups, Shape};
 use framewright_graph::plan::*;
 use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Place;
+use framewright_graph::view::Stereo;
 use framewright_graph::vocabulary::{
     self, Accesses, BufferUsage, Filter, Layout, LoadOp, Sampler, Stages, StoreOp, Usage,
 };
@@ -55,6 +56,7 @@ pub(crate) fn output(id: u32, name: &str, format: Format, usage: Usage) -> Image
         extent: SIZE,
         room: None,
         rotation: Rotation::Identity,
+        eyes: None,
         mips: 1,
         layers: 1,
         samples: 1,
@@ -100,7 +102,7 @@ pub(crate) fn between(image: &Image, from: State, to: State, hazard: Hazard, aft
 }
 
 pub(crate) fn access(image: &Image, (stages, accesses, layout): State) -> Access {
-    Access { image: image.id, range: range(image.format), stages, accesses, layout, binding: None }
+    Access { image: image.id, range: range(image.format), eye: None, stages, accesses, layout, binding: None }
 }
 
 /// A storage image by its shader's name.
@@ -268,6 +270,7 @@ pub(crate) fn plan(images: Vec<Image>, heap_bytes: u64, steps: Vec<Step>) -> Pla
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: "made up".to_owned(), exact_memory: false },
         changes: Vec::new(),
+        stereo: Stereo::Off,
         views: Vec::new(),
         settings: vec![SettingUsed { name: "msaa".into(), value: "4".to_owned() }],
         images,

@@ -143,6 +143,7 @@ impl Added<'_> {
             range: Subresources::WHOLE,
             frames_ago: 0,
             span: Span::NONE,
+            eye: None,
             face,
             texture: None,
             own_pixel: false,

@@ -216,6 +216,7 @@ fn sampled(pipeline: &Pipeline, binding: &str, part: Part, stages: Stages) -> fr
         range: range(pipeline.images[part.image].format, part),
         frames_ago: 0,
         span: Span::NONE,
+        eye: None,
         face: Face::Resolved,
         texture: None,
         own_pixel: false,

@@ -8,6 +8,7 @@ use framewright_graph::plan::{
     Wait, Work,
 };
 use framewright_graph::rotation::Rotation;
+use framewright_graph::view::Stereo;
 use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Sampler, Stages, State, Usage};
 
 pub(crate) const R: Accesses = Accesses::SHADER_SAMPLED_READ;
@@ -24,6 +25,7 @@ pub(crate) fn empty() -> Plan {
         device: DeviceUsed { name: "built by hand".to_owned(), exact_memory: true },
         settings: Vec::new(),
         changes: Vec::new(),
+        stereo: Stereo::Off,
         views: Vec::new(),
         images: Vec::new(),
         buffers: Vec::new(),
@@ -47,6 +49,7 @@ fn image(plan: &mut Plan, name: &str, role: Role) -> ImageId {
         extent: [16, 16, 1],
         room: None,
         rotation: Rotation::Identity,
+        eyes: None,
         mips: 1,
         layers: 1,
         samples: 1,
@@ -91,7 +94,7 @@ pub(crate) fn access(image: ImageId, accesses: Accesses) -> Access {
     };
     let range = Subresources::all(FORMAT, 1, 1);
     let binding = Some(Binding { name: format!("i{}", image.0).into(), kind, texture: None });
-    Access { image, range, stages: CS, accesses, layout, binding }
+    Access { image, range, eye: None, stages: CS, accesses, layout, binding }
 }
 
 /// A dispatch with these accesses.
