@@ -175,6 +175,7 @@ mod tests {
         let access = Access {
             image: ImageId(0),
             range: mip(level),
+            eye: None,
             stages: Stages::COMPUTE_SHADER,
             accesses: Accesses::SHADER_STORAGE_READ,
             layout: LAYOUT,
