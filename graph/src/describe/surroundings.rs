@@ -13,6 +13,8 @@ pub struct Surroundings<'a> {
     pub facts: Facts,
     /// Width and height of the frame, or of the view at hand, in texels.
     pub extent: [u32; 2],
+    /// How many eyes see it: 1 or 2.
+    pub eyes: u32,
     /// What may be spent on it.
     pub allows: Allowances,
     /// The device; `None`: one that can do just what Vulkan 1.3 demands of every device.
@@ -54,7 +56,7 @@ enum Device {
 const VIEW: [(&str, View, Type, &str); 6] = [
     ("view.width", View::Width, Type::Integer, "width of the view in texels"),
     ("view.height", View::Height, Type::Integer, "height of the view in texels"),
-    ("view.eyes", View::Eyes, Type::Integer, "how many eyes see it: 1"),
+    ("view.eyes", View::Eyes, Type::Integer, "how many eyes see it: 1 or 2"),
     ("view.allows_msaa", View::AllowsMsaa, Type::Bool, "whether it allows several samples"),
     ("view.allows_hdr", View::AllowsHdr, Type::Bool, "whether it allows high dynamic range"),
     ("view.allows_scale", View::AllowsScale, Type::Bool, "whether it allows another size than its own"),
@@ -128,7 +130,7 @@ impl Surroundings<'_> {
             },
             Known::View(View::Width) => Value::Integer(self.extent[0].into()),
             Known::View(View::Height) => Value::Integer(self.extent[1].into()),
-            Known::View(View::Eyes) => Value::Integer(1),
+            Known::View(View::Eyes) => Value::Integer(self.eyes.into()),
             Known::View(View::AllowsMsaa) => Value::Bool(self.allows.msaa),
             Known::View(View::AllowsHdr) => Value::Bool(self.allows.hdr),
             Known::View(View::AllowsScale) => Value::Bool(self.allows.scale),

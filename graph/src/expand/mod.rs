@@ -98,7 +98,9 @@ pub fn check_inputs(document: &Document, inputs: &Inputs<'_>) -> Vec<Diagnostic>
 
 fn surroundings<'a>(inputs: &Inputs<'a>) -> Surroundings<'a> {
     let facts = if inputs.facts_known { inputs.facts } else { Facts::UNKNOWN };
-    Surroundings { facts, extent: inputs.output_extent, allows: Allowances::default(), device: inputs.device }
+    let eyes = if inputs.stereo == Stereo::Off { 1 } else { 2 };
+    let allows = Allowances::default();
+    Surroundings { facts, extent: inputs.output_extent, eyes, allows, device: inputs.device }
 }
 
 fn check_extent(extent: [u32; 2], errors: &mut Vec<Diagnostic>) {
