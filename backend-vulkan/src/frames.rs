@@ -13,7 +13,7 @@ use crate::timing::{FrameReport, Timing};
 use ash::vk;
 use framewright_graph::plan::{Plan, Queue};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// What waiting for a frame is called in messages.
 const DRAWING: &str = "drawing a frame";
@@ -207,7 +207,7 @@ impl Frames {
     /// The report of a frame that was waited for; `None` if its place was taken by a later frame.
     pub(crate) fn report(&self, plan: &Plan, frame: u64) -> Option<Result<FrameReport, Error>> {
         let slot = &self.slots[self.slot_of(frame)];
-        (slot.frame == Some(frame)).then(|| slot.timing.report(plan, &self.batches, &slot.recorded.counts))
+        (slot.frame == Some(frame)).then(|| slot.timing.report(plan, &self.batches, &slot.recorded))
     }
 
     /// What was kept of an output of a frame that was waited for.
@@ -253,6 +253,7 @@ impl Slot {
         source: &mut dyn DrawSource,
         beside: &Beside<'_>,
     ) -> Result<(), Error> {
+        let begun = Instant::now();
         for (pool, _) in &self.commands {
             pool.reset()?;
         }
@@ -272,6 +273,7 @@ impl Slot {
                 Ok(())
             })?;
         }
+        self.recorded.took = begun.elapsed();
         Ok(())
     }
 }

@@ -4,6 +4,7 @@ use crate::batches::Batch;
 use crate::device::Shared;
 use crate::error::Error;
 use crate::prepare_pass::view_mask;
+use crate::record::Recorded;
 use ash::vk;
 use framewright_graph::plan::{Pass, Plan, Queue, Work};
 use std::sync::Arc;
@@ -14,6 +15,8 @@ pub struct FrameReport {
     /// Time on the device from the first step's barriers to the end of the last step, in milliseconds; with several queues,
     /// on the one that took longest.
     pub milliseconds: f64,
+    /// Time that this thread took to record its commands, what the draw source did for it included, in milliseconds.
+    pub recording_milliseconds: f64,
     /// By step of the Plan.
     pub steps: Vec<StepReport>,
 }
@@ -104,10 +107,10 @@ impl Timing {
         }
     }
 
-    /// The report of the frame that was waited for. `counts` holds what was recorded for each pass, in order.
-    pub(crate) fn report(&self, plan: &Plan, batches: &[Batch], counts: &[Counts]) -> Result<FrameReport, Error> {
+    /// The report of the frame that was waited for.
+    pub(crate) fn report(&self, plan: &Plan, batches: &[Batch], recorded: &Recorded) -> Result<FrameReport, Error> {
         let stamps = self.stamps()?;
-        let mut counts = counts.iter().copied();
+        let mut counts = recorded.counts.iter().copied();
         let mut stamps = stamps.into_iter().map(|[value, written]| (written != 0).then_some(value));
         let mut next = move || stamps.next().flatten();
         let mut queues: Vec<(Queue, Option<u64>, Option<u64>)> = Vec::new();
@@ -139,7 +142,8 @@ impl Timing {
             }
         }
         let spent = queues.into_iter().map(|(queue, from, to)| self.clock(queue).between(from, to));
-        Ok(FrameReport { milliseconds: spent.fold(0.0, f64::max), steps })
+        let recording_milliseconds = recorded.took.as_secs_f64() * 1e3;
+        Ok(FrameReport { milliseconds: spent.fold(0.0, f64::max), recording_milliseconds, steps })
     }
 
     fn clock(&self, queue: Queue) -> Clock {

@@ -31,6 +31,8 @@ pub(crate) struct Report {
     pub(crate) barriers: Barriers,
     /// Median of the frame's GPU times over all frames.
     pub(crate) gpu_milliseconds: f64,
+    /// Median of the processor times that recording a frame took.
+    pub(crate) recording_milliseconds: f64,
     /// Passes in the order of execution, inserted resolves and copies between them.
     pub(crate) passes: Vec<Row>,
     /// The compiler's remarks.
@@ -215,7 +217,8 @@ impl Report {
             "{table}\n\
              device:   {} ({}, Vulkan {})\n\
              memory:   {} in {}, {} alive at the worst moment; {} outlive the frame\n\
-             barriers: {} image and {} memory barriers in {}{}\n",
+             barriers: {} image and {} memory barriers in {}{}\n\
+             recorded: in {:.2} ms of the processor's time\n",
             text::escape(&self.device.name),
             text::escape(&self.device.driver),
             text::escape(&self.device.vulkan),
@@ -230,6 +233,7 @@ impl Report {
                 0 => String::new(),
                 waits => format!(", {} for another queue", text::count(waits as usize, "wait", "waits")),
             },
+            self.recording_milliseconds,
         );
         if let Some(validation) = &self.validation {
             shown += &validation.shown();

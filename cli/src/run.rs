@@ -73,6 +73,7 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
         memory: (&planned.plan.totals).into(),
         barriers: (&planned.plan.totals).into(),
         gpu_milliseconds: rows::median(frames.iter().map(|frame| frame.milliseconds).collect()),
+        recording_milliseconds: rows::median(frames.iter().map(|frame| frame.recording_milliseconds).collect()),
         passes: rows::rows(&planned.plan, &frames),
         notes: planned.plan.notes.clone(),
         validation: None,

@@ -18,6 +18,7 @@ use crate::recorder::{DrawSource, Kept};
 use crate::timing::{Counts, Timing};
 use ash::vk;
 use framewright_graph::plan::{self, Plan, Resource, Step, Work};
+use std::time::Duration;
 
 /// What a frame is recorded from.
 pub(crate) struct Frame<'f> {
@@ -35,6 +36,8 @@ pub(crate) struct Recorded {
     /// By pass.
     pub(crate) counts: Vec<Counts>,
     pub(crate) kept: Kept,
+    /// How long that took.
+    pub(crate) took: Duration,
 }
 
 impl Frame<'_> {

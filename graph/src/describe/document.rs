@@ -127,7 +127,8 @@ impl Document {
             let values: Vec<Option<Value>> =
                 settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
             let allows = Allowances::default();
-            let surroundings = Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], eyes: 1, allows, device: None };
+            let surroundings =
+                Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], eyes: 1, allows, device: None };
             let files = Read {
                 all: tree.root(),
                 included: &included,

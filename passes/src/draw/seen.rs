@@ -23,6 +23,11 @@ pub(super) struct Viewpoint {
     pub(super) camera: Camera,
     /// The eyes that see it, if there are two.
     pub(super) eyes: Option<Eyes>,
+    /// Whether passes draw for both eyes at once.
+    pub(super) at_once: bool,
+    /// Whether passes draw for one eye, and then are given the objects that it may see itself.
+    pub(super) one_by_one: bool,
+    pub(super) culls_by_eye: bool,
     /// Width and height of its picture, of which only the ratio counts.
     pub(super) extent: [u32; 2],
     /// The cascades of the sun's shadows in it, the nearest first.
@@ -84,9 +89,9 @@ pub(super) struct Seen {
 /// What two eyes see.
 pub(super) struct SeenByEyes {
     /// For passes that draw for both at once. What either may see is what the view's own list has.
-    pub(super) both: BindGroup,
-    /// For those that draw for one.
-    pub(super) each: [(BindGroup, Vec<bool>); 2],
+    pub(super) both: Option<BindGroup>,
+    /// For those that draw for one, with the objects that this one may see; `None`: the view's own list.
+    pub(super) each: Option<[(BindGroup, Option<Vec<bool>>); 2]>,
 }
 
 /// What the sun sees of a cascade.
