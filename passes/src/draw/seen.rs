@@ -36,6 +36,12 @@ pub(super) struct Viewpoint {
 }
 
 impl Viewpoint {
+    /// That of one eye, which doesn't shift.
+    pub(super) fn of_one(camera: Camera, extent: [u32; 2], maps: Vec<Map>) -> Viewpoint {
+        let (at_once, one_by_one, culls_by_eye) = (false, false, true);
+        Viewpoint { camera, eyes: None, at_once, one_by_one, culls_by_eye, extent, maps, jitter: None }
+    }
+
     fn aspect(&self) -> f64 {
         let [width, height] = self.extent.map(|side| f64::from(side.max(1)));
         width / height
@@ -207,9 +213,14 @@ impl Sights {
         let narrower = DVec3::new((1.0 + 2.0 * share).recip(), (1.0 + 2.0 * share).recip(), 1.0);
         let all = DMat4::from_scale(narrower) * world_to_clip(&around, view.aspect());
         let eyes = view.straight_by_eye(frame).map(|sight| view.shifted(sight, frame));
-        let each =
-            |sight: Sight| Ok::<_, Error>((group([sight; 2])?, frustum::within(scene, &camera, sight.world_to_clip)));
-        let by_eye = SeenByEyes { both: group(eyes)?, each: [each(eyes[0])?, each(eyes[1])?] };
+        let each = |sight: Sight| {
+            let own = || frustum::within(scene, &camera, sight.world_to_clip);
+            Ok::<_, Error>((group([sight; 2])?, view.culls_by_eye.then(own)))
+        };
+        let by_eye = SeenByEyes {
+            both: view.at_once.then(|| group(eyes)).transpose()?,
+            each: if view.one_by_one { Some([each(eyes[0])?, each(eyes[1])?]) } else { None },
+        };
         let in_sight = frustum::within(scene, &around, all);
         Ok(Sights { frame: group([own; 2])?, in_sight, by_eye: Some(by_eye) })
     }

@@ -8,7 +8,7 @@ use super::seen::{ObjectDraw, Seen, SeenBySun, Viewpoint, draws};
 use super::textures::Textures;
 use crate::scene::{Scene, limits};
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::plan::{Plan, View, ViewId};
+use framewright_graph::plan::{Plan, View, ViewId, Work};
 use framewright_graph::view::Eye;
 use framewright_vulkan::{BindGroup, Device, DrawSource, Error, Recorder};
 use std::collections::BTreeMap;
@@ -46,7 +46,7 @@ impl SceneDrawSource {
     /// # Errors
     /// More than [`MOST_POINT_LIGHTS`] point lights, a texture or scene larger than the device takes, or no memory.
     pub fn new(device: &Device, scene: &Scene, extent: [u32; 2]) -> Result<SceneDrawSource, Error> {
-        let view = Viewpoint { camera: scene.camera, eyes: None, extent, maps: Vec::new(), jitter: None };
+        let view = Viewpoint::of_one(scene.camera, extent, Vec::new());
         SceneDrawSource::seen_from(device, scene, vec![view], Vec::new())
     }
 
@@ -80,15 +80,16 @@ impl SceneDrawSource {
             views.push(Viewpoint {
                 camera: *camera,
                 eyes: two.then_some(*eyes),
+                at_once: draws_at_once(plan, number),
+                one_by_one: draws_for_one(plan, number),
+                culls_by_eye: true,
                 extent: view.extent,
                 maps: cascades::of_plan(plan, Some(number)),
                 jitter: view.jitter.clone(),
             });
         }
         if views.is_empty() {
-            let maps = cascades::of_plan(plan, None);
-            let camera = scene.camera;
-            views.push(Viewpoint { camera, eyes: None, extent, maps, jitter: None });
+            views.push(Viewpoint::of_one(scene.camera, extent, cascades::of_plan(plan, None)));
         }
         let of_view = |(number, view): (ViewId, &View)| {
             let of = view.eye.map_or(number, |eye| eye.of);
@@ -175,6 +176,7 @@ impl SceneDrawSource {
     /// their own may see. The picture is the same.
     pub fn set_shared_culling(&mut self, on: bool) {
         self.culls_once = on;
+        self.views.iter_mut().for_each(|(view, _)| view.culls_by_eye = !on);
     }
 
     /// Records those of a draw list that are `wanted`, by object, and returns how many. State is set only where it differs
@@ -246,13 +248,15 @@ impl SceneDrawSource {
     /// What is bound for a pass, and which objects it may see.
     fn sight(&self, recorder: &Recorder<'_>) -> Result<(&BindGroup, &[bool]), Error> {
         let (seen, eye) = self.seen_with(recorder)?;
-        Ok(match (&seen.by_eye, eye) {
-            (Some(by_eye), _) if recorder.both_eyes().is_some() => (&by_eye.both, &seen.in_sight),
-            (Some(by_eye), Some(eye)) => {
-                let (group, in_sight) = &by_eye.each[eye as usize];
-                (group, if self.culls_once { &seen.in_sight } else { in_sight })
+        let both = seen.by_eye.as_ref().and_then(|by_eye| by_eye.both.as_ref());
+        let each = seen.by_eye.as_ref().and_then(|by_eye| by_eye.each.as_ref());
+        Ok(match (both, each.zip(eye)) {
+            (Some(group), _) if recorder.both_eyes().is_some() => (group, &seen.in_sight),
+            (_, Some((each, eye))) => {
+                let (group, own) = &each[eye as usize];
+                (group, own.as_ref().filter(|_| !self.culls_once).unwrap_or(&seen.in_sight))
             }
-            (None, _) | (_, None) => (&seen.frame, &seen.in_sight),
+            _ => (&seen.frame, &seen.in_sight),
         })
     }
 }
@@ -289,4 +293,24 @@ fn no_camera(scene: &Scene, view: &View) -> Error {
     let known: Vec<String> = scene.cameras.iter().map(|it| format!("`{}`", it.name)).collect();
     let known = if known.is_empty() { "none by a name".to_owned() } else { known.join(", ") };
     Error::DrawSource { what: format!("view `{}` asks for the camera `{wanted}`; the scene has {known}", view.name) }
+}
+
+/// The views of passes, with whether they draw for both eyes at once.
+fn views_of_passes(plan: &Plan) -> impl Iterator<Item = (Option<ViewId>, bool)> {
+    plan.steps.iter().flat_map(|step| match &step.work {
+        Work::Render(scope) => {
+            let at_once = plan.eyes(scope).is_some();
+            scope.passes.iter().map(|pass| (pass.view, at_once)).collect()
+        }
+        _ => Vec::new(),
+    })
+}
+
+fn draws_at_once(plan: &Plan, view: ViewId) -> bool {
+    views_of_passes(plan).any(|(of, at_once)| at_once && of == Some(view))
+}
+
+fn draws_for_one(plan: &Plan, view: ViewId) -> bool {
+    let eye = |of: ViewId| plan.views.get(of.0 as usize).and_then(|of| of.eye);
+    views_of_passes(plan).any(|(of, _)| of.and_then(eye).is_some_and(|eye| eye.of == view))
 }
