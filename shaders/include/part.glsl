@@ -11,9 +11,9 @@ layout(push_constant) uniform FramewrightParts {
 } framewright_parts;
 #endif
 
-// Whether the part is all of its image.
+// Whether the part is all of its image. Number by number: not every optimiser works out that two vectors are the same.
 bool is_whole(vec4 st) {
-    return st == vec4(1.0, 1.0, 0.0, 0.0);
+    return st.x == 1.0 && st.y == 1.0 && st.z == 0.0 && st.w == 0.0;
 }
 
 // A place in the part, 0 to 1 from its upper left corner, as a place in its image.
@@ -46,7 +46,7 @@ vec2 uv_clamp(vec2 uv, vec4 st, ivec2 texels) {
 
 // Two such places.
 vec4 uv_clamp(vec4 uvs, vec4 st, ivec2 texels) {
-    return vec4(uv_clamp(uvs.xy, st, texels), uv_clamp(uvs.zw, st, texels));
+    return is_whole(st) ? uvs : vec4(uv_clamp(uvs.xy, st, texels), uv_clamp(uvs.zw, st, texels));
 }
 
 // The first texel of the part, in an image of so many.

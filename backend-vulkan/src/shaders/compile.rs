@@ -11,7 +11,7 @@ use std::collections::HashMap;
 /// A file may include others this deep.
 const MAX_INCLUDE_DEPTH: usize = 16;
 /// A shader may include this many files, repetitions counted.
-const MAX_INCLUDES: usize = 256;
+pub(super) const MAX_INCLUDES: usize = 256;
 
 /// A shader stage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

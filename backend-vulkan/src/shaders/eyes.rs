@@ -38,9 +38,7 @@ impl BothEyes {
     /// The text with what finds out the eye before it and behind it.
     pub(super) fn around(self, text: &str, stage: Stage) -> String {
         // Extensions come before everything else, and behind `#version`.
-        let version = text.find("#version").unwrap_or(0);
-        let begin = text[version..].find('\n').map_or(text.len(), |end| version + end + 1);
-        let (version, rest) = text.split_at(begin);
+        let (version, rest) = text.split_at(behind_version(text));
         let line = version.lines().count() + 1;
         format!("{version}\n{}\n#line {line}\n{rest}\n{}", self.before(stage), self.behind(stage))
     }
@@ -76,6 +74,22 @@ impl BothEyes {
         };
         format!("#undef main\n#undef gl_InstanceIndex\nvoid main() {{\n    {eye}\n    framewright_main();\n{place}}}\n")
     }
+}
+
+/// Where the line behind `#version` begins, before which nothing but comments may stand; a text without one is taken for one of 4.60.
+fn behind_version(text: &str) -> usize {
+    let mut rest = text.trim_start();
+    loop {
+        let behind = match (rest.strip_prefix("//"), rest.strip_prefix("/*")) {
+            (Some(comment), _) => comment.split_once('\n'),
+            (None, Some(comment)) => comment.split_once("*/"),
+            (None, None) => break,
+        };
+        rest = behind.map_or("", |(_, rest)| rest.trim_start());
+    }
+    let is_version = rest.strip_prefix('#').is_some_and(|it| it.trim_start().starts_with("version"));
+    let line = rest.find('\n').map_or(rest.len(), |end| end + 1);
+    if is_version { text.len() - rest.len() + line } else { 0 }
 }
 
 const IN_ITS_LAYER: &str = "    gl_Layer = framewright_eye;

@@ -1,6 +1,6 @@
 //! Shaders by name, for a kind of draw.
 
-use super::compile::{Stage, compile};
+use super::compile::{MAX_INCLUDES, Stage, compile};
 use super::eyes::{BothEyes, EYE};
 use super::files::{Found, ShaderFiles};
 use super::layers;
@@ -199,7 +199,8 @@ impl ShaderLibrary {
         let found = self.files.find(&FilePath::of_text(file)).map_err(|what| ShaderProblem::Unsupported { what });
         let source = found.map(|found| {
             found.map(|found| {
-                let mentioned = Mentioned::by(&found.text);
+                let mut mentioned = Mentioned::by(&found.text);
+                mentioned.eye |= asks_eye_in_included(&self.files, &found, &mut BTreeSet::new());
                 Arc::new(Source { found, mentioned })
             })
         });
@@ -385,6 +386,23 @@ impl Mentioned {
         let eye = words.contains("eye_index");
         Mentioned { adapting: behind(TEXTURE), optional: behind(HAS), parts, eye }
     }
+}
+
+/// Whether one of the user's own files that a file includes asks which eye is drawn for. Those that are shipped are given the same
+/// for both where one eye is drawn for. `seen` are files that were looked at before.
+fn asks_eye_in_included(files: &ShaderFiles, from: &Found, seen: &mut BTreeSet<String>) -> bool {
+    let text = without_comments(&from.text);
+    let mut names = text.lines().filter_map(|line| {
+        let directive = line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("include")?;
+        directive.split('"').nth(1)
+    });
+    names.any(|name| match files.included(&from.path, name) {
+        Ok(Some(file)) if matches!(file.path, FilePath::Own(_)) && seen.len() < MAX_INCLUDES => {
+            let new = seen.insert(file.path.to_string());
+            new && (Mentioned::by(&file.text).eye || asks_eye_in_included(files, &file, seen))
+        }
+        _ => false,
+    })
 }
 
 /// A GLSL text with a blank in place of each comment.

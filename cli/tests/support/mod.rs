@@ -149,6 +149,11 @@ impl Vulkan {
     /// SwiftShader under the current layer.
     pub(crate) const SWIFTSHADER_CURRENT: Vulkan = Vulkan { driver: SWIFTSHADER, layer: Some(CURRENT_LAYER) };
 
+    /// Whether it is lavapipe.
+    pub(crate) fn is_lavapipe(self) -> bool {
+        self.driver == LAVAPIPE
+    }
+
     /// The variables that lead to it; `None`, with a word on what is missing, if it isn't installed. In CI that is a
     /// failure.
     pub(crate) fn variables(self) -> Option<Vec<(&'static str, &'static str)>> {

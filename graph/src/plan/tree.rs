@@ -224,7 +224,9 @@ impl Tree<'_> {
             BindingKind::Storage => "storage".to_owned(),
             BindingKind::InputAttachment => "read at its own position".to_owned(),
         };
-        Some(Node::leaf(format!("{} = {}, {kind}", Shown(&binding.name), self.part(access.image, access.range))))
+        let eye = access.eye.map_or_else(String::new, |eye| format!(", the {} eye's", eye.name()));
+        let part = self.part(access.image, access.range);
+        Some(Node::leaf(format!("{} = {part}{eye}, {kind}", Shown(&binding.name))))
     }
 
     fn buffer(self, access: &BufferAccess) -> Node {

@@ -82,8 +82,15 @@ fn of_an_eye(plan: &Plan, id: StepId, accesses: &[Access], both: bool, found: &m
         }
     }
     for access in accesses.iter().filter(|access| access.eye.is_some()) {
+        let image = Some(access.image.0);
         if plan.image(access.image).eyes.is_none() {
-            found.structure(Some(id), Some(access.image.0), "is no eye's, and a pass reads one eye's part of it");
+            found.structure(Some(id), image, "is no eye's, and a pass reads one eye's part of it");
+        } else if access.accesses.intersects(Accesses::INPUT_ATTACHMENT_READ) {
+            found.structure(
+                Some(id),
+                image,
+                "is read at each fragment's own position, and one eye's part of it is meant",
+            );
         }
     }
 }

@@ -5,6 +5,7 @@
 
 mod bad;
 mod bombs;
+mod both_eyes;
 mod choices;
 mod dynamic_sizes;
 mod encodings;

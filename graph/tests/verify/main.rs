@@ -3,6 +3,7 @@
 mod accepts;
 mod compiled;
 mod contents;
+mod eyes;
 mod form;
 #[path = "../hand_written_plans/mod.rs"]
 mod hand_written_plans;

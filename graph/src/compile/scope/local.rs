@@ -43,6 +43,8 @@ fn obstacle(adapted: &Adapted, sampled: &Sampled, used: &Use) -> Option<&'static
         Some("it has several samples")
     } else if sampled.stages != Stages::FRAGMENT_SHADER {
         Some("not only the fragment shader reads it")
+    } else if sampled.eye.is_some() {
+        Some("it is one eye's part of it, whichever is drawn for")
     } else {
         None
     }
