@@ -31,6 +31,10 @@ impl Recorder<'_> {
         self.viewport = self.other_than_all(rectangle);
         if self.may_differ_by_eye(self.viewport) {
             self.see(rectangle, 0);
+            // What reaches over an eye's picture would be drawn into the other one's.
+            if self.halves() && self.scissor.is_none() {
+                self.cut(self.own(), 0);
+            }
         }
     }
 
@@ -50,8 +54,13 @@ impl Recorder<'_> {
 
     /// A rectangle that isn't all of one eye's picture, where both lie side by side.
     fn other_than_all(&self, rectangle: [f64; 4]) -> Option<[f64; 4]> {
+        (self.halves() && rectangle != self.own()).then_some(rectangle)
+    }
+
+    /// All of one eye's picture.
+    fn own(&self) -> [f64; 4] {
         let [width, height] = self.extent().map(f64::from);
-        (self.halves() && rectangle != [0.0, 0.0, width, height]).then_some(rectangle)
+        [0.0, 0.0, width, height]
     }
 
     /// Whether viewport or scissor can be as they are.
@@ -89,10 +98,10 @@ impl Recorder<'_> {
         unsafe { self.shared.raw.cmd_set_viewport(self.commands, 0, &[viewport]) };
     }
 
-    /// Sets the scissor to a rectangle of an eye's picture; all of it is all of both.
+    /// Sets the scissor to a rectangle of an eye's picture; all of it is all of both, unless the viewport differs by eye.
     fn cut(&mut self, [x, y, width, height]: [f64; 4], eye: u32) {
         let half = f64::from(self.extent()[0]);
-        let rectangle = match self.scissor {
+        let rectangle = match self.scissor.or(self.viewport) {
             None if self.halves() => [x, y, 2.0 * width, height],
             _ => [x + f64::from(eye) * half, y, width, height],
         };
@@ -125,8 +134,8 @@ impl Recorder<'_> {
                     if let Some(rectangle) = self.viewport {
                         self.see(rectangle, eye);
                     }
-                    if let Some(rectangle) = self.scissor {
-                        self.cut(rectangle, eye);
+                    if self.scissor.or(self.viewport).is_some() {
+                        self.cut(self.scissor.unwrap_or_else(|| self.own()), eye);
                     }
                     draw(&self.shared.raw, self.commands, instances.start | eye * RIGHT_EYE, count);
                 }

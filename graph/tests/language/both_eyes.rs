@@ -1,5 +1,5 @@
-//! What both eyes have is in one image where they are drawn at once, and what draws it runs once (ST-2, ST-4); what can't be so is
-//! drawn for one eye after the other, and the frame says why.
+//! What both eyes have is in one image where they are drawn at once, and what draws it runs once (ST-2, ST-4); what can't be so
+//! is drawn for one eye after the other, and the frame says why.
 
 use crate::table::{INPUTS, frame, right, wrong};
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
