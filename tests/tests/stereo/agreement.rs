@@ -45,7 +45,10 @@ const CASES: [Shipped<'_>; 22] = [
 fn every_shipped_pipeline_shows_each_eye_what_it_sees_alone() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let (mut found, mut wrong) = (Vec::new(), false);
-    for (case, extent) in CASES.iter().flat_map(|case| [(*case, EVEN), (*case, EXTENT)]) {
+    // What differs by settings does so at odd widths.
+    let even = CASES.iter().enumerate().filter(|(at, case)| *at == 0 || CASES[at - 1].0 != case.0);
+    let even = even.map(|(_, case)| (*case, EVEN));
+    for (case, extent) in CASES.iter().map(|case| (*case, EXTENT)).chain(even) {
         let (pipeline, set, scene, frames, most) = case;
         let (file, scene) = (shipped(pipeline), load(&in_repository(&format!("examples/scenes/{scene}.ron")))?);
         let case = Case { pipeline: &file, set, scene: &scene, extent, frames };
@@ -88,10 +91,13 @@ fn no_shipped_pipeline_is_left_out() -> Result<(), Box<dyn Error>> {
 fn texels_are_fetched_exactly() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let scene = empty_scene();
-    for (set, extent) in [&[][..], &[("msaa", "1")], &[("scale", "0.77")], &[("scale", "2")]]
-        .into_iter()
-        .flat_map(|set| [(set, EVEN), (set, EXTENT), (set, [3, 2])])
-    {
+    for (set, extent) in [
+        (&[][..], EXTENT),
+        (&[("msaa", "1")], EVEN),
+        (&[("scale", "0.77")], EXTENT),
+        (&[("scale", "2"), ("msaa", "1")], EXTENT),
+        (&[], [3, 2]),
+    ] {
         let case = Case { pipeline: "tests/pipelines/eyes_fetched.ron", set, scene: &scene, extent, frames: 1 };
         let alone = drawn(device, &case, upright(Stereo::MultiPass), &Eyes::default())?;
         let [numbers, around, of_samples, _, left] = &alone.frames[0][..] else { return Err("no five outputs".into()) };
@@ -115,16 +121,21 @@ fn texels_are_fetched_exactly() -> Result<(), Box<dyn Error>> {
 fn nothing_bleeds_from_one_eye_into_the_other() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let scene = empty_scene();
-    for stereo in [vec![Stereo::MultiPass], at_once(device)].concat() {
-        for (scale, filter) in [("0.5", "bilinear"), ("2", "bilinear"), ("0.77", "catmull_rom"), ("1", "area")] {
-            for (dynamic, extent) in [("false", EXTENT), ("true", EXTENT), ("false", EVEN)] {
-                let set = &[("scale", scale), ("filter", filter), ("dynamic", dynamic)];
-                let case = Case { pipeline: "tests/pipelines/eyes_blurred.ron", set, scene: &scene, extent, frames: 1 };
-                let found = drawn(device, &case, upright(stereo), &Eyes::default())?;
-                assert_eq!(found.frames[0].len(), 5);
-                for (at, pair) in found.frames[0].iter().enumerate() {
-                    bleeds_nowhere(pair).map_err(|why| format!("output {at}, {set:?}, {}: {why}", stereo.name()))?;
-                }
+    for stereo in [at_once(device), vec![Stereo::MultiPass]].concat() {
+        for (scale, filter, dynamic, extent) in [
+            ("0.5", "bilinear", "false", EXTENT),
+            ("2", "bilinear", "false", EVEN),
+            ("0.5", "area", "true", EVEN),
+            ("2", "nearest", "true", EXTENT),
+            ("0.77", "catmull_rom", "true", EXTENT),
+            ("1", "bilinear", "false", [1, 7]),
+        ] {
+            let set = &[("scale", scale), ("filter", filter), ("dynamic", dynamic)];
+            let case = Case { pipeline: "tests/pipelines/eyes_blurred.ron", set, scene: &scene, extent, frames: 1 };
+            let found = drawn(device, &case, upright(stereo), &Eyes::default())?;
+            assert_eq!(found.frames[0].len(), 5);
+            for (at, pair) in found.frames[0].iter().enumerate() {
+                bleeds_nowhere(pair).map_err(|why| format!("output {at}, {set:?}, {}: {why}", stereo.name()))?;
             }
         }
     }

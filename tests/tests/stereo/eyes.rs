@@ -175,3 +175,27 @@ fn what_is_done_for_one_eye_after_the_other_shows_the_same_in_each_mode() -> Res
     }
     Ok(())
 }
+
+/// ST-9: at its place in the file, where it would see both eyes' halves; elsewhere it is right.
+#[test]
+fn a_shader_that_does_not_ask_for_its_half_is_reported_at_its_pass() {
+    let Some(device) = device() else { return };
+    let scene = empty_scene();
+    let case =
+        Case { pipeline: "tests/pipelines/eyes_unasked.ron", set: &[], scene: &scene, extent: EXTENT, frames: 1 };
+    for stereo in all(device) {
+        let shown = drawn(device, &case, upright(stereo), &Eyes::default());
+        let halves = stereo == Stereo::DoubleWide || stereo == Stereo::Instanced && !device.profile().vertex_layer;
+        if !halves {
+            assert!(shown.is_ok(), "{}: {:?}", stereo.name(), shown.err());
+            continue;
+        }
+        let said = shown.map(|_| ()).expect_err("two mistakes").to_string();
+        for (mistake, place) in [
+            ("shader `fetch` samples `source` and doesn't ask which half of `numbers` is its eye's", "ron:11:71"),
+            ("shader `raw_ramp` reads `gl_FragCoord` without `frag_coord()`", "ron:12:41"),
+        ] {
+            assert!(said.contains(mistake) && said.contains(place), "{}: {said}", stereo.name());
+        }
+    }
+}

@@ -1,4 +1,42 @@
-//! What two eyes see, drawn one after the other and at once.
+//! What two eyes see, drawn one after the other and at once. Each row of the requirements with the tests that show it, and a
+//! change of one line that was seen to turn the first of them red.
+//!
+//! | row | tests | what turns it red |
+//! |---|---|---|
+//! | ST-1 | `cameras::each_eye_sees_what_a_camera_in_its_place_sees` | `draw/eyes.rs`: the other eye's place |
+//! | ST-1 | `graph/tests/language/eyes.rs` | `expand/eyes.rs`: `of` gives the left eye's image |
+//! | ST-1 | `cameras::point_lights_reach_what_an_eye_sees_behind_the_camera_between_both` | `point_lights.glsl`: tiles as ahead |
+//! | ST-2 | `packed::one_image_for_both_is_twice_as_wide_or_has_two_layers` | `plan/part.rs`: `made` a texel wider |
+//! | ST-2 | `packed::a_pass_draws_for_both_eyes_what_two_draw_for_each` | `eyes/at_once.rs`: `at_once` is false |
+//! | ST-2 | `packed::what_is_handed_in_for_both_eyes_is_just_as_large_as_both` | `exchange.rs`: any number of bytes |
+//! | ST-3 | `packed::shared_culling_shows_the_same` | `draw/seen.rs`: both see what the left eye sees |
+//! | ST-3 | `packed::shared_culling_shows_the_same` | `draw/source.rs`: `culls_once` is ignored |
+//! | ST-3 | `passes/tests/eyes.rs`, rays at random | `draw/eyes.rs`: no step back |
+//! | ST-3 | `cameras::what_both_eyes_share_is_drawn_once` | `expand/eyes.rs`: `For::Both` runs for each |
+//! | ST-3 | `cameras::shadow_maps_of_each_eyes_own_give_what_shared_ones_give` | `draw/cascades.rs`: no maps of eyes' views |
+//! | ST-4 | `eyes::each_stage_is_told_the_eye_and_a_quad_shows_what_a_triangle_shows` | `shaders/eyes.rs`: `gl_Layer = 0` |
+//! | ST-4 | `agreement::texels_are_fetched_exactly` | `shaders/layers.rs`: the left eye's layer |
+//! | ST-4 | `eyes::what_is_done_for_one_eye_after_the_other_shows_the_same_in_each_mode` | `eyes/at_once.rs`: mips are no hindrance |
+//! | ST-5 | `eyes::each_stage_is_told_the_eye_and_a_quad_shows_what_a_triangle_shows` | `shaders/eyes.rs`: fragments' eyes exchanged |
+//! | ST-5 | `eyes::helpers_place_an_eyes_picture_in_what_is_drawn_into` | `stereo.glsl`: `scale_offset` without offset |
+//! | ST-6 | `eyes::helpers_place_an_eyes_picture_in_what_is_drawn_into` | `part.glsl`: `uv_adjust` of a vec4 without offset |
+//! | ST-7 | `agreement::nothing_bleeds_from_one_eye_into_the_other` | `part.glsl`: `uv_clamp` to the seam; no `min` |
+//! | ST-7 | `agreement::places_are_clamped_within_the_half_of_each_mip_level` | `part.glsl`: 1/64 of a texel less |
+//! | ST-8 | `eyes::grain_and_overlays_are_the_same_in_both_eyes` | `film_grain.frag`: the texel of both eyes' image |
+//! | ST-9 | `agreement::nothing_bleeds_from_one_eye_into_the_other` | `blur.frag`: without `uv_clamp` |
+//! | ST-9 | `agreement::texels_are_fetched_exactly` | `shaders/library.rs`: `half` doesn't know the eye that is named |
+//! | ST-9 | `eyes::what_is_done_for_one_eye_after_the_other_shows_the_same_in_each_mode` | `eyes/at_once.rs`: one eye's target in both |
+//! | ST-9 | `eyes::a_shader_that_does_not_ask_for_its_half_is_reported_at_its_pass` | `expand/halves.rs`: `check` returns |
+//! | ST-10 | `agreement::texels_are_fetched_exactly` | `shaders/library.rs`: `half` is the left one |
+//! | ST-11 | `eyes::each_stage_is_told_the_eye_and_a_quad_shows_what_a_triangle_shows` | `shaders/eyes.rs`: 0.49 of the width |
+//! | ST-12 | `eyes::what_is_done_for_one_eye_after_the_other_shows_the_same_in_each_mode` | `prepare_pass.rs`: no `eyes` in a variant |
+//! | ST-13 | `eyes::grain_and_overlays_are_the_same_in_both_eyes` | `stereo.glsl`: `non_stereo_screen_pos` of half the width |
+//! | ST-14 | `agreement` | `shaders/eyes.rs`: nothing cut at the seam |
+//! | ST-14 | `rotated::derivatives_and_places_are_those_of_the_upright_picture_of_each_eye` | `rotation.glsl`: `towards` not rotated |
+//! | ST-14 | `rotated::at_every_scale_and_number_of_samples_each_eye_sees_the_same_turned` | `plan/part.rs`: twice the width when turned |
+//! | ST-15 | `packed::a_pass_draws_for_both_eyes_what_two_draw_for_each`; times: `passes/benches/eyes.rs` | as for ST-2 |
+//! | ST-16 | `eyes::grain_and_overlays_are_the_same_in_both_eyes`, `agreement` | `scene.glsl`: `view` is the left eye's |
+//! | NU-4 | `cameras::eyes_far_from_the_origin_see_what_they_see_near_it` | `draw/eyes.rs`: an eye's place in 32 bits |
 
 mod agreement;
 mod cameras;
