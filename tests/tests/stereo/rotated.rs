@@ -13,7 +13,9 @@ const TURNED: [Rotation; 3] = [Rotation::Rotate90, Rotation::Rotate180, Rotation
 
 /// Settings of `image_quality`, how many pixels of 5,917 may be off from the upright picture, and how many from what is drawn
 /// for one eye after the other on a screen turned alike. Drawn straight into the screen, edges and textures are a little other.
-const CASES: [(&[(&str, &str)], usize, usize); 5] = [
+type Shipped<'a> = (&'a [(&'a str, &'a str)], usize, usize);
+
+const CASES: [Shipped<'_>; 5] = [
     (&[("msaa", "4"), ("render_scale", "1.5")], 0, 8),
     (&[("msaa", "4"), ("render_scale", "0.77"), ("blur", "2"), ("filter", "bilinear")], 0, 15),
     (&[("msaa", "1"), ("render_scale", "0.5"), ("depth_stripes", "blended")], 0, 0),
