@@ -128,7 +128,7 @@ impl Recorder<'_> {
                     if let Some(rectangle) = self.scissor {
                         self.cut(rectangle, eye);
                     }
-                    draw(&self.shared.raw, self.commands, instances.start | eye * RIGHT_EYE, count);
+                    draw(&self.shared.raw, self.commands, instances.start | (eye * RIGHT_EYE), count);
                 }
             }
         }
