@@ -103,13 +103,15 @@ pub fn plan_for(
     let pipeline = pipeline.map_err(rendered)?;
     let set: Vec<_> = setup.set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
     let facts = setup.scene.facts();
+    // It decides how one image holds what both eyes see.
+    let profile = (stereo != Stereo::Off).then(|| device.profile());
     let inputs = Inputs {
         set: &set,
         facts,
         facts_known: true,
         output_extent: setup.extent,
         dump: &[],
-        device: None,
+        device: profile.as_ref(),
         rotation,
         stereo,
     };

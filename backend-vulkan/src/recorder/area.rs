@@ -137,7 +137,7 @@ impl Recorder<'_> {
                     if self.scissor.or(self.viewport).is_some() {
                         self.cut(self.scissor.unwrap_or_else(|| self.own()), eye);
                     }
-                    draw(&self.shared.raw, self.commands, instances.start | eye * RIGHT_EYE, count);
+                    draw(&self.shared.raw, self.commands, instances.start | (eye * RIGHT_EYE), count);
                 }
             }
         }

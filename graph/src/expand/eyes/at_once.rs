@@ -74,7 +74,11 @@ impl Apart {
     }
 
     fn all<'p>(&mut self, parts: impl Iterator<Item = &'p ImagePart>, why: &str) -> bool {
-        parts.fold(false, |found, part| self.part(part.image.index, || why.to_owned()) || found)
+        let mut found = false;
+        for part in parts {
+            found |= self.part(part.image.index, || why.to_owned());
+        }
+        found
     }
 
     /// What is drawn from or beside an image for each eye is one, too. Whether that found any.
