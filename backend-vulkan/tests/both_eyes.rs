@@ -224,7 +224,7 @@ fn nothing_of_the_helpers_is_left_where_there_is_one_eye() {
     }";
     let one = [Variant::default(), Variant { eye: Some(EyeSource::One(Eye::Left)), ..Variant::default() }];
     for variant in one {
-        let [with, without] = [&with[..], without].map(|text| fragment(&format!("{DECLARED}{text}"), &variant));
+        let [with, without] = [with, without].map(|text| fragment(&format!("{DECLARED}{text}"), &variant));
         let raw = module(&with);
         assert!(!disassembled(&with).contains("framewright_eye"), "{}", disassembled(&with));
         let found = capabilities(&raw);
