@@ -31,15 +31,15 @@ vec2 uv_adjust(vec2 uv, vec4 st, float w) {
     return uv * st.xy + st.zw * w;
 }
 
-// A place in an image as a place in its part, 0 to 1 from that's upper left corner.
+// A place in an image as a place in its part, 0 to 1 from the part's upper left corner.
 vec2 uv_unadjust(vec2 uv, vec4 st) {
     return (uv - st.zw) / st.xy;
 }
 
-// The place of the part, in an image (or a mip level of it) of so many texels, that is nearest to a place in that image: no further out than the middle
-// of the outermost texels, so that a linear filter mixes in nothing that lies beyond. A little further in, since the middle is
-// met up to rounding only: what lies beyond may be anything, and a trace of it may be too much. Of a single texel it is that's
-// middle.
+// The place of the part, in an image (or a mip level of it) of so many texels, that is nearest to a place in that image: no
+// further out than the middle of the outermost texels, so that a linear filter mixes in nothing that lies beyond. A little further
+// in, since the middle is met up to rounding only: what lies beyond may be anything, and a trace of it may be too much. Of a single
+// texel it is its middle.
 vec2 uv_clamp(vec2 uv, vec4 st, ivec2 texels) {
     const vec2 margin = min((0.5 + 1.0 / 512.0) / vec2(texels), 0.5 * st.xy);
     return is_whole(st) ? uv : clamp(uv, st.zw + margin, st.zw + st.xy - margin);

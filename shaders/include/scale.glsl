@@ -34,7 +34,8 @@ float catmull_rom(float distance) {
     return x < 1.0 ? (1.5 * x - 2.5) * x * x + 1.0 : x < 2.0 ? ((-0.5 * x + 2.5) * x - 4.0) * x + 2.0 : 0.0;
 }
 
-// What lies at a place of the part `st` of the source, 0 to 1 from its upper left corner, by Catmull and Rom's curve along rows and columns.
+// What lies at a place of the part `st` of the source, 0 to 1 from its upper left corner, by Catmull and Rom's curve along rows
+// and columns.
 // Beyond its edges lie the outermost texels.
 vec4 curve_at(sampler2D source, vec4 st, vec2 place) {
     const ivec2 texels = used_of(source, st);

@@ -1,8 +1,8 @@
 // What the shipped draw source binds: set 1 for the frame, set 2 for the material. The same table for the CPU:
 // passes/src/draw/interface.rs.
 //
-// World space here has the axes of the scene but its origin at the camera, for both eyes between them: differences to the camera are taken on the CPU
-// in 64 bits, so that a scene a million units from its origin doesn't shake.
+// World space here has the axes of the scene but its origin at the camera, for both eyes between them: differences to the camera
+// are taken on the CPU in 64 bits, so that a scene a million units from its origin doesn't shake.
 #ifndef FRAMEWRIGHT_SCENE
 #define FRAMEWRIGHT_SCENE
 

@@ -26,7 +26,9 @@ pub(super) enum Stage {
 
 /// Compiles one stage: GLSL 4.60 to SPIR-V for Vulkan 1.3.
 ///
-/// `text` is that of `source`, or made of it; `macros` are names with what they stand for; fragment stages have the macro `FRAMEWRIGHT_FRAGMENT` besides. Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by name needs.
+/// `text` is that of `source`, or made of it; `macros` are names with what they stand for; fragment stages have the macro
+/// `FRAMEWRIGHT_FRAGMENT` besides. Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by
+/// name needs.
 ///
 /// # Errors
 /// The compiler's messages, each with the file and line that it is about.

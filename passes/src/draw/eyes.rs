@@ -63,8 +63,8 @@ impl Eyes {
         }
     }
 
-    /// A camera behind both eyes that sees all that either sees, from `camera`'s near plane on, and stands as it does. `aspect` is width over height of an
-    /// eye's picture.
+    /// A camera behind both eyes that sees all that either sees, from `camera`'s near plane on, and stands as it does. `aspect` is
+    /// width over height of an eye's picture.
     #[must_use]
     pub fn around(&self, camera: &Camera, aspect: f64) -> Camera {
         let both = [self.left, self.right];
