@@ -8,6 +8,7 @@ use framewright_graph::describe;
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Note, Plan};
+use framewright_graph::view::Stereo;
 use serde::Serialize;
 use std::collections::HashSet;
 
@@ -59,6 +60,8 @@ fn compile(arguments: &Check) -> Result<Vec<Checked>, Error> {
     let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline)?;
     let options = arguments.planning.options();
+    // What both eyes have of their own lies in one image or another, by what the device can do.
+    let by_device = pipeline.pipeline.asks_device() || pipeline.stereo.0.iter().any(|it| *it > Stereo::MultiPass);
     let mut same: Option<Frame> = None;
     let mut all = Vec::new();
     for (name, profile) in profiles::all()? {
@@ -70,10 +73,10 @@ fn compile(arguments: &Check) -> Result<Vec<Checked>, Error> {
             Ok(frame) => {
                 busy.set_message(progress::compiling(&frame, &profile.name));
                 let result = pipeline.compile(&frame, &profile, &mut Estimated(&profile), &options);
-                same = Some(frame).filter(|_| !pipeline.pipeline.asks_device());
+                same = Some(frame).filter(|_| !by_device);
                 result
             }
-            Err(wrong) if pipeline.pipeline.asks_device() => Err(wrong),
+            Err(wrong) if by_device => Err(wrong),
             Err(wrong) => return Err(wrong),
         };
         all.push(Checked { profile: name, device: profile.name, result });

@@ -42,7 +42,9 @@ vec2 uv_unadjust(vec2 uv, vec4 st) {
 // texel it is its middle.
 vec2 uv_clamp(vec2 uv, vec4 st, ivec2 texels) {
     const vec2 margin = min((0.5 + 1.0 / 512.0) / vec2(texels), 0.5 * st.xy);
-    return is_whole(st) ? uv : clamp(uv, st.zw + margin, st.zw + st.xy - margin);
+    const vec2 within = clamp(uv, st.zw + margin, st.zw + st.xy - margin);
+    // Along an axis of which all is seen nothing lies beyond.
+    return is_whole(st) ? uv : vec2(st.x == 1.0 ? uv.x : within.x, st.y == 1.0 ? uv.y : within.y);
 }
 
 // Two such places.

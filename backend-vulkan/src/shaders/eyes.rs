@@ -63,7 +63,7 @@ impl BothEyes {
                 "{EYE} = gl_InstanceIndex < 0 ? 1 : 0;\n    framewright_instance = gl_InstanceIndex & 0x7fffffff;"
             ),
             (EyeSource::InstanceParity, _) => {
-                format!("{EYE} = gl_InstanceIndex & 1;\n    framewright_instance = gl_InstanceIndex >> 1;")
+                format!("{EYE} = gl_InstanceIndex & 1;\n    framewright_instance = int(uint(gl_InstanceIndex) >> 1);")
             }
         };
         let place = match (stage, self.form) {

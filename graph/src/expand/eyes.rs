@@ -49,6 +49,9 @@ pub(super) fn split(
     let before = errors.len();
     let (mut none, mut for_one) = (Vec::new(), Vec::new());
     let mut of_pass = |pass: &mut Pass| {
+        if pass.off.is_some() && stereo != Stereo::Off {
+            handed_on_once(&own, pass, &pipeline.images, errors);
+        }
         // What a pass that is off would do wrong does no harm.
         let errors = if pass.off.is_some() { &mut none } else { &mut *errors };
         foreign_eyes(&own, pass, &pipeline.images, errors);
@@ -207,6 +210,20 @@ fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[describe::Image], error
             errors.push(wrong.help(format!("write `\"{name}\"`, or say `per_eye: true` of it")));
         }
     });
+}
+
+/// Says where what each eye has of its own takes the place of what both share: whose it would be nobody says.
+fn handed_on_once(own: &[bool], pass: &Pass, images: &[describe::Image], errors: &mut Vec<Diagnostic>) {
+    for stand_in in &pass.otherwise {
+        let StandIn::Forward(Forward { from, to }) = stand_in else { continue };
+        let [from_own, to_own] = [from, to].map(|image| own[image.index.0 as usize]);
+        if from_own && !to_own {
+            let [source, target] = [from, to].map(|image| &images[image.index.0 as usize].name.text);
+            let message = format!("pass `{}` is off, and `{target}` would take each eye's `{source}`", pass.name.text);
+            let wrong = Diagnostic::new(from.span, message).label(to.span, "is there once");
+            errors.push(wrong.help(format!("say `per_eye: true` of `{target}`, or forward what both eyes share")));
+        }
+    }
 }
 
 /// For whom a pass runs. Reports what can't be so.

@@ -231,6 +231,38 @@ fn whole_images_are_copied_and_filled_for_both_eyes_at_once() {
 }
 
 #[test]
+fn what_is_copied_from_images_apart_or_from_what_both_share_is_there_for_each_eye() {
+    let images = r#"(name: "own", format: R16G16B16A16_SFLOAT, size: Like("color")),
+                    (name: "second", format: R16G16B16A16_SFLOAT, size: Like("color")),"#;
+    let more = r#"(name: "write", dispatch: "halve", groups: Texels("own"), sample: {"source": "color"},
+                   storage: {"target": "own"}),
+                  (name: "copy", copy: (from: "own", to: "second"), side_effect: true),"#;
+    let write = ("own", "`write` uses it otherwise than by sampling or drawing");
+    let copied = ("second", "`copy` draws it for one eye after the other, as it does with `own`");
+    for frame in fall_apart(ALL, images, more, &[write, copied]) {
+        assert_eq!(passes(&frame)[5..], ["copy (left)", "copy (right)"]);
+    }
+    let shared = r#"(name: "copy", copy: (from: "noise", to: "own"), side_effect: true),"#;
+    for frame in fall_apart(ALL, OWN, shared, &[("own", "`copy` copies to it what both eyes share")]) {
+        assert_eq!(passes(&frame)[3..], ["copy (left)", "copy (right)"]);
+    }
+}
+
+#[test]
+fn what_a_draw_reads_as_storage_has_it_drawn_for_each_eye() {
+    let image = r#"(name: "own", format: R16G16B16A16_SFLOAT, size: Like("color")),"#;
+    let more = r#"(name: "paint", draw: FullScreen("reinhard"), sample: {"source": "color"}, color: ["own"]),
+                  (name: "look", draw: FullScreen("look_up"), storage: {"texels": (image: "own", access: Read)},
+                   color: ["screen"]),"#;
+    let own = ("own", "`look` uses it otherwise than by sampling or drawing");
+    let screen = ("screen", "`look` draws it for one eye after the other, as it does with `own`");
+    for frame in fall_apart(ALL, image, more, &[screen, own]) {
+        let looks = ["look (left)", "look (right)"].map(|name| pass(&frame, name).storage[0].image);
+        assert_ne!(looks[0], looks[1], "each eye reads its own");
+    }
+}
+
+#[test]
 fn what_the_program_records_is_recorded_for_each_eye() {
     let more = r#"(name: "outside", custom: "it", reads: ["color"], writes: ["own"]),"#;
     let [read, written] = [
@@ -390,6 +422,22 @@ fn what_a_pass_that_is_off_hands_on_is_one_for_both_or_two_on_both_sides() {
     for frame in fall_apart(ALL, OWN, &[off, record].concat(), &expected) {
         let forwards = frame.passes.iter().filter(|pass| pass.name.starts_with("grade"));
         assert_eq!(forwards.map(|pass| &*pass.name).collect::<Vec<_>>(), ["grade (left)", "grade (right)"]);
+    }
+}
+
+#[test]
+fn what_both_share_is_handed_to_each_eye_and_what_is_each_eyes_not_to_what_both_share() {
+    let off = r#"(name: "grade", when: "on", draw: FullScreen("reinhard"), sample: {"source": "color"}, color: ["own"],
+                  otherwise: Forward(from: "noise", to: "own"), side_effect: true),"#;
+    for frame in fall_apart(ALL, OWN, off, &[("own", "`grade` is off and hands it on")]) {
+        assert_eq!(passes(&frame)[3..], ["grade (left)", "grade (right)"]);
+    }
+    let image = r#"(name: "once", format: Color(hdr: true), size: Output),"#;
+    let off = r#"(name: "grade", when: "on", draw: FullScreen("reinhard"), sample: {"source": Eye(Right, "color")},
+                  color: ["once"], otherwise: Forward(from: "color", to: "once"), side_effect: true),"#;
+    for stereo in [Stereo::MultiPass, Stereo::DoubleWide, Stereo::Instanced, Stereo::Multiview] {
+        let mistakes = wrong(&pipeline(image, off), &drawn(stereo));
+        assert!(mistakes.contains("pass `grade` is off, and `once` would take each eye's `color`"), "{mistakes}");
     }
 }
 

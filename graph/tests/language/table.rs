@@ -301,6 +301,13 @@ impl ShaderInterfaces for Table {
                 params(&[("brightness", "float")]),
             ]),
             "downsample" | "reinhard" => full_screen(vec![source()]),
+            "look_up" => {
+                let mut texels = storage_image("texels", Dimension::D2, Some(Format::R16G16B16A16_SFLOAT), true);
+                if let BindingKind::StorageImage { writable, .. } = &mut texels.kind {
+                    *writable = false;
+                }
+                full_screen(vec![of_stage(texels, Stages::FRAGMENT_SHADER)])
+            }
             "blur" => full_screen(vec![source(), params(&[("direction_x", "float"), ("direction_y", "float")])]),
             "gauss" => full_screen(vec![
                 source(),

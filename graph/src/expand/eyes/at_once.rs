@@ -39,6 +39,12 @@ impl Apart {
             for sample in pass.sample.iter().filter(wraps).filter(|sample| own_part(&&sample.part)) {
                 apart.part(sample.part.image.index, || format!("`{name}` reads beyond its edges"));
             }
+            if let Work::Copy { from: Part::Image(from), to: Part::Image(to) } = &pass.work
+                && own[index(to.image.index)]
+                && !own[index(from.image.index)]
+            {
+                apart.part(to.image.index, || format!("`{name}` copies to it what both eyes share"));
+            }
             if *whose == For::Each
                 && let Some(why) = only_one_by_one(pass, stereo)
             {
@@ -58,7 +64,7 @@ impl Apart {
     pub(super) fn at_once(&self, pass: &Pass, own: &[bool], stereo: Stereo) -> bool {
         let apart =
             |part: &ImagePart| own[index(part.image.index)] && part.eye.is_none() && !self.is_one(part.image.index);
-        only_one_by_one(pass, stereo).is_none() && !sampled(pass).chain(written(pass)).any(apart)
+        only_one_by_one(pass, stereo).is_none() && !read(pass).chain(written(pass)).any(apart)
     }
 
     /// Why an image is one for each eye.
@@ -92,7 +98,7 @@ impl Apart {
         for (pass, _) in running.filter(|(_, whose)| **whose == For::Each) {
             let is_own = |part: &&ImagePart| own[index(part.image.index)];
             let each = |part: &&ImagePart| is_own(part) && part.eye.is_none();
-            let cause = sampled(pass).chain(written(pass)).filter(each).find(|part| !self.is_one(part.image.index));
+            let cause = read(pass).chain(written(pass)).filter(each).find(|part| !self.is_one(part.image.index));
             if let Some(cause) = cause {
                 let image = &pipeline.images[index(cause.image.index)].name.text;
                 let why =
@@ -105,9 +111,12 @@ impl Apart {
             for stand_in in &pass.otherwise {
                 let StandIn::Forward(forward) = stand_in else { continue };
                 let [from, to] = [forward.from, forward.to].map(|image| image.index);
-                if own[index(from)] && own[index(to)] && self.is_one(from) != self.is_one(to) {
+                let hands_on_one = |image| own[index(image)] && self.is_one(image);
+                if hands_on_one(from) != hands_on_one(to) {
                     let why = || format!("`{}` is off and hands it on", pass.name.text);
-                    found |= self.part(from, why) | self.part(to, why);
+                    for image in [from, to].into_iter().filter(|image| own[index(*image)]) {
+                        found |= self.part(image, why);
+                    }
                 }
             }
         }
@@ -146,8 +155,13 @@ fn only_one_by_one(pass: &Pass, stereo: Stereo) -> Option<&'static str> {
     }
 }
 
-fn sampled(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
-    pass.sample.iter().map(|sample| &sample.part)
+/// What a pass reads.
+fn read(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
+    let copied = match &pass.work {
+        Work::Copy { from, .. } => image(from),
+        _ => None,
+    };
+    pass.sample.iter().map(|sample| &sample.part).chain(copied).chain(looked_up(pass))
 }
 
 /// What a pass writes.
