@@ -9,7 +9,7 @@ use crate::{files, interrupt, notes, output, picture, placed, progress, rows, te
 use framewright_graph::frame::{Frame, Image, Lifetime, Resource};
 use framewright_graph::plan::{self, Stage, Totals};
 use framewright_graph::source::Span;
-use framewright_graph::view::{Eye, EyeForm};
+use framewright_graph::view::{Eye, EyeForm, Stereo};
 use framewright_graph::vocabulary::Layout;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
@@ -47,7 +47,9 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
     let wanted = wanted(arguments, &planned)?;
     let modes = &arguments.pipeline.stereo.0;
     if modes.len() > 1 {
-        text::say(&format!("note: it is drawn for two eyes by `--stereo {}`", planned.plan.stereo.name()));
+        let stereo = planned.plan.stereo;
+        let eyes = if stereo == Stereo::Off { "one eye" } else { "two eyes" };
+        text::say(&format!("note: it is drawn for {eyes} by `--stereo {}`", stereo.name()));
     }
     // What was asked for and isn't had changes the picture.
     for line in notes::lines(planned.plan.notes.iter().filter(|note| note.stage == Stage::Fit)) {

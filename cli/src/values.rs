@@ -138,8 +138,9 @@ pub(crate) fn stereo(text: &str) -> Result<Modes, String> {
     }
     let known = |name: &str| Stereo::ALL.into_iter().find(|stereo| stereo.name() == name);
     let modes: Option<Vec<Stereo>> = text.split(',').map(known).collect();
-    if modes.as_ref().is_some_and(|modes| modes.len() > 1 && modes.contains(&Stereo::Off)) {
-        return Err("`off` is for one eye, which every device can draw: write it alone".to_owned());
+    let before_last = modes.as_ref().and_then(|modes| modes.split_last()).map_or(&[][..], |(_, others)| others);
+    if before_last.contains(&Stereo::Off) {
+        return Err("`off` is for one eye, which every device can draw: nothing comes after it".to_owned());
     }
     let expected = || Stereo::ALL.map(Stereo::name).join(", ");
     modes.map(Modes).ok_or_else(|| format!("expected auto, or some of {} with commas between them", expected()))
