@@ -57,7 +57,8 @@ pub(crate) fn version(packed: u32) -> String {
     format!("{major}.{}.{}", vk::api_version_minor(packed), vk::api_version_patch(packed))
 }
 
-/// The capabilities of an open device, which resolves depth so, and draws several views at once if it says that and `draws_views`.
+/// The capabilities of an open device, which resolves depth so, and draws several views at once if it says
+/// that and `draws_views`.
 pub(crate) fn profile(
     shared: &Shared,
     source: String,

@@ -9,7 +9,6 @@ use framewright_graph::frame::{Blend, Shape};
 use framewright_graph::plan::{
     Attachment, BindingKind, ImageId, Pass, Plan, RenderScope, Resource, Side, Step, Transfer, Work,
 };
-use framewright_graph::rotation::Rotation;
 use framewright_graph::view::{EyeForm, Stereo};
 use framewright_graph::vocabulary::{Filter, Layout};
 
@@ -44,9 +43,8 @@ pub(crate) fn executable(shared: &Shared, plan: &Plan, step: &Step) -> Result<()
 /// Whether the device can render such a scope, blend and resolve its attachments, and filter what its passes sample.
 fn renderable(shared: &Shared, plan: &Plan, scope: &RenderScope) -> Result<(), Error> {
     let limits = &shared.limits;
-    let first = scope.color.iter().chain(&scope.depth).chain(&scope.stencil).next();
-    let rotation = first.map_or(Rotation::Identity, |first| plan.image(first.image).rotation);
-    let [width, height, _] = EyeForm::extent(plan.eyes(scope), [scope.extent[0], scope.extent[1], 1], rotation);
+    let [width, height, _] =
+        EyeForm::extent(plan.eyes(scope), [scope.extent[0], scope.extent[1], 1], plan.rotation(scope));
     let fits = width <= limits.max_framebuffer_width.min(limits.max_viewport_dimensions[0])
         && height <= limits.max_framebuffer_height.min(limits.max_viewport_dimensions[1])
         && scope.layers <= limits.max_framebuffer_layers

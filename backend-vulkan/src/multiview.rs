@@ -12,9 +12,8 @@ use crate::executor::{Executor, ExecutorOptions};
 use crate::shaders::ShaderLibrary;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, ColorTarget, Draw, Frame, Image, ImageIndex, Output, Pass, Resource, Work};
+use framewright_graph::frame::{Blend, ColorTarget, Draw, Frame, Image, ImageIndex, Pass, Resource, Work};
 use framewright_graph::interface::DrawInterface;
-use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::view::{EyeForm, Stereo};
 use framewright_graph::vocabulary::Subresources;
@@ -60,19 +59,11 @@ fn frame() -> Frame {
     let (image, range) = (ImageIndex(0), Subresources::WHOLE);
     let target = ColorTarget { image, range, span: Span::NONE, clear: None, blend: Blend::Replace };
     let draw = Work::Draw { draw: Draw::FullScreen, shader: "eyes".into(), discards: false, per_sample: false };
-    let output = Output {
-        resource: Resource::Image(image),
-        span: Span::NONE,
-        after: None,
-        encoding: None,
-        eye: None,
-        rotation: Rotation::Identity,
-    };
     Frame {
         stereo: Stereo::Multiview,
         images: vec![eyes],
         passes: vec![Pass { color: vec![target], ..Pass::new("eyes", draw) }],
-        outputs: vec![output],
+        outputs: vec![Resource::Image(image).into()],
         ..Frame::default()
     }
 }

@@ -7,8 +7,6 @@ use std::ops::Range;
 
 /// Set in the number of an instance that is the right eye's.
 const RIGHT_EYE: u32 = 1 << 31;
-/// No viewport reaches further: no device that has [`crate::MINIMUM_VERSION`] has narrower bounds than twice 16384.
-const MOST_VIEWPORT: f64 = 16384.0;
 
 impl Recorder<'_> {
     /// How both eyes are drawn for at once: each of the recorder's own draws is for both, and who draws by [`Recorder::raw`] sees
@@ -23,9 +21,8 @@ impl Recorder<'_> {
     /// width and height, in texels. At first it is all of the picture. Where instances draw into both eyes' halves it must be all
     /// of it.
     pub fn set_viewport(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2]) {
-        let within = |side: f64| side.is_finite() && side.abs() <= MOST_VIEWPORT;
         let rectangle = [x, y, width, height];
-        if !rectangle.into_iter().all(within) || width <= 0.0 || height <= 0.0 {
+        if !rectangle.into_iter().all(f64::is_finite) || width <= 0.0 || height <= 0.0 {
             return self.misused(|| format!("a viewport of {width}×{height} at {x}, {y}"));
         }
         self.viewport = self.other_than_all(rectangle);
@@ -93,6 +90,12 @@ impl Recorder<'_> {
         }
         #[allow(clippy::cast_possible_truncation, reason = "viewports are 32-bit floats")]
         let [x, y, width, height] = self.target.rotation.rectangle(self.all(), rectangle).map(|side| side as f32);
+        let [least, most] = self.shared.limits.viewport_bounds_range;
+        let [widest, highest] = self.shared.limits.max_viewport_dimensions.map(f64::from);
+        let inside = x >= least && y >= least && x + width <= most && y + height <= most;
+        if !inside || f64::from(width) > widest || f64::from(height) > highest {
+            return self.misused(|| format!("a viewport of {width}×{height} at {x}, {y}: more than the device has"));
+        }
         let viewport = vk::Viewport { x, y, width, height, min_depth: 0.0, max_depth: 1.0 };
         // SAFETY: the command buffer is being recorded, the state is dynamic in every pipeline, and the numbers are in range.
         unsafe { self.shared.raw.cmd_set_viewport(self.commands, 0, &[viewport]) };

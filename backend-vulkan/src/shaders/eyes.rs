@@ -76,7 +76,8 @@ impl BothEyes {
     }
 }
 
-/// Where the line behind `#version` begins, before which nothing but comments may stand; a text without one is taken for one of 4.60.
+/// Where the line behind `#version` begins, before which nothing but comments may stand; a text without one
+/// is taken for one of 4.60.
 fn behind_version(text: &str) -> usize {
     let mut rest = text.trim_start();
     loop {

@@ -182,8 +182,8 @@ fn of_part<'p>(part: &'p mut Part, write: bool, see: &mut dyn FnMut(&'p mut Imag
     }
 }
 
-/// Buffers that a pass writes: both eyes share them.
-fn written_buffers(pass: &Pass) -> impl Iterator<Item = (Resource, Span)> {
+/// Where buffers are named that a pass writes: both eyes share them.
+fn written_buffers(pass: &Pass) -> impl Iterator<Item = Span> {
     let storage = pass.storage.iter().filter_map(|storage| {
         let reads = storage.access.is_some_and(|access| access.value == StorageAccess::Read);
         (!reads).then_some(&storage.part)
@@ -194,7 +194,7 @@ fn written_buffers(pass: &Pass) -> impl Iterator<Item = (Resource, Span)> {
         Work::Draw { .. } | Work::Dispatch { .. } => Vec::new(),
     };
     storage.chain(transfers).filter_map(|part| match part {
-        Part::Buffer(part) => Some((Resource::Buffer(part.buffer.index), part.buffer.span)),
+        Part::Buffer(part) => Some(part.buffer.span),
         Part::Image(_) => None,
     })
 }
@@ -229,7 +229,7 @@ fn handed_on_once(own: &[bool], pass: &Pass, images: &[describe::Image], errors:
 /// For whom a pass runs. Reports what can't be so.
 fn whose(own: &[bool], pass: &mut Pass, images: &[describe::Image], errors: &mut Vec<Diagnostic>) -> For {
     let name = pass.name.text.clone();
-    let mut shared: Vec<(Option<Name>, Span)> = written_buffers(pass).map(|(_, span)| (None, span)).collect();
+    let mut shared: Vec<(Option<Name>, Span)> = written_buffers(pass).map(|span| (None, span)).collect();
     let (mut read, mut written, mut eyes) = (None, None, Vec::new());
     visit(pass, &mut |part, write| {
         let at = part.image.index.0 as usize;

@@ -61,7 +61,7 @@ pub struct Inputs<'a> {
     /// Width and height of the frame, in texels, 1 to 16384 each.
     pub output_extent: [u32; 2],
     /// The device that the frame is for; `None`: one that can do just what Vulkan 1.3 demands. Only pipelines that ask for
-    /// properties of the device depend on it.
+    /// properties of the device depend on it, and frames of instances for both eyes: in layers or in halves.
     pub device: Option<&'a Profile>,
     /// By how much what is shown on a screen is turned: outputs whose image has `format: Output`, or that leave the frame as
     /// `Hdr10`. Sizes are those of the upright picture.

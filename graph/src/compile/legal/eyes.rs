@@ -4,6 +4,7 @@ use crate::describe::Diagnostic;
 use crate::frame::{Frame, Image, ImageIndex, Pass, Resource, Shape, Work};
 use crate::source::Span;
 use crate::view::{EyeForm, Stereo};
+use std::collections::HashSet;
 
 /// Why an image can't hold both eyes' parts as it says.
 pub(super) fn image_problem(image: &Image, stereo: Stereo) -> Option<String> {
@@ -43,7 +44,7 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
             Resource::Buffer(_) => None,
         })
     };
-    let all_alike = transfers().map(|(image, _)| eyes(image)).collect::<std::collections::HashSet<_>>().len() < 2;
+    let all_alike = transfers().map(|(image, _)| eyes(image)).collect::<HashSet<_>>().len() < 2;
     let whole = match pass.work {
         Work::Copy => all_alike && transfers().count() == 2,
         Work::Fill { .. } => true,
