@@ -10,7 +10,8 @@ use framewright_graph::source::Sources;
 use framewright_graph::{compile, describe, expand, verify, view};
 use framewright_passes::draw::{self, SceneDrawSource};
 use framewright_passes::{scene, shipped};
-use framewright_vulkan::{Device, DeviceOptions, Executor, ExecutorOptions, ShaderLibrary};
+use framewright_vulkan::helper::{self, Limits};
+use framewright_vulkan::{Device, DeviceOptions, Executor, ExecutorOptions, Helper, ShaderLibrary};
 use std::error::Error;
 use std::path::Path;
 use std::sync::Arc;
@@ -18,6 +19,11 @@ use std::sync::Arc;
 const EXTENT: [u32; 2] = [640, 360];
 
 fn main() -> Result<(), Box<dyn Error>> {
+    // This program is its own helper: what a shader or a driver does wrong ends a child process, and not this one. Without these
+    // two lines and `with_helper` below all happens here.
+    helper::serve();
+    let helper = Helper::this_program(Limits::default())?;
+
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
     let scene = scene::load(&examples.join("scenes/spheres_and_cubes.ron"))?;
 
@@ -28,7 +34,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pipeline = describe::read(&mut sources, &file.to_string_lossy(), "forward.ron", text)
         .map_err(|mistakes| describe::render(&sources, &mistakes))?;
     let sources = Arc::new(sources);
-    let mut shaders = ShaderLibrary::new(vec![Root::new("shaders".into())], shipped::SHADERS, draw::interface);
+    let shaders = ShaderLibrary::new(vec![Root::new("shaders".into())], shipped::SHADERS, draw::interface);
+    let mut shaders = shaders.with_helper(&helper);
     let inputs = expand::Inputs {
         set: &[("msaa".to_owned(), "4".to_owned())],
         facts: scene.facts(),
@@ -43,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .map_err(|mistakes| describe::render(&sources, &mistakes))?;
 
     // The frame and what a device can do become a Plan, which somebody else than its maker verifies.
-    let device = Device::open(&DeviceOptions::default())?;
+    let device = Device::open(&DeviceOptions::default())?.with_helper(&helper);
     let plan = compile::compile(&frame, &device.profile(), &mut device.memory(), &compile::Options::default())
         .map_err(|mistakes| describe::render(&sources, &mistakes))?;
     assert!(verify::verify(&plan).is_empty());

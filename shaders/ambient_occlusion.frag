@@ -3,6 +3,7 @@
 
 #include "include/ambient_occlusion.glsl"
 #include "include/g_buffer.glsl"
+#include "include/radiance.glsl"
 #include "include/scene.glsl"
 #include "include/texture.glsl"
 
@@ -33,13 +34,13 @@ vec3 place_at(ivec2 texel, ivec2 extent, float depth_there) {
 void main() {
     const ivec2 extent = used_of(depth, depth_st);
     const ivec2 texel = texel_at(uv, extent);
-    const float depth_here = texel_in(depth, depth_st, texel).r;
+    const float depth_here = guard_alpha(texel_in(depth, depth_st, texel).r);
     color = vec4(1.0);
     if (depth_here <= 0.0) {
         return;
     }
     const vec3 here = place_at(texel, extent, depth_here);
-    const vec3 facing = from_octahedral(texel_in(normal, normal_st, texel).xy);
+    const vec3 facing = from_octahedral(guard_signed(texel_in(normal, normal_st, texel).xy));
     // The projection has no far plane: the near distance is the one number in its last column.
     const float away = view.world_to_clip[3].z / depth_here;
     const mat3 rows = transpose(mat3(view.world_to_clip));
@@ -51,11 +52,11 @@ void main() {
         const vec2 beside = vec2(cos(place.y), sin(place.y)) * place.x * reach;
         const ivec2 there = ivec2(floor(vec2(texel) + 0.5 + clamp(beside, vec2(-1e6), vec2(1e6))));
         if (all(greaterThanEqual(there, ivec2(0))) && all(lessThan(there, extent))) {
-            const float depth_there = texel_in(depth, depth_st, there).r;
+            const float depth_there = guard_alpha(texel_in(depth, depth_st, there).r);
             if (depth_there > 0.0) {
                 sum += occlusion_by(place_at(there, extent, depth_there) - here, facing, away, params.radius);
             }
         }
     }
-    color = vec4(vec3(openness(sum, params.strength)), 1.0);
+    color = guard_color(vec4(vec3(openness(sum, params.strength)), 1.0));
 }

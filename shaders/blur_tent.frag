@@ -13,5 +13,5 @@ layout(location = 0) out vec4 color;
 
 // A small blur in one draw: a tent of 3 × 3 texels. Drawn n times it is nearly a Gaussian of √(n/2) texels' deviation.
 void main() {
-    color = vec4(tent(source, source_st, uv, 1.0), 1.0);
+    color = vec4(guard_radiance(tent(source, source_st, uv, 1.0)), 1.0);
 }

@@ -35,20 +35,21 @@ layout(location = 0) out vec4 color;
 
 // Lights what a G-buffer holds. Where no object is the result is black: the sky goes there.
 void main() {
-    const float place = found_in(depth, depth_st, uv).r;
+    const float place = guard_alpha(found_in(depth, depth_st, uv).r);
     if (place <= 0.0) {
         color = vec4(0.0, 0.0, 0.0, 1.0);
         return;
     }
     const vec4 from_camera = view.clip_to_world * vec4(uv * 2.0 - 1.0, place, 1.0);
-    const vec3 facing = from_octahedral(found_in(normal, normal_st, uv).xy);
+    const vec3 facing = from_octahedral(guard_signed(found_in(normal, normal_st, uv).xy));
     const vec3 position = from_camera.xyz / from_camera.w;
 #ifdef HAS_ambient_occlusion
-    const float open = found_in(ambient_occlusion, ambient_occlusion_st, uv).r;
+    const float open = guard_alpha(found_in(ambient_occlusion, ambient_occlusion_st, uv).r);
 #else
     const float open = 1.0;
 #endif
     const Reflected reflected = reflect_light(position, facing, sunlit(position, facing), open);
-    const vec3 scattered = found_in(base_color, base_color_st, uv).rgb * reflected.diffuse;
-    color = vec4(guard_radiance(scattered + reflected.specular + found_in(emissive, emissive_st, uv).rgb), 1.0);
+    const vec3 scattered = guard_radiance(found_in(base_color, base_color_st, uv).rgb) * reflected.diffuse;
+    const vec3 emitted = guard_radiance(found_in(emissive, emissive_st, uv).rgb);
+    color = vec4(guard_radiance(scattered + reflected.specular + emitted), 1.0);
 }

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "include/depth_stripes.glsl"
+#include "include/radiance.glsl"
 #include "include/scene.glsl"
 #include "include/texture.glsl"
 
@@ -24,7 +25,7 @@ void main() {
     const float near = view.world_to_clip[3].z;
     float light = 0.0;
     for (int number = 0; number < samples_of(depth); ++number) {
-        light += stripe(found_in(depth, depth_st, uv, 0, number).r, near, params.period);
+        light += stripe(guard_alpha(found_in(depth, depth_st, uv, 0, number).r), near, params.period);
     }
-    color = vec4(0.0, 0.0, 0.0, 1.0 - light / float(samples_of(depth)));
+    color = guard_color(vec4(0.0, 0.0, 0.0, 1.0 - light / float(samples_of(depth))));
 }

@@ -24,8 +24,8 @@ void main() {
     const float near = view.world_to_clip[3].z;
     float light = 0.0;
     for (int number = 0; number < samples_of(depth); ++number) {
-        light += stripe(found_in(depth, depth_st, uv, 0, number).r, near, params.period);
+        light += stripe(guard_alpha(found_in(depth, depth_st, uv, 0, number).r), near, params.period);
     }
     const vec4 found = guard_color(found_in(source, source_st, uv));
-    color = vec4(found.rgb * (light / float(samples_of(depth))), found.a);
+    color = guard_color(vec4(found.rgb * (light / float(samples_of(depth))), found.a));
 }

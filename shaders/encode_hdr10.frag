@@ -19,5 +19,5 @@ layout(location = 0) out vec4 color;
 // Encodes radiance as HDR10, for a target of 10 bits or more that is shown as it is: UNORM, not SRGB.
 void main() {
     const vec3 radiance = guard_radiance(found_in(source, source_st, uv).rgb);
-    color = vec4(encode_hdr10(radiance, guard_radiance(params.reference_white)), 1.0);
+    color = vec4(guard_radiance(encode_hdr10(radiance, guard_radiance(params.reference_white))), 1.0);
 }

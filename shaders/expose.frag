@@ -23,5 +23,5 @@ layout(location = 0) out vec4 color;
 // Tone mapping by the modified Reinhard curve, channel by channel, exposed as a buffer says.
 void main() {
     const vec3 radiance = guard_radiance(guard_radiance(found_in(source, source_st, uv).rgb) * exposure.scale);
-    color = vec4(modified_reinhard(radiance, params.white_point), 1.0);
+    color = vec4(guard_radiance(modified_reinhard(radiance, params.white_point)), 1.0);
 }

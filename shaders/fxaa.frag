@@ -25,12 +25,12 @@ const float EVEN = 1e-4;
 const int REACH = 16;
 
 vec4 texel(ivec2 at) {
-    return texel_in(source, source_st, clamp(at, ivec2(0), used_of(source, source_st) - 1));
+    return guard_color(texel_in(source, source_st, clamp(at, ivec2(0), used_of(source, source_st) - 1)));
 }
 
 // Brightness as it is seen: about evenly spaced to the eye, 0 to 1.
 float brightness(ivec2 at) {
-    return sqrt(luminance(min(guard_radiance(texel(at).rgb), 1.0)));
+    return sqrt(luminance(min(texel(at).rgb, 1.0)));
 }
 
 // Fast approximate anti-aliasing after the description in T. Lottes, "FXAA", NVIDIA white paper, 2009: where brightness changes
@@ -94,5 +94,5 @@ void main() {
     const float around = (2.0 * (north + south + west + east) + north_west + north_east + south_west + south_east) / 12.0;
     const float alone = smoothstep(0.0, 1.0, abs(around - middle) / contrast);
     const float smoothed = alone * alone * clamp(params.subpixel, 0.0, 1.0);
-    color = mix(own, texel(at + beyond), max(cut_off, smoothed));
+    color = guard_color(mix(own, texel(at + beyond), max(cut_off, smoothed)));
 }

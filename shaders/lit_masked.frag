@@ -36,8 +36,12 @@ void main() {
     const vec4 base = base_color(object_index, texture_uv);
     const float cutoff = objects.object[object_index].alpha_cutoff;
 #ifdef ALPHA_TO_COVERAGE
-    // Taken before anything is discarded, as neighbours are compared.
-    const float covered = covered_by(base.a, cutoff, fwidth(base.a));
+    // Taken before anything is discarded, as neighbours are compared. Alpha is looked up a pixel further on rather than
+    // differentiated: that would compare this pixel with the other ones of its square of two by two, and which ones these are
+    // depends on where the picture lies in what is drawn into.
+    const float right = base_color(object_index, texture_uv + ddx(texture_uv)).a;
+    const float below = base_color(object_index, texture_uv + ddy(texture_uv)).a;
+    const float covered = covered_by(base.a, cutoff, abs(right - base.a) + abs(below - base.a));
     const bool is_hole = covered == 0.0;
 #else
     const bool is_hole = base.a < cutoff;
@@ -49,6 +53,6 @@ void main() {
     color = lit_surface(object_index, base, world_position, world_normal);
 #endif
 #ifdef ALPHA_TO_COVERAGE
-    color.a = covered;
+    color.a = guard_alpha(covered);
 #endif
 }

@@ -13,5 +13,5 @@ layout(location = 0) out vec4 color;
 
 // What is brighter than white, for each channel by itself: max(c − 1, 0). For debugging.
 void main() {
-    color = vec4(max(guard_radiance(found_in(source, source_st, uv).rgb) - 1.0, 0.0), 1.0);
+    color = vec4(guard_radiance(max(guard_radiance(found_in(source, source_st, uv).rgb) - 1.0, 0.0)), 1.0);
 }

@@ -15,8 +15,10 @@ layout(set = 0, binding = 1) uniform Params {
     float offset_x;
     // Its upper side, from 0 to 1 down the picture.
     float offset_y;
-    // Multiplies colours.
+    // Multiplies colours. One component is shown as grey, and two as red and green.
     float gain;
+    // Colours may be negative, like normals: what is shown of a value, times `gain`, is half of it plus 0.5.
+    bool is_signed;
     // Above 0 the image is depth, of which the red channel is taken, and what is this far away is white; metres along the
     // camera's axis. At 0 it is colour.
     float farthest;
@@ -31,7 +33,10 @@ layout(location = 0) out vec4 color;
 // An image in a rectangle of the picture. For a pass with `blend: Premultiplied` or `Alpha`: around the rectangle nothing
 // changes. Shows flat images and those with layers, integers too, and of samples the first.
 void main() {
-    const vec2 inside = (uv - vec2(params.offset_x, params.offset_y)) / max(params.scale, 1e-6);
+    // 1/512 of a texel above and to the left of the pixel's middle. Where that lies on an edge of the rectangle or between two
+    // texels, it is on the same side then, whichever way the picture is turned and `uv` is rounded.
+    const vec2 place = (uv - vec2(params.offset_x, params.offset_y)) / max(params.scale, 1e-6);
+    const vec2 inside = place - 1.0 / (512.0 * vec2(used_of(shown, shown_st)));
     if (any(lessThan(inside, vec2(0.0))) || any(greaterThanEqual(inside, vec2(1.0)))) {
         color = vec4(0.0);
         return;
@@ -39,7 +44,14 @@ void main() {
     const vec4 found = found_in(shown, shown_st, inside, params.layer, 0);
     // The projection has no far plane: the near distance is the one number in its last column.
     const float near = view.world_to_clip[3].z;
-    const vec3 shade = params.farthest > 0.0 ? vec3(shade_of_distance(found.r, near, params.farthest))
-                                             : guard_radiance(guard_radiance(found.rgb) * params.gain);
-    color = vec4(shade, 1.0);
+    const vec3 channels = COMPONENTS_shown == 1 ? vec3(found.r) : vec3(found.rgb);
+    vec3 shade;
+    if (params.farthest > 0.0) {
+        shade = vec3(shade_of_distance(guard_alpha(found.r), near, params.farthest));
+    } else if (params.is_signed) {
+        shade = shade_of_signed(channels, params.gain);
+    } else {
+        shade = guard_radiance(guard_radiance(channels) * params.gain);
+    }
+    color = guard_color(vec4(shade, 1.0));
 }

@@ -14,5 +14,5 @@ layout(location = 0) out vec4 color;
 
 // Tone mapping by the Reinhard curve, channel by channel: no radiance is too bright to be shown.
 void main() {
-    color = vec4(reinhard(guard_radiance(found_in(source, source_st, uv).rgb)), 1.0);
+    color = vec4(guard_radiance(reinhard(guard_radiance(found_in(source, source_st, uv).rgb))), 1.0);
 }

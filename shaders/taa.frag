@@ -38,14 +38,14 @@ void main() {
     for (int number = 0; number < 9; ++number) {
         const ivec2 place = clamp(at + ivec2(number % 3, number / 3) - 1, ivec2(0), extent - 1);
         around[number] = guard_radiance(texel_in(now, now_st, place).rgb);
-        const float place_depth = texel_in(depth, depth_st, place).r;
+        const float place_depth = guard_alpha(texel_in(depth, depth_st, place).r);
         if (place_depth > nearest_depth) {
             nearest_depth = place_depth;
             nearest = place;
         }
     }
     const vec3 drawn = around[4];
-    const vec2 then = uv + texel_in(motion, motion_st, nearest).rg;
+    const vec2 then = uv + guard_signed(texel_in(motion, motion_st, nearest).rg);
     const vec4 left = guard_color(curve_at(before, before_st, then));
     const bool seen = all(lessThanEqual(abs(then - 0.5), vec2(0.5))) && left.a > 0.5;
     const float share = clamp(params.share, 0.0, 1.0);

@@ -21,5 +21,5 @@ layout(location = 0) out vec4 color;
 // Tone mapping by the modified Reinhard curve, channel by channel, with a white point.
 void main() {
     const vec3 radiance = guard_radiance(guard_radiance(found_in(source, source_st, uv).rgb) * params.exposure);
-    color = vec4(modified_reinhard(radiance, params.white_point), 1.0);
+    color = vec4(guard_radiance(modified_reinhard(radiance, params.white_point)), 1.0);
 }

@@ -28,5 +28,5 @@ void main() {
         const vec3 radiance = guard_radiance(guard_radiance(found_in(source, source_st, uv, 0, number).rgb) * params.exposure);
         sum += tone_mapped(radiance, params.operator, params.white_point);
     }
-    color = vec4(sum / float(samples_of(source)), 1.0);
+    color = vec4(guard_radiance(sum / float(samples_of(source))), 1.0);
 }

@@ -1,4 +1,7 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/radiance.glsl"
 
 layout(set = 0, binding = 0) uniform Params {
     // The tangent of the angle at which a lens would see the corners; 0 is no vignette.
@@ -17,5 +20,5 @@ void main() {
     const vec2 half_size = 0.5 * vec2(params.aspect, 1.0);
     const vec2 tangent = params.strength * ((2.0 * uv - 1.0) * half_size) / length(half_size);
     const float falloff = 1.0 / (1.0 + dot(tangent, tangent));
-    color = vec4(0.0, 0.0, 0.0, 1.0 - falloff * falloff);
+    color = guard_color(vec4(0.0, 0.0, 0.0, 1.0 - falloff * falloff));
 }

@@ -160,7 +160,7 @@ impl RawBuffer {
 
 fn invisible(what: &str, bytes: usize) -> Error {
     let reason = "the memory isn't visible to the host".to_owned();
-    Error::OutOfMemory { what: what.to_owned(), bytes: bytes as u64, reason }
+    Error::OutOfMemory { what: what.to_owned(), bytes: bytes as u64, parts: Vec::new(), reason }
 }
 
 impl Drop for RawBuffer {

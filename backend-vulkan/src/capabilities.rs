@@ -51,6 +51,15 @@ pub(crate) fn missing(instance: &ash::Instance, physical: vk::PhysicalDevice) ->
     missing
 }
 
+/// How many views a rendering scope of `physical`, which has these features, can draw at once, as it says.
+pub(crate) fn max_views(instance: &ash::Instance, physical: vk::PhysicalDevice, features: &Features) -> u32 {
+    let mut views = vk::PhysicalDeviceVulkan11Properties::default();
+    let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut views);
+    // SAFETY: `physical` belongs to `instance`, and the chained structure outlives the call.
+    unsafe { instance.get_physical_device_properties2(physical, &mut all) };
+    if features.multiview() { views.max_multiview_view_count } else { 1 }
+}
+
 /// A version in words.
 pub(crate) fn version(packed: u32) -> String {
     let major = vk::api_version_major(packed);
@@ -74,11 +83,8 @@ pub(crate) fn profile(
     };
     let limits = properties.limits;
     let features = Features::of(instance, physical, false);
-    let mut views = vk::PhysicalDeviceVulkan11Properties::default();
-    let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut views);
-    // SAFETY: `physical` belongs to `instance`, and the chained structure outlives the call.
-    unsafe { instance.get_physical_device_properties2(physical, &mut all) };
     let formats: Vec<_> = Format::ALL.iter().filter_map(|format| support(instance, physical, *format)).collect();
+    let model = MemoryModel::fitted(needs, &formats);
     Profile {
         name: crate::device::text(properties.device_name_as_c_str()),
         source,
@@ -105,13 +111,16 @@ pub(crate) fn profile(
             sharing: Sharing::Exclusive,
         },
         local_read: shared.local_read.is_some(),
-        max_multiview_views: if features.multiview() && draws_views { views.max_multiview_view_count } else { 1 },
+        max_multiview_views: if draws_views { shared.max_views } else { 1 },
         refuted_multiview: features.multiview() && !draws_views,
+        untested_multiview: false,
         vertex_layer: features.vertex_layer(),
-        max_clip_distances: if features.clip_distances() { limits.max_clip_distances } else { 0 },
+        max_clip_distances: Some(if features.clip_distances() { limits.max_clip_distances } else { 0 }),
         depth_resolve: depth_resolve.has,
         refuted_depth_resolve: depth_resolve.refuted,
-        memory: MemoryModel::fitted(needs, &formats),
+        refuted_layered_depth_resolve: depth_resolve.refuted_layered,
+        untested_depth_resolve: depth_resolve.untested,
+        memory: MemoryModel { heap_bytes: Some(crate::memory::largest_heap(shared, model.type_bits)), ..model },
         formats,
         known_needs: Vec::new(),
         unknown: Vec::new(),

@@ -55,10 +55,11 @@ fn renderable(shared: &Shared, plan: &Plan, scope: &RenderScope) -> Result<(), E
     }
     let draws_so = match (plan.stereo, plan.eyes(scope)) {
         (_, None) => true,
-        (Stereo::Multiview, Some(form)) => shared.multiview && form == EyeForm::Layers,
-        (Stereo::Instanced, Some(EyeForm::Layers)) => shared.vertex_layer && shared.clip_distances,
-        (Stereo::Instanced | Stereo::DoubleWide, Some(EyeForm::Halves)) => shared.clip_distances,
-        (Stereo::Off | Stereo::MultiPass | Stereo::DoubleWide, Some(_)) => false,
+        (Stereo::Multiview, Some(form)) => shared.max_views >= 2 && form == EyeForm::Layers,
+        (Stereo::Instanced, Some(EyeForm::Layers)) => shared.vertex_layer,
+        (Stereo::Instanced, Some(EyeForm::Halves)) => shared.clip_distances,
+        (Stereo::DoubleWide, Some(form)) => form == EyeForm::Halves,
+        (Stereo::Off | Stereo::MultiPass, Some(_)) => false,
     };
     if !draws_so {
         return bad(format!(

@@ -230,8 +230,20 @@ impl<'f> CustomRecorder<'f> {
         self.misuse.get_or_insert_with(what);
     }
 
-    /// How many commands were recorded, or the first misuse.
+    /// How many commands were recorded, or the first misuse. To record nothing is one where the pass writes: those who read
+    /// that would read what the memory held before.
     pub(crate) fn finish(self) -> Result<u32, String> {
-        self.misuse.map_or(Ok(self.recorded), Err)
+        let unwritten = self.written().filter(|_| self.recorded == 0);
+        let unwritten = unwritten.map(|name| format!("nothing was recorded, and the pass writes `{name}`"));
+        self.misuse.or(unwritten).map_or(Ok(self.recorded), Err)
+    }
+
+    /// The first image or buffer that the pass writes.
+    fn written(&self) -> Option<&str> {
+        let (plan, pass) = (self.frame.plan, self.pass);
+        let image = pass.accesses.iter().find(|it| !it.accesses.writes().is_empty());
+        let buffer = pass.buffers.iter().find(|it| !it.accesses.writes().is_empty());
+        let image = image.map(|it| &*plan.image(it.image).name);
+        image.or_else(|| buffer.map(|it| &*plan.buffers[it.buffer.0 as usize].name))
     }
 }

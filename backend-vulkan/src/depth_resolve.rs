@@ -3,7 +3,8 @@
 //!
 //! A slope is drawn into depth of one texel and several samples, once for each mode, in every depth format and with every
 //! number of samples; a pass works out from the single samples what each mode has to give. That is a frame like any other, with
-//! a Plan of its own.
+//! a Plan of its own. The same is done with a layer for each eye, in every way in which the device draws into both layers at
+//! once: a driver is known that resolves the first layer alone.
 
 use crate::device::Device;
 use crate::error::Error;
@@ -21,15 +22,30 @@ use framewright_graph::frame::{
 };
 use framewright_graph::interface::DrawInterface;
 use framewright_graph::source::Span;
+use framewright_graph::view::{EyeForm, Stereo};
 use framewright_graph::vocabulary::{CompareOp, Filter, ResolveMode, Sampler, Stages, Subresources};
+use serde::{Deserialize, Serialize};
 
 /// The modes in which depth can be resolved.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct DepthResolve {
     /// Those that the device has.
     pub(crate) has: Vec<ResolveMode>,
     /// Those that it says it has, and doesn't.
     pub(crate) refuted: Vec<ResolveMode>,
+    /// Those that it has for one layer, and not for several.
+    pub(crate) refuted_layered: Vec<ResolveMode>,
+    /// Those that it says it has, where that couldn't be tested.
+    pub(crate) untested: Vec<ResolveMode>,
+}
+
+impl DepthResolve {
+    /// Of a device whose self-test gave no answer nothing is used: draws resolve instead. `fails`: that is the device's doing.
+    pub(crate) fn without_answer(device: &Device, fails: bool) -> DepthResolve {
+        let said = claimed(device);
+        let (refuted, untested) = if fails { (said, Vec::new()) } else { (Vec::new(), said) };
+        DepthResolve { refuted, untested, ..DepthResolve::default() }
+    }
 }
 
 /// All modes, in the order of the four components that `expect.frag` writes.
@@ -42,9 +58,12 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "slope.vert",
         "#version 460
+        #ifndef FRAMEWRIGHT_BOTH_EYES
+        const int framewright_eye = 0;
+        #endif
         void main() {
             const vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0;
-            gl_Position = vec4(corner, (corner.x + 1.0) * 0.2 + 0.1, 1.0);
+            gl_Position = vec4(corner, (corner.x + 1.0) * 0.2 + 0.1 + 0.3 * float(framewright_eye), 1.0);
         }",
     ),
     ("slope.frag", "#version 460\nvoid main() {}"),
@@ -73,28 +92,44 @@ const SHADERS: &[(&str, &str)] = &[
 /// How far a resolve may be from what the samples say: a hundredth of the distance from sample to sample.
 const TOLERANCE: f32 = 0.001;
 
-/// What `device` does of what it says. Where that can't be found out, it is believed what every device must do.
-pub(crate) fn probe(device: &Device) -> DepthResolve {
+/// The modes that `device` says it has.
+fn claimed(device: &Device) -> Vec<ResolveMode> {
     let said = device.shared.depth_stencil_resolve().supported_depth_resolve_modes;
-    let said: Vec<ResolveMode> = MODES.into_iter().filter(|mode| said.contains(convert::resolve(*mode))).collect();
-    let kept = |mode: &ResolveMode| *mode == ResolveMode::SampleZero;
-    match resolves_so(device, &said) {
-        Ok(right) => {
-            let (has, refuted) = said.into_iter().partition(|mode| right.contains(mode));
-            DepthResolve { has, refuted }
-        }
-        Err(_) => DepthResolve { has: said.into_iter().filter(kept).collect(), refuted: Vec::new() },
-    }
+    MODES.into_iter().filter(|mode| said.contains(convert::resolve(*mode))).collect()
 }
 
-/// Those of these modes that give what they have to, in every format and with every number of samples.
-fn resolves_so(device: &Device, modes: &[ResolveMode]) -> Result<Vec<ResolveMode>, Error> {
-    let claims = DepthResolve { has: modes.to_vec(), refuted: Vec::new() };
-    let claimed = capabilities::profile(&device.shared, String::new(), &mut device.memory(), claims, false);
+/// What `device` does of what it says. `draws_views`: whether it draws several views at once, if it says that.
+///
+/// # Errors
+/// If that can't be tried.
+pub(crate) fn probe(device: &Device, draws_views: bool) -> Result<DepthResolve, Error> {
+    let said = claimed(device);
+    let claims = DepthResolve { has: said.clone(), ..DepthResolve::default() };
+    let claimed = capabilities::profile(&device.shared, String::new(), &mut device.memory(), claims, draws_views);
+    let right = resolves_so(device, &claimed, Stereo::Off, &said)?;
+    let (has, refuted): (Vec<_>, Vec<_>) = said.into_iter().partition(|mode| right.contains(mode));
+    let mut layered = has.clone();
+    for stereo in [Stereo::Instanced, Stereo::Multiview] {
+        if stereo.form(Some(&claimed)) == Some(EyeForm::Layers) && stereo.lacks(&claimed).is_none() {
+            layered = resolves_so(device, &claimed, stereo, &layered)?;
+        }
+    }
+    let refuted_layered = has.iter().copied().filter(|mode| !layered.contains(mode)).collect();
+    Ok(DepthResolve { has, refuted, refuted_layered, untested: Vec::new() })
+}
+
+/// Those of these modes that give what they have to, in every format and with every number of samples, for all that is drawn
+/// into at once.
+fn resolves_so(
+    device: &Device,
+    claimed: &Profile,
+    stereo: Stereo,
+    modes: &[ResolveMode],
+) -> Result<Vec<ResolveMode>, Error> {
     let mut right = modes.to_vec();
     for format in FORMATS {
         for samples in claimed.format(format).into_iter().flat_map(|it| &it.samples).filter(|count| **count > 1) {
-            let found = resolves_samples_so(device, &claimed, &frame(format, *samples, modes), modes)?;
+            let found = resolves_samples_so(device, claimed, &frame(stereo, format, *samples, modes), modes)?;
             right.retain(|mode| found.contains(mode));
         }
     }
@@ -114,29 +149,34 @@ fn resolves_samples_so(
     let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
     let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
     executor.frame(&mut Nothing)?;
+    // Four components for each layer.
     let expected = floats(&executor.read(0)?.bytes);
-    let expected =
-        |mode: ResolveMode| MODES.iter().zip(&expected).find(|(it, _)| **it == mode).map(|(_, depth)| *depth);
+    let expected = |mode: ResolveMode| -> Vec<f32> {
+        let component = MODES.iter().position(|it| *it == mode);
+        expected.chunks(MODES.len()).filter_map(|layer| layer.get(component?).copied()).collect()
+    };
     let mut right = Vec::new();
     for (output, mode) in (1..).zip(modes) {
         let Texels { format, bytes, .. } = executor.read(output)?;
-        let found = first_depth(format, &bytes);
-        let near = |(found, expected): (f32, f32)| (found - expected).abs() < TOLERANCE;
-        if found.zip(expected(*mode)).is_some_and(near) {
+        let (found, expected) = (depths(format, &bytes), expected(*mode));
+        let near = |(found, expected): (&f32, &f32)| (found - expected).abs() < TOLERANCE;
+        if found.len() == expected.len() && found.iter().zip(&expected).all(near) {
             right.push(*mode);
         }
     }
     Ok(right)
 }
 
-/// Draws the slope for each mode.
-fn frame(format: Format, samples: u32, modes: &[ResolveMode]) -> Frame {
+/// Draws the slope for each mode; for two eyes, if `stereo` is one of the modes that draw for both at once, each eye's at
+/// another depth.
+fn frame(stereo: Stereo, format: Format, samples: u32, modes: &[ResolveMode]) -> Frame {
     let whole = Subresources::WHOLE;
-    let mut frame = Frame::default();
-    frame.images.push(Image::new("modes", Format::R32G32B32A32_SFLOAT, 1, 1));
+    let mut frame = Frame { stereo, ..Frame::default() };
+    let eyes = (stereo != Stereo::Off).then_some(EyeForm::Layers);
+    frame.images.push(Image { eyes, ..Image::new("modes", Format::R32G32B32A32_SFLOAT, 1, 1) });
     for (number, mode) in (1..).zip(modes) {
         let resolve = Some(Resolve { way: ResolveWay::By(*mode), because: "to see what it does".into() });
-        frame.images.push(Image { samples, resolve, ..Image::new(&format!("slope {number}"), format, 1, 1) });
+        frame.images.push(Image { samples, resolve, eyes, ..Image::new(&format!("slope {number}"), format, 1, 1) });
         let depth = DepthTarget {
             image: ImageIndex(number),
             range: whole,
@@ -172,14 +212,19 @@ fn full_screen(name: &str, shader: &str) -> Pass {
     Pass::new(name, Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: false })
 }
 
-/// The depth of the first texel, 0 to 1.
-fn first_depth(format: Format, bytes: &[u8]) -> Option<f32> {
-    let word = || bytes.first_chunk().copied().map(u32::from_ne_bytes);
+/// The depths of texels, 0 to 1.
+fn depths(format: Format, bytes: &[u8]) -> Vec<f32> {
     match format {
-        Format::D16_UNORM => bytes.first_chunk().map(|it| f32::from(u16::from_ne_bytes(*it)) / 65535.0),
+        Format::D16_UNORM => {
+            let texels = bytes.as_chunks().0.iter();
+            texels.map(|it| f32::from(u16::from_ne_bytes(*it)) / 65535.0).collect()
+        }
         #[allow(clippy::cast_precision_loss, reason = "24 bits are what an f32 holds")]
-        Format::X8_D24_UNORM_PACK32 => word().map(|it| (it & 0xff_ffff) as f32 / 16_777_215.0),
-        _ => word().map(f32::from_bits),
+        Format::X8_D24_UNORM_PACK32 => {
+            let texels = bytes.as_chunks().0.iter();
+            texels.map(|it| (u32::from_ne_bytes(*it) & 0xff_ffff) as f32 / 16_777_215.0).collect()
+        }
+        _ => floats(bytes),
     }
 }
 

@@ -1,13 +1,14 @@
 //! Choosing, opening and sharing a device.
 
+use crate::cancel::Cancel;
 use crate::capabilities;
-use crate::depth_resolve::{self, DepthResolve};
 use crate::error::Error;
 use crate::features::Features;
+use crate::helper::Helper;
 use crate::instance::Instance;
 use crate::memory::LiveMemory;
-use crate::multiview;
 use crate::queues::{Families, Queues};
+use crate::self_tests::SelfTests;
 use crate::validation::Messages;
 use ash::{ext, khr, vk};
 use framewright_graph::describe::nearest;
@@ -63,6 +64,8 @@ pub struct DeviceSummary {
     /// What it lacks of the minimum; empty if it can be opened.
     pub missing: Vec<String>,
     driver_id: vk::DriverId,
+    /// All that tells it from other devices and its driver from other drivers and versions.
+    pub(crate) identity: String,
 }
 
 /// An open device. Clones share it; it closes when the last clone and the last thing made from it are gone.
@@ -81,8 +84,8 @@ pub(crate) struct Shared {
     pub(crate) local_read: Option<khr::dynamic_rendering_local_read::Device>,
     /// Whether shaders can see several cubes at once.
     pub(crate) cube_arrays: bool,
-    /// Whether rendering scopes can draw several views at once, as it says.
-    pub(crate) multiview: bool,
+    /// How many views a rendering scope can draw at once, as it says.
+    pub(crate) max_views: u32,
     /// Whether vertex shaders can choose their layer.
     pub(crate) vertex_layer: bool,
     /// Whether shaders have clip distances.
@@ -93,11 +96,13 @@ pub(crate) struct Shared {
     pub(crate) summary: DeviceSummary,
     pub(crate) caches: crate::caches::Caches,
     allocator: ManuallyDrop<Mutex<Allocator>>,
-    /// How it resolves depth, once that was tried.
-    depth_resolve: OnceLock<DepthResolve>,
-    /// Whether it draws several views at once, once that was tried.
-    draws_views: OnceLock<bool>,
+    /// What its self-tests found, once they ran.
+    self_tests: OnceLock<SelfTests>,
+    /// Where they run, if not in this process.
+    helper: OnceLock<Helper>,
     abandoned: OnceLock<Unfinished>,
+    /// What gives up waits for it.
+    pub(crate) cancel: Cancel,
     pub(crate) instance: ManuallyDrop<Instance>,
 }
 
@@ -132,7 +137,8 @@ impl Device {
         let has_local_read = capabilities::has_local_read(&instance.raw, physical);
         let mut features = Features::used(&Features::of(&instance.raw, physical, false), has_local_read);
         let cube_arrays = features.cube_arrays();
-        let (multiview, vertex_layer) = (features.multiview(), features.vertex_layer());
+        let max_views = capabilities::max_views(&instance.raw, physical, &features);
+        let vertex_layer = features.vertex_layer();
         let clip_distances = features.clip_distances();
         let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
         let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();
@@ -163,7 +169,12 @@ impl Device {
             Err(error) => {
                 // SAFETY: nothing was made from the device yet.
                 unsafe { raw.destroy_device(None) };
-                return Err(Error::OutOfMemory { what: "the device".into(), bytes: 0, reason: error.to_string() });
+                return Err(Error::OutOfMemory {
+                    what: "the device".into(),
+                    bytes: 0,
+                    parts: Vec::new(),
+                    reason: error.to_string(),
+                });
             }
         };
         let local_read = has_local_read.then(|| khr::dynamic_rendering_local_read::Device::new(&instance.raw, &raw));
@@ -174,7 +185,7 @@ impl Device {
             labels,
             local_read,
             cube_arrays,
-            multiview,
+            max_views,
             vertex_layer,
             clip_distances,
             presents,
@@ -182,9 +193,10 @@ impl Device {
             summary,
             caches: crate::caches::Caches::default(),
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
-            depth_resolve: OnceLock::new(),
-            draws_views: OnceLock::new(),
+            self_tests: OnceLock::new(),
+            helper: OnceLock::new(),
             abandoned: OnceLock::new(),
+            cancel: Cancel::default(),
             raw,
             instance: ManuallyDrop::new(instance),
         };
@@ -192,13 +204,44 @@ impl Device {
     }
 
     /// What the device can do, as far as Plans depend on it. The first time it is tried how the device resolves depth, and
-    /// whether it draws several views at once, which takes small frames.
+    /// whether it draws several views at once, which takes small frames: in a helper process, if [`Device::with_helper`] named
+    /// one.
     #[must_use]
     pub fn profile(&self) -> Profile {
         let source = format!("read from {}, Vulkan {}", self.shared.summary.driver, self.shared.summary.vulkan);
-        let depth_resolve = self.shared.depth_resolve.get_or_init(|| depth_resolve::probe(self));
-        let draws_views = *self.shared.draws_views.get_or_init(|| multiview::probe(self));
-        capabilities::profile(&self.shared, source, &mut self.memory(), depth_resolve.clone(), draws_views)
+        let SelfTests { depth_resolve, draws_views, draws_views_untested, .. } = self.self_tests();
+        let mut profile =
+            capabilities::profile(&self.shared, source, &mut self.memory(), depth_resolve.clone(), *draws_views);
+        if *draws_views_untested {
+            profile.untested_multiview = std::mem::take(&mut profile.refuted_multiview);
+        }
+        profile
+    }
+
+    /// Has the device tested in a helper process, so that a driver that crashes in a test ends no more than that. What the
+    /// tests find is kept for this version of the driver. A device that was tested already isn't tested again.
+    #[must_use]
+    pub fn with_helper(self, helper: &Helper) -> Device {
+        self.shared.helper.get_or_init(|| helper.clone());
+        self
+    }
+
+    /// What the device says it can do and is used without, and why: it failed the self-test, or the test gave no answer.
+    /// The first time the device is tested.
+    #[must_use]
+    pub fn used_without(&self) -> Vec<String> {
+        self.self_tests().used_without(self.shared.max_views >= 2)
+    }
+
+    fn self_tests(&self) -> &SelfTests {
+        self.shared.self_tests.get_or_init(|| SelfTests::of(self, self.shared.helper.get()))
+    }
+
+    /// Opens the device of this identity, for its self-tests.
+    pub(crate) fn open_identified(identity: &str) -> Result<Device, Error> {
+        let found = Device::list()?.into_iter().find(|device| device.identity == identity);
+        let choice = DeviceChoice::Index(found.ok_or(Error::NoDevice)?.index);
+        Device::open(&DeviceOptions { choice, validation: false })
     }
 
     /// What images and buffers take of this device's memory, for [`framewright_graph::compile`].
@@ -281,6 +324,9 @@ fn memory_needs(requirements: vk::MemoryRequirements) -> MemoryNeeds {
 impl Drop for Shared {
     fn drop(&mut self) {
         if let Some(Unfinished { semaphores, values }) = self.abandoned.get() {
+            if self.is_cancelled() {
+                return;
+            }
             // A software driver's threads crash if the process ends under them: a device that is merely slow gets a chance.
             let wait = vk::SemaphoreWaitInfo::default().semaphores(semaphores).values(values);
             // SAFETY: neither semaphores nor device were destroyed. Whatever comes of the wait, nothing more is done.
@@ -312,19 +358,24 @@ fn summary(instance: &Instance, index: usize, physical: vk::PhysicalDevice) -> D
     // SAFETY: `physical` belongs to the instance.
     let properties = unsafe { instance.raw.get_physical_device_properties(physical) };
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut ids = vk::PhysicalDeviceIDProperties::default();
     if properties.api_version >= vk::API_VERSION_1_2 {
-        let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
-        // SAFETY: `physical` belongs to the instance, and the chained structure outlives the call.
+        let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut driver).push_next(&mut ids);
+        // SAFETY: `physical` belongs to the instance, and the chained structures outlive the call.
         unsafe { instance.raw.get_physical_device_properties2(physical, &mut all) };
     }
     let families = Families::of(&instance.raw, physical);
     let more = families.as_ref().map(|it| (it.compute.is_some(), it.transfer.is_some())).unwrap_or_default();
     let queues = [("graphics", families.is_some()), ("compute", more.0), ("transfer", more.1)];
     let (driver_name, driver_info) = (text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));
+    let (name, driver_text) = (text(properties.device_name_as_c_str()), format!("{driver_name} {driver_info}"));
+    let numbers = [properties.vendor_id, properties.device_id, properties.driver_version, properties.api_version];
+    let (device_id, driver_uuid) = (u128::from_be_bytes(ids.device_uuid), u128::from_be_bytes(ids.driver_uuid));
     DeviceSummary {
         index,
-        name: text(properties.device_name_as_c_str()),
-        driver: format!("{driver_name} {driver_info}").trim().to_owned(),
+        identity: format!("{name}; {driver_text}; {numbers:x?}; device {device_id:032x}; driver {driver_uuid:032x}"),
+        name,
+        driver: driver_text.trim().to_owned(),
         kind: match properties.device_type {
             vk::PhysicalDeviceType::CPU => "cpu",
             vk::PhysicalDeviceType::INTEGRATED_GPU => "integrated",

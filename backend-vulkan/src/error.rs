@@ -1,6 +1,7 @@
 //! Everything that can go wrong here, as data; the sentence is made where it is shown.
 
 use ash::vk;
+use framewright_graph::amount;
 use framewright_graph::describe::escape;
 use framewright_graph::device::MemoryNeeds;
 use framewright_graph::interface::ShaderProblem;
@@ -22,8 +23,20 @@ pub enum Error {
         reason: String,
     },
     /// The loader found no driver, or no driver has a device.
-    #[error("no Vulkan driver with a device; mend it with: {INSTALL} (or unset VK_DRIVER_FILES and VK_ICD_FILENAMES)")]
+    #[error("no Vulkan driver with a device; mend it with: {INSTALL}{}", loader_variables(""))]
     NoDevice,
+    /// The loader can't make an instance: a file that describes a driver or a layer is broken, or what it leads to is.
+    #[error(
+        "the Vulkan loader can't make an instance{} ({result:?}): a file that it reads is broken, or leads to a library that can't be loaded; VK_LOADER_DEBUG=all shows which; mend it with: {INSTALL}{}",
+        if *validation { " with the validation layer" } else { "" },
+        loader_variables(", or mend what they lead to")
+    )]
+    NoInstance {
+        /// Vulkan's own result.
+        result: vk::Result,
+        /// Whether the validation layer was asked for.
+        validation: bool,
+    },
     /// No device fits the name or number that was asked for.
     #[error("no device {}{}; there are: {}", escape(wanted), did_you_mean(near), list(known))]
     UnknownDevice {
@@ -92,13 +105,21 @@ pub enum Error {
         /// How long it was waited for.
         seconds: u64,
     },
+    /// The program asked for the wait to be given up ([`Device::cancel_when`](crate::Device::cancel_when)).
+    #[error("{doing} was cancelled before the device was done")]
+    Cancelled {
+        /// What was being done.
+        doing: &'static str,
+    },
     /// There is not enough memory, or none of the right kind.
-    #[error("no memory for {}, {bytes} bytes: {reason}", escape(what))]
+    #[error("no memory for {}, {}{}: {reason}", escape(what), amount::bytes(*bytes), among(parts))]
     OutOfMemory {
         /// For what.
         what: String,
         /// How much.
         bytes: u64,
+        /// What was to lie there, if that is more than one thing: names of images or buffers, and their bytes.
+        parts: Vec<(String, u64)>,
         /// The allocator's words.
         reason: String,
     },
@@ -199,6 +220,7 @@ impl Error {
         match self {
             Error::NoLoader { .. }
             | Error::NoDevice
+            | Error::NoInstance { .. }
             | Error::UnknownDevice { .. }
             | Error::Lacking { .. }
             | Error::NoValidationLayer { .. }
@@ -214,6 +236,7 @@ impl Error {
             | Error::BadResource { .. }
             | Error::DrawSource { .. } => Blame::Files,
             Error::BadPlan { .. }
+            | Error::Cancelled { .. }
             | Error::Violations { .. }
             | Error::OtherMemoryNeeds { .. }
             | Error::Recording { .. } => Blame::Program,
@@ -233,6 +256,41 @@ fn did_you_mean(near: &Option<String>) -> String {
     near.as_ref().map_or_else(String::new, |near| format!(" (did you mean {}?)", escape(near)))
 }
 
+fn among(parts: &[(String, u64)]) -> String {
+    if parts.is_empty() {
+        return String::new();
+    }
+    let parts = parts.iter().map(|(name, bytes)| (&**name, *bytes)).collect();
+    format!(" for {}", escape(&amount::largest(parts)))
+}
+
+/// Variables that lead the loader to drivers and layers, in the order of its own documentation
+/// (`LoaderInterfaceArchitecture.md`, "Table of Debug Environment Variables").
+const LOADER_VARIABLES: [&str; 11] = [
+    "VK_DRIVER_FILES",
+    "VK_ICD_FILENAMES",
+    "VK_ADD_DRIVER_FILES",
+    "VK_LOADER_DRIVERS_SELECT",
+    "VK_LOADER_DRIVERS_DISABLE",
+    "VK_LAYER_PATH",
+    "VK_ADD_LAYER_PATH",
+    "VK_IMPLICIT_LAYER_PATH",
+    "VK_INSTANCE_LAYERS",
+    "VK_LOADER_LAYERS_ENABLE",
+    "VK_LOADER_LAYERS_DISABLE",
+];
+
+/// The command that unsets those of the variables above that are set, with their values and `after` behind it; nothing if none is.
+fn loader_variables(after: &str) -> String {
+    let value =
+        |name: &&'static str| Some((*name, format!("{name}={}", escape(&std::env::var_os(name)?.to_string_lossy()))));
+    let (names, values): (Vec<&str>, Vec<String>) = LOADER_VARIABLES.iter().filter_map(value).unzip();
+    if names.is_empty() {
+        return String::new();
+    }
+    format!("; or: unset {} (now {}){after}", names.join(" "), values.join(", "))
+}
+
 fn looked(layer_path: &Option<String>) -> String {
     layer_path.as_ref().map_or_else(String::new, |path| format!(" in VK_LAYER_PATH={}", escape(path)))
 }
@@ -250,7 +308,9 @@ fn problem_text(problem: &ShaderProblem) -> String {
         ShaderProblem::Missing { looked_in, known } => {
             format!("not found in {}; known shaders: {}", list(looked_in), list(known))
         }
-        ShaderProblem::DoesNotCompile { messages } => format!("doesn't compile: {}", list(messages)),
+        ShaderProblem::DoesNotCompile { messages } => {
+            format!("doesn't compile: {}", list(&messages.iter().map(ToString::to_string).collect::<Vec<_>>()))
+        }
         ShaderProblem::Unsupported { what } => format!("can't be used: {}", escape(what)),
     }
 }

@@ -115,7 +115,7 @@ mod tests {
     use super::*;
     use framewright_graph::format::Format;
     use framewright_graph::frame::Shape;
-    use framewright_graph::plan::{Access, Cause, DeviceUsed, Hazard, Image, Initial, Totals};
+    use framewright_graph::plan::{Access, Cause, DeviceUsed, Hazard, Image, Initial, StepId, Totals};
     use framewright_graph::rotation::Rotation;
     use framewright_graph::vocabulary::{Accesses, FillValue, Stages, State, Usage};
 
@@ -217,6 +217,7 @@ mod tests {
             ownership,
             hazard: Hazard::Ownership,
             after: None,
+            needed_by: Some(StepId(0)),
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::capabilities::MINIMUM_VERSION;
 use crate::error::Error;
 use crate::layer;
-use crate::validation::{FEATURES, LAYER, Layer, Messages, settings};
+use crate::validation::{FEATURES, LAYER, Layer, Messages, SETTINGS, Setting, known_settings, layer_settings};
 use ash::{ext, khr, vk};
 use std::ffi::CStr;
 
@@ -39,7 +39,7 @@ impl Instance {
             let found = crate::capabilities::version(version);
             return Err(Error::NoLoader { reason: format!("it has Vulkan {found}, and 1.3 is needed") });
         }
-        let validation = if validate {
+        let mut validation = if validate {
             let layer = Layer::find(&entry).ok_or_else(|| Error::NoValidationLayer {
                 layer_path: layer::user_layer_path().map(|path| path.display().to_string()),
             })?;
@@ -51,7 +51,16 @@ impl Instance {
         let available = unsafe { entry.enumerate_instance_extension_properties(None) }.unwrap_or_default();
         let has = |name| available.iter().any(|it| it.extension_name_as_c_str() == Ok(name));
         let (labels, surfaces) = (validate || has(ext::debug_utils::NAME), has(khr::surface::NAME));
-        let raw = create(&entry, labels, surfaces, validation.as_ref())?;
+        let mut raw = create(&entry, labels, surfaces, validation.as_ref(), &SETTINGS)?;
+        if let Some(validation) = &mut validation {
+            let known = known_settings(&validation.messages.list());
+            if known.len() < SETTINGS.len() {
+                // SAFETY: nothing was made from the instance, and its messages live until the next line.
+                unsafe { raw.destroy_instance(None) };
+                validation.messages = Messages::default();
+                raw = create(&entry, labels, surfaces, Some(validation), &known)?;
+            }
+        }
         let mut instance = Instance { raw, labels, surfaces, validation, messenger: None, _entry: entry };
         if let Some(validation) = &instance.validation {
             let functions = ext::debug_utils::Instance::new(&instance._entry, &instance.raw);
@@ -69,6 +78,7 @@ fn create(
     labels: bool,
     surfaces: bool,
     validation: Option<&Validation>,
+    settings: &[Setting],
 ) -> Result<ash::Instance, Error> {
     let application = vk::ApplicationInfo::default().application_name(c"framewright").api_version(MINIMUM_VERSION);
     let mut extensions: Vec<&CStr> = Vec::new();
@@ -80,7 +90,7 @@ fn create(
         extensions.push(khr::surface::NAME);
     }
     let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&FEATURES);
-    let settings = settings();
+    let settings = layer_settings(settings);
     let mut settings = vk::LayerSettingsCreateInfoEXT::default().settings(&settings);
     let mut messenger = vk::DebugUtilsMessengerCreateInfoEXT::default();
     if let Some(validation) = validation {
@@ -105,7 +115,7 @@ fn create(
     // SAFETY: everything that `info` points to outlives the call, and the messages outlive the instance.
     unsafe { entry.create_instance(&info, None) }.map_err(|result| match result {
         vk::Result::ERROR_INCOMPATIBLE_DRIVER => Error::NoDevice,
-        result => Error::Vulkan { doing: "creating an instance", result },
+        result => Error::NoInstance { result, validation: validation.is_some() },
     })
 }
 

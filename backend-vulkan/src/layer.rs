@@ -41,12 +41,17 @@ pub fn manifest_folder() -> Result<Option<PathBuf>, Error> {
     if user_layer_path().is_some() || !Path::new(CURRENT_LAYER).exists() {
         return Ok(None);
     }
-    let cache = set("XDG_CACHE_HOME").or_else(|| set("HOME").map(|home| home.join(".cache")));
-    let Some(cache) = cache else { return Ok(None) };
-    let folder = cache.join("framewright").join("vulkan-layer");
+    let Some(cache) = cache_folder() else { return Ok(None) };
+    let folder = cache.join("vulkan-layer");
     write_manifest(&folder)
         .map_err(|error| Error::CantWrite { path: folder.display().to_string(), reason: error.to_string() })?;
     Ok(Some(folder))
+}
+
+/// Where this crate keeps what it can make anew, if the user has a home folder.
+pub(crate) fn cache_folder() -> Option<PathBuf> {
+    let cache = set("XDG_CACHE_HOME").or_else(|| set("HOME").map(|home| home.join(".cache")));
+    cache.map(|cache| cache.join("framewright"))
 }
 
 /// `VK_LAYER_PATH`, if it is set.
@@ -65,10 +70,15 @@ fn write_manifest(folder: &Path) -> io::Result<()> {
     if fs::read_to_string(&path).is_ok_and(|found| found == manifest) {
         return Ok(());
     }
+    replace(folder, &path, manifest.as_bytes())
+}
+
+/// Writes a file of a folder whole or not at all, and the folder if there is none.
+pub(crate) fn replace(folder: &Path, path: &Path, contents: &[u8]) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     let unfinished = folder.join(format!("unfinished-{}", process::id()));
-    fs::write(&unfinished, manifest)?;
-    fs::rename(&unfinished, &path)
+    fs::write(&unfinished, contents)?;
+    fs::rename(&unfinished, path)
 }
 
 /// The extensions are those that this crate asks for; the version is one that every loader of Vulkan 1.3 takes.

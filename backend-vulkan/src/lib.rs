@@ -11,7 +11,7 @@
 //!   its memory ([`Device::memory`]), which is all that compiling a Plan needs. Everything made from a device keeps it open.
 //! - [`Executor`] verifies a Plan, refuses it if it was made for other memory needs, and draws its frames one at a time.
 //! - Errors are data ([`Error`]), and say whether files, machine or program are to blame ([`Error::blame`]). A device that is
-//!   lost or doesn't answer is an error like any other.
+//!   lost or doesn't answer is an error like any other. [`Device::cancel_when`] gives up waits before they are over.
 //!
 //! # The minimum device
 //!
@@ -27,12 +27,17 @@
 //! validation and, where the layer knows them, the settings that make it look at dynamic rendering. [`layer`] says how the
 //! current layer is found. Silence proves something only after [`Device::canary`].
 //!
+//! # Untrusted shaders and drivers
+//!
+//! GLSL is compiled and drivers are tested in a helper process, if the program names one: see [`helper`].
+//!
 //! This crate alone is unsafe inside. Its interface is safe, but for [`Executor::with_hazards`].
 
 mod batches;
 mod buffer;
 mod caches;
 mod canary;
+mod cancel;
 mod capabilities;
 mod carry;
 mod change;
@@ -51,6 +56,7 @@ mod features;
 mod first_owner;
 mod frames;
 mod hand_in;
+pub mod helper;
 mod image;
 mod instance;
 mod keep;
@@ -70,6 +76,7 @@ mod readback;
 mod record;
 mod recorder;
 mod resources;
+mod self_tests;
 mod shader_fit;
 pub mod shaders;
 mod standing;
@@ -85,6 +92,7 @@ mod validation;
 pub use ash;
 pub use caches::{AddressMode, SamplerDescriptor, TexelFilter};
 pub use canary::Canary;
+pub use cancel::end_process;
 pub use capabilities::MINIMUM_VERSION;
 pub use custom::{CustomImage, CustomRecorder};
 pub use descriptors::{BindGroup, Resource};
@@ -92,6 +100,7 @@ pub use device::{Device, DeviceChoice, DeviceOptions, DeviceSummary};
 pub use error::{Blame, Error, INSTALL};
 pub use executor::{Executor, ExecutorOptions};
 pub use features::minimum_features;
+pub use helper::Helper;
 pub use memory::{LiveMemory, MemoryInUse};
 pub use readback::Texels;
 pub use recorder::{CullMode, DrawSource, FrontFace, IndexType, Recorder};

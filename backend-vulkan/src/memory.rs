@@ -3,6 +3,7 @@
 use crate::device::{Device, Shared};
 use crate::error::Error;
 use ash::vk;
+use framewright_graph::amount;
 use framewright_graph::device::{BufferDescriptor, ImageDescriptor, MemoryNeeds, MemoryProvider};
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
@@ -98,11 +99,16 @@ impl Memory {
             linear: kind != Kind::Images,
             allocation_scheme: AllocationScheme::GpuAllocatorManaged,
         };
-        let failed = |reason: String| Error::OutOfMemory { what: name.to_owned(), bytes: requirements.size, reason };
+        let failed = |reason: String| Error::OutOfMemory {
+            what: name.to_owned(),
+            bytes: requirements.size,
+            parts: Vec::new(),
+            reason,
+        };
         // Software drivers promise whatever they are asked for, and the system ends the program when it is touched.
         let largest = largest_heap(shared, requirements.memory_type_bits);
         if requirements.size > largest {
-            return Err(failed(format!("the device has {largest} bytes of such memory")));
+            return Err(failed(format!("the device has {} of such memory", amount::bytes(largest))));
         }
         let allocation = shared.allocator().allocate(&description).map_err(|error| failed(error.to_string()))?;
         Ok(Memory { shared: shared.clone(), allocation: Some(allocation) })
@@ -128,7 +134,7 @@ impl Memory {
 }
 
 /// Bytes of the largest heap behind the memory types `type_bits`.
-fn largest_heap(shared: &Shared, type_bits: u32) -> u64 {
+pub(crate) fn largest_heap(shared: &Shared, type_bits: u32) -> u64 {
     // SAFETY: `physical` belongs to the instance.
     let memory = unsafe { shared.instance.raw.get_physical_device_memory_properties(shared.physical) };
     let types = memory.memory_types_as_slice().iter().enumerate();

@@ -32,12 +32,11 @@ const SHADERS: &[(&str, &str)] = &[
     ),
 ];
 
-/// Whether `device` draws several views at once, if it says so. Where that can't be found out, it isn't believed.
-pub(crate) fn probe(device: &Device) -> bool {
-    draws_views(device).unwrap_or(false)
-}
-
-fn draws_views(device: &Device) -> Result<bool, Error> {
+/// Whether `device` draws several views at once, if it says so.
+///
+/// # Errors
+/// If that can't be tried.
+pub(crate) fn probe(device: &Device) -> Result<bool, Error> {
     let claimed =
         capabilities::profile(&device.shared, String::new(), &mut device.memory(), DepthResolve::default(), true);
     if claimed.max_multiview_views < 2 {

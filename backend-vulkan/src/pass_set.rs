@@ -254,7 +254,7 @@ fn image(
             let shape = if range.layers > 1 { ViewShape::Layers } else { ViewShape::Flat };
             Ok((vk::DescriptorType::INPUT_ATTACHMENT, whole(shape, None)))
         }
-        (interface::BindingKind::Other(what), _) => Err(format!("`{name}` can't be in set 0: {what}")),
+        (interface::BindingKind::Other(other), _) => Err(format!("`{name}` can't be in set 0: {}", other.what)),
         (wanted, kind) => Err(format!("`{name}` is bound as {kind:?}, and the shader declares {wanted:?}")),
     }
 }

@@ -176,9 +176,24 @@ fn heaps(shared: &Arc<Shared>, plan: &Plan) -> Result<Vec<Arc<Memory>>, Error> {
             return Err(Error::BadPlan { what: format!("heap {index} holds images and buffers") });
         }
         let kind = if of_buffers { Kind::Buffers } else { Kind::Images };
-        heaps.push(Arc::new(Memory::new(shared, &format!("heap {index}"), requirements, kind)?));
+        let memory = Memory::new(shared, &format!("heap {index}"), requirements, kind);
+        heaps.push(Arc::new(memory.map_err(|error| with_parts(error, plan, index))?));
     }
     Ok(heaps)
+}
+
+/// The error with the names of what was to lie in a heap.
+fn with_parts(mut error: Error, plan: &Plan, heap: usize) -> Error {
+    let placed = |name: &str, role: &Role| match role {
+        Role::Transient(place) if place.heap as usize == heap => Some((name.to_owned(), place.bytes)),
+        _ => None,
+    };
+    if let Error::OutOfMemory { parts, .. } = &mut error {
+        let images = plan.images.iter().filter_map(|image| placed(&image.name, &image.role));
+        let buffers = plan.buffers.iter().filter_map(|buffer| placed(&buffer.name, &buffer.role));
+        *parts = images.chain(buffers).collect();
+    }
+    error
 }
 
 /// The memory types that are allocated lazily, one bit each.

@@ -193,7 +193,7 @@ fn create(
         };
         depth = depth.stencil_test_enable(true).front(face).back(face);
     }
-    let blends: Vec<_> = descriptor.color.iter().map(|(_, blend)| blend_state(*blend)).collect();
+    let blends = or_unused(descriptor.color.iter().map(|(_, blend)| blend_state(*blend)));
     let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
     let dynamic = [
         vk::DynamicState::VIEWPORT,
@@ -202,7 +202,7 @@ fn create(
         vk::DynamicState::FRONT_FACE,
     ];
     let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
-    let formats: Vec<_> = descriptor.color.iter().map(|(format, _)| convert::format(*format)).collect();
+    let formats = or_unused(descriptor.color.iter().map(|(format, _)| convert::format(*format)));
     let mut rendering = vk::PipelineRenderingCreateInfo::default()
         .view_mask(descriptor.view_mask)
         .color_attachment_formats(&formats)
@@ -230,6 +230,14 @@ fn create(
     }
     // SAFETY: everything that `info` points to outlives the call; interfaces were matched with the layout.
     only(unsafe { shared.raw.create_graphics_pipelines(vk::PipelineCache::null(), &[info], None) })
+}
+
+/// What belongs to each colour attachment of a scope or its pipelines: where there is none, one that is unused, without image
+/// or format. After a pipeline of no colour attachment lavapipe 25 blends all attachments like the first, until the end of the
+/// command buffer.
+pub(crate) fn or_unused<T: Default>(attachments: impl Iterator<Item = T>) -> Vec<T> {
+    let attachments: Vec<T> = attachments.collect();
+    if attachments.is_empty() { vec![T::default()] } else { attachments }
 }
 
 fn attribute(attribute: &VertexAttribute) -> vk::VertexInputAttributeDescription {

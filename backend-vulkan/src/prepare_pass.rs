@@ -93,12 +93,17 @@ fn variant(plan: &Plan, pass: &plan::Pass, form: Option<EyeForm>) -> Result<Vari
         Some((binding.name.clone(), plan.image(access.image).eyes?, access.eye))
     });
     let eyes = eyes.collect();
+    let components = pass.accesses.iter().filter_map(|access| {
+        Some((access.binding.as_ref()?.name.clone(), plan.image(access.image).format.components()))
+    });
+    let components = components.collect();
     let bindings = pass.accesses.iter().filter_map(|access| access.binding.as_ref());
     let sampled = bindings.clone().filter(|binding| binding.kind != BindingKind::Storage);
     let local = bindings.clone().filter(|binding| binding.kind == BindingKind::InputAttachment);
     Ok(Variant {
         textures: bindings.filter_map(|it| Some((it.name.clone(), it.texture?))).collect(),
         sampled: sampled.map(|binding| binding.name.clone()).collect(),
+        components,
         parts,
         eye,
         form,

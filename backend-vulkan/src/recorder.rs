@@ -30,7 +30,8 @@ pub trait DrawSource {
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error>;
 
     /// Records the custom pass that the pipeline knows as `callback`, outside of rendering scopes. It must do what the
-    /// pipeline says of it: write whole what it writes, and touch nothing else.
+    /// pipeline says of it: write whole what it writes, and touch nothing else. If it writes anything, it is an error to record
+    /// nothing.
     ///
     /// # Errors
     /// Whatever keeps it from recording. Unless it is overridden, that it knows no custom passes.
@@ -194,7 +195,8 @@ impl<'f> Recorder<'f> {
     /// The command buffer, recording inside the pass's rendering scope, for commands of the program's own. To record is
     /// unsafe: nothing but the scope's attachments and the program's own resources may be touched, and the scope must be
     /// left open. What the recorder's own methods rely on (pipeline, sets, buffers) must be left bound, or no such method
-    /// be called any more.
+    /// be called any more. A scope without colour attachments has one that is unused: pipelines of the program's own give it
+    /// the format `UNDEFINED`.
     #[must_use]
     pub fn raw(&mut self) -> vk::CommandBuffer {
         self.commands

@@ -37,7 +37,7 @@ pub struct Texture(pub(crate) Arc<RawTexture>);
 
 /// A texture's parts. Fields are dropped in this order.
 pub(crate) struct RawTexture {
-    pub(crate) view: View,
+    pub(crate) view: Arc<View>,
     pub(crate) sampler: vk::Sampler,
 }
 
@@ -121,7 +121,16 @@ impl Device {
         };
         let image = Arc::new(Image::with_own_memory(&self.shared, "texture", &descriptor)?);
         upload(&self.shared, &image, texels)?;
-        let view = View::new(&image, Subresources::all(format, levels, 1), ViewShape::Flat)?;
+        let view = Arc::new(View::new(&image, Subresources::all(format, levels, 1), ViewShape::Flat)?);
+        Ok(Texture(Arc::new(RawTexture { view, sampler: self.shared.sampler(*sampler)? })))
+    }
+
+    /// The texels of `texture`, which they share, sampled another way.
+    ///
+    /// # Errors
+    /// If the device has no room for another sampler.
+    pub fn sampled(&self, texture: &Texture, sampler: &SamplerDescriptor) -> Result<Texture, Error> {
+        let view = texture.0.view.clone();
         Ok(Texture(Arc::new(RawTexture { view, sampler: self.shared.sampler(*sampler)? })))
     }
 }

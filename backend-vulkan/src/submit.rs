@@ -1,11 +1,12 @@
 //! Commands that are recorded, submitted and waited for at once, and timelines that tell when work is done.
 
+use crate::cancel::SLICE;
 use crate::device::{Shared, Unfinished};
 use crate::error::Error;
 use ash::vk;
 use framewright_graph::plan::Queue;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How long an upload or a readback may take.
 pub(crate) const TRANSFER_TIMEOUT: Duration = Duration::from_secs(60);
@@ -41,20 +42,22 @@ impl Shared {
     /// Waits until all semaphores have reached their values. After a wait that fails the device is given up: nothing is
     /// freed any more.
     pub(crate) fn wait_for(&self, doing: &'static str, work: Unfinished, timeout: Duration) -> Result<(), Error> {
-        let nanoseconds = u64::try_from(timeout.as_nanos()).unwrap_or(u64::MAX);
         let info = vk::SemaphoreWaitInfo::default().semaphores(&work.semaphores).values(&work.values);
-        // SAFETY: the semaphores live.
-        match unsafe { self.raw.wait_semaphores(&info, nanoseconds) } {
-            Ok(()) => Ok(()),
-            Err(vk::Result::TIMEOUT) => {
-                self.abandon(work);
-                Err(Error::Timeout { doing, seconds: timeout.as_secs() })
+        let begun = Instant::now();
+        let error = loop {
+            let left = timeout.saturating_sub(begun.elapsed());
+            let nanoseconds = u64::try_from(left.min(SLICE).as_nanos()).unwrap_or(u64::MAX);
+            // SAFETY: the semaphores live.
+            match unsafe { self.raw.wait_semaphores(&info, nanoseconds) } {
+                Ok(()) => return Ok(()),
+                Err(vk::Result::TIMEOUT) if self.is_cancelled() => break Error::Cancelled { doing },
+                Err(vk::Result::TIMEOUT) if left > SLICE => {}
+                Err(vk::Result::TIMEOUT) => break Error::Timeout { doing, seconds: timeout.as_secs() },
+                Err(result) => break Error::vulkan(doing)(result),
             }
-            Err(result) => {
-                self.abandon(work);
-                Err(Error::vulkan(doing)(result))
-            }
-        }
+        };
+        self.abandon(work);
+        Err(error)
     }
 
     /// Records commands for `queue`, submits them and waits until they are done.

@@ -54,34 +54,72 @@ pub(crate) struct Counts {
     pub(crate) culled: u32,
 }
 
-/// The timestamps of one frame: one when each batch begins, one at the end of each pass, one at the end of each step. Inside
-/// scopes that draw several views at once a timestamp takes a query for each of them.
+/// The timestamps of one frame: one when each batch begins, one at the end of each pass, one at the end of each step.
 pub(crate) struct Timing {
     shared: Arc<Shared>,
     pool: vk::QueryPool,
-    count: u32,
+    queries: Queries,
+    /// The next timestamp.
     next: u32,
     /// Bits that count on the queue that is being recorded.
     bits: u32,
 }
 
+/// Which queries the timestamps of a frame take.
+///
+/// Vulkan takes one query for a timestamp, and inside a scope with a view mask one for each view. Lavapipe 25 takes one for
+/// each view after such a scope too. So each timestamp has a query for each view of the Plan's widest scope, wherever it is
+/// taken: a driver that goes on to take as many as a scope of this Plan does writes over no other timestamp. Behind the last one there
+/// is one for each view that the device can draw: a driver that goes on with a wider scope of another Plan may write over the
+/// timestamps behind, and over no other memory.
+#[derive(Debug, Clone, Copy)]
+struct Queries {
+    stamps: u32,
+    /// Queries of each timestamp.
+    views: u32,
+    /// Queries behind those of the last timestamp.
+    spare: u32,
+}
+
+impl Queries {
+    /// Queries for the frames of `plan`, which are submitted in `batches` command buffers, on a device that draws
+    /// `max_views` views at once.
+    fn of(plan: &Plan, batches: usize, max_views: u32) -> Option<Queries> {
+        let passes: usize = plan.steps.iter().map(|step| passes(&step.work).len()).sum();
+        let stamps = u32::try_from(batches + plan.steps.len() + passes).ok()?;
+        let views = plan.steps.iter().map(|step| views(plan, &step.work)).max().unwrap_or(1);
+        let queries = Queries { stamps, views, spare: max_views.max(1) };
+        stamps.checked_mul(views)?.checked_add(queries.spare)?;
+        Some(queries)
+    }
+
+    /// How many the pool has.
+    fn count(self) -> u32 {
+        self.stamps * self.views + self.spare
+    }
+
+    /// The first query of a timestamp.
+    fn first(self, stamp: u32) -> u32 {
+        stamp * self.views
+    }
+}
+
 impl Timing {
     /// Timestamps for the frames of `plan`.
     pub(crate) fn new(shared: &Arc<Shared>, plan: &Plan, batches: usize) -> Result<Timing, Error> {
-        let passes: usize = plan.steps.iter().map(|step| passes(&step.work).len() * views(plan, &step.work)).sum();
-        let count = u32::try_from((batches + plan.steps.len() + passes).max(1))
-            .map_err(|_| Error::BadPlan { what: "it has too many passes to time them".to_owned() })?;
-        let info = vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(count);
+        let queries = Queries::of(plan, batches, shared.max_views)
+            .ok_or_else(|| Error::BadPlan { what: "it has too many passes to time them".to_owned() })?;
+        let info = vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(queries.count());
         // SAFETY: the device lives.
         let pool = unsafe { shared.raw.create_query_pool(&info, None) }.map_err(Error::vulkan("making timestamps"))?;
-        Ok(Timing { shared: shared.clone(), pool, count, next: 0, bits: 0 })
+        Ok(Timing { shared: shared.clone(), pool, queries, next: 0, bits: 0 })
     }
 
     /// Resets all timestamps. The frame before must have been waited for.
     pub(crate) fn begin_frame(&mut self) {
         self.next = 0;
         // SAFETY: hostQueryReset is on, and nothing uses the queries.
-        unsafe { self.shared.raw.reset_query_pool(self.pool, 0, self.count) };
+        unsafe { self.shared.raw.reset_query_pool(self.pool, 0, self.queries.count()) };
     }
 
     /// Writes the first timestamp of a batch.
@@ -92,26 +130,22 @@ impl Timing {
 
     /// Writes the next timestamp, once everything before it is done.
     pub(crate) fn stamp(&mut self, commands: vk::CommandBuffer) {
-        self.stamp_views(commands, 1);
-    }
-
-    /// The same inside a scope that draws so many views at once.
-    pub(crate) fn stamp_views(&mut self, commands: vk::CommandBuffer, views: u32) {
-        if self.next + views <= self.count {
+        if self.next < self.queries.stamps {
             if self.bits > 0 {
-                let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
-                // SAFETY: the command buffer is being recorded, its queue has timestamps, and the query was reset.
-                unsafe { self.shared.raw.cmd_write_timestamp2(commands, stage, self.pool, self.next) };
+                let (stage, query) = (vk::PipelineStageFlags2::ALL_COMMANDS, self.queries.first(self.next));
+                // SAFETY: the command buffer is being recorded, its queue has timestamps, and the queries of all views were
+                // reset.
+                unsafe { self.shared.raw.cmd_write_timestamp2(commands, stage, self.pool, query) };
             }
-            self.next += views;
+            self.next += 1;
         }
     }
 
     /// The report of the frame that was waited for.
     pub(crate) fn report(&self, plan: &Plan, batches: &[Batch], recorded: &Recorded) -> Result<FrameReport, Error> {
-        let stamps = self.stamps()?;
+        let values = self.values()?;
         let mut counts = recorded.counts.iter().copied();
-        let mut stamps = stamps.into_iter().map(|[value, written]| (written != 0).then_some(value));
+        let mut stamps = values.chunks(self.queries.views as usize).map(time);
         let mut next = move || stamps.next().flatten();
         let mut queues: Vec<(Queue, Option<u64>, Option<u64>)> = Vec::new();
         let mut steps = Vec::new();
@@ -124,10 +158,8 @@ impl Timing {
             for step in &plan.steps[batch.steps.clone()] {
                 let mut began = step_began;
                 let mut reports = Vec::new();
-                let views = views(plan, &step.work);
                 for pass in passes(&step.work) {
-                    // Only one of the views' queries need have the time.
-                    let ended = (0..views).filter_map(|_| next().filter(|stamp| *stamp > 0 || views == 1)).max();
+                    let ended = next();
                     let milliseconds = clock.between(began, ended);
                     let Counts { draws, culled } = counts.next().unwrap_or_default();
                     reports.push(PassReport { name: pass.name.to_string(), draws, culled, milliseconds });
@@ -152,17 +184,23 @@ impl Timing {
         Clock { mask, period: f64::from(self.shared.limits.timestamp_period) }
     }
 
-    /// Each timestamp, and whether it was written.
-    fn stamps(&self) -> Result<Vec<[u64; 2]>, Error> {
-        let mut stamps = vec![[0_u64; 2]; self.count as usize];
+    /// What each query of the timestamps holds, and whether it was written.
+    fn values(&self) -> Result<Vec<[u64; 2]>, Error> {
+        let mut values = vec![[0_u64; 2]; self.queries.first(self.queries.stamps) as usize];
         let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WITH_AVAILABILITY;
         // SAFETY: the frame was waited for; the flags ask for two times 64 bits each.
-        match unsafe { self.shared.raw.get_query_pool_results(self.pool, 0, &mut stamps, flags) } {
-            // Queues without timestamps wrote none.
-            Ok(()) | Err(vk::Result::NOT_READY) => Ok(stamps),
+        match unsafe { self.shared.raw.get_query_pool_results(self.pool, 0, &mut values, flags) } {
+            // Outside of scopes with a view mask only the first of a timestamp's queries is written, and queues without
+            // timestamps write none.
+            Ok(()) | Err(vk::Result::NOT_READY) => Ok(values),
             Err(result) => Err(Error::vulkan("reading timestamps")(result)),
         }
     }
+}
+
+/// The time that a timestamp's queries hold. Vulkan writes it to one of them and may write 0 to the others.
+fn time(queries: &[[u64; 2]]) -> Option<u64> {
+    queries.iter().filter(|[_, written]| *written != 0).map(|[value, _]| *value).max()
 }
 
 /// How a queue's timestamps count.
@@ -201,9 +239,52 @@ fn passes(work: &Work) -> &[Pass] {
 }
 
 /// Queries that a timestamp inside a step takes.
-fn views(plan: &Plan, work: &Work) -> usize {
+fn views(plan: &Plan, work: &Work) -> u32 {
     match work {
-        Work::Render(scope) => view_mask(plan, scope).count_ones().max(1) as usize,
+        Work::Render(scope) => view_mask(plan, scope).count_ones().max(1),
         _ => 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The queries that a driver writes which takes one for each of `views` views, whether inside a scope or not.
+    fn written(queries: Queries, stamp: u32, views: u32) -> std::ops::Range<u32> {
+        queries.first(stamp)..queries.first(stamp) + views
+    }
+
+    fn queries(views: u32) -> Queries {
+        Queries { stamps: 7, views, spare: 6 }
+    }
+
+    #[test]
+    fn timestamps_of_every_view_everywhere_stay_inside_the_query_pool() {
+        // What an earlier scope of someone else's left behind may be wider than any scope of the Plan.
+        for (own, left_behind) in [(1, 1), (1, 2), (1, 6), (2, 2), (2, 6), (6, 6)] {
+            let queries = queries(own);
+            let last = (0..queries.stamps).map(|stamp| written(queries, stamp, left_behind).end).max();
+            assert!(last <= Some(queries.count()), "{own} views, then {left_behind}: {last:?} of {}", queries.count());
+        }
+    }
+
+    #[test]
+    fn a_timestamp_of_every_view_writes_over_no_other_timestamp() {
+        for views in [1, 2, 6] {
+            let queries = queries(views);
+            for stamp in 1..queries.stamps {
+                assert!(written(queries, stamp - 1, views).end <= queries.first(stamp), "{views} views");
+            }
+        }
+    }
+
+    #[test]
+    fn the_time_is_the_one_of_the_views_that_holds_it() {
+        let (missing, zero, at) = ([0, 0], [0, 1], |time| [time, 1]);
+        assert_eq!(time(&[missing]), None);
+        assert_eq!(time(&[at(5), missing]), Some(5));
+        assert_eq!(time(&[at(5), at(5)]), Some(5));
+        assert_eq!(time(&[zero, at(5)]), Some(5));
     }
 }

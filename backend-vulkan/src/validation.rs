@@ -45,10 +45,24 @@ pub struct Message {
 }
 
 impl Message {
-    /// Whether it says that something is wrong, rather than slow or none of this program's business.
+    /// Whether it says that something is wrong, rather than slow, about the layer's own settings, or none of this program's
+    /// business.
     #[must_use]
     pub fn is_finding(&self) -> bool {
-        self.kind == MessageKind::Validation && !self.takes_a_fill_for_a_copy()
+        self.kind == MessageKind::Validation && !self.is_about_settings() && !self.takes_a_fill_for_a_copy()
+    }
+
+    /// Whether it is about the layer's settings, wherever they come from: this program, a file, the environment.
+    fn is_about_settings(&self) -> bool {
+        ["VALIDATION-SETTINGS", "WARNING-Setting-Limit-Adjusted"].contains(&&*self.id)
+    }
+
+    /// Whether it says that the layer has no setting of this name.
+    fn says_unknown(&self, setting: &CStr) -> bool {
+        let name = setting.to_string_lossy();
+        let mut words = self.text.split(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_');
+        // "not recognize" in some versions, "not recognized" in others.
+        self.is_about_settings() && self.text.contains("not recogni") && words.any(|word| word == name)
     }
 
     /// `vkCmdFillBuffer` runs in the stage CLEAR, and barriers name it so; older layers (1.3.239 is one) believe in COPY and
@@ -186,27 +200,37 @@ impl Layer {
 pub(crate) const FEATURES: [vk::ValidationFeatureEnableEXT; 1] =
     [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
 
-const ON: &vk::Bool32 = &vk::TRUE;
-const OFF: &vk::Bool32 = &vk::FALSE;
+/// A setting of the current layer: its name and its value.
+pub(crate) type Setting = (&'static CStr, &'static vk::Bool32);
 
 /// Settings of the current layer. Without them it ignores what draws read, repeated contents of attachments, and every
 /// message after an id's tenth.
-pub(crate) fn settings() -> [vk::LayerSettingEXT<'static>; 5] {
-    [
-        (c"validate_sync", ON),
-        (c"syncval_full_validation", ON),
-        (c"syncval_shader_accesses_heuristic", ON),
-        (c"syncval_load_op_after_store_op_validation", ON),
-        (c"enable_message_limit", OFF),
-    ]
-    .map(|(name, value): (&CStr, &'static vk::Bool32)| vk::LayerSettingEXT {
+pub(crate) const SETTINGS: [Setting; 5] = [
+    (c"validate_sync", &vk::TRUE),
+    (c"syncval_full_validation", &vk::TRUE),
+    (c"syncval_shader_accesses_heuristic", &vk::TRUE),
+    (c"syncval_load_op_after_store_op_validation", &vk::TRUE),
+    (c"enable_message_limit", &vk::FALSE),
+];
+
+/// Those of [`SETTINGS`] that the layer knows, by what it said of an instance that was created with all of them. It has no
+/// other way to be asked: the loader shows nothing of a layer's settings, and a manifest need not list them.
+pub(crate) fn known_settings(said: &[Message]) -> Vec<Setting> {
+    let is_known = |(name, _): &Setting| !said.iter().any(|message| message.says_unknown(name));
+    SETTINGS.into_iter().filter(is_known).collect()
+}
+
+/// Settings as Vulkan takes them.
+pub(crate) fn layer_settings(settings: &[Setting]) -> Vec<vk::LayerSettingEXT<'static>> {
+    let setting = |(name, value): &Setting| vk::LayerSettingEXT {
         p_layer_name: LAYER.as_ptr(),
         p_setting_name: name.as_ptr(),
         ty: vk::LayerSettingTypeEXT::BOOL32,
         value_count: 1,
-        p_values: std::ptr::from_ref(value).cast(),
+        p_values: std::ptr::from_ref::<vk::Bool32>(value).cast(),
         ..Default::default()
-    })
+    };
+    settings.iter().map(setting).collect()
 }
 
 #[cfg(test)]
@@ -230,5 +254,37 @@ mod tests {
         let copied = after_a_fill("SYNC_COPY_TRANSFER_WRITE");
         let copied = Message { text: copied.text.replace("vkCmdFillBuffer", "vkCmdCopyBuffer2"), ..copied };
         assert!(copied.is_finding());
+    }
+
+    fn unknown_setting(text: &str) -> Message {
+        let (id, text) = ("VALIDATION-SETTINGS".to_owned(), text.to_owned());
+        Message { severity: Severity::Warning, kind: MessageKind::Validation, id, text }
+    }
+
+    #[test]
+    fn the_layer_is_asked_which_settings_it_knows() {
+        // As 1.4.309 and later versions word it.
+        let said = [
+            unknown_setting(
+                "vkCreateInstance(): The setting \"syncval_full_validation\" in VkLayerSettingsCreateInfoEXT was not \
+                 recognize by the Validation Layers. Please view the VkLayer_khronos_validation.json for a list of all \
+                 settings.",
+            ),
+            unknown_setting("The setting \"validate_sync_more\" in VkLayerSettingsCreateInfoEXT was not recognized."),
+            unknown_setting("The setting enable_message_limit was set to type VK_LAYER_SETTING_TYPE_UINT32_EXT."),
+        ];
+        let known = known_settings(&said);
+        let dropped: Vec<_> =
+            SETTINGS.iter().map(|it| it.0).filter(|name| known.iter().all(|it| it.0 != *name)).collect();
+        assert_eq!(dropped, [c"syncval_full_validation"]);
+        assert_eq!(known_settings(&[]).len(), SETTINGS.len());
+    }
+
+    #[test]
+    fn a_message_about_settings_is_no_finding() {
+        let message = unknown_setting("The setting \"mine\" in VkLayerSettingsCreateInfoEXT was not recognize.");
+        assert!(!message.is_finding());
+        let id = "VUID-vkCmdDraw-None-02699".to_owned();
+        assert!(Message { id, ..message }.is_finding());
     }
 }

@@ -12,6 +12,7 @@ use framewright_graph::source::Span;
 use framewright_graph::view::{EyeForm, Stereo};
 use framewright_graph::vocabulary::Subresources;
 use framewright_vulkan::{Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, ShaderLibrary};
+use std::time::Instant;
 
 const SHADERS: &[(&str, &str)] = &[
     (
@@ -100,8 +101,9 @@ fn pictures(
 fn draws(profile: &Profile, (stereo, form): (Stereo, EyeForm)) -> bool {
     match (stereo, form) {
         (Stereo::Multiview, _) => profile.max_multiview_views >= 2,
-        (_, EyeForm::Layers) => profile.vertex_layer && profile.max_clip_distances >= 2,
-        _ => profile.max_clip_distances >= 2,
+        (_, EyeForm::Layers) => profile.vertex_layer,
+        (Stereo::DoubleWide, _) => true,
+        _ => profile.max_clip_distances.is_some_and(|most| most >= 1),
     }
 }
 
@@ -213,5 +215,27 @@ fn more_instances_than_can_be_counted_for_both_eyes_are_misuse() {
         let said = pictures(device, mode, |recorder| recorder.draw(0..3, 0x8000_0000..0x8000_0001));
         let said = said.expect_err("the highest bit tells the eye").to_string();
         assert!(said.contains("for both eyes"), "{mode:?}: {said}");
+    }
+}
+
+#[test]
+fn times_stay_right_where_a_scope_draws_several_views() {
+    let Some(device) = common::device() else { return };
+    let mode = (Stereo::Multiview, EyeForm::Layers);
+    if !draws(&device.profile(), mode) {
+        return;
+    }
+    let mut executor = executor(device, &plan(device, mode)).expect("the device executes the Plan");
+    for _ in 0..3 {
+        let begun = Instant::now();
+        let report = executor.frame(&mut With(|_: &mut Recorder<'_>| ())).expect("it is drawn");
+        let elapsed = begun.elapsed().as_secs_f64() * 1e3;
+        assert!(report.milliseconds > 0.0 && report.milliseconds < elapsed, "{report:?} in {elapsed} ms");
+        let steps: f64 = report.steps.iter().map(|step| step.milliseconds).sum();
+        assert!((steps - report.milliseconds).abs() < 1e-3, "{report:?}");
+        for step in &report.steps {
+            let passes: f64 = step.passes.iter().map(|pass| pass.milliseconds).sum();
+            assert!(step.passes.is_empty() || passes > 0.0 && passes <= step.milliseconds + 1e-3, "{step:?}");
+        }
     }
 }

@@ -43,6 +43,14 @@ fn buffers_textures_and_bind_groups_come_and_go_in_silence() {
 }
 
 #[test]
+fn the_layer_is_given_only_settings_that_it_knows() {
+    let Some(device) = common::open() else { return };
+    let about_settings = |text: &str| text.contains("VkLayerSettingsCreateInfoEXT");
+    let said: Vec<_> = device.messages().list().into_iter().filter(|message| about_settings(&message.text)).collect();
+    assert_eq!(said, []);
+}
+
+#[test]
 fn a_bind_group_refuses_what_its_interface_does_not_name() {
     let Some(device) = common::device() else { return };
     let view = Supplied { set: 1, binding: 0, name: "view", kind: SuppliedKind::UniformBlock };

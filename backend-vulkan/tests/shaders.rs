@@ -3,8 +3,8 @@
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::interface::{
-    BindingKind, Component, Dimension, DrawInterface, ImageShape, ShaderInterface, ShaderInterfaces, ShaderProblem,
-    Variant,
+    Binding, BindingKind, Component, Dimension, DrawInterface, ImageShape, ShaderInterface, ShaderInterfaces,
+    ShaderProblem, Variant,
 };
 use framewright_graph::root::Root;
 use framewright_graph::vocabulary::Stages;
@@ -49,7 +49,7 @@ fn messages(files: &[(&str, &str)]) -> Vec<String> {
     let shown = format!("{}/", folder.path().display());
     match library(folder.path()).draw_shader("test", Draw::FullScreen, &Variant::default()) {
         Err(ShaderProblem::DoesNotCompile { messages }) => {
-            messages.iter().map(|message| message.replace(&shown, "")).collect()
+            messages.iter().map(|message| message.text.replace(&shown, "")).collect()
         }
         other => panic!("{other:?}"),
     }
@@ -96,15 +96,11 @@ fn images_have_their_dimension_samples_and_component() {
         layout(set = 0, binding = 2) uniform usampler3D volume;
         layout(set = 0, binding = 3) uniform isamplerCube cube;
         layout(set = 0, binding = 4, r32f) uniform writeonly image2D stored;
-        layout(set = 0, binding = 5) uniform sampler2DShadow shadow;
-        layout(set = 0, binding = 6) uniform sampler2D many[2];
-        layout(set = 0, binding = 7) uniform samplerBuffer texels;
         layout(location = 0) out vec4 color; void main() { color = vec4(1.0); }",
     );
     let shape =
         |dimension, arrayed, multisampled, component| ImageShape { dimension, arrayed, multisampled, component };
     let kinds: Vec<_> = interface.bindings.into_iter().map(|it| it.kind).collect();
-    let other = |what: &str| BindingKind::Other(what.to_owned());
     let expected = [
         BindingKind::SampledImage(shape(Dimension::D2, false, false, Component::Float)),
         BindingKind::SampledImage(shape(Dimension::D2, true, true, Component::Float)),
@@ -116,11 +112,86 @@ fn images_have_their_dimension_samples_and_component() {
             readable: false,
             writable: true,
         },
-        other("a sampler that compares depth"),
-        other("an array of resources"),
-        other("a texel buffer"),
     ];
     assert_eq!(kinds, expected);
+}
+
+#[test]
+fn what_no_pass_can_give_is_told_by_its_line_and_with_what_to_declare_instead() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let rest = "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n";
+    fs::write(folder.path().join("more.glsl"), "\nlayout(set = 0, binding = 9) uniform samplerBuffer texels;\n")
+        .expect("a file");
+    let declared = "#version 460
+        /* uniform sampler2DShadow shadow;
+        */ layout(set = 0, binding = 5) uniform sampler2DShadow shadow;
+        layout(set = 0, binding = 6) uniform sampler2D many[2];
+        layout(set = 0, binding = 7, rgba8_snorm) uniform writeonly image2D signed_one;
+        layout(set = 0, binding = 8, rg16) uniform writeonly image2D wide;
+        #include \"more.glsl\"\n";
+    fs::write(folder.path().join("test.frag"), format!("{declared}{rest}")).expect("a file");
+    let interface = library(folder.path()).draw_shader("test", Draw::FullScreen, &Variant::default());
+    let shown = format!("{}/", folder.path().display());
+    let told = |it: Binding| {
+        let BindingKind::Other(other) = it.kind else { panic!("{it:?}") };
+        assert!(!other.instead.is_empty(), "{other:?}");
+        format!("{} {}", other.place.expect("a place").replace(&shown, ""), other.what)
+    };
+    let told: Vec<String> = interface.expect("it compiles").bindings.into_iter().map(told).collect();
+    let expected = [
+        "test.frag:3 a sampler that compares depth",
+        "test.frag:4 an array of resources",
+        "test.frag:5 a storage image of the format `Rgba8Snorm`, which no image of a pipeline has",
+        "test.frag:6 a storage image of the format `Rg16`, which no image of a pipeline has",
+        "more.glsl:2 a texel buffer",
+    ];
+    assert_eq!(told, expected);
+}
+
+#[test]
+fn what_vulkan_1_1_promises_to_compute_shaders_is_allowed_there() {
+    let subgroups = "#extension GL_KHR_shader_subgroup_basic : enable
+        layout(local_size_x = 8) in;
+        layout(set = 0, binding = 0) buffer Words { uint word[]; };
+        void main() { if (subgroupElect()) { word[gl_SubgroupID] = gl_SubgroupSize; } subgroupBarrier(); }";
+    computed(subgroups).expect("subgroups in a compute shader");
+    let ballot = subgroups
+        .replace("_basic", "_ballot")
+        .replace("subgroupElect()", "subgroupBallotBitCount(subgroupBallot(true)) > 1");
+    let Err(ShaderProblem::Unsupported { what }) = computed(&ballot) else { panic!("it isn't refused") };
+    let line = what.split_once("test.comp:").map(|(_, line)| line).unwrap_or(&what);
+    assert!(
+        line.starts_with("2: it needs SPIR-V's capability GroupNonUniformBallot, which isn't supported: "),
+        "{what}"
+    );
+    assert!(line.contains("use `shared` variables"), "{what}");
+    let elect = "#version 460\n#extension GL_KHR_shader_subgroup_basic : enable
+        layout(location = 0) out vec4 color;
+        void main() { color = vec4(subgroupElect() ? 1.0 : 0.0); }";
+    let what = unsupported(&[("test.frag", elect)]);
+    assert!(what.contains("test.frag:2: ") && what.ends_with("use them in a compute shader"), "{what}");
+}
+
+#[test]
+fn a_storage_image_may_have_any_format_that_a_device_lists_for_it() {
+    for (layout, expected) in [
+        ("r8", Format::R8_UNORM),
+        ("rg8", Format::R8G8_UNORM),
+        ("r16f", Format::R16_SFLOAT),
+        ("rg16f", Format::R16G16_SFLOAT),
+        ("rgba16", Format::R16G16B16A16_UNORM),
+        ("r11f_g11f_b10f", Format::B10G11R11_UFLOAT_PACK32),
+        ("rgb10_a2", Format::A2B10G10R10_UNORM_PACK32),
+    ] {
+        let interface = computed(&format!(
+            "layout(local_size_x = 8) in;
+            layout(set = 0, binding = 0, {layout}) uniform writeonly image2D target;
+            void main() {{ imageStore(target, ivec2(gl_GlobalInvocationID.xy), vec4(1.0)); }}"
+        ));
+        let interface = interface.unwrap_or_else(|problem| panic!("{layout}: {problem:?}"));
+        let BindingKind::StorageImage { format, .. } = &interface.bindings[0].kind else { panic!("{interface:?}") };
+        assert_eq!(*format, Some(expected), "{layout}");
+    }
 }
 
 #[test]
@@ -292,7 +363,7 @@ fn an_include_can_not_leave_its_folder() {
         match library(&folder).draw_shader("test", Draw::FullScreen, &Variant::default()) {
             Err(ShaderProblem::DoesNotCompile { messages }) => {
                 let refused = ["leads out of", "is no path of a file"];
-                assert!(refused.iter().any(|words| messages[0].contains(words)), "{messages:?}");
+                assert!(refused.iter().any(|words| messages[0].text.contains(words)), "{messages:?}");
             }
             other => panic!("{other:?}"),
         }
@@ -398,14 +469,17 @@ fn push_constants_and_double_bindings_are_refused() {
 fn numbers_and_features_beyond_every_devices_are_refused() {
     let what = |fragment: &str| {
         let what = unsupported(&[("test.frag", &format!("#version 460\n{fragment}"))]);
-        what.split_once(".frag: ").map(|(_, what)| what.to_owned()).unwrap_or(what)
+        what.split_once(".frag:").map(|(_, what)| what.to_owned()).unwrap_or(what)
     };
     let far_binding = format!("layout(set = 0, binding = 60000) uniform sampler2D far; {WHITE} }}");
-    assert_eq!(what(&far_binding), "`far` at binding 60000: bindings go up to 255");
+    assert_eq!(what(&far_binding), "2: `far` at binding 60000: bindings go up to 255");
     let far_input = format!("layout(location = 20) in vec4 far; {WHITE} color = far; }}");
-    assert_eq!(what(&far_input), "`far` at location 20: locations go up to 14");
+    assert_eq!(what(&far_input), "2: `far` at location 20: locations go up to 13");
     let double = format!("{WHITE} double x = color.x; color.x = float(x * x); }}");
-    assert_eq!(what(&double), "SPIR-V's capability Float64: not every device has it");
+    assert_eq!(
+        what(&double),
+        "2: it needs SPIR-V's capability Float64, which isn't supported: 64-bit floating point: write `float`"
+    );
 }
 
 #[test]
@@ -458,7 +532,14 @@ fn a_compute_shader_has_a_workgroup_size_its_resources_and_nothing_of_a_draw() {
 }
 
 #[test]
-fn a_compute_shader_without_a_size_has_workgroups_of_one() {
-    let interface = computed("void main() {}").expect("it compiles");
-    assert_eq!(interface.workgroup_size, Some([1; 3]));
+fn a_compute_shader_that_says_no_workgroup_size_is_refused_at_its_place() {
+    let Err(ShaderProblem::Unsupported { what }) = computed("// local_size_x = 8\n\nvoid main() {}") else {
+        panic!("it isn't refused")
+    };
+    assert!(
+        what.contains("test.comp:4: it doesn't say how large its workgroups are; write `layout(local_size_x"),
+        "{what}"
+    );
+    let one = computed("layout(local_size_x = 1) in; void main() {}").expect("a size of one may be said");
+    assert_eq!(one.workgroup_size, Some([1; 3]));
 }

@@ -1,4 +1,4 @@
-//! A device that doesn't answer in time. A test binary of its own: the device is given up with its work unfinished.
+//! A device that doesn't answer in time, or that is no longer waited for. A test binary of its own: the device is given up with its work unfinished.
 
 mod common;
 
@@ -8,6 +8,8 @@ use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::interface::DrawInterface;
 use framewright_graph::vocabulary::Aspects;
 use framewright_vulkan::{DrawSource, Error, Executor, ExecutorOptions, Recorder, SamplerDescriptor, ShaderLibrary};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 const SHADERS: &[(&str, &str)] = &[
@@ -75,4 +77,21 @@ fn a_frame_that_takes_too_long_is_an_error_and_the_device_is_given_up() {
     assert!(matches!(another.frame(&mut Busy), Err(Error::DeviceLost { .. })));
     // Nothing is freed, since the device may still be using it.
     drop((executor, another, device));
+}
+
+#[test]
+fn a_wait_that_the_program_cancels_is_an_error_and_the_device_is_given_up() {
+    let Some(device) = common::open() else { return };
+    let stop = Arc::new(AtomicBool::new(false));
+    let asked = stop.clone();
+    device.cancel_when(move || asked.load(Ordering::Relaxed));
+    let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
+    let plan = resolve_then_sample(&device, ("white", Draw::Objects(DrawList::Opaque)), "show");
+    let mut executor = Executor::new(&device, &plan, &mut shaders, &ExecutorOptions::default()).expect("an executor");
+    stop.store(true, Ordering::Relaxed);
+    assert!(matches!(executor.frame(&mut Busy), Err(Error::Cancelled { .. })));
+    assert!(matches!(executor.frame(&mut Busy), Err(Error::DeviceLost { .. })));
+    // This process goes on, and its end needs a device that is done.
+    stop.store(false, Ordering::Relaxed);
+    drop((executor, device));
 }

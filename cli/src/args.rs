@@ -8,7 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use framewright_graph::compile::{Options, Order};
 use framewright_graph::rotation::Rotation;
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A pipeline file says what a frame is made of; framewright finds out how, and draws it.
 #[derive(Debug, Parser)]
@@ -139,9 +139,9 @@ pub(crate) struct Run {
 
 impl Run {
     /// Files that are written.
-    pub(crate) fn written(&self) -> impl Iterator<Item = &PathBuf> + Clone {
-        let outputs = self.output.iter().map(|output| &output.file);
-        outputs.chain(self.dump.iter().map(|dump| &dump.file)).chain(&self.report)
+    pub(crate) fn written(&self) -> impl Iterator<Item = &Path> + Clone {
+        let outputs = self.output.iter().map(|output| &*output.file);
+        outputs.chain(self.dump.iter().map(|dump| &*dump.file)).chain(self.report.as_deref())
     }
 }
 
@@ -219,6 +219,25 @@ pub(crate) struct Pipeline {
     /// with commas between them the first that the device can draw, `auto`: the fastest. Pictures of both stand side by side.
     #[arg(long, value_name = "off|auto|MODE[,MODE]", default_value = "off", value_parser = stereo)]
     pub(crate) stereo: Modes,
+    /// What shaders may take.
+    #[command(flatten)]
+    pub(crate) limits: ShaderLimits,
+}
+
+/// What compiling one stage of a shader may take. It happens in a process of its own, which ends where it needs more: that is a
+/// mistake of the shader.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Limits of shaders")]
+pub(crate) struct ShaderLimits {
+    /// Seconds that compiling one stage of a shader may take.
+    #[arg(long, value_name = "S", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    pub(crate) shader_seconds: u32,
+    /// Memory that it may take, all of the compiling process counted (on Linux).
+    #[arg(long, value_name = "MIB", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(128..=1048576))]
+    pub(crate) shader_memory: u32,
+    /// Stack that it may take.
+    #[arg(long, value_name = "MIB", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub(crate) shader_stack: u32,
 }
 
 /// How a Plan is made. None of this may change a picture.
@@ -300,7 +319,7 @@ pub(crate) fn parse(arguments: impl Iterator<Item = OsString>) -> Result<Command
     })
 }
 
-/// What no single argument shows: images dumped twice, files written twice.
+/// What no single argument shows: images dumped twice, files written twice, a stack that memory doesn't hold.
 fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
     let conflict = |message: String| {
         Err(<CommandLine as clap::CommandFactory>::command().error(clap::error::ErrorKind::ArgumentConflict, message))
@@ -313,7 +332,19 @@ fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
             return conflict(format!("`{}` would be written twice", text::path(file)));
         }
     }
-    Ok(line)
+    let limits = match &line.command {
+        Command::Check(check) => Some(check.pipeline.limits),
+        Command::Inspect(inspect) => Some(inspect.pipeline.limits),
+        Command::Run(run) => Some(run.pipeline.limits),
+        _ => None,
+    };
+    match limits {
+        Some(ShaderLimits { shader_memory, shader_stack, .. }) if shader_stack >= shader_memory => conflict(format!(
+            "`--shader-stack` ({shader_stack} MiB) must be less than `--shader-memory` ({shader_memory} MiB), which the stack is \
+             a part of"
+        )),
+        _ => Ok(line),
+    }
 }
 
 fn twice<'a, T: PartialEq + 'a + ?Sized>(items: impl Iterator<Item = &'a T> + Clone) -> Option<&'a T> {
@@ -360,6 +391,19 @@ mod tests {
         let message = read(&run).expect_err("twice");
         assert!(message.contains("the image `\\u{7}` is dumped twice"), "{message}");
         assert!(!message.contains('\u{7}'), "{message:?}");
+    }
+
+    #[test]
+    fn the_stack_of_shaders_is_less_than_their_memory() {
+        for words in [&["check", "a.ron"][..], &["inspect", "a.ron"], &["run", "a.ron", "--scene", "s.ron"]] {
+            let stack = |stack: &str| read(&[words, &["--shader-memory", "256", "--shader-stack", stack]].concat());
+            for large in ["256", "257"] {
+                let message = stack(large).expect_err("too large");
+                let said = format!("`--shader-stack` ({large} MiB) must be less than `--shader-memory` (256 MiB)");
+                assert!(message.contains(&said), "{message}");
+            }
+            assert!(stack("255").is_ok());
+        }
     }
 
     #[test]

@@ -8,6 +8,7 @@ use crate::{every_device, notes, profiles, progress, text, variants};
 use framewright_graph::describe;
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::plan::{Note, Plan, Totals};
+use framewright_graph::read_files::ReadFiles;
 use serde::Serialize;
 use std::ffi::OsStr;
 
@@ -54,7 +55,7 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
     if arguments.device.as_deref() == Some(OsStr::new(profiles::ALL)) {
         return every_device::check(arguments);
     }
-    let profile = profiles::choose(arguments.device.as_deref())?;
+    let profile = profiles::choose(arguments.device.as_deref(), &ReadFiles::default())?;
     let result = plan(arguments, &profile);
     match arguments.format {
         CheckFormat::Human => {
@@ -70,10 +71,12 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
 
 fn plan(arguments: &Check, profile: &Profile) -> Result<Plan, Error> {
     let busy = progress::busy("reading");
-    let mut pipeline = planning::load(&arguments.pipeline)?;
+    let mut pipeline = planning::load(&arguments.pipeline, &ReadFiles::default())?;
     let frame = pipeline.frame(view(arguments), profile)?;
     busy.set_message(progress::compiling(&frame, &profile.name));
-    pipeline.compile(&frame, profile, &mut Estimated(profile), &arguments.planning.options())
+    let plan = pipeline.compile(&frame, profile, &mut Estimated(profile), &arguments.planning.options())?;
+    pipeline.fits(&plan, &frame, profile)?;
+    Ok(plan)
 }
 
 /// That all is well, and how much the frame takes.

@@ -2,12 +2,13 @@
 
 use crate::args::{CheckFormat, Devices};
 use crate::error::{Error, Exit};
-use crate::{output, run, text};
+use crate::{helper, output, run, text};
 use comfy_table::Table;
 use comfy_table::presets::ASCII_MARKDOWN;
-use framewright_vulkan::{Device, DeviceOptions, DeviceSummary};
+use framewright_graph::read_files::ReadFiles;
+use framewright_vulkan::{Device, DeviceChoice, DeviceOptions, DeviceSummary, Helper};
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::Path;
 
 #[derive(Debug, Serialize)]
 struct Answer<'a> {
@@ -30,7 +31,15 @@ struct Entry<'a> {
     usable: bool,
     /// What it lacks of the minimum.
     missing: &'a [String],
+    /// Why it can't be opened, if it lacks nothing and can't be.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_opened: Option<&'a str>,
+    /// What it says it can do and `run` doesn't use, and why.
+    used_without: &'a [String],
 }
+
+/// What a device is used without, or why it can't be opened.
+type Opened = Result<Vec<String>, String>;
 
 /// Lists the devices, or saves the profile of one.
 ///
@@ -40,22 +49,33 @@ pub(crate) fn devices(arguments: &Devices) -> Result<Exit, Error> {
     if let Some(file) = &arguments.save {
         return save(arguments, file);
     }
-    let found = Device::list()?;
+    let helper = helper::usual()?;
+    let found: Vec<_> = Device::list()?.into_iter().map(|device| (used_without(&device, &helper), device)).collect();
     let shown = match arguments.format {
         CheckFormat::Human => table(&found),
-        CheckFormat::Json => text::json(&Answer { format_version: 1, devices: found.iter().map(entry).collect() })?,
+        CheckFormat::Json => text::json(&Answer {
+            format_version: 1,
+            devices: found.iter().map(|(opened, device)| entry(device, opened)).collect(),
+        })?,
     };
     text::print(&shown).map_err(Error::Print)?;
     Ok(Exit::Fine)
 }
 
-fn save(arguments: &Devices, file: &PathBuf) -> Result<Exit, Error> {
-    output::prepare(std::iter::once(file), &[])?;
+fn save(arguments: &Devices, file: &Path) -> Result<Exit, Error> {
+    let read = ReadFiles::default();
+    output::prepare(std::iter::once(file), &read)?;
     let choice = run::choice(arguments.device.as_deref())?;
-    let device = Device::open(&DeviceOptions { choice, validation: false })?;
+    let device = Device::open(&DeviceOptions { choice, validation: false })?.with_helper(&helper::usual()?);
     let profile = device.profile().with_usual_needs(&mut device.memory());
     let text = profile.to_ron().map_err(|problem| Error::Unwritable(problem.to_string()))?;
-    output::write(file, text.as_bytes())?;
+    output::write(&[(file, text.as_bytes())], &read)?;
+    if profile.untested_multiview || !profile.untested_depth_resolve.is_empty() {
+        text::say(
+            "note: not all of the device could be tested, and the profile is without what wasn't; `framewright devices` tells \
+             why: save the profile anew once it can be",
+        );
+    }
     let needs: usize = profile.known_needs.iter().map(|known| known.usages.len() * known.sizes.len()).sum();
     let said = format!(
         "{}: the profile of {}: {} and the memory needs of {}\n",
@@ -68,7 +88,22 @@ fn save(arguments: &Devices, file: &PathBuf) -> Result<Exit, Error> {
     Ok(Exit::Fine)
 }
 
-fn entry(device: &DeviceSummary) -> Entry<'_> {
+/// What a device says it can do and isn't used, as its self-tests found.
+///
+/// # Errors
+/// In words: why it can't be opened.
+fn used_without(device: &DeviceSummary, helper: &Helper) -> Opened {
+    if !device.missing.is_empty() {
+        return Ok(Vec::new());
+    }
+    let choice = DeviceChoice::Index(device.index);
+    match Device::open(&DeviceOptions { choice, validation: false }) {
+        Ok(device) => Ok(device.with_helper(helper).used_without()),
+        Err(problem) => Err(problem.to_string()),
+    }
+}
+
+fn entry<'a>(device: &'a DeviceSummary, opened: &'a Opened) -> Entry<'a> {
     Entry {
         index: device.index,
         name: &device.name,
@@ -77,20 +112,22 @@ fn entry(device: &DeviceSummary) -> Entry<'_> {
         vulkan: &device.vulkan,
         queues: &device.queues,
         local_read: device.local_read,
-        usable: device.missing.is_empty(),
+        usable: device.missing.is_empty() && opened.is_ok(),
         missing: &device.missing,
+        not_opened: opened.as_ref().err().map(String::as_str),
+        used_without: opened.as_deref().unwrap_or_default(),
     }
 }
 
-fn table(devices: &[DeviceSummary]) -> String {
+fn table(devices: &[(Opened, DeviceSummary)]) -> String {
     let mut table = Table::new();
     let header = ["#", "name", "driver", "kind", "Vulkan", "queues", "local reads", "usable"];
     table.load_preset(ASCII_MARKDOWN).set_header(header);
-    for device in devices {
-        let usable = if device.missing.is_empty() {
-            "yes".to_owned()
-        } else {
-            format!("no: it lacks {}", text::escape(&device.missing.join(", ")))
+    for (opened, device) in devices {
+        let usable = match opened {
+            _ if !device.missing.is_empty() => format!("no: it lacks {}", text::escape(&device.missing.join(", "))),
+            Ok(_) => "yes".to_owned(),
+            Err(_) => "no: it can't be opened".to_owned(),
         };
         table.add_row([
             device.index.to_string(),
@@ -103,5 +140,11 @@ fn table(devices: &[DeviceSummary]) -> String {
             usable,
         ]);
     }
-    table.to_string() + "\n"
+    let below = devices.iter().map(|(opened, DeviceSummary { index, .. })| match opened {
+        Ok(without) => {
+            without.iter().map(|what| format!("device {index} is used without {}\n", text::escape(what))).collect()
+        }
+        Err(problem) => format!("device {index} can't be opened: {}\n", text::escape(problem)),
+    });
+    table.to_string() + "\n" + &below.collect::<String>()
 }

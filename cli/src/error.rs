@@ -1,6 +1,6 @@
 //! Everything that ends a command early, and the exit code that it ends with.
 
-use crate::{picture, text};
+use crate::{links, picture, text};
 use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::file_path::for_shell;
 use framewright_graph::format::Format;
@@ -144,7 +144,7 @@ pub(crate) enum Error {
         name: String,
     },
     /// Vulkan, or what is drawn with it.
-    #[error("{}", text::escape_lines(&.0.to_string()))]
+    #[error("{}{}", text::escape_lines(&.0.to_string()), remedy(.0))]
     Vulkan(#[from] framewright_vulkan::Error),
     /// A picture can't be encoded.
     #[error("the picture of `{}` can't be encoded: {problem}", text::escape(image))]
@@ -168,6 +168,9 @@ pub(crate) enum Error {
     /// The program can't start itself anew.
     #[error("framewright can't start itself anew under the current validation layer: {}\nhelp: set VK_LAYER_PATH to the layer's folder", text::escape(&.0.to_string()))]
     Restart(io::Error),
+    /// The program can't be its own helper.
+    #[error("framewright doesn't find itself, to compile shaders in a process of their own: {}", text::escape(&.0.to_string()))]
+    Helper(io::Error),
     /// Ctrl-C.
     #[error("interrupted after {frames} of {wanted} frames: nothing was written")]
     Interrupted {
@@ -175,6 +178,12 @@ pub(crate) enum Error {
         frames: u32,
         /// Frames that were asked for.
         wanted: u32,
+    },
+    /// Ctrl-C while a pipe is written.
+    #[error("interrupted before all of `{}` was written", text::path(path))]
+    InterruptedWriting {
+        /// The pipe.
+        path: PathBuf,
     },
     /// A Plan that breaks its own rules: the compiler is at fault, not the user.
     #[error("the Plan breaks its own rules, which is a mistake of framewright itself:\n  {}", violations.join("\n  "))]
@@ -227,9 +236,9 @@ pub(crate) enum Error {
         source: io::Error,
     },
     /// A file would be written over one that is read.
-    #[error("`{}` is the {what} itself, which would be lost: name another file to write", text::path(path))]
+    #[error("`{}` is {what}, which would be lost: name another file to write", text::path(path))]
     ReadAndWritten {
-        /// What is read from it.
+        /// What it is read as.
         what: &'static str,
         /// Which file, as it was named for writing.
         path: PathBuf,
@@ -289,6 +298,12 @@ impl Error {
         matches!(self, Error::Wrong { .. })
     }
 
+    /// Whether the device may still be working for this process.
+    #[must_use]
+    pub(crate) fn leaves_the_device_at_work(&self) -> bool {
+        matches!(self, Error::Interrupted { .. } | Error::Vulkan(framewright_vulkan::Error::Timeout { .. }))
+    }
+
     /// The exit code of a command that this ended.
     #[must_use]
     pub(crate) fn exit(&self) -> Exit {
@@ -331,8 +346,10 @@ impl Error {
             | Error::There { .. }
             | Error::NoName { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
-            Error::Interrupted { .. } => Exit::Interrupted,
-            Error::Write { .. } | Error::Print(_) | Error::Restart(_) | Error::Stereo { .. } => Exit::Environment,
+            Error::Interrupted { .. } | Error::InterruptedWriting { .. } => Exit::Interrupted,
+            Error::Write { .. } | Error::Print(_) | Error::Restart(_) | Error::Helper(_) | Error::Stereo { .. } => {
+                Exit::Environment
+            }
         }
     }
 }
@@ -342,6 +359,19 @@ fn no_output(name: &str, outputs: &[String], image: bool) -> String {
     let help =
         if image { format!("`--dump {name}=FILE.png` writes any image") } else { format!("there are `{outputs}`") };
     format!("the pipeline has no output named `{name}`\nhelp: {help}")
+}
+
+/// What to do about a device that refuses.
+fn remedy(problem: &framewright_vulkan::Error) -> &'static str {
+    match problem {
+        framewright_vulkan::Error::OutOfMemory { .. } => {
+            "\nhelp: choose a smaller --size, fewer samples, or fewer or smaller images; `framewright inspect` lists them with what each takes"
+        }
+        framewright_vulkan::Error::Vulkan { .. } => {
+            "\nhelp: the driver refused: choose another device with --device (`framewright devices` lists them), or install a newer driver"
+        }
+        _ => "",
+    }
 }
 
 /// What to do about a file that can't be read.
@@ -355,8 +385,10 @@ fn allow(problem: &io::Error, file: &Path) -> String {
 /// What to do about a file, if it is one, that can't be written.
 fn mend(problem: &io::Error, file: Option<&Path>) -> String {
     match problem.kind() {
-        io::ErrorKind::NotFound => match file.and_then(Path::parent) {
-            Some(folder) => format!("\nhelp: its folder must exist: mkdir -p {}", text::path(folder)),
+        io::ErrorKind::NotFound => match file.map(links::destination).as_deref().and_then(Path::parent) {
+            Some(folder) => {
+                format!("\nhelp: its folder must exist: mkdir -p {}", text::escape(&for_shell(folder)))
+            }
             None => String::new(),
         },
         io::ErrorKind::NotADirectory => "\nhelp: choose a place in a folder".to_owned(),

@@ -8,6 +8,7 @@ use framewright_graph::describe;
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Note, Plan};
+use framewright_graph::read_files::ReadFiles;
 use framewright_graph::view::Stereo;
 use serde::Serialize;
 use std::collections::HashSet;
@@ -58,7 +59,7 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
 /// What is wrong whatever the device.
 fn compile(arguments: &Check) -> Result<Vec<Checked>, Error> {
     let busy = progress::busy("reading");
-    let mut pipeline = planning::load(&arguments.pipeline)?;
+    let mut pipeline = planning::load(&arguments.pipeline, &ReadFiles::default())?;
     let options = arguments.planning.options();
     // What both eyes have of their own lies in one image or another, by what the device can do.
     let by_device = pipeline.pipeline.asks_device() || pipeline.stereo.0.iter().any(|it| *it > Stereo::MultiPass);
@@ -72,7 +73,8 @@ fn compile(arguments: &Check) -> Result<Vec<Checked>, Error> {
         let result = match frame {
             Ok(frame) => {
                 busy.set_message(progress::compiling(&frame, &profile.name));
-                let result = pipeline.compile(&frame, &profile, &mut Estimated(&profile), &options);
+                let plan = pipeline.compile(&frame, &profile, &mut Estimated(&profile), &options);
+                let result = plan.and_then(|plan| pipeline.fits(&plan, &frame, &profile).map(|()| plan));
                 same = Some(frame).filter(|_| !by_device);
                 result
             }

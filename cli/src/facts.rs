@@ -4,6 +4,7 @@ use crate::args::Facts;
 use crate::error::{Error, Exit};
 use crate::{files, text};
 use framewright_graph::facts::FactValue;
+use framewright_graph::read_files::ReadFiles;
 use framewright_passes::scene::Found;
 use serde::Serialize;
 
@@ -37,7 +38,7 @@ enum Value {
 /// # Errors
 /// If the scene can't be read.
 pub(crate) fn facts(arguments: &Facts) -> Result<Exit, Error> {
-    let found = files::scene(&arguments.scene)?.explained();
+    let found = files::scene(&arguments.scene, &ReadFiles::default())?.explained();
     let shown = if arguments.json {
         text::json(&Answer { format_version: 1, facts: found.iter().map(entry).collect() })?
     } else {

@@ -4,12 +4,36 @@ use crate::error::Error;
 use crate::{args, shipped, text};
 use framewright_graph::describe::{Found, LARGEST_FILE, PipelineFiles, Shipped};
 use framewright_graph::file_path::FilePath;
+use framewright_graph::read_files::ReadFiles;
 use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_passes::scene::{self, Scene, SceneError};
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
+
+/// What a file is that the command line names.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct What {
+    /// Its name in messages.
+    pub(crate) name: &'static str,
+    /// What it is recorded as when it is read.
+    pub(crate) recorded: &'static str,
+}
+
+impl What {
+    /// The pipeline.
+    pub(crate) const PIPELINE: What = What { name: "pipeline", recorded: "the pipeline itself" };
+    /// An extension of the pipeline.
+    pub(crate) const EXTENSION: What = What { name: "extension", recorded: "an extension of the pipeline" };
+    /// A settings file.
+    pub(crate) const SETTINGS: What = What { name: "settings file", recorded: "the settings file itself" };
+    /// A device profile.
+    pub(crate) const PROFILE: What = What { name: "device profile", recorded: "the device profile itself" };
+    /// A scene.
+    pub(crate) const SCENE: What = What { name: "scene", recorded: "the scene itself" };
+    /// Any of the files that `schema` takes.
+    pub(crate) const ANY: What = What { name: "file", recorded: "the file itself" };
+}
 
 /// A pipeline file, not yet read as RON.
 #[derive(Debug)]
@@ -28,10 +52,10 @@ pub(crate) struct PipelineFile {
 ///
 /// # Errors
 /// If there is neither, it can't be read, or it lies outside the folder that `--root` names.
-pub(crate) fn pipeline(arguments: &args::Pipeline) -> Result<PipelineFile, Error> {
-    const WHAT: &str = "pipeline";
+pub(crate) fn pipeline(arguments: &args::Pipeline, read: &ReadFiles) -> Result<PipelineFile, Error> {
+    const WHAT: What = What::PIPELINE;
     let path = &arguments.file;
-    match bytes(WHAT, path, LARGEST_FILE) {
+    match bytes(WHAT, path, LARGEST_FILE, read) {
         Ok(bytes) => Ok(PipelineFile {
             shown: path.to_string_lossy().into_owned(),
             path: (&*path.file_name().unwrap_or(path.as_os_str()).to_string_lossy()).into(),
@@ -39,7 +63,7 @@ pub(crate) fn pipeline(arguments: &args::Pipeline) -> Result<PipelineFile, Error
             bytes,
         }),
         Err(Error::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
-            let (file, text) = carried(WHAT, path, shipped::PIPELINES)?;
+            let (file, text) = carried(WHAT.name, path, shipped::PIPELINES)?;
             let (shown, bytes) = (file.to_owned(), text.as_bytes().to_vec());
             if arguments.extend.is_empty() {
                 return Ok(PipelineFile { path: file.into(), shown, root: None, bytes });
@@ -49,6 +73,15 @@ pub(crate) fn pipeline(arguments: &args::Pipeline) -> Result<PipelineFile, Error
             Ok(PipelineFile { shown, path, root: Some(limited(arguments, Root::new(".".into()))?), bytes })
         }
         Err(error) => Err(error),
+    }
+}
+
+/// Records the files that the command line names beside a pipeline, before any is read.
+pub(crate) fn expect(arguments: &args::Pipeline, read: &ReadFiles) {
+    let settings = arguments.settings.iter().map(|file| (What::SETTINGS, file));
+    let extensions = arguments.extend.iter().map(|file| (What::EXTENSION, file));
+    for (what, file) in std::iter::once((What::PIPELINE, &arguments.file)).chain(settings).chain(extensions) {
+        read.expect(what.recorded, file);
     }
 }
 
@@ -73,14 +106,14 @@ fn limited(arguments: &args::Pipeline, own: Root) -> Result<Root, Error> {
 ///
 /// # Errors
 /// If there is neither, or it can't be read.
-pub(crate) fn extension(path: &Path, files: &mut PipelineFiles) -> Result<Found, Error> {
-    const WHAT: &str = "extension";
+pub(crate) fn extension(path: &Path, files: &mut PipelineFiles, read: &ReadFiles) -> Result<Found, Error> {
+    const WHAT: What = What::EXTENSION;
     let shown = path.to_string_lossy().into_owned();
-    match bytes(WHAT, path, LARGEST_FILE) {
+    match bytes(WHAT, path, LARGEST_FILE, read) {
         Ok(bytes) => Ok(Found { shown, relative: files.which(path), bytes }),
         Err(Error::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
             let carried = shipped::PIPELINES.iter().find(|(file, _)| Path::new(file) == path);
-            let (file, text) = carried.ok_or(Error::Read { what: WHAT, path: path.to_owned(), source })?;
+            let (file, text) = carried.ok_or(Error::Read { what: WHAT.name, path: path.to_owned(), source })?;
             let relative = FilePath::Shipped((*file).into());
             Ok(Found { shown: relative.to_string(), relative, bytes: text.as_bytes().to_vec() })
         }
@@ -93,7 +126,7 @@ pub(crate) fn extension(path: &Path, files: &mut PipelineFiles) -> Result<Found,
 ///
 /// # Errors
 /// If there is neither, or the file is no scene.
-pub(crate) fn scene(path: &Path) -> Result<Scene, Error> {
+pub(crate) fn scene(path: &Path, read: &ReadFiles) -> Result<Scene, Error> {
     let scene = match path.try_exists() {
         Ok(false) => {
             let (file, text) = carried("scene", path, shipped::SCENES)?;
@@ -101,7 +134,7 @@ pub(crate) fn scene(path: &Path) -> Result<Scene, Error> {
             scene::text::read(&mut sources, file, file, text.to_owned())
                 .map_err(|mistakes| SceneError::Text { sources, mistakes })
         }
-        _ => scene::load(path),
+        _ => scene::load_recorded(path, read),
     };
     let scene = scene.map_err(|problem| Error::Scene(Box::new(problem)))?;
     for note in &scene.notes {
@@ -114,18 +147,19 @@ pub(crate) fn scene(path: &Path) -> Result<Scene, Error> {
 ///
 /// # Errors
 /// If it can't be read, is too large or isn't text.
-pub(crate) fn text(what: &'static str, path: &Path, limit: usize) -> Result<String, Error> {
-    String::from_utf8(bytes(what, path, limit)?).map_err(|error| Error::NotText {
-        what,
+pub(crate) fn text(what: What, path: &Path, limit: usize, read: &ReadFiles) -> Result<String, Error> {
+    String::from_utf8(bytes(what, path, limit, read)?).map_err(|error| Error::NotText {
+        what: what.name,
         path: path.to_owned(),
         at: error.utf8_error().valid_up_to(),
     })
 }
 
-fn bytes(what: &'static str, path: &Path, limit: usize) -> Result<Vec<u8>, Error> {
+fn bytes(what: What, path: &Path, limit: usize, read: &ReadFiles) -> Result<Vec<u8>, Error> {
+    let What { name: what, recorded } = what;
     let problem = |source| Error::Read { what, path: path.to_owned(), source };
     let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(limit as u64 + 1).read_to_end(&mut bytes)).map_err(problem)?;
+    read.open(recorded, path).and_then(|file| file.take(limit as u64 + 1).read_to_end(&mut bytes)).map_err(problem)?;
     if bytes.len() > limit {
         return Err(Error::TooLarge { what, path: path.to_owned(), limit: limit as u64 });
     }

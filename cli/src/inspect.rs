@@ -2,10 +2,12 @@
 
 use crate::args::{Inspect, PlanFormat};
 use crate::error::{Error, Exit};
+use crate::files::{self, What};
 use crate::planning::{self, View};
-use crate::{files, output, profiles, text};
+use crate::{output, profiles, text};
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::DrawList;
+use framewright_graph::read_files::ReadFiles;
 use framewright_passes::scene::Scene;
 use std::path::Path;
 
@@ -14,22 +16,19 @@ use std::path::Path;
 /// # Errors
 /// If the pipeline, the scene or the profile is wrong, or the result can't be written.
 pub(crate) fn inspect(arguments: &Inspect) -> Result<Exit, Error> {
-    let settings = arguments.pipeline.settings.iter().map(|file| Some(("settings file", file.as_path())));
-    let read = [
-        Some(("pipeline", arguments.pipeline.file.as_path())),
-        arguments.scene.as_deref().map(|file| ("scene", file)),
-        arguments.device.as_ref().map(|file| ("device profile", Path::new(file))),
-    ];
-    output::prepare(arguments.output.iter(), &read.into_iter().chain(settings).flatten().collect::<Vec<_>>())?;
-    let profile = profiles::choose(arguments.device.as_deref())?;
-    let mut pipeline = planning::load(&arguments.pipeline)?;
-    pipeline.spare(arguments.output.iter())?;
-    let scene = arguments.scene.as_deref().map(files::scene).transpose()?;
+    let read = ReadFiles::default();
+    files::expect(&arguments.pipeline, &read);
+    arguments.scene.iter().for_each(|file| read.expect(What::SCENE.recorded, file));
+    arguments.device.iter().for_each(|file| read.expect(What::PROFILE.recorded, Path::new(file)));
+    let spare = || output::prepare(arguments.output.as_deref().into_iter(), &read);
+    spare()?;
+    let profile = profiles::choose(arguments.device.as_deref(), &read)?;
+    let mut pipeline = planning::load(&arguments.pipeline, &read)?;
+    let scene = arguments.scene.as_deref().map(|file| files::scene(file, &read)).transpose()?;
+    spare()?;
     let facts = scene.as_ref().map(Scene::facts);
     let view = View { facts, size: arguments.size, rotation: arguments.planning.rotate, dump: &[] };
     let plan = pipeline.plan(view, &profile, &mut Estimated(&profile), &arguments.planning.options())?.plan;
-    // Now its shaders are known.
-    pipeline.spare(arguments.output.iter())?;
     let shown = match arguments.format {
         PlanFormat::Tree => {
             let tree = scene.as_ref().map_or_else(|| plan.tree(), |scene| plan.tree_of(&|list| objects(scene, list)));
@@ -38,7 +37,7 @@ pub(crate) fn inspect(arguments: &Inspect) -> Result<Exit, Error> {
         PlanFormat::Json => text::json_text(&plan.to_json()?),
     };
     match &arguments.output {
-        Some(file) => output::write(file, shown.as_bytes())?,
+        Some(file) => output::write(&[(file, shown.as_bytes())], &read)?,
         None => text::print(&shown).map_err(Error::Print)?,
     }
     Ok(Exit::Fine)

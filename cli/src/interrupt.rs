@@ -23,7 +23,7 @@ pub(crate) fn watch() {
     drop(ctrlc::set_handler(|| {
         if ASKED.swap(true, Ordering::Relaxed) {
             // Asked twice: at once, then.
-            std::process::exit(crate::error::Exit::Interrupted as i32);
+            framewright_vulkan::end_process(crate::error::Exit::Interrupted as u8);
         }
     }));
 }

@@ -7,9 +7,11 @@ mod error;
 mod every_device;
 mod facts;
 mod files;
+mod helper;
 mod inspect;
 mod interrupt;
 mod layer;
+mod links;
 mod new;
 mod notes;
 mod output;
@@ -23,6 +25,7 @@ mod rows;
 mod run;
 mod schema;
 mod shipped;
+mod stream;
 mod text;
 mod values;
 mod variants;
@@ -32,6 +35,7 @@ use error::Exit;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    framewright_vulkan::helper::serve();
     interrupt::survive_large_files();
     let line = match args::parse(std::env::args_os()) {
         Ok(line) => line,
@@ -57,6 +61,9 @@ fn main() -> ExitCode {
         Ok(exit) => exit,
         Err(error) => {
             text::say(&error.shown());
+            if error.leaves_the_device_at_work() {
+                framewright_vulkan::end_process(error.exit() as u8);
+            }
             error.exit()
         }
     }

@@ -1,37 +1,41 @@
 //! Files that are written: whole or not at all.
 
 use crate::error::Error;
+use crate::stream;
+use framewright_graph::read_files::ReadFiles;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Makes sure, before any work is done, that each of `written` can be written, and that none of them is one of `read`, or
-/// another of them by a different name, or a shader.
+/// Makes sure, before any work is done, that each of `written` can be written, and that none of them is a file that was read,
+/// or another of them by a different name, or a shader.
 ///
 /// # Errors
 /// [`Error::Write`] with what stands in the way, [`Error::WrittenTwice`], [`Error::ReadAndWritten`].
-pub(crate) fn prepare<'a>(
-    written: impl Iterator<Item = &'a PathBuf>,
-    read: &[(&'static str, &Path)],
-) -> Result<(), Error> {
-    let read: Vec<(&str, PathBuf)> =
-        read.iter().filter_map(|(what, path)| Some((*what, fs::canonicalize(path).ok()?))).collect();
+pub(crate) fn prepare<'a>(written: impl Iterator<Item = &'a Path>, read: &ReadFiles) -> Result<(), Error> {
     let mut seen = Vec::new();
     for path in written {
         if let Some(real) = probe(path)? {
-            if let Some((what, _)) = read.iter().find(|(_, file)| *file == real) {
-                return Err(Error::ReadAndWritten { what, path: path.clone() });
-            }
-            if is_shader(&real) && real.exists() {
-                return Err(Error::ReadAndWritten { what: "shader", path: path.clone() });
+            let shader = is_shader(&real) && real.exists();
+            if let Some(what) = read.read_as(&real).or(shader.then_some("a shader by its name")) {
+                return Err(Error::ReadAndWritten { what, path: path.to_owned() });
             }
             if seen.contains(&real) {
-                return Err(Error::WrittenTwice { path: path.clone() });
+                return Err(Error::WrittenTwice { path: path.to_owned() });
             }
             seen.push(real);
         }
     }
     Ok(())
+}
+
+/// Writes each of `files`, once all of them are sure to be no file that was read. Each is written whole or not at all.
+///
+/// # Errors
+/// Those of [`prepare`], before anything is written; then [`Error::Write`] and [`Error::InterruptedWriting`].
+pub(crate) fn write(files: &[(&Path, &[u8])], read: &ReadFiles) -> Result<(), Error> {
+    prepare(files.iter().map(|(path, _)| *path), read)?;
+    files.iter().try_for_each(|(path, contents)| write_one(path, contents))
 }
 
 /// Whether a file is a shader, or a part of one, by its name. Those of passes that are off aren't read, and would be lost all
@@ -58,12 +62,9 @@ fn probe(path: &Path) -> Result<Option<PathBuf>, Error> {
     }
 }
 
-/// Writes `contents` to `path`: a file beside it is filled and takes its place in one step, so that whoever looks sees the
+/// Writes `contents` to `path`: a file beside it is filled and takes its place in one step, so that every reader sees the
 /// old contents or the new ones.
-///
-/// # Errors
-/// [`Error::Write`] with what stands in the way.
-pub(crate) fn write(path: &Path, contents: &[u8]) -> Result<(), Error> {
+fn write_one(path: &Path, contents: &[u8]) -> Result<(), Error> {
     let problem = |source| Error::Write { path: path.to_owned(), source };
     match Target::of(path).map_err(problem)? {
         Target::File(file) => {
@@ -74,10 +75,7 @@ pub(crate) fn write(path: &Path, contents: &[u8]) -> Result<(), Error> {
             beside.persist(&file).map_err(|error| problem(error.error))?;
             Ok(())
         }
-        Target::Stream(file) | Target::Pipe(file) => {
-            let open = fs::OpenOptions::new().write(true).open(file);
-            open.and_then(|mut stream| stream.write_all(contents)).map_err(problem)
-        }
+        Target::Stream(stream) | Target::Pipe(stream) => stream::write(&stream, contents),
     }
 }
 
@@ -166,9 +164,9 @@ mod tests {
     fn a_written_file_replaces_the_old_one_and_leaves_nothing_beside_it() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("plan.json");
-        write(&file, b"old").expect("written");
+        write_one(&file, b"old").expect("written");
         probe(&file).expect("writable");
-        write(&file, b"new").expect("written");
+        write_one(&file, b"new").expect("written");
         assert_eq!(fs::read(&file).expect("read"), b"new");
         assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1);
     }
@@ -186,7 +184,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let link = folder.path().join("link.json");
         std::os::unix::fs::symlink("new.json", &link).expect("linked");
-        write(&link, b"new").expect("written");
+        write_one(&link, b"new").expect("written");
         assert!(link.is_symlink());
         assert_eq!(fs::read(folder.path().join("new.json")).expect("read"), b"new");
     }
@@ -198,13 +196,13 @@ mod tests {
         let (file, link) = (folder.path().join("real.json"), folder.path().join("link.json"));
         fs::write(&file, b"old").expect("written");
         std::os::unix::fs::symlink(&file, &link).expect("linked");
-        write(&link, b"new").expect("written");
+        write_one(&link, b"new").expect("written");
         assert!(link.is_symlink());
         assert_eq!(fs::read(&file).expect("read"), b"new");
 
-        write(Path::new("/dev/null"), b"nothing").expect("written");
+        write_one(Path::new("/dev/null"), b"nothing").expect("written");
         assert!(!fs::metadata("/dev/null").expect("there").is_file());
-        let full = write(Path::new("/dev/full"), b"nothing").expect_err("always full");
+        let full = write_one(Path::new("/dev/full"), b"nothing").expect_err("always full");
         assert!(matches!(full, Error::Write { source, .. } if source.kind() == io::ErrorKind::StorageFull));
     }
 }

@@ -1,16 +1,18 @@
 //! From a pipeline file to its verified Plan: the part that `check`, `inspect` and `run` share.
 
 use crate::error::{Error, Exit, Wrong};
-use crate::files::{self, PipelineFile};
+use crate::files::{self, PipelineFile, What};
 use crate::values::{Modes, Size};
-use crate::{args, output, shipped};
+use crate::{args, helper, shipped};
 use framewright_graph::compile::{self, Options};
 use framewright_graph::describe::{self, Diagnostic, Document, Files, Found, PipelineFiles, Unread};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Facts, Inputs};
 use framewright_graph::file_path::FilePath;
 use framewright_graph::frame::Frame;
+use framewright_graph::heap_size;
 use framewright_graph::plan::Plan;
+use framewright_graph::read_files::ReadFiles;
 use framewright_graph::root::Root;
 use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
@@ -20,8 +22,8 @@ use framewright_graph::view::Stereo;
 use framewright_passes::draw;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::texture_files::TextureFiles;
-use framewright_vulkan::ShaderLibrary;
-use std::path::{Path, PathBuf};
+use framewright_vulkan::{Helper, ShaderLibrary};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A pipeline that was read, and where its shaders come from.
@@ -32,10 +34,10 @@ pub(crate) struct Loaded {
     pub(crate) sources: Arc<Sources>,
     /// Shaders beside the pipeline file, then shipped ones.
     pub(crate) shaders: ShaderLibrary,
+    /// Where they are compiled.
+    pub(crate) helper: Helper,
     /// Pictures beside the pipeline file.
     pub(crate) textures: TextureFiles,
-    /// Those that it names.
-    pictures: Vec<PathBuf>,
     /// Settings that the user chose, and their values, of which the last counts.
     pub(crate) set: Vec<(String, String)>,
     /// How it is drawn for two eyes.
@@ -68,9 +70,6 @@ pub(crate) struct View<'a> {
 struct Named {
     files: PipelineFiles,
     textures: TextureFiles,
-    root: Root,
-    /// The pictures that were looked at.
-    pictures: Vec<PathBuf>,
     /// Whether the user has no right to read one of the files.
     denied: bool,
 }
@@ -83,51 +82,57 @@ impl Files for Named {
     }
 
     fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
-        self.pictures.extend(self.root.locate(&file.path));
         self.textures.info(file)
     }
 }
 
-/// Reads a pipeline file.
+/// Reads a pipeline file. It and all files that it names, now or later, are recorded in `read`.
 ///
 /// # Errors
 /// If it can't be read or is wrong in itself.
-pub(crate) fn load(arguments: &args::Pipeline) -> Result<Loaded, Error> {
-    let PipelineFile { shown, path, root, bytes } = files::pipeline(arguments)?;
+pub(crate) fn load(arguments: &args::Pipeline, read: &ReadFiles) -> Result<Loaded, Error> {
+    let PipelineFile { shown, path, root, bytes } = files::pipeline(arguments, read)?;
     let mut sources = Sources::default();
-    let mut files = match (&root, &path) {
-        (Some(root), FilePath::Own(name)) => PipelineFiles::beside(root.clone(), name, shipped::PIPELINES),
-        (Some(root), FilePath::Shipped(_)) => PipelineFiles::of_shipped(root.clone(), shipped::PIPELINES),
+    let recorded = |what| root.clone().map(|root| root.recorded(read, what));
+    let mut files = match (recorded("a fragment of the pipeline"), &path) {
+        (Some(root), FilePath::Own(name)) => PipelineFiles::beside(root, name, shipped::PIPELINES),
+        (Some(root), FilePath::Shipped(_)) => PipelineFiles::of_shipped(root, shipped::PIPELINES),
         (None, _) => PipelineFiles::shipped(shipped::PIPELINES),
     };
-    let extensions = arguments.extend.iter().map(|path| files::extension(path, &mut files));
+    let extensions = arguments.extend.iter().map(|path| files::extension(path, &mut files, read));
     let extensions = extensions.collect::<Result<Vec<Found>, Error>>()?;
-    let folder = root.clone().unwrap_or_else(|| Root::new(PathBuf::default()));
-    let textures = TextureFiles::new(folder.clone());
-    let mut named = Named { files, textures, root: folder, pictures: Vec::new(), denied: false };
+    let textures = recorded("the texture itself").unwrap_or_else(|| Root::new(PathBuf::default()));
+    let mut named = Named { files, textures: TextureFiles::new(textures), denied: false };
     let own = Found { shown, relative: path, bytes };
     let mut pipeline = describe::read_extended(&mut sources, &mut named, own, extensions).map_err(|diagnostics| {
         let exit = if named.denied { Exit::Environment } else { Exit::Found };
         Error::Wrong { wrong: Box::new(Wrong { sources: sources.clone(), diagnostics, exit }) }
     })?;
-    choose(arguments, &mut pipeline, &mut sources)?;
+    choose(arguments, &mut pipeline, &mut sources, read)?;
+    let helper = helper::with(&arguments.limits)?;
     Ok(Loaded {
         pipeline,
         sources: Arc::new(sources),
         textures: named.textures,
-        pictures: named.pictures,
-        shaders: ShaderLibrary::new(root.into_iter().collect(), SHADERS, draw::interface),
+        shaders: ShaderLibrary::new(recorded("the shader itself").into_iter().collect(), SHADERS, draw::interface)
+            .with_helper(&helper),
+        helper,
         set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
         stereo: arguments.stereo.clone(),
     })
 }
 
 /// Applies settings files and a preset.
-fn choose(arguments: &args::Pipeline, pipeline: &mut Document, sources: &mut Sources) -> Result<(), Error> {
+fn choose(
+    arguments: &args::Pipeline,
+    pipeline: &mut Document,
+    sources: &mut Sources,
+    read: &ReadFiles,
+) -> Result<(), Error> {
     let mut files = Vec::with_capacity(arguments.settings.len());
     let mut mistakes = Vec::new();
     for path in &arguments.settings {
-        let text = files::text("settings file", path, describe::LARGEST_FILE)?;
+        let text = files::text(What::SETTINGS, path, describe::LARGEST_FILE, read)?;
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         match pipeline.read_settings(sources, &path.to_string_lossy(), &name, text) {
             Ok(file) => files.push(file),
@@ -144,20 +149,6 @@ fn choose(arguments: &args::Pipeline, pipeline: &mut Document, sources: &mut Sou
 }
 
 impl Loaded {
-    /// Makes sure that nothing is written over a file that the pipeline was read from, a picture that it names, or a shader
-    /// that was read by now, by whatever name; nor over what is called like a shader.
-    ///
-    /// # Errors
-    /// Those of [`output::prepare`].
-    pub(crate) fn spare<'a>(&self, written: impl Iterator<Item = &'a PathBuf>) -> Result<(), Error> {
-        let files = (0..).map_while(|file| self.sources.file(file));
-        let pipeline = files.map(|file| ("pipeline", Path::new(&file.shown)));
-        let pictures = self.pictures.iter().map(|file| ("texture", file.as_path()));
-        let shaders = self.shaders.files_read();
-        let shaders = shaders.iter().map(|file| ("shader", file.as_path()));
-        output::prepare(written, &pipeline.chain(pictures).chain(shaders).collect::<Vec<_>>())
-    }
-
     /// Puts in settings, facts and sizes, compiles for a device, and has the result verified.
     ///
     /// # Errors
@@ -197,6 +188,14 @@ impl Loaded {
         }
         let sources = Sources::clone(&self.sources);
         Err(Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, exit: Exit::Usage }) })
+    }
+
+    /// Makes sure that the device that a profile describes has the memory that a Plan takes.
+    ///
+    /// # Errors
+    /// How much it takes, and what takes most.
+    pub(crate) fn fits(&self, plan: &Plan, frame: &Frame, device: &Profile) -> Result<(), Error> {
+        heap_size::too_large(plan, frame, device).map_or(Ok(()), |large| Err(wrong(&self.sources, vec![large])))
     }
 
     /// Compiles a frame for a device, and has the result verified.

@@ -1,8 +1,9 @@
 //! Which devices `check` and `inspect` compile for: saved profiles, shipped or the user's own.
 
 use crate::error::Error;
-use crate::files;
+use crate::files::{self, What};
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
+use framewright_graph::read_files::ReadFiles;
 use std::ffi::OsStr;
 use std::path::Path;
 
@@ -28,7 +29,7 @@ fn shipped(name: &str, text: &str) -> Result<Profile, Error> {
 ///
 /// # Errors
 /// If there is no such profile, or the file isn't one.
-pub(crate) fn choose(device: Option<&OsStr>) -> Result<Profile, Error> {
+pub(crate) fn choose(device: Option<&OsStr>, read: &ReadFiles) -> Result<Profile, Error> {
     let name = match device {
         Some(name) => name,
         None => OsStr::new(SHIPPED_PROFILES[0].0),
@@ -41,6 +42,6 @@ pub(crate) fn choose(device: Option<&OsStr>) -> Result<Profile, Error> {
         let shipped = SHIPPED_PROFILES.iter().map(|(name, _)| *name).collect();
         return Err(Error::UnknownProfile { name: name.to_string_lossy().into_owned(), shipped });
     }
-    let text = files::text("device profile", path, LARGEST)?;
+    let text = files::text(What::PROFILE, path, LARGEST, read)?;
     Profile::from_ron(&text).map_err(|problem| Error::Profile { path: path.to_owned(), problem })
 }

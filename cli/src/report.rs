@@ -37,6 +37,8 @@ pub(crate) struct Report {
     pub(crate) passes: Vec<Row>,
     /// The compiler's remarks.
     pub(crate) notes: Vec<Note>,
+    /// What the scene's file holds that isn't drawn.
+    pub(crate) scene_notes: Vec<String>,
     /// What the validation layer said; `null` if it wasn't asked.
     pub(crate) validation: Option<Validation>,
     /// Files that were written, as they were named.

@@ -2,12 +2,14 @@
 
 use crate::args::Run;
 use crate::error::{Error, Exit};
+use crate::files::{self, What};
 use crate::planning::{self, Loaded, Planned, View};
 use crate::report::{Report, Setting, Validation};
 use crate::values::OutputFile;
-use crate::{files, interrupt, notes, output, picture, placed, progress, rows, text};
+use crate::{interrupt, notes, output, picture, placed, progress, rows, text};
 use framewright_graph::frame::{Frame, Image, Lifetime, Resource};
 use framewright_graph::plan::{self, Stage, Totals};
+use framewright_graph::read_files::ReadFiles;
 use framewright_graph::source::Span;
 use framewright_graph::view::{Eye, EyeForm, Stereo};
 use framewright_graph::vocabulary::Layout;
@@ -28,22 +30,29 @@ struct Picture {
 /// # Errors
 /// If a file is wrong, the device or the layer is missing, or something can't be written.
 pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
-    let read = [("pipeline", arguments.pipeline.file.as_path()), ("scene", arguments.scene.as_path())];
-    let settings = arguments.pipeline.settings.iter().map(|file| ("settings file", file.as_path()));
-    output::prepare(arguments.written(), &read.into_iter().chain(settings).collect::<Vec<_>>())?;
+    draw_and_write(arguments).map_err(interrupted(0, arguments.frames))
+}
+
+fn draw_and_write(arguments: &Run) -> Result<Exit, Error> {
+    let read = ReadFiles::default();
+    files::expect(&arguments.pipeline, &read);
+    read.expect(What::SCENE.recorded, &arguments.scene);
+    let spare = || output::prepare(arguments.written(), &read);
+    spare()?;
     let choice = choice(arguments.device.as_deref())?;
-    let mut pipeline = planning::load(&arguments.pipeline)?;
-    pipeline.spare(arguments.written())?;
-    let scene = files::scene(&arguments.scene)?;
+    let mut pipeline = planning::load(&arguments.pipeline, &read)?;
+    let scene = files::scene(&arguments.scene, &read)?;
+    spare()?;
     // Only now: until here nothing is lost when the system ends the program, and a named pipe may keep it waiting forever.
     interrupt::watch();
 
-    let device = Device::open(&DeviceOptions { choice, validation: arguments.validate })?;
+    let device = Device::open(&DeviceOptions { choice, validation: arguments.validate })?.with_helper(&pipeline.helper);
+    device.cancel_when(interrupt::asked);
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
     let planned = planned(arguments, &mut pipeline, &scene, &device)?;
     placed::cameras(&planned.frame, &scene)?;
     // Now its shaders are known.
-    pipeline.spare(arguments.written())?;
+    spare()?;
     let wanted = wanted(arguments, &planned)?;
     let modes = &arguments.pipeline.stereo.0;
     if modes.len() > 1 {
@@ -78,22 +87,29 @@ pub(crate) fn run(arguments: &Run) -> Result<Exit, Error> {
         recording_milliseconds: rows::median(frames.iter().map(|frame| frame.recording_milliseconds).collect()),
         passes: rows::rows(&planned.plan, &frames),
         notes: planned.plan.notes.clone(),
+        scene_notes: scene.notes.clone(),
         validation: None,
-        files: arguments.written().map(|file| shown(file)).collect(),
+        files: arguments.written().map(shown).collect(),
     };
     // The layer may have something to say about the device's end too.
     let messages = device.messages();
     drop(device);
     report.validation = canary.map(|canary| Validation::new(canary, &messages.list()));
 
-    for picture in &pictures {
-        output::write(&picture.path, &picture.contents)?;
-    }
-    if let Some(file) = &arguments.report {
-        output::write(file, text::json(&report)?.as_bytes())?;
-    }
+    let json = if arguments.report.is_some() { text::json(&report)? } else { String::new() };
+    let pictures = pictures.iter().map(|picture| (&*picture.path, &*picture.contents));
+    let files = pictures.chain(arguments.report.as_deref().map(|file| (file, json.as_bytes())));
+    output::write(&files.collect::<Vec<_>>(), &read)?;
     text::print(&report.table()).map_err(Error::Print)?;
     Ok(if report.validation.is_some_and(|validation| validation.findings > 0) { Exit::Found } else { Exit::Fine })
+}
+
+/// Ctrl-C gives up waits for the device and for what compiles shaders: what comes of that is no fault of theirs.
+fn interrupted(frames: u32, wanted: u32) -> impl Fn(Error) -> Error {
+    move |error| match error {
+        Error::Vulkan(_) | Error::Wrong { .. } if interrupt::asked() => Error::Interrupted { frames, wanted },
+        other => other,
+    }
 }
 
 /// The device that `--device` names.
@@ -119,6 +135,10 @@ fn planned(arguments: &Run, pipeline: &mut Loaded, scene: &Scene, device: &Devic
     let view = View { facts: Some(scene.facts()), size: arguments.size, rotation, dump: &dump };
     let options = arguments.planning.options();
     let (profile, mut memory) = (device.profile(), device.memory());
+    if interrupt::asked() {
+        // The device may not have been tested.
+        return Err(Error::Interrupted { frames: 0, wanted: arguments.frames });
+    }
     let planned = pipeline.plan(view, &profile, &mut memory, &options)?;
     if !dump.is_empty() {
         let without = pipeline.plan(View { dump: &[], ..view }, &profile, &mut memory, &options)?;
@@ -185,13 +205,15 @@ fn draw(
         if interrupt::asked() {
             return Err(Error::Interrupted { frames: drawn, wanted: arguments.frames });
         }
-        frames.push(executor.frame(&mut source)?);
+        let frame = executor.frame(&mut source).map_err(Error::from);
+        frames.push(frame.map_err(interrupted(drawn, arguments.frames))?);
         progress.inc(1);
     }
     progress.finish_and_clear();
     let mut pictures = Vec::new();
     for Wanted { outputs, in_layers, name, path, file } in wanted {
-        let read = outputs.iter().map(|output| executor.read(*output)).collect::<Result<Vec<_>, _>>()?;
+        let read = outputs.iter().map(|output| executor.read(*output)).collect::<Result<Vec<_>, _>>();
+        let read = read.map_err(Error::from).map_err(interrupted(arguments.frames, arguments.frames))?;
         let eyes = read.into_iter().flat_map(|texels| if in_layers { layers(texels) } else { vec![texels] }).collect();
         let Texels { format, extent: [width, height, _], bytes, .. } = side_by_side(eyes);
         let encoding = planned.plan.outputs.get(outputs[0]).and_then(|output| output.encoding);

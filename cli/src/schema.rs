@@ -6,6 +6,7 @@ use crate::{files, text};
 use framewright_graph::describe::LARGEST_FILE;
 use framewright_graph::describe::forms;
 use framewright_graph::describe::text::Tree;
+use framewright_graph::read_files::ReadFiles;
 use framewright_graph::source::Sources;
 
 /// Prints the schema, or a file as JSON.
@@ -16,7 +17,7 @@ pub(crate) fn schema(arguments: &Schema) -> Result<Exit, Error> {
     let shown = match &arguments.file {
         None => forms::schema(),
         Some(path) => {
-            let text = files::text("file", path, LARGEST_FILE)?;
+            let text = files::text(files::What::ANY, path, LARGEST_FILE, &ReadFiles::default())?;
             let shown = path.to_string_lossy();
             let mut sources = Sources::default();
             let number = sources.add(shown.clone(), &*shown, text.clone());

@@ -1,5 +1,6 @@
 //! Text for people: nothing that came from a file, an argument or a driver reaches a terminal raw.
 
+pub(crate) use framewright_graph::amount::bytes;
 pub(crate) use framewright_graph::describe::escape;
 
 use std::io::Write;
@@ -66,23 +67,6 @@ pub(crate) fn count(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 
-/// Bytes as people read them: `512 B`, `1.5 KiB`, `35.2 MiB`.
-#[must_use]
-pub(crate) fn bytes(bytes: u64) -> String {
-    const UNITS: [&str; 5] = ["KiB", "MiB", "GiB", "TiB", "PiB"];
-    if bytes < 1024 {
-        return format!("{bytes} B");
-    }
-    #[allow(clippy::cast_precision_loss, reason = "shown with one decimal")]
-    let mut amount = bytes as f64 / 1024.0;
-    let mut unit = 0;
-    while amount >= 1023.95 && unit + 1 < UNITS.len() {
-        amount /= 1024.0;
-        unit += 1;
-    }
-    format!("{amount:.1} {}", UNITS[unit])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,14 +81,5 @@ mod tests {
             "\"a\\u007f\\u009b\\u202eö漢\\udb40\\udc01\"\n"
         );
         assert_eq!(escape_lines("one\u{7}\ntwo"), "one\\u{7}\ntwo");
-    }
-
-    #[test]
-    fn bytes_are_shown_in_the_unit_that_people_expect() {
-        assert_eq!(bytes(0), "0 B");
-        assert_eq!(bytes(1023), "1023 B");
-        assert_eq!(bytes(1024), "1.0 KiB");
-        assert_eq!(bytes(1024 * 1024 - 1), "1.0 MiB");
-        assert_eq!(bytes(36_909_875), "35.2 MiB");
     }
 }

@@ -44,7 +44,23 @@ fn a_shader_that_does_not_compile_is_said_with_its_own_line() {
         .run(&["check", "p.ron"])
         .exits(1)
         .mentions("error: shader `mine` doesn't compile\n  --> p.ron:33:57\n")
-        .mentions("./mine.frag:3: error: 'radiance' : undeclared identifier");
+        .mentions("  ::: ./mine.frag:3:23\n")
+        .mentions(" 3 | void main() { color = radiance; }\n")
+        .mentions("   |                       ^^^^^^^^ 'radiance' : undeclared identifier\n");
+}
+
+#[test]
+fn a_mistake_in_a_file_that_a_shader_includes_is_shown_in_that_file_s_line() {
+    let place = Place::new();
+    place.file("p.ron", forward_with("shader: \"lit\"", "shader: \"mine\""));
+    place.file("mine.frag", "#version 450\n#include \"light.glsl\"\nlayout(location = 0) out vec4 color;\nvoid main() { color = light(); }\n");
+    place.file("light.glsl", "vec4 light() {\n    return vec4(\u{1b}radiance);\n}\n");
+    let outcome = place.run(&["check", "p.ron"]).exits(1).mentions("  ::: ./light.glsl:2:");
+    assert!(!outcome.err.contains('\u{1b}'), "{}", outcome.err);
+    let json = place.run(&["check", "p.ron", "--format", "json"]).exits(1).out;
+    let answer: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let label = &answer["diagnostics"][0]["labels"][1];
+    assert_eq!((&label["file"], &label["line"]), (&"./light.glsl".into(), &2.into()), "{answer:#}");
 }
 
 #[test]

@@ -116,7 +116,7 @@ fn no_file_that_the_pipeline_is_made_of_is_written_over() {
     place
         .run(&["inspect", "inside/p.ron", "-o", "inside/../inside/deep/fill.ron"])
         .exits(2)
-        .mentions("is the pipeline itself, which would be lost");
+        .mentions("is a fragment of the pipeline, which would be lost");
     assert_eq!(std::fs::read_to_string(place.path("inside/deep/fill.ron")).expect("it is there"), FILL);
 }
 

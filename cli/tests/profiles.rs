@@ -3,7 +3,7 @@
 mod support;
 
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
-use support::{Place, Vulkan};
+use support::{Place, Vulkan, live_profile};
 
 /// The drivers of this machine, each with the name of its shipped profile.
 const DRIVERS: [(Vulkan, &str); 2] = [(Vulkan::LAVAPIPE, "lavapipe"), (Vulkan::SWIFTSHADER, "swiftshader")];
@@ -86,17 +86,16 @@ fn what_is_said_of_saving_without_saving_is_a_wrong_command_line() {
 
 #[test]
 fn the_list_of_devices_tells_queues_and_local_reads() {
-    for (driver, name) in DRIVERS {
-        let Some(variables) = driver.variables() else { return };
+    for (driver, _) in DRIVERS {
+        let Some(variables) = driver.variables() else { continue };
         let place = Place::new();
         let table = place.run_with(&variables, &["devices"]).exits(0).out;
         assert!(table.contains("queues") && table.contains("local reads") && table.contains("graphics"), "{table}");
         let json = place.run_with(&variables, &["devices", "--format", "json"]).exits(0).out;
         let answer: serde_json::Value = serde_json::from_str(&json).expect("JSON");
         let device = &answer["devices"][0];
-        let profile = Profile::from_ron(shipped(name)).expect("a profile");
         assert_eq!(device["queues"], serde_json::json!(["graphics"]), "{json}");
-        assert_eq!(device["local_read"], profile.local_read, "{json}");
+        assert_eq!(device["local_read"], live_profile(&variables).local_read, "{json}");
     }
 }
 
@@ -166,4 +165,87 @@ fn the_most_that_a_profile_may_say_breaks_nothing() {
         bare.replace("[1, 4]", "[1]").replace("16384", "1").replace("linear_filter: true", "linear_filter: false"),
     );
     place.run(&["inspect", "forward", "--device", "p.ron"]).exits(1).mentions("1×1");
+}
+
+#[test]
+fn a_buffer_that_takes_more_memory_than_the_device_has_is_named_and_placed() {
+    let place = Place::new();
+    let buffer = r#"Pipeline(version: 1,
+        images: [(name: "screen", format: Output, size: Output)],
+        buffers: [
+            (name: "large", bytes: 4294967296, lifetime: Persistent),
+        ],
+        passes: [
+            (name: "sky", draw: Sky, color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]),
+            (name: "fill", fill: (to: "large", value: 0)),
+        ],
+        outputs: ["screen"])"#;
+    place.file("buffer.ron", buffer);
+    place
+        .run(&["check", "buffer.ron"])
+        .exits(1)
+        .mentions("error: the frame takes more memory than the device has\n --> buffer.ron:4:")
+        .mentions("GiB of 2.0 GiB, for `large` (4.0 GiB), `screen` ");
+}
+
+#[test]
+fn an_image_that_the_compiler_makes_of_a_declared_one_is_placed_there_if_it_takes_more_than_the_device_has() {
+    let place = Place::new();
+    // Of two of one size the second is the largest: `color (1 frame ago)`.
+    let text = r#"Pipeline(version: 1,
+        images: [
+            (name: "screen", format: Output, size: Output),
+            (name: "color", format: R32G32B32A32_SFLOAT, size: Fixed(16384, 8192), lifetime: History),
+        ],
+        passes: [
+            (name: "sky", draw: Sky, color: [(image: "color", clear: (0.0, 0.0, 0.0, 1.0))]),
+            (name: "show", draw: FullScreen("reinhard"), sample: {"source": (image: "color", previous: 1)}, color: ["screen"]),
+        ],
+        outputs: ["screen"])"#;
+    place.file("p.ron", text);
+    place
+        .run(&["check", "p.ron"])
+        .exits(1)
+        .mentions("error: the frame takes more memory than the device has\n --> p.ron:4:")
+        .mentions("`color (1 frame ago)` (2.0 GiB)");
+}
+
+#[test]
+fn a_plan_that_needs_more_memory_than_the_device_has_is_a_finding_that_names_the_largest_images() {
+    let place = Place::new();
+    // Two images of 1 GiB with 16 bytes a texel: the device has 2 GiB for them and the output.
+    let text = r#"Pipeline(version: 1,
+        settings: [(name: "side", value: Integer(default: 8192, min: 64, max: 8192))],
+        images: [
+            (name: "small", format: R8_UNORM, size: Fixed(64, 64)),
+            (name: "large", format: R32G32B32A32_SFLOAT, size: Fixed("side", "side")),
+            (name: "larger", format: R32G32B32A32_SFLOAT, size: Fixed("side", "side"), samples: 4),
+            (name: "screen", format: Output, size: Output),
+        ],
+        passes: [
+            (name: "sky", draw: Sky, color: [(image: "larger", clear: (0.0, 0.0, 0.0, 1.0))]),
+            (name: "less", draw: FullScreen("downsample"), sample: {"source": "larger"}, color: ["large"]),
+            (name: "dot", draw: FullScreen("downsample"), sample: {"source": "large"}, color: ["small"]),
+            (name: "show", draw: FullScreen("reinhard"), sample: {"source": "small"}, color: ["screen"]),
+        ],
+        outputs: ["screen"])"#;
+    place.file("p.ron", text);
+    let help = "GiB of 2.0 GiB, for `larger` (4.0 GiB), `large";
+    place
+        .run(&["check", "p.ron"])
+        .exits(1)
+        .mentions("error: the frame takes more memory than the device has\n --> p.ron:6:")
+        .mentions(help);
+    let json = place.run(&["check", "p.ron", "--format", "json"]).exits(1).out;
+    assert!(json.contains("more memory than the device has"), "{json}");
+    let all = place.run(&["check", "p.ron", "--device", "all"]).exits(1).out;
+    assert!(all.contains("p.ron: refused on lavapipe\n") && all.contains("p.ron: fine on amd-rx-7800-xt: "), "{all}");
+    let variants = place.run(&["check", "p.ron", "--all-variants"]).exits(1);
+    assert!(variants.out.contains("more memory than the device has"), "{}", variants.out);
+    // It fits when it is smaller, or where nobody knows how much memory there is.
+    place.run(&["check", "p.ron", "--set", "side=2048"]).exits(0);
+    let without =
+        shipped("lavapipe").lines().filter(|line| !line.contains("heap_bytes")).collect::<Vec<_>>().join("\n");
+    place.file("unknown.ron", without);
+    place.run(&["check", "p.ron", "--device", "unknown.ron"]).exits(0);
 }

@@ -67,7 +67,7 @@ fn a_fragment_has_the_shader_beside_its_own_file_and_the_plan_tells_it_from_the_
 
     // What it includes is looked for beside it too, then beside the pipeline.
     place.file("effects/part.glsl", part("beside"));
-    check(&place).exits(1).mentions("effects/part.glsl:1: error: 'beside' : undeclared identifier");
+    check(&place).exits(1).mentions("./effects/part.glsl:1:30").mentions("^^^^^^ 'beside' : undeclared identifier");
 }
 
 #[test]

@@ -213,13 +213,13 @@ fn no_texture_is_written_over() {
 fn no_shader_is_written_over() {
     let place = place();
     let answer = place.run(&["inspect", "textures.ron", "-o", "look_up.frag"]);
-    answer.exits(2).mentions("`look_up.frag` is the shader itself, which would be lost");
+    answer.exits(2).mentions("`look_up.frag` is a shader by its name, which would be lost");
     // Nor one that isn't read, because its pass is off.
     place.file("off.frag", LOOK_UP);
     let answer = place.run(&["inspect", "forward", "-o", "off.frag"]);
-    answer.exits(2).mentions("`off.frag` is the shader itself, which would be lost");
+    answer.exits(2).mentions("`off.frag` is a shader by its name, which would be lost");
     let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
     let run = ["run", "textures.ron", "--scene", "spheres_and_cubes", "--report", "look_up.frag"];
-    place.run_with(&variables, &run).exits(2).mentions("`look_up.frag` is the shader itself, which would be lost");
+    place.run_with(&variables, &run).exits(2).mentions("`look_up.frag` is a shader by its name, which would be lost");
     assert_eq!(std::fs::read_to_string(place.path("look_up.frag")).expect("read"), LOOK_UP);
 }

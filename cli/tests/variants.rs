@@ -263,6 +263,30 @@ fn an_interrupted_check_tells_what_it_found_so_far() {
     }
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn without_a_terminal_a_line_every_few_seconds_says_how_many_how_fast_and_how_long() {
+    use std::io::{BufRead, BufReader};
+    let place = Place::new();
+    place.file("p.ron", switches(19));
+    let mut command = place.command(&["check", "p.ron", "--all-variants"]);
+    command.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::piped());
+    let begun = std::time::Instant::now();
+    let mut child = command.spawn().expect("it starts");
+    let lines = BufReader::new(child.stderr.take().expect("piped")).lines();
+    let said: Vec<String> = lines.map(|line| line.expect("text")).take(2).collect();
+    let took = begun.elapsed().as_secs();
+    child.kill().expect("it runs");
+    child.wait().expect("it ends");
+    assert!((8..30).contains(&took), "two lines after {took} s");
+    for line in said {
+        let words: Vec<&str> = line.split(' ').collect();
+        let ["note:", "checked", _, "of", "524288", "variants,", _, "a", "second,", .., "left"] = words[..] else {
+            panic!("{line}")
+        };
+    }
+}
+
 /// Whether a process has a handler for SIGINT.
 #[cfg(target_os = "linux")]
 fn catches_interrupts(process: u32) -> bool {

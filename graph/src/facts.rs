@@ -27,6 +27,9 @@ pub struct Facts {
     pub objects: u32,
     /// See [`Fact::Triangles`].
     pub triangles: u64,
+    /// How many times as long as the nearest near distance of its cameras anything may be away from a camera that stands among
+    /// all that there is, at least 1; `None`: that isn't known. Formats of depth follow it; pipeline files have no name for it.
+    pub depth_range: Option<f64>,
 }
 
 /// A fact of the scene.
@@ -151,6 +154,7 @@ impl Facts {
         point_lights: 4096,
         objects: 250_000,
         triangles: 4_194_304_000_000,
+        depth_range: None,
     };
 
     /// The value of `fact`, of the type that [`Fact::ty`] says.

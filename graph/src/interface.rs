@@ -4,11 +4,13 @@ mod shape;
 
 pub use shape::{Component, Dimension, ImageShape};
 
+use crate::describe::Quote;
 use crate::file_path::FilePath;
 use crate::format::Format;
 use crate::frame::Draw;
 use crate::view::{Eye, EyeForm};
 use crate::vocabulary::Stages;
+use std::fmt;
 use std::sync::Arc;
 
 /// Everything that a shader (all its stages together) uses.
@@ -118,9 +120,20 @@ pub enum BindingKind {
         /// What a component is.
         component: Component,
     },
-    /// Anything else (separate samplers, texel buffers, storage images of formats that no image of a pipeline has, …), in
-    /// words: not supported.
-    Other(String),
+    /// Anything else (separate samplers, texel buffers, storage images of formats that no image of a pipeline has, …): not
+    /// supported.
+    Other(Unbindable),
+}
+
+/// A resource that no pass can give.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Unbindable {
+    /// What it is, in words: `a texel buffer`.
+    pub what: String,
+    /// What to declare instead.
+    pub instead: String,
+    /// File and line of its declaration, `FILE:LINE`, if they are known.
+    pub place: Option<String>,
 }
 
 /// A uniform block.
@@ -179,14 +192,29 @@ pub enum ShaderProblem {
     },
     /// It doesn't compile.
     DoesNotCompile {
-        /// The compiler's words, with the shader's own file and line.
-        messages: Vec<String>,
+        /// What the compiler says.
+        messages: Vec<ShaderMessage>,
     },
     /// It can't be read, or uses something that can't be bound or that not every device has.
     Unsupported {
         /// In words.
         what: String,
     },
+}
+
+/// What the compiler says of a shader. Text from files inside is not yet escaped.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ShaderMessage {
+    /// The compiler's words, with the shader's own file and line.
+    pub text: String,
+    /// The line that it is about, where that is known.
+    pub quote: Option<Quote>,
+}
+
+impl fmt::Display for ShaderMessage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
 }
 
 /// How a shader is compiled for a pass: what the macros stand for that depend on what the pass gives it.
@@ -198,6 +226,8 @@ pub struct Variant {
     pub textures: Vec<(Arc<str>, ImageShape)>,
     /// The shader's names for what the pass samples: the macro `HAS_NAME` is defined.
     pub sampled: Vec<Arc<str>>,
+    /// How many components the formats of these have: the macro `COMPONENTS_NAME`. Of names that are missing here it is 4.
+    pub components: Vec<(Arc<str>, u32)>,
     /// Those of images of which only a part is in use, at most [`MOST_PARTS`]: `NAME_st` is where it lies then, and else all of
     /// the image.
     pub parts: Vec<Arc<str>>,

@@ -4,6 +4,7 @@
 //! pipeline.ron ─► describe ─► expand ─► compile ─► Plan ─► verify
 //! ```
 
+pub mod amount;
 pub mod change;
 pub mod compile;
 pub mod describe;
@@ -15,9 +16,11 @@ pub mod facts;
 pub mod file_path;
 pub mod format;
 pub mod frame;
+pub mod heap_size;
 pub mod interface;
 pub mod jitter;
 pub mod plan;
+pub mod read_files;
 pub mod root;
 pub mod rotation;
 pub mod source;

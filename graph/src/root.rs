@@ -1,7 +1,8 @@
 //! The folder that a pipeline's files lie in, and the way to them: by default never out of it, by no link either.
 //!
-//! The only place of this library that reads from disk.
+//! The only place of this library that reads files from disk.
 
+use crate::read_files::ReadFiles;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
@@ -10,11 +11,13 @@ use std::path::{Component, Path, PathBuf};
 /// from one folder, and must not leave another, which is the same unless [`Root::within`] says so.
 ///
 /// What a path leads to is found out before it is opened; nothing is promised where somebody changes links in between.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct Root {
     folder: PathBuf,
     within: PathBuf,
     outside: bool,
+    /// Where files that are read are recorded, and as what.
+    record: (ReadFiles, &'static str),
 }
 
 /// Why a file isn't read: the end of a sentence that began with its path. Text from outside is not yet escaped.
@@ -78,7 +81,7 @@ impl Root {
     #[must_use]
     pub fn new(folder: PathBuf) -> Root {
         let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
-        Root { within: folder.clone(), folder, outside: false }
+        Root { within: folder.clone(), folder, outside: false, record: (ReadFiles::default(), "a file") }
     }
 
     /// Paths are still counted from the same folder, but may lead to anywhere in `within`.
@@ -91,6 +94,12 @@ impl Root {
     #[must_use]
     pub fn allow_outside(self) -> Root {
         Root { outside: true, ..self }
+    }
+
+    /// What is read from here is recorded in `files` as `what`, such as `a texture`.
+    #[must_use]
+    pub fn recorded(self, files: &ReadFiles, what: &'static str) -> Root {
+        Root { record: (files.clone(), what), ..self }
     }
 
     /// The folder that paths are counted from, as it was given.
@@ -118,12 +127,21 @@ impl Root {
         if fs::metadata(&found)?.is_file() { Ok(found) } else { Err(NoFile::NotRegular) }
     }
 
+    /// Opens the file that [`locate`](Root::locate) found, and records it.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub fn open(&self, found: &Path) -> io::Result<File> {
+        let (files, what) = &self.record;
+        files.open(what, found)
+    }
+
     /// What stands in the file that [`locate`](Root::locate) found: at most `limit` bytes.
     ///
     /// # Errors
     /// [`NoFile`] says why it is not to be read.
     pub fn read(&self, found: &Path, limit: usize) -> Result<Vec<u8>, NoFile> {
-        let (file, limit) = (File::open(found)?, limit as u64);
+        let (file, limit) = (self.open(found)?, limit as u64);
         let bytes = file.metadata()?.len();
         if bytes > limit {
             return Err(NoFile::TooLarge { bytes, limit });

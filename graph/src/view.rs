@@ -51,10 +51,10 @@ pub enum Stereo {
     /// Whatever an eye has of its own is drawn for one eye and then for the other, into images of their own.
     MultiPass,
     /// Both eyes' images lie side by side in one of twice the width; each draw is recorded for the left half and then for the
-    /// right one, and clip distances cut what reaches over the seam.
+    /// right one, each with its viewport and scissor.
     DoubleWide,
     /// Each draw has twice the instances, every other one for the right eye: into layers of one image where vertex shaders
-    /// can choose the layer, else into halves as in `DoubleWide`.
+    /// can choose the layer, else into halves, where a clip distance cuts what reaches over the seam.
     Instanced,
     /// Both eyes' images are layers of one, and the device draws everything into each of them (`viewMask`).
     Multiview,
@@ -101,22 +101,27 @@ impl Stereo {
             Stereo::Multiview if device.refuted_multiview => {
                 Some("it says that it draws several views at once, and a test showed that it doesn't".to_owned())
             }
+            Stereo::Multiview if device.untested_multiview => {
+                Some("it says that it draws several views at once, and that couldn't be tested".to_owned())
+            }
             Stereo::Multiview if device.max_multiview_views < 2 => {
                 Some(format!("it draws {} views at once, and two are needed", device.max_multiview_views))
             }
-            Stereo::DoubleWide | Stereo::Instanced if device.max_clip_distances < Stereo::CLIP_DISTANCES => {
-                Some(format!(
-                    "its shaders have {} clip distances, and {} are needed",
-                    device.max_clip_distances,
-                    Stereo::CLIP_DISTANCES
-                ))
-            }
+            Stereo::Instanced if self.form(Some(device)) == Some(EyeForm::Halves) => match device.max_clip_distances {
+                None => Some(
+                    "its profile doesn't say that vertex shaders can choose the layer, nor how many clip distances shaders \
+                     have, and one of the two is needed"
+                        .to_owned(),
+                ),
+                Some(0) => Some(
+                    "its vertex shaders can't choose the layer and have no clip distance, and one of the two is needed"
+                        .to_owned(),
+                ),
+                Some(_) => None,
+            },
             _ => None,
         }
     }
-
-    /// Clip distances that `DoubleWide` and `Instanced` take: one tells fragments the eye, one cuts at the seam.
-    pub const CLIP_DISTANCES: u32 = 2;
 
     /// The first of `wanted` that `device` can draw; else why it can't draw any of them.
     ///

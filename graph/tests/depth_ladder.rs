@@ -10,6 +10,7 @@ use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8
 use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Output, Resolve, ResolveWay, Resource};
 use framewright_graph::plan::{Cause, Plan, RenderScope, Work};
 use framewright_graph::verify::verify;
+use framewright_graph::view::{EyeForm, Stereo};
 use framewright_graph::vocabulary::{CompareOp, LoadOp, ResolveMode, StoreOp, Usage};
 use raster::Raster;
 use std::path::Path;
@@ -178,6 +179,28 @@ fn iq_14_a_mode_that_the_device_has_is_folded_into_the_scope_that_drew_the_depth
         assert_eq!((resolve.mode, plan.totals.inserted_passes), (mode, 0));
         assert_eq!(because(&resolve.cause), "`stripes` samples `depth` and it has 4 samples, `resolve: …`");
     }
+}
+
+#[test]
+fn a_mode_that_the_device_has_for_one_layer_only_is_drawn_for_both_eyes_layers_and_the_reason_said() {
+    let flat = resolving(&[ResolveMode::SampleZero]);
+    let device = Profile { refuted_layered_depth_resolve: vec![ResolveMode::SampleZero], ..flat.clone() };
+    let mut frame = Stripes::new(4).frame(Some(Some(ResolveMode::SampleZero)));
+    let inserted =
+        |frame: &Frame, device: &Profile| on(frame, device).expect("the frame is legal").totals.inserted_passes;
+    // Of one layer it is right.
+    assert_eq!((inserted(&frame, &flat), inserted(&frame, &device)), (0, 0));
+    frame.stereo = Stereo::Multiview;
+    for image in &mut frame.images {
+        image.eyes = Some(EyeForm::Layers);
+    }
+    assert_eq!(inserted(&frame, &flat), 0);
+    let plan = on(&frame, &device).expect("the frame is legal");
+    assert_eq!(plan.totals.inserted_passes, 1, "{}", plan.tree());
+    let resolved = plan.images.iter().find(|image| *image.name == *"depth (resolved)").expect("it is made");
+    let said = "by a draw: `a device for tests` claims to resolve depth of several layers by SAMPLE_ZERO, and a test showed \
+                that it doesn't";
+    assert!(because(&resolved.cause).ends_with(said), "{}", plan.tree());
 }
 
 #[test]

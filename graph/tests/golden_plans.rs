@@ -8,9 +8,10 @@ mod table;
 
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe::{self, Document, PipelineFiles, SettingKind};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::frame::Frame;
+use framewright_graph::plan::{Image, Pass, Plan, Resource, Role, Sharing, StepId, Totals, Work};
 use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
@@ -101,6 +102,134 @@ fn every_shipped_pipeline_makes_the_plans_that_were_reviewed() {
             description => format!("accept with {ACCEPT}"),
         }, { insta::assert_snapshot!(name, plan.tree()) });
     }
+}
+
+/// What `verify` has nothing against without one barrier.
+fn needless(name: &str, plan: &Plan) -> Vec<String> {
+    let mut needless = Vec::new();
+    for (step, described) in plan.steps.iter().enumerate() {
+        let (images, memory) = (described.image_barriers.len(), described.memory_barriers.len());
+        for barrier in 0..images + memory {
+            let mut without = plan.clone();
+            let what = match barrier.checked_sub(images) {
+                None => {
+                    let barrier = without.steps[step].image_barriers.remove(barrier);
+                    format!("`{}`, {:?}", plan.image(barrier.image).name, barrier.hazard)
+                }
+                Some(at) => format!("{:?}", without.steps[step].memory_barriers.remove(at)),
+            };
+            let Totals { transient_bytes, placed_bytes, live_peak_bytes, kept_bytes, .. } = plan.totals;
+            without.totals =
+                Totals { transient_bytes, placed_bytes, live_peak_bytes, kept_bytes, ..Totals::count(&without.steps) };
+            if verify(&without).is_empty() {
+                needless.push(format!("{name}: step {step}: {what}"));
+            }
+        }
+    }
+    needless
+}
+
+#[test]
+fn no_barrier_of_a_reviewed_plan_can_be_left_out() {
+    let (_, lavapipe) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
+    let one_queue = Profile::from_ron(lavapipe).expect("shipped profiles are read");
+    let queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive };
+    let devices = [Profile { queues, local_read: true, ..one_queue.clone() }, one_queue];
+    let mut found = Vec::new();
+    for (file, (name, set, facts)) in all() {
+        let inputs = Inputs { set: &set, facts, facts_known: true, ..INPUTS };
+        let frame = expanded(&file, &inputs);
+        for device in &devices {
+            let plan = compile(&frame, device, &mut Estimated(device), &Options::default());
+            found.extend(needless(&name, &plan.unwrap_or_else(|wrong| panic!("{name}: {wrong:?}"))));
+        }
+    }
+    assert!(found.is_empty(), "{} barriers that nobody misses:\n{}", found.len(), found.join("\n"));
+}
+
+/// Whether the work of a step touches an image or a buffer.
+fn touches(work: &Work, resource: Resource) -> bool {
+    let by_passes = |passes: &[Pass]| {
+        passes.iter().any(|pass| {
+            let images = pass.accesses.iter().map(|access| Resource::Image(access.image));
+            images.chain(pass.buffers.iter().map(|access| Resource::Buffer(access.buffer))).any(|it| it == resource)
+        })
+    };
+    match work {
+        Work::Render(scope) => {
+            let mut attached = scope.color.iter().chain(&scope.depth).chain(&scope.stencil).flat_map(|attachment| {
+                [Some(attachment.image), attachment.resolve.as_ref().map(|resolve| resolve.image)]
+            });
+            attached.any(|image| image.map(Resource::Image) == Some(resource)) || by_passes(&scope.passes)
+        }
+        Work::Dispatch(pass) | Work::Custom(pass) => by_passes(std::slice::from_ref(pass)),
+        Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
+            [&transfer.source, &transfer.target].iter().any(|side| side.resource() == resource)
+        }
+        Work::Fill(fill) => fill.target.resource() == resource,
+        Work::Export => true,
+    }
+}
+
+#[test]
+fn every_barrier_names_the_first_step_that_needs_it_and_not_the_step_where_it_stands() {
+    let (_, lavapipe) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
+    let device = Profile::from_ron(lavapipe).expect("shipped profiles are read");
+    let mut earlier = 0;
+    for (file, (name, set, facts)) in all() {
+        let inputs = Inputs { set: &set, facts, facts_known: true, ..INPUTS };
+        let plan = compile(&expanded(&file, &inputs), &device, &mut Estimated(&device), &Options::default());
+        let plan = plan.unwrap_or_else(|wrong| panic!("{name}: {wrong:?}"));
+        for (number, step) in plan.steps.iter().enumerate() {
+            let images = step.image_barriers.iter().map(|it| (Resource::Image(it.image), it.needed_by));
+            let buffers = step.memory_barriers.iter().flat_map(|it| &it.buffers);
+            for (resource, needed_by) in images.chain(buffers.map(|it| (Resource::Buffer(it.buffer), it.needed_by))) {
+                // What comes after the frame is no step.
+                let Some(StepId(needed_by)) = needed_by else { continue };
+                let what = format!("{name}: a barrier of {resource:?} before step {number}, needed by {needed_by}");
+                assert!(needed_by as usize >= number, "{what}");
+                assert!(touches(&plan.steps[needed_by as usize].work, resource), "{what}\n{}", plan.tree());
+                // Others of its parts may be touched in between.
+                let cut = matches!(resource, Resource::Image(id) if plan.image(id).layers * plan.image(id).mips > 1);
+                let between = &plan.steps[number..if cut { number } else { needed_by as usize }];
+                assert!(!between.iter().any(|step| touches(&step.work, resource)), "{what}\n{}", plan.tree());
+                earlier += usize::from(needed_by as usize > number);
+            }
+        }
+    }
+    assert!(earlier > 50, "{earlier} barriers stand before an earlier step than the one that needs them");
+}
+
+/// The first barrier of what takes memory over may stand before its lifetime, and not within the lifetime of another
+/// that lies on the same bytes.
+#[test]
+fn memory_is_free_where_the_first_barrier_of_what_takes_it_stands() {
+    let (_, lavapipe) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
+    let device = Profile::from_ron(lavapipe).expect("shipped profiles are read");
+    let mut earlier = 0;
+    for (file, (name, set, facts)) in all() {
+        let inputs = Inputs { set: &set, facts, facts_known: true, ..INPUTS };
+        let plan = compile(&expanded(&file, &inputs), &device, &mut Estimated(&device), &Options::default());
+        let plan = plan.unwrap_or_else(|wrong| panic!("{name}: {wrong:?}"));
+        let placed = |image: &Image| match &image.role {
+            Role::Transient(placement) => Some(placement.clone()),
+            _ => None,
+        };
+        for image in &plan.images {
+            let Some(own) = placed(image) else { continue };
+            let mut steps = plan.steps.iter().zip(0..);
+            let first = steps.find(|(step, _)| step.image_barriers.iter().any(|it| it.image == image.id));
+            let Some((_, first)) = first.filter(|(_, first)| *first < own.lifetime[0].0) else { continue };
+            earlier += 1;
+            for other in plan.images.iter().filter(|other| other.id != image.id) {
+                let Some(other) = placed(other).filter(|it| it.heap == own.heap) else { continue };
+                let meet = other.offset < own.offset + own.bytes && own.offset < other.offset + other.bytes;
+                let lives = other.lifetime[0].0 <= own.lifetime[0].0 && other.lifetime[1].0 >= first;
+                assert!(!meet || !lives, "{name}: `{}` before step {first}\n{}", image.name, plan.tree());
+            }
+        }
+    }
+    assert!(earlier > 50, "{earlier} images have their first barrier before their lifetime");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Estimated;
 use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM};
 use framewright_graph::frame::{Blend, Frame, StencilState};
-use framewright_graph::plan::Plan;
+use framewright_graph::plan::{Plan, Side, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Aspects, CompareOp, Layout, StencilOp, Subresources};
 use raster::Raster;
@@ -56,6 +56,47 @@ fn a_layer_that_is_cleared_after_a_full_screen_draw_leaves_the_other_as_it_is() 
     compiled(&frame).expect("both layers are written");
 }
 
+/// `one` clears layer 0 of `many`, of 2 layers and 4 samples; `more` clears layer 1, if it is there; `show` samples layer 0.
+fn one_layer_read(more: bool) -> Frame {
+    let mut raster = Raster::default();
+    let many = raster.image("many", R8G8B8A8_UNORM, 4);
+    let screen = raster.image("screen", R8G8B8A8_UNORM, 1);
+    raster.objects("one").clear(many);
+    if more {
+        raster.objects("more").clear(many);
+    }
+    raster.full_screen("show").sample(many).color(screen, Blend::Replace);
+    let mut frame = raster.output(screen);
+    frame.images[0].layers = 2;
+    for (pass, number) in frame.passes.iter_mut().zip(0..) {
+        pass.color.iter_mut().filter(|target| target.image == many).for_each(|target| target.range = layer(number));
+        pass.sampled.iter_mut().for_each(|sampled| sampled.range = layer(0));
+    }
+    frame
+}
+
+fn resolved_layers(plan: &Plan) -> Vec<(u32, u32)> {
+    let resolves = plan.steps.iter().filter_map(|step| match &step.work {
+        Work::Resolve(resolve) => Some(resolve),
+        _ => None,
+    });
+    let part = |side: &Side| match side {
+        Side::Image { range, .. } => (range.base_layer, range.layers),
+        Side::Buffer { .. } => panic!("only images are resolved"),
+    };
+    resolves.map(|resolve| part(&resolve.source)).collect()
+}
+
+#[test]
+fn a_resolve_of_an_array_covers_the_layers_that_are_written_and_read() {
+    for more in [false, true] {
+        let plan = compiled(&one_layer_read(more)).expect("it is legal");
+        assert_eq!(resolved_layers(&plan), [(0, 1)], "{}", plan.tree());
+    }
+    let plan = compiled(&two_layers(layer(0))).expect("it is legal");
+    assert_eq!(resolved_layers(&plan), [(0, 2)], "{}", plan.tree());
+}
+
 /// A triangle meets one layer, unless its shader chooses others.
 #[test]
 fn a_full_screen_draw_covers_no_more_than_one_layer() {
@@ -99,6 +140,6 @@ fn several_layers_of_multisampled_depth_are_not_resolved() {
     frame.images[0].layers = 2;
     assert_eq!(
         compiled(&frame).map(|plan| plan.tree()).expect_err("nothing could resolve it"),
-        "`depth` is an output and has 4 samples; several layers can't be resolved at once"
+        "`depth` is an output and has 4 samples; an image of several layers can't be resolved, whichever of them is read"
     );
 }

@@ -101,6 +101,27 @@ fn without_local_reads_it_is_sampled_and_said() {
     assert!(plan.images.iter().all(|image| !image.usage.contains(Usage::INPUT_ATTACHMENT)));
 }
 
+/// docs/synchronization.md says what Vulkan asks for: this is the safe side of it.
+#[test]
+fn a_colour_write_after_a_local_read_of_the_same_scope_stands_behind_a_local_barrier() {
+    let mut raster = Raster::default();
+    let [x, y] = ["x", "y"].map(|name| raster.image(name, R16G16B16A16_SFLOAT, 1));
+    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+    raster.full_screen("one").color(x, Blend::Replace);
+    raster.full_screen("two").sample(x).color(y, Blend::Replace);
+    raster.full_screen("three").color(x, Blend::Additive);
+    raster.full_screen("four").sample(x).color(y, Blend::Additive);
+    raster.full_screen("show").sample(x).sample(y).color(screen, Blend::Replace);
+    let mut frame = raster.output(screen);
+    for pass in [1, 3] {
+        frame.passes[pass].sampled[0].own_pixel = true;
+    }
+    let plan = compiled(&frame, &device(true));
+    let [first, _] = scopes(&plan)[..] else { panic!("{}", plan.tree()) };
+    let barriers: Vec<(&str, bool)> = first.passes.iter().map(|pass| (&*pass.name, pass.local_barrier)).collect();
+    assert_eq!(barriers, [("one", false), ("two", true), ("three", true), ("four", true)]);
+}
+
 #[test]
 fn what_cannot_be_read_locally_is_sampled_and_said() {
     // Several samples are resolved into another image.
@@ -112,7 +133,7 @@ fn what_cannot_be_read_locally_is_sampled_and_said() {
     frame.passes[1].sampled[1].own_pixel = false;
     let plan = compiled(&frame, &device(true));
     assert_eq!(scopes(&plan).len(), 3);
-    assert!(note(&plan, "light").contains("it uses `normal`, which the scope before it writes"));
+    assert!(note(&plan, "light").contains("it samples `normal`, which the scope before it writes"));
     // The scope would have too many attachments.
     let plan = compiled(&deferred(1), &Profile { max_color_attachments: 2, ..device(true) });
     assert_eq!(scopes(&plan).len(), 3);

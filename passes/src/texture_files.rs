@@ -7,7 +7,7 @@ use framewright_graph::texture::{
 };
 use half::f16;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
-use std::fs::{self, File};
+use std::fs;
 use std::io::BufReader;
 use std::path::PathBuf;
 
@@ -63,8 +63,10 @@ impl TextureFiles {
 
     /// The decoder of a picture whose size is within the limits, and its kind.
     fn open(&self, path: &str) -> Result<(Decoder, ImageFormat), TextureProblem> {
-        let file =
-            File::open(self.locate(path)?).map_err(|error| TextureProblem::Unreadable { reason: error.to_string() })?;
+        let file = self
+            .root
+            .open(&self.locate(path)?)
+            .map_err(|error| TextureProblem::Unreadable { reason: error.to_string() })?;
         let mut reader = ImageReader::new(BufReader::new(file))
             .with_guessed_format()
             .map_err(|error| TextureProblem::Unreadable { reason: error.to_string() })?;

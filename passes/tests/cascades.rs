@@ -25,14 +25,14 @@ fn seen(scene: &Scene, camera: &Camera, index: u8, of: u8) -> Seen {
 /// The camera, moved by metres and turned by radians.
 fn moved(camera: &Camera, by: DVec3, turn: f64) -> Camera {
     let turned = DMat4::from_quat(DQuat::from_axis_angle(DVec3::new(0.2, 0.9, 0.1).normalize(), turn));
-    let place = DMat4::from_translation(camera.position().as_dvec3());
-    let transform = DMat4::from_translation(by) * place * turned * place.inverse() * camera.transform.as_dmat4();
-    Camera { transform: transform.as_mat4(), ..*camera }
+    let place = DMat4::from_translation(camera.position());
+    let transform = DMat4::from_translation(by) * place * turned * place.inverse() * camera.transform;
+    Camera { transform, ..*camera }
 }
 
 /// Where a place of the scene lies in the map, in texels, and its depth there.
 fn in_map(seen: &Seen, camera: &Camera, place: DVec3) -> (DVec2, f64) {
-    let clip = seen.world_to_clip * (place - camera.position().as_dvec3()).extend(1.0);
+    let clip = seen.world_to_clip * (place - camera.position()).extend(1.0);
     ((clip.truncate().truncate() * 0.5 + 0.5) * f64::from(TEXELS), clip.z)
 }
 
@@ -63,8 +63,8 @@ fn a_texel_covers_the_same_place_wherever_the_camera_goes_and_looks() {
 fn every_place_that_is_seen_within_the_reach_lies_in_a_map_with_room_for_the_filter() {
     let scene = scene();
     let camera = &scene.camera;
-    let forward = -camera.transform.z_axis.truncate().as_dvec3();
-    let (right, up) = (camera.transform.x_axis.truncate().as_dvec3(), camera.transform.y_axis.truncate().as_dvec3());
+    let forward = -camera.transform.z_axis.truncate();
+    let (right, up) = (camera.transform.x_axis.truncate(), camera.transform.y_axis.truncate());
     let tangent = (f64::from(camera.vertical_fov) * 0.5).tan();
     for of in [1, 2, 4] {
         let maps: Vec<Seen> = (0..of).map(|index| seen(&scene, camera, index, of)).collect();
@@ -74,7 +74,7 @@ fn every_place_that_is_seen_within_the_reach_lies_in_a_map_with_room_for_the_fil
             let ahead = 0.1 + 29.9 * f64::from(number) / 299.0;
             for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (0.0, 0.0), (-1.0, 1.0), (1.0, 1.0)] {
                 let aside = right * (x * ASPECT) + up * y;
-                let place = camera.position().as_dvec3() + (forward + aside * tangent) * ahead;
+                let place = camera.position() + (forward + aside * tangent) * ahead;
                 let room = |seen: &Seen| {
                     let (at, _) = in_map(seen, camera, place);
                     at.min_element().min((f64::from(TEXELS) - at).min_element())
@@ -93,7 +93,7 @@ fn everything_that_may_cast_lies_between_the_sun_and_the_end_of_the_map() {
     let bounds = scene.bounds().expect("there are objects");
     for corner in 0..8 {
         let pick = |axis: usize| if corner >> axis & 1 == 0 { bounds.min[axis] } else { bounds.max[axis] };
-        let (_, depth) = in_map(&seen, &scene.camera, Vec3::new(pick(0), pick(1), pick(2)).as_dvec3());
+        let (_, depth) = in_map(&seen, &scene.camera, DVec3::new(pick(0), pick(1), pick(2)));
         assert!((0.0..=1.0).contains(&depth), "{depth}");
     }
     let to_sun = -Vec3::from(scene.sun.direction).as_dvec3();
@@ -107,7 +107,7 @@ fn without_a_reach_shadows_go_through_the_whole_scene_and_keep_their_size_in_sma
     let whole = |camera: &Camera| seen_by_sun(&scene, camera, ASPECT, Cascade { reach: None, ..cascade(0, 1) }, TEXELS);
     let bounds = scene.bounds().expect("there are objects");
     let reach = whole(&scene.camera).reach;
-    let needed = scene.camera.position().as_dvec3().distance(bounds.center().as_dvec3()) + bounds.radius();
+    let needed = scene.camera.position().distance(bounds.center()) + bounds.radius();
     assert!((needed..needed * 1.5).contains(&reach), "{reach}, {needed}");
     let steps = (0..100).map(|step| whole(&moved(&scene.camera, DVec3::X * (f64::from(step) * 0.01), 0.0)).reach);
     let mut reaches: Vec<f64> = steps.collect();

@@ -2,7 +2,7 @@
 
 use framewright_passes::draw::clusters::Clusters;
 use framewright_passes::scene::{Camera, PointLight, Scene, load};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -12,14 +12,14 @@ fn scene(point_lights: Vec<PointLight>) -> Scene {
 }
 
 fn light(position: [f32; 3], range: Option<f32>) -> PointLight {
-    PointLight { position, color: [1.0; 3], intensity: 1.0, range, shadows: false }
+    PointLight { position: position.map(f64::from), color: [1.0; 3], intensity: 1.0, range, shadows: false }
 }
 
 /// A place that the camera sees: `x` and `y` of the picture from −1 to 1, and metres along its axis.
 fn seen(camera: &Camera, aspect: f64, [x, y]: [f64; 2], depth: f64) -> DVec3 {
     let tangent = (f64::from(camera.vertical_fov) * 0.5).tan();
     let from_camera = DVec3::new(x * tangent * aspect, y * tangent, -1.0) * depth;
-    camera.transform.as_dmat4().transform_vector3(from_camera)
+    camera.transform.transform_vector3(from_camera)
 }
 
 prop_compose! {
@@ -60,13 +60,13 @@ proptest! {
         let before = places.into_iter().map(|(at, depth)| seen(&camera, aspect, at, near * (1e5_f64).powf(depth)));
         let back = others.into_iter().map(|([right, up, back], metres)| {
             let back = back.max(-1.0) * if metres && back > 0.0 { 1.0 } else { near };
-            camera.transform.as_dmat4().transform_vector3(DVec3::new(right, up, back))
+            camera.transform.transform_vector3(DVec3::new(right, up, back))
         });
         for place in before.chain(back) {
             let found = clusters.at(place);
             for (order, number) in clusters.order.iter().enumerate().skip(clusters.everywhere as usize) {
                 let light = &scene.point_lights[*number as usize];
-                let from_camera = Vec3::from(light.position).as_dvec3() - camera.position().as_dvec3();
+                let from_camera = DVec3::from(light.position) - camera.position();
                 let reaches = light.falloff(from_camera.distance(place)) > 0.0;
                 prop_assert!(!reaches || found.contains(&(order as u32)), "{place}: {light:?} is missing");
             }
@@ -99,13 +99,13 @@ fn a_thousand_lights_of_small_range_are_few_at_any_place() {
     let (mut looked_at, mut reaching, mut places) = (0, 0, 0);
     for step in 0..4000 {
         let (x, y) = (f64::from(step % 63) / 31.5 - 1.0, f64::from(step / 63) / 32.0 - 1.0);
-        let eye = scene.camera.position().as_dvec3();
+        let eye = scene.camera.position();
         let towards = seen(&scene.camera, 1.5, [x, y], 1.0);
         // Where the floor is seen.
         let along = -eye.y / towards.y;
         if towards.y < 0.0 && along < 30.0 {
             let place = towards * along;
-            let distance = |light: &&PointLight| (Vec3::from(light.position).as_dvec3() - eye).distance(place);
+            let distance = |light: &&PointLight| (DVec3::from(light.position) - eye).distance(place);
             looked_at += clusters.at(place).len();
             reaching += scene.point_lights.iter().filter(|light| light.falloff(distance(light)) > 0.0).count();
             places += 1;

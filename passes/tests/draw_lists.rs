@@ -3,7 +3,7 @@
 use framewright_graph::frame::DrawList;
 use framewright_passes::draw::draw_order;
 use framewright_passes::scene::{AlphaMode, Bounds, Camera, Material, Mesh, Movement, Object, Scene, Sky, Sun};
-use glam::{DVec3, Mat4, Vec3};
+use glam::{DMat4, DVec3, Vec3};
 
 const BLACK: [f32; 3] = [0.0; 3];
 const OPAQUE: usize = 0;
@@ -26,10 +26,10 @@ fn scene(objects: &[(usize, usize, Vec3)]) -> Scene {
         normals: vec![[0.0, 0.0, 1.0]; 3],
         uvs: vec![[0.0, 0.0]; 3],
         indices: vec![0, 1, 2],
-        bounds: Bounds { min: Vec3::ZERO, max: Vec3::new(1.0, 1.0, 0.0) },
+        bounds: Bounds { min: DVec3::ZERO, max: DVec3::new(1.0, 1.0, 0.0) },
     };
-    let object = |&(mesh, material, at)| {
-        let transform = Mat4::from_translation(at);
+    let object = |&(mesh, material, at): &(usize, usize, Vec3)| {
+        let transform = DMat4::from_translation(at.as_dvec3());
         Object { name: String::new(), mesh, material, transform, cross_fade: 1.0, movement: Movement::default() }
     };
     let camera = Camera::look_at(DVec3::Z * 10.0, DVec3::ZERO, DVec3::Y, 1.0, 0.1);
@@ -47,7 +47,7 @@ fn scene(objects: &[(usize, usize, Vec3)]) -> Scene {
         ambient: BLACK,
         point_lights: Vec::new(),
         sky: Sky { zenith: BLACK, horizon: BLACK, ground: BLACK },
-        camera: camera.unwrap_or_else(|| Camera::framing(Bounds { min: Vec3::ZERO, max: Vec3::ONE })),
+        camera: camera.unwrap_or_else(|| Camera::framing(Bounds { min: DVec3::ZERO, max: DVec3::ONE })),
         cameras: Vec::new(),
         notes: Vec::new(),
     }

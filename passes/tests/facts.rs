@@ -44,6 +44,18 @@ fn what_is_assumed_without_a_scene_is_the_most_that_a_scene_may_hold() {
 }
 
 #[test]
+fn the_range_of_depth_is_the_size_of_all_that_there_is_in_near_distances() {
+    // The camera stands at (0, 1, 5), and is part of it: 1 m wide, 1.5 m high and 5.5 m deep.
+    let far = scene(WHITE_CUBE).facts().depth_range.expect("known");
+    let size = DVec3::new(1.0, 1.5, 5.5).length();
+    assert!(is_close(far, size / f64::from(0.1_f32)), "{far}");
+    let near =
+        WHITE_CUBE.to_owned() + r#", cameras: [(name: "macro", position: (0, 1, 1), target: (0, 0, 0), near: 0.001)]"#;
+    let far = scene(&near).facts().depth_range.expect("known");
+    assert!(is_close(far, size / f64::from(0.001_f32)), "{far}");
+}
+
+#[test]
 fn a_scene_without_light_shows_nothing() {
     assert_eq!(peak(&night(WHITE_CUBE)), 0.0);
     let facts = night(WHITE_CUBE).facts();

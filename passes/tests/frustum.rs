@@ -14,6 +14,7 @@ fn empty() -> Scene {
 }
 
 fn object(mesh: usize, transform: Mat4) -> Object {
+    let transform = transform.as_dmat4();
     Object { name: String::new(), mesh, material: 0, transform, cross_fade: 1.0, movement: Movement::default() }
 }
 
@@ -48,7 +49,7 @@ impl Random {
 /// Whether any triangle of an object shows in the picture: each is cut by the planes of what the camera sees, in its space.
 fn shows(scene: &Scene, camera: &Camera, aspect: f64, object: &Object) -> bool {
     let mesh = &scene.meshes[object.mesh];
-    let to_view = camera.transform.as_dmat4().inverse() * object.transform.as_dmat4();
+    let to_view = camera.transform.inverse() * object.transform;
     let tangent = (f64::from(camera.vertical_fov) * 0.5).tan();
     // Each is positive on the inner side: the four borders and the near plane.
     let planes: [&dyn Fn(DVec3) -> f64; 5] = [

@@ -1,6 +1,6 @@
 //! Claims about the guard that radiance passes through before it is stored.
 
-use framewright_passes::twin::radiance::{LARGEST_HALF, guard_alpha, guard_radiance};
+use framewright_passes::twin::radiance::{LARGEST_HALF, guard_alpha, guard_radiance, guard_signed};
 
 #[test]
 fn what_a_half_float_can_hold_passes_unchanged() {
@@ -28,5 +28,15 @@ fn infinity_and_finite_overflow_become_the_largest_half() {
 fn alpha_ends_between_zero_and_one() {
     for (alpha, guarded) in [(f64::NAN, 0.0), (-1.0, 0.0), (0.25, 0.25), (1.0, 1.0), (1.5, 1.0), (f64::INFINITY, 1.0)] {
         assert_eq!(guard_alpha(alpha), guarded);
+    }
+}
+
+#[test]
+fn numbers_that_may_be_negative_keep_their_sign_and_end_where_half_floats_end() {
+    for number in [0.0, -1.0, 12.5, -LARGEST_HALF, LARGEST_HALF, -f64::from(f32::from_bits(1))] {
+        assert_eq!(guard_signed(number), number);
+    }
+    for (number, guarded) in [(f64::NAN, 0.0), (1e30, LARGEST_HALF), (f64::NEG_INFINITY, -LARGEST_HALF)] {
+        assert_eq!(guard_signed(number), guarded);
     }
 }

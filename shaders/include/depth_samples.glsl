@@ -4,11 +4,12 @@
 #ifndef FRAMEWRIGHT_DEPTH_SAMPLES
 #define FRAMEWRIGHT_DEPTH_SAMPLES
 
+#include "include/radiance.glsl"
 #include "include/texture.glsl"
 
 // A sample of the texel around a place of the part `st`, 0 to 1 from its upper left corner.
 float depth_of(sampler2DMS depth, vec4 st, vec2 uv, int number) {
-    return found_in(depth, st, uv, 0, number).r;
+    return guard_alpha(found_in(depth, st, uv, 0, number).r);
 }
 
 float least_depth(sampler2DMS depth, vec4 st, vec2 uv) {

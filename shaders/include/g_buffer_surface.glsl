@@ -11,8 +11,8 @@ layout(location = 1) out vec2 g_normal;
 layout(location = 2) out vec4 g_emissive;
 
 void write_surface(uint object_index, vec3 base_color, vec3 normal) {
-    g_base_color = vec4(base_color, 1.0);
-    g_normal = octahedral(direction_of(gl_FrontFacing ? normal : -normal));
+    g_base_color = vec4(guard_radiance(base_color), 1.0);
+    g_normal = guard_signed(octahedral(direction_of(gl_FrontFacing ? normal : -normal)));
     g_emissive = vec4(guard_radiance(objects.object[object_index].emissive), 1.0);
 }
 

@@ -4,6 +4,7 @@
 #ifndef FRAMEWRIGHT_MOTION
 #define FRAMEWRIGHT_MOTION
 
+#include "include/radiance.glsl"
 #include "include/scene.glsl"
 
 layout(set = 1, binding = 5, std430) readonly buffer Motion {
@@ -25,7 +26,7 @@ vec2 motion_between(vec3 now, vec3 before) {
     }
     // Half, since clip space is two wide and two high.
     const vec2 moved = 0.5 * (before.xy / before.z - now.xy / now.z);
-    return clamp(moved, -NOWHERE, NOWHERE);
+    return clamp(guard_signed(moved), -NOWHERE, NOWHERE);
 }
 
 #endif

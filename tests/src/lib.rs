@@ -11,8 +11,10 @@
 //! - [`optima`]: what small frames cost at least.
 //! - [`shipped`]: the shipped pipelines, as frames.
 //! - [`agreement`]: what the GPU drew, held against it.
+//! - [`drivers`]: the software drivers and validation layers of this machine.
 
 pub mod agreement;
+pub mod drivers;
 pub mod frames;
 pub mod happens_before;
 pub mod incidents;

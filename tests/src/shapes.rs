@@ -1,7 +1,7 @@
 //! Simple scenes.
 
 use framewright_passes::scene::{AlphaMode, Bounds, Camera, Material, Mesh, Movement, Object, Scene, Sky, Sun};
-use glam::{DVec3, Mat4, Vec3};
+use glam::{DMat4, DVec3, Mat4};
 
 /// A scene without objects or light, for passes that look at none.
 #[must_use]
@@ -16,7 +16,7 @@ pub fn empty_scene() -> Scene {
         ambient: black,
         point_lights: Vec::new(),
         sky: Sky { zenith: black, horizon: black, ground: black },
-        camera: Camera::framing(Bounds { min: Vec3::ZERO, max: Vec3::ONE }),
+        camera: Camera::framing(Bounds { min: DVec3::ZERO, max: DVec3::ONE }),
         cameras: Vec::new(),
         notes: Vec::new(),
     }
@@ -36,7 +36,7 @@ pub fn material(base_color: [f32; 4]) -> Material {
 }
 
 fn mesh(positions: Vec<[f32; 3]>, normals: Vec<[f32; 3]>, uvs: Vec<[f32; 2]>, indices: Vec<u32>) -> Mesh {
-    let bounds = Bounds::of(&positions).unwrap_or(Bounds { min: Vec3::ZERO, max: Vec3::ZERO });
+    let bounds = Bounds::of(&positions).unwrap_or(Bounds { min: DVec3::ZERO, max: DVec3::ZERO });
     Mesh { normals, positions, uvs, indices, bounds }
 }
 
@@ -77,11 +77,11 @@ pub fn sphere(rings: u32) -> Mesh {
 /// A scene of (mesh, material, transform) without light, seen from z = 5 towards −z with 60° from border to border.
 #[must_use]
 pub fn scene(meshes: Vec<Mesh>, materials: Vec<Material>, objects: Vec<(usize, usize, Mat4)>) -> Scene {
-    let object = |(mesh, material, transform)| Object {
+    let object = |(mesh, material, transform): (usize, usize, Mat4)| Object {
         name: String::new(),
         mesh,
         material,
-        transform,
+        transform: transform.as_dmat4(),
         cross_fade: 1.0,
         movement: Movement::default(),
     };
@@ -90,7 +90,7 @@ pub fn scene(meshes: Vec<Mesh>, materials: Vec<Material>, objects: Vec<(usize, u
         materials,
         objects: objects.into_iter().map(object).collect(),
         camera: Camera {
-            transform: Mat4::from_translation(Vec3::new(0.0, 0.0, 5.0)),
+            transform: DMat4::from_translation(DVec3::new(0.0, 0.0, 5.0)),
             vertical_fov: std::f32::consts::FRAC_PI_3,
             near: 0.1,
             movement: Movement::default(),

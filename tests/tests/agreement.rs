@@ -7,9 +7,10 @@ use framewright_tests::raycast::texture::decode;
 use framewright_tests::render::{Setup, device, in_repository, render};
 use framewright_tests::shapes::{material, scene, square};
 use framewright_vulkan::Device;
-use glam::{Mat4, Vec3};
+use glam::{DMat4, DVec3, Mat4, Vec3};
 use std::error::Error;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// The share of interior pixels that must agree.
 const SHARE: f64 = 0.995;
@@ -68,7 +69,7 @@ fn every_shipped_scene_is_drawn_as_the_ray_caster_sees_it() -> Result<(), Box<dy
 fn a_scene_a_million_metres_from_its_origin_is_drawn_where_it_is() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let mut scene = load(&in_repository("tests/glb/transforms.glb"))?;
-    let away = Mat4::from_translation(Vec3::new(1e6, -1e6, 1e6));
+    let away = DMat4::from_translation(DVec3::new(1e6, -1e6, 1e6));
     for object in &mut scene.objects {
         object.transform = away * object.transform;
     }
@@ -97,13 +98,13 @@ fn wrapped_squares() -> Scene {
         let sampler = Sampler { wrap_u: wraps[number % 3], wrap_v: wraps[number / 3], ..Sampler::default() };
         let sampler = if number == 4 { Sampler { magnify: Filter::Nearest, ..sampler } } else { sampler };
         let rgba8 =
-            vec![255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255, 0, 0, 0, 255, 90, 90, 0, 255];
+            [255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255, 0, 0, 0, 255, 90, 90, 0, 255].into();
         scene.textures.push(Texture { name: String::new(), width: 3, height: 2, rgba8, sampler });
         let mut material = material([0.9, 0.6, 0.8, 1.0]);
         material.base_color_texture = Some(number);
         scene.materials.push(material);
         let at = Vec3::new((number % 3) as f32 - 1.0, (number / 3) as f32 - 1.0, 0.0) * 1.8;
-        let transform = Mat4::from_translation(at) * Mat4::from_scale(Vec3::splat(0.8));
+        let transform = (Mat4::from_translation(at) * Mat4::from_scale(Vec3::splat(0.8))).as_dmat4();
         scene.objects.push(Object {
             name: String::new(),
             mesh: 0,
@@ -139,13 +140,13 @@ fn the_comparison_notices_what_is_drawn_wrongly() -> Result<(), Box<dyn Error>> 
             samplers.for_each(|it| (it.wrap_u, it.wrap_v) = (it.wrap_v, it.wrap_u));
         }),
         ("texels as if they were linear", |scene| {
-            let texels = scene.textures.iter_mut().flat_map(|texture| &mut texture.rgba8);
+            let texels = scene.textures.iter_mut().flat_map(|texture| Arc::make_mut(&mut texture.rgba8));
             texels.for_each(|texel| *texel = (255.0 * decode(f64::from(*texel) / 255.0)) as u8);
         }),
         ("another order of objects", |scene| scene.objects.reverse()),
         ("back faces for front faces", |scene| {
-            let mirror = Mat4::from_scale(Vec3::new(1.0, 1.0, -1.0));
-            let turn = Mat4::from_rotation_y(std::f32::consts::PI);
+            let mirror = DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0));
+            let turn = DMat4::from_rotation_y(std::f64::consts::PI);
             scene.objects.iter_mut().for_each(|object| object.transform *= mirror * turn);
         }),
     ];

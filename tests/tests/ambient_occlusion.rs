@@ -47,7 +47,7 @@ fn drawn(scene: &Scene, radius: &str, strength: &str) -> Result<Option<Drawn>, B
         words.skip(channel).step_by(4).map(|word| f64::from(f32::from_ne_bytes(*word))).collect()
     };
     let camera = &scene.camera;
-    let turned = DMat4::from_mat3(DMat3::from_mat4(camera.transform.as_dmat4()).inverse());
+    let turned = DMat4::from_mat3(DMat3::from_mat4(camera.transform).inverse());
     let aspect = f64::from(EXTENT[0]) / f64::from(EXTENT[1]);
     let normal = channel(1, 0).into_iter().zip(channel(1, 1)).map(|(x, y)| DVec2::new(x, y)).collect();
     let surfaces = Surfaces {

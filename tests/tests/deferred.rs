@@ -5,7 +5,8 @@ use framewright_passes::scene::{Scene, load};
 use framewright_passes::twin::g_buffer::{from_octahedral, octahedral};
 use framewright_passes::twin::tone_mapping::reinhard;
 use framewright_tests::render::{Setup, device, in_repository, render};
-use glam::{DVec2, DVec3};
+use framewright_tests::shapes::{self, material, square};
+use glam::{DVec2, DVec3, Mat4, Vec3};
 use std::error::Error;
 use std::path::Path;
 
@@ -129,4 +130,27 @@ fn the_octahedron_leads_everywhere_and_back() {
     for axis in [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z] {
         assert_eq!(from_octahedral(octahedral(axis)), axis);
     }
+}
+
+/// Of the shipped pipeline for devices with slow memory: along the upper edge of a slanted square that shines, brightness goes
+/// from column to column by small steps, where without smoothing it jumps by the height of a texel.
+#[test]
+fn edges_of_half_the_size_are_smoothed_before_they_are_made_larger() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let mut glow = material([0.0, 0.0, 0.0, 1.0]);
+    glow.emissive = [2.0; 3];
+    let place = Mat4::from_rotation_z(0.12) * Mat4::from_scale(Vec3::splat(1.5));
+    let scene = shapes::scene(vec![square()], vec![glow], vec![(0, 0, place)]);
+    let jumps = |set: &[(&str, &str)]| -> Result<u32, Box<dyn Error>> {
+        let setup = Setup { pipeline: "examples/pipelines/deferred_mobile.ron", set, scene: &scene, extent: EXTENT };
+        let picture = render(device, &setup)?.swap_remove(0);
+        let [width, height] = EXTENT.map(|side| side as usize);
+        let sum = |x: usize| -> u32 { (0..height / 2).map(|y| u32::from(picture.bytes[4 * (y * width + x)])).sum() };
+        let middle = width / 2 - 25..width / 2 + 25;
+        Ok(middle.map(|x| sum(x + 1).abs_diff(sum(x))).max().unwrap_or(0))
+    };
+    let [smooth, rough] = [jumps(&[("bloom", "0")])?, jumps(&[("bloom", "0"), ("anti_aliasing", "false")])?];
+    println!("from column to column at most {smooth} steps, {rough} without anti-aliasing");
+    assert!(2 * smooth < rough, "{smooth} steps from column to column, {rough} without anti-aliasing");
+    Ok(())
 }

@@ -5,7 +5,7 @@ use framewright_passes::twin::lighting::{lit_surface, reflect_light};
 use framewright_tests::raycast::RayCaster;
 use framewright_tests::render::{Setup, device, render};
 use framewright_tests::shapes::{material, scene, square};
-use glam::{DVec2, EulerRot, Mat4, Quat, Vec3};
+use glam::{DVec2, DVec3, EulerRot, Mat4, Quat, Vec3};
 use std::error::Error;
 
 /// Width and height.
@@ -87,10 +87,10 @@ fn the_sun_with_its_highlight_and_ambient_light_are_their_twins() -> Result<(), 
     scene.ambient = [0.1, 0.15, 0.2];
     // Object 1 mirrors the sun right to the camera.
     let mirror = scene.objects[1].transform;
-    let normal = mirror.transform_vector3(Vec3::Z).normalize();
-    let to_camera = (scene.camera.position() - mirror.transform_point3(Vec3::ZERO)).normalize();
+    let normal = mirror.transform_vector3(DVec3::Z).normalize();
+    let to_camera = (scene.camera.position() - mirror.transform_point3(DVec3::ZERO)).normalize();
     let to_sun = 2.0 * normal.dot(to_camera) * normal - to_camera;
-    scene.sun = Sun { direction: (-to_sun).to_array(), color: [30.0, 2.5, 2.0], shadows: false };
+    scene.sun = Sun { direction: (-to_sun).as_vec3().to_array(), color: [30.0, 2.5, 2.0], shadows: false };
     demand_twin(&scene)
 }
 

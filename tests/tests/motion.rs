@@ -48,7 +48,7 @@ fn yard() -> Scene {
     let before = Mat4::from_translation(Vec3::new(0.8, 0.2, 1.0));
     let mut scene = scene(vec![square(), sphere(24)], materials, vec![(0, 0, floor), (1, 1, ball), (0, 2, before)]);
     let hole = [[255, 255, 255, 255], [255, 255, 255, 0], [255, 255, 255, 255], [255, 255, 255, 255]];
-    let (width, height, rgba8) = (2, 2, hole.concat());
+    let (width, height, rgba8) = (2, 2, hole.concat().into());
     scene.textures.push(Texture { name: String::new(), width, height, rgba8, sampler: Default::default() });
     scene.objects[1].movement = Movement { velocity: DVec3::new(2.0, 1.0, -3.0), spin: DVec3::new(0.0, 3.0, 1.0) };
     scene.objects[2].movement = Movement { velocity: DVec3::ZERO, spin: DVec3::new(0.5, 0.0, 4.0) };
@@ -63,7 +63,7 @@ fn seen(scene: &Scene, pixel: usize, shift: [f64; 2]) -> (DVec2, DVec3) {
     let place = middle / DVec2::new(width, height) - DVec2::from(shift);
     let up = (f64::from(scene.camera.vertical_fov) * 0.5).tan();
     let along = DVec3::new((2.0 * place.x - 1.0) * up * width / height, (1.0 - 2.0 * place.y) * up, -1.0);
-    (place, scene.camera.transform.as_dmat4().transform_vector3(along))
+    (place, scene.camera.transform.transform_vector3(along))
 }
 
 fn aspect() -> f64 {
@@ -83,8 +83,8 @@ fn motion_leads_to_where_each_point_was_seen_in_the_frame_before() -> Result<(),
             let (place, along) = seen(&now, at, shift);
             let was = match pixel.object {
                 Some(object) => {
-                    let point = now.camera.position().as_dvec3() + along * (f64::from(now.camera.near) / pixel.depth);
-                    let [is, was] = [&now, &before].map(|scene| scene.objects[object].transform.as_dmat4());
+                    let point = now.camera.position() + along * (f64::from(now.camera.near) / pixel.depth);
+                    let [is, was] = [&now, &before].map(|scene| scene.objects[object].transform);
                     place_in_picture(&before.camera, aspect(), place_before(point, is, was))
                 }
                 None => direction_in_picture(&before.camera, aspect(), along),
@@ -112,7 +112,7 @@ fn a_shifted_picture_shows_the_same_surfaces_beside_where_they_were() -> Result<
         let floor = found.iter().enumerate().filter(|(_, pixel)| pixel.object == Some(0));
         for (at, pixel) in floor {
             let (_, along) = seen(&still, at, shift);
-            let height = f64::from(camera.position().y) + along.y * f64::from(camera.near) / pixel.depth;
+            let height = camera.position().y + along.y * f64::from(camera.near) / pixel.depth;
             // Drivers move corners to the nearest 16th of a texel; a shift to the wrong side shows five times as much.
             assert!((height + 1.0).abs() < 5e-3, "pixel {at} of frame {number} shows the floor at {height} m");
         }
@@ -142,7 +142,7 @@ fn what_was_behind_the_camera_was_nowhere_in_the_picture() -> Result<(), Box<dyn
     let mut ahead = scene(vec![square()], vec![material([1.0; 4])], vec![(0, 0, Mat4::from_scale(Vec3::splat(50.0)))]);
     // It went back by 10 m, through the wall.
     ahead.camera.movement.velocity = DVec3::new(0.0, 0.0, 10.0 / FRAME_SECONDS);
-    ahead.camera.transform = Mat4::from_translation(Vec3::new(0.0, 0.0, -5.0));
+    ahead.camera.transform = DMat4::from_translation(DVec3::new(0.0, 0.0, -5.0));
     let found = frame(device, &ahead, &[], 1)?;
     assert!(
         found.iter().all(|pixel| pixel.object == Some(0) && pixel.moved == DVec2::splat(NOWHERE)),
@@ -197,14 +197,14 @@ fn frames_on_their_way_are_drawn_from_what_was_then() -> Result<(), Box<dyn Erro
 #[test]
 fn transforms_of_the_twin_are_those_of_projection() {
     let camera = yard().at(3).camera;
-    let world_to_clip = camera.projection(aspect()).as_dmat4() * camera.transform.as_dmat4().inverse();
+    let world_to_clip = camera.projection(aspect()).as_dmat4() * camera.transform.inverse();
     for place in [DVec3::ZERO, DVec3::new(1.0, -0.5, 0.3), DVec3::new(-2.0, 1.0, -40.0)] {
         let clip = world_to_clip * place.extend(1.0);
         let expected = 0.5 * clip.truncate().truncate() / clip.w + 0.5;
         let found = place_in_picture(&camera, aspect(), place).expect("it is before the camera");
         assert!((found - expected).abs().max_element() < 1e-6, "{found} instead of {expected}");
     }
-    let behind = camera.transform.as_dmat4() * DVec4::new(0.0, 0.0, 1.0, 1.0);
+    let behind = camera.transform * DVec4::new(0.0, 0.0, 1.0, 1.0);
     assert_eq!(place_in_picture(&camera, aspect(), behind.truncate()), None);
     let turn = DMat4::from_rotation_y(0.3);
     let there = place_before(DVec3::X, DMat4::IDENTITY, turn);

@@ -1,8 +1,8 @@
 //! The debug overlay: what stands in its rectangle, and that nothing changes around it.
 
-use framewright_passes::twin::overlay::shade_of_distance;
+use framewright_passes::twin::overlay::{shade_of_distance, shade_of_signed};
 use framewright_tests::render::{Setup, device, render};
-use framewright_tests::shapes::{material, scene, square};
+use framewright_tests::shapes::{empty_scene, material, scene, square};
 use glam::{Mat4, Vec3};
 use std::error::Error;
 
@@ -62,4 +62,32 @@ fn distance_is_what_the_projection_made_depth_of() {
         assert!((shade_of_distance(0.1 / distance, 0.1, 20.0) - expected).abs() < 1e-12, "{distance}");
     }
     assert_eq!(shade_of_distance(0.0, 0.1, 20.0), 1.0);
+}
+
+#[test]
+fn one_component_is_shown_as_grey_and_values_of_either_sign_around_grey() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let scene = empty_scene();
+    let setup = Setup { pipeline: "tests/pipelines/overlay_channels.ron", set: &[], scene: &scene, extent: [8, 4] };
+    let output = render(device, &setup)?.swap_remove(0);
+    let (words, _) = output.bytes.as_chunks::<4>();
+    let floats: Vec<f64> = words.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect();
+    let signed = [-0.5, 0.5, -3.0].map(|value| shade_of_signed(value, 1.0));
+    for (at, texel) in floats.as_chunks::<4>().0.iter().enumerate() {
+        let expected = match (at % 8, at / 8) {
+            (_, 2..) => [0.0; 3],
+            // 0.2 of 255 steps is a whole number of them.
+            (..4, _) => [0.2; 3],
+            (_, _) => signed,
+        };
+        let close = texel.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-6);
+        assert!(close, "texel {at}: {texel:?}, not {expected:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn values_of_either_sign_are_shown_from_black_to_white() {
+    let shades = [-2.0, -1.0, 0.0, 0.5, 1.0, f64::INFINITY, f64::NAN].map(|value| shade_of_signed(value, 1.0));
+    assert_eq!(shades, [0.0, 0.0, 0.5, 0.75, 1.0, 1.0, 0.5]);
 }

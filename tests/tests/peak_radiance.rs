@@ -50,7 +50,7 @@ fn no_pixel_of_a_real_scene_is_brighter_than_its_peak() -> Result<(), Box<dyn Er
         let shown = file.display().to_string();
         let scene = load(&file)?;
         demand_bound(device, &shown, &scene)?;
-        let (middle, radius) = scene.bounds().map_or((DVec3::ZERO, 1.0), |it| (it.center().as_dvec3(), it.radius()));
+        let (middle, radius) = scene.bounds().map_or((DVec3::ZERO, 1.0), |it| (it.center(), it.radius()));
         let to_sun = -Vec3::from(scene.sun.direction).as_dvec3();
         // Against the sun, where surfaces mirror it and the sky shows it.
         let behind = middle - to_sun * DVec3::new(1.0, -0.2, 1.0) * radius;

@@ -10,7 +10,7 @@ fn lit(count: u32) -> Result<Scene, Box<dyn Error>> {
     let light = |number: u32| {
         let (turn, share) = (f64::from(number) * 2.399_963, f64::from(number) / f64::from(count));
         let out = share.sqrt() * 14.0;
-        let position = [turn.cos() * out, 0.1 + 0.37 * f64::from(number % 7), turn.sin() * out].map(|at| at as f32);
+        let position = [turn.cos() * out, 0.1 + 0.37 * f64::from(number % 7), turn.sin() * out];
         let range = match number % 97 {
             0 => None,
             1 => Some(1e3),

@@ -109,7 +109,7 @@ fn two_texels(left: [u8; 4], right: [u8; 4]) -> Texture {
         minify: Filter::Nearest,
         mip: None,
     };
-    Texture { name: String::new(), width: 2, height: 1, rgba8: [left, right].concat(), sampler }
+    Texture { name: String::new(), width: 2, height: 1, rgba8: [left, right].concat().into(), sampler }
 }
 
 #[test]

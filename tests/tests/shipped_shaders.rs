@@ -181,7 +181,7 @@ fn full_screen_shaders_take_their_images_and_parameters_by_these_names() -> Resu
         ("fxaa", &["source"], &["subpixel"]),
         ("gauss", &["source"], &["direction_x", "direction_y", "radius"]),
         ("over_bright", &["source"], &[]),
-        ("overlay", &["shown"], &["scale", "offset_x", "offset_y", "gain", "farthest", "layer"]),
+        ("overlay", &["shown"], &["scale", "offset_x", "offset_y", "gain", "is_signed", "farthest", "layer"]),
         ("reinhard", &["source"], &[]),
         ("resolve_weighted", &["source"], &["invert"]),
         ("scale_area", &["source"], &["target_width", "target_height"]),

@@ -47,19 +47,37 @@ pub(crate) fn memory_barriers(barriers: &[MemoryBarrier]) -> Vec<vk::MemoryBarri
         .collect()
 }
 
-/// Records barriers in one call; none if there are none.
+/// Records memory barriers in one call, then image barriers in another: a layout change comes after what its own barrier
+/// and those of earlier calls make available. Nothing if there are none.
 pub(crate) fn barriers(
     shared: &Shared,
     commands: vk::CommandBuffer,
     memory: &[vk::MemoryBarrier2<'_>],
     images: &[vk::ImageMemoryBarrier2<'_>],
 ) {
-    if memory.is_empty() && images.is_empty() {
-        return;
+    let record = |info: vk::DependencyInfo<'_>| {
+        // SAFETY: the command buffer is being recorded outside a scope, and the images live.
+        unsafe { shared.raw.cmd_pipeline_barrier2(commands, &info) };
+    };
+    if !memory.is_empty() {
+        record(vk::DependencyInfo::default().memory_barriers(memory));
     }
-    let info = vk::DependencyInfo::default().memory_barriers(memory).image_memory_barriers(images);
-    // SAFETY: the command buffer is being recorded outside a scope, and the images live.
-    unsafe { shared.raw.cmd_pipeline_barrier2(commands, &info) };
+    if !images.is_empty() {
+        let stages = if shared.instance.validation.is_some() { stages_of(images) } else { Vec::new() };
+        record(vk::DependencyInfo::default().memory_barriers(&stages).image_memory_barriers(images));
+    }
+}
+
+/// The stages of image barriers once more, as memory barriers without accesses. They order nothing that the image barriers
+/// don't order. Validation layers before 1.4.326 believe that an image barrier orders only what uses its own image, and report
+/// hazards where a chain of barriers leads through another image.
+fn stages_of(images: &[vk::ImageMemoryBarrier2<'_>]) -> Vec<vk::MemoryBarrier2<'static>> {
+    // A change of owner orders one half on each queue.
+    let keeps_its_owner = |it: &&vk::ImageMemoryBarrier2<'_>| it.src_queue_family_index == it.dst_queue_family_index;
+    let stages = |it: &vk::ImageMemoryBarrier2<'_>| {
+        vk::MemoryBarrier2::default().src_stage_mask(it.src_stage_mask).dst_stage_mask(it.dst_stage_mask)
+    };
+    images.iter().filter(keeps_its_owner).map(stages).collect()
 }
 
 /// A barrier from one state of an image to another; from the layout `UNDEFINED` nothing is kept.

@@ -3,7 +3,7 @@
 use super::{Frame, Recorded};
 use crate::convert;
 use crate::error::Error;
-use crate::pipeline::LocalRead;
+use crate::pipeline::{LocalRead, or_unused};
 use crate::prepare::{Scope, Views};
 use crate::prepare_pass::{Drawn, view_mask};
 use crate::recorder::{CullMode, DrawSource, FrontFace, Kept, Recorder, Target};
@@ -32,17 +32,16 @@ impl Frame<'_> {
         let views = scope.views.at(self.number).ok_or_else(unprepared)?;
         let device = &self.shared.raw;
         let info = |(attachment, views)| self.attachment(attachment, views);
-        let color: Vec<_> = plan.color.iter().zip(&views.color).map(info).collect();
+        let color = or_unused(plan.color.iter().zip(&views.color).map(info));
         let depth = plan.depth.as_ref().zip(views.depth.as_deref()).map(info);
         let stencil = plan.stencil.as_ref().zip(views.stencil.as_deref()).map(info);
         let (form, rotation) = (self.plan.eyes(plan), self.plan.rotation(plan));
         let [width, height, _] = EyeForm::extent(form, [plan.extent[0], plan.extent[1], 1], rotation);
         let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } };
-        let view_mask = view_mask(self.plan, plan);
         let mut rendering = vk::RenderingInfo::default()
             .render_area(area)
             .layer_count(EyeForm::layers(form, plan.layers))
-            .view_mask(view_mask)
+            .view_mask(view_mask(self.plan, plan))
             .color_attachments(&color);
         if let Some(depth) = &depth {
             rendering = rendering.depth_attachment(depth);
@@ -68,7 +67,7 @@ impl Frame<'_> {
                 let target = Target { extent: plan.extent, rotation, eyes, frame: self.number };
                 self.draw(commands, pass, made, target, source, &mut recorded.kept)
             });
-            timing.stamp_views(commands, view_mask.count_ones().max(1));
+            timing.stamp(commands);
             recorded.counts.push(drawn?);
         }
         // SAFETY: the scope was begun above.

@@ -28,10 +28,6 @@ impl Recorder<'_> {
         self.viewport = self.other_than_all(rectangle);
         if self.may_differ_by_eye(self.viewport) {
             self.see(rectangle, 0);
-            // What reaches over an eye's picture would be drawn into the other one's.
-            if self.halves() && self.scissor.is_none() {
-                self.cut(self.own(), 0);
-            }
         }
     }
 
@@ -82,12 +78,12 @@ impl Recorder<'_> {
 
     /// Sets the viewport so that a rectangle of an eye's picture is seen.
     fn see(&mut self, [x, y, width, height]: [f64; 4], eye: u32) {
-        let mut rectangle = [x, y, width, height];
-        if self.halves() {
+        let half = f64::from(self.extent()[0]);
+        let rectangle = match self.target.eyes {
             // Vertices are put in one half of clip space.
-            let shift = f64::from(eye) * (f64::from(self.extent()[0]) - width);
-            rectangle = [x + shift, y, 2.0 * width, height];
-        }
+            Some((Stereo::Instanced, EyeForm::Halves)) => [x, y, 2.0 * width, height],
+            _ => [x + f64::from(eye) * half, y, width, height],
+        };
         #[allow(clippy::cast_possible_truncation, reason = "viewports are 32-bit floats")]
         let [x, y, width, height] = self.target.rotation.rectangle(self.all(), rectangle).map(|side| side as f32);
         let [least, most] = self.shared.limits.viewport_bounds_range;
@@ -101,11 +97,11 @@ impl Recorder<'_> {
         unsafe { self.shared.raw.cmd_set_viewport(self.commands, 0, &[viewport]) };
     }
 
-    /// Sets the scissor to a rectangle of an eye's picture; all of it is all of both, unless the viewport differs by eye.
+    /// Sets the scissor to a rectangle of an eye's picture; where instances draw into both eyes' halves it is all of both.
     fn cut(&mut self, [x, y, width, height]: [f64; 4], eye: u32) {
         let half = f64::from(self.extent()[0]);
-        let rectangle = match self.scissor.or(self.viewport) {
-            None if self.halves() => [x, y, 2.0 * width, height],
+        let rectangle = match self.target.eyes {
+            Some((Stereo::Instanced, EyeForm::Halves)) => [x, y, 2.0 * width, height],
             _ => [x + f64::from(eye) * half, y, width, height],
         };
         let turned = self.target.rotation.rectangle(self.all(), rectangle);
@@ -134,12 +130,9 @@ impl Recorder<'_> {
                     return self.misused(|| format!("instances {instances:?} for both eyes"));
                 }
                 for eye in [0, 1] {
-                    if let Some(rectangle) = self.viewport {
-                        self.see(rectangle, eye);
-                    }
-                    if self.scissor.or(self.viewport).is_some() {
-                        self.cut(self.scissor.unwrap_or_else(|| self.own()), eye);
-                    }
+                    self.see(self.viewport.unwrap_or_else(|| self.own()), eye);
+                    // What reaches over the seam would be drawn into the other eye's half.
+                    self.cut(self.scissor.unwrap_or_else(|| self.own()), eye);
                     draw(&self.shared.raw, self.commands, instances.start | (eye * RIGHT_EYE), count);
                 }
             }

@@ -2,8 +2,11 @@
 
 use super::compile::Stage;
 use super::module::{Indexed, id, number, storage_class};
+use super::text::Refused;
 use framewright_graph::format::Format;
-use framewright_graph::interface::{Binding, BindingKind, Block, Component, Dimension, ImageShape, Member, PASS_SET};
+use framewright_graph::interface::{
+    Binding, BindingKind, Block, Component, Dimension, ImageShape, Member, PASS_SET, Unbindable,
+};
 use framewright_graph::vocabulary::Stages;
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Dim, ImageFormat, Op, StorageClass};
@@ -23,7 +26,7 @@ pub(super) fn bindings(
     stage: Stage,
     used: &HashSet<u32>,
     in_part: bool,
-) -> Result<Vec<Binding>, String> {
+) -> Result<Vec<Binding>, Refused> {
     let stages = match stage {
         Stage::Vertex => Stages::VERTEX_SHADER,
         Stage::Fragment => Stages::FRAGMENT_SHADER,
@@ -36,7 +39,8 @@ pub(super) fn bindings(
             if in_part && ty.is_some_and(|ty| module.name(ty) == PARTS) {
                 continue;
             }
-            return Err("push constants: parameters come in the uniform block `params`".to_owned());
+            let what = "push constants: parameters come in the uniform block `params`".to_owned();
+            return Err(Refused::named("push_constant", what));
         }
         let set = module.decoration_number(variable, Decoration::DescriptorSet);
         let binding = module.decoration_number(variable, Decoration::Binding);
@@ -48,7 +52,8 @@ pub(super) fn bindings(
         let kind = kind(module, variable, instruction, ty);
         if stage == Stage::Vertex && writes(&kind) {
             let name = module.name(variable);
-            return Err(format!("`{name}` is written by a vertex shader: not every device can; declare it `readonly`"));
+            let what = format!("`{name}` is written by a vertex shader: not every device can; declare it `readonly`");
+            return Err(Refused::named(name, what));
         }
         let own = module.name(variable);
         let name = if own.is_empty() { ty.result_id.map_or("", |ty| module.name(ty)) } else { own };
@@ -56,13 +61,15 @@ pub(super) fn bindings(
     }
     bindings.sort_by_key(|it| (it.set, it.binding));
     if let Some(far) = bindings.iter().find(|it| it.binding >= BINDINGS) {
-        return Err(format!("`{}` at binding {}: bindings go up to {}", far.name, far.binding, BINDINGS - 1));
+        let what = format!("`{}` at binding {}: bindings go up to {}", far.name, far.binding, BINDINGS - 1);
+        return Err(Refused::named(&far.name, what));
     }
     if let Some(pair) =
         bindings.windows(2).find(|pair| (pair[0].set, pair[0].binding) == (pair[1].set, pair[1].binding))
     {
-        let Binding { set, binding, name, .. } = &pair[0];
-        return Err(format!("`{name}` and `{}` at the same place: set {set}, binding {binding}", pair[1].name));
+        let (Binding { set, binding, name, .. }, other) = (&pair[0], &pair[1].name);
+        let what = format!("`{name}` and `{other}` at the same place: set {set}, binding {binding}");
+        return Err(Refused::named(other, what));
     }
     Ok(bindings)
 }
@@ -74,31 +81,39 @@ fn writes(kind: &BindingKind) -> bool {
 
 /// Kind and shape of a resource of type `ty`.
 fn kind(module: &Indexed<'_>, variable: u32, instruction: &Instruction, ty: &Instruction) -> BindingKind {
-    let other = |what: &str| BindingKind::Other(what.to_owned());
     match (ty.class.opcode, storage_class(instruction)) {
-        (Op::TypeArray | Op::TypeRuntimeArray, _) => other("an array of resources"),
+        (Op::TypeArray | Op::TypeRuntimeArray, _) => other(
+            "an array of resources",
+            "give each a name of its own; layers of one image are sampled by a `sampler2DArray`",
+        ),
         (Op::TypeSampledImage, _) => match id(ty, 0).and_then(|image| module.global(image)) {
-            Some(image) if image.operands.get(2).and_then(number) == Some(1) => other("a sampler that compares depth"),
+            Some(image) if image.operands.get(2).and_then(number) == Some(1) => other(
+                "a sampler that compares depth",
+                "sample the depth by a `sampler2D`, and compare it in the shader",
+            ),
             Some(image) => image_shape(module, image)
                 .filter(|shape| shape.dimension != Dimension::Buffer)
-                .map_or_else(|| other("a texel buffer"), BindingKind::SampledImage),
-            None => other("an image of unknown type"),
+                .map_or_else(texel_buffer, BindingKind::SampledImage),
+            None => other("an image of unknown type", "declare it `sampler2D`"),
         },
         (Op::TypeImage, _) => match (image_shape(module, ty), ty.operands.get(5).and_then(number)) {
-            (Some(ImageShape { dimension: Dimension::Buffer, .. }), _) => other("a texel buffer"),
-            (Some(shape), Some(2)) => BindingKind::StorageImage {
-                shape,
-                format: ty.operands.get(6).and_then(texel_format),
-                readable: module.decoration(variable, Decoration::NonReadable).is_none(),
-                writable: module.decoration(variable, Decoration::NonWritable).is_none(),
+            (Some(ImageShape { dimension: Dimension::Buffer, .. }), _) => texel_buffer(),
+            (Some(shape), Some(2)) => match texel_format(ty.operands.get(6)) {
+                Ok(format) => BindingKind::StorageImage {
+                    shape,
+                    format,
+                    readable: module.decoration(variable, Decoration::NonReadable).is_none(),
+                    writable: module.decoration(variable, Decoration::NonWritable).is_none(),
+                },
+                Err(what) => other(&what, "declare it with the format of the pass's image, such as `layout(rgba16f)`"),
             },
-            (Some(_), _) => other("an image without sampler"),
+            (Some(_), _) => other("an image without sampler", "declare both as one `sampler2D`"),
             (None, _) => BindingKind::InputAttachment {
                 multisampled: ty.operands.get(4).and_then(number) == Some(1),
                 component: id(ty, 0).map_or(Component::Float, |component| component_of(&module.type_name(component))),
             },
         },
-        (Op::TypeSampler, _) => other("a sampler without image"),
+        (Op::TypeSampler, _) => other("a sampler without image", "declare both as one `sampler2D`"),
         (Op::TypeStruct, Some(StorageClass::Uniform)) => BindingKind::UniformBlock(block(module, ty)),
         (Op::TypeStruct, Some(StorageClass::StorageBuffer)) => {
             let members = u32::try_from(ty.operands.len()).unwrap_or(0);
@@ -109,32 +124,43 @@ fn kind(module: &Indexed<'_>, variable: u32, instruction: &Instruction, ty: &Ins
             let (readable, writable) = (lacks(Decoration::NonReadable), lacks(Decoration::NonWritable));
             BindingKind::StorageBlock { readable, writable }
         }
-        (opcode, _) => BindingKind::Other(format!("{opcode:?}")),
+        (opcode, _) => other(&format!("an {opcode:?} of SPIR-V"), "declare an image or a block"),
     }
 }
 
-/// The format that a storage image's declaration names, if images of a pipeline can have it.
-fn texel_format(operand: &Operand) -> Option<Format> {
-    let Operand::ImageFormat(format) = operand else { return None };
-    match format {
-        ImageFormat::R8 => Some(Format::R8_UNORM),
-        ImageFormat::R8ui => Some(Format::R8_UINT),
-        ImageFormat::Rg8 => Some(Format::R8G8_UNORM),
-        ImageFormat::Rgba8 => Some(Format::R8G8B8A8_UNORM),
-        ImageFormat::Rgba8ui => Some(Format::R8G8B8A8_UINT),
-        ImageFormat::Rgb10A2 => Some(Format::A2B10G10R10_UNORM_PACK32),
-        ImageFormat::R16f => Some(Format::R16_SFLOAT),
-        ImageFormat::Rg16f => Some(Format::R16G16_SFLOAT),
-        ImageFormat::Rgba16 => Some(Format::R16G16B16A16_UNORM),
-        ImageFormat::Rgba16f => Some(Format::R16G16B16A16_SFLOAT),
-        ImageFormat::R32ui => Some(Format::R32_UINT),
-        ImageFormat::R32f => Some(Format::R32_SFLOAT),
-        ImageFormat::Rg32f => Some(Format::R32G32_SFLOAT),
-        ImageFormat::Rgba32ui => Some(Format::R32G32B32A32_UINT),
-        ImageFormat::Rgba32f => Some(Format::R32G32B32A32_SFLOAT),
-        ImageFormat::R11fG11fB10f => Some(Format::B10G11R11_UFLOAT_PACK32),
-        _ => None,
-    }
+/// What no pass can give, and what to declare instead.
+fn other(what: &str, instead: &str) -> BindingKind {
+    BindingKind::Other(Unbindable { what: what.to_owned(), instead: instead.to_owned(), place: None })
+}
+
+fn texel_buffer() -> BindingKind {
+    other("a texel buffer", "declare a storage block: `readonly buffer Texels { vec4 texels[]; };`")
+}
+
+/// The format that a storage image's declaration names, if it names one; an error in words if no image of a pipeline has it.
+fn texel_format(operand: Option<&Operand>) -> Result<Option<Format>, String> {
+    let Some(Operand::ImageFormat(format)) = operand else { return Ok(None) };
+    let format = match format {
+        ImageFormat::Unknown => return Ok(None),
+        ImageFormat::R8 => Format::R8_UNORM,
+        ImageFormat::R8ui => Format::R8_UINT,
+        ImageFormat::Rg8 => Format::R8G8_UNORM,
+        ImageFormat::Rgba8 => Format::R8G8B8A8_UNORM,
+        ImageFormat::Rgba8ui => Format::R8G8B8A8_UINT,
+        ImageFormat::Rgb10A2 => Format::A2B10G10R10_UNORM_PACK32,
+        ImageFormat::R16f => Format::R16_SFLOAT,
+        ImageFormat::Rg16f => Format::R16G16_SFLOAT,
+        ImageFormat::Rgba16 => Format::R16G16B16A16_UNORM,
+        ImageFormat::Rgba16f => Format::R16G16B16A16_SFLOAT,
+        ImageFormat::R32ui => Format::R32_UINT,
+        ImageFormat::R32f => Format::R32_SFLOAT,
+        ImageFormat::Rg32f => Format::R32G32_SFLOAT,
+        ImageFormat::Rgba32ui => Format::R32G32B32A32_UINT,
+        ImageFormat::Rgba32f => Format::R32G32B32A32_SFLOAT,
+        ImageFormat::R11fG11fB10f => Format::B10G11R11_UFLOAT_PACK32,
+        other => return Err(format!("a storage image of the format `{other:?}`, which no image of a pipeline has")),
+    };
+    Ok(Some(format))
 }
 
 /// Shape of an image type; `None` for input attachments.

@@ -1,12 +1,11 @@
 //! GLSL to SPIR-V through shaderc.
 
-use super::files::{Found, ShaderFiles};
+use serde::{Deserialize, Serialize};
 use shaderc::{
     CompileOptions, Compiler, EnvVersion, GlslProfile, OptimizationLevel, ResolvedInclude, ShaderKind, SourceLanguage,
     SpirvVersion, TargetEnv,
 };
 use std::cell::{Cell, RefCell};
-use std::collections::HashMap;
 
 /// A file may include others this deep.
 const MAX_INCLUDE_DEPTH: usize = 16;
@@ -14,8 +13,8 @@ const MAX_INCLUDE_DEPTH: usize = 16;
 pub(super) const MAX_INCLUDES: usize = 256;
 
 /// A shader stage.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Stage {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub(crate) enum Stage {
     /// Vertex shading.
     Vertex,
     /// Fragment shading.
@@ -24,26 +23,57 @@ pub(super) enum Stage {
     Compute,
 }
 
+/// One stage to compile.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct Job {
+    /// Which stage.
+    pub(crate) stage: Stage,
+    /// The name of its file that messages show.
+    pub(crate) shown: String,
+    /// The text of that file, or one made of it.
+    pub(crate) text: String,
+    /// Macros with what they stand for.
+    pub(crate) macros: Vec<(String, String)>,
+}
+
+/// A file that a shader includes.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct IncludedFile {
+    /// The name that messages show.
+    pub(crate) shown: String,
+    /// GLSL.
+    pub(crate) text: String,
+}
+
+/// Why a stage doesn't compile.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) enum Failure {
+    /// The compiler's messages, each with the file and line that it is about.
+    Messages(Vec<String>),
+    /// The compiler ran out of memory.
+    OutOfMemory,
+    /// The compiler failed itself, in its own words.
+    Internal(String),
+}
+
+/// Finds the file that the file of one name includes by another name.
+pub(crate) type Includes<'a> = dyn FnMut(&str, &str) -> Result<IncludedFile, String> + 'a;
+
 /// Compiles one stage: GLSL 4.60 to SPIR-V for Vulkan 1.3.
 ///
-/// `text` is that of `source`, or made of it; `macros` are names with what they stand for; fragment stages have the macro
-/// `FRAMEWRIGHT_FRAGMENT` besides. Not optimised: drivers do that themselves, and the optimiser would strip the names that binding by
-/// name needs.
+/// Fragment stages have the macro `FRAMEWRIGHT_FRAGMENT` besides. Not optimised: drivers do that themselves, and the optimiser
+/// would strip the names that binding by name needs.
 ///
 /// # Errors
-/// The compiler's messages, each with the file and line that it is about.
-pub(super) fn compile(
+/// What the compiler says.
+pub(crate) fn compile(
     compiler: &Compiler,
-    stage: Stage,
-    source: &Found,
-    text: &str,
-    files: &ShaderFiles,
-    macros: &[(String, String)],
-) -> Result<Vec<u32>, Vec<String>> {
+    Job { stage, shown, text, macros }: &Job,
+    includes: &mut Includes<'_>,
+) -> Result<Vec<u32>, Failure> {
+    let (stage, includes) = (*stage, RefCell::new(includes));
     let included = Cell::new(0);
-    // Files that were included, by the names that the compiler knows them by.
-    let known = RefCell::new(HashMap::from([(source.shown.clone(), source.path.clone())]));
-    let mut options = CompileOptions::new().map_err(|error| vec![error.to_string()])?;
+    let mut options = CompileOptions::new().map_err(|error| Failure::Internal(error.to_string()))?;
     options.set_source_language(SourceLanguage::GLSL);
     options.set_forced_version_profile(460, GlslProfile::Core);
     options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_3 as u32);
@@ -62,28 +92,47 @@ pub(super) fn compile(
         if depth > MAX_INCLUDE_DEPTH || included.get() > MAX_INCLUDES {
             return Err(format!("more than {MAX_INCLUDE_DEPTH} includes deep or {MAX_INCLUDES} in all: a circle?"));
         }
-        let from = known.borrow().get(includer).unwrap_or(&source.path).clone();
-        match files.included(&from, requested)? {
-            Some(Found { path, shown, text }) => {
-                known.borrow_mut().insert(shown.clone(), path);
-                Ok(ResolvedInclude { resolved_name: shown, content: text })
-            }
-            None => Err(format!("looked for it in {}", files.places(&from).join(", "))),
-        }
+        let IncludedFile { shown, text } = (*includes.borrow_mut())(includer, requested)?;
+        Ok(ResolvedInclude { resolved_name: shown, content: text })
     });
     let kind = match stage {
         Stage::Vertex => ShaderKind::Vertex,
         Stage::Fragment => ShaderKind::Fragment,
         Stage::Compute => ShaderKind::Compute,
     };
-    match compiler.compile_into_spirv(text, kind, &source.shown, "main", Some(&options)) {
+    match compiler.compile_into_spirv(text, kind, shown, "main", Some(&options)) {
         Ok(artifact) => Ok(artifact.as_binary().to_vec()),
-        Err(shaderc::Error::CompilationError(_, text)) => Err(lines(&text)),
-        Err(error) => Err(vec![format!("{}: {error}", source.shown)]),
+        Err(shaderc::Error::CompilationError(_, text)) => Err(Failure::Messages(lines(&text))),
+        Err(error) => Err(failed(&error)),
+    }
+}
+
+/// A failure of the compiler itself. It has no words for an exception, and it throws none but for lack of memory.
+fn failed(error: &shaderc::Error) -> Failure {
+    match error {
+        shaderc::Error::InternalError(words) if words.is_empty() => Failure::OutOfMemory,
+        other => Failure::Internal(other.to_string()),
     }
 }
 
 /// The messages in the compiler's text.
 fn lines(text: &str) -> Vec<String> {
     text.lines().map(str::trim_end).filter(|line| !line.is_empty()).map(str::to_owned).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_an_exception_of_the_compiler_is_lack_of_memory() {
+        let failed = |error| failed(&error);
+        assert!(matches!(failed(shaderc::Error::InternalError(String::new())), Failure::OutOfMemory));
+        let words = |error| match failed(error) {
+            Failure::Internal(words) => words,
+            other => panic!("{other:?}"),
+        };
+        assert!(words(shaderc::Error::InternalError("its own words".to_owned())).contains("its own words"));
+        assert!(words(shaderc::Error::InvalidStage("no stage".to_owned())).contains("no stage"));
+    }
 }

@@ -10,6 +10,12 @@ use framewright_graph::view::EyeForm;
 /// The variable that says which eye is drawn for: 0 the left one, 1 the right one.
 pub(super) const EYE: &str = "framewright_eye";
 
+/// What hands the eye from the vertex stage, which knows it by the instance, to the fragment stage.
+pub(super) const HANDED_ON: &str = "framewright_eye_of_triangle";
+
+/// Where: at the location behind those that shaders may take.
+const LOCATION: u32 = super::reflect::VARYINGS;
+
 /// How a stage draws for both eyes at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct BothEyes {
@@ -31,26 +37,39 @@ impl BothEyes {
         macros.into_iter().map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
     }
 
-    fn counts_instances(self) -> bool {
+    /// Whether the vertex stage hands the eye to the fragment stage, at a location of its own.
+    pub(super) fn counts_instances(self) -> bool {
         matches!(self.source, EyeSource::InstanceBit | EyeSource::InstanceParity)
     }
 
     /// The text with what finds out the eye before it and behind it.
     pub(super) fn around(self, text: &str, stage: Stage) -> String {
+        self.wrapped(text, stage, |way| format!("layout(location = {LOCATION}) flat {way} int {HANDED_ON};\n"))
+    }
+
+    /// The same, with the eye at no location. It compiles where the text itself takes that location, for [`super::reflect`] to refuse.
+    pub(super) fn around_without_location(self, text: &str, stage: Stage) -> String {
+        self.wrapped(text, stage, |_| format!("int {HANDED_ON};\n"))
+    }
+
+    fn wrapped(self, text: &str, stage: Stage, handed_on: impl Fn(&str) -> String) -> String {
         // Extensions come before everything else, and behind `#version`.
         let (version, rest) = text.split_at(behind_version(text));
         let line = version.lines().count() + 1;
-        format!("{version}\n{}\n#line {line}\n{rest}\n{}", self.before(stage), self.behind(stage))
+        format!("{version}\n{}\n#line {line}\n{rest}\n{}", self.before(stage, handed_on), self.behind(stage))
     }
 
-    fn before(self, stage: Stage) -> String {
+    fn before(self, stage: Stage, handed_on: impl Fn(&str) -> String) -> String {
         let extension = match (self.source, self.form, stage) {
             (EyeSource::ViewIndex, ..) => "#extension GL_EXT_multiview : require\n",
             (_, EyeForm::Layers, Stage::Vertex) => "#extension GL_ARB_shader_viewport_layer_array : require\n",
             _ => "",
         };
-        let instance =
-            if stage == Stage::Vertex && self.counts_instances() { "int framewright_instance;\n" } else { "" };
+        let instance = match stage {
+            Stage::Vertex if self.counts_instances() => format!("int framewright_instance;\n{}", handed_on("out")),
+            Stage::Fragment if self.counts_instances() => handed_on("in"),
+            Stage::Vertex | Stage::Fragment | Stage::Compute => String::new(),
+        };
         format!("{extension}int {EYE};\n{instance}")
     }
 
@@ -58,7 +77,7 @@ impl BothEyes {
         let eye = match (self.source, stage) {
             (EyeSource::One(eye), _) => format!("{EYE} = {};", eye as u32),
             (EyeSource::ViewIndex, _) => format!("{EYE} = int(gl_ViewIndex);"),
-            (_, Stage::Fragment) => format!("{EYE} = gl_ClipDistance[0] > 1.5 ? 1 : 0;"),
+            (_, Stage::Fragment) => format!("{EYE} = {HANDED_ON};"),
             (EyeSource::InstanceBit, _) => format!(
                 "{EYE} = gl_InstanceIndex < 0 ? 1 : 0;\n    framewright_instance = gl_InstanceIndex & 0x7fffffff;"
             ),
@@ -66,13 +85,20 @@ impl BothEyes {
                 format!("{EYE} = gl_InstanceIndex & 1;\n    framewright_instance = int(uint(gl_InstanceIndex) >> 1);")
             }
         };
-        let place = match (stage, self.form) {
-            (Stage::Vertex, _) if !self.counts_instances() => "",
-            (Stage::Vertex, EyeForm::Layers) => IN_ITS_LAYER,
-            (Stage::Vertex, EyeForm::Halves) => IN_ITS_HALF,
-            (Stage::Fragment | Stage::Compute, _) => "",
-        };
+        let place = if stage == Stage::Vertex && self.counts_instances() { self.place() } else { String::new() };
         format!("#undef main\n#undef gl_InstanceIndex\nvoid main() {{\n    {eye}\n    framewright_main();\n{place}}}\n")
+    }
+
+    /// Puts a vertex in the half or layer of its eye.
+    fn place(self) -> String {
+        let place = match (self.form, self.source) {
+            (EyeForm::Layers, _) => IN_ITS_LAYER.to_owned(),
+            // Both halves are drawn by one draw, so no scissor can cut what reaches over the seam.
+            (EyeForm::Halves, EyeSource::InstanceParity) => format!("{ACROSS}{CUT_AT_SEAM}{IN_ITS_HALF}"),
+            // Each half has a draw of its own, and with it its viewport and scissor.
+            (EyeForm::Halves, _) => String::new(),
+        };
+        format!("    {HANDED_ON} = {EYE};\n{place}")
     }
 }
 
@@ -94,20 +120,23 @@ fn behind_version(text: &str) -> usize {
 }
 
 const IN_ITS_LAYER: &str = "    gl_Layer = framewright_eye;
-    gl_ClipDistance[0] = 1.0 + float(framewright_eye);
-    gl_ClipDistance[1] = 1.0;
 ";
 
-/// What lies to the right of the left eye's picture, or to the left of the right one's, is cut off; the rest fills half the width
-/// of the upright picture.
-const IN_ITS_HALF: &str = "#ifdef FRAMEWRIGHT_ROTATION
+/// Where the vertex lies across the upright picture of its eye, and to which side that eye's half lies.
+const ACROSS: &str = "#ifdef FRAMEWRIGHT_ROTATION
     const vec2 framewright_right = rotate_direction(vec2(1.0, 0.0));
 #else
     const vec2 framewright_right = vec2(1.0, 0.0);
 #endif
     const float framewright_across = dot(gl_Position.xy, framewright_right);
     const float framewright_side = framewright_eye == 0 ? -1.0 : 1.0;
-    gl_ClipDistance[0] = 1.0 + float(framewright_eye);
-    gl_ClipDistance[1] = gl_Position.w + framewright_side * framewright_across;
-    gl_Position.xy += 0.5 * (framewright_side * gl_Position.w - framewright_across) * framewright_right;
+";
+
+/// What lies to the right of the left eye's picture, or to the left of the right one's, is cut off.
+const CUT_AT_SEAM: &str = "    gl_ClipDistance[0] = gl_Position.w + framewright_side * framewright_across;
+";
+
+/// The eye's picture fills half the width of the upright one.
+const IN_ITS_HALF: &str =
+    "    gl_Position.xy += 0.5 * (framewright_side * gl_Position.w - framewright_across) * framewright_right;
 ";

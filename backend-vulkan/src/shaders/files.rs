@@ -2,8 +2,6 @@
 
 use framewright_graph::file_path::FilePath;
 use framewright_graph::root::{NoFile, Root};
-use std::cell::RefCell;
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 
@@ -19,8 +17,6 @@ pub(super) struct ShaderFiles {
     pub(super) roots: Vec<Root>,
     /// File name and text.
     pub(super) shipped: &'static [(&'static str, &'static str)],
-    /// The files on disk that were read so far, links followed.
-    pub(super) read: RefCell<BTreeSet<PathBuf>>,
 }
 
 /// A source text.
@@ -73,9 +69,7 @@ impl ShaderFiles {
     fn on_disk(&self, path: &str) -> Result<Option<Found>, String> {
         for root in &self.roots {
             let shown = root.folder().join(path).display().to_string();
-            let located = root.locate(path);
-            self.read.borrow_mut().extend(located.clone());
-            let bytes = match located.and_then(|found| root.read(&found, MAX_SOURCE_BYTES)) {
+            let bytes = match root.locate(path).and_then(|found| root.read(&found, MAX_SOURCE_BYTES)) {
                 Ok(bytes) => bytes,
                 Err(NoFile::Missing) => continue,
                 Err(NoFile::TooLarge { bytes, limit }) => {

@@ -1,22 +1,22 @@
 //! Shaders by name, for a kind of draw.
 
-use super::compile::{MAX_INCLUDES, Stage, compile};
+use super::compile::{Job, Stage};
+use super::compilers::Compilers;
 use super::eyes::{BothEyes, EYE};
 use super::files::{Found, ShaderFiles};
 use super::layers;
 use super::reflect::{StageInterface, reflect};
+use super::text::{self, Refused};
+use crate::helper::Helper;
 use framewright_graph::file_path::FilePath;
 use framewright_graph::frame::Draw;
 use framewright_graph::interface::{
-    BindingKind, DrawInterface, EyeSource, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
+    BindingKind, DrawInterface, EyeSource, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable,
+    Variant,
 };
 use framewright_graph::root::{NoFile, Root};
 use framewright_graph::view::{Eye, EyeForm};
-use shaderc::Compiler;
-use std::borrow::Cow;
-use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// SPIR-V of one stage, with the entry point `main`.
@@ -68,7 +68,7 @@ pub struct CompiledCompute {
 pub struct ShaderLibrary {
     files: ShaderFiles,
     draws: fn(Draw) -> DrawInterface,
-    compiler: Option<Compiler>,
+    compilers: Compilers,
     sources: HashMap<String, Result<Option<Arc<Source>>, ShaderProblem>>,
     stages: HashMap<StageKey, StageResult>,
 }
@@ -107,14 +107,16 @@ impl ShaderLibrary {
         shipped: &'static [(&'static str, &'static str)],
         draws: fn(Draw) -> DrawInterface,
     ) -> ShaderLibrary {
-        let files = ShaderFiles { roots, shipped, read: RefCell::default() };
-        ShaderLibrary { files, draws, compiler: None, sources: HashMap::new(), stages: HashMap::new() }
+        let files = ShaderFiles { roots, shipped };
+        let compilers = Compilers::Here(None);
+        ShaderLibrary { files, draws, compilers, sources: HashMap::new(), stages: HashMap::new() }
     }
 
-    /// The files on disk that were read so far, those that shaders include among them; links are followed.
+    /// Has shaders compiled in a helper process, which bounds what they can take. Without one a shader can end this process,
+    /// or keep it busy forever: see [`crate::helper`].
     #[must_use]
-    pub fn files_read(&self) -> Vec<PathBuf> {
-        self.files.read.borrow().iter().cloned().collect()
+    pub fn with_helper(self, helper: &Helper) -> ShaderLibrary {
+        ShaderLibrary { compilers: Compilers::Helper(helper.clone()), ..self }
     }
 
     /// The shader `name` when it draws `draw`, compiled as `variant` says.
@@ -200,7 +202,7 @@ impl ShaderLibrary {
         let source = found.map(|found| {
             found.map(|found| {
                 let mut mentioned = Mentioned::by(&found.text);
-                mentioned.eye |= asks_eye_in_included(&self.files, &found, &mut BTreeSet::new());
+                mentioned.eye |= asks_eye_in_included(&self.files, &found);
                 Arc::new(Source { found, mentioned })
             })
         });
@@ -212,20 +214,33 @@ impl ShaderLibrary {
         let Source { found, mentioned } = source;
         let (_, stage, macros, both, in_layers) = key;
         let stage = *stage;
-        let compiler = match &mut self.compiler {
-            Some(compiler) => compiler,
-            none => none.insert(Compiler::new().map_err(|error| ShaderProblem::Unsupported {
-                what: format!("the shader compiler doesn't start: {error}"),
-            })?),
-        };
-        let text = both.map_or_else(|| Cow::Borrowed(&*found.text), |both| both.around(&found.text, stage).into());
-        let spirv = compile(compiler, stage, found, &text, &self.files, macros)
-            .map_err(|messages| ShaderProblem::DoesNotCompile { messages })?;
-        let unsupported = |what| ShaderProblem::Unsupported { what: format!("{}: {what}", found.shown) };
+        let text = both.map_or_else(|| found.text.clone(), |both| both.around(&found.text, stage));
+        let job = Job { stage, shown: found.shown.clone(), text, macros: macros.clone() };
         let parts = macros.iter().any(|(name, _)| name == PARTS);
+        let (compilers, files) = (&mut self.compilers, &self.files);
+        let unsupported = |refused: Refused| ShaderProblem::Unsupported { what: refused.placed(files, found) };
+        let spirv = compilers.compile(&job, found, files).map_err(|problem| {
+            // What the text takes of the library's own is told as in the modes in which it compiles.
+            let both = both.filter(|both| both.counts_instances());
+            let refused = both.and_then(|both| {
+                let text = both.around_without_location(&found.text, stage);
+                let spirv = compilers.compile(&Job { text, ..job.clone() }, found, files).ok()?;
+                reflect(stage, &spirv, parts, true).err()
+            });
+            refused.map_or(problem, unsupported)
+        })?;
+        if stage == Stage::Compute {
+            sized(files, found).map_err(unsupported)?;
+        }
         let mut reflected = reflect(stage, &spirv, parts, both.is_some()).map_err(unsupported)?;
         let names: Vec<&str> = in_layers.iter().map(String::as_str).collect();
-        let spirv = if names.is_empty() { spirv } else { layers::by_eye(&spirv, &names).map_err(unsupported)? };
+        let by_eye = |spirv: Vec<u32>| layers::by_eye(&spirv, &names).map_err(|what| unsupported(what.into()));
+        let spirv = if names.is_empty() { spirv } else { by_eye(spirv)? };
+        for binding in &mut reflected.interface.bindings {
+            if let BindingKind::Other(Unbindable { place, .. }) = &mut binding.kind {
+                *place = text::place(files, found, |word| word == binding.name);
+            }
+        }
         for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
             let sampled = matches!(binding.kind, BindingKind::SampledImage(_));
             binding.adapts = sampled && mentioned.adapting.contains(&binding.name);
@@ -278,6 +293,17 @@ impl ShaderInterfaces for ShaderLibrary {
     }
 }
 
+/// A compute stage says how large its workgroups are: without a word GLSL makes them one invocation each, of which hardly
+/// any shader is meant.
+fn sized(files: &ShaderFiles, stage: &Found) -> Result<(), Refused> {
+    if text::place(files, stage, |word| word.starts_with("local_size_")).is_some() {
+        return Ok(());
+    }
+    let what = "it doesn't say how large its workgroups are; write `layout(local_size_x = 8, local_size_y = 8) in;` for \
+        workgroups of 8×8, or `layout(local_size_x = 1) in;` for single invocations";
+    Err(Refused::named("main", what.to_owned()))
+}
+
 /// Whether a fragment stage leaves depth as it would be without one.
 fn changes_nothing(fragment: &ShaderInterface) -> bool {
     let writes = |kind: &BindingKind| {
@@ -312,6 +338,10 @@ fn macros(mentioned: &Mentioned, variant: &Variant, stage: Stage) -> Macros {
     });
     let sampled = variant.sampled.iter().filter(|name| mentioned.optional.iter().any(|known| **known == ***name));
     let sampled = sampled.map(|name| (format!("{HAS}{name}"), String::new()));
+    let components = mentioned.counted.iter().map(|name| {
+        let given = variant.components.iter().find(|(given, _)| **given == **name);
+        (format!("{COMPONENTS}{name}"), given.map_or(MOST_COMPONENTS, |(_, count)| *count).to_string())
+    });
     let local = variant.local.iter().map(|name| (format!("LOCAL_READ_{name}"), String::new()));
     let depth_only = variant.depth_only.then(|| ("DEPTH_ONLY".to_owned(), String::new()));
     let covers = variant.alpha_to_coverage.then(|| ("ALPHA_TO_COVERAGE".to_owned(), String::new()));
@@ -333,7 +363,14 @@ fn macros(mentioned: &Mentioned, variant: &Variant, stage: Stage) -> Macros {
         _ => None,
     };
     let both = both_eyes(variant).into_iter().flat_map(|both| both.macros(stage));
-    let own = textures.chain(sampled).chain(local).chain(depth_only).chain(covers).chain(parts).chain(count);
+    let own = textures
+        .chain(sampled)
+        .chain(components)
+        .chain(local)
+        .chain(depth_only)
+        .chain(covers)
+        .chain(parts)
+        .chain(count);
     own.chain(one).chain(both).collect()
 }
 
@@ -349,6 +386,12 @@ const TEXTURE: &str = "TEXTURE_";
 /// Macros of this beginning are there if a pass samples what they name.
 const HAS: &str = "HAS_";
 
+/// Macros of this beginning stand for how many components the format of what a pass samples has.
+const COMPONENTS: &str = "COMPONENTS_";
+
+/// As many as a format can have.
+const MOST_COMPONENTS: u32 = 4;
+
 /// Macros of this ending stand for the part in use of what is sampled.
 const PART: &str = "_st";
 
@@ -361,11 +404,12 @@ const LEFT_HALF: &str = "vec4(0.5, 1.0, 0.0, 0.0)";
 /// The macro that says how many parts push constants tell of, if they tell of any.
 const PARTS: &str = "FRAMEWRIGHT_PARTS";
 
-/// The names that a GLSL text mentions behind [`TEXTURE`] and [`HAS`], and of the samplers that it declares those before [`PART`],
+/// The names that a GLSL text mentions behind [`TEXTURE`], [`HAS`] and [`COMPONENTS`], and of the samplers that it declares those before [`PART`],
 /// outside comments, each once, in order.
 struct Mentioned {
     adapting: Vec<String>,
     optional: Vec<String>,
+    counted: Vec<String>,
     parts: Vec<String>,
     /// Whether it asks which eye it draws for.
     eye: bool,
@@ -373,9 +417,8 @@ struct Mentioned {
 
 impl Mentioned {
     fn by(text: &str) -> Mentioned {
-        let text = without_comments(text);
-        let words = text.split(|letter: char| letter != '_' && !letter.is_ascii_alphanumeric());
-        let in_order: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        let text = text::without_comments(text);
+        let in_order: Vec<&str> = text::words(&text).collect();
         let sampled = in_order.windows(2).filter(|pair| pair[0].contains("sampler") || pair[0].starts_with(TEXTURE));
         let sampled: BTreeSet<&str> = sampled.map(|pair| pair[1]).collect();
         let words: BTreeSet<&str> = in_order.into_iter().collect();
@@ -384,42 +427,15 @@ impl Mentioned {
         let parts = words.iter().filter_map(|word| word.strip_suffix(PART));
         let parts = parts.filter(|name| sampled.contains(name)).map(str::to_owned).collect();
         let eye = words.contains("eye_index");
-        Mentioned { adapting: behind(TEXTURE), optional: behind(HAS), parts, eye }
+        Mentioned { adapting: behind(TEXTURE), optional: behind(HAS), counted: behind(COMPONENTS), parts, eye }
     }
 }
 
 /// Whether one of the user's own files that a file includes asks which eye is drawn for. Those that are shipped are given the same
-/// for both where one eye is drawn for. `seen` are files that were looked at before.
-fn asks_eye_in_included(files: &ShaderFiles, from: &Found, seen: &mut BTreeSet<String>) -> bool {
-    let text = without_comments(&from.text);
-    let mut names = text.lines().filter_map(|line| {
-        let directive = line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("include")?;
-        directive.split('"').nth(1)
-    });
-    names.any(|name| match files.included(&from.path, name) {
-        Ok(Some(file)) if matches!(file.path, FilePath::Own(_)) && seen.len() < MAX_INCLUDES => {
-            let new = seen.insert(file.path.to_string());
-            new && (Mentioned::by(&file.text).eye || asks_eye_in_included(files, &file, seen))
-        }
-        _ => false,
-    })
-}
-
-/// A GLSL text with a blank in place of each comment.
-fn without_comments(text: &str) -> String {
-    let mut kept = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(start) = rest.find("//").into_iter().chain(rest.find("/*")).min() {
-        let (before, comment) = rest.split_at(start);
-        kept.extend([before, " "]);
-        let (_, comment) = comment.split_at(2);
-        let end = match rest[start..].starts_with("//") {
-            true => comment.find('\n'),
-            false => comment.find("*/").map(|end| end + 2),
-        };
-        rest = end.map_or("", |end| &comment[end..]);
-    }
-    kept + rest
+/// for both where one eye is drawn for.
+fn asks_eye_in_included(files: &ShaderFiles, from: &Found) -> bool {
+    let included = text::included(files, from);
+    included.iter().any(|file| matches!(file.path, FilePath::Own(_)) && Mentioned::by(&file.text).eye)
 }
 
 /// The vertex shader of a kind of draw, for shaders without one of their own.

@@ -2,13 +2,18 @@
 
 mod alpha;
 mod bindings;
+mod capabilities;
 mod compile;
+mod compilers;
 mod eyes;
 mod files;
 mod layers;
 mod library;
+mod messages;
 mod module;
 mod reflect;
 mod rotation;
+mod text;
 
+pub(crate) use compile::{Failure, IncludedFile, Job, compile};
 pub use library::{CompiledCompute, CompiledShader, ShaderLibrary, Spirv};

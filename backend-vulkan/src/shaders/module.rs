@@ -162,6 +162,35 @@ impl<'m> Indexed<'m> {
         }
     }
 
+    /// The last location that a variable of type `ty` takes, as its own decoration or those of its members say; `None` without one.
+    pub(super) fn last_location(&self, variable: u32, ty: u32) -> Option<u32> {
+        let last = |first: u32, ty: u32| first.saturating_add(self.locations(ty).saturating_sub(1));
+        if let Some(first) = self.decoration_number(variable, Decoration::Location) {
+            return Some(last(first, ty));
+        }
+        let members = self.global(ty).filter(|it| it.class.opcode == Op::TypeStruct)?.operands.iter().zip(0..);
+        let placed = members.filter_map(|(member, at)| {
+            let first = self.member_decoration(ty, at, Decoration::Location).flatten().and_then(number)?;
+            Some(last(first, member.id_ref_any()?))
+        });
+        placed.max()
+    }
+
+    /// How many locations a value of type `ty` takes.
+    fn locations(&self, ty: u32) -> u32 {
+        let Some(it) = self.global(ty) else { return 1 };
+        let element = || id(it, 0).map_or(1, |element| self.locations(element));
+        match it.class.opcode {
+            Op::TypeMatrix => it.operands.get(1).and_then(number).unwrap_or(1),
+            Op::TypeArray => self.array_length(it).saturating_mul(element()),
+            Op::TypeStruct => {
+                let members = it.operands.iter().filter_map(Operand::id_ref_any);
+                members.fold(0, |sum: u32, member| sum.saturating_add(self.locations(member)))
+            }
+            _ => 1,
+        }
+    }
+
     /// Elements of an array type.
     pub(super) fn array_length(&self, array: &Instruction) -> u32 {
         id(array, 1).and_then(|length| self.constant(length)).unwrap_or(0)

@@ -2,12 +2,15 @@
 
 use super::alpha;
 use super::bindings::{bindings, component_of};
+use super::capabilities::check_capabilities;
 use super::compile::Stage;
+use super::eyes::HANDED_ON;
 use super::module::{Indexed, id, number, storage_class};
 use super::rotation;
+use super::text::Refused;
 use framewright_graph::interface::{AlphaUse, FragmentOutput, PASS_SET, ShaderInterface, VertexInput};
 use rspirv::dr::Operand;
-use rspirv::spirv::{BuiltIn, Capability, Decoration, ExecutionMode, Op, StorageClass};
+use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;
 
 /// What a stage uses, and what it takes from or hands to the other stage.
@@ -31,33 +34,10 @@ pub(super) struct Varying {
     pub(super) ty: String,
 }
 
-/// What shaders may need of a device: the minimum device has no more, but for what is said here.
-const CAPABILITIES: [Capability; 14] = [
-    Capability::Matrix,
-    Capability::Shader,
-    Capability::Sampled1D,
-    Capability::Image1D,
-    Capability::SampledBuffer,
-    Capability::ImageBuffer,
-    Capability::ImageQuery,
-    Capability::DerivativeControl,
-    Capability::SampleRateShading,
-    Capability::InterpolationFunction,
-    Capability::DemoteToHelperInvocation,
-    // Shaders have it only where they are compiled for a local read, which is for devices that have those.
-    Capability::InputAttachment,
-    // A device that can't see several cubes at once refuses the pass.
-    Capability::SampledCubeArray,
-    Capability::ImageCubeArray,
-];
-
-/// What shaders need besides that draw for both eyes at once.
-const FOR_BOTH_EYES: [Capability; 4] =
-    [Capability::MultiView, Capability::ClipDistance, Capability::ShaderLayer, Capability::ShaderViewportIndexLayerEXT];
-
-/// Locations between stages and of vertex attributes are below these: Vulkan promises no more to all. The compiler itself
-/// limits those of colour outputs.
-const VARYINGS: u32 = 15;
+/// Locations between stages and of vertex attributes are below these. Vulkan promises 15 between stages to all, of which the last
+/// one hands on the eye ([`super::eyes`]), so that a shader fits every way to draw for both eyes; and 16 attributes. The compiler
+/// itself limits those of colour outputs.
+pub(super) const VARYINGS: u32 = 14;
 const ATTRIBUTES: u32 = 16;
 /// A fragment stage declares at most this many outputs, the elements of arrays counted: no device has as many.
 const OUTPUTS: u32 = 256;
@@ -72,23 +52,20 @@ const SHARED_BYTES: u64 = 16 << 10;
 ///
 /// # Errors
 /// In words: what it uses that can't be bound.
-pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool, both_eyes: bool) -> Result<StageInterface, String> {
+pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool, both_eyes: bool) -> Result<StageInterface, Refused> {
     let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
     let module = Indexed::new(&module);
     let used: HashSet<u32> =
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
     let fragment = stage == Stage::Fragment;
-    check_capabilities(&module, both_eyes)?;
+    check_capabilities(&module, stage, both_eyes)?;
     check_own_memory(&module)?;
     check_shared_memory(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
     let outputs = varyings(&module, StorageClass::Output, &used);
     let (most_in, most_out) = if fragment { (VARYINGS, u32::MAX) } else { (ATTRIBUTES, VARYINGS) };
-    for (varyings, most) in [(&inputs, most_in), (&outputs, most_out)] {
-        if let Some(far) = varyings.iter().find(|it| it.location >= most) {
-            return Err(format!("`{}` at location {}: locations go up to {}", far.name, far.location, most - 1));
-        }
-    }
+    check_locations(&module, StorageClass::Input, most_in)?;
+    check_locations(&module, StorageClass::Output, most_out)?;
     let interface = ShaderInterface {
         bindings: bindings(&module, stage, &used, in_part)?,
         vertex_inputs: match stage {
@@ -123,6 +100,23 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool, both_eyes: boo
     Ok(StageInterface { interface, inputs, outputs, input_attachments })
 }
 
+/// That what has a location, used or not, ends below location `most`.
+fn check_locations(module: &Indexed<'_>, class: StorageClass, most: u32) -> Result<(), Refused> {
+    // The eye is the library's own.
+    let own = module.variables().filter(|(id, it)| storage_class(it) == Some(class) && module.name(*id) != HANDED_ON);
+    for (id, variable) in own {
+        let Some(ty) = module.pointee(variable).and_then(|ty| ty.result_id) else { continue };
+        let Some(last) = module.last_location(id, ty) else { continue };
+        if last >= most {
+            // A block without a name of its own has the name of its type.
+            let name = Some(module.name(id)).filter(|name| !name.is_empty()).unwrap_or_else(|| module.name(ty));
+            let what = format!("`{name}` at location {last}: locations go up to {}", most - 1);
+            return Err(Refused::named(name, what));
+        }
+    }
+    Ok(())
+}
+
 /// What becomes of the alpha of the images that the pass's own set samples.
 fn alpha_uses(module: &Indexed<'_>, fragment: bool) -> Vec<(String, AlphaUse)> {
     let sampled = module.variables().filter(|(id_of, it)| {
@@ -151,31 +145,19 @@ fn workgroup_size(module: &Indexed<'_>) -> [u32; 3] {
 }
 
 /// No more memory than the invocations of a workgroup may share.
-fn check_shared_memory(module: &Indexed<'_>) -> Result<(), String> {
+fn check_shared_memory(module: &Indexed<'_>) -> Result<(), Refused> {
     let shared = module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Workgroup));
     let bytes = shared.filter_map(|(_, it)| module.pointee(it)?.result_id).map(|ty| module.own_bytes(ty));
     let total = bytes.fold(0, u64::saturating_add);
     if total > SHARED_BYTES {
-        return Err(format!("its shared variables take {total} bytes: at most {SHARED_BYTES} are allowed"));
+        let what = format!("its shared variables take {total} bytes: at most {SHARED_BYTES} are allowed");
+        return Err(Refused::named("shared", what));
     }
     Ok(())
 }
 
-/// Nothing that a device of the minimum may lack, unless it is refused elsewhere.
-fn check_capabilities(module: &Indexed<'_>, both_eyes: bool) -> Result<(), String> {
-    let needed = module.module.capabilities.iter().filter_map(|it| match it.operands.first() {
-        Some(Operand::Capability(capability)) => Some(*capability),
-        _ => None,
-    });
-    let allowed = |it: &Capability| CAPABILITIES.contains(it) || both_eyes && FOR_BOTH_EYES.contains(it);
-    match needed.into_iter().find(|it| !allowed(it)) {
-        Some(capability) => Err(format!("SPIR-V's capability {capability:?}: not every device has it")),
-        None => Ok(()),
-    }
-}
-
 /// No more memory for variables than an invocation may have.
-fn check_own_memory(module: &Indexed<'_>) -> Result<(), String> {
+fn check_own_memory(module: &Indexed<'_>) -> Result<(), Refused> {
     let local = module.code().filter(|it| it.class.opcode == Op::Variable);
     let global = module.variables().map(|(_, it)| it).filter(|it| storage_class(it) == Some(StorageClass::Private));
     let mut total: u64 = 0;
@@ -184,7 +166,8 @@ fn check_own_memory(module: &Indexed<'_>) -> Result<(), String> {
         total = total.saturating_add(module.own_bytes(ty));
         if total > OWN_BYTES {
             let name = variable.result_id.map_or("", |id| module.name(id));
-            return Err(format!("with `{name}` its variables take {total} bytes: at most {OWN_BYTES} are allowed"));
+            let what = format!("with `{name}` its variables take {total} bytes: at most {OWN_BYTES} are allowed");
+            return Err(Refused::named(name, what));
         }
     }
     Ok(())
@@ -210,7 +193,7 @@ fn vertex_input(Varying { location, name, ty }: Varying) -> VertexInput {
 }
 
 /// Colour outputs by location; an array takes a location for each element.
-fn fragment_outputs(module: &Indexed<'_>) -> Result<Vec<FragmentOutput>, String> {
+fn fragment_outputs(module: &Indexed<'_>) -> Result<Vec<FragmentOutput>, Refused> {
     let mut outputs = Vec::new();
     for (id_of, it) in module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Output)) {
         let Some(location) = module.decoration_number(id_of, Decoration::Location) else { continue };
@@ -224,10 +207,9 @@ fn fragment_outputs(module: &Indexed<'_>) -> Result<Vec<FragmentOutput>, String>
         let Some(ty) = ty.result_id else { continue };
         if location.saturating_add(elements) > OUTPUTS {
             let name = module.name(id_of);
-            return Err(format!(
-                "output `{name}`: {elements} from location {location} on; locations go up to {}",
-                OUTPUTS - 1
-            ));
+            let most = OUTPUTS - 1;
+            let what = format!("output `{name}`: {elements} from location {location} on; locations go up to {most}");
+            return Err(Refused::named(name, what));
         }
         outputs.extend((0..elements).map(|element| FragmentOutput {
             location: location + element,

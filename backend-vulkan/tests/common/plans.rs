@@ -180,6 +180,7 @@ fn barrier(image: ImageId, from: State, to: State, hazard: Hazard) -> ImageBarri
         ownership: None,
         hazard,
         after: None,
+        needed_by: Some(StepId(0)),
     }
 }
 

@@ -31,6 +31,7 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "decide.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) writeonly buffer Counts { uint count[]; } counts;
         void main() {
             for (int i = 0; i < 8; ++i) counts.count[i] = 99;

@@ -12,6 +12,7 @@ use framewright_graph::plan::Plan;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Aspects, Filter, Sampler, Stages, Subresources};
+use framewright_tests::drivers::Driver;
 use framewright_vulkan::{
     Blame, CustomRecorder, Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Recorder,
     ShaderLibrary,
@@ -36,23 +37,22 @@ const COMMON: Shaders = &[
     ),
 ];
 
-const SWIFTSHADER: &str = "/usr/lib/chromium/vk_swiftshader_icd.json";
-
 /// Lists SwiftShader beside the driver that the environment names, before anything in this process uses the loader.
 fn find_drivers() {
     static FOUND: OnceLock<()> = OnceLock::new();
     FOUND.get_or_init(|| {
         find_layer();
+        let Some(swiftshader) = Driver::SwiftShader.manifest() else { return };
         for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
             let Ok(files) = std::env::var(name) else { continue };
-            if !files.is_empty() && !files.contains(SWIFTSHADER) {
+            if !files.is_empty() && !files.contains(swiftshader) {
                 // SAFETY: every test of this binary comes through here before it touches the loader, which is the only
                 // code that reads the environment without the standard library's lock.
-                unsafe { std::env::set_var(name, format!("{files}:{SWIFTSHADER}")) };
+                unsafe { std::env::set_var(name, format!("{files}:{swiftshader}")) };
             }
         }
         // SAFETY: as above. Where one of the variables above is set, the loader ignores this one.
-        unsafe { std::env::set_var("VK_ADD_DRIVER_FILES", SWIFTSHADER) };
+        unsafe { std::env::set_var("VK_ADD_DRIVER_FILES", swiftshader) };
     });
 }
 
@@ -60,7 +60,7 @@ fn find_drivers() {
 fn drivers() -> Vec<String> {
     match std::env::var("FRAMEWRIGHT_TEST_DEVICE") {
         Ok(name) => vec![name],
-        Err(_) => ["lavapipe", "SwiftShader"].map(str::to_owned).into(),
+        Err(_) => Driver::ALL.map(|driver| driver.name().to_owned()).into(),
     }
 }
 

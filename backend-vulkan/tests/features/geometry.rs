@@ -15,6 +15,7 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "corners.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         struct Vertex { float x; float y; uint value; };
         layout(set = 0, binding = 0) writeonly buffer Vertices { Vertex vertex[]; } vertices;
         void main() {
@@ -28,12 +29,14 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "indices.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) writeonly buffer Indices { uint index[]; } indices;
         void main() { for (uint i = 0; i < 3; ++i) indices.index[i] = i + 3; }",
     ),
     (
         "counts.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) writeonly buffer Counts { uint count[]; } counts;
         void main() {
             // Vertices, instances, first vertex, first instance.
@@ -44,6 +47,7 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "indexed_counts.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) writeonly buffer Counts { uint count[]; } counts;
         void main() {
             // Indices, instances, first index, vertex offset, first instance. Indices 0, 1, 2 become 3 - 3 and so on.

@@ -22,6 +22,7 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "double.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) readonly buffer From { uint from[]; };
         layout(set = 0, binding = 1) writeonly buffer To { uint to[]; };
         void main() { for (int i = 0; i < 16; ++i) to[i] = 2 * from[i]; }",
@@ -102,7 +103,10 @@ fn a_plan_that_takes_more_memory_than_there_is_is_refused_in_numbers() {
         plan.totals.placed_bytes = plan.heaps.iter().map(|heap| heap.bytes).sum();
         let refused = Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default());
         match refused.err() {
-            Some(Error::OutOfMemory { what, bytes, reason }) => {
+            Some(Error::OutOfMemory { what, bytes, parts, reason }) => {
+                assert!(
+                    !parts.is_empty() && parts.iter().all(|(name, _)| plan.images.iter().any(|it| *it.name == **name))
+                );
                 assert_eq!((what.as_str(), bytes), ("heap 0", 1 << 50));
                 assert!(reason.starts_with("the device has "), "{reason}");
             }

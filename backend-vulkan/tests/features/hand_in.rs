@@ -24,6 +24,7 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "double.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) readonly buffer From { uint from[]; };
         layout(set = 0, binding = 1) writeonly buffer To { uint to[]; };
         void main() { for (int i = 0; i < 3; ++i) to[i] = 2 * from[i]; }",
@@ -31,6 +32,7 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "increase.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) buffer Words { uint word[]; };
         void main() { for (int i = 0; i < 3; ++i) word[i] += 1; }",
     ),

@@ -1,11 +1,11 @@
-//! Memory of buffers that changes hands, under poison.
+//! Memory that changes hands.
 
-use crate::frames::{Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels};
+use crate::frames::{Nothing, Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels};
 use framewright_graph::compile::{Options, Order};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, Groups};
 use framewright_graph::plan::{MemoryBarrier, Plan, Role};
-use framewright_graph::vocabulary::Subresources;
+use framewright_graph::vocabulary::{Stages, Subresources};
 use framewright_vulkan::{Executor, ExecutorOptions};
 
 const WHOLE: Subresources = Subresources::WHOLE;
@@ -15,6 +15,7 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "begin.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) writeonly buffer Words { uint word[]; };
         layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D image;
         void main() {
@@ -32,18 +33,32 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "go_on.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) writeonly buffer Words { uint word[]; };
         void main() { for (int i = 0; i < 16; ++i) word[i] = i; }",
     ),
     (
         "sum.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) readonly buffer Words { uint word[]; };
         layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D image;
         void main() {
             uint sum = 0;
             for (int i = 0; i < 16; ++i) sum += word[i];
             imageStore(image, ivec2(0), uvec4(sum));
+        }",
+    ),
+    (
+        "store_both.comp",
+        "#version 460
+        layout(local_size_x = 1) in;
+        layout(set = 0, binding = 0) uniform usampler2D source;
+        layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2D last;
+        layout(set = 0, binding = 2, r32ui) uniform writeonly uimage2D kept;
+        void main() {
+            imageStore(last, ivec2(0), uvec4(9));
+            imageStore(kept, ivec2(0), texelFetch(source, ivec2(0), 0) + 4);
         }",
     ),
 ];
@@ -81,4 +96,36 @@ fn a_buffer_is_poisoned_in_order_where_an_earlier_step_s_barrier_handed_its_memo
             assert_eq!(texels(&mut executor, "sum", 0), [120]);
         }
     });
+}
+
+/// Where the layer doesn't follow barriers of other images, it takes each write of `last` for a hazard of the one in the frame
+/// before.
+#[test]
+fn what_is_handed_over_and_back_is_followed_through_barriers_of_other_images() {
+    let mut small = Small::default();
+    let [first, second, last, kept] =
+        ["first", "second", "last", "kept"].map(|name| small.image(name, Format::R32_UINT, [1, 1]));
+    small.pass(draw("number", Draw::FullScreen).draws(first, WHOLE, None));
+    small.pass(draw("show", Draw::FullScreen).samples("image", first, WHOLE).draws(second, WHOLE, None));
+    let pass = dispatch("store_both", ONE).samples("source", second, WHOLE);
+    small.pass(pass.stores("last", last, WHOLE).stores("kept", kept, WHOLE));
+    small.image_output(kept);
+    on_each_driver(|device| {
+        for poison in [false, true] {
+            let plan = planned(device, &small.frame, &Options { poison, ..Options::default() });
+            assert_eq!(sources(&plan, "last"), [Stages::FRAGMENT_SHADER], "{}", plan.tree());
+            let options = ExecutorOptions { poison, frames_in_flight: 3, ..ExecutorOptions::default() };
+            let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
+            for _ in 0..3 {
+                executor.submit(&mut Nothing).expect("a frame");
+            }
+            assert_eq!(texels(&mut executor, "kept", 0), [4]);
+        }
+    });
+}
+
+/// What each barrier of an image waits for.
+fn sources(plan: &Plan, name: &str) -> Vec<Stages> {
+    let barriers = plan.steps.iter().flat_map(|step| &step.image_barriers);
+    barriers.filter(|it| *plan.image(it.image).name == *name).map(|it| it.src_stages).collect()
 }

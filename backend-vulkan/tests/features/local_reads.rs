@@ -52,6 +52,7 @@ fn in_one_scope(device: &Device) -> Plan {
     let Work::Render(second_scope) = second.work else { panic!("it draws") };
     let first = &mut plan.steps[0];
     first.image_barriers.extend(second.image_barriers.into_iter().filter(|barrier| barrier.image != a));
+    first.image_barriers.iter_mut().for_each(|barrier| barrier.needed_by = Some(StepId(0)));
     for barrier in first.image_barriers.iter_mut().filter(|barrier| barrier.image == a) {
         // The frame before leaves it where the scope ends.
         barrier.src_stages |= Stages::COLOR_ATTACHMENT_OUTPUT;

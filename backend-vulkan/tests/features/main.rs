@@ -5,6 +5,7 @@
 mod common;
 mod frames;
 
+mod blending;
 mod compute;
 mod depth;
 mod geometry;

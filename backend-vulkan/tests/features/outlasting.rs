@@ -28,6 +28,7 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "follow.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) readonly buffer Last { uint last[]; };
         layout(set = 0, binding = 1) readonly buffer BeforeLast { uint before_last[]; };
         layout(set = 0, binding = 2) writeonly buffer Now { uint now[]; };

@@ -16,6 +16,7 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "number.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0, r32ui) uniform writeonly uimage2D image;
         layout(set = 0, binding = 1) writeonly buffer Words { uint word[]; };
         void main() {
@@ -47,6 +48,7 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "multiply.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0, r32ui) uniform readonly uimage2D image;
         layout(set = 0, binding = 1) readonly buffer From { uint from[]; };
         layout(set = 0, binding = 2) writeonly buffer To { uint to[]; };

@@ -29,6 +29,7 @@ const SHADERS: &[(&str, &str)] = &[
     (
         "squares.comp",
         "#version 460
+        layout(local_size_x = 1) in;
         layout(set = 0, binding = 0) writeonly buffer Words { uint word[]; } words;
         void main() { for (int i = 0; i < words.word.length(); ++i) words.word[i] = i * i; }",
     ),
@@ -193,6 +194,15 @@ fn a_custom_pass_touches_nothing_but_what_it_says() {
         assert_eq!(refused, "pass `by hand`, while recording: the pass reads no `b` by transfer");
         let unknown = executor.frame(&mut crate::frames::Nothing);
         unknown.expect_err("nobody records it");
+    });
+}
+
+#[test]
+fn a_custom_pass_that_writes_and_records_nothing_is_refused_by_name() {
+    everywhere(&custom().frame, SHADERS, |executor| {
+        let mut source = Custom(|_: &mut CustomRecorder<'_>| ());
+        let refused = executor.frame(&mut source).expect_err("`b` would hold what its memory held before").to_string();
+        assert_eq!(refused, "pass `by hand`, while recording: nothing was recorded, and the pass writes `b`");
     });
 }
 

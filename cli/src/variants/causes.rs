@@ -54,6 +54,7 @@ fn cause(key: &Mistake, failure: Failure, space: &Space, judge: &mut Judge<'_>) 
             return false;
         }
         let found = judge.judge(&with(some)).err().into_iter().flatten().find(|found| mistake(found) == *key);
+        interrupted |= interrupt::asked();
         let fails = found.is_some();
         // The last one that fails is the least.
         found.into_iter().for_each(|found| diagnostic = found);

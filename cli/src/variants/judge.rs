@@ -11,6 +11,7 @@ use framewright_graph::describe::{Diagnostic, Document};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::frame::Frame;
+use framewright_graph::heap_size;
 use framewright_graph::plan::Totals;
 use framewright_graph::source::Sources;
 use framewright_graph::verify;
@@ -75,6 +76,9 @@ impl<'a> Judge<'a> {
         let profile = &self.subject.devices[device];
         let plan = self.compilers[device].compile(&frame, profile, &mut Estimated(profile), &self.subject.options)?;
         let violations = verify::verify(plan);
+        if let Some(large) = heap_size::too_large(plan, &frame, profile) {
+            return Err(vec![large]);
+        }
         if violations.is_empty() {
             Ok(Fine { plan: identity::of(plan), totals: plan.totals })
         } else {
@@ -102,7 +106,7 @@ impl<'a> Judge<'a> {
         let Subject { pipeline, sources, view, axes, .. } = self.subject;
         let device = self.subject.devices.get(axes::device(choice)).map(|device| &**device);
         let stereo = device.map_or(Ok(Stereo::Off), |device| Stereo::first_fit(&self.subject.stereo.0, device));
-        let stereo = stereo.map_err(|why| vec![Diagnostic { message: why, labels: Vec::new(), help: None }])?;
+        let stereo = stereo.map_err(|why| vec![Diagnostic::nowhere(why)])?;
         let inputs = Inputs {
             set: &axes.settings(choice),
             facts: axes.facts(choice),
@@ -118,9 +122,5 @@ impl<'a> Judge<'a> {
 }
 
 fn own_mistake(violation: &str) -> Diagnostic {
-    Diagnostic {
-        message: format!("the Plan breaks its own rules, which is a mistake of framewright itself: {violation}"),
-        labels: Vec::new(),
-        help: None,
-    }
+    Diagnostic::nowhere(format!("the Plan breaks its own rules, which is a mistake of framewright itself: {violation}"))
 }

@@ -12,6 +12,7 @@ mod identity;
 mod judge;
 mod mentions;
 mod minimise;
+mod progress;
 mod report;
 mod run;
 mod shaders;
@@ -25,8 +26,9 @@ use crate::{check, interrupt, profiles, text};
 use axes::Axes;
 use framewright_graph::describe;
 use framewright_graph::device::Profile;
-use indicatif::{ProgressBar, ProgressStyle};
+use framewright_graph::read_files::ReadFiles;
 use judge::{Judge, Subject};
+use progress::Progress;
 use report::Report;
 use shaders::Shared;
 use space::Space;
@@ -61,7 +63,7 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
 
 fn report(arguments: &Check) -> Result<Report, Error> {
     let devices = devices(arguments)?;
-    let loaded = planning::load(&arguments.pipeline)?;
+    let loaded = planning::load(&arguments.pipeline, &ReadFiles::default())?;
     let view = check::view(arguments);
     loaded.check_command_line(view)?;
     let Loaded { pipeline, sources, shaders, set, stereo, .. } = loaded;
@@ -84,9 +86,9 @@ fn report(arguments: &Check) -> Result<Report, Error> {
 
     let library = Mutex::new(shaders);
     let threads = arguments.threads.map_or_else(processors, usize::from);
-    let progress = progress(space.len());
+    let progress = Progress::new(space.len());
     let mut found = run::run(&subject, &space, &library, threads, &progress);
-    progress.finish_and_clear();
+    progress.finish();
     let failures = std::mem::take(&mut found.failures);
     let distinct = failures.len();
     let causes = causes::find(failures, &space, &mut Judge::new(&subject, Shared::new(&library)));
@@ -101,26 +103,11 @@ fn devices(arguments: &Check) -> Result<Vec<(String, Arc<Profile>)>, Error> {
         let all = profiles::all()?;
         return Ok(all.into_iter().map(|(name, profile)| (name.to_owned(), Arc::new(profile))).collect());
     }
-    let profile = profiles::choose(device)?;
+    let profile = profiles::choose(device, &ReadFiles::default())?;
     let name = device.map_or_else(|| profile.name.clone(), |name| name.to_string_lossy().into_owned());
     Ok(vec![(name, Arc::new(profile))])
 }
 
 fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, NonZero::get)
-}
-
-/// So many may take long enough to wonder.
-const MANY: usize = 10_000;
-
-/// A bar on a terminal; anywhere else a line, if there are many.
-fn progress(variants: usize) -> ProgressBar {
-    let bar = ProgressBar::new(variants as u64);
-    if let Ok(style) = ProgressStyle::with_template("checking {wide_bar} {pos}/{len} variants, {eta} left") {
-        bar.set_style(style);
-    }
-    if bar.is_hidden() && variants >= MANY {
-        text::say(&format!("note: checking {variants} variants"));
-    }
-    bar
 }

@@ -3,6 +3,7 @@
 use super::axes;
 use super::identity::Identity;
 use super::judge::{Fine, Judge, Subject};
+use super::progress::Progress;
 use super::shaders::Shared;
 use super::space::Space;
 use crate::interrupt;
@@ -10,7 +11,6 @@ use framewright_graph::describe::Diagnostic;
 use framewright_graph::plan::Totals;
 use framewright_graph::source::Span;
 use framewright_vulkan::ShaderLibrary;
-use indicatif::ProgressBar;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -82,7 +82,7 @@ pub(crate) fn run(
     space: &Space,
     library: &Mutex<ShaderLibrary>,
     threads: usize,
-    progress: &ProgressBar,
+    progress: &Progress,
 ) -> Found {
     let batch = (space.len() / (threads * BATCHES)).clamp(1, LARGEST_BATCH);
     let next = AtomicUsize::new(0);
@@ -101,9 +101,14 @@ pub(crate) fn run(
                 }
                 let choice = space.choice(number);
                 let departures = choice.iter().filter(|value| **value != 0).count();
-                found.add(Example { departures, number }, axes::device(&choice), judge.judge(&choice));
+                let verdict = judge.judge(&choice);
+                if interrupt::asked() {
+                    // Its shaders may have been given up, which is no mistake of theirs.
+                    return found;
+                }
+                found.add(Example { departures, number }, axes::device(&choice), verdict);
+                progress.checked_one();
             }
-            progress.inc((to - from) as u64);
         }
     };
     std::thread::scope(|scope| {
@@ -177,7 +182,7 @@ mod tests {
 
     #[test]
     fn what_stands_for_others_is_nearest_to_the_defaults_whoever_found_it() {
-        let diagnostic = Diagnostic { message: "wrong".to_owned(), labels: Vec::new(), help: None };
+        let diagnostic = Diagnostic::nowhere("wrong");
         let plan = Identity { plan: 7, shape: 1 };
         let fine = Fine { plan, totals: Totals::default() };
         let numbers = [(2, 1), (1, 5), (1, 7), (3, 0)];

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test file uses a part")]
 
+use framewright_graph::device::Profile;
+use framewright_tests::drivers::{CURRENT_LAYER, DISTRIBUTION_LAYERS, Driver};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -96,6 +98,14 @@ impl Place {
     }
 }
 
+/// What the command says of the driver that these variables lead to, as its saved profile.
+pub(crate) fn live_profile(variables: &[(&str, &str)]) -> Profile {
+    let place = Place::new();
+    place.run_with(variables, &["devices", "--save", "live.ron", "--device", "0"]).exits(0);
+    let text = std::fs::read_to_string(place.path("live.ron")).expect("it is written");
+    Profile::from_ron(&text).expect("a profile")
+}
+
 /// Runs a command.
 pub(crate) fn outcome(command: &mut Command) -> Outcome {
     let output = command.output().expect("the command starts");
@@ -124,49 +134,65 @@ pub(crate) fn repository(path: &str) -> PathBuf {
 /// A driver and a validation layer of this machine.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Vulkan {
-    driver: &'static str,
-    layer: Option<&'static str>,
+    driver: Driver,
+    layer: Option<Layer>,
 }
 
-/// Mesa's software driver, from `mesa-vulkan-drivers`.
-const LAVAPIPE: &str = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
-/// Google's software driver, from `chromium-common`.
-const SWIFTSHADER: &str = "/usr/lib/chromium/vk_swiftshader_icd.json";
-/// The distribution's validation layer, from `vulkan-validationlayers`.
-const OLD_LAYER: &str = "/usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json";
-/// The current validation layer, from `chromium-common`; `framewright` finds it by itself.
-const CURRENT_LAYER: &str = "/usr/lib/chromium/libVkLayer_khronos_validation.so";
+/// A validation layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Layer {
+    Current,
+    Distribution,
+}
 
 impl Vulkan {
     /// Lavapipe alone.
-    pub(crate) const LAVAPIPE: Vulkan = Vulkan { driver: LAVAPIPE, layer: None };
+    pub(crate) const LAVAPIPE: Vulkan = Vulkan { driver: Driver::Lavapipe, layer: None };
     /// Lavapipe under the current layer.
-    pub(crate) const LAVAPIPE_CURRENT: Vulkan = Vulkan { driver: LAVAPIPE, layer: Some(CURRENT_LAYER) };
+    pub(crate) const LAVAPIPE_CURRENT: Vulkan = Vulkan { driver: Driver::Lavapipe, layer: Some(Layer::Current) };
     /// Lavapipe under the distribution's layer.
-    pub(crate) const LAVAPIPE_OLD: Vulkan = Vulkan { driver: LAVAPIPE, layer: Some(OLD_LAYER) };
+    pub(crate) const LAVAPIPE_OLD: Vulkan = Vulkan { driver: Driver::Lavapipe, layer: Some(Layer::Distribution) };
     /// SwiftShader alone.
-    pub(crate) const SWIFTSHADER: Vulkan = Vulkan { driver: SWIFTSHADER, layer: None };
+    pub(crate) const SWIFTSHADER: Vulkan = Vulkan { driver: Driver::SwiftShader, layer: None };
     /// SwiftShader under the current layer.
-    pub(crate) const SWIFTSHADER_CURRENT: Vulkan = Vulkan { driver: SWIFTSHADER, layer: Some(CURRENT_LAYER) };
+    pub(crate) const SWIFTSHADER_CURRENT: Vulkan = Vulkan { driver: Driver::SwiftShader, layer: Some(Layer::Current) };
 
     /// Whether it is lavapipe.
     pub(crate) fn is_lavapipe(self) -> bool {
-        self.driver == LAVAPIPE
+        self.driver == Driver::Lavapipe
     }
 
-    /// The variables that lead to it; `None`, with a word on what is missing, if it isn't installed. In CI that is a
-    /// failure.
-    pub(crate) fn variables(self) -> Option<Vec<(&'static str, &'static str)>> {
-        for needed in std::iter::once(self.driver).chain(self.layer) {
-            if !Path::new(needed).exists() {
-                assert!(std::env::var_os("CI").is_none(), "{needed} is missing, and CI must have it: run ./test");
-                eprintln!("skipped: {needed} is missing");
-                return None;
-            }
+    /// Whether its layer sees hazards of dynamic rendering: one that takes settings does.
+    pub(crate) fn layer_sees_attachments(self) -> bool {
+        let manifest = || std::fs::read_to_string(format!("{DISTRIBUTION_LAYERS}/VkLayer_khronos_validation.json"));
+        match self.layer {
+            None => false,
+            Some(Layer::Current) => true,
+            Some(Layer::Distribution) => manifest().is_ok_and(|text| text.contains("VK_EXT_layer_settings")),
         }
-        let mut variables = vec![("VK_DRIVER_FILES", self.driver), ("VK_ICD_FILENAMES", self.driver)];
-        if self.layer == Some(OLD_LAYER) {
-            variables.push(("VK_LAYER_PATH", "/usr/share/vulkan/explicit_layer.d"));
+    }
+
+    /// The variables that lead to it; `None`, with a word on why, if tests shall not run on it or it isn't installed. In CI
+    /// a driver or layer that isn't installed is a failure.
+    pub(crate) fn variables(self) -> Option<Vec<(&'static str, &'static str)>> {
+        let name = self.driver.name();
+        if !self.driver.is_tested() {
+            eprintln!("skipped: FRAMEWRIGHT_TEST_DEVICE asks for another driver than {name}");
+            return None;
+        }
+        let layer = match self.layer {
+            None => "/",
+            Some(Layer::Current) => CURRENT_LAYER,
+            Some(Layer::Distribution) => DISTRIBUTION_LAYERS,
+        };
+        let Some(driver) = self.driver.manifest().filter(|_| Path::new(layer).exists()) else {
+            assert!(std::env::var_os("CI").is_none(), "{name} or {layer} is missing, and CI must have it: run ./test");
+            eprintln!("skipped: {name} or {layer} is missing");
+            return None;
+        };
+        let mut variables = vec![("VK_DRIVER_FILES", driver), ("VK_ICD_FILENAMES", driver)];
+        if self.layer == Some(Layer::Distribution) {
+            variables.push(("VK_LAYER_PATH", DISTRIBUTION_LAYERS));
         }
         Some(variables)
     }

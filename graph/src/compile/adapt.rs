@@ -14,7 +14,6 @@ pub(super) use access::has_samples;
 
 use super::Options;
 use super::cull::Live;
-use super::link::covers;
 use super::model::{Adapted, Negotiated, Op, OpKind, Start, StoreIndex, Use};
 use super::parts::{self, Grids};
 use crate::describe::Diagnostic;
@@ -155,7 +154,7 @@ impl Adapter<'_> {
         for (entry, target) in (0_u32..).zip(&pass.color) {
             let start = match target.clear {
                 Some(_) => Start::Clear,
-                None if covers(frame, pass, target) => Start::Discard,
+                None if pass.covers_color(target, &frame.images[target.image.0 as usize]) => Start::Discard,
                 None => Start::Keep,
             };
             let store = self.target(number, pass, target.image, target.range, target.span, start == Start::Keep);
@@ -163,21 +162,18 @@ impl Adapter<'_> {
             uses.push(access::color(target, entry, store, range, start));
         }
         if let Some(depth) = &pass.depth {
-            let planes = depth.planes(frame.images[depth.image.0 as usize].format);
-            for (plane, clears, writes) in planes {
-                let start = if clears { Start::Clear } else { Start::Keep };
+            let image = &frame.images[depth.image.0 as usize];
+            for (plane, clears, writes) in depth.planes(image.format) {
+                let start = match clears {
+                    true => Start::Clear,
+                    false if pass.covers_plane(depth, plane, image) => Start::Discard,
+                    false => Start::Keep,
+                };
                 let store =
                     if writes { self.written(depth.image, start == Start::Keep) } else { self.current(depth.image) };
                 self.refuse_depth_feedback(pass, depth.image, depth.range, plane, writes);
                 let range = self.range(depth.image, Subresources { aspects: plane, ..depth.range });
-                uses.push(access::depth(
-                    plane,
-                    store,
-                    range,
-                    start,
-                    writes,
-                    frame.images[depth.image.0 as usize].format,
-                ));
+                uses.push(access::depth(plane, store, range, start, writes, image.format));
             }
         }
         for (entry, used) in (0_u32..).zip(&pass.buffers) {
@@ -327,11 +323,12 @@ impl Adapter<'_> {
         let image = sampled.image;
         let moves = |range: Subresources, keeps: bool| self.moves_on(number, image, range, keeps);
         let overlaps = |range: Subresources| self.overlap(image, range, sampled.range);
-        let color = pass
-            .color
-            .iter()
-            .filter(|target| target.image == image && overlaps(target.range))
-            .any(|target| !moves(target.range, target.clear.is_none() && !covers(self.input.frame, pass, target)));
+        let color = pass.color.iter().filter(|target| target.image == image && overlaps(target.range)).any(|target| {
+            !moves(
+                target.range,
+                target.clear.is_none() && !pass.covers_color(target, &self.input.frame.images[image.0 as usize]),
+            )
+        });
         let mut storage = pass.storage.iter().filter(|storage| storage.image == image && storage.write);
         color || storage.any(|storage| overlaps(storage.range) && !moves(storage.range, storage.read))
     }

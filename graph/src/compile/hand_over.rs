@@ -1,8 +1,9 @@
 //! Second part of `synchronise`: memory that changes hands after a write.
 //!
 //! An image barrier's memory scope covers its own image alone, so the write of a previous occupant must be named by a
-//! memory barrier. Such a barrier covers *all* memory: one serves every later hand-over of such writes whose image
-//! barrier comes after it, be it through others in between.
+//! memory barrier, in a call before that of the image barrier (docs/synchronization.md). Such a barrier covers *all*
+//! memory: one serves every later hand-over of such writes whose image barrier comes after it, be it through others in
+//! between.
 
 use super::batch::Batched;
 use super::model::StoreIndex;
@@ -31,7 +32,6 @@ pub(super) struct MemoryScopes {
     pub(super) src_stages: Stages,
     pub(super) src_accesses: Accesses,
     pub(super) dst_stages: Stages,
-    pub(super) dst_accesses: Accesses,
     pub(super) hand_overs: Vec<[StoreIndex; 2]>,
 }
 
@@ -153,34 +153,41 @@ fn add(barrier: &mut Option<MemoryScopes>, due: &[&Due]) {
         let barrier = barrier.get_or_insert_default();
         barrier.src_stages |= due.source.stages;
         barrier.src_accesses |= due.source.accesses;
-        barrier.dst_stages |= due.barrier.dst_stages;
-        barrier.dst_accesses |= due.barrier.dst_accesses;
+        // The image barrier, a call later, goes on from there: it waits for the same stages.
+        barrier.dst_stages |= due.source.stages;
         if !barrier.hand_overs.contains(&due.stores) {
             barrier.hand_overs.push(due.stores);
         }
     }
 }
 
-/// What comes after each barrier, once those of one step are passed. They don't order each other.
+/// What comes after each barrier, once those of one step are passed: its memory barrier, then its image barriers, which
+/// don't order each other.
 fn pass<'p>(
     passed: &mut Vec<Passed>,
     time: usize,
     memory: Option<&MemoryScopes>,
     images: impl Iterator<Item = &'p Pending>,
 ) {
-    let memory_scopes = memory.map(|it| (it.src_stages, it.dst_stages));
-    let scopes: Vec<(Stages, Stages)> = images.map(|it| (it.src_stages, it.dst_stages)).chain(memory_scopes).collect();
-    for barrier in passed.iter_mut() {
+    if let Some(memory) = memory {
+        lead_on(passed, &[(memory.src_stages, memory.dst_stages)]);
+        let source = Source { stages: memory.src_stages, accesses: memory.src_accesses };
+        // Distinct sources are few: of equal ones the latest serves whatever an earlier one could, once it reaches as far.
+        let reach = and_later(memory.dst_stages);
+        passed.retain(|barrier| !(source.covers(barrier.source) && reach.contains(barrier.reach)));
+        passed.push(Passed { source, time, reach });
+    }
+    let scopes: Vec<(Stages, Stages)> = images.map(|it| (it.src_stages, it.dst_stages)).collect();
+    lead_on(passed, &scopes);
+}
+
+/// Lets the barriers of one call lead on from what they wait for.
+fn lead_on(passed: &mut [Passed], scopes: &[(Stages, Stages)]) {
+    for barrier in passed {
         let follows = |(src, _): &&(Stages, Stages)| and_earlier(*src).intersects(barrier.reach);
         let next = scopes.iter().filter(follows).fold(barrier.reach, |reach, (_, dst)| reach | and_later(*dst));
         barrier.reach = next;
     }
-    let Some(memory) = memory else { return };
-    let source = Source { stages: memory.src_stages, accesses: memory.src_accesses };
-    // Distinct sources are few: of equal ones the latest serves whatever an earlier one could, once it reaches as far.
-    let reach = and_later(memory.dst_stages);
-    passed.retain(|barrier| !(source.covers(barrier.source) && reach.contains(barrier.reach)));
-    passed.push(Passed { source, time, reach });
 }
 
 /// The stages of the graphics pipeline in logical order.
@@ -195,13 +202,13 @@ const PIPELINE: [Stages; 7] = [
 ];
 
 /// With the logically earlier stages, which a barrier's first scope includes.
-fn and_earlier(stages: Stages) -> Stages {
+pub(super) fn and_earlier(stages: Stages) -> Stages {
     let last = PIPELINE.iter().rposition(|stage| stages.contains(*stage));
     PIPELINE[..last.map_or(0, |last| last + 1)].iter().fold(stages, |all, stage| all | *stage)
 }
 
 /// With the logically later stages, which a barrier's second scope includes.
-fn and_later(stages: Stages) -> Stages {
+pub(super) fn and_later(stages: Stages) -> Stages {
     let first = PIPELINE.iter().position(|stage| stages.contains(*stage)).unwrap_or(PIPELINE.len());
     PIPELINE[first..].iter().fold(stages, |all, stage| all | *stage)
 }

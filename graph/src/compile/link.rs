@@ -4,11 +4,9 @@
 
 use super::parts::{self, Grids, outlives};
 use crate::describe::Diagnostic;
-use crate::frame::{
-    Blend, BufferRole, BufferUse, ColorTarget, Draw, Frame, ImageIndex, Lifetime, Pass, Resource, Work,
-};
+use crate::frame::{BufferRole, BufferUse, Frame, ImageIndex, Lifetime, Pass, Resource, Work};
 use crate::source::Span;
-use crate::vocabulary::{CompareOp, Layout, Subresources};
+use crate::vocabulary::{Layout, Subresources};
 
 /// What one pass does with one part of an image, or with a buffer.
 #[derive(Debug, Clone, Copy)]
@@ -52,16 +50,6 @@ impl Linked {
     pub(super) fn uses(&self, pass: usize) -> &[PartUse] {
         &self.uses[self.starts[pass] as usize..self.starts[pass + 1] as usize]
     }
-}
-
-/// Whether a draw replaces every pixel of its colour target: of several layers, a triangle meets only one.
-pub(super) fn covers(frame: &Frame, pass: &Pass, target: &ColorTarget) -> bool {
-    let Work::Draw { draw: Draw::FullScreen, discards: false, .. } = pass.work else { return false };
-    if parts::resolve(&frame.images[target.image.0 as usize], target.range).layers > 1 {
-        return false;
-    }
-    let tested = pass.depth.as_ref().is_some_and(|depth| depth.test != CompareOp::Always || depth.stencil.is_some());
-    target.blend == Blend::Replace && !tested
 }
 
 /// Whether a use of a buffer reads and writes it.
@@ -154,13 +142,16 @@ impl Linker<'_> {
             self.image(pass, storage.image, storage.range, storage.span, storage.read, storage.write);
         }
         for target in &pass.color {
-            let keeps = target.clear.is_none() && !covers(self.frame, pass, target);
+            let image = &self.frame.images[target.image.0 as usize];
+            let keeps = target.clear.is_none() && !pass.covers_color(target, image);
             self.image(pass, target.image, target.range, target.span, keeps, true);
         }
         if let Some(depth) = &pass.depth {
-            for (plane, clears, writes) in depth.planes(self.frame.images[depth.image.0 as usize].format) {
+            let image = &self.frame.images[depth.image.0 as usize];
+            for (plane, clears, writes) in depth.planes(image.format) {
                 let range = Subresources { aspects: plane, ..depth.range };
-                self.image(pass, depth.image, range, depth.span, !clears, writes);
+                let keeps = !clears && !pass.covers_plane(depth, plane, image);
+                self.image(pass, depth.image, range, depth.span, keeps, writes);
             }
         }
         for used in &pass.buffers {

@@ -3,7 +3,7 @@
 //! ```text
 //! rotate ─► legal ─► parts ─► link ─► cull ─► samples ─► adapt ─► schedule ─► scope ─► retain ─► queues
 //!       ─► synchronise ─► outlive ─► purpose ─► usable ─► place ─► occupy ─► take_over ─► batch
-//!       ─► hand_over ─► emit
+//!       ─► redundant ─► hand_over ─► emit
 //! ```
 //!
 //! `place` stands between the halves of `synchronise`: how long something lives and what it is made for is known once all
@@ -36,6 +36,7 @@ mod parts;
 mod place;
 mod purpose;
 mod queues;
+mod redundant;
 mod retain;
 mod rotate;
 mod samples;

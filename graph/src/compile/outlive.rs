@@ -193,7 +193,10 @@ impl Circle<'_> {
         let (store, first) = (self.stores.start + at as u32, self.store(at).first_cell);
         let layout = self.layouts[at];
         if let Some(after) = self.store(at).after {
-            return self.parts().for_each(|part| self.walked.promise(store, first + part, export, after));
+            // Where no stages are named a semaphore waits for everything: then only a layout takes a barrier.
+            let is_there = |cell: &Cell| after.stages.is_empty() && cell.is_touched() && cell.layout == layout;
+            let lacking: Vec<u32> = self.parts().filter(|part| !is_there(self.cell(at, *part))).collect();
+            return lacking.into_iter().for_each(|part| self.walked.promise(store, first + part, export, after));
         }
         let found = self.handed_in.map_or(self.layouts[self.previous(at)], |state| state.layout);
         let held = |cell: &Cell| if cell.is_touched() { cell.layout } else { found };

@@ -65,7 +65,7 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
     }
     note_states(frame, &mut usage);
     for (image, used) in usage.iter().enumerate().filter(|(_, used)| !used.is_empty()) {
-        check_support(&frame.images[image], *used, &supports, &mut errors);
+        check_support(frame, image, *used, &supports, &mut errors);
     }
     let mut groups: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (image, _) in frame.images.iter().enumerate().filter(|(_, image)| image.samples > 1) {
@@ -188,8 +188,8 @@ fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
     )
 }
 
-fn check_support(declared: &Image, used: Usage, supports: &Supports<'_>, errors: &mut Vec<Diagnostic>) {
-    let device = supports.device;
+fn check_support(frame: &Frame, image: usize, used: Usage, supports: &Supports<'_>, errors: &mut Vec<Diagnostic>) {
+    let (declared, device) = (&frame.images[image], supports.device);
     let [width, height, depth] = declared.made();
     let largest = largest(declared, device);
     if width.max(height).max(depth) > largest {
@@ -212,7 +212,23 @@ fn check_support(declared: &Image, used: Usage, supports: &Supports<'_>, errors:
     if !supported.contains(used) {
         let missing = used.difference(supported).iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
         let message = format!("`{}` can't be {} on `{}`: no {missing}", declared.name, declared.format, device.name);
-        errors.push(Diagnostic::new(declared.span, message).help("choose another format"));
+        let mut wrong = Diagnostic::new(declared.span, message);
+        let mut stored = frame.passes.iter().flat_map(|pass| &pass.storage).filter(|it| it.image.0 as usize == image);
+        if let Some(storage) = stored.next().filter(|_| !supported.contains(Usage::STORAGE)) {
+            wrong = wrong.label(storage.span, "a shader stores it here");
+        }
+        errors.push(wrong.help(others(declared.format, used, supports)));
+    }
+}
+
+/// The formats of the same kind that the device has for what an image is used for.
+fn others(format: Format, used: Usage, supports: &Supports<'_>) -> String {
+    let alike = |other: &&Format| other.aspects() == format.aspects() && other.is_integer() == format.is_integer();
+    let able = |other: &&Format| supports.of(**other).is_some_and(|support| support.usage.contains(used));
+    let names: Vec<String> = Format::ALL.iter().filter(alike).filter(able).map(|it| format!("`{it}`")).collect();
+    match &names[..] {
+        [] => format!("`{}` has no format of this kind for that", supports.device.name),
+        names => format!("choose another format: for that `{}` has {}", supports.device.name, names.join(", ")),
     }
 }
 
@@ -256,13 +272,19 @@ fn lower(frame: &Frame, group: &[usize], supports: &Supports<'_>, negotiated: &m
             }
         }
         let formats = formats.join(" with ");
+        let got = if chosen == 1 { "1 sample".to_owned() } else { format!("{chosen} samples") };
+        // One sample is offered by every format that can be drawn into.
+        let mut offered: Vec<String> = [1, 2, 4, 8, 16, 32, 64]
+            .into_iter()
+            .filter(|it| *it == 1 || supported(*it))
+            .map(|it| it.to_string())
+            .collect();
+        let last = offered.pop().unwrap_or_default();
+        let offered = if offered.is_empty() { last } else { format!("{} and {last}", offered.join(", ")) };
         negotiated.notes.push(Note {
             stage: Stage::Fit,
             subject: first.name.clone(),
-            text: format!(
-                "{wanted} samples were asked for, {chosen} are used: the most, up to {wanted}, that `{}` has for {formats}",
-                supports.device.name
-            ),
+            text: format!("{got} instead of {wanted}: `{}` offers {offered} for {formats}", supports.device.name),
             at: frame.sources.place(first.span),
         });
     }

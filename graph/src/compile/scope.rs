@@ -302,6 +302,7 @@ impl Builder<'_> {
         let why = match why {
             Refusal::OtherAttachments => "its attachments are not the same".to_owned(),
             Refusal::Clears(image) => format!("it starts by clearing `{}`", store(image)),
+            Refusal::Samples(image) => format!("it samples `{}`, which the scope before it writes", store(image)),
             Refusal::Uses(image) => format!("it uses `{}`, which the scope before it writes", store(image)),
             Refusal::Writes(image) => format!("it writes `{}`, which the scope before it uses", store(image)),
             Refusal::Resolved(image) => format!("the scope before it ends with the resolve of `{}`", store(image)),

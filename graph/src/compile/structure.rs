@@ -12,7 +12,7 @@ use super::retain::{self, Retained};
 use super::schedule::{self, Scheduled};
 use super::scope::{self, Scoped, Step};
 use super::synchronise::{self, Pending, Walked};
-use super::{Options, Order, adapt, formats, legal, link, purpose, queues, samples, take_over, usable};
+use super::{Options, Order, adapt, formats, legal, link, purpose, queues, redundant, samples, take_over, usable};
 use crate::describe::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
@@ -213,11 +213,12 @@ impl Structure {
     fn synchronise(&mut self, occupancy: &Occupancy) -> (Vec<Batched>, Vec<(u32, MemoryScopes)>) {
         let Structure { grids, adapted, scoped, walked, states, export, .. } = self;
         let hand_overs = take_over::take_over(grids, adapted, states, occupancy, walked);
-        let (pending, queues) = (&walked.barriers, &walked.queues);
-        let batched = match queues {
-            None => batch::batch(&adapted.stores, pending),
-            Some(queues) => batch::batch_on(queues, &adapted.stores, pending),
+        let mut batched = match &walked.queues {
+            None => batch::batch(&adapted.stores, &walked.barriers),
+            Some(queues) => batch::batch_on(queues, &adapted.stores, &walked.barriers),
         };
+        redundant::take_out(adapted, walked, &mut batched);
+        let (pending, queues) = (&walked.barriers, &walked.queues);
         scoped.steps.truncate(*export as usize);
         let waits = queues.as_ref().is_some_and(|queues| !queues.waits(*export).is_empty());
         if batched.last().is_some_and(|last| last.at == *export) || *export == 0 || waits {

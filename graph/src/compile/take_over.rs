@@ -6,7 +6,7 @@
 
 use super::hand_over::HandOver;
 use super::last_uses::LastUses;
-use super::model::Adapted;
+use super::model::{Adapted, StoreIndex};
 use super::occupy::{Occupancy, Taken};
 use super::outlive::{States, cells};
 use super::parts::Grids;
@@ -86,22 +86,21 @@ impl Taking<'_> {
             );
         }
         let [taker, holder] = [store, from].map(|store| &self.adapted.stores[store as usize]);
+        if store == from {
+            return self.take_again(store);
+        }
         let is_image = taker.image().is_some();
         let mut uses = LastUses::default();
         for held in cells(self.grids, holder) {
             let last = self.walked.cells[held as usize];
             if last.is_touched() {
-                uses.add(held, last.stages, last.accesses, last.last);
+                uses.add(last.stages, last.accesses, last.last);
             }
         }
         for cell in cells(self.grids, taker) {
             let known = self.walked.cells[cell as usize];
             let first = known.first_barrier;
             let Some(barrier) = self.walked.barriers.get_mut(first as usize) else { continue };
-            // A buffer's barrier covers all memory; an image's covers what the same image wrote there.
-            if store == from && known.is_touched() {
-                barrier.src_accesses |= known.accesses.writes();
-            }
             for last in uses.iter() {
                 barrier.src_stages |= last.stages;
                 if this_frame {
@@ -110,17 +109,29 @@ impl Taking<'_> {
                 if last.writes.is_empty() {
                     continue;
                 }
+                // A buffer's barrier covers all memory, an image's its own image alone.
                 if !is_image {
                     barrier.src_accesses |= last.writes;
-                } else if let Some(written) = last.apart_from(cell) {
-                    self.hand_overs.push(HandOver {
-                        stores: [from, store],
-                        write: (last.stages, last.writes),
-                        written,
-                        this_frame,
-                        barrier: first,
-                    });
+                    continue;
                 }
+                self.hand_overs.push(HandOver {
+                    stores: [from, store],
+                    write: (last.stages, last.writes),
+                    written: last.last,
+                    this_frame,
+                    barrier: first,
+                });
+            }
+        }
+    }
+
+    /// Nothing else had the memory since the frame before: each part waits for what was done to itself.
+    fn take_again(&mut self, store: StoreIndex) {
+        for cell in cells(self.grids, &self.adapted.stores[store as usize]) {
+            let known = self.walked.cells[cell as usize];
+            if let Some(barrier) = self.walked.barriers.get_mut(known.first_barrier as usize) {
+                barrier.src_stages |= known.stages;
+                barrier.src_accesses |= known.accesses.writes();
             }
         }
     }

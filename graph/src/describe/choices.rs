@@ -12,7 +12,7 @@ use super::{Diagnostic, LARGEST_FILE, settings, suggest};
 use crate::expression::Value;
 use crate::fields;
 use crate::source::{Sources, Span};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// The version of settings files that this library reads.
@@ -130,7 +130,9 @@ pub(super) fn set(reader: &mut Reader, leaf: Leaf<'_>, settings: &[Option<Settin
     let before = reader.errors.len();
     let mut chosen = Vec::new();
     let mut seen: HashMap<Arc<str>, Span> = HashMap::new();
-    for (key, value) in reader.map(leaf, "values of settings")? {
+    let entries: Vec<_> = reader.map(leaf, "values of settings")?.collect();
+    let given: HashSet<&str> = entries.iter().filter_map(|(key, _)| key.plain()).collect();
+    for (key, value) in entries {
         let Some(name) = reader.reference(key, "a setting") else { continue };
         if let Some(first) = seen.insert(name.text.clone(), name.span) {
             let twice = Diagnostic::new(name.span, format!("`{}` is set twice", name.text));
@@ -141,7 +143,7 @@ pub(super) fn set(reader: &mut Reader, leaf: Leaf<'_>, settings: &[Option<Settin
         let Some((at, setting)) = named.and_then(|at| Some((at, settings[at].as_ref()?))) else {
             // It may be one that couldn't be read.
             if settings.iter().all(Option::is_some) {
-                reader.report(unknown_setting(&name, settings));
+                reader.report(unknown_setting(&name, settings, &given));
             }
             continue;
         };
@@ -150,8 +152,11 @@ pub(super) fn set(reader: &mut Reader, leaf: Leaf<'_>, settings: &[Option<Settin
     (reader.errors.len() == before).then_some(chosen)
 }
 
-fn unknown_setting(name: &Name, settings: &[Option<Setting>]) -> Diagnostic {
-    let help = suggest::help(&name.text, settings.iter().flatten().map(|setting| &*setting.name.text))
+/// Settings that are `given` a value already aren't suggested.
+fn unknown_setting(name: &Name, settings: &[Option<Setting>], given: &HashSet<&str>) -> Diagnostic {
+    let all = settings.iter().flatten().map(|setting| &*setting.name.text);
+    let help = suggest::help(&name.text, all.clone().filter(|name| !given.contains(name)))
+        .or_else(|| suggest::help(&name.text, all))
         .or_else(|| Some("this pipeline has no settings".to_owned()));
     Diagnostic { help, ..Diagnostic::new(name.span, format!("there is no setting named `{}`", name.text)) }
 }
@@ -191,7 +196,7 @@ pub(super) fn read(
 ) -> Result<SettingsFile, Vec<Diagnostic>> {
     if text.len() > LARGEST_FILE {
         let message = format!("`{shown}` has {} bytes; a settings file has at most {LARGEST_FILE}", text.len());
-        return Err(vec![Diagnostic { message, labels: Vec::new(), help: None }]);
+        return Err(vec![Diagnostic::nowhere(message)]);
     }
     let text: Arc<str> = text.into();
     let file = sources.add(shown, relative, text.clone());
@@ -242,7 +247,7 @@ fn said(reader: &mut Reader, all: Leaf<'_>, settings: &[Setting], presets: &[Pre
 pub(super) fn unknown_preset(name: &str, presets: &[Preset]) -> Diagnostic {
     let help = suggest::help(name, presets.iter().map(|preset| &*preset.name.text))
         .or_else(|| Some("this pipeline has no presets".to_owned()));
-    Diagnostic { message: format!("there is no preset named `{name}`"), labels: Vec::new(), help }
+    Diagnostic { help, ..Diagnostic::nowhere(format!("there is no preset named `{name}`")) }
 }
 
 /// Every setting's value once a preset and settings files, from the weakest to the strongest, are applied to defaults.

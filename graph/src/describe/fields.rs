@@ -2,7 +2,8 @@
 
 use super::forms::Table;
 use super::leaf::{Leaf, Shape};
-use super::{Diagnostic, suggest};
+use super::reader::MANY_MISTAKES;
+use super::{Diagnostic, MOST_KEPT, keep, suggest};
 
 /// A form that a value can have. [`fields!`](crate::fields) makes one of a struct.
 pub trait FromLeaf<'t>: Sized {
@@ -127,7 +128,7 @@ pub fn slots<'t>(
             Some(_) => None,
         };
         if let Some(wrong) = wrong {
-            errors.push(written(Diagnostic::new(leaf.span_of(word), wrong), what, known));
+            keep(errors, written(Diagnostic::new(leaf.span_of(word), wrong), what, known));
             return None;
         }
     }
@@ -144,7 +145,7 @@ pub fn slots<'t>(
             (_, Some(word)) => Diagnostic::new(start, format!("expected `{word}(…)`")),
             (_, None) => written(Diagnostic::new(start, "expected `(`"), what, known),
         };
-        errors.push(error);
+        keep(errors, error);
         return None;
     };
     sort(fields, what, known, found, errors)?;
@@ -155,7 +156,7 @@ pub fn slots<'t>(
         Some(only) if missing.is_empty() => format!("field {only}"),
         Some(last) => format!("fields {} and {last}", missing.join(", ")),
     };
-    errors.push(Diagnostic::new(start, format!("{what} lacks the {last}")));
+    keep(errors, Diagnostic::new(start, format!("{what} lacks the {last}")));
     None
 }
 
@@ -176,12 +177,17 @@ fn sort<'t>(
 ) -> Option<()> {
     let mut right = true;
     for (name, value) in fields {
+        // Fields after the last mistake that is kept aren't looked at.
+        if errors.len() >= MOST_KEPT {
+            return None;
+        }
         let text = name.text();
         let place = known.rows.iter().position(|row| row.name == text);
         let error = match place.and_then(|place| found.get_mut(place)) {
             _ if name.is_broken() => None,
             None => {
-                let help = suggest::help(text, known.rows.iter().map(|row| row.name));
+                let few = errors.len() <= MANY_MISTAKES;
+                let help = few.then(|| suggest::help(text, known.rows.iter().map(|row| row.name))).flatten();
                 let unknown = Diagnostic::new(name.span(), format!("{what} has no field `{text}`"));
                 Some(Diagnostic { help, ..unknown })
             }
@@ -191,7 +197,7 @@ fn sort<'t>(
             }
             Some(Some(_)) => Some(Diagnostic::new(name.span(), format!("{what} has the field `{text}` twice"))),
         };
-        errors.extend(error);
+        error.into_iter().for_each(|error| keep(errors, error));
         right = false;
     }
     right.then_some(())
@@ -210,7 +216,7 @@ impl<'t, const N: usize> FromLeaf<'t> for [Leaf<'t>; N] {
                 (found, _) => found.words(),
             };
             let error = format!("expected {what}, found {found}");
-            errors.push(Diagnostic::new(leaf.span(), error));
+            keep(errors, Diagnostic::new(leaf.span(), error));
         }
         tuple
     }

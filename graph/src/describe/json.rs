@@ -1,7 +1,7 @@
 //! Mistakes as JSON, for editors and other programs.
 
-use super::render::{escape, escape_lines};
-use super::{Diagnostic, Label};
+use super::render::{shown, shown_lines};
+use super::{Diagnostic, Label, MOST_KEPT, Quote};
 use crate::source::{Sources, Span};
 use serde_json::{Value, json};
 use std::ops::Range;
@@ -9,27 +9,43 @@ use std::ops::Range;
 /// Mistakes as a JSON list. Each has `message`, `help` (or null) and `labels`, and of its primary place, unless no file
 /// is involved, `file` as the user named it, `line` and `column` from 1, and `end` with `line` and `column` of the first
 /// character after it. Columns count characters. Messages, remarks and help are escaped as in
-/// [`render`](super::render()); the file's name is not.
+/// [`render`](super::render()); the file's name is not. At most 256 are told; a last one without a place says so.
 #[must_use]
 pub fn to_json(sources: &Sources, diagnostics: &[Diagnostic]) -> Value {
-    diagnostics.iter().map(|diagnostic| one(sources, diagnostic)).collect()
+    let told = diagnostics.iter().take(MOST_KEPT).map(|diagnostic| one(sources, diagnostic));
+    let more = "there may be more mistakes: no others were kept";
+    let more = (diagnostics.len() >= MOST_KEPT).then(|| json!({ "message": more, "help": null, "labels": [] }));
+    told.chain(more).collect()
 }
 
 fn one(sources: &Sources, diagnostic: &Diagnostic) -> Value {
-    let labels: Vec<Value> = diagnostic
+    let mut labels: Vec<Value> = diagnostic
         .labels
         .iter()
         .map(|label| {
             let mut value = place(sources, label);
-            value["text"] = json!(escape(&label.text));
+            value["text"] = json!(shown(&label.text));
             value
         })
         .collect();
+    labels.extend(diagnostic.quotes.iter().map(quoted));
     let mut value = diagnostic.labels.first().map_or_else(|| json!({}), |label| place(sources, label));
-    value["message"] = json!(escape(&diagnostic.message));
-    value["help"] = json!(diagnostic.help.as_deref().map(escape_lines));
+    value["message"] = json!(shown(&diagnostic.message));
+    value["help"] = json!(diagnostic.help.as_deref().map(shown_lines));
     value["labels"] = json!(labels);
     value
+}
+
+/// A line of another file, which is placed as labels are.
+fn quoted(Quote { file, line, text, underlined, remark }: &Quote) -> Value {
+    let column = |at: usize| text[..text.floor_char_boundary(at)].chars().count() + 1;
+    json!({
+        "file": file,
+        "line": line,
+        "column": column(underlined.start),
+        "end": { "line": line, "column": column(underlined.end) },
+        "text": shown(remark),
+    })
 }
 
 fn place(sources: &Sources, label: &Label) -> Value {

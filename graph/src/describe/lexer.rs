@@ -20,6 +20,8 @@ pub(super) struct Lexer<'t> {
 pub(super) enum Stop {
     /// The value is wrong, but where the next one begins is clear.
     Value(Diagnostic),
+    /// The same, and that something stands in brackets where it can't: they may not be closed.
+    Misplaced(Diagnostic),
     /// What comes after can't be told.
     File(Diagnostic),
 }

@@ -22,6 +22,7 @@ mod document;
 mod escapes;
 mod extend;
 mod fields;
+mod foreign_formats;
 pub mod forms;
 mod fragments;
 mod images;
@@ -54,6 +55,7 @@ mod resources;
 mod scope;
 mod scope_names;
 mod settings;
+mod shorten;
 mod sizes;
 mod suggest;
 mod surroundings;
@@ -69,8 +71,10 @@ mod work;
 
 pub(crate) use buffers::LARGEST_BUFFER;
 pub use choices::{Choice, ChosenBy, InForce, Preset, SETTINGS_VERSION, SettingsFile};
-pub use diagnostic::{Diagnostic, Label};
+pub use diagnostic::{Diagnostic, Label, Quote};
+pub(crate) use diagnostic::{MOST_KEPT, keep};
 pub use document::Document;
+pub(crate) use foreign_formats::vulkans_name;
 pub(crate) use images::LARGEST_SIZE;
 pub use includes::{Files, Found, NoFiles, Unread};
 pub use json::to_json;
@@ -91,6 +95,7 @@ pub use resources::{
 };
 pub(crate) use settings::shown as shown_number;
 pub use settings::{last_step, nth as nth_step};
+pub(crate) use suggest::without_quotes;
 pub use suggest::{help as suggestion, nearest};
 pub use surroundings::{Surroundings, names_of};
 pub use views::View;
@@ -239,7 +244,7 @@ pub(crate) fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
 fn never_none(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
     if errors.is_empty() {
         let message = "this pipeline can't be put together, and why was not found out: a mistake of framewright itself";
-        errors.push(Diagnostic { message: message.to_owned(), labels: Vec::new(), help: None });
+        errors.push(Diagnostic::nowhere(message));
     }
     errors
 }
@@ -251,11 +256,7 @@ fn odd_byte(error: &std::string::FromUtf8Error) -> String {
 }
 
 fn too_large(shown: &str, bytes: usize) -> Diagnostic {
-    Diagnostic {
-        message: format!("`{shown}` has {bytes} bytes; a pipeline file has at most {LARGEST_FILE}"),
-        labels: Vec::new(),
-        help: None,
-    }
+    Diagnostic::nowhere(format!("`{shown}` has {bytes} bytes; a pipeline file has at most {LARGEST_FILE}"))
 }
 
 /// What shows at once that this is not a pipeline.

@@ -4,6 +4,7 @@ use super::Diagnostic;
 use super::leaf::Leaf;
 use super::pipeline::Name;
 use super::reader::Reader;
+use super::suggest;
 use crate::source::Span;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -80,12 +81,31 @@ impl Names {
     /// The index of the thing named `name`. Reports a name that doesn't exist, unless some name couldn't be read: it
     /// may be that one.
     pub fn find(&self, reader: &mut Reader, name: &Name) -> Option<usize> {
+        self.find_fitting(reader, name, |_| true, None)
+    }
+
+    /// The same; only names of things whose number `fits` are suggested. `literal`: what may stand there by itself, without
+    /// quotes.
+    pub(super) fn find_fitting(
+        &self,
+        reader: &mut Reader,
+        name: &Name,
+        fits: impl Fn(usize) -> bool + Clone,
+        literal: Option<&str>,
+    ) -> Option<usize> {
         if let Some(index) = self.index.get(&name.text) {
             return Some(*index);
         }
         if self.complete {
             let unknown = Diagnostic::new(name.span, format!("there is no {} named `{}`", self.what, name.text));
-            let help = reader.known(&name.text, self.in_order());
+            let fitting = (0..).zip(&self.given).filter(|(at, _)| fits(*at));
+            let names = fitting.filter_map(|(_, name)| name.as_ref().map(|name| &*name.text));
+            let is_far = !reader.has_many() && suggest::nearest(&name.text, names.clone()).is_none();
+            let help = reader.known(&name.text, names);
+            let help = match literal.filter(|_| is_far) {
+                Some(literal) => Some(suggest::without_quotes(literal, help)),
+                None => help,
+            };
             reader.report(Diagnostic { help, ..unknown });
         }
         None

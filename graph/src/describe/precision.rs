@@ -33,8 +33,14 @@ static DEPTHS: Words = Words {
     what: "a policy",
     or: &[Form::Expression("a text with one of these words")],
     all: &[
-        Word::alone("Smallest", "`D16_UNORM`; with stencil `D24_UNORM_S8_UINT`."),
-        Word::alone("Balanced", "`X8_D24_UNORM_PACK32`; with stencil `D24_UNORM_S8_UINT`."),
+        Word::alone(
+            "Smallest",
+            "`D16_UNORM`, with stencil `D24_UNORM_S8_UINT`; finer if the scene reaches too far for it.",
+        ),
+        Word::alone(
+            "Balanced",
+            "`X8_D24_UNORM_PACK32`, with stencil `D24_UNORM_S8_UINT`; finer if the scene reaches too far for it.",
+        ),
         Word::alone("Exact", "`D32_SFLOAT`; with stencil `D32_SFLOAT_S8_UINT`."),
     ],
 };

@@ -172,9 +172,9 @@ impl<'t> Lowering<'_, 't> {
             let known = error.labels.first().map(|label| (label.span, error.message.clone()));
             let nested = error.labels.iter().filter(|label| label.text.starts_with("used here as ")).count();
             if nested >= MOST_SHOWN && !self.path.is_empty() {
-                reader.errors.push(error);
+                reader.report(error);
             } else if nested > 0 || known.is_none_or(|known| self.seen.insert(known)) {
-                reader.errors.push(error.label(name.span, format!("used here as `{}`", name.text)));
+                reader.report(error.label(name.span, format!("used here as `{}`", name.text)));
             }
         }
     }

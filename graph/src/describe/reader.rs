@@ -4,13 +4,13 @@ use super::fields::FromLeaf;
 use super::forms::Words;
 use super::leaf::{Leaf, Number, Shape};
 use super::pipeline::Name;
-use super::{Diagnostic, suggest};
+use super::{Diagnostic, foreign_formats, keep, suggest};
 
 /// A name has at most this many bytes.
 const LONGEST_NAME: usize = 64;
 
 /// After this many mistakes near names are no longer looked for: that would take long in a large file.
-const MANY_MISTAKES: usize = 100;
+pub(super) const MANY_MISTAKES: usize = 100;
 
 /// Reads values and keeps what is wrong with them.
 #[derive(Debug, Default)]
@@ -20,9 +20,9 @@ pub struct Reader {
 }
 
 impl Reader {
-    /// Keeps a mistake.
+    /// Keeps a mistake, unless there are very many.
     pub fn report(&mut self, diagnostic: Diagnostic) {
-        self.errors.push(diagnostic);
+        keep(&mut self.errors, diagnostic);
     }
 
     /// Reports `message` at `leaf`, unless that couldn't be read anyway.
@@ -131,7 +131,8 @@ impl Reader {
         if let Some(known) = known.iter().find(|known| **known == word) {
             return Some((known, rest));
         }
-        let near = suggest::nearest(word, known.iter().copied());
+        let elsewhere = foreign_formats::vulkans_name(word).filter(|format| known.contains(format));
+        let near = elsewhere.or_else(|| suggest::nearest(word, known.iter().copied()));
         let help = near.map_or_else(|| forms.to_owned(), |near| format!("did you mean `{near}`?"));
         self.wrong_part(leaf, word, format!("`{word}` is not {what}"), &help);
         None

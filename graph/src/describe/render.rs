@@ -1,6 +1,7 @@
 //! Mistakes as text: `error: …`, `file:line:column`, the offending text underlined, what to do.
 
-use super::Diagnostic;
+use super::shorten::bounded;
+use super::{Diagnostic, MOST_KEPT, Quote};
 use crate::source::Sources;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use std::fmt::Write as _;
@@ -48,9 +49,14 @@ fn veil(lines: &str) -> String {
     lines.chars().map(|c| if hidden(c) && !matches!(c, '\n' | '\r' | '\t') { '\u{fffd}' } else { c }).collect()
 }
 
-/// Escapes line by line: line breaks stay.
-pub(super) fn escape_lines(text: &str) -> String {
-    text.lines().map(escape).collect::<Vec<_>>().join("\n")
+/// A message or remark, fit to be shown and of bounded length.
+pub(super) fn shown(text: &str) -> String {
+    escape(&bounded(text))
+}
+
+/// The same line by line: line breaks stay.
+pub(super) fn shown_lines(text: &str) -> String {
+    bounded(text).lines().map(escape).collect::<Vec<_>>().join("\n")
 }
 
 /// Renders mistakes as text: `error: …`, `file:line:column`, the offending text underlined, what to do. The first 20 are
@@ -66,14 +72,15 @@ pub fn render(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
         text.push('\n');
     }
     if let Some(more @ 1..) = diagnostics.len().checked_sub(MOST_SHOWN) {
+        let least = if diagnostics.len() >= MOST_KEPT { "at least " } else { "" };
         // Writing to a text can't fail.
-        let _ = writeln!(text, "\n… and {more} more");
+        let _ = writeln!(text, "\n… and {least}{more} more");
     }
     text
 }
 
 fn block(sources: &Sources, diagnostic: &Diagnostic) -> String {
-    let mut group = Group::with_title(Level::ERROR.primary_title(escape(&diagnostic.message)));
+    let mut group = Group::with_title(Level::ERROR.primary_title(shown(&diagnostic.message)));
     for window in windows(sources, diagnostic) {
         if window.lines.len() > LARGEST_WINDOW {
             let origin = Origin::path(window.path).line(window.line).char_column(window.column);
@@ -90,12 +97,27 @@ fn block(sources: &Sources, diagnostic: &Diagnostic) -> String {
         let snippet = Snippet::source(veil(window.lines)).line_start(window.line).path(window.path);
         group = group.element(snippet.annotations(labels));
     }
+    for quote in &diagnostic.quotes {
+        group = quoted(group, quote);
+    }
     if let Some(help) = &diagnostic.help {
-        group = group.element(Level::HELP.message(escape_lines(help)));
+        group = group.element(Level::HELP.message(shown_lines(help)));
     }
     let text = Renderer::plain().render(&[group]);
     // The line that leads from a snippet to the help leads nowhere where there is no snippet.
     if diagnostic.labels.is_empty() { text.replacen("\n |\n", "\n", 1) } else { text }
+}
+
+/// With a line of another file; of a long one only its place and the remark.
+fn quoted<'g>(group: Group<'g>, quote: &Quote) -> Group<'g> {
+    let Quote { file, line, text, underlined, remark } = quote;
+    let (file, line, remark) = (escape(file), *line as usize, shown(remark));
+    if text.len() > LARGEST_WINDOW {
+        return group.element(Origin::path(file).line(line)).element(Level::NOTE.message(remark));
+    }
+    let [start, end] = [underlined.start, underlined.end].map(|at| veil(&text[..text.floor_char_boundary(at)]).len());
+    let label = AnnotationKind::Primary.span(start..end).label((!remark.is_empty()).then_some(remark));
+    group.element(Snippet::source(veil(text)).line_start(line).path(file).annotation(label))
 }
 
 /// Whole lines of one file, and what is said about them.
@@ -133,7 +155,7 @@ fn windows<'s>(sources: &'s Sources, diagnostic: &Diagnostic) -> Vec<Window<'s>>
             lines: &file.text[line_start..line_end],
             labels: Vec::new(),
         };
-        let shown = ShownLabel { range, text: escape(&label.text), primary: position == 0 };
+        let shown = ShownLabel { range, text: shown(&label.text), primary: position == 0 };
         let joined = windows.iter_mut().find_map(|earlier| {
             let start = earlier.start.min(window.start);
             let end = (earlier.start + earlier.lines.len()).max(line_end);

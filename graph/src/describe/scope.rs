@@ -115,7 +115,7 @@ impl<'a> Scope<'a> {
     /// A condition: `Some(None)` if it holds, else what made it fail.
     pub(super) fn condition(&self, reader: &mut Reader, leaf: Leaf<'_>) -> Option<Option<String>> {
         let fits = |kind: &SettingKind| matches!(kind, SettingKind::Bool { .. });
-        if let Quoted::Given(parameter, given) = self.quoted(reader, leaf, fits, "`true` or `false`")? {
+        if let Quoted::Given(parameter, given) = self.quoted_or(reader, leaf, fits, "`true` or `false`", None)? {
             let failed = || self.because(parameter, given).map(|because| because.to_string());
             let holds = given.value == Value::Bool(true);
             return Some((!holds).then(|| failed().unwrap_or_else(|| format!("`{}` is false", parameter.name.text))));
@@ -135,7 +135,7 @@ impl<'a> Scope<'a> {
             (Shape::Text, Some(text)) => match Expression::new(text, leaf.span_of(text), self, wanted) {
                 Ok(expression) => Some(Rc::new(expression)),
                 Err(errors) => {
-                    reader.errors.extend(errors);
+                    errors.into_iter().for_each(|error| reader.report(error));
                     None
                 }
             },
@@ -162,13 +162,25 @@ impl<'a> Scope<'a> {
     }
 
     /// What a text in quotes is. Reports a plain name that nothing has, and a setting whose kind doesn't fit; `wanted`
-    /// says what would.
+    /// says what would: a number, which may stand there without quotes.
     pub(super) fn quoted(
         &self,
         reader: &mut Reader,
         leaf: Leaf<'_>,
-        fits: impl Fn(&SettingKind) -> bool,
+        fits: impl Fn(&SettingKind) -> bool + Copy,
         wanted: &str,
+    ) -> Option<Quoted<'a>> {
+        self.quoted_or(reader, leaf, fits, wanted, Some(wanted))
+    }
+
+    /// The same, with what may stand there without quotes, if anything may.
+    pub(super) fn quoted_or(
+        &self,
+        reader: &mut Reader,
+        leaf: Leaf<'_>,
+        fits: impl Fn(&SettingKind) -> bool + Copy,
+        wanted: &str,
+        literal: Option<&str>,
     ) -> Option<Quoted<'a>> {
         let plain = leaf.plain().unwrap_or_default();
         let index = self.index.is_some_and(|(index, _)| *index.text == *plain);
@@ -181,7 +193,11 @@ impl<'a> Scope<'a> {
             return Some(Quoted::Expression);
         }
         let name = reader.reference(leaf, if self.known.settings { "a setting" } else { "a parameter" })?;
-        let at = self.known.given.find(reader, &name)?;
+        let fitting = |at: usize| match self.known.parameters.get(at).and_then(Option::as_ref) {
+            Some(Parameter { kind: ParameterKind::Value(kind), .. }) => fits(kind),
+            _ => false,
+        };
+        let at = self.known.given.find_fitting(reader, &name, fitting, literal)?;
         let parameter = self.known.parameters.get(at)?.as_ref()?;
         let ParameterKind::Value(kind) = &parameter.kind else { return Some(Quoted::Expression) };
         if !fits(kind) {

@@ -5,6 +5,7 @@ use super::leaf::{Leaf, Shape};
 use super::parameters;
 use super::pipeline::{Setting, SettingKind};
 use super::reader::Reader;
+use super::shorten::enumerated;
 use crate::expression::{Type, Value};
 use crate::fields;
 use std::collections::BTreeSet;
@@ -129,13 +130,9 @@ impl SettingKind {
     pub fn allowed(&self) -> String {
         match self {
             SettingKind::Bool { .. } => "`true` or `false`".to_owned(),
-            SettingKind::OneOf { of, .. } => {
-                let all: Vec<String> = of.iter().map(i64::to_string).collect();
-                format!("one of {}", all.join(", "))
-            }
+            SettingKind::OneOf { of, .. } => format!("one of {}", enumerated(of.iter())),
             SettingKind::Choice { of, .. } => {
-                let all: Vec<String> = of.iter().map(|text| format!("`{text}`")).collect();
-                format!("one of {}", all.join(", "))
+                format!("one of {}", enumerated(of.iter().map(|text| format!("`{text}`"))))
             }
             SettingKind::Number { min, max, step, .. } => {
                 let steps = step.map(|step| format!(" in steps of {}", shown(step))).unwrap_or_default();

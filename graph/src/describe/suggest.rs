@@ -1,5 +1,7 @@
 //! Near names for misspelt ones.
 
+use super::shorten::MOST_LISTED;
+
 /// Longer names are not compared: the comparison takes time that grows with the square of the length.
 const LONGEST: usize = 64;
 
@@ -22,6 +24,14 @@ pub fn nearest<'k>(name: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         .map(|(_, known)| known)
 }
 
+/// What to say about a name that is unknown and near to none, where `words` may stand without quotes: "a number". `names`: the names
+/// that there are, as [`help`] lists them.
+#[must_use]
+pub(crate) fn without_quotes(words: &str, names: Option<String>) -> String {
+    let names = names.map_or_else(String::new, |names| format!(", or a name: {names}"));
+    format!("write {words} without quotes{names}")
+}
+
 /// What to say about an unknown name: the near one, or the few that there are.
 #[must_use]
 pub fn help<'k>(name: &str, known: impl IntoIterator<Item = &'k str> + Clone) -> Option<String> {
@@ -29,7 +39,7 @@ pub fn help<'k>(name: &str, known: impl IntoIterator<Item = &'k str> + Clone) ->
         return Some(format!("did you mean `{near}`?"));
     }
     let mut all = known.into_iter();
-    let first: Vec<String> = all.by_ref().take(12).map(|name| format!("`{name}`")).collect();
+    let first: Vec<String> = all.by_ref().take(MOST_LISTED).map(|name| format!("`{name}`")).collect();
     let more = if all.next().is_some() { ", …" } else { "" };
     match &first[..] {
         [] => None,

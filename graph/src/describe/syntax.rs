@@ -3,9 +3,9 @@
 //! After a mistake inside a list, a map or fields, reading goes on behind the next comma of the same brackets. Where
 //! brackets or quotes are amiss it stops: whatever follows would be guessed.
 
-use super::Diagnostic;
 use super::lexer::{Lexer, Stop};
 use super::tree::{Kind, Node};
+use super::{Diagnostic, MOST_KEPT};
 
 /// Brackets are nested at most so deeply.
 const DEEPEST: usize = 128;
@@ -17,7 +17,8 @@ const EXTENSIONS: [&str; 4] = ["unwrap_newtypes", "implicit_some", "unwrap_varia
 pub(super) fn nodes(file: u32, text: &str, errors: &mut Vec<Diagnostic>) -> Option<Vec<Node>> {
     let lexer = Lexer { file, text, at: 0, long: None };
     // A node takes six bytes of usual text.
-    let mut parser = Parser { lexer, nodes: Vec::with_capacity(text.len() / 6), depth: 0, errors };
+    let (nodes, misplaced) = (Vec::with_capacity(text.len() / 6), Vec::new());
+    let mut parser = Parser { lexer, nodes, depth: 0, misplaced, errors };
     let whole = parser.file();
     let mut nodes = parser.nodes;
     match whole {
@@ -25,7 +26,7 @@ pub(super) fn nodes(file: u32, text: &str, errors: &mut Vec<Diagnostic>) -> Opti
             nodes.shrink_to_fit();
             Some(nodes)
         }
-        Err(Stop::Value(error) | Stop::File(error)) => {
+        Err(Stop::Value(error) | Stop::Misplaced(error) | Stop::File(error)) => {
             errors.push(error);
             None
         }
@@ -37,7 +38,20 @@ struct Parser<'t, 'e> {
     nodes: Vec<Node>,
     /// Brackets that are open.
     depth: usize,
+    /// What stood in brackets where it can't. If brackets turn out to be left open, that is where they should have ended.
+    misplaced: Vec<Misplaced>,
     errors: &'e mut Vec<Diagnostic>,
+}
+
+/// Something that stands in brackets where it can't.
+struct Misplaced {
+    /// The number of its mistake.
+    error: usize,
+    /// Where it stands.
+    at: usize,
+    /// Where the brackets were opened.
+    open: usize,
+    closing: u8,
 }
 
 /// What stands between two commas.
@@ -81,6 +95,10 @@ impl Parser<'_, '_> {
                 .diagnostic(long.start..long.start + 1, "this text runs over several lines, and makes no sense there");
             let open = error.labels.iter().fold(open, |open, label| open.label(label.span, error.message.clone()));
             return Err(Stop::File(open.help("is its closing quote missing?")));
+        }
+        // The rest of a file with very many mistakes isn't read.
+        if self.errors.len() >= MOST_KEPT {
+            return Err(Stop::File(error));
         }
         self.errors.push(error);
         Ok(())
@@ -239,16 +257,25 @@ impl Parser<'_, '_> {
         loop {
             self.lexer.blanks()?;
             match self.lexer.byte() {
-                None => return Err(self.lexer.ends(Some(open))),
+                None => {
+                    let ends = self.lexer.ends(Some(open));
+                    return Err(self.left_open(open).unwrap_or(ends));
+                }
                 Some(byte) if byte == closing => break,
-                Some(b')' | b']' | b'}') => return Err(self.other_bracket(open, closing)),
+                Some(b')' | b']' | b'}') => {
+                    let other = self.other_bracket(open, closing);
+                    return Err(self.left_open(open).unwrap_or(other));
+                }
                 Some(_) => {}
             }
             let (start, nodes, depth) = (self.lexer.at, self.nodes.len(), self.depth);
             match self.item(item) {
                 Ok(()) => {}
-                Err(Stop::Value(error)) => {
-                    self.report(error)?;
+                Err(stop @ (Stop::Value(_) | Stop::Misplaced(_))) => {
+                    match stop {
+                        Stop::Misplaced(error) => self.report_misplaced(error, open, closing)?,
+                        Stop::Value(error) | Stop::File(error) => self.report(error)?,
+                    }
                     self.skip()?;
                     self.nodes.truncate(nodes);
                     self.depth = depth;
@@ -269,7 +296,8 @@ impl Parser<'_, '_> {
                 Some(byte) => {
                     if !comma_missed {
                         let here = self.lexer.character(self.lexer.at);
-                        self.report(self.lexer.diagnostic(here, "expected a comma"))?;
+                        let wrong = self.lexer.diagnostic(here, "expected a comma");
+                        self.report_misplaced(wrong, open, closing)?;
                     }
                     comma_missed = true;
                     // What begins no value would be a second mistake at this place.
@@ -286,6 +314,26 @@ impl Parser<'_, '_> {
         Ok(())
     }
 
+    /// Keeps that something stands where it can't in the brackets that were opened at `open`.
+    fn report_misplaced(&mut self, error: Diagnostic, open: usize, closing: u8) -> Result<(), Stop> {
+        let at = error.labels.first().map_or(0, |label| label.span.start as usize);
+        self.report(error)?;
+        self.misplaced.push(Misplaced { error: self.errors.len() - 1, at, open, closing });
+        Ok(())
+    }
+
+    /// The brackets that were opened at `open` aren't closed by what stands here. Where something within them was misplaced
+    /// before, it was there that brackets should have ended, and what was reported since follows from that.
+    fn left_open(&mut self, open: usize) -> Option<Stop> {
+        let first = self.misplaced.iter().find(|misplaced| misplaced.at > open)?;
+        let (opened, closing, error) = (first.open, char::from(first.closing), first.error);
+        let mut wrong = self.errors.drain(error..).next()?;
+        wrong.message = format!("{} or `{closing}`", wrong.message);
+        let here = self.lexer.character(self.lexer.at);
+        let (opened, here) = (self.lexer.span(opened..opened + 1), self.lexer.span(here));
+        Some(Stop::File(wrong.label(opened, "opened here").label(here, "still open here")))
+    }
+
     fn other_bracket(&self, open: usize, closing: u8) -> Stop {
         let here = self.lexer.character(self.lexer.at);
         let wrong = self.lexer.diagnostic(here, format!("expected `{}`", char::from(closing)));
@@ -300,7 +348,7 @@ impl Parser<'_, '_> {
                 self.lexer.at += self.lexer.word();
                 if self.lexer.at == start {
                     let found = self.lexer.character(start);
-                    return Err(Stop::Value(self.lexer.diagnostic(found, "expected the name of a field")));
+                    return Err(Stop::Misplaced(self.lexer.diagnostic(found, "expected the name of a field")));
                 }
                 self.word(start, self.lexer.at);
             }
@@ -309,7 +357,7 @@ impl Parser<'_, '_> {
         self.lexer.blanks()?;
         if self.lexer.byte() != Some(b':') {
             let found = self.lexer.character(self.lexer.at);
-            return Err(Stop::Value(self.lexer.diagnostic(found, "expected a colon")));
+            return Err(Stop::Misplaced(self.lexer.diagnostic(found, "expected a colon")));
         }
         self.lexer.at += 1;
         self.lexer.blanks()?;

@@ -10,10 +10,11 @@ use super::passes::{CONDITION, OTHERWISE};
 use super::pipeline::{Name, SettingKind};
 use super::reader::Reader;
 use super::scope::{Given, Scope};
+use super::shorten::enumerated;
 use super::views;
 use crate::expression::{Outcome, Type, Value, Wanted};
 use crate::fields;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 fields! {
     /// A use: it puts a fragment in.
@@ -57,14 +58,18 @@ pub(super) fn arguments<'t>(
     let known = &fragment.body.known;
     let called = fragment.name.as_ref().map_or("", |name| &*name.text);
     let mut leaves: HashMap<usize, Leaf<'t>> = HashMap::new();
-    let entries = fields.with.and_then(|with| reader.map(with, "`with`")).into_iter().flatten();
+    let entries: Vec<(Leaf<'t>, Leaf<'t>)> =
+        fields.with.and_then(|with| reader.map(with, "`with`")).into_iter().flatten().collect();
+    let given: HashSet<&str> = entries.iter().filter_map(|(key, _)| key.plain()).collect();
     for (key, value) in entries {
         let Some(name) = reader.reference(key, "a parameter") else { continue };
         let Some(at) = known.given.at(&name.text) else {
             if known.given.complete() {
                 let unknown = format!("fragment `{called}` has no parameter named `{}`", name.text);
-                let help = reader.known(&name.text, known.given.in_order());
-                let help = help.or_else(|| Some(format!("fragment `{called}` has no parameters")));
+                let open = known.given.in_order().filter(|name| !given.contains(name));
+                let other = if known.given.in_order().next().is_some() { "other " } else { "" };
+                let none = format!("fragment `{called}` has no {other}parameters");
+                let help = reader.known(&name.text, open).or(Some(none));
                 reader.report(Diagnostic { help, ..Diagnostic::new(name.span, unknown) });
             }
             continue;
@@ -92,9 +97,9 @@ pub(super) fn arguments<'t>(
         });
     }
     if let Some(first) = missing.first() {
-        let names: Vec<String> = missing.iter().map(|parameter| format!("`{}`", parameter.name.text)).collect();
-        let what = if names.len() == 1 { "parameter" } else { "parameters" };
-        let message = format!("fragment `{called}` needs the {what} {}", names.join(", "));
+        let names = enumerated(missing.iter().map(|parameter| format!("`{}`", parameter.name.text)));
+        let what = if missing.len() == 1 { "parameter" } else { "parameters" };
+        let message = format!("fragment `{called}` needs the {what} {names}");
         let wrong =
             Diagnostic::new(fields.r#use.span(), message).label(first.name.span, "declared here, without default");
         let example = if first.kind.ty() == Type::Image { "\"an_image\"" } else { "…" };

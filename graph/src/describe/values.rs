@@ -121,7 +121,7 @@ pub(super) fn number_because<'src>(
 pub(super) fn truth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<bool> {
     let Shape::Text = leaf.shape() else { return reader.truth(leaf) };
     let fits = |kind: &SettingKind| matches!(kind, SettingKind::Bool { .. });
-    let value = match scope.quoted(reader, leaf, fits, "`true` or `false`")? {
+    let value = match scope.quoted_or(reader, leaf, fits, "`true` or `false`", None)? {
         Quoted::Given(_, given) => given.value.clone(),
         Quoted::Expression => scope.evaluate(reader, leaf, Wanted::BOOL)?.value,
     };
@@ -284,7 +284,7 @@ pub(super) fn bare_word<'src>(
         return reader.bare(word, rest).map(|()| (word, None));
     };
     let fits = |kind: &SettingKind| matches!(kind, SettingKind::Choice { .. });
-    let (value, because) = match scope.quoted(reader, leaf, fits, "a text")? {
+    let (value, because) = match scope.quoted_or(reader, leaf, fits, "a text", None)? {
         Quoted::Given(parameter, given) => {
             if scope.known.settings
                 && let Some(odd) = parameter.texts().iter().find(|text| words.find(text).is_none())

@@ -106,6 +106,7 @@ impl MemoryModel {
             separate_stencil: false,
             buffer_alignment: 1,
             type_bits: column.type_bits,
+            heap_bytes: None,
         };
         let both = [Format::D32_SFLOAT_S8_UINT, Format::D24_UNORM_S8_UINT];
         let stencil = formats.iter().find(|support| both.contains(&support.format)).map(|support| support.format);
@@ -152,6 +153,7 @@ mod tests {
             separate_stencil: false,
             buffer_alignment: 64,
             type_bits: 1,
+            heap_bytes: None,
         }
     }
 
@@ -227,6 +229,7 @@ mod tests {
                 separate_stencil: true,
                 buffer_alignment: if figure == u32::MAX { u64::MAX } else { figure.into() },
                 type_bits: figure,
+                heap_bytes: None,
             };
             let needs = model.image(&largest);
             assert!(needs.bytes >= 1 << 62 && needs.alignment.is_power_of_two(), "{figure}: {needs:?}");

@@ -53,18 +53,28 @@ pub struct Profile {
     /// `max_multiview_views` is 1.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub refuted_multiview: bool,
+    /// Whether the device says that it draws several views at once, and that couldn't be tested: then `max_multiview_views` is 1.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub untested_multiview: bool,
     /// Whether vertex shaders can choose the layer that they draw into (`shaderOutputLayer`).
     #[serde(default)]
     pub vertex_layer: bool,
-    /// Most clip distances of a shader; 0 if it has none (`shaderClipDistance`).
-    #[serde(default)]
-    pub max_clip_distances: u32,
+    /// Most clip distances of a shader; 0 if it has none (`shaderClipDistance`), `None` where that isn't known.
+    #[serde(default, with = "sound::known", skip_serializing_if = "Option::is_none")]
+    pub max_clip_distances: Option<u32>,
     /// How depth can be resolved by the rendering scope that draws it, as far as the device does what it says.
     #[serde(default = "least_depth_resolve")]
     pub depth_resolve: Vec<ResolveMode>,
     /// How the device says that it resolves depth, and a test showed that it doesn't.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refuted_depth_resolve: Vec<ResolveMode>,
+    /// Modes of `depth_resolve` that a test showed to be right for one layer and wrong for several: for what has a layer for
+    /// each eye.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub refuted_layered_depth_resolve: Vec<ResolveMode>,
+    /// How the device says that it resolves depth, where that couldn't be tested.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub untested_depth_resolve: Vec<ResolveMode>,
     /// What each format can be, each once; formats that are absent can be nothing.
     #[serde(deserialize_with = "sound::formats")]
     pub formats: Vec<FormatSupport>,
@@ -170,6 +180,9 @@ pub struct MemoryModel {
     /// Memory types that images and buffers accept, one bit each (`memoryTypeBits`).
     #[serde(default = "first_type", deserialize_with = "sound::type_bits")]
     pub type_bits: u32,
+    /// Bytes of the largest heap that images can lie in; `None`: not known.
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "sound::heap_bytes")]
+    pub heap_bytes: Option<u64>,
 }
 
 /// Rows and heights are what they are.

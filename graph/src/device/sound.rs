@@ -59,6 +59,14 @@ fn power_of_two<E: Error>(value: u64, most: u64) -> Result<u64, E> {
     }
 }
 
+/// Bytes of a heap.
+pub(super) fn heap_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u64>, D::Error> {
+    match Option::<u64>::deserialize(deserializer)? {
+        Some(0) => Err(D::Error::custom("a heap without memory: leave it out if it isn't known")),
+        bytes => Ok(bytes),
+    }
+}
+
 /// Memory types.
 pub(super) fn type_bits<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     match u32::deserialize(deserializer)? {
@@ -180,4 +188,18 @@ impl Check for KnownNeeds {
 /// Vulkan's names of usages.
 fn names(usage: Usage) -> String {
     usage.iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(" or ")
+}
+
+/// A number that stands for itself where it is known, and is left out where it isn't.
+pub(super) mod known {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[allow(clippy::ref_option, clippy::trivially_copy_pass_by_ref, reason = "serde hands a field over so")]
+    pub(in super::super) fn serialize<S: Serializer>(number: &Option<u32>, to: S) -> Result<S::Ok, S::Error> {
+        number.unwrap_or(0).serialize(to)
+    }
+
+    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u32>, D::Error> {
+        u32::deserialize(from).map(Some)
+    }
 }

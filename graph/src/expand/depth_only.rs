@@ -58,7 +58,7 @@ fn hindrance(
     let wrong = match alone {
         Ok(alone) => difference(&whole, &alone)?,
         Err(ShaderProblem::DoesNotCompile { messages }) => {
-            format!("it doesn't compile: {}", messages.first().map_or("", String::as_str))
+            format!("it doesn't compile: {}", messages.first().map_or("", |message| &message.text))
         }
         Err(ShaderProblem::Unsupported { what }) => format!("it can't be used: {what}"),
         Err(ShaderProblem::Missing { .. }) => return None,

@@ -10,6 +10,7 @@ mod depth_only;
 mod eyes;
 mod fills;
 mod halves;
+mod history;
 mod images;
 mod local;
 mod once;
@@ -184,6 +185,9 @@ fn expand_so(
             None => order::State::On(passes::lower(&chosen, &things, pass, &mut checked, &mut errors)),
         });
         said.once(&mut errors, before);
+        if errors.len() >= describe::MOST_KEPT {
+            return Err(told(document, &sources, errors));
+        }
         used_here(&pipeline, pass.instance, &mut errors[before..]);
     }
     depth_only::note(&chosen, &things, &mut states, &mut checked);
@@ -192,7 +196,17 @@ fn expand_so(
     let before = errors.len();
     order::check(&chosen, &things, &states, &outputs, &mut errors);
     said.each_once(&mut errors, before);
-    let kept = precision::choose(&chosen, &mut things, &states, &outputs, &mut checked);
+    if errors.is_empty() {
+        history::shorten(&mut things, &states);
+    }
+    let kept = precision::choose(
+        &chosen,
+        surroundings(inputs).facts.depth_range,
+        &mut things,
+        &states,
+        &outputs,
+        &mut checked,
+    );
 
     let Things { images, buffers } = things;
     let images = images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>();
@@ -217,12 +231,15 @@ fn expand_so(
                 remarks,
             })
         }
-        _ => {
-            document.tell_origins(&mut errors);
-            describe::users_first(&sources, &mut errors);
-            Err(describe::in_order(errors))
-        }
+        _ => Err(told(document, &sources, errors)),
     }
+}
+
+/// Mistakes in their order, each with how its file came in.
+fn told(document: &Document, sources: &Sources, mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    document.tell_origins(&mut errors);
+    describe::users_first(sources, &mut errors);
+    describe::in_order(errors)
 }
 
 fn view(described: &describe::View) -> View {
@@ -323,7 +340,7 @@ fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, error
 
 /// A mistake that stands in no file.
 fn nowhere(message: String) -> Diagnostic {
-    Diagnostic { message, labels: Vec::new(), help: None }
+    Diagnostic::nowhere(message)
 }
 
 impl<'a> Chosen<'a> {

@@ -6,7 +6,7 @@ use super::touches::{self, Read, Write};
 use super::waits::{self, Need};
 use super::written::{Cell, Written};
 use super::{Chosen, passes};
-use crate::describe::{Diagnostic, StandIn};
+use crate::describe::{Diagnostic, StandIn, keep};
 use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::source::Span;
 use crate::vocabulary::{Aspects, Layout};
@@ -197,9 +197,16 @@ impl Check<'_> {
                 .remark("needed here")
                 .label(writer.span, "filled here, if the pass runs");
             match of {
-                Resource::Image(_) => wrong.help(format!(
-                    "say what `{name}` takes instead: `otherwise: Forward(from: \"…\", to: \"{name}\")`"
-                )),
+                Resource::Image(_) => {
+                    let narrower = match reader.strip_prefix("pass ") {
+                        Some(pass) => format!("; or give pass {pass} a `when` that is false as well"),
+                        None => String::new(),
+                    };
+                    wrong.help(format!(
+                        "say what `{name}` takes instead: `otherwise: Forward(from: \"…\", to: \"{name}\")`, or \
+                         `otherwise: Clear(image: \"{name}\", value: 0)`{narrower}"
+                    ))
+                }
                 Resource::Buffer(_) => {
                     wrong.help("let another pass fill it then, such as `fill: (to: \"…\", value: 0)`")
                 }
@@ -219,7 +226,7 @@ impl Check<'_> {
             let wrong = Diagnostic::new(span, message).remark("needed here").label(declared.span, "declared here");
             self.removed(wrong, name)
         };
-        self.errors.push(diagnostic);
+        keep(self.errors, diagnostic);
     }
 
     /// A read that stands before the first write.
@@ -262,12 +269,27 @@ impl Check<'_> {
         let Some(cell) = self.missing(write.resource, &write.cells, 0) else { return };
         let what = self.words(write.resource, &write.cells, cell);
         let name = &self.chosen.name(write.resource).text;
-        let message = format!("pass `{}` is the first to draw into {what} and may leave texels untouched", pass.name);
+        let layers = write.cells.layers.clone();
+        // Shaders choose no layer, so what is drawn lands in the first.
+        let several = layers.len() > 1;
+        // Which layer is meant was asked already.
+        let here = |error: &Diagnostic| error.labels.first().is_some_and(|label| label.span == write.span);
+        if several && self.errors.iter().any(here) {
+            return;
+        }
+        let why = if several { ": a draw reaches only the first of several layers" } else { "" };
+        let message =
+            format!("pass `{}` is the first to draw into {what} and may leave texels untouched{why}", pass.name);
         let clear = clear.replace('…', name);
         let clear = match touches::whole(self.things, write.resource) {
             Some(whole) => {
                 let mip = if whole.mips.len() > 1 { format!(", mip: {}", cell.mip) } else { String::new() };
-                let layer = if whole.layers.len() > 1 { format!(", layer: {}", cell.layer) } else { String::new() };
+                let layer = match layers.len() {
+                    1 if whole.layers.len() > 1 => format!(", layer: {}", cell.layer),
+                    0 | 1 => String::new(),
+                    _ if layers == whole.layers => ", layers: Rest".to_owned(),
+                    several => format!(", layer: {}, layers: {several}", layers.start),
+                };
                 clear.replacen("\",", &format!("\"{mip}{layer},"), 1)
             }
             None => clear,
@@ -279,7 +301,7 @@ impl Check<'_> {
             diagnostic =
                 diagnostic.label(writer.span, format!("pass `{off}` would come first, but is off ({because})"));
         }
-        self.errors.push(diagnostic);
+        keep(self.errors, diagnostic);
     }
 
     /// "`color`", or "mip level 2 of `color`" where a part of `cells` alone is missing.

@@ -10,36 +10,69 @@ use super::things::Things;
 use super::{Chosen, variant};
 use crate::describe::{self, Format as Described, Precision, Precisions};
 use crate::format::Format;
-use crate::frame::{Blend, ChosenFormat, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
+use crate::frame::{Blend, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
 use crate::interface::AlphaUse;
 use crate::source::Span;
 use petgraph::unionfind::UnionFind;
 
-/// What a pipeline's words make of an image of the format `usual`, if another one.
-fn wanted(chosen: &Chosen<'_>, described: &Described, usual: Format) -> Option<(Format, ChosenFormat)> {
+/// What a pipeline's words make of an image of the format `usual`, if another one. `range`: how far the scene reaches that is
+/// drawn into it as depth, in near distances.
+fn wanted(chosen: &Chosen<'_>, described: &Described, usual: Format, range: f64) -> Wanted {
     let pipeline = chosen.pipeline;
     let policy = match described {
         Described::Color { .. } => &pipeline.color,
         Described::Depth | Described::DepthStencil => &pipeline.depth_format,
-        Described::Output | Described::Named(_) | Described::Like(_) => return None,
+        Described::Output | Described::Named(_) | Described::Like(_) => return Wanted::Usual,
     };
-    let Precisions { precision, said, .. } = policy.as_ref()?;
-    let format = match (described, precision) {
-        (Described::Color { hdr: true }, Precision::Smallest) => Format::B10G11R11_UFLOAT_PACK32,
-        (Described::Color { hdr: true }, Precision::Exact) => Format::R32G32B32A32_SFLOAT,
-        (Described::Color { hdr: false }, Precision::Exact) => Format::R16G16B16A16_UNORM,
-        (Described::Depth, Precision::Smallest) => Format::D16_UNORM,
-        (Described::Depth, Precision::Balanced) => Format::X8_D24_UNORM_PACK32,
-        (Described::DepthStencil, Precision::Smallest | Precision::Balanced) => Format::D24_UNORM_S8_UINT,
-        _ => usual,
+    let Some(Precisions { precision, said, .. }) = policy.as_ref() else { return Wanted::Usual };
+    let formats: &[Format] = match (described, precision) {
+        (Described::Color { hdr: true }, Precision::Smallest) => &[Format::B10G11R11_UFLOAT_PACK32],
+        (Described::Color { hdr: true }, Precision::Exact) => &[Format::R32G32B32A32_SFLOAT],
+        (Described::Color { hdr: false }, Precision::Exact) => &[Format::R16G16B16A16_UNORM],
+        (Described::Depth, Precision::Smallest) => &[Format::D16_UNORM, Format::X8_D24_UNORM_PACK32],
+        (Described::Depth, Precision::Balanced) => &[Format::X8_D24_UNORM_PACK32],
+        (Described::DepthStencil, Precision::Smallest | Precision::Balanced) => &[Format::D24_UNORM_S8_UINT],
+        _ => &[],
     };
-    (format != usual).then(|| (format, ChosenFormat { usual, because: said.clone() }))
+    let Some(first) = formats.iter().find(|format| **format != usual) else { return Wanted::Usual };
+    let choice = ChosenFormat { usual, because: said.clone() };
+    match formats.iter().find(|format| range <= reach(**format)) {
+        Some(format) if format == first => Wanted::Asked(*format, choice),
+        fits => Wanted::Finer { format: *fits.unwrap_or(&usual), too_coarse: *first, choice },
+    }
+}
+
+/// What a pipeline's words make of an image's format.
+enum Wanted {
+    /// Nothing else than without them.
+    Usual,
+    /// The format that they name.
+    Asked(Format, ChosenFormat),
+    /// Depth in a finer format, since the scene reaches too far for the one that they name.
+    Finer { format: Format, too_coarse: Format, choice: ChosenFormat },
+}
+
+/// What is farthest is to be told from what lies this share of its distance behind it.
+const APART: f64 = 1.0 / 64.0;
+
+/// How many near distances away depth of a format still tells things apart that lie [`APART`]. Reversed depth without a far
+/// plane is d = near / z; one step of `2ⁿ − 1` in it is Δz = z² / (near · (2ⁿ − 1)), so Δz / z ≤ APART up to
+/// z / near = APART · (2ⁿ − 1). Steps of floating point are shares of d at any distance.
+fn reach(format: Format) -> f64 {
+    let steps = |bits: i32| 2_f64.powi(bits) - 1.0;
+    match format {
+        Format::D16_UNORM => APART * steps(16),
+        Format::X8_D24_UNORM_PACK32 | Format::D24_UNORM_S8_UINT => APART * steps(24),
+        _ => f64::INFINITY,
+    }
 }
 
 /// Gives images the formats that the pipeline's words make of them. `states` are those of the pipeline's passes. Says of
-/// images whose colour must stay as it is, why.
+/// images whose colour must stay as it is, why, and of depth that takes more bits than it was asked to. `depth_range` is that of
+/// the scene's [`Facts`](crate::facts::Facts).
 pub(super) fn choose(
     chosen: &Chosen<'_>,
+    depth_range: Option<f64>,
     things: &mut Things,
     states: &[State],
     outputs: &[Output],
@@ -63,17 +96,36 @@ pub(super) fn choose(
     let mut remarks = Vec::new();
     for group in groups(&mut alike, pipeline.images.len()) {
         let format = |at: &u32| things.image(ImageIndex(*at)).map(|image| image.image.format);
+        // Maps of shadows hold distances of a projection whose steps are everywhere the same.
+        let range =
+            depth_range.filter(|_| group.iter().any(|at| is_seen_depth(&passes, ImageIndex(*at)))).unwrap_or(1.0);
         let of_group = group.iter().filter_map(|at| {
             let described = &pipeline.images[*at as usize];
-            wanted(chosen, &described.format.value, format(at)?).map(|wanted| (described, wanted))
+            match wanted(chosen, &described.format.value, format(at)?, range) {
+                Wanted::Usual => None,
+                Wanted::Asked(format, choice) => Some((described, format, choice, None)),
+                Wanted::Finer { format, too_coarse, choice } => Some((described, format, choice, Some(too_coarse))),
+            }
         });
         // All that is in one group has one format; what stands in it first decides.
-        let Some((described, (format, choice))) = of_group.into_iter().next() else { continue };
+        let Some((described, format, choice, too_coarse)) = of_group.into_iter().next() else { continue };
         let no_alpha = format.components() < choice.usual.components() && !format.is_depth();
         let hindrance = group.iter().find_map(|at| uses.hindrance(ImageIndex(*at), no_alpha));
         if let Some(Hindrance { why, span }) = hindrance {
             let text = format!("{} is taken in spite of {}: {why}", choice.usual, choice.because);
             remarks.push(Remark { subject: described.name.text.clone(), span, text });
+            continue;
+        }
+        if let Some(coarse) = too_coarse {
+            let text = format!(
+                "{format} is taken in spite of {}: {coarse} is too coarse, since the scene reaches {range:.0} times as far as the near \
+                 plane, and {coarse} is good for {:.0} times",
+                choice.because,
+                reach(coarse).floor()
+            );
+            remarks.push(Remark { subject: described.name.text.clone(), span: described.format.span, text });
+        }
+        if format == choice.usual {
             continue;
         }
         for at in &group {
@@ -83,6 +135,14 @@ pub(super) fn choose(
         }
     }
     remarks
+}
+
+/// Whether objects are drawn into an image as a camera sees them.
+fn is_seen_depth(passes: &[&Pass], image: ImageIndex) -> bool {
+    passes.iter().any(|pass| {
+        let objects = matches!(pass.work, Work::Draw { draw: Draw::Objects(_), .. });
+        objects && pass.depth.as_ref().is_some_and(|depth| depth.image == image)
+    })
 }
 
 /// Images that have one format together, each group in the order of the file.

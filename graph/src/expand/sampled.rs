@@ -4,7 +4,7 @@ use super::images::Resolved;
 use super::parts::{self, Cells};
 use super::shader::{component_words, shape_words};
 use super::things::Things;
-use super::{Chosen, storage, variant};
+use super::{Chosen, shader, storage, variant};
 use crate::describe::{self, Diagnostic, Face, nearest, suggestion};
 use crate::frame::{self, Pass, Sampled, Shape};
 use crate::interface::{BindingKind, Component, Dimension, ImageShape, MOST_PARTS, PASS_SET, ShaderInterface};
@@ -116,8 +116,14 @@ pub(super) fn check<'i>(
     for sample in &pass.sample {
         let name = &sample.binding.text;
         let Some(declared) = declared(interface, name) else {
-            misspelt.extend(nearest(name, names(interface)));
             let unknown = format!("shader `{shader}` samples no image named `{name}`");
+            if let Some(otherwise) = shader::declared_otherwise(interface, name) {
+                let binding = interface.bindings.iter().find(|binding| binding.name == **name);
+                misspelt.extend(binding.map(|binding| &*binding.name));
+                errors.extend(otherwise.map(|help| Diagnostic::new(sample.binding.span, unknown).help(help)));
+                continue;
+            }
+            misspelt.extend(nearest(name, names(interface)));
             let help = suggestion(name, names(interface))
                 .or_else(|| Some(format!("shader `{shader}` samples no images at all in set {PASS_SET}")));
             errors.push(Diagnostic { help, ..Diagnostic::new(sample.binding.span, unknown) });

@@ -4,8 +4,8 @@ use super::work;
 use crate::describe::{self, Diagnostic, Name, Work, suggestion};
 use crate::frame::Draw;
 use crate::interface::{
-    BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterface, ShaderInterfaces,
-    ShaderProblem, Variant,
+    Binding, BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterface, ShaderInterfaces,
+    ShaderProblem, Unbindable, Variant,
 };
 use crate::source::Sources;
 use std::collections::HashSet;
@@ -117,7 +117,12 @@ fn report(shader: &Name, problem: &ShaderProblem) -> Diagnostic {
             Diagnostic { help: (!help.is_empty()).then_some(help), ..missing }
         }
         ShaderProblem::DoesNotCompile { messages } => {
-            Diagnostic::new(span, format!("shader `{name}` doesn't compile")).help(messages.join("\n"))
+            let quotes = messages.iter().filter_map(|message| message.quote.clone()).collect();
+            // What is said with its line needs no further words.
+            let rest = messages.iter().filter(|message| message.quote.is_none()).map(ToString::to_string);
+            let rest = rest.collect::<Vec<_>>().join("\n");
+            let broken = Diagnostic::new(span, format!("shader `{name}` doesn't compile"));
+            Diagnostic { quotes, help: (!rest.is_empty()).then_some(rest), ..broken }
         }
         ShaderProblem::Unsupported { what } => Diagnostic::new(span, format!("shader `{name}` can't be used: {what}")),
     }
@@ -137,29 +142,49 @@ pub(super) fn missing(
         .collect();
     for binding in interface.bindings.iter().filter(|binding| binding.set == PASS_SET) {
         let name = &binding.name;
+        if let BindingKind::Other(Unbindable { what, instead, place }) = &binding.kind {
+            let at = place.as_ref().map_or_else(String::new, |place| format!(" ({place})"));
+            let message = format!("shader `{shader}` declares `{name}` as {what}{at}, which isn't supported");
+            errors.push(Diagnostic::new(*span, message).help(instead));
+            continue;
+        }
         if given.contains(&**name) || misspelt.contains(&&**name) {
             continue;
         }
-        let (verb, field) = match &binding.kind {
-            BindingKind::UniformBlock(_) if name == PARAMS => continue,
-            BindingKind::SampledImage(_) => ("samples", "sample"),
-            BindingKind::InputAttachment { .. } => ("reads the input attachment", "sample"),
-            BindingKind::StorageImage { .. } => ("uses the storage image", "storage"),
-            BindingKind::StorageBlock { .. } => ("uses the storage block", "storage"),
-            BindingKind::UniformBlock(_) => ("uses the uniform block", "uniform"),
-            BindingKind::Other(what) => {
-                let message =
-                    format!("shader `{shader}` has {what} named `{name}` in set {PASS_SET}, which a pass can't give");
-                let help = format!(
-                    "set {PASS_SET} holds sampled and storage images, storage and uniform blocks, one of them `{PARAMS}`"
-                );
-                errors.push(Diagnostic::new(*span, message).help(help));
-                continue;
-            }
+        let Some((kind, _, field)) = given_in(binding) else { continue };
+        let verb = match (&binding.kind, kind.split_once(' ')) {
+            (BindingKind::InputAttachment { .. }, Some((_, kind))) => format!("reads the {kind}"),
+            (BindingKind::SampledImage(_), _) | (_, None) => "samples".to_owned(),
+            (_, Some((_, kind))) => format!("uses the {kind}"),
         };
         let message = format!("shader `{shader}` {verb} `{name}`, which pass `{}` doesn't give", pass.name.text);
         errors.push(Diagnostic::new(*span, message).help(format!("add `{field}: {{\"{name}\": \"…\"}}`")));
     }
+}
+
+/// What a binding of the pass's own set is, what it is given, and the field of a pass that gives it. `None`: no field does.
+fn given_in(binding: &Binding) -> Option<(&'static str, &'static str, &'static str)> {
+    match &binding.kind {
+        BindingKind::UniformBlock(_) if binding.name == PARAMS => None,
+        BindingKind::SampledImage(_) => Some(("a sampled image", "an image", "sample")),
+        BindingKind::InputAttachment { .. } => Some(("an input attachment", "an image", "sample")),
+        BindingKind::StorageImage { .. } => Some(("a storage image", "an image", "storage")),
+        BindingKind::StorageBlock { .. } => Some(("a storage block", "a buffer", "storage")),
+        BindingKind::UniformBlock(_) => Some(("a uniform block", "a buffer", "uniform")),
+        BindingKind::Other(_) => None,
+    }
+}
+
+/// Of a name that a pass gives in the wrong field: what to do, if the shader declares it as something that another field
+/// gives. `Some(None)`: no field can give it, which is reported with the shader.
+pub(super) fn declared_otherwise(interface: &ShaderInterface, name: &str) -> Option<Option<String>> {
+    let mut of_pass = interface.bindings.iter().filter(|binding| binding.set == PASS_SET && binding.name == name);
+    let binding = of_pass.next()?;
+    if let BindingKind::Other(_) = binding.kind {
+        return Some(None);
+    }
+    let (kind, thing, field) = given_in(binding)?;
+    Some(Some(format!("`{name}` is {kind} in the shader: give it {thing} in `{field}`")))
 }
 
 /// What components are, in words.

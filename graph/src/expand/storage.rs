@@ -2,7 +2,7 @@
 
 use super::shader::{PARAMS, component_words, shape_words};
 use super::things::Things;
-use super::{Chosen, parts, passes, sampled, transfers, work};
+use super::{Chosen, parts, passes, sampled, shader, transfers, work};
 use crate::describe::{self, Diagnostic, Part, StorageAccess, nearest, suggestion};
 use crate::format::{Format, Numeric};
 use crate::frame::{BufferRole, Image, Pass, Storage};
@@ -95,9 +95,9 @@ pub(super) fn check<'i>(
     let mut misspelt = Vec::new();
     let mut unknown = |name: &describe::Name, what: &str, errors: &mut Vec<Diagnostic>| {
         let message = format!("shader `{shader}` has {what} named `{}`", name.text);
-        if names(interface).any(|known| *known == *name.text) {
-            misspelt.extend(names(interface).find(|known| **known == *name.text));
-            errors.push(Diagnostic::new(name.span, message).help("the shader declares something else by this name"));
+        if let Some(otherwise) = shader::declared_otherwise(interface, &name.text) {
+            misspelt.extend(of_pass(interface, &name.text).map(|binding| &*binding.name));
+            errors.extend(otherwise.map(|help| Diagnostic::new(name.span, message).help(help)));
             return;
         }
         misspelt.extend(nearest(&name.text, names(interface)));

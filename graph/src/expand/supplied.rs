@@ -52,7 +52,7 @@ fn attributes(shader: &Name, interface: &ShaderInterface, brought: &DrawInterfac
         let (name, ty) = (&input.name, &input.ty);
         if !brought.attributes.iter().any(|attribute| attribute.name == name) {
             let message = format!("shader `{shader}` reads the vertex attribute `{name}`, which doesn't exist");
-            let help = suggestion(name, brought.attributes.iter().map(|attribute| attribute.name))
+            let help = in_the_shader(suggestion(name, brought.attributes.iter().map(|attribute| attribute.name)))
                 .or_else(|| Some("what this pass draws has no vertex attributes".to_owned()));
             errors.push(Diagnostic { help, ..Diagnostic::new(*span, message) });
         } else if !matches!(&**ty, "float" | "vec2" | "vec3" | "vec4") {
@@ -63,12 +63,17 @@ fn attributes(shader: &Name, interface: &ShaderInterface, brought: &DrawInterfac
     }
 }
 
+/// A suggestion for what the shader names, not the pipeline.
+fn in_the_shader(help: Option<String>) -> Option<String> {
+    help.map(|help| format!("in the shader: {help}"))
+}
+
 fn resource(shader: &Name, binding: &Binding, supplied: &[Supplied], errors: &mut Vec<Diagnostic>) {
     let (Name { text: shader, span }, name) = (shader, &binding.name);
     let wanted = format!("shader `{shader}` uses `{name}` (set {}, binding {})", binding.set, binding.binding);
     let here = |message: String| Diagnostic::new(*span, message);
     let Some(there) = supplied.iter().find(|there| there.name == name) else {
-        let help = suggestion(name, supplied.iter().map(|there| there.name))
+        let help = in_the_shader(suggestion(name, supplied.iter().map(|there| there.name)))
             .or_else(|| Some(format!("what a pass gives belongs into set {PASS_SET}")));
         let unknown = here(format!("{wanted}, which whoever draws doesn't bring along"));
         errors.push(Diagnostic { help, ..unknown });

@@ -104,8 +104,9 @@ fn drawn<'a>(
     if layers > 1 && part.layers.first.is_none() && part.layers.count.is_none() {
         let declared = chosen.image(part.image.index).layers.span;
         let message = format!("`{name}` has {layers} layers: say which one is drawn into");
-        let help =
-            format!("write `(image: \"{name}\", layer: 0)`; `layers: Rest` is for shaders that choose by `gl_Layer`");
+        let help = format!(
+            "write `(image: \"{name}\", layer: 0)`: a draw reaches one layer; `layers: Rest` clears them all as well"
+        );
         errors.push(Diagnostic::new(part.image.span, message).label(declared, "declared here").help(help));
         return None;
     }

@@ -3,9 +3,9 @@
 use super::order::State;
 use super::parts::{self, Cells};
 use super::things::Things;
-use crate::frame::{Blend, BufferRole, Draw, Pass, Resource, Work};
+use crate::frame::{BufferRole, Pass, Resource, Work};
 use crate::source::Span;
-use crate::vocabulary::{Aspects, CompareOp, StencilOp, Subresources};
+use crate::vocabulary::{Aspects, Subresources};
 
 /// A read.
 pub(super) struct Read {
@@ -65,17 +65,6 @@ pub(super) fn reads(things: &Things, pass: &Pass) -> Vec<Read> {
     reads
 }
 
-/// Whether what a draw draws replaces every texel of a target of one layer that isn't blended.
-fn covers(pass: &Pass) -> bool {
-    let full_screen = matches!(pass.work, Work::Draw { draw: Draw::FullScreen, discards: false, .. });
-    let stencil = |test: &crate::frame::StencilState| test.test != CompareOp::Always;
-    let tested = pass
-        .depth
-        .as_ref()
-        .is_some_and(|depth| depth.test != CompareOp::Always || depth.stencil.as_ref().is_some_and(stencil));
-    full_screen && !tested
-}
-
 /// What `pass` writes.
 pub(super) fn writes(things: &Things, pass: &Pass) -> Vec<Write> {
     let mut writes = Vec::new();
@@ -84,26 +73,24 @@ pub(super) fn writes(things: &Things, pass: &Pass) -> Vec<Write> {
             writes.push(Write { resource, cells, span, continues });
         }
     };
-    let covers = covers(pass);
-    let single = |cells: &Option<Cells>| cells.as_ref().is_none_or(|cells| cells.layers.len() == 1);
+    let image = |image| things.image(image).map(|known| &known.image);
     for target in &pass.color {
-        let cells = part(things, Resource::Image(target.image), &target.range);
-        let whole = target.clear.is_some() || (covers && target.blend == Blend::Replace && single(&cells));
+        let covers = image(target.image).is_none_or(|image| pass.covers_color(target, image));
         let clear = "(image: \"…\", clear: (0.0, 0.0, 0.0, 1.0))";
+        let cells = part(things, Resource::Image(target.image), &target.range);
+        let whole = target.clear.is_some() || covers;
         add(Resource::Image(target.image), cells, target.span, (!whole).then_some(clear));
     }
     if let Some(target) = &pass.depth {
-        let resource = Resource::Image(target.image);
-        let plane = |aspects| part(things, resource, &Subresources { aspects, ..target.range });
-        let depth = plane(Aspects::DEPTH);
-        let whole = target.clear.is_some() || (covers && target.write && single(&depth));
-        add(resource, depth, target.span, (!whole).then_some("(image: \"…\", clear: 0.0)"));
+        let covers = |plane| image(target.image).is_none_or(|image| pass.covers_plane(target, plane, image));
+        let mut plane = |aspects, clears: bool, clear| {
+            let resource = Resource::Image(target.image);
+            let cells = part(things, resource, &Subresources { aspects, ..target.range });
+            add(resource, cells, target.span, (!clears && !covers(aspects)).then_some(clear));
+        };
+        plane(Aspects::DEPTH, target.clear.is_some(), "(image: \"…\", clear: 0.0)");
         if let Some(stencil) = target.stencil {
-            let cells = plane(Aspects::STENCIL);
-            let sets = matches!(stencil.pass, StencilOp::Replace | StencilOp::Zero);
-            let whole = stencil.clear.is_some() || (covers && sets && single(&cells));
-            let clear = "(image: \"…\", stencil: (clear: 0))";
-            add(resource, cells, target.span, (!whole).then_some(clear));
+            plane(Aspects::STENCIL, stencil.clear.is_some(), "(image: \"…\", stencil: (clear: 0))");
         }
     }
     for storage in pass.storage.iter().filter(|storage| storage.write) {

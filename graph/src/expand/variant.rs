@@ -19,7 +19,19 @@ pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) ->
     let sampled = pass.sample.iter().map(|sample| sample.binding.text.clone()).collect();
     let parts = in_part(things, pass).map(|sample| sample.binding.text.clone()).collect();
     let textures = pass.sample.iter().filter_map(texture).collect();
-    Variant { textures, sampled, parts, alpha_to_coverage: covers_samples(things, pass), ..Variant::default() }
+    let components = pass.sample.iter().filter_map(|sample| {
+        let image = &things.image(sample.part.image.index)?.image;
+        Some((sample.binding.text.clone(), image.format.components()))
+    });
+    let components = components.collect();
+    Variant {
+        textures,
+        sampled,
+        components,
+        parts,
+        alpha_to_coverage: covers_samples(things, pass),
+        ..Variant::default()
+    }
 }
 
 /// What a pass samples of which only a part is in use.

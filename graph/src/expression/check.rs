@@ -5,7 +5,7 @@ use super::environment::{Bound, Declarations, Found, Origin, Symbol};
 use super::functions::{Callee, Function};
 use super::program::{Binary, Operation, Program, shown};
 use super::types::{Type, Value, Wanted};
-use crate::describe::{Diagnostic, nearest, suggestion};
+use crate::describe::{Diagnostic, nearest, suggestion, vulkans_name, without_quotes};
 use crate::format::Format;
 use crate::source::Span;
 
@@ -16,7 +16,7 @@ pub(super) fn check(
     wanted: Wanted<'_>,
 ) -> Result<Expression, Vec<Diagnostic>> {
     let mut check = Check { program, declarations, names: Vec::new(), stack: Vec::new(), errors: Vec::new() };
-    check.bind();
+    check.bind(wanted);
     for node in (0..).take(check.program.nodes.len()) {
         let ty = check.node(node);
         check.stack.extend(ty.map(|ty| Operand { ty: ty.known(), node }));
@@ -80,7 +80,10 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    fn bind(&mut self) {
+    fn bind(&mut self, wanted: Wanted<'_>) {
+        // Of what a name by itself stands for, the type is known.
+        let alone = matches!(&self.program.nodes[..], [node] if matches!(node.operation, Operation::Name(_)));
+        let wanted = alone.then_some(wanted);
         for (name, range) in &self.program.names {
             let format = || Format::ALL.iter().find(|format| format.name() == &**name).copied();
             let bound = match self.declarations.find(name) {
@@ -90,7 +93,7 @@ impl Check<'_> {
                     Some(format) => Name::Bound(Bound::Format(format)),
                     None => {
                         let message = format!("there is nothing named {}", shown(name));
-                        let help = unknown(name, self.declarations);
+                        let help = unknown(name, self.declarations, wanted, alone);
                         self.errors.push(Diagnostic { help, ..self.program.text.mistake(range.clone(), message) });
                         Name::Unknown(self.errors.len() - 1)
                     }
@@ -223,8 +226,7 @@ impl Check<'_> {
     fn text(&mut self, name: Operand, text: Operand) {
         let Operation::Name(name) = self.program.node(name.node).operation else { return };
         if let (Name::Unknown(mistake), Some(Type::Text)) = (self.names[name as usize], text.ty) {
-            let quoted = format!("texts stand in single quotes: `'{}'`", self.program.names[name as usize].0);
-            self.errors[mistake].help = Some(quoted);
+            self.unquoted(mistake, name, text);
         }
         let Name::Bound(Bound::Symbol(symbol @ Symbol { ty: Type::Text, list: false, .. })) = self.names[name as usize]
         else {
@@ -240,6 +242,32 @@ impl Check<'_> {
         let quoted: Vec<String> = choices.into_iter().map(|choice| format!("'{choice}'")).collect();
         let help = suggestion(&format!("'{found}'"), quoted.iter().map(String::as_str));
         self.report(text.node, message, symbol.declared, help);
+    }
+
+    /// A name that nothing has is compared with a text: it may be a near name, or a text without its quotes.
+    fn unquoted(&mut self, mistake: usize, name: u32, text: Operand) {
+        let written = &self.program.names[name as usize].0;
+        let choices = match self.program.node(text.node).operation {
+            Operation::Name(other) => match self.names[other as usize] {
+                Name::Bound(Bound::Symbol(symbol)) => self.declarations.choices(symbol.id),
+                _ => None,
+            },
+            _ => None,
+        };
+        let near = choices.as_ref().and_then(|choices| nearest(written, choices.iter().copied()));
+        let is_text = |name: &&str| {
+            matches!(self.declarations.find(name), Found::Symbol(Symbol { ty: Type::Text, list: false, .. }))
+        };
+        let texts: Vec<&str> = self.declarations.names().into_iter().filter(is_text).collect();
+        let help = match (near, choices) {
+            (Some(near), _) => Some(format!("texts stand in single quotes: `'{near}'`")),
+            (None, Some(choices)) if nearest(written, texts.iter().copied()).is_none() => {
+                let all: Vec<String> = choices.into_iter().map(|choice| format!("'{choice}'")).collect();
+                suggestion("", all.iter().map(String::as_str))
+            }
+            (None, _) => suggestion(written, texts),
+        };
+        self.errors[mistake].help = help;
     }
 
     fn call(&mut self, function: Function, arguments: &[Operand]) -> Leaves {
@@ -295,12 +323,24 @@ impl Check<'_> {
 
     /// Reports an operand of a wrong type. Returns the right one.
     fn needs(&mut self, by: &str, operand: Operand, wanted: Wanted<'_>) -> Option<Type> {
-        let ty = operand.ty?;
+        let Some(ty) = operand.ty else {
+            self.suggest_fitting(operand, wanted);
+            return None;
+        };
         if wanted.types.contains(&ty) || ty == Type::Integer && wanted.types.contains(&Type::Number) {
             return Some(ty);
         }
         self.mismatch(&format!("{by} needs {}", wanted.words), operand.node, ty, wanted.types);
         None
+    }
+
+    /// Of a name that nothing has it turns out what it should be: only names of such are suggested.
+    fn suggest_fitting(&mut self, operand: Operand, wanted: Wanted<'_>) {
+        let Operation::Name(name) = self.program.node(operand.node).operation else { return };
+        if let Name::Unknown(mistake) = self.names[name as usize] {
+            self.errors[mistake].help =
+                unknown(&self.program.names[name as usize].0, self.declarations, Some(wanted), false);
+        }
     }
 
     fn mismatch(&mut self, needs: &str, node: u32, ty: Type, wanted: &[Type]) {
@@ -340,15 +380,26 @@ impl Check<'_> {
     }
 }
 
-/// What to do about a name that nothing has.
-fn unknown(name: &str, declarations: &dyn Declarations) -> Option<String> {
+/// What to do about a name that nothing has. `wanted` is what it would have to be, if that is known; `alone`: it is the whole
+/// expression.
+fn unknown(name: &str, declarations: &dyn Declarations, wanted: Option<Wanted<'_>>, alone: bool) -> Option<String> {
     if let Some(callee) = Callee::find(name) {
         return Some(format!("the function is written `{}`", callee.form));
     }
-    let known = declarations.names();
-    let formats = Format::ALL.iter().map(|format| format.name());
-    match nearest(name, known.iter().copied().chain(formats)) {
-        Some(near) => Some(format!("did you mean `{near}`?")),
-        None => suggestion(name, known),
+    let fits = |ty: Type| {
+        let widened = ty == Type::Integer && wanted.is_some_and(|wanted| wanted.types.contains(&Type::Number));
+        wanted.is_none_or(|wanted| wanted.types.contains(&ty)) || widened
+    };
+    let fitting = |name: &&str| matches!(declarations.find(name), Found::Symbol(symbol) if fits(symbol.ty));
+    let known: Vec<&str> = declarations.names().into_iter().filter(fitting).collect();
+    let formats = Format::ALL.iter().map(|format| format.name()).filter(|_| fits(Type::Format));
+    let near = vulkans_name(name).filter(|_| fits(Type::Format));
+    match (near.or_else(|| nearest(name, known.iter().copied().chain(formats))), wanted) {
+        (Some(near), _) => Some(format!("did you mean `{near}`?")),
+        (None, Some(wanted)) if alone && fits(Type::Integer) && !name.contains('.') => {
+            Some(without_quotes(wanted.words, suggestion(name, known)))
+        }
+        (None, Some(wanted)) if known.is_empty() => Some(format!("{} is wanted here", wanted.words)),
+        (None, _) => suggestion(name, known),
     }
 }

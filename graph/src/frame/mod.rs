@@ -8,6 +8,7 @@ use crate::source::{Sources, Span};
 use crate::view::{Stereo, View};
 use std::sync::Arc;
 
+mod covers;
 mod output;
 mod pass;
 mod resource;

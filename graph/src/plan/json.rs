@@ -136,12 +136,12 @@ impl Plan {
             |part: &'static str, ImageId(id): ImageId| in_range("images", id, self.images.len(), || place(part));
         let buffer =
             |part: &'static str, BufferId(id): BufferId| in_range("buffers", id, self.buffers.len(), || place(part));
-        let earlier = |part: &'static str, step: Option<StepId>| match step {
+        let step_of = |part: &'static str, step: Option<StepId>| match step {
             Some(StepId(id)) => in_range("steps", id, self.steps.len(), || place(part)),
             None => Ok(()),
         };
         for wait in &step.waits {
-            earlier("waits", Some(wait.step))?;
+            step_of("waits", Some(wait.step))?;
         }
         for barrier in &step.memory_barriers {
             for resource in barrier.hand_overs.iter().flatten() {
@@ -149,13 +149,15 @@ impl Plan {
             }
             for hazard in &barrier.buffers {
                 buffer("memory_barriers", hazard.buffer)?;
-                earlier("memory_barriers", hazard.after)?;
+                step_of("memory_barriers", hazard.after)?;
+                step_of("memory_barriers", hazard.needed_by)?;
             }
         }
         for (part, barriers) in [("image_barriers", &step.image_barriers), ("releases", &step.releases)] {
             for barrier in barriers {
                 image(part, barrier.image)?;
-                earlier(part, barrier.after)?;
+                step_of(part, barrier.after)?;
+                step_of(part, barrier.needed_by)?;
             }
         }
         let (attachments, passes) = attachments_and_passes(&step.work);

@@ -62,7 +62,7 @@ pub use work::{
 };
 
 /// The version of the JSON form that this library writes and reads.
-pub const FORMAT_VERSION: u32 = 8;
+pub const FORMAT_VERSION: u32 = 9;
 
 /// Index of an image in [`Plan::images`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -387,6 +387,8 @@ pub struct BufferHazard {
     pub hazard: Hazard,
     /// The last step that it waits for, in this frame; `None`: what came before the frame.
     pub after: Option<StepId>,
+    /// The first step that needs it: the one that it stands before, or a later one; `None`: what comes after the frame.
+    pub needed_by: Option<StepId>,
 }
 
 /// A `VkImageMemoryBarrier2`.
@@ -416,6 +418,8 @@ pub struct ImageBarrier {
     pub hazard: Hazard,
     /// The last step that it waits for, in this frame; `None`: what came before the frame.
     pub after: Option<StepId>,
+    /// The first step that needs it: the one that it stands before, or a later one; `None`: what comes after the frame.
+    pub needed_by: Option<StepId>,
 }
 
 /// Why a barrier is there.

@@ -23,7 +23,8 @@ pub struct Totals {
     pub fills: u32,
     /// Waits for other queues.
     pub waits: u32,
-    /// Calls of `vkCmdPipelineBarrier2`: before the work of steps, and after it where images are released.
+    /// Calls of `vkCmdPipelineBarrier2`: before the work of a step one for its memory barriers and one for its image barriers,
+    /// after it one for what it releases. Local barriers of passes are not counted.
     pub barrier_calls: u32,
     /// Image barriers, released ones too.
     pub image_barriers: u32,
@@ -80,8 +81,8 @@ impl Totals {
         self.waits += length(step.waits.len());
         self.image_barriers += length(step.image_barriers.len() + step.releases.len());
         self.memory_barriers += length(step.memory_barriers.len());
-        self.barrier_calls += u32::from(!step.image_barriers.is_empty() || !step.memory_barriers.is_empty());
-        self.barrier_calls += u32::from(!step.releases.is_empty());
+        let calls = [step.memory_barriers.is_empty(), step.image_barriers.is_empty(), step.releases.is_empty()];
+        self.barrier_calls += length(calls.iter().filter(|empty| !**empty).count());
     }
 
     /// A copy, blit or fill that is a pass of the file; inserted ones are no passes.

@@ -58,7 +58,7 @@ impl Tree<'_> {
     fn step(self, step: &Step) -> Node {
         let mut parts: Vec<Node> = step.waits.iter().map(|wait| self.wait(wait)).collect();
         parts.extend(step.memory_barriers.iter().map(|barrier| self.memory_barrier(barrier)));
-        parts.extend(step.image_barriers.iter().map(|barrier| self.image_barrier(step, barrier)));
+        parts.extend(step.image_barriers.iter().map(|barrier| self.image_barrier(barrier)));
         let title = match &step.work {
             Work::Render(scope) => {
                 self.scope(scope, &mut parts);
@@ -88,7 +88,7 @@ impl Tree<'_> {
             }
             Work::Export => "images change their layouts before several queues read them".to_owned(),
         };
-        parts.extend(step.releases.iter().map(|barrier| self.image_barrier(step, barrier)));
+        parts.extend(step.releases.iter().map(|barrier| self.image_barrier(barrier)));
         let queue = match step.queue {
             Queue::Graphics => "",
             Queue::Compute => " on the compute queue",
@@ -101,8 +101,8 @@ impl Tree<'_> {
     fn both_eyes(self, form: EyeForm) -> String {
         let how = match (self.plan.stereo, form) {
             (Stereo::Instanced, EyeForm::Layers) => "twice the instances, each in the layer of its eye",
-            (Stereo::Instanced, EyeForm::Halves) => "twice the instances, cut at the seam by clip distances",
-            (Stereo::DoubleWide, _) => "each draw twice, cut at the seam by clip distances",
+            (Stereo::Instanced, EyeForm::Halves) => "twice the instances, cut at the seam by a clip distance",
+            (Stereo::DoubleWide, _) => "each draw twice, each to the viewport of its half",
             (Stereo::Off | Stereo::MultiPass | Stereo::Multiview, _) => "two views at once",
         };
         format!(", for both eyes: {how}")
@@ -266,7 +266,9 @@ impl Tree<'_> {
             reasons.push(format!("memory changes hands, {}", hands.join(", ")));
         }
         reasons.extend(barrier.buffers.iter().map(|buffer| {
-            let reason = hazard("this step", buffer.hazard, buffer.after);
+            let of_it = |pass: &Pass| pass.buffers.iter().any(|access| access.buffer == buffer.buffer);
+            let who = self.who(buffer.needed_by, of_it);
+            let reason = hazard(&who, buffer.hazard, buffer.after);
             format!("{}: {reason}", self.resource(Resource::Buffer(buffer.buffer)))
         }));
         if reasons.is_empty() {
@@ -275,7 +277,7 @@ impl Tree<'_> {
         Node::leaf(format!("barrier: {}", reasons.join("; ")))
     }
 
-    fn image_barrier(self, step: &Step, barrier: &ImageBarrier) -> Node {
+    fn image_barrier(self, barrier: &ImageBarrier) -> Node {
         let [old, new] = [vulkan(&barrier.old_layout), vulkan(&barrier.new_layout)];
         let layouts = if old == new { format!("stays {new}") } else { format!("{old} → {new}") };
         let part = self.part(barrier.image, barrier.range);
@@ -283,23 +285,28 @@ impl Tree<'_> {
             Some([from, to]) => format!(", from the {} queue to the {} queue", vulkan(&from), vulkan(&to)),
             None => String::new(),
         };
-        Node::leaf(format!("barrier: {part}: {layouts}{hands}, {}", self.reason(step, barrier)))
+        let who = self.who(barrier.needed_by, |pass| pass.accesses.iter().any(|access| access.image == barrier.image));
+        Node::leaf(format!("barrier: {part}: {layouts}{hands}, {}", hazard(&who, barrier.hazard, barrier.after)))
     }
 
-    /// Why a barrier is there: who does what, after what.
-    fn reason(self, step: &Step, barrier: &ImageBarrier) -> String {
+    /// Who needs a barrier of what `touches` tells of: a pass of the step that needs it, with the step if that is a later one.
+    fn who(self, needed_by: Option<StepId>, touches: impl Fn(&Pass) -> bool) -> String {
+        let step_of = |id: StepId| Some((id, self.plan.steps.get(id.0 as usize)?));
+        let Some((needed_by, step)) = needed_by.and_then(step_of) else { return "this step".to_owned() };
         let passes = match &step.work {
             Work::Render(scope) => scope.passes.as_slice(),
             Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
             Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => &[],
         };
-        let touches = |pass: &&Pass| pass.accesses.iter().any(|access| access.image == barrier.image);
-        let who = match (passes.iter().find(touches), &step.work) {
-            (Some(pass), _) => format!("`{}`", Shown(&pass.name)),
-            (None, Work::Render(_)) => "the end of the scope".to_owned(),
-            (None, _) => "this step".to_owned(),
-        };
-        hazard(&who, barrier.hazard, barrier.after)
+        let here = needed_by == self.id;
+        match (passes.iter().find(|pass| touches(pass)), &step.work) {
+            (Some(pass), _) if here => format!("`{}`", Shown(&pass.name)),
+            (Some(pass), _) => format!("`{}` in step {}", Shown(&pass.name), needed_by.0),
+            (None, Work::Render(_)) if here => "the end of the scope".to_owned(),
+            (None, Work::Render(_)) => format!("the end of the scope of step {}", needed_by.0),
+            (None, _) if here => "this step".to_owned(),
+            (None, _) => format!("step {}", needed_by.0),
+        }
     }
 
     fn resource(self, resource: Resource) -> String {

@@ -49,8 +49,8 @@ struct Holder {
 /// What takes memory.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Taking<'t, const Q: usize> {
-    /// An image barrier: what comes before it, and the writes that the memory barriers beside it make available.
-    Barrier(&'t Clock<Q>, PairSet),
+    /// An image barrier: what comes before it. It makes available only what its own image wrote.
+    Barrier(&'t Clock<Q>),
     /// An access to a buffer, on that queue.
     Access(u8, &'t Touch),
 }
@@ -188,7 +188,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             while let (None, Some(index)) = (missing, self.parts.next(&mut part)) {
                 let cell = &self.cells[index];
                 missing = match taking {
-                    Taking::Barrier(before, source) => before_layout_change(cell, before, source),
+                    Taking::Barrier(before) => before_layout_change(cell, before, PairSet::default()),
                     Taking::Access(queue, touch) => before_access(cell, &self.clocks, queue, touch.stages, touch.pairs),
                 };
             }

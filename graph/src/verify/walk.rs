@@ -128,13 +128,13 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         let (now, queue, program) = (self.now(id), span.queue, self.program);
         let mut batch = std::mem::take(&mut self.batch);
         batch.clear();
-        let mut beside = PairSet::default();
         for barrier in &program.memory_barriers[span.memory_barriers.clone()] {
             let mut before = self.before(queue, barrier.from, now);
             before.make_available(queue, barrier.source, now);
-            beside = beside.union(barrier.source);
             batch.push((before, barrier.to, barrier.shown));
         }
+        // Image barriers are a call of their own, which comes after that of the memory barriers.
+        self.take_effect(queue, &mut batch);
         let mut last = None;
         for (barrier, number) in program.barriers[span.barriers.clone()].iter().zip(span.barriers.start as u32..) {
             let stages = (barrier.scopes.from, barrier.scopes.to);
@@ -144,15 +144,20 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
                 last = Some(stages);
             }
             if let Some((before, _, _)) = batch.last() {
-                self.image_barrier(id, queue, barrier, number, before, beside);
+                self.image_barrier(id, queue, barrier, number, before);
             }
         }
-        // Barriers of one call don't order each other: none takes effect before all are judged.
-        for (before, stages, shown) in &batch {
-            self.clocks.hold_up(queue, *stages, before);
-            self.clocks.show(queue, *shown, before);
-        }
+        self.take_effect(queue, &mut batch);
         self.batch = batch;
+    }
+
+    /// Barriers of one call don't order each other, and none finds available what another one makes so: they take effect
+    /// once all are judged.
+    fn take_effect(&mut self, queue: u8, call: &mut Vec<(Clock<Q>, StageSet, PairSet)>) {
+        for (before, stages, shown) in call.drain(..) {
+            self.clocks.hold_up(queue, stages, &before);
+            self.clocks.show(queue, shown, &before);
+        }
     }
 
     fn before(&self, queue: u8, stages: StageSet, now: Time) -> Clock<Q> {
@@ -163,15 +168,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         before
     }
 
-    fn image_barrier(
-        &mut self,
-        id: StepId,
-        queue: u8,
-        barrier: &Barrier,
-        number: u32,
-        before: &Clock<Q>,
-        beside: PairSet,
-    ) {
+    fn image_barrier(&mut self, id: StepId, queue: u8, barrier: &Barrier, number: u32, before: &Clock<Q>) {
         let scopes = &barrier.scopes;
         let available = Availability { time: self.now(id), stages: scopes.to, queue };
         let forgets = barrier.old == Layout::Undefined;
@@ -197,7 +194,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
             let cell = &self.cells[index];
             if cell.occupation != occupation {
                 // What it did before it lost its bytes is what the image that took them had to wait for.
-                self.check_hand_over(id, barrier.image, Some(index), Taking::Barrier(before, beside));
+                self.check_hand_over(id, barrier.image, Some(index), Taking::Barrier(before));
             } else if !cell.excused
                 && let Some(gap) = before_layout_change(cell, before, scopes.source)
             {

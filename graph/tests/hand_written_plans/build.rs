@@ -93,6 +93,7 @@ pub(crate) fn barrier(
         ownership: None,
         hazard,
         after: after.map(StepId),
+        needed_by: (hazard != Hazard::Export).then_some(StepId(after.map_or(0, |after| after + 1))),
     }
 }
 

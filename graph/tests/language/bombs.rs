@@ -2,6 +2,7 @@
 
 use crate::table::{INPUTS, frame};
 use framewright_graph::describe::{self, Files, Found, Unread};
+use framewright_graph::expand::Inputs;
 use framewright_graph::file_path::FilePath;
 use framewright_graph::source::Sources;
 use std::fmt::Write as _;
@@ -163,4 +164,76 @@ fn a_file_that_is_named_again_and_again_is_read_a_thousand_times_at_most() {
         answer(&mut files, &pipeline("", "").replace("version: 1,", &format!("version: 1, include: [{again}],")));
     assert!(shown.contains("error: the files of a pipeline name others at most 1024 times"), "{}", &shown[..400]);
     assert_eq!(files.0, 1024);
+}
+
+/// A right pipeline, but for `wrong` among its fields.
+fn with_field(wrong: &str) -> String {
+    pipeline("", "").replacen("version: 1,", &format!("version: 1, {wrong},"), 1)
+}
+
+#[test]
+fn a_value_that_a_choice_of_a_million_refuses_is_answered_with_a_dozen_of_them() {
+    let all: String = (1..=1_000_000).map(|value| format!("{value},")).collect();
+    let text = with_field(&format!("settings: [(name: \"many\", value: OneOf(default: 1, of: [{all}]))]"));
+    let set = [("many".to_owned(), "0".to_owned())];
+    let shown = frame(&text, &Inputs { set: &set, ..INPUTS }).expect_err("a value that isn't allowed");
+    assert!(shown.contains("it is one of 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 and 999988 more"), "{}", &shown[..400]);
+    assert!(shown.len() < 1_000, "{} bytes", shown.len());
+}
+
+#[test]
+fn a_token_of_a_million_letters_is_not_echoed_whole() {
+    let (token, number) = ("X".repeat(1_000_000), format!("{}x", "1".repeat(1_000_000)));
+    for wrong in [
+        format!("depth: {token}"),
+        format!("{token}: 1"),
+        format!("views: {number}"),
+        format!("settings: [(name: \"{token}\", value: Bool(default: true))]"),
+        format!("settings: [(name: \"a\", value: OneOf(default: \"b\", of: [\"{token}\"]))]"),
+        format!("include: [\"{token}\"]"),
+    ] {
+        let (shown, _) = alone(&with_field(&wrong));
+        assert!(shown.len() < 2_000, "{} bytes: {}…", shown.len(), &shown[..300]);
+        assert!(shown.starts_with("error: "), "{}", &shown[..300]);
+    }
+}
+
+#[test]
+fn thirty_thousand_files_that_are_not_there_are_answered_briefly_in_json_too() {
+    let deep = "a/".repeat(1_000);
+    let all: String = (0..30_000).map(|at| format!("\"{deep}{at}.ron\",")).collect();
+    let text =
+        with_field(&format!("include: [{}]", &all[..all.len().min(4_000_000)].rsplit_once(',').expect("several").0));
+    let mut sources = Sources::default();
+    let errors = describe::read_with(&mut sources, &mut describe::NoFiles, "bomb.ron", "bomb.ron", text);
+    let errors = errors.expect_err("files that are not there");
+    let json = describe::to_json(&sources, &errors).to_string();
+    assert!(json.len() < 600_000, "{} bytes of JSON", json.len());
+    let shown = describe::render(&sources, &errors);
+    assert!(shown.len() < 20_000, "{} bytes", shown.len());
+}
+
+#[test]
+fn sixteen_million_commas_are_a_few_mistakes() {
+    let text = with_field(&format!("views: [{}", ",".repeat(16_000_000)));
+    let (shown, memory) = alone(&text);
+    assert!(shown.contains("error: expected a value, found `,`"), "{shown}");
+    assert!(shown.contains("… and at least "), "{shown}");
+    assert!(memory < 128 << 20, "reading took {memory} bytes");
+}
+
+#[test]
+fn a_million_unknown_fields_are_answered_soon() {
+    let all: String = (0..1_000_000).map(|at| format!("f{at}: 1,")).collect();
+    let text = with_field(all.trim_end_matches(','));
+    let mut shown = String::new();
+    let measured = allocation_counter::measure(|| {
+        let mut sources = Sources::default();
+        let errors = describe::read(&mut sources, "bomb.ron", "bomb.ron", text).expect_err("a bad file");
+        shown = describe::render(&sources, &errors);
+    });
+    assert!(shown.contains("the pipeline has no field `f0`") && shown.contains("… and at least "), "{shown}");
+    assert!(measured.bytes_max < 300 << 20, "reading took {} bytes", measured.bytes_max);
+    // A message or a near name for each would allocate a million times.
+    assert!(measured.count_total < 100_000, "{} allocations", measured.count_total);
 }

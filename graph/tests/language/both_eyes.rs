@@ -485,3 +485,23 @@ fn in_halves_shaders_ask_which_half_is_theirs_and_in_layers_they_need_not() {
         assert!(frame(&shared, &drawn(stereo)).is_ok(), "{stereo:?}");
     }
 }
+
+/// Draws are recorded for each half, with its viewport and scissor; instances are cut by a clip distance, and in layers by nothing.
+#[test]
+fn double_wide_takes_nothing_of_a_device_and_instances_a_layer_or_a_clip_distance() {
+    let device = |vertex_layer, max_clip_distances| Profile { vertex_layer, max_clip_distances, ..saved() };
+    for clip_distances in [None, Some(0), Some(1), Some(8)] {
+        assert_eq!(Stereo::DoubleWide.lacks(&device(false, clip_distances)), None);
+        assert_eq!(Stereo::Instanced.lacks(&device(true, clip_distances)), None);
+        let lacks = Stereo::Instanced.lacks(&device(false, clip_distances));
+        let expected = match clip_distances {
+            None => {
+                Some("its profile doesn't say that vertex shaders can choose the layer, nor how many clip distances")
+            }
+            Some(0) => Some("its vertex shaders can't choose the layer and have no clip distance"),
+            Some(_) => None,
+        };
+        let begins = expected.is_some_and(|expected| lacks.as_deref().is_some_and(|lacks| lacks.starts_with(expected)));
+        assert_eq!((lacks.is_some(), begins), (expected.is_some(), expected.is_some()), "{lacks:?}");
+    }
+}

@@ -36,6 +36,27 @@ fn frame(extent: [u32; 2], include: &str, uses: &str) -> Frame {
     frame
 }
 
+/// The files of the shipped library, by the names that pipelines include them by.
+fn shipped_files() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/pipelines/library");
+    let entries = folder.read_dir().expect("the shipped library");
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.expect("an entry").path().file_stem().expect("a name").to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_shipped_file_of_fragments_that_is_included_and_not_used_is_no_mistake() {
+    let files = shipped_files();
+    assert!(files.iter().any(|name| name == "motion"), "{files:?}");
+    for include in files {
+        let frame = frame([64, 64], &include, r#"(name: "show", draw: FullScreen("plain"), color: ["screen"])"#);
+        assert_eq!(frame.passes.len(), 2, "{include}");
+    }
+}
+
 fn passes(frame: &Frame, within: &str) -> usize {
     frame.passes.iter().filter(|pass| pass.name.contains(within)).count()
 }

@@ -2,6 +2,7 @@
 
 use crate::table::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
+use framewright_graph::facts::Facts;
 use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{ChosenFormat, Frame};
 
@@ -74,6 +75,47 @@ fn each_word_has_its_formats_and_without_one_all_is_as_usual() {
         let [color, follows, ..] = usual;
         assert_eq!(formats(&format!("depth_format: {word},"), "true"), [color, follows, depth, marked], "{word}");
     }
+}
+
+/// The formats of `depth` and `marked` for a scene that reaches `reach` times as far as the near plane, and what is said of both.
+fn depths(word: &str, reach: f64) -> ([Format; 2], Vec<String>) {
+    let facts = Facts { depth_range: Some(reach), ..Facts::UNKNOWN };
+    let inputs = Inputs { facts, facts_known: true, ..INPUTS };
+    let frame = right(&pipeline(&format!("depth_format: {word},"), "true", ""), &inputs);
+    ([2, 3].map(|at| frame.images[at].format), frame.remarks.into_iter().map(|it| it.text).collect())
+}
+
+#[test]
+fn depth_is_finer_than_asked_where_the_scene_reaches_too_far_and_that_is_said() {
+    let none = Vec::<String>::new();
+    assert_eq!(depths("Smallest", 1023.0), ([D16_UNORM, D24_UNORM_S8_UINT], none.clone()));
+    let (formats, said) = depths("Smallest", 2000.0);
+    assert_eq!(formats, [X8_D24_UNORM_PACK32, D24_UNORM_S8_UINT]);
+    let expected = "X8_D24_UNORM_PACK32 is taken in spite of `depth_format: Smallest`: D16_UNORM is too coarse, since the scene \
+                    reaches 2000 times as far as the near plane, and D16_UNORM is good for 1023 times";
+    assert_eq!(said, [expected]);
+    assert_eq!(depths("Balanced", 262_143.0), ([X8_D24_UNORM_PACK32, D24_UNORM_S8_UINT], none.clone()));
+    for word in ["Smallest", "Balanced"] {
+        let (formats, said) = depths(word, 1e7);
+        assert_eq!(formats, [D32_SFLOAT, D32_SFLOAT_S8_UINT], "{word}");
+        assert_eq!(said.len(), 2, "{said:?}");
+    }
+    assert_eq!(depths("Exact", 1e7), ([D32_SFLOAT, D32_SFLOAT_S8_UINT], none));
+}
+
+#[test]
+fn maps_of_shadows_are_as_coarse_as_asked_however_far_the_scene_reaches() {
+    let facts = Facts { depth_range: Some(1e9), ..Facts::UNKNOWN };
+    let inputs = Inputs { facts, facts_known: true, ..INPUTS };
+    let text = pipeline("depth_format: Smallest,", "true", r#"(name: "map", format: Depth, size: Fixed(512, 512)),"#)
+        .replace(
+            "(name: \"draw\"",
+            r#"(name: "casters", draw: Casters(list: Opaque, cascade: 0, of: 1), shader: "casters", depth: (image: "map", clear: 0.0), side_effect: true),
+            (name: "draw""#,
+        );
+    let frame = right(&text, &inputs);
+    let format = |name: &str| frame.images.iter().find(|image| &*image.name == name).map(|image| image.format);
+    assert_eq!([format("map"), format("depth")], [Some(D16_UNORM), Some(D32_SFLOAT)]);
 }
 
 #[test]

@@ -83,6 +83,20 @@ fn a_buffer_may_follow_one_that_is_declared_below_it() {
     assert!(frame.buffers.iter().all(|buffer| buffer.bytes == 12));
 }
 
+/// A pipeline that also fills images and buffers and reads their history, each as many frames back as `reads` says.
+fn reading(images: &str, buffers: &str, reads: &[(&str, &str, u32)]) -> String {
+    let passes: String = reads
+        .iter()
+        .map(|(kind, name, ago)| {
+            format!(
+                r#"(name: "fill_{name}", fill: (to: "{name}", value: 0)),
+                (name: "read_{name}", custom: "look", reads: [({kind}: "{name}", previous: {ago})], side_effect: true),"#
+            )
+        })
+        .collect();
+    pipeline("", images, buffers, "").replacen("passes: [", &format!("passes: [{passes}"), 1)
+}
+
 #[test]
 fn what_lives_on_begins_with_zero_or_with_what_the_file_says() {
     let of =
@@ -97,8 +111,12 @@ fn what_lives_on_begins_with_zero_or_with_what_the_file_says() {
     assert_eq!(of("Depth", "Persistent(initial: 1.0)"), persistent(FillValue::Depth(1.0, 0)));
     assert_eq!(of("DepthStencil", "Persistent(initial: (0.5, 7))"), persistent(FillValue::Depth(0.5, 7)));
     let history = |frames, initial| Lifetime::History { frames, initial };
-    assert_eq!(of("Color", "History"), history(1, FillValue::Color([0.0; 4])));
-    assert_eq!(of("Depth", "History(frames: 3)"), history(3, FillValue::Depth(0.0, 0)));
+    let read = |format: &str, lifetime: &str, ago| {
+        let images = format!(r#"(name: "past", format: {format}, size: Output, lifetime: {lifetime})"#);
+        right(&reading(&images, "", &[("image", "past", ago)]), &INPUTS).images[1].lifetime.clone()
+    };
+    assert_eq!(read("Color", "History", 1), history(1, FillValue::Color([0.0; 4])));
+    assert_eq!(read("Depth", "History(frames: 3)", 3), history(3, FillValue::Depth(0.0, 0)));
     assert_eq!(
         buffer("bytes: 8, lifetime: Persistent(initial: 7)").lifetime,
         persistent(FillValue::Bits([7, 0, 0, 0]))
@@ -109,7 +127,8 @@ fn what_lives_on_begins_with_zero_or_with_what_the_file_says() {
 fn a_lifetime_may_be_that_of_another() {
     let images = r#"(name: "a", format: Depth, size: Output, lifetime: Like("b")),
                     (name: "b", format: Color, size: Output, lifetime: Like("c"))"#;
-    let frame = right(&pipeline("", images, r#"(name: "c", bytes: 4, lifetime: History(frames: 2))"#, ""), &INPUTS);
+    let buffers = r#"(name: "c", bytes: 4, lifetime: History(frames: 2))"#;
+    let frame = right(&reading(images, buffers, &[("image", "a", 2), ("image", "b", 2)]), &INPUTS);
     let history = |initial| Lifetime::History { frames: 2, initial };
     // What is zero follows from what is filled.
     assert_eq!(frame.images[1].lifetime, history(FillValue::Depth(0.0, 0)));

@@ -1,5 +1,6 @@
 //! What the tests of the language share: shader interfaces out of a table, and the way from a file to a frame.
 
+use framewright_graph::describe::Quote;
 use framewright_graph::describe::{self, Diagnostic, Files, Found, NoFiles, Unread};
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::file_path::FilePath;
@@ -7,7 +8,8 @@ use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, Frame};
 use framewright_graph::interface::{
     AlphaUse, Attribute, Binding, BindingKind, Block, Component, Dimension, DrawInterface, FragmentOutput, ImageShape,
-    Member, ShaderInterface, ShaderInterfaces, ShaderProblem, Supplied, SuppliedKind, Variant, VertexInput,
+    Member, ShaderInterface, ShaderInterfaces, ShaderMessage, ShaderProblem, Supplied, SuppliedKind, Unbindable,
+    Variant, VertexInput,
 };
 use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
@@ -315,7 +317,10 @@ impl ShaderInterfaces for Table {
             ]),
             "overlay" => {
                 let floats = ["scale", "offset_x", "offset_y", "gain", "farthest"].map(|name| (name, "float"));
-                full_screen(vec![adapting("shown", variant), params(&[&floats[..], &[("layer", "int")]].concat())])
+                full_screen(vec![
+                    adapting("shown", variant),
+                    params(&[&floats[..], &[("is_signed", "uint"), ("layer", "int")]].concat()),
+                ])
             }
             "soft_focus" => full_screen(vec![
                 texture("sharp", 0, false, float),
@@ -368,9 +373,28 @@ impl ShaderInterfaces for Table {
                 interface
             }
             "broken" => {
-                let message = "shaders/broken.frag:3: error: 'colr' : undeclared identifier".to_owned();
+                let text = "shaders/broken.frag:3: error: 'colr' : undeclared identifier".to_owned();
+                let quote = Quote {
+                    file: "shaders/broken.frag".to_owned(),
+                    line: 3,
+                    text: "void main() { color = colr; }".to_owned(),
+                    underlined: 22..26,
+                    remark: "'colr' : undeclared identifier".to_owned(),
+                };
+                let message = ShaderMessage { text, quote: Some(quote) };
                 return Err(ShaderProblem::DoesNotCompile { messages: vec![message] });
             }
+            "comparing" => full_screen(vec![
+                Binding {
+                    kind: BindingKind::Other(Unbindable {
+                        what: "a sampler that compares depth".to_owned(),
+                        instead: "sample the depth by a `sampler2D`, and compare it in the shader".to_owned(),
+                        place: Some("shaders/comparing.frag:2".to_owned()),
+                    }),
+                    ..texture("map", 0, false, Component::Float)
+                },
+                of_stage(storage_image("picture", Dimension::D2, None, true), Stages::FRAGMENT_SHADER),
+            ]),
             "exotic" => return Err(ShaderProblem::Unsupported { what: "input attachment `previous`".to_owned() }),
             _ => {
                 let known = NAMES.iter().map(|name| (*name).to_owned()).collect();

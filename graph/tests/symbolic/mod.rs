@@ -79,12 +79,13 @@ fn frame_pass(frame: &Frame, pass: &Pass, held: &mut [u64]) {
     let stored = pass.storage.iter().filter(|storage| storage.read);
     let stored = stored.map(|storage| (storage.binding.to_string(), held[storage.image.0 as usize]));
     let read: Vec<_> = sampled.chain(stored).collect();
+    let tested = pass.depth.as_ref().is_some_and(|depth| depth.test != CompareOp::Always);
+    let whole = matches!(pass.work, Work::Draw { draw: Draw::FullScreen, discards: false, .. }) && !tested;
     let depth = pass.depth.as_ref().map_or(ANYTHING, |depth| match depth.clear {
+        _ if whole && depth.write => ANYTHING,
         Some(clear) => cleared([clear, 0.0, 0.0, 0.0]),
         None => held[depth.image.0 as usize],
     });
-    let tested = pass.depth.as_ref().is_some_and(|depth| depth.test != CompareOp::Always);
-    let whole = matches!(pass.work, Work::Draw { draw: Draw::FullScreen, discards: false, .. }) && !tested;
     for (location, target) in pass.color.iter().enumerate() {
         let value = &mut held[target.image.0 as usize];
         let before = match target.clear {
@@ -174,7 +175,9 @@ fn plan_pass(plan: &Plan, pass: &plan::Pass, scope: Option<&plan::RenderScope>, 
     }
     let Some(scope) = scope else { return };
     let depth_image = scope.depth.as_ref().filter(|_| pass.depth.is_some()).map(|depth| depth.image.0 as usize);
-    let depth = depth_image.map_or(ANYTHING, |image| held[image]);
+    let replaces = |state: plan::DepthState| state.write && state.test == CompareOp::Always;
+    let whole = pass.draw == Some(Draw::FullScreen) && !pass.discards && pass.depth.is_some_and(replaces);
+    let depth = depth_image.filter(|_| !whole).map_or(ANYTHING, |image| held[image]);
     for (location, attachment) in scope.color.iter().enumerate() {
         let value = &mut held[attachment.image.0 as usize];
         *value = match &*pass.shader {

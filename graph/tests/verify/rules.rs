@@ -227,9 +227,21 @@ fn memory_changes_hands_by_a_memory_barrier_or_by_one_on_the_last_occupant() {
              SHADER_STORAGE_WRITE in COMPUTE_SHADER by step 0 `write` isn't made available first"
         );
     }
-    // The memory barrier of the same call doesn't make the image barrier wait.
+    // The memory barrier doesn't make an image barrier wait that goes on from other stages.
     let violation = only(handed_over(vec![memory((CS, WRITE), (CS, WRITE))], None, (Stages::COPY, NONE)));
     assert!(matches!(violation.rule, Rule::HandOver { waited: false, .. }), "{violation}");
+}
+
+/// The two barriers are calls that follow each other: what the first makes available is there before the second's layout
+/// change only if they form an execution dependency chain. Waiting for the writer itself isn't enough.
+#[test]
+fn an_image_barrier_goes_on_from_the_memory_barrier_that_makes_the_last_occupants_writes_available() {
+    let chained = |to| handed_over(vec![memory((CS, WRITE), (to, NONE))], None, (CS, NONE));
+    assert_eq!(chained(CS), []);
+    for elsewhere in [Stages::empty(), Stages::COPY, Stages::FRAGMENT_SHADER] {
+        let violation = only(chained(elsewhere));
+        assert!(matches!(violation.rule, Rule::HandOver { waited: true, .. }), "{elsewhere:?}: {violation}");
+    }
 }
 
 #[test]

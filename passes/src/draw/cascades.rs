@@ -52,9 +52,9 @@ pub(super) fn of_plan(plan: &Plan, view: Option<ViewId>) -> Vec<Map> {
 #[must_use]
 pub fn may_cast(scene: &Scene, camera: &Camera, seen: &Seen, object: &Object) -> bool {
     let Bounds { min, max } = scene.meshes[object.mesh].bounds.transformed(object.transform);
-    let eye = camera.position().as_dvec3();
+    let eye = camera.position();
     let corners = (0..8).map(|corner| {
-        let pick = |axis: usize| f64::from(if corner >> axis & 1 == 0 { min[axis] } else { max[axis] });
+        let pick = |axis: usize| if corner >> axis & 1 == 0 { min[axis] } else { max[axis] };
         (seen.world_to_clip * (DVec3::new(pick(0), pick(1), pick(2)) - eye).extend(1.0)).truncate()
     });
     let (least, most) =
@@ -74,7 +74,7 @@ const LOGARITHMIC: f64 = 0.75;
 #[must_use]
 pub fn seen_by_sun(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade, texels: u32) -> Seen {
     let texels = f64::from(texels.max(16));
-    let eye = camera.position().as_dvec3();
+    let eye = camera.position();
     let (middle, radius) = sphere_around(scene);
     let reach = cascade.reach.map_or_else(|| through(middle.distance(eye) + radius), |reach| f32::from(reach).into());
     let [near, far] = [0.0, 1.0].map(|end| split(camera, reach, f64::from(cascade.index) + end, cascade.of));
@@ -84,7 +84,7 @@ pub fn seen_by_sun(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade
     let to_sun = -Vec3::from(scene.sun.direction).as_dvec3();
     let to_sun = to_sun.try_normalize().unwrap_or(DVec3::Y);
     let (right, up) = to_sun.any_orthonormal_pair();
-    let forward = -camera.transform.z_axis.truncate().as_dvec3();
+    let forward = -camera.transform.z_axis.truncate();
     let centre = eye + forward * ahead;
     let [x, y] = [right, up].map(|axis| (axis.dot(centre) / texel).round() * texel);
 
@@ -99,7 +99,7 @@ pub fn seen_by_sun(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade
 
 /// A sphere around everything: middle and radius. Somewhat larger, so that nothing ends up beyond it by rounding.
 fn sphere_around(scene: &Scene) -> (DVec3, f64) {
-    let around = scene.bounds().map_or((DVec3::ZERO, 0.0), |bounds| (bounds.center().as_dvec3(), bounds.radius()));
+    let around = scene.bounds().map_or((DVec3::ZERO, 0.0), |bounds| (bounds.center(), bounds.radius()));
     (around.0, (around.1 * 1.001).max(1e-3))
 }
 

@@ -15,7 +15,7 @@
 
 use super::block::Block;
 use crate::scene::{Camera, PointLight, Scene};
-use glam::{DMat3, DMat4, DVec3, Vec3};
+use glam::{DMat3, DMat4, DVec3};
 
 /// Clusters across, down and away from the camera.
 const GRID: [usize; 3] = [16, 9, 32];
@@ -75,7 +75,7 @@ impl Clusters {
     #[must_use]
     pub fn new(scene: &Scene, camera: &Camera, aspect: f64) -> Clusters {
         let focal = 1.0 / (f64::from(camera.vertical_fov) * 0.5).tan();
-        let from_world = DMat3::from_mat4(camera.transform.as_dmat4()).inverse();
+        let from_world = DMat3::from_mat4(camera.transform).inverse();
         let from_world = DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0)) * from_world;
         let sight = Sight { from_world, focal: [focal / aspect, focal] };
         let ranged = scene.point_lights.iter().any(|light| light.range.is_some());
@@ -198,12 +198,12 @@ impl Sight {
 fn ball(light: &PointLight, camera: &Camera, sight: &Sight) -> Option<Ball> {
     let radius = f64::from(light.range?) * (1.0 + RANGE_ROUNDING);
     // As the shaders are given it.
-    let from_camera = (Vec3::from(light.position).as_dvec3() - camera.position().as_dvec3()).as_vec3().as_dvec3();
+    let from_camera = (DVec3::from(light.position) - camera.position()).as_vec3().as_dvec3();
     Some(Ball { centre: sight.from_world * from_camera, squared_radius: radius * radius })
 }
 
 /// How far from a camera the scene reaches, metres.
 fn farthest(scene: &Scene, camera: &Camera) -> f64 {
-    let eye = camera.position().as_dvec3();
-    scene.bounds().map_or(1.0, |bounds| bounds.center().as_dvec3().distance(eye) + bounds.radius())
+    let eye = camera.position();
+    scene.bounds().map_or(1.0, |bounds| bounds.center().distance(eye) + bounds.radius())
 }

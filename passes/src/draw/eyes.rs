@@ -74,15 +74,13 @@ impl Eyes {
         let up = most([2, 3]).max(most([0, 1]) / aspect);
         let across = up * aspect;
         let off = |axis: usize| both.iter().map(|eye| eye.place[axis].abs()).fold(0.0, f64::max);
-        // Rays of that slope through the eyes meet so far behind, and further by what rounding to 32 bits may take away.
-        let place = camera.position();
-        let rounding = 8.0 * f64::from(f32::EPSILON) * f64::from(place.abs().max_element().max(1.0));
+        // Rays of that slope through the eyes meet so far behind, and further by what rounding may take away.
         let back = both.iter().map(|eye| eye.place.z).fold(0.0, f64::max) + (off(0) / across).max(off(1) / up);
-        let back = back * (1.0 + 1e-6) + rounding * (1.0 + 1.0 / across.min(up));
+        let back = back * (1.0 + 1e-6);
         let mut behind = Camera { vertical_fov: (2.0 * up.atan()) as f32, ..*camera };
         behind.vertical_fov = behind.vertical_fov.next_up().next_up();
-        let moved = place.as_dvec3() + DMat3::from_mat4(camera.transform.as_dmat4()) * DVec3::new(0.0, 0.0, back);
-        behind.transform.w_axis = moved.as_vec3().extend(1.0);
+        let moved = camera.position() + DMat3::from_mat4(camera.transform) * DVec3::new(0.0, 0.0, back);
+        behind.transform.w_axis = moved.extend(1.0);
         behind
     }
 }
@@ -90,7 +88,7 @@ impl Eyes {
 impl EyeSight {
     /// Where it is, seen from between the eyes, metres along the axes of the world.
     pub(super) fn offset(&self, camera: &Camera) -> DVec3 {
-        DMat3::from_mat4(camera.transform.as_dmat4()) * self.place
+        DMat3::from_mat4(camera.transform) * self.place
     }
 
     /// What takes the shaders' world space, whose origin is between the eyes, to this eye's clip space, if `world_to_clip` does

@@ -12,7 +12,7 @@ use glam::{DMat3, DMat4, DVec3, Mat4, Vec3};
 ///
 /// Depth is reversed without a far plane: 1 on the near plane, 0 infinitely far. Clip space is Vulkan's: y down.
 pub(super) fn world_to_clip(camera: &Camera, aspect: f64) -> DMat4 {
-    let rotation = DMat4::from_mat3(DMat3::from_mat4(camera.transform.as_dmat4()).inverse());
+    let rotation = DMat4::from_mat3(DMat3::from_mat4(camera.transform).inverse());
     camera.projection(aspect).as_dmat4() * rotation
 }
 
@@ -38,7 +38,7 @@ pub(super) fn view_block(camera: &Camera, sights: [Sight; 2]) -> Vec<u8> {
     for Sight { world_to_clip, eye } in sights {
         block.mat4(world_to_clip.as_mat4());
         block.mat4(world_to_clip.inverse().as_mat4());
-        block.vec3(camera.position().to_array());
+        block.vec3(camera.position().as_vec3().to_array());
         block.vec3(eye.as_vec3().to_array());
         block.align();
     }
@@ -57,7 +57,7 @@ pub(super) fn lights_block(scene: &Scene, camera: &Camera, clusters: &Clusters) 
     block.vec3(scene.sky.ground);
     block.uint(clusters.everywhere);
     for light in clusters.order.iter().map(|number| &scene.point_lights[*number as usize]) {
-        block.vec3(from_camera(camera, Vec3::from(light.position).as_dvec3()).as_vec3().to_array());
+        block.vec3(from_camera(camera, DVec3::from(light.position)).as_vec3().to_array());
         block.float(light.range.map_or(0.0, f32::recip));
         block.vec3(light.color.map(|channel| channel * light.intensity));
         block.align();
@@ -108,12 +108,12 @@ pub(super) fn motion_block(
 
 /// A place as seen from where the camera stands, axes unturned.
 fn from_camera(camera: &Camera, place: DVec3) -> DVec3 {
-    place - camera.position().as_dvec3()
+    place - camera.position()
 }
 
 /// An object's transform into the shaders' world space.
-fn object_to_world(camera: &Camera, transform: Mat4) -> Mat4 {
-    let mut shifted = transform.as_dmat4();
+fn object_to_world(camera: &Camera, transform: DMat4) -> Mat4 {
+    let mut shifted = transform;
     shifted.w_axis = from_camera(camera, shifted.w_axis.truncate()).extend(1.0);
     shifted.as_mat4()
 }

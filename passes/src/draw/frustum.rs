@@ -21,17 +21,17 @@ pub fn in_sight(scene: &Scene, camera: &Camera, aspect: f64) -> Vec<bool> {
 
 /// The same for a picture that `world_to_clip` takes the shaders' world space to, which may be shifted.
 pub(super) fn within(scene: &Scene, camera: &Camera, world_to_clip: DMat4) -> Vec<bool> {
-    let eye = camera.position().as_dvec3();
+    let eye = camera.position();
     let seen = |bounds: Bounds, mut to_world: DMat4| {
         to_world.w_axis = (to_world.w_axis.truncate() - eye).extend(1.0);
         may_be_seen(bounds, to_world, world_to_clip)
     };
-    scene.objects.iter().map(|it| seen(scene.meshes[it.mesh].bounds, it.transform.as_dmat4())).collect()
+    scene.objects.iter().map(|it| seen(scene.meshes[it.mesh].bounds, it.transform)).collect()
 }
 
 /// Whether a box isn't wholly beyond one of the planes.
 fn may_be_seen(bounds: Bounds, to_world: DMat4, world_to_clip: DMat4) -> bool {
-    let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+    let (min, max) = (bounds.min, bounds.max);
     let added = absolute(world_to_clip) * (absolute(to_world) * min.abs().max(max.abs()).extend(1.0));
     let slack = added * ROUNDING;
     let to_clip = world_to_clip * to_world;

@@ -28,7 +28,7 @@ pub fn draw_order_from(scene: &Scene, camera: &Camera, list: DrawList) -> Vec<u3
             (material.base_color_texture, object.mesh, material.double_sided, object.mirrored())
         }),
         DrawList::Transparent => {
-            let world_to_view = camera.transform.as_dmat4().inverse();
+            let world_to_view = camera.transform.inverse();
             order.sort_by(|&a, &b| depth(scene, world_to_view, b).total_cmp(&depth(scene, world_to_view, a)));
         }
     }
@@ -39,5 +39,5 @@ pub fn draw_order_from(scene: &Scene, camera: &Camera, list: DrawList) -> Vec<u3
 fn depth(scene: &Scene, world_to_view: DMat4, index: u32) -> f64 {
     let object = &scene.objects[index as usize];
     let centre = scene.meshes[object.mesh].bounds.transformed(object.transform).center();
-    -world_to_view.transform_point3(centre.as_dvec3()).z
+    -world_to_view.transform_point3(centre).z
 }

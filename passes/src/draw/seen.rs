@@ -135,7 +135,7 @@ impl Seen {
         let scene = &scene.at(frame);
         // Both eyes look up the same maps.
         let around = view.around(frame);
-        let to_around = DMat4::from_translation((camera.position() - around.position()).as_dvec3());
+        let to_around = DMat4::from_translation(camera.position() - around.position());
         let by_sun = |map: &Map| {
             let seen = seen_by_sun(scene, &around, view.aspect(), map.cascade, map.texels);
             cascades::Seen { world_to_clip: seen.world_to_clip * to_around, ..seen }

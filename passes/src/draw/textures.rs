@@ -5,7 +5,11 @@ use crate::scene::{Sampler, Texture, Wrap};
 use framewright_graph::format::Format;
 use framewright_graph::interface::DrawInterface;
 use framewright_graph::vocabulary::Filter;
-use framewright_vulkan::{AddressMode, BindGroup, Device, Error, Resource, SamplerDescriptor, TexelFilter};
+use framewright_vulkan::{
+    AddressMode, BindGroup, Device, Error, Resource, SamplerDescriptor, TexelFilter, Texture as Uploaded,
+};
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// Bind groups by texture. Factors live with the objects, so materials of one texture share its group.
 pub(super) struct Textures {
@@ -19,15 +23,23 @@ impl Textures {
     /// # Errors
     /// Too little memory, or a texture larger than the device takes.
     pub(super) fn new(device: &Device, objects: &DrawInterface, textures: &[Texture]) -> Result<Textures, Error> {
-        let group = |texture: &Texture| {
+        // Textures of one picture share its texels here too.
+        let mut pictures: HashMap<(*const u8, bool), Uploaded> = HashMap::new();
+        let mut group = |texture: &Texture| {
             let (sampler, mips) = (sampler(texture.sampler), texture.sampler.mip.is_some());
             let Texture { width, height, rgba8, .. } = texture;
-            let texture = device.texture(*width, *height, Format::R8G8B8A8_SRGB, rgba8, &sampler, mips)?;
-            device.bind_group(objects, MATERIAL_SET, &[(BASE_COLOR_TEXTURE_BINDING, Resource::Texture(&texture))])
+            let uploaded = match pictures.entry((rgba8.as_ptr(), mips)) {
+                Entry::Occupied(known) => device.sampled(known.get(), &sampler)?,
+                Entry::Vacant(new) => {
+                    let format = Format::R8G8B8A8_SRGB;
+                    new.insert(device.texture(*width, *height, format, rgba8, &sampler, mips)?).clone()
+                }
+            };
+            device.bind_group(objects, MATERIAL_SET, &[(BASE_COLOR_TEXTURE_BINDING, Resource::Texture(&uploaded))])
         };
-        let white =
-            Texture { name: "white".to_owned(), width: 1, height: 1, rgba8: vec![255; 4], sampler: Sampler::default() };
-        Ok(Textures { by_index: textures.iter().map(group).collect::<Result<_, _>>()?, white: group(&white)? })
+        let (name, rgba8) = ("white".to_owned(), [255; 4].into());
+        let white = group(&Texture { name, width: 1, height: 1, rgba8, sampler: Sampler::default() })?;
+        Ok(Textures { by_index: textures.iter().map(group).collect::<Result<_, _>>()?, white })
     }
 
     /// The bind group for a material's texture.

@@ -1,21 +1,22 @@
 //! Boxes around things.
 
-use glam::{DVec3, Mat4, Vec3};
+use glam::{DMat4, DVec3};
 
 /// An axis-aligned box, borders included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
     /// Smallest coordinates, metres.
-    pub min: Vec3,
+    pub min: DVec3,
     /// Largest coordinates, metres; nowhere less than `min`.
-    pub max: Vec3,
+    pub max: DVec3,
 }
 
 impl Bounds {
     /// The smallest box that holds every point; `None` without points.
     #[must_use]
     pub fn of(points: &[[f32; 3]]) -> Option<Bounds> {
-        points.iter().map(|point| Bounds { min: Vec3::from(*point), max: Vec3::from(*point) }).reduce(Bounds::union)
+        let points = points.iter().map(|point| DVec3::from(point.map(f64::from)));
+        points.map(|point| Bounds { min: point, max: point }).reduce(Bounds::union)
     }
 
     /// The smallest box that holds both.
@@ -26,33 +27,32 @@ impl Bounds {
 
     /// The smallest box that holds this one moved by an affine transform.
     #[must_use]
-    pub fn transformed(self, transform: Mat4) -> Bounds {
-        let transform = transform.as_dmat4();
+    pub fn transformed(self, transform: DMat4) -> Bounds {
         let corners = (0..8).map(|corner| {
             let pick = |axis: usize| if corner >> axis & 1 == 0 { self.min[axis] } else { self.max[axis] };
-            transform.transform_point3(DVec3::new(pick(0).into(), pick(1).into(), pick(2).into()))
+            transform.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
         });
         let (min, max) =
             corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), at| (min.min(at), max.max(at)));
-        Bounds { min: min.as_vec3(), max: max.as_vec3() }
+        Bounds { min, max }
     }
 
     /// Whether every coordinate is a number and no further than `limit` from 0.
     #[must_use]
     pub fn within(self, limit: f64) -> bool {
-        let fits = |corner: Vec3| corner.to_array().iter().all(|at| f64::from(*at).abs() <= limit);
+        let fits = |corner: DVec3| corner.to_array().iter().all(|at| at.abs() <= limit);
         fits(self.min) && fits(self.max)
     }
 
     /// The middle.
     #[must_use]
-    pub fn center(self) -> Vec3 {
+    pub fn center(self) -> DVec3 {
         self.min * 0.5 + self.max * 0.5
     }
 
     /// Half the length of the diagonal: the radius of the sphere around the box, metres.
     #[must_use]
     pub fn radius(self) -> f64 {
-        (self.max.as_dvec3() - self.min.as_dvec3()).length() * 0.5
+        (self.max - self.min).length() * 0.5
     }
 }

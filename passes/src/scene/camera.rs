@@ -1,13 +1,13 @@
 //! Where a scene is seen from.
 
 use crate::scene::{Bounds, Movement};
-use glam::{DMat4, DVec3, DVec4, Mat4, Vec3};
+use glam::{DMat4, DVec3, DVec4, Mat4};
 
 /// A perspective camera without a far plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     /// From the camera's space to the world's: a rotation and a shift. The camera looks along its −z, its y is up.
-    pub transform: Mat4,
+    pub transform: DMat4,
     /// Angle between the picture's lower and upper border, radians, more than 0 and less than π.
     pub vertical_fov: f32,
     /// Distance of the near plane in metres, more than 0.
@@ -41,7 +41,7 @@ impl Camera {
         let right = up.try_normalize()?.cross(back);
         let right = if right.length() > 1e-6 { right.normalize() } else { return None };
         let axes = [right, back.cross(right), back].map(|axis| axis.extend(0.0));
-        let transform = DMat4::from_cols(axes[0], axes[1], axes[2], position.extend(1.0)).as_mat4();
+        let transform = DMat4::from_cols(axes[0], axes[1], axes[2], position.extend(1.0));
         transform.is_finite().then_some(Camera { transform, vertical_fov, near, movement: Movement::default() })
     }
 
@@ -51,13 +51,13 @@ impl Camera {
     pub fn framing(bounds: Bounds) -> Camera {
         let radius = if bounds.radius() > 0.0 { bounds.radius() } else { 0.5 };
         let distance = radius / (FRAMING_FOV * 0.5).sin();
-        let target = bounds.center().as_dvec3();
+        let target = bounds.center();
         let back = DVec3::new(0.6, 0.42, 1.0).normalize();
         let right = DVec3::Y.cross(back).normalize();
         let axes = [right, back.cross(right), back].map(|axis| axis.extend(0.0));
         let position = (target + back * distance).extend(1.0);
         Camera {
-            transform: DMat4::from_cols(axes[0], axes[1], axes[2], position).as_mat4(),
+            transform: DMat4::from_cols(axes[0], axes[1], axes[2], position),
             vertical_fov: FRAMING_FOV as f32,
             near: (radius * FRAMING_NEAR).max(f64::from(f32::MIN_POSITIVE)) as f32,
             movement: Movement::default(),
@@ -78,14 +78,14 @@ impl Camera {
 
     /// Where the camera stands, in the world.
     #[must_use]
-    pub fn position(&self) -> Vec3 {
+    pub fn position(&self) -> DVec3 {
         self.transform.w_axis.truncate()
     }
 
     /// From the world's space to the camera's.
     #[must_use]
-    pub fn view(&self) -> Mat4 {
-        self.transform.as_dmat4().inverse().as_mat4()
+    pub fn view(&self) -> DMat4 {
+        self.transform.inverse()
     }
 
     /// From the camera's space to Vulkan's clip space: y down, depth reversed (1 on the near plane, 0 infinitely far).

@@ -1,7 +1,7 @@
 //! What pipeline files may ask of a scene, and what decided it.
 
 use super::peak::{Peak, peak};
-use super::{AlphaMode, Object, Scene};
+use super::{AlphaMode, Bounds, Object, Scene};
 use framewright_graph::facts::{Fact, FactValue, Facts};
 use framewright_graph::frame::DrawList;
 
@@ -64,7 +64,17 @@ fn facts(scene: &Scene, peak: Peak) -> Facts {
         point_lights: count(scene.point_lights.iter().filter(|light| light.shines()).count()),
         objects: count(scene.objects.len()),
         triangles: triangles.sum(),
+        depth_range: depth_range(scene),
     }
+}
+
+/// From the box around all objects and cameras, as they stand at first.
+fn depth_range(scene: &Scene) -> Option<f64> {
+    let cameras = || scene.cameras.iter().map(|camera| &camera.camera).chain([&scene.camera]);
+    let places = cameras().map(|camera| Bounds { min: camera.position(), max: camera.position() });
+    let all = scene.bounds().into_iter().chain(places).reduce(Bounds::union)?;
+    let near = cameras().map(|camera| f64::from(camera.near)).fold(f64::INFINITY, f64::min);
+    Some((2.0 * all.radius() / near).max(1.0))
 }
 
 fn is_clipped(scene: &Scene, object: &Object) -> bool {

@@ -23,7 +23,7 @@ impl Sun {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointLight {
     /// In the world, metres.
-    pub position: [f32; 3],
+    pub position: [f64; 3],
     /// Linear colour, each at least 0.
     pub color: [f32; 3],
     /// Multiplies the colour, at least 0: the radiance that a white surface gives which faces the light 1 m away.

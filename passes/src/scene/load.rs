@@ -2,6 +2,7 @@
 
 use super::{Scene, gltf, limits, text};
 use framewright_graph::describe::{Diagnostic, render};
+use framewright_graph::read_files::ReadFiles;
 use framewright_graph::root::Root;
 use framewright_graph::source::Sources;
 use std::path::{Path, PathBuf};
@@ -63,13 +64,23 @@ pub enum SceneError {
 /// # Errors
 /// [`SceneError`] says what is wrong with the file, and where in it.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    load_recorded(path, &ReadFiles::default())
+}
+
+/// Like [`load`], and records in `read` the file and all files that it names.
+///
+/// # Errors
+/// Those of [`load`].
+pub fn load_recorded(path: &Path, read: &ReadFiles) -> Result<Scene, SceneError> {
+    let bytes = |limit| bytes(path, limit, read);
     let extension = path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
     match extension.as_deref() {
         Some(ending @ ("glb" | "gltf")) => {
             let beside = Root::new(path.parent().unwrap_or(Path::new("")).to_owned());
+            let beside = beside.recorded(read, "a file of the scene");
             let scene = match ending {
-                "glb" => gltf::read_glb(&bytes(path, limits::FILE_BYTES)?, Some(&beside)),
-                _ => gltf::read_json(&bytes(path, limits::JSON_BYTES as u64)?, Some(&beside)),
+                "glb" => gltf::read_glb(&bytes(limits::FILE_BYTES)?, Some(&beside)),
+                _ => gltf::read_json(&bytes(limits::JSON_BYTES as u64)?, Some(&beside)),
             };
             scene.map_err(|error| SceneError::Gltf { path: path.into(), error })
         }
@@ -78,7 +89,7 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
                 path: path.into(),
                 at: error.utf8_error().valid_up_to(),
             };
-            let text = String::from_utf8(bytes(path, limits::TEXT_BYTES)?).map_err(not_text)?;
+            let text = String::from_utf8(bytes(limits::TEXT_BYTES)?).map_err(not_text)?;
             let mut sources = Sources::default();
             let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
             text::read(&mut sources, &path.to_string_lossy(), &name, text)
@@ -89,10 +100,10 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
 }
 
 /// The whole file, if it isn't larger than `limit`. Pipes and devices too: what counts is what comes out of them.
-fn bytes(path: &Path, limit: u64) -> Result<Vec<u8>, SceneError> {
+fn bytes(path: &Path, limit: u64, read: &ReadFiles) -> Result<Vec<u8>, SceneError> {
     use std::io::Read;
     let mut bytes = Vec::new();
-    std::fs::File::open(path)
+    read.open("the scene itself", path)
         .and_then(|file| file.take(limit + 1).read_to_end(&mut bytes))
         .map_err(|source| SceneError::Unreadable { path: path.into(), source })?;
     if bytes.len() as u64 > limit {

@@ -1,6 +1,7 @@
 //! What surfaces are made of.
 
 use framewright_graph::vocabulary::Filter;
+use std::sync::Arc;
 
 /// How a surface looks.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,8 +43,9 @@ pub struct Texture {
     pub width: u32,
     /// Rows, at least 1.
     pub height: u32,
-    /// `4 · width · height` bytes, top row first: sRGB-encoded red, green, blue, and linear alpha not multiplied in.
-    pub rgba8: Vec<u8>,
+    /// `4 · width · height` bytes, top row first: sRGB-encoded red, green, blue, and linear alpha not multiplied in. Textures that
+    /// show one picture share them.
+    pub rgba8: Arc<[u8]>,
     /// How it is sampled.
     pub sampler: Sampler,
 }

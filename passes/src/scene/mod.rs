@@ -38,8 +38,8 @@ pub use material::{AlphaMode, Material, Sampler, Texture, Wrap};
 pub use mesh::Mesh;
 pub use movement::{FRAME_SECONDS, Movement};
 
-use glam::{DMat3, Mat3, Mat4};
-pub use load::{SceneError, load};
+use glam::{DMat3, DMat4, Mat3};
+pub use load::{SceneError, load, load_recorded};
 use notes::Notes;
 
 /// Everything that a frame is drawn from. Every index in it is valid and every number finite.
@@ -80,7 +80,7 @@ pub struct Object {
     /// Index into [`Scene::materials`].
     pub material: usize,
     /// From the mesh's space to the world's; affine (its last row is 0 0 0 1).
-    pub transform: Mat4,
+    pub transform: DMat4,
     /// How much of it is seen, −1 to 1, where 1 is all of it. At 0.3 three tenths of its pixels are drawn, in a fixed
     /// pattern; at −0.3 exactly the others. So what changes for something else fades into it without showing what is behind
     /// both. What is transparent fades by its opacity instead.
@@ -94,7 +94,7 @@ impl Object {
     /// clockwise.
     #[must_use]
     pub fn mirrored(&self) -> bool {
-        DMat3::from_mat4(self.transform.as_dmat4()).determinant() < 0.0
+        DMat3::from_mat4(self.transform).determinant() < 0.0
     }
 
     /// Whether less than all of it is seen.
@@ -115,7 +115,7 @@ impl Object {
     /// still point outwards. Unlike the inverse it exists for flattened objects (a scale of 0) too.
     #[must_use]
     pub fn normal_matrix(&self) -> Mat3 {
-        let m = DMat3::from_mat4(self.transform.as_dmat4());
+        let m = DMat3::from_mat4(self.transform);
         let cofactors = DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
         let largest = cofactors.to_cols_array().iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let sign = if m.determinant() < 0.0 { -1.0 } else { 1.0 };

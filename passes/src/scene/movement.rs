@@ -1,7 +1,7 @@
 //! How things move: rigidly and steadily, by the number of the frame, so that each frame can be drawn again.
 
 use super::{Camera, Mesh, Object, Scene};
-use glam::{DMat3, DMat4, DQuat, DVec3, Mat4};
+use glam::{DMat3, DMat4, DQuat, DVec3};
 
 /// Seconds from one frame to the next.
 pub const FRAME_SECONDS: f64 = 1.0 / 60.0;
@@ -24,23 +24,22 @@ impl Movement {
 
     /// Where a thing with this transform is at a frame; at frame 0 it is where it was.
     #[must_use]
-    pub fn at(&self, frame: u64, transform: Mat4) -> Mat4 {
+    pub fn at(&self, frame: u64, transform: DMat4) -> DMat4 {
         let seconds = frame as f64 * FRAME_SECONDS;
         if seconds == 0.0 || self.is_none() {
             return transform;
         }
-        let transform = transform.as_dmat4();
         let turned = DMat3::from_quat(DQuat::from_scaled_axis(self.spin * seconds)) * DMat3::from_mat4(transform);
         let place = transform.w_axis.truncate() + self.velocity * seconds;
         let [x, y, z] = [turned.x_axis, turned.y_axis, turned.z_axis].map(|axis| axis.extend(0.0));
-        DMat4::from_cols(x, y, z, place.extend(1.0)).as_mat4()
+        DMat4::from_cols(x, y, z, place.extend(1.0))
     }
 }
 
 impl Object {
     /// Where it is at a frame: [`Object::transform`] then.
     #[must_use]
-    pub fn transform_at(&self, frame: u64) -> Mat4 {
+    pub fn transform_at(&self, frame: u64) -> DMat4 {
         self.movement.at(frame, self.transform)
     }
 }

@@ -84,7 +84,7 @@ fn arriving(scene: &Scene, object: &Object) -> DVec3 {
     let from_point = |light: &PointLight| {
         // What moves may come as near as can be.
         let moves = !object.movement.is_none();
-        let distance = if moves { 0.0 } else { distance(scene, object, vector(light.position)) };
+        let distance = if moves { 0.0 } else { distance(scene, object, DVec3::from(light.position)) };
         vector(light.color) * (f64::from(light.intensity) * light.falloff(distance))
     };
     let points = scene.point_lights.iter().filter(|light| light.shines()).map(from_point);
@@ -95,12 +95,11 @@ fn arriving(scene: &Scene, object: &Object) -> DVec3 {
 fn distance(scene: &Scene, object: &Object, place: DVec3) -> f64 {
     let mesh = &scene.meshes[object.mesh];
     let bounds = mesh.bounds.transformed(object.transform);
-    // The box is rounded to 32 bits, in which coordinates far from the origin are coarse.
+    // The device places corners in 32 bits.
     let slack = place.abs().max_element().max(bounds.radius()) * f64::from(f32::EPSILON);
-    let nearest = place.clamp(bounds.min.as_dvec3(), bounds.max.as_dvec3());
+    let nearest = place.clamp(bounds.min, bounds.max);
     let distance = if nearest == place {
-        let transform = object.transform.as_dmat4();
-        let corner = |index: u32| transform.transform_point3(vector(mesh.positions[index as usize]));
+        let corner = |index: u32| object.transform.transform_point3(vector(mesh.positions[index as usize]));
         let triangles = mesh.indices.as_chunks::<3>().0.iter();
         triangles.map(|corners| to_triangle(place, corners.map(corner))).fold(f64::INFINITY, f64::min)
     } else {

@@ -1,7 +1,7 @@
 //! The shapes that our own scene format knows, each of size 1: objects scale them.
 
 use super::{Bounds, Mesh};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
 
 /// A square from −0.5 to 0.5 in x and z that faces up; its texture's upper border is at the back (−z).
@@ -11,7 +11,7 @@ pub(crate) fn plane() -> Mesh {
         normals: vec![[0.0, 1.0, 0.0]; 4],
         uvs: vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]],
         indices: vec![0, 1, 2, 0, 2, 3],
-        bounds: Bounds { min: Vec3::new(-0.5, 0.0, -0.5), max: Vec3::new(0.5, 0.0, 0.5) },
+        bounds: Bounds { min: DVec3::new(-0.5, 0.0, -0.5), max: DVec3::new(0.5, 0.0, 0.5) },
     }
 }
 
@@ -33,7 +33,7 @@ pub(crate) fn cube() -> Mesh {
         normals: each().map(|((out, ..), _)| out.to_array()).collect(),
         uvs: each().map(|(_, (x, y))| [x + 0.5, 0.5 - y]).collect(),
         indices: (0..6).flat_map(|face| [0, 1, 2, 0, 2, 3].map(|corner| 4 * face + corner)).collect(),
-        bounds: Bounds { min: Vec3::splat(-0.5), max: Vec3::splat(0.5) },
+        bounds: Bounds { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) },
     }
 }
 
@@ -68,6 +68,6 @@ pub(crate) fn sphere() -> Mesh {
         normals: each().map(|(ring, sector)| place(ring, sector)).collect(),
         uvs: each().map(|(ring, sector)| [sector as f32 / SECTORS as f32, ring as f32 / RINGS as f32]).collect(),
         indices: triangles.collect(),
-        bounds: Bounds { min: Vec3::splat(-0.5), max: Vec3::splat(0.5) },
+        bounds: Bounds { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) },
     }
 }

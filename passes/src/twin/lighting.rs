@@ -39,11 +39,11 @@ pub fn reflect_light(scene: &Scene, position: DVec3, normal: DVec3, sunlit: f64)
     let to_sun = -vector(scene.sun.direction);
     let from_sun = vector(scene.sun.color) * (sunlit * normal.dot(to_sun).max(0.0));
     let from_points = scene.point_lights.iter().map(|light| {
-        let towards = vector(light.position) - position;
+        let towards = DVec3::from(light.position) - position;
         let facing = normal.dot(towards.normalize_or_zero()).max(0.0);
         vector(light.color) * (f64::from(light.intensity) * facing * light.falloff(towards.length()))
     });
-    let to_camera = (scene.camera.position().as_dvec3() - position).normalize_or_zero();
+    let to_camera = (scene.camera.position() - position).normalize_or_zero();
     Reflected {
         diffuse: vector(scene.ambient) + from_sun + from_points.sum::<DVec3>(),
         specular: from_sun * highlight(normal, to_camera, to_sun),

@@ -10,14 +10,14 @@ pub const NOWHERE: f64 = 2.0;
 /// picture's width over its height.
 #[must_use]
 pub fn place_in_picture(camera: &Camera, aspect: f64, place: DVec3) -> Option<DVec2> {
-    let camera_to_world = camera.transform.as_dmat4();
+    let camera_to_world = camera.transform;
     seen_along(camera, aspect, camera_to_world.inverse().transform_point3(place))
 }
 
 /// Where a camera sees what lies infinitely far away in a direction of the world.
 #[must_use]
 pub fn direction_in_picture(camera: &Camera, aspect: f64, direction: DVec3) -> Option<DVec2> {
-    seen_along(camera, aspect, DMat3::from_mat4(camera.transform.as_dmat4()).inverse() * direction)
+    seen_along(camera, aspect, DMat3::from_mat4(camera.transform).inverse() * direction)
 }
 
 fn seen_along(camera: &Camera, aspect: f64, at: DVec3) -> Option<DVec2> {

@@ -15,3 +15,9 @@ pub fn guard_radiance(radiance: f64) -> f64 {
 pub fn guard_alpha(alpha: f64) -> f64 {
     guard_radiance(alpha).min(1.0)
 }
+
+/// A number that may be negative, made safe for a half-float store: −[`LARGEST_HALF`]…[`LARGEST_HALF`]; NaN becomes 0.
+#[must_use]
+pub fn guard_signed(number: f64) -> f64 {
+    if number.is_nan() { 0.0 } else { number.clamp(-LARGEST_HALF, LARGEST_HALF) }
+}

@@ -2,7 +2,7 @@
 
 use crate::fixtures;
 use framewright_passes::scene::{AlphaMode, Scene, Wrap, gltf};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Set to write the files anew.
 const ACCEPT: &str = "FRAMEWRIGHT_ACCEPT";
@@ -66,7 +66,7 @@ fn strips_and_fans_face_the_way_that_lists_do() {
 fn sparse_positions_replace_the_ones_below() {
     let scene = fixture("indices.glb");
     let bounds = scene.meshes[object(&scene, "sparse").mesh].bounds;
-    assert_eq!((bounds.min, bounds.max), (Vec3::new(-0.5, -0.5, 0.0), Vec3::new(0.5, 1.0, 0.0)));
+    assert_eq!((bounds.min, bounds.max), (DVec3::new(-0.5, -0.5, 0.0), DVec3::new(0.5, 1.0, 0.0)));
 }
 
 #[test]
@@ -159,12 +159,12 @@ fn emissive_strength_is_multiplied_in() {
 fn nested_transforms_multiply_from_the_top() {
     let scene = fixture("transforms.glb");
     // 0.75 · (the leaf's corner, a quarter turn about y, half a metre up), then the top's translation.
-    let leaf = object(&scene, "leaf").transform.transform_point3(Vec3::new(0.5, -0.5, -0.5));
-    assert!(leaf.abs_diff_eq(Vec3::new(6.0 - 0.375, -6.0, -0.375), 1e-6), "{leaf}");
-    let twin = object(&scene, "mirrored twin").transform.transform_point3(Vec3::new(0.5, -0.5, -0.5));
-    assert!(twin.abs_diff_eq(Vec3::new(6.0 - 0.375, -6.0 + 0.75 * 2.5, -0.375), 1e-6), "{twin}");
-    let sheared = object(&scene, "sheared by a matrix").transform.transform_point3(Vec3::new(0.5, 0.5, 0.0));
-    assert!(sheared.abs_diff_eq(Vec3::new(4.0 + 0.6 + 0.2, -2.0 + 0.5, 0.0), 1e-6), "{sheared}");
+    let leaf = object(&scene, "leaf").transform.transform_point3(DVec3::new(0.5, -0.5, -0.5));
+    assert!(leaf.abs_diff_eq(DVec3::new(6.0 - 0.375, -6.0, -0.375), 1e-6), "{leaf}");
+    let twin = object(&scene, "mirrored twin").transform.transform_point3(DVec3::new(0.5, -0.5, -0.5));
+    assert!(twin.abs_diff_eq(DVec3::new(6.0 - 0.375, -6.0 + 0.75 * 2.5, -0.375), 1e-6), "{twin}");
+    let sheared = object(&scene, "sheared by a matrix").transform.transform_point3(DVec3::new(0.5, 0.5, 0.0));
+    assert!(sheared.abs_diff_eq(DVec3::new(4.0 + 0.6 + 0.2, -2.0 + 0.5, 0.0), 1e-6), "{sheared}");
     assert_eq!(object(&scene, "leaf").mesh, object(&scene, "mirrored twin").mesh, "one mesh, two places");
 }
 
@@ -181,11 +181,11 @@ fn normals_point_outwards_under_every_transform() {
     let scene = fixture("transforms.glb");
     for object in &scene.objects {
         let mesh = &scene.meshes[object.mesh];
-        let middle = object.transform.transform_point3(Vec3::splat(-0.05));
+        let middle = object.transform.transform_point3(DVec3::splat(-0.05));
         for (position, normal) in mesh.positions.iter().zip(&mesh.normals) {
-            let outwards = object.transform.transform_point3(Vec3::from(*position)) - middle;
+            let outwards = object.transform.transform_point3(Vec3::from(*position).as_dvec3()) - middle;
             let normal = object.normal_matrix() * Vec3::from(*normal);
-            assert!(outwards.dot(normal) > 0.0, "{}: {position:?}", object.name);
+            assert!(outwards.dot(normal.as_dvec3()) > 0.0, "{}: {position:?}", object.name);
         }
     }
 }
@@ -205,10 +205,10 @@ fn a_camera_in_the_file_is_used_without_its_scale() {
     let camera = scene.camera;
     assert_eq!(scene.camera_named(Some("eye")), Some(&camera));
     assert_eq!((camera.vertical_fov, camera.near), (0.8, 0.05));
-    let (sin, cos) = 0.4f32.sin_cos();
-    assert!(camera.position().abs_diff_eq(Vec3::new(1.0 + 5.0 * sin, 0.25, 5.0 * cos), 1e-5), "{}", camera.position());
-    let forward = camera.transform.transform_vector3(Vec3::NEG_Z);
-    assert!(forward.abs_diff_eq(Vec3::new(-sin, 0.0, -cos), 1e-6), "{forward}");
+    let (sin, cos) = 0.4f64.sin_cos();
+    assert!(camera.position().abs_diff_eq(DVec3::new(1.0 + 5.0 * sin, 0.25, 5.0 * cos), 1e-5), "{}", camera.position());
+    let forward = camera.transform.transform_vector3(DVec3::NEG_Z);
+    assert!(forward.abs_diff_eq(DVec3::new(-sin, 0.0, -cos), 1e-6), "{forward}");
 }
 
 #[test]
@@ -226,10 +226,10 @@ fn lights_in_the_file_replace_the_default_sun() {
 fn a_file_without_camera_is_framed_whole() {
     for (name, bytes) in fixtures::all().into_iter().filter(|(name, _)| *name != "camera_and_lights.glb") {
         let scene = gltf::read_glb(&bytes, None).expect("loads");
-        let to_clip = scene.camera.projection(1.0) * scene.camera.view();
+        let to_clip = scene.camera.projection(1.0).as_dmat4() * scene.camera.view();
         for object in &scene.objects {
             for position in &scene.meshes[object.mesh].positions {
-                let clip = to_clip * (object.transform * Vec3::from(*position).extend(1.0));
+                let clip = to_clip * (object.transform * Vec3::from(*position).as_dvec3().extend(1.0));
                 let inside = clip.x.abs() < clip.w && clip.y.abs() < clip.w && clip.z > 0.0 && clip.z < clip.w;
                 assert!(inside, "{name}: {} sticks out at {clip}", object.name);
             }

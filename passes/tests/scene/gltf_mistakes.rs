@@ -72,14 +72,14 @@ fn json_that_is_not_gltf() {
     assert_eq!(verdict(&pack("{", &[])), "EOF while parsing an object at line 1 column 4");
     assert_eq!(verdict(&pack("{}", &[])), "missing field `asset` at line 1 column 2");
     let deep = format!("{{\"asset\": {{\"version\": \"2.0\"}}, \"nodes\": {}", "[".repeat(100_000));
-    assert!(verdict(&pack(&deep, &[])).starts_with("EOF while parsing"), "{}", verdict(&pack(&deep, &[])));
+    assert!(verdict(&pack(&deep, &[])).starts_with("nodes: EOF while parsing"), "{}", verdict(&pack(&deep, &[])));
     assert_eq!(
         said(|json| json["asset"]["version"] = json!("1.\u{7}")),
         "glTF version `1.\\u{7}` is not supported; only 2.x is"
     );
     let missing = "accessor 1: missing field `count`";
     assert_eq!(said(|json| _ = json["accessors"][1].as_object_mut().map(|it| it.remove("count"))), missing);
-    let negative = "accessor 1: invalid value: integer `-1`, expected u64";
+    let negative = "accessor 1: count: invalid value: integer `-1`, expected a whole number, 0 or more";
     assert_eq!(said(|json| json["accessors"][1]["count"] = json!(-1)), negative);
     let required = "the file requires the extension `KHR_draco_mesh_compression`, which is not supported";
     assert_eq!(said(|json| json["extensionsRequired"] = json!(["KHR_draco_mesh_compression"])), required);
@@ -298,13 +298,6 @@ fn nodes_that_make_no_tree() {
     assert_eq!(circle, "node 0: it is its own ancestor");
     let shared = said(|json| json["nodes"] = json!([{"children": [2]}, {"children": [2]}, {"mesh": 0}]));
     assert_eq!(shared, "node 2: it is a child of both node 0 and node 1");
-    let inner = said(|json| {
-        json["nodes"] = json!([{"children": [1]}, {"mesh": 0}]);
-        json["scenes"][0]["nodes"] = json!([1]);
-    });
-    assert_eq!(inner, "scene 0: it lists node 1, which is not at the top or is listed twice");
-    let twice = said(|json| json["scenes"][0]["nodes"] = json!([0, 0]));
-    assert_eq!(twice, "scene 0: it lists node 0, which is not at the top or is listed twice");
     let both = said(|json| {
         json["nodes"][0]["matrix"] = json!([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
         json["nodes"][0]["scale"] = json!([1, 1, 1]);
@@ -393,37 +386,4 @@ fn counts_that_multiply_are_bounded() {
         json["scenes"][0]["nodes"] = (0..4098).collect();
     });
     assert_eq!(lights, "point lights: 4097; at most 4096 is allowed");
-}
-
-#[test]
-fn what_is_not_drawn_is_noted() {
-    let file = sound();
-    let mut json = file.json();
-    let primitive = &mut json["meshes"][0]["primitives"][0];
-    primitive["attributes"]["COLOR_0"] = json!(1);
-    primitive["targets"] = json!([{"POSITION": 0}]);
-    json["materials"][0]["emissiveFactor"] = json!([1, 1, 1]);
-    json["materials"][0]["emissiveTexture"] = json!({"index": 0});
-    json["materials"][0]["normalTexture"] = json!({"index": 0, "scale": 2.0});
-    json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] =
-        json!({"KHR_texture_transform": {"offset": [0.5, 0.5]}});
-    json["meshes"][0]["primitives"]
-        .as_array_mut()
-        .expect("a list")
-        .push(json!({"attributes": {"POSITION": 0}, "mode": 1}));
-    json["animations"] = json!([{}]);
-    let scene = gltf::read_glb(&pack(&json.to_string(), file.binary()), None).expect("loads");
-    assert_eq!(scene.materials[0].emissive, [0.0; 3]);
-    assert_eq!(
-        scene.notes,
-        [
-            "animations are ignored",
-            "material 0: its emissive texture is not supported, so it gives no light of its own",
-            "material 0: its normal texture is ignored",
-            "material 0: the transform of its base colour texture is ignored",
-            "mesh 0, primitive 0: morph targets are ignored",
-            "mesh 0, primitive 0: vertex colours are ignored",
-            "mesh 0, primitive 1: points and lines are not drawn",
-        ]
-    );
 }

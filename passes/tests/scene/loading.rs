@@ -1,7 +1,7 @@
 //! Files as a whole, the shipped scene, and the camera's matrices.
 
 use framewright_passes::scene::{Camera, Scene, SceneError, load};
-use glam::{DVec3, Vec3, Vec4};
+use glam::{DVec3, DVec4, Vec3};
 use std::path::{Path, PathBuf};
 
 fn repository(path: &str) -> PathBuf {
@@ -95,9 +95,9 @@ fn camera() -> Camera {
 
 #[test]
 fn depth_is_one_on_the_near_plane_and_falls_to_zero() {
-    let to_clip = camera().projection(2.0) * camera().view();
-    let depth = |distance: f32| {
-        let clip = to_clip * Vec4::new(1.0, 2.0, 3.0 - distance, 1.0);
+    let to_clip = camera().projection(2.0).as_dmat4() * camera().view();
+    let depth = |distance: f64| {
+        let clip = to_clip * DVec4::new(1.0, 2.0, 3.0 - distance, 1.0);
         clip.z / clip.w
     };
     assert!((depth(0.5) - 1.0).abs() < 1e-6);
@@ -107,13 +107,13 @@ fn depth_is_one_on_the_near_plane_and_falls_to_zero() {
 
 #[test]
 fn the_field_of_view_reaches_the_borders_with_y_down() {
-    let to_clip = camera().projection(2.0) * camera().view();
-    let half = 0.5f32.tan();
-    let at = |x: f32, y: f32| {
-        let clip = to_clip * Vec4::new(1.0 + x, 2.0 + y, 2.0, 1.0);
+    let to_clip = camera().projection(2.0).as_dmat4() * camera().view();
+    let half = 0.5f64.tan();
+    let at = |x: f64, y: f64| {
+        let clip = to_clip * DVec4::new(1.0 + x, 2.0 + y, 2.0, 1.0);
         (clip.x / clip.w, clip.y / clip.w)
     };
-    let near = |is: (f32, f32), was: (f32, f32)| (is.0 - was.0).abs() < 1e-5 && (is.1 - was.1).abs() < 1e-5;
+    let near = |is: (f64, f64), was: (f64, f64)| (is.0 - was.0).abs() < 1e-5 && (is.1 - was.1).abs() < 1e-5;
     assert!(near(at(0.0, half), (0.0, -1.0)), "the upper border is −1");
     assert!(near(at(2.0 * half, 0.0), (1.0, 0.0)), "twice as wide as high");
 }

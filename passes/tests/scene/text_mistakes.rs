@@ -3,7 +3,7 @@
 use framewright_graph::describe::render;
 use framewright_graph::source::Sources;
 use framewright_passes::scene::{AlphaMode, Scene, text};
-use glam::Vec3;
+use glam::DVec3;
 
 fn read(text: &str) -> Result<Scene, String> {
     let mut sources = Sources::default();
@@ -164,10 +164,10 @@ fn cameras_are_known_by_their_names_and_the_first_one_is_the_default() {
     let read = |fields: &str| read(&scene(fields, "")).unwrap_or_else(|mistakes| panic!("{mistakes}"));
     let named = read(&format!("cameras: [{front}, {top}],"));
     assert_eq!(named.camera_named(None), named.camera_named(Some("front")));
-    assert_eq!(named.camera_named(Some("top")).map(|camera| camera.position()), Some(Vec3::new(0.0, 9.0, 0.0)));
+    assert_eq!(named.camera_named(Some("top")).map(|camera| camera.position()), Some(DVec3::new(0.0, 9.0, 0.0)));
     assert_eq!(named.camera_named(Some("side")), None);
     let beside = read(&format!("{plain} cameras: [{front}],"));
-    assert_eq!(beside.camera_named(None).map(|camera| camera.position()), Some(Vec3::new(9.0, 0.0, 0.0)));
+    assert_eq!(beside.camera_named(None).map(|camera| camera.position()), Some(DVec3::new(9.0, 0.0, 0.0)));
     assert_eq!(beside.cameras.len(), 1);
     let twice = mistakes(&scene(&format!("cameras: [{front}, {front}],"), ""));
     assert_eq!(twice.len(), 1, "{twice:?}");
@@ -212,12 +212,12 @@ fn objects_stand_where_the_file_says() {
     );
     let scene = read(&text).unwrap_or_else(|said| panic!("{said}"));
     let at =
-        |object: usize, x: f32, y: f32, z: f32| scene.objects[object].transform.transform_point3(Vec3::new(x, y, z));
-    let near = |is: Vec3, x: f32, y: f32, z: f32| assert!(is.abs_diff_eq(Vec3::new(x, y, z), 1e-5), "{is}");
+        |object: usize, x: f64, y: f64, z: f64| scene.objects[object].transform.transform_point3(DVec3::new(x, y, z));
+    let near = |is: DVec3, x: f64, y: f64, z: f64| assert!(is.abs_diff_eq(DVec3::new(x, y, z), 1e-5), "{is}");
     near(at(0, 0.5, 0.5, 0.0), 10.0, 2.0, -1.0);
     near(at(0, 0.0, 0.0, 0.5), 13.0, 0.0, 0.0);
     near(at(1, 0.5, 0.0, 0.5), 2.0, -1.0, 0.0);
-    let middles: Vec<Vec3> = (2..10).map(|object| at(object, 0.0, 0.0, 0.0)).collect();
+    let middles: Vec<DVec3> = (2..10).map(|object| at(object, 0.0, 0.0, 0.0)).collect();
     let grid = [(-2.0, -3.0), (2.0, -3.0), (-2.0, 3.0), (2.0, 3.0)];
     for (middle, (x, z)) in middles.iter().zip(grid) {
         near(*middle, x, 5.0, z);
@@ -267,13 +267,13 @@ fn cameras_and_objects_move_and_spin_as_the_file_says() {
     assert_eq!(scene.at(0), scene, "the first frame shows what the file says");
     // Two seconds: six metres, half a turn; two metres down, a whole turn.
     let later = scene.at(120);
-    let near = |is: Vec3, x: f32, y: f32, z: f32| assert!(is.abs_diff_eq(Vec3::new(x, y, z), 1e-5), "{is}");
+    let near = |is: DVec3, x: f64, y: f64, z: f64| assert!(is.abs_diff_eq(DVec3::new(x, y, z), 1e-5), "{is}");
     near(later.camera.position(), 6.0, 0.0, 9.0);
-    near(later.camera.transform.transform_vector3(Vec3::NEG_Z), 0.0, 0.0, 1.0);
+    near(later.camera.transform.transform_vector3(DVec3::NEG_Z), 0.0, 0.0, 1.0);
     let ball = later.objects[0].transform;
-    near(ball.transform_point3(Vec3::ZERO), 0.0, 0.0, 0.0);
-    near(ball.transform_vector3(Vec3::X), 2.0, 0.0, 0.0);
-    near(scene.at(30).objects[0].transform.transform_vector3(Vec3::X), 0.0, 2.0, 0.0);
+    near(ball.transform_point3(DVec3::ZERO), 0.0, 0.0, 0.0);
+    near(ball.transform_vector3(DVec3::X), 2.0, 0.0, 0.0);
+    near(scene.at(30).objects[0].transform.transform_vector3(DVec3::X), 0.0, 2.0, 0.0);
     assert_eq!(later.objects[1], scene.objects[1]);
     assert_eq!(later.cameras, scene.cameras);
     assert!(!read(&ball_at_rest()).unwrap_or_else(|said| panic!("{said}")).moves());

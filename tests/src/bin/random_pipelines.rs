@@ -2,6 +2,7 @@
 
 use clap::{Parser, ValueEnum};
 use framewright_graph::compile::Order;
+use framewright_tests::drivers::Driver;
 use framewright_tests::random_pipelines::allowed::Allowed;
 use framewright_tests::random_pipelines::judge::{Fault, Judge, expected, frames, options};
 use framewright_tests::random_pipelines::pipeline::Pipeline;
@@ -73,31 +74,6 @@ const EXIT_CODES: &str = "Exit codes:
   3    there is no such driver, or no validation layer that is awake
   130  interrupted by Ctrl-C";
 
-/// A software driver.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Driver {
-    Lavapipe,
-    Swiftshader,
-}
-
-impl Driver {
-    /// Its name, as the command line has it.
-    const fn name(self) -> &'static str {
-        match self {
-            Driver::Lavapipe => "lavapipe",
-            Driver::Swiftshader => "swiftshader",
-        }
-    }
-
-    /// Where its package puts it.
-    const fn manifest(self) -> &'static str {
-        match self {
-            Driver::Lavapipe => "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json",
-            Driver::Swiftshader => "/usr/lib/chromium/vk_swiftshader_icd.json",
-        }
-    }
-}
-
 /// An order of execution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum ChosenOrder {
@@ -163,26 +139,23 @@ fn main() -> ExitCode {
 fn on_drivers(line: &Line) -> Result<u8, Box<dyn Error>> {
     let drivers = match line.driver {
         Some(driver) => vec![driver],
-        None => {
-            let installed = |driver: &Driver| Path::new(driver.manifest()).exists();
-            Driver::value_variants().iter().copied().filter(installed).collect()
-        }
+        None => Driver::ALL.into_iter().filter(|driver| driver.manifest().is_some()).collect(),
     };
     if drivers.is_empty() {
         return Err("neither lavapipe nor SwiftShader is installed".into());
     }
     let mut worst = FINE;
     for driver in drivers {
-        if !Path::new(driver.manifest()).exists() {
-            return Err(format!("{} is not installed: there is no {}", driver.name(), driver.manifest()).into());
-        }
+        let Some(manifest) = driver.manifest() else {
+            return Err(format!("{} is not installed", driver.name()).into());
+        };
         let notes = tempfile::NamedTempFile::new()?;
         let mut command = Command::new(std::env::current_exe()?);
         command.args(std::env::args_os().skip(1)).arg("--notes").arg(notes.path());
         if line.driver.is_none() {
             command.args(["--driver", driver.name()]);
         }
-        command.env("VK_DRIVER_FILES", driver.manifest()).env("VK_ICD_FILENAMES", driver.manifest());
+        command.env("VK_DRIVER_FILES", manifest).env("VK_ICD_FILENAMES", manifest);
         // The distribution's layer misses hazards that the current one finds.
         if let Some(folder) = framewright_vulkan::layer::manifest_folder()? {
             command.env("VK_LAYER_PATH", folder);

@@ -84,14 +84,8 @@ fn missing(timeline: &Timeline, earlier: &Touch, later: &Touch) -> Option<Missin
 fn lost_between(timeline: &Timeline, (earlier, later): (&Touch, &Touch), cell: usize) -> Option<Missing> {
     let available: Vec<usize> = available_at(timeline, earlier, cell).collect();
     let before = &timeline.before[later.node];
-    let transitions = || {
-        let earlier = timeline.touches.iter().filter(|touch| before.contains(touch.node));
-        earlier.chain([later]).filter(|touch| touch.what == What::Transition)
-    };
-    let in_time = |point: &usize| {
-        before.contains(*point) || transitions().any(|transition| same_call(timeline, *point, transition))
-    };
-    if !available.iter().any(in_time) {
+    // Barriers of one call don't order each other: what one makes available comes too late for the others' transitions.
+    if !available.iter().any(|point| before.contains(*point)) {
         return Some(Missing::Availability);
     }
     // What another image left in the bytes is nobody's to see: `contents` tells whether it is read.
@@ -140,16 +134,4 @@ fn available_at<'t>(timeline: &'t Timeline, write: &'t Touch, cell: usize) -> Bo
         (operation.queue == write.queue && write.node < node && take_in(stages, accesses, stage, access))
             .then_some(node)
     }))
-}
-
-/// Whether a transition finds what another barrier of its own call makes available: all of a call's availability
-/// operations come before its transitions, and so before whatever comes after one of those.
-fn same_call(timeline: &Timeline, point: usize, transition: &Touch) -> bool {
-    let call = |node: usize, by: fn(&MemoryOperation) -> Option<usize>| {
-        timeline.operations.iter().find(|operation| by(operation) == Some(node)).map(|operation| operation.call)
-    };
-    let of_point = call(point, |operation| operation.from.map(|(.., node)| node));
-    // The second half of a barrier is made right after its transition.
-    let of_later = call(transition.node + 1, |operation| operation.to.map(|(.., node)| node));
-    of_point.is_some() && of_point == of_later
 }

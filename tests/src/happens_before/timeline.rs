@@ -117,8 +117,8 @@ impl Timeline {
 
     fn step(&mut self, world: &World, frame: usize, number: usize, step: &Step) {
         let (queue, time) = (step.queue, frame * world.plan.steps.len() + number);
-        // Three calls a step: waits, barriers, releases.
-        let call = 3 * time + 1;
+        // Four calls a step: waits, memory barriers, image barriers, releases.
+        let call = 4 * time + 1;
         let mut held_up = Vec::new();
         for wait in &step.waits {
             let Some(of) = frame.checked_sub(wait.frames_ago as usize) else { continue };
@@ -129,7 +129,7 @@ impl Timeline {
             held_up.push(node);
             let all = Accesses::MEMORY_READ | Accesses::MEMORY_WRITE;
             let to = Some((wait.stages, all, node));
-            self.operations.push(MemoryOperation { queue, call: call - 1, from: None, to, part: None });
+            self.operations.push(MemoryOperation { queue, from: None, to, part: None });
             let open = Open { node, stages: and_later(wait.stages), call: call - 1 };
             self.tracks.entry(queue).or_default().open.push(open);
         }
@@ -142,12 +142,13 @@ impl Timeline {
             opened.push(Open { node: to, stages: and_later(barrier.dst_stages), call });
             self.operations.push(MemoryOperation {
                 queue,
-                call,
                 from: Some((barrier.src_stages, barrier.src_accesses, from)),
                 to: Some((barrier.dst_stages, barrier.dst_accesses, to)),
                 part: None,
             });
         }
+        self.tracks.entry(queue).or_default().open.append(&mut opened);
+        let call = call + 1;
         for barrier in &step.image_barriers {
             let to = self.image_barrier(world, (frame, time, call), queue, barrier, &held_up);
             opened.push(Open { node: to, stages: and_later(barrier.dst_stages), call });
@@ -164,7 +165,7 @@ impl Timeline {
         let after = self.closed(after);
         let signal = self.made(queue, after);
         let from = Some((Stages::ALL_COMMANDS, Accesses::MEMORY_WRITE, signal));
-        self.operations.push(MemoryOperation { queue, call: call + 1, from, to: None, part: None });
+        self.operations.push(MemoryOperation { queue, from, to: None, part: None });
         self.signals.push(signal);
     }
 
@@ -221,7 +222,6 @@ impl Timeline {
         }
         self.operations.push(MemoryOperation {
             queue,
-            call,
             from: (!acquisition).then_some((barrier.src_stages, barrier.src_accesses, from)),
             to: (!release).then_some((barrier.dst_stages, barrier.dst_accesses, to)),
             part: Some((physical, cells)),
@@ -242,7 +242,7 @@ impl Timeline {
                     (Kind::Input { shown: 1.., .. }, _) => {
                         let part = (physical, cells.clone());
                         let drawn = nodes.get(&Stages::COLOR_ATTACHMENT_OUTPUT).copied();
-                        let node = self.after_local_barrier(queue, 3 * time + 1, (stage, drawn), held_up, part);
+                        let node = self.after_local_barrier(queue, (stage, drawn), held_up, part);
                         local.push((node, stage));
                         node
                     }
@@ -275,7 +275,6 @@ impl Timeline {
     fn after_local_barrier(
         &mut self,
         queue: Queue,
-        call: usize,
         (stage, drawn): (Stages, Option<usize>),
         held_up: &[usize],
         part: (usize, Vec<usize>),
@@ -287,7 +286,6 @@ impl Timeline {
         let to = self.made(queue, after);
         self.operations.push(MemoryOperation {
             queue,
-            call,
             from: Some((Stages::COLOR_ATTACHMENT_OUTPUT, Accesses::COLOR_ATTACHMENT_WRITE, from)),
             to: Some((Stages::FRAGMENT_SHADER, Accesses::INPUT_ATTACHMENT_READ, to)),
             part: Some(part),
@@ -322,13 +320,7 @@ impl Timeline {
         let external = matches!(role(world.plan, resource), Role::External { .. });
         let mut show = |queue, stages, accesses| {
             let part = Some((physical, cells.clone()));
-            self.operations.push(MemoryOperation {
-                queue,
-                call: 0,
-                from: None,
-                to: Some((stages, accesses, to)),
-                part,
-            });
+            self.operations.push(MemoryOperation { queue, from: None, to: Some((stages, accesses, to)), part });
         };
         if !external {
             // Whoever prepared it waited until that was done, and whichever queue comes first may use it.
@@ -378,7 +370,7 @@ impl Timeline {
         let node = self.node(before);
         let part = Some((physical, cells.clone()));
         let from = Some((stages, accesses, from));
-        self.operations.push(MemoryOperation { queue, call: usize::MAX, from, to: None, part });
+        self.operations.push(MemoryOperation { queue, from, to: None, part });
         self.touch(Touch { node, queue, time, physical, cells, what: What::After, of: None });
     }
 }

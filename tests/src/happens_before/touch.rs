@@ -69,8 +69,6 @@ impl What {
 #[derive(Debug)]
 pub(super) struct MemoryOperation {
     pub(super) queue: Queue,
-    /// The call that it is part of.
-    pub(super) call: usize,
     /// Where writes become available: masks and node.
     pub(super) from: Option<(Stages, Accesses, usize)>,
     /// Where they become visible: masks and node.

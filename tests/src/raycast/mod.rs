@@ -43,7 +43,7 @@ impl<'scene> RayCaster<'scene> {
         let (mut triangles, mut origins) = (Vec::new(), Vec::new());
         for (object_index, object) in (0..).zip(&scene.objects) {
             let mesh = &scene.meshes[object.mesh];
-            let columns = object.transform.to_cols_array_2d().map(|column| column.map(f64::from));
+            let columns = object.transform.to_cols_array_2d();
             let place = |index: u32| {
                 let [x, y, z] = mesh.positions[index as usize].map(f64::from);
                 let axis =
@@ -64,7 +64,7 @@ impl<'scene> RayCaster<'scene> {
     #[must_use]
     pub fn camera_ray(&self, at: DVec2, extent: [u32; 2]) -> Ray {
         let camera = &self.scene.camera;
-        let columns = camera.transform.to_cols_array_2d().map(|[x, y, z, _]| DVec3::new(x.into(), y.into(), z.into()));
+        let columns = camera.transform.to_cols_array_2d().map(|[x, y, z, _]| DVec3::new(x, y, z));
         let [right, up, back, origin] = columns;
         let [width, height] = extent.map(f64::from);
         // Pixels are square.
@@ -96,7 +96,7 @@ impl<'scene> RayCaster<'scene> {
         let (object_index, _) = self.origins[triangle as usize];
         let object = &self.scene.objects[object_index as usize];
         let material = &self.scene.materials[object.material];
-        let [x, y, z, _] = object.transform.as_dmat4().to_cols_array_2d().map(|[x, y, z, _]| DVec3::new(x, y, z));
+        let [x, y, z, _] = object.transform.to_cols_array_2d().map(|[x, y, z, _]| DVec3::new(x, y, z));
         let turned_inside_out = x.dot(y.cross(z)) < 0.0;
         if !material.double_sided && meeting.counter_clockwise == turned_inside_out {
             return None;

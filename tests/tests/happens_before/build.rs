@@ -148,6 +148,7 @@ pub(crate) fn barrier(
         ownership: None,
         hazard: Hazard::FirstUse,
         after: None,
+        needed_by: Some(StepId(0)),
     }
 }
 

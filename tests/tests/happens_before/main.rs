@@ -125,11 +125,23 @@ fn barriers_form_chains_where_their_scopes_meet() {
 }
 
 #[test]
-fn two_barriers_of_one_call_form_no_chain() {
+fn an_image_barrier_goes_on_from_the_memory_barriers_of_its_step_which_are_a_call_before_it() {
     let mut plan = written_then_sampled();
     let transition = &mut plan.steps[1].image_barriers[0];
     (transition.src_stages, transition.src_accesses) = (Stages::COPY, Accesses::empty());
     plan.steps[1].memory_barriers.push(memory((CS, W), (Stages::COPY, Accesses::TRANSFER_READ)));
+    fine(&plan);
+    plan.steps[1].memory_barriers[0].dst_stages = Stages::BLIT;
+    assert!(missing(&plan).contains(&Missing::Order));
+}
+
+#[test]
+fn two_barriers_of_one_call_form_no_chain() {
+    let mut plan = written_then_sampled();
+    let transition = &mut plan.steps[1].image_barriers[0];
+    (transition.src_stages, transition.src_accesses) = (Stages::COPY, Accesses::empty());
+    let [clear, copy] = [Stages::CLEAR, Stages::COPY].map(|stage| (stage, Accesses::TRANSFER_READ));
+    plan.steps[1].memory_barriers.extend([memory((CS, W), clear), memory(clear, copy)]);
     assert!(missing(&plan).contains(&Missing::Order));
 }
 

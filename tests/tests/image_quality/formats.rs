@@ -60,6 +60,20 @@ fn every_precision_of_depth_draws_the_same_picture() -> Result<(), Box<dyn Error
     Ok(())
 }
 
+/// With a near plane of a tenth of a millimetre 16 and 24 bits lose what is a few metres away; the Plan says what it takes instead.
+#[test]
+fn coarse_depth_loses_nothing_however_near_the_near_plane_is() -> Result<(), Box<dyn Error>> {
+    let mut scene = shining_behind_glass([3.0, 0.7, 5.0]);
+    scene.camera.near = 1e-4;
+    let [usual, smallest] = [&[][..], &[("depth_precision", "Smallest")]].map(|set| picture(set, &scene, [65, 47]));
+    let (Some(usual), Some(smallest)) = (usual?, smallest?) else { return Ok(()) };
+    assert_eq!(smallest.steps_from(&usual), 0.0);
+    scene.camera.near = 1e-6;
+    let Some(found) = picture(&[("depth_precision", "Smallest")], &scene, [65, 47])? else { return Ok(()) };
+    assert!(found.steps_from(&usual) <= STEP, "{} steps", found.steps_from(&usual));
+    Ok(())
+}
+
 fn all_bytes(plan: &Plan) -> i64 {
     (plan.totals.transient_bytes + plan.totals.kept_bytes).cast_signed()
 }

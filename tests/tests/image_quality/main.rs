@@ -95,7 +95,7 @@ fn shining_behind_glass(emissive: [f32; 3]) -> Scene {
     materials.push(Material { alpha: AlphaMode::Blend, emissive: [0.1, 0.0, 0.2], ..material([0.0, 0.0, 0.0, 0.5]) });
     let glass = Mat4::from_translation(Vec3::new(1.0, 0.0, 1.0)) * Mat4::from_rotation_z(-0.2);
     let mut objects: Vec<_> =
-        objects.drain(..).map(|object| (object.mesh, object.material, object.transform)).collect();
+        objects.drain(..).map(|object| (object.mesh, object.material, object.transform.as_mat4())).collect();
     objects.push((0, 1, glass));
     scene(meshes, materials, objects)
 }

@@ -38,7 +38,7 @@ fn light_is_averaged_before_tone_mapping_or_what_is_shown_after_it() -> Result<(
 fn both_forms_of_the_stripes_draw_the_same_picture() -> Result<(), Box<dyn Error>> {
     let mut scene = shining_behind_glass([0.6, 0.8, 0.4]);
     // It recedes, so that there are stripes.
-    scene.objects[0].transform *= glam::Mat4::from_rotation_y(1.0);
+    scene.objects[0].transform *= glam::DMat4::from_rotation_y(1.0);
     let form = |form: &'static str| [("hdr", "false"), ("tone_mapping", "clip"), ("depth_stripes", form)];
     let [Some(blended), Some(copied), Some(none)] = [
         picture(&form("blended"), &scene, [64, 48])?,

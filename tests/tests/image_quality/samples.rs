@@ -126,9 +126,14 @@ fn perforated() -> Scene {
         let distance = x.hypot(y) - 0.14 * f64::from(SIDE);
         (255.0 * (0.5 + distance / 6.0)).clamp(0.0, 255.0).round() as u8
     };
-    let texels = (0..SIDE).flat_map(|y| (0..SIDE).flat_map(move |x| [255, 255, 255, alpha(x, y)])).collect();
-    let texture =
-        Texture { name: "hole".to_owned(), width: SIDE, height: SIDE, rgba8: texels, sampler: Sampler::default() };
+    let texels = (0..SIDE).flat_map(|y| (0..SIDE).flat_map(move |x| [255, 255, 255, alpha(x, y)]));
+    let texture = Texture {
+        name: "hole".to_owned(),
+        width: SIDE,
+        height: SIDE,
+        rgba8: texels.collect(),
+        sampler: Sampler::default(),
+    };
     let mut sieve = Material { alpha: AlphaMode::Mask { cutoff: 0.5 }, ..material([0.0, 0.0, 0.0, 1.0]) };
     sieve.emissive = [0.8; 3];
     sieve.base_color_texture = Some(0);

@@ -15,7 +15,7 @@ use std::error::Error;
 type Shipped<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str, u32, usize);
 
 const SPHERES: &str = "spheres_and_cubes";
-const CASES: [Shipped<'_>; 22] = [
+const CASES: [Shipped<'_>; 23] = [
     ("auto_exposure", &[], SPHERES, 3, 6),
     ("auto_exposure", &[("msaa", "1"), ("adaptation", "0")], SPHERES, 3, 4),
     ("deferred", &[("shadow_size", "512")], "courtyard", 1, 4),
@@ -28,6 +28,7 @@ const CASES: [Shipped<'_>; 22] = [
     ("forward", &[("hdr", "false"), ("tone_mapping", "false")], SPHERES, 1, 6),
     ("forward_overlay", &[], SPHERES, 1, 14),
     ("image_quality", &[("msaa", "1"), ("hdr", "false"), ("tone_mapping", "clip")], SPHERES, 1, 4),
+    ("image_quality", &[("alpha_to_coverage", "true")], SPHERES, 1, 14),
     ("image_quality", &[("render_scale", "0.77"), ("depth_stripes", "copied"), ("blur", "3")], SPHERES, 1, 48),
     ("post", &[("blur", "2")], SPHERES, 1, 22),
     ("post", &[("msaa", "1")], SPHERES, 1, 11),

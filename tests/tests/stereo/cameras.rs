@@ -47,8 +47,8 @@ pub(super) fn pictures(
 /// A scene whose camera has gone so far to its right.
 fn beside(scene: &Scene, metres: f64) -> Scene {
     let mut scene = scene.clone();
-    let right = DMat3::from_mat4(scene.camera.transform.as_dmat4()) * DVec3::new(metres, 0.0, 0.0);
-    scene.camera.transform.w_axis += right.as_vec3().extend(0.0);
+    let right = DMat3::from_mat4(scene.camera.transform) * DVec3::new(metres, 0.0, 0.0);
+    scene.camera.transform.w_axis += right.extend(0.0);
     scene
 }
 
@@ -110,7 +110,7 @@ fn point_lights_reach_what_an_eye_sees_behind_the_camera_between_both() -> Resul
         .ok_or("no direction")?;
     // All over the floor around the camera.
     let light = |number: u32| {
-        let position = [(number % 40) as f32 * 0.1 - 2.0, 0.05, (number / 40) as f32 * 0.08 + 5.5];
+        let position = [f64::from(number % 40) * 0.1 - 2.0, 0.05, f64::from(number / 40) * 0.08 + 5.5];
         PointLight { position, color: [0.5, 0.4, 1.0], intensity: 0.3, range: Some(0.15), shadows: false }
     };
     scene.point_lights = (0..1600).map(light).collect();
@@ -133,9 +133,9 @@ fn point_lights_reach_what_an_eye_sees_behind_the_camera_between_both() -> Resul
 fn eyes_far_from_the_origin_see_what_they_see_near_it() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let mut far = load(&in_repository("examples/scenes/spheres_and_cubes.ron"))?;
-    // A million metres away places are rounded to 6 centimetres, as much as the eyes are apart.
+    // A million metres away 32 bits round places to 6 centimetres, as much as the eyes are apart.
     let by = 1_048_576.0;
-    let shift = |scene: &mut Scene, by: f32| {
+    let shift = |scene: &mut Scene, by: f64| {
         scene.camera.transform.w_axis.x += by;
         scene.objects.iter_mut().for_each(|object| object.transform.w_axis.x += by);
         scene.point_lights.iter_mut().for_each(|light| light.position[0] += by);

@@ -32,6 +32,7 @@
 //! | ST-12 | `eyes::what_is_done_for_one_eye_after_the_other_shows_the_same_in_each_mode` | `prepare_pass.rs`: no `eyes` in a variant |
 //! | ST-13 | `eyes::grain_and_overlays_are_the_same_in_both_eyes` | `stereo.glsl`: `non_stereo_screen_pos` of half the width |
 //! | ST-14 | `agreement` | `shaders/eyes.rs`: nothing cut at the seam |
+//! | ST-14 | `depth` | `adapt/resolve.rs`: layers are resolved as one layer is, on SwiftShader |
 //! | ST-14 | `rotated::derivatives_and_places_are_those_of_the_upright_picture_of_each_eye` | `rotation.glsl`: `towards` not rotated |
 //! | ST-14 | `rotated::at_every_scale_and_number_of_samples_each_eye_sees_the_same_turned` | `plan/part.rs`: twice the width when turned |
 //! | ST-15 | `packed::a_pass_draws_for_both_eyes_what_two_draw_for_each`; times: `passes/benches/eyes.rs` | as for ST-2 |
@@ -40,6 +41,7 @@
 
 mod agreement;
 mod cameras;
+mod depth;
 mod eyes;
 mod packed;
 mod rotated;

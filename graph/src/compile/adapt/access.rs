@@ -90,7 +90,9 @@ pub(super) fn color(target: &ColorTarget, entry: u32, store: StoreIndex, range: 
 
 pub(super) fn depth(plane: Aspects, store: StoreIndex, range: u32, start: Start, writes: bool, format: Format) -> Use {
     let role = if plane == Aspects::STENCIL { Role::Stencil } else { Role::Depth };
-    let mut accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_READ;
+    let mut accesses = Accesses::empty();
+    // What covers is tested against nothing.
+    accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_READ, start != Start::Discard);
     accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE, writes);
     let layout = if writes { attached(format, plane) } else { read_only(format, plane) };
     let reads = start == Start::Keep;
@@ -144,9 +146,7 @@ pub(super) fn transfer_stage(kind: &OpKind) -> Stages {
 /// The uses of a full-screen draw that resolves depth into another image.
 pub(super) fn resolve_draw(source: StoreIndex, target: StoreIndex, range: u32, format: Format) -> [Use; 2] {
     let [read, _] = forward_draw(source, target);
-    // It is tested against nothing.
-    let accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE;
-    let write = Use { accesses, ..depth(Aspects::DEPTH, target, range, Start::Discard, true, format) };
+    let write = depth(Aspects::DEPTH, target, range, Start::Discard, true, format);
     [Use { range, ..read }, write]
 }
 

@@ -2,7 +2,6 @@
 //! geometry is drawn on top of what it draws, or single samples of it are read, it moves to a single-sampled image.
 
 use super::{Input, copies_samples, has_edges};
-use crate::compile::link::covers;
 use crate::compile::parts::outlives;
 use crate::frame::{Draw, Face, ImageIndex, Pass, Resource, Work};
 use crate::plan::{Note, Stage};
@@ -64,7 +63,7 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
             let later = &mut needs[target.image.0 as usize];
             let image = &frame.images[target.image.0 as usize];
             // Who draws into some layers keeps the others.
-            let keeps = image.layers > 1 || target.clear.is_none() && !covers(frame, pass, target);
+            let keeps = image.layers > 1 || target.clear.is_none() && !pass.covers_color(target, image);
             let fixed = outlives(&image.lifetime);
             match (is_flat(pass), keeps) {
                 // It follows its image to wherever that is.

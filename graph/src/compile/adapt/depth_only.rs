@@ -29,7 +29,7 @@ impl Adapter<'_> {
         let op = self.adapted.ops.len() as u32;
         let writers = self.depth_writers.entry(store).or_default();
         // Nothing shows from before; what else writes than draws replaces it whole, or can't be drawn again.
-        if start == Start::Clear || !draws {
+        if start != Start::Keep || !draws {
             writers.clear();
         }
         writers.push(op);
@@ -54,10 +54,16 @@ impl Adapter<'_> {
             Err(Unavailable { what, at }) => {
                 let name = &declared.name;
                 let message = format!("{because}, and its depth can't be drawn again with 1: {what}");
-                let help = format!(
-                    "say how the samples of `{name}` become one, `resolve: SampleZero`, `Min`, `Max` or `Average`; or \
-                     sample it as `sampler2DMS`, or give it 1 sample"
-                );
+                // Several layers can't be resolved either.
+                let help = match declared.layers {
+                    1 => format!(
+                        "say how the samples of `{name}` become one, `resolve: SampleZero`, `Min`, `Max` or `Average`; or \
+                         sample it as `sampler2DMS`, or give it 1 sample"
+                    ),
+                    _ => format!(
+                        "sample a layer of `{name}` as `sampler2DMS`, give each layer an image of its own, or give it 1 sample"
+                    ),
+                };
                 self.errors.push(Diagnostic::new(span, message).label(at, "drawn here").help(help));
                 return None;
             }
@@ -65,8 +71,7 @@ impl Adapter<'_> {
         let why = self.reason(format!("{because}; what drew it is drawn again with 1"), span);
         let target = self.second(image, "depth only", why.clone(), 1);
         let range = self.range(image, Subresources { aspects: Aspects::DEPTH, ..Subresources::WHOLE });
-        for (number, pass) in passes.into_iter().enumerate() {
-            let start = if number == 0 { Start::Clear } else { Start::Keep };
+        for (pass, start) in passes {
             let uses = [access::depth(Aspects::DEPTH, target, range, start, true, declared.format)];
             let name = self.depth_only_name(pass);
             self.push(OpKind::DepthOnly { pass, name, why: why.clone() }, &uses);
@@ -87,8 +92,8 @@ impl Adapter<'_> {
         .into()
     }
 
-    /// The passes that drew all of the current version.
-    fn redrawable(&self, store: StoreIndex, layers: u32) -> Result<Vec<u32>, Unavailable> {
+    /// The passes that drew all of the current version, each with what it starts from.
+    fn redrawable(&self, store: StoreIndex, layers: u32) -> Result<Vec<(u32, Start)>, Unavailable> {
         let Adapter { adapted, input, .. } = self;
         let writers = self.depth_writers.get(&store).map_or(&[][..], Vec::as_slice);
         let mut passes = Vec::with_capacity(writers.len());
@@ -116,11 +121,12 @@ impl Adapter<'_> {
             if let Some(why) = &pass.no_depth_only {
                 return Err(unavailable(why));
             }
-            let clears = uses.iter().any(|used| used.role == Role::Depth && used.start == Start::Clear);
-            if passes.is_empty() && !clears {
+            let drawn = uses.iter().find(|used| used.role == Role::Depth);
+            let start = drawn.map_or(Start::Keep, |used| used.start);
+            if passes.is_empty() && start == Start::Keep {
                 return Err(unavailable("draws onto what was there before the frame"));
             }
-            passes.push(*number);
+            passes.push((*number, start));
         }
         match (passes.is_empty(), layers) {
             (true, _) => Err(Unavailable { what: "nothing in the frame draws it".to_owned(), at: Span::NONE }),

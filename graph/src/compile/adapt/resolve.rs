@@ -5,12 +5,14 @@
 
 use super::{Adapter, access};
 use crate::compile::model::{OpKind, ResolveShader, StoreIndex, Use};
+use crate::compile::parts;
 use crate::describe::Diagnostic;
 use crate::device::Profile;
-use crate::frame::{Face, ImageIndex, Resolve, ResolveWay};
+use crate::frame::{Face, ImageIndex, Resolve, ResolveWay, Resource, Work};
 use crate::plan::Inserted;
 use crate::plan::names::vulkan;
 use crate::source::Span;
+use crate::view::EyeForm;
 use crate::vocabulary::{Aspects, ResolveMode, Subresources};
 
 impl Adapter<'_> {
@@ -87,12 +89,12 @@ impl Adapter<'_> {
         }
     }
 
-    /// Whether an image has several layers, which no draw resolves at once. Reports that.
+    /// Whether an image has several layers, which no draw resolves. Reports that.
     fn refuses_layers(&mut self, image: ImageIndex, because: &str, span: Span) -> bool {
         let declared = &self.input.frame.images[image.0 as usize];
         if declared.layers > 1 {
-            let help = format!("give it 1 layer, or give `{}` 1 sample", declared.name);
-            let message = format!("{because}; several layers can't be resolved at once");
+            let help = format!("give each layer of `{}` an image of its own, or give it 1 sample", declared.name);
+            let message = format!("{because}; an image of several layers can't be resolved, whichever of them is read");
             self.errors.push(Diagnostic::new(span, message).help(help));
         }
         declared.layers > 1
@@ -134,8 +136,8 @@ impl Adapter<'_> {
             "it has stencil beside the depth".to_owned()
         } else if !self.drawn[source as usize] {
             format!("no draw wrote `{}` last", declared.name)
-        } else if !self.input.device.depth_resolve.contains(&mode) {
-            lacks(self.input.device, mode)
+        } else if let Some(lacks) = lacks(self.input.device, mode, declared.eyes == Some(EyeForm::Layers)) {
+            lacks
         } else {
             return Some(self.resolve(image, mode, because, span));
         };
@@ -151,9 +153,51 @@ impl Adapter<'_> {
         let source = self.current(image);
         let why = self.reason(because, span);
         let target = self.second(image, "resolved", why.clone(), 1);
-        self.push_transfer(OpKind::Resolve { mode, why }, source, target, Use::ALL);
+        for part in self.written_and_read(image, source) {
+            let range = self.range(image, part);
+            self.push_transfer(OpKind::Resolve { mode, why: why.clone() }, source, target, range);
+        }
         self.resolved_of[source as usize] = Some((ResolveWay::By(mode), target));
         target
+    }
+
+    /// The parts of an image that are worth resolving: written so far, and read by some pass of the frame. All of an image
+    /// that isn't cut.
+    fn written_and_read(&self, image: ImageIndex, source: StoreIndex) -> Vec<Subresources> {
+        let Adapter { adapted, input, .. } = self;
+        let store = &adapted.stores[source as usize];
+        let Some(grid) = store.grid(input.grids) else { return vec![Subresources::WHOLE] };
+        let declared = &input.frame.images[image.0 as usize];
+        let mut written = vec![parts::outlives(&declared.lifetime); grid.len() as usize];
+        for used in adapted.uses.iter().filter(|used| used.writes && used.store == source) {
+            grid.cover(adapted.range(used)).for_each(|part| written[part as usize] = true);
+        }
+        let mut read = vec![false; grid.len() as usize];
+        let mut reads = |range| {
+            let range = parts::resolve(declared, parts::seen(declared, range));
+            grid.cover(range).for_each(|part| read[part as usize] = true);
+        };
+        if input.frame.outputs.iter().any(|output| output.resource == Resource::Image(image)) {
+            reads(Subresources::WHOLE);
+        }
+        for pass in &input.frame.passes {
+            let sampled = pass.sampled.iter().filter(|it| it.image == image && it.frames_ago == 0);
+            sampled.for_each(|sampled| reads(sampled.range));
+            let copied = pass.transfers.iter().filter(|it| it.resource == Resource::Image(image) && !it.write);
+            copied.for_each(|copied| reads(copied.range));
+            if matches!(pass.work, Work::Forward { from, to, .. } if from == image || to == image) {
+                reads(Subresources::WHOLE);
+            }
+        }
+        let mut ranges: Vec<Subresources> = Vec::new();
+        for part in (0..grid.len()).filter(|part| written[*part as usize] && read[*part as usize]) {
+            let range = grid.range(part);
+            match ranges.last_mut().and_then(|last| Some((parts::join(*last, range)?, last))) {
+                Some((joined, last)) => *last = joined,
+                None => ranges.push(range),
+            }
+        }
+        ranges
     }
 
     /// What an image holds resolved in a way, if somebody asked for that: images that are forwarded to each other may say
@@ -163,13 +207,26 @@ impl Adapter<'_> {
     }
 }
 
-/// Why a device doesn't resolve depth so.
-fn lacks(device: &Profile, mode: ResolveMode) -> String {
-    if device.refuted_depth_resolve.contains(&mode) {
+/// Why a device doesn't resolve depth so, if it doesn't: of one layer, or of several at once.
+fn lacks(device: &Profile, mode: ResolveMode, layered: bool) -> Option<String> {
+    let claims = |of: &str, tested: &str| {
         let mode = vulkan(&mode);
-        return format!("`{}` claims to resolve depth by {mode}, and a test showed that it doesn't", device.name);
+        Some(format!("`{}` claims to resolve depth{of} by {mode}, and {tested}", device.name))
+    };
+    let refuted = "a test showed that it doesn't";
+    if device.refuted_depth_resolve.contains(&mode) {
+        return claims("", refuted);
+    }
+    if layered && device.refuted_layered_depth_resolve.contains(&mode) {
+        return claims(" of several layers", refuted);
+    }
+    if device.untested_depth_resolve.contains(&mode) {
+        return claims("", "that couldn't be tested");
+    }
+    if device.depth_resolve.contains(&mode) {
+        return None;
     }
     let has: Vec<String> = device.depth_resolve.iter().map(vulkan).collect();
     let has = if has.is_empty() { "not at all".to_owned() } else { format!("by {} only", has.join(", ")) };
-    format!("`{}` resolves depth {has}", device.name)
+    Some(format!("`{}` resolves depth {has}", device.name))
 }

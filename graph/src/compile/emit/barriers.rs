@@ -5,6 +5,7 @@ use crate::compile::batch::Batched;
 use crate::compile::parts::join;
 use crate::compile::synchronise::{NEVER, Pending};
 use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId, Subresources};
+use crate::vocabulary::Accesses;
 
 /// Hands out the barriers step by step.
 pub(super) struct Barriers<'p, 'a> {
@@ -34,7 +35,7 @@ impl<'p, 'a> Barriers<'p, 'a> {
                 src_stages: scopes.src_stages,
                 src_accesses: scopes.src_accesses,
                 dst_stages: scopes.dst_stages,
-                dst_accesses: scopes.dst_accesses,
+                dst_accesses: Accesses::empty(),
                 hand_overs: hand_overs.map(|pair| pair.map(|store| resource(&stores[store as usize]))).collect(),
                 buffers: Vec::new(),
             });
@@ -71,6 +72,11 @@ fn after(pending: &Pending) -> Option<StepId> {
     (pending.after != NEVER).then_some(StepId(pending.after))
 }
 
+/// What the frame leaves in a state is needed by whatever comes after it.
+fn needed_by(pending: &Pending) -> Option<StepId> {
+    (pending.hazard != Hazard::Export).then_some(StepId(pending.step))
+}
+
 fn image_barrier(pending: &Pending, image: u32, range: Subresources) -> ImageBarrier {
     ImageBarrier {
         image: ImageId(image),
@@ -84,6 +90,7 @@ fn image_barrier(pending: &Pending, image: u32, range: Subresources) -> ImageBar
         ownership: None,
         hazard: pending.hazard,
         after: after(pending),
+        needed_by: needed_by(pending),
     }
 }
 
@@ -91,10 +98,17 @@ fn image_barrier(pending: &Pending, image: u32, range: Subresources) -> ImageBar
 fn add(barriers: &mut Vec<ImageBarrier>, mut new: ImageBarrier) {
     while let Some(last) = barriers.last()
         && last.image == new.image
-        && (ImageBarrier { range: new.range, after: new.after, hazard: new.hazard, ..last.clone() }) == new
+        && (ImageBarrier {
+            range: new.range,
+            after: new.after,
+            needed_by: new.needed_by,
+            hazard: new.hazard,
+            ..last.clone()
+        }) == new
         && let Some(range) = join(last.range, new.range)
     {
-        new = ImageBarrier { range, after: last.after.max(new.after), ..new };
+        let needed_by = [last.needed_by, new.needed_by].into_iter().flatten().min();
+        new = ImageBarrier { range, after: last.after.max(new.after), needed_by, ..new };
         barriers.pop();
     }
     barriers.push(new);
@@ -114,5 +128,6 @@ fn add_buffer(barrier: &mut Option<MemoryBarrier>, pending: &Pending, buffer: u3
     barrier.src_accesses |= pending.src_accesses;
     barrier.dst_stages |= pending.dst_stages;
     barrier.dst_accesses |= pending.dst_accesses;
-    barrier.buffers.push(BufferHazard { buffer: BufferId(buffer), hazard: pending.hazard, after: after(pending) });
+    let (buffer, after, needed_by) = (BufferId(buffer), after(pending), needed_by(pending));
+    barrier.buffers.push(BufferHazard { buffer, hazard: pending.hazard, after, needed_by });
 }

@@ -142,24 +142,27 @@ pub(in crate::compile) fn take(
 ) {
     let Some(mut queues) = walked.queues.take() else { return };
     let (taker, holder) = (&adapted.stores[store as usize], &adapted.stores[from as usize]);
-    let mut uses: [LastUses; QUEUES] = Default::default();
-    for held in cells(grids, holder).filter(|held| walked.cells[*held as usize].is_touched()) {
-        for (uses, seen) in uses.iter_mut().zip(seen(adapted, walked, &queues, from, held)) {
-            if seen.until > 0 {
-                uses.add(held, seen.stages, seen.accesses, seen.until - 1);
+    let touched = |cell: &CellIndex| walked.cells[*cell as usize].is_touched();
+    let last_uses = |held: &mut dyn Iterator<Item = CellIndex>| {
+        let mut uses: [LastUses; QUEUES] = Default::default();
+        for held in held {
+            for (uses, seen) in uses.iter_mut().zip(seen(adapted, walked, &queues, from, held)) {
+                if seen.until > 0 {
+                    uses.add(seen.stages, seen.accesses, seen.until - 1);
+                }
             }
         }
-    }
-    for cell in cells(grids, taker) {
-        let known = walked.cells[cell as usize];
-        let own = (store == from && known.is_touched()).then(|| seen(adapted, walked, &queues, store, cell));
-        let first = known.first_barrier;
+        uses
+    };
+    // Each part of what takes its own memory again waits for what was done to itself.
+    let all = if store == from { Vec::new() } else { vec![last_uses(&mut cells(grids, holder).filter(touched))] };
+    let own = |cell| last_uses(&mut std::iter::once(cell).filter(touched));
+    let taken: Vec<_> =
+        cells(grids, taker).map(|cell| (cell, all.first().cloned().unwrap_or_else(|| own(cell)))).collect();
+    for (cell, uses) in taken {
+        let first = walked.cells[cell as usize].first_barrier;
         let Some(barrier) = walked.barriers.get_mut(first as usize) else { continue };
         let queue = queues.at(barrier.step);
-        // A buffer's barrier covers all memory; an image's covers what the same image wrote there.
-        if let Some(own) = own.map(|by| by[queue]).filter(|own| own.until > 0) {
-            barrier.src_accesses |= own.accesses.writes();
-        }
         for (other, last) in (0..).zip(&uses).flat_map(|(other, uses)| uses.iter().map(move |last| (other, last))) {
             if this_frame {
                 barrier.after = if barrier.after == NEVER { last.last } else { barrier.after.max(last.last) };
@@ -173,10 +176,10 @@ pub(in crate::compile) fn take(
             if last.writes.is_empty() {
                 continue;
             }
-            if taker.image().is_none() {
+            if taker.image().is_none() || store == from {
                 barrier.src_accesses |= last.writes;
-            } else if let Some(written) = last.apart_from(cell) {
-                let write = (last.stages, last.writes);
+            } else {
+                let (write, written) = ((last.stages, last.writes), last.last);
                 hand_overs.push(HandOver { stores: [from, store], write, written, this_frame, barrier: first });
             }
         }

@@ -79,6 +79,7 @@ fn release(grids: &Grids, adapted: &Adapted, queues: &Queues, hand_off: &HandOff
         ownership: Some([queues.of(hand_off.from), queues.of(pending.step)]),
         hazard: Hazard::Ownership,
         after,
+        needed_by: Some(StepId(pending.step)),
     };
     let nothing = (Stages::empty(), Accesses::empty());
     Release {

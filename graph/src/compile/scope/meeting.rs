@@ -15,9 +15,17 @@ pub(super) enum Meeting {
 pub(super) enum Refusal {
     OtherAttachments,
     Clears(StoreIndex),
+    Samples(StoreIndex),
     Uses(StoreIndex),
     Writes(StoreIndex),
     Resolved(StoreIndex),
+}
+
+impl Refusal {
+    /// A pass needs what the scope before it writes.
+    fn needing(used: &Use) -> Refusal {
+        if used.role == Role::Sampled { Refusal::Samples(used.store) } else { Refusal::Uses(used.store) }
+    }
 }
 
 impl Scope {
@@ -35,10 +43,10 @@ impl Scope {
         let refuse = |why| Meeting::Apart(Some(why));
         let from_memory = |used: &&Use| !used.role.is_attachment() && !local(used);
         if let Some(used) = uses.iter().filter(from_memory).find(|used| self.overlaps(adapted, used)) {
-            return refuse(Refusal::Uses(used.store));
+            return refuse(Refusal::needing(used));
         }
-        if let Some(store) = self.carried(adapted).find(|store| uses.iter().any(|used| used.store == *store)) {
-            return refuse(Refusal::Uses(store));
+        if let Some(used) = self.carried(adapted).find_map(|store| uses.iter().find(|used| used.store == store)) {
+            return refuse(Refusal::needing(used));
         }
         if !shares {
             return Meeting::Apart(None);
@@ -58,12 +66,19 @@ impl Scope {
         if !colors || !planes || !self.same_area(adapted, uses) {
             return refuse(Refusal::OtherAttachments);
         }
+        // Depth that a pass covers is no reason to leave the scope whose colour it goes on with.
+        let goes_on = uses.iter().any(|used| used.role == Role::Color && used.start == Start::Keep && attached(used));
+        let starts_anew = |used: &Use| match used.start {
+            Start::Keep => false,
+            Start::Clear => true,
+            Start::Discard => used.role == Role::Color || !goes_on,
+        };
         for used in uses.iter().filter(|used| !local(used)) {
-            if used.role.is_attachment() && used.start != Start::Keep && attached(used) {
+            if used.role.is_attachment() && starts_anew(used) && attached(used) {
                 return refuse(Refusal::Clears(used.store));
             }
             if clashes(used) {
-                return refuse(if used.writes { Refusal::Writes(used.store) } else { Refusal::Uses(used.store) });
+                return refuse(if used.writes { Refusal::Writes(used.store) } else { Refusal::needing(used) });
             }
         }
         match self.carries().next() {

@@ -1,5 +1,7 @@
 //! Single things in words.
 
+pub(super) use crate::amount::bytes;
+
 use crate::frame::{Cascade, DrawList};
 use crate::plan::names::{Shown, vulkan};
 use crate::plan::{Cause, Hazard, StepId};
@@ -64,16 +66,6 @@ pub(super) fn samples(samples: u32) -> String {
 /// Width × height, and depth if there is any.
 pub(super) fn size([width, height, depth]: [u32; 3]) -> String {
     if depth == 1 { format!("{width}×{height}") } else { format!("{width}×{height}×{depth}") }
-}
-
-/// Bytes in the largest unit that leaves at least 1.
-pub(super) fn bytes(bytes: u64) -> String {
-    const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
-    if bytes < 1024 {
-        return format!("{bytes} B");
-    }
-    let unit = ((bytes.ilog2() / 10) as usize).min(UNITS.len());
-    format!("{:.1} {}", bytes as f64 / 1024_f64.powi(unit as i32), UNITS[unit - 1])
 }
 
 /// Where something was written, or why it was inserted.

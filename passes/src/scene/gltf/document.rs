@@ -1,7 +1,10 @@
 //! The parts of glTF's JSON that are read. Everything else is skipped.
 
+use super::json;
 use super::problem::{GltfError, Problem};
+use super::unsupported::Extensions;
 use serde::Deserialize;
+use serde_json::Value;
 use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 
@@ -22,6 +25,7 @@ pub(super) struct Document {
     pub(super) textures: Vec<Texture>,
     pub(super) scene: Option<u64>,
     pub(super) animated: bool,
+    pub(super) extensions: Extensions,
 }
 
 /// Extensions that a file may require.
@@ -32,29 +36,47 @@ impl Document {
     pub(super) fn read(json: &[u8]) -> Result<Document, GltfError> {
         let whole = |problem| GltfError { at: String::new(), problem };
         let json = std::str::from_utf8(json).map_err(|_| whole(Problem::Json("the JSON is not UTF-8".into())))?;
-        let root: Root = serde_json::from_str(json).map_err(|error| whole(Problem::Json(words(&error, true))))?;
-        if !root.asset.version.starts_with("2.") {
-            return Err(whole(Problem::AssetVersion(root.asset.version.escape_debug().to_string())));
+        // First of all the version: of another one everything else may differ.
+        let head: Head = json::text(json).map_err(|words| whole(Problem::Json(words)))?;
+        if !head.asset.version.starts_with("2.") {
+            return Err(whole(Problem::AssetVersion(head.asset.version.escape_debug().to_string())));
         }
-        if let Some(unknown) = root.extensions_required.iter().find(|name| !KNOWN_EXTENSIONS.contains(&name.as_str())) {
+        if let Some(unknown) = head.extensions_required.iter().find(|name| !KNOWN_EXTENSIONS.contains(&name.as_str())) {
             return Err(whole(Problem::Extension(unknown.escape_debug().to_string())));
         }
-        Ok(Document {
-            accessors: list("accessor", &root.accessors)?,
-            buffers: list("buffer", &root.buffers)?,
-            buffer_views: list("buffer view", &root.buffer_views)?,
-            cameras: list("camera", &root.cameras)?,
-            images: list("image", &root.images)?,
-            lights: list("light", &root.extensions.lights.lights)?,
-            materials: list("material", &root.materials)?,
-            meshes: list("mesh", &root.meshes)?,
-            nodes: list("node", &root.nodes)?,
-            samplers: list("sampler", &root.samplers)?,
-            scenes: list("scene", &root.scenes)?,
-            textures: list("texture", &root.textures)?,
-            scene: root.scene,
+        let root: Root = json::text(json).map_err(|words| whole(Problem::Json(words)))?;
+        let mut extensions = Extensions::default();
+        let own: RootExtensions = match root.extensions {
+            Some(own) => {
+                let own = json::value(own).map(|own| Value::from_iter([("extensions", own)]));
+                element::<ExtendedRoot>("the file", own, &mut extensions)?.extensions
+            }
+            None => RootExtensions::default(),
+        };
+        let lights = own.lights.lights.into_iter().enumerate();
+        let lights = lights.map(|(index, light)| element(&format!("light {index}"), Ok(light), &mut extensions));
+        let lights = lights.collect::<Result<_, _>>()?;
+        let scene = root.scene.map(|scene| element("scene", json::value(scene), &mut extensions)).transpose()?;
+        let mut document = Document {
+            accessors: list("accessor", &root.accessors, &mut extensions)?,
+            buffers: list("buffer", &root.buffers, &mut extensions)?,
+            buffer_views: list("buffer view", &root.buffer_views, &mut extensions)?,
+            cameras: list("camera", &root.cameras, &mut extensions)?,
+            images: list("image", &root.images, &mut extensions)?,
+            lights,
+            materials: list("material", &root.materials, &mut extensions)?,
+            meshes: list("mesh", &root.meshes, &mut extensions)?,
+            nodes: list("node", &root.nodes, &mut extensions)?,
+            samplers: list("sampler", &root.samplers, &mut extensions)?,
+            scenes: list("scene", &root.scenes, &mut extensions)?,
+            textures: list("texture", &root.textures, &mut extensions)?,
+            scene,
             animated: !root.animations.is_empty(),
-        })
+            extensions: Extensions::default(),
+        };
+        extensions.listed(head.extensions_used);
+        document.extensions = extensions;
+        Ok(document)
     }
 }
 
@@ -66,28 +88,43 @@ pub(super) fn follow<'d, T>(list: &'d [T], index: u64, kind: &'static str, at: &
         .ok_or_else(|| GltfError { at: at.into(), problem: Problem::Missing { kind, index, count: list.len() } })
 }
 
-fn list<T: for<'a> Deserialize<'a>>(kind: &str, elements: &[&RawValue]) -> Result<Vec<T>, GltfError> {
-    let read = |(index, element): (usize, &&RawValue)| {
-        serde_json::from_str(element.get())
-            .map_err(|error| GltfError { at: format!("{kind} {index}"), problem: Problem::Json(words(&error, false)) })
-    };
-    elements.iter().enumerate().map(read).collect()
+fn list<T: for<'a> Deserialize<'a>>(
+    kind: &str,
+    elements: &[&RawValue],
+    extensions: &mut Extensions,
+) -> Result<Vec<T>, GltfError> {
+    let numbered = elements.iter().enumerate();
+    numbered.map(|(index, raw)| element(&format!("{kind} {index}"), json::value(raw), extensions)).collect()
 }
 
-/// The parser's words; without its place where that counts from the start of an element.
-fn words(error: &serde_json::Error, place: bool) -> String {
-    let words = error.to_string();
-    let told = words.rfind(" at line ").filter(|_| !place).map_or(words.as_str(), |end| &words[..end]);
-    told.escape_debug().to_string().replace("\\'", "'").replace("\\\"", "\"")
+/// One thing in the file, `at` by its name.
+fn element<T: for<'a> Deserialize<'a>>(
+    at: &str,
+    value: Result<Value, String>,
+    extensions: &mut Extensions,
+) -> Result<T, GltfError> {
+    let wrong = |words| GltfError { at: at.to_owned(), problem: Problem::Json(words) };
+    let value = value.map_err(wrong)?;
+    extensions.used(at, &value);
+    json::read(value).map_err(wrong)
+}
+
+/// What says how the rest is to be read.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase", expecting = "a glTF object")]
+struct Head {
+    asset: Asset,
+    #[serde(default)]
+    extensions_required: Vec<String>,
+    #[serde(default)]
+    extensions_used: Vec<String>,
 }
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase", expecting = "a glTF object")]
 struct Root<'a> {
-    asset: Asset,
-    #[serde(default)]
-    extensions_required: Vec<String>,
-    scene: Option<u64>,
+    #[serde(borrow)]
+    scene: Option<&'a RawValue>,
     #[serde(default, borrow)]
     accessors: Vec<&'a RawValue>,
     #[serde(default, borrow)]
@@ -112,8 +149,8 @@ struct Root<'a> {
     scenes: Vec<&'a RawValue>,
     #[serde(default, borrow)]
     textures: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
-    extensions: RootExtensions<'a>,
+    #[serde(borrow)]
+    extensions: Option<&'a RawValue>,
 }
 
 #[derive(Deserialize)]
@@ -121,16 +158,22 @@ struct Asset {
     version: String,
 }
 
-#[derive(Default, Deserialize)]
-struct RootExtensions<'a> {
-    #[serde(default, rename = "KHR_lights_punctual", borrow)]
-    lights: Lights<'a>,
+/// The file itself, as far as it is extended.
+#[derive(Deserialize)]
+struct ExtendedRoot {
+    extensions: RootExtensions,
 }
 
 #[derive(Default, Deserialize)]
-struct Lights<'a> {
-    #[serde(default, borrow)]
-    lights: Vec<&'a RawValue>,
+struct RootExtensions {
+    #[serde(default, rename = "KHR_lights_punctual")]
+    lights: Lights,
+}
+
+#[derive(Default, Deserialize)]
+struct Lights {
+    #[serde(default)]
+    lights: Vec<Value>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -247,6 +290,8 @@ pub(super) struct PbrMetallicRoughness {
     pub(super) base_color_factor: Option<[f64; 4]>,
     pub(super) base_color_texture: Option<TextureInfo>,
     pub(super) metallic_roughness_texture: Option<TextureInfo>,
+    pub(super) metallic_factor: Option<f64>,
+    pub(super) roughness_factor: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -54,7 +54,7 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
                     return Err(GltfError { at, problem });
                 }
                 points.push(PointLight {
-                    position: position.as_vec3().to_array(),
+                    position: position.to_array(),
                     color: color.map(|part| part as f32),
                     intensity: intensity as f32,
                     range: range.map(|range| (range as f32).max(f32::MIN_POSITIVE)),

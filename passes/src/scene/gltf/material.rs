@@ -48,7 +48,11 @@ pub(super) fn read(
             if texture.extensions.transform.is_some() {
                 notes.add(format!("{at}: the transform of its base colour texture is ignored"));
             }
-            textures.place(data, texture.index, at)?
+            let place = textures.place(data, texture.index, at)?;
+            if place.is_none() {
+                notes.add(format!("{at}: its base colour texture has no PNG or JPEG picture, so it is left out"));
+            }
+            place
         }
         None => None,
     };

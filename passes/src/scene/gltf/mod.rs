@@ -9,8 +9,11 @@
 //! first directional light is the sun; candela and lux are divided by π, see [`crate::scene`]).
 //!
 //! Not drawn, and noted in [`Scene::notes`]: points and lines, vertex colours, emissive, normal, occlusion and
-//! metallic-roughness textures, texture transforms, skins, morph targets, animations, orthographic cameras, spot lights,
-//! further suns. A file that *requires* an extension other than the two named is refused.
+//! metallic-roughness textures, metallic and roughness factors, texture transforms, skins, morph targets, animations,
+//! orthographic cameras, spot lights, further suns, every extension but the two named. A file that *requires* another
+//! extension is refused. A node that a scene lists although it is a child is drawn once, where its parent places it.
+//!
+//! A picture is decoded once, and kept once, however many textures show it.
 //!
 //! A file may lie about everything. Each reference, range, count and number is checked where it is used.
 
@@ -18,12 +21,14 @@ mod accessor;
 mod container;
 mod document;
 mod external;
+mod json;
 mod lights;
 mod material;
 mod nodes;
 mod picture;
 mod primitive;
 mod problem;
+mod unsupported;
 
 pub use problem::{GltfError, Problem};
 
@@ -58,13 +63,14 @@ fn scene(document: &Document, binary: Option<&[u8]>, beside: Option<&Root>) -> R
     if document.animated {
         notes.add("animations are ignored".into());
     }
+    unsupported::note(document, &mut notes);
     let mut textures = Textures::default();
     let mut materials = Vec::with_capacity(document.materials.len() + 1);
     for (number, material) in document.materials.iter().enumerate() {
         materials.push(material::read(&data, material, &format!("material {number}"), &mut textures, &mut notes)?);
     }
     let (meshes, groups) = meshes(&data, &mut materials, &mut notes)?;
-    let placed = nodes::walk(document)?;
+    let placed = nodes::walk(document, &mut notes)?;
     let (objects, bounds) = objects(document, &placed, &meshes, &groups, &mut notes)?;
     let bounds = bounds.ok_or(GltfError { at: String::new(), problem: Problem::Nothing })?;
     let lights = lights::read(document, &placed, &mut notes)?;
@@ -151,10 +157,10 @@ fn objects(
         let mesh_name = document.meshes.get(group as usize).and_then(|mesh| mesh.name.clone());
         let name = node.name.clone().or(mesh_name).unwrap_or_else(|| at.clone());
         for (index, part) in parts.iter().enumerate() {
-            let transform = to_world.as_mat4();
+            let transform = *to_world;
             let bounds = meshes[part.mesh].bounds.transformed(transform);
             if !bounds.within(limits::COORDINATE) {
-                let is = format!("{:?} to {:?}", bounds.min.to_array(), bounds.max.to_array());
+                let is = format!("{:?} to {:?}", bounds.min.as_vec3().to_array(), bounds.max.as_vec3().to_array());
                 let problem = Problem::OutOfRange { what: "its place in the world", is, expected: "at most 1e9 m" };
                 return Err(GltfError { at, problem });
             }

@@ -2,6 +2,7 @@
 
 use super::document::{Document, Node, follow};
 use super::problem::{GltfError, Problem};
+use crate::scene::Notes;
 use glam::{DMat4, DQuat, DVec3};
 
 /// A node with its place in the world.
@@ -12,21 +13,25 @@ pub(super) struct Placed<'d> {
 }
 
 /// Every node of the scene that is shown, parents before children, siblings in the file's order.
-pub(super) fn walk(document: &Document) -> Result<Vec<Placed<'_>>, GltfError> {
+pub(super) fn walk<'d>(document: &'d Document, notes: &mut Notes) -> Result<Vec<Placed<'d>>, GltfError> {
     let parents = parents(document)?;
-    let mut waiting: Vec<(usize, DMat4)> =
-        roots(document, &parents)?.into_iter().rev().map(|root| (root, DMat4::IDENTITY)).collect();
+    let Roots { tops, listed } = roots(document, &parents, notes)?;
+    let mut waiting: Vec<(usize, DMat4, bool)> =
+        tops.into_iter().rev().map(|top| (top, DMat4::IDENTITY, false)).collect();
     let mut placed = Vec::new();
-    while let Some((number, parent_to_world)) = waiting.pop() {
+    while let Some((number, parent_to_world, parent_shown)) = waiting.pop() {
         let node = &document.nodes[number];
         let at = format!("node {number}");
         let to_world = parent_to_world * local(node, &at)?;
         if !to_world.is_finite() {
             return Err(GltfError { at, problem: Problem::NotFinite("its place and those of its ancestors together") });
         }
+        let shown = parent_shown || listed[number];
         // `parents` has checked that every child exists and has no other parent.
-        waiting.extend(node.children.iter().rev().map(|child| (*child as usize, to_world)));
-        placed.push(Placed { number, node, to_world });
+        waiting.extend(node.children.iter().rev().map(|child| (*child as usize, to_world, shown)));
+        if shown {
+            placed.push(Placed { number, node, to_world });
+        }
     }
     Ok(placed)
 }
@@ -58,28 +63,44 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, GltfError> {
     Ok(parents)
 }
 
-/// The nodes at the top of the scene that the file shows; without any scene, of the file.
-fn roots(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, GltfError> {
-    let tops = |number: &usize| parents[*number].is_none();
+/// Where a walk over the nodes begins.
+struct Roots {
+    /// Nodes without parents.
+    tops: Vec<usize>,
+    /// By node, whether it and what is below it are shown.
+    listed: Vec<bool>,
+}
+
+/// The nodes at the top of the scene that the file shows; without any scene, of the file. Of a node that isn't at the top all
+/// that is above it is walked too, for its place.
+fn roots(document: &Document, parents: &[Option<usize>], notes: &mut Notes) -> Result<Roots, GltfError> {
+    let all = (0..document.nodes.len()).filter(|number| parents[*number].is_none());
     if document.scenes.is_empty() && document.scene.is_none() {
-        return Ok((0..document.nodes.len()).filter(tops).collect());
+        return Ok(Roots { tops: all.collect(), listed: vec![true; document.nodes.len()] });
     }
     let number = document.scene.unwrap_or(0);
     let scene = follow(&document.scenes, number, "scene", "")?;
     let at = format!("scene {number}");
+    let (mut tops, mut inner) = (Vec::new(), false);
     let mut listed = vec![false; document.nodes.len()];
-    scene
-        .nodes
-        .iter()
-        .map(|root| {
-            follow(&document.nodes, *root, "node", &at)?;
-            let number = *root as usize;
-            if parents[number].is_some() || std::mem::replace(&mut listed[number], true) {
-                return Err(GltfError { at: at.clone(), problem: Problem::NotRoot(*root) });
-            }
-            Ok(number)
-        })
-        .collect()
+    for root in &scene.nodes {
+        follow(&document.nodes, *root, "node", &at)?;
+        let number = *root as usize;
+        if std::mem::replace(&mut listed[number], true) {
+            notes.add(format!("{at}: it lists node {number} twice, which is drawn once"));
+        } else if let Some(parent) = parents[number] {
+            inner = true;
+            notes.add(format!(
+                "{at}: it lists node {number}, a child of node {parent}, which is drawn once, where its parent places it"
+            ));
+        } else {
+            tops.push(number);
+        }
+    }
+    if inner {
+        tops.extend(all.filter(|number| !listed[*number]));
+    }
+    Ok(Roots { tops, listed })
 }
 
 /// From the node's space to its parent's.

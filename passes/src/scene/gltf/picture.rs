@@ -7,23 +7,32 @@ use crate::scene::{Sampler, Texture, Wrap, limits};
 use framewright_graph::vocabulary::Filter;
 use image::{DynamicImage, ImageFormat, ImageReader};
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::io::Cursor;
+use std::sync::Arc;
 
 /// Decodes textures when a material first asks for them.
 #[derive(Debug, Default)]
 pub(super) struct Textures {
     pub(super) decoded: Vec<Texture>,
-    /// glTF's number of each decoded texture.
-    numbers: Vec<u64>,
+    /// The place of each texture in that list, by glTF's number of its image and by its sampler.
+    places: HashMap<(u64, Sampler), usize>,
+    /// What each image holds, by glTF's number.
+    pictures: HashMap<u64, Picture>,
     bytes: u64,
+}
+
+/// An image, decoded.
+#[derive(Debug, Clone)]
+struct Picture {
+    width: u32,
+    height: u32,
+    rgba8: Arc<[u8]>,
 }
 
 impl Textures {
     /// The place of glTF's texture `number` in the scene's list; `None` if it has no image.
     pub(super) fn place(&mut self, data: &Data<'_>, number: u64, user: &str) -> Result<Option<usize>, GltfError> {
-        if let Some(place) = self.numbers.iter().position(|known| *known == number) {
-            return Ok(Some(place));
-        }
         let texture = follow(&data.document.textures, number, "texture", user)?;
         let at = format!("texture {number}");
         let Some(source) = texture.source else { return Ok(None) };
@@ -35,11 +44,22 @@ impl Textures {
             }
             None => Sampler::default(),
         };
-        let decoded = self.decode(data, image, &format!("image {source}"))?;
+        if let Some(place) = self.places.get(&(source, sampler)) {
+            return Ok(Some(*place));
+        }
+        let Picture { width, height, rgba8 } = match self.pictures.get(&source) {
+            Some(known) => known.clone(),
+            None => {
+                let decoded = self.decode(data, image, &format!("image {source}"))?;
+                let (width, height) = (decoded.width(), decoded.height());
+                let new = Picture { width, height, rgba8: decoded.into_rgba8().into_raw().into() };
+                self.pictures.insert(source, new.clone());
+                new
+            }
+        };
         let name = image.name.clone().unwrap_or_else(|| format!("image {source}"));
-        let (width, height) = (decoded.width(), decoded.height());
-        self.decoded.push(Texture { name, width, height, rgba8: decoded.into_rgba8().into_raw(), sampler });
-        self.numbers.push(number);
+        self.decoded.push(Texture { name, width, height, rgba8, sampler });
+        self.places.insert((source, sampler), self.decoded.len() - 1);
         Ok(Some(self.decoded.len() - 1))
     }
 
@@ -67,7 +87,7 @@ impl Textures {
         self.bytes += u64::from(width) * u64::from(height) * 4;
         if self.bytes > limits::TEXTURE_BYTES {
             let (is, limit) = (self.bytes, limits::TEXTURE_BYTES);
-            return Err(fail(Problem::TooMuch { what: "bytes of all textures up to here", is, limit }));
+            return Err(fail(Problem::TooMuch { what: "bytes of all pictures up to here", is, limit }));
         }
         ImageReader::with_format(Cursor::new(&bytes), format).decode().map_err(undecodable)
     }

@@ -212,9 +212,6 @@ pub enum Problem {
     /// A node in two places.
     #[error("it is a child of both node {0} and node {1}")]
     TwoParents(usize, usize),
-    /// A scene lists a node that isn't at the top, or lists it twice.
-    #[error("it lists node {0}, which is not at the top or is listed twice")]
-    NotRoot(u64),
     /// Nothing in the scene has triangles.
     #[error("the file holds no triangles to draw")]
     Nothing,

@@ -280,7 +280,7 @@ fn point_light<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<PointLight> {
     let range = fields.range.map_or(Some(None), range);
     let shadows = fields.shadows.map_or(Some(false), |leaf| reader.truth(leaf));
     Some(PointLight {
-        position: position?.as_vec3().to_array(),
+        position: position?.to_array(),
         color: color?,
         intensity: intensity?,
         range: range?.map(|range| range as f32),

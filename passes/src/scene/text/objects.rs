@@ -106,7 +106,7 @@ impl Objects {
         let (mesh, cross_fade, movement) = (self.mesh(shape), cross_fade? as f32, movement?);
         let own = DMat4::from_scale_rotation_translation(extents?, rotation, DVec3::ZERO);
         for (copy, (place, material)) in places.iter().zip(palette.iter().cycle()).enumerate() {
-            let transform = (DMat4::from_translation(position) * *place * own).as_mat4();
+            let transform = DMat4::from_translation(position) * *place * own;
             let name = if copy == 0 { name.clone() } else { format!("{name}, copy {copy}") };
             self.objects.push(Object { name, mesh, material: *material, transform, cross_fade, movement });
         }

@@ -169,8 +169,14 @@ fn insert(plan: &mut Plan, at: usize, step: Step) {
         step.waits.iter_mut().for_each(|wait| renumber(&mut wait.step));
         let barriers = step.image_barriers.iter_mut().chain(&mut step.releases);
         let buffers = step.memory_barriers.iter_mut().flat_map(|barrier| &mut barrier.buffers);
-        barriers.filter_map(|barrier| barrier.after.as_mut()).for_each(renumber);
-        buffers.filter_map(|hazard| hazard.after.as_mut()).for_each(renumber);
+        for barrier in barriers {
+            barrier.after.iter_mut().for_each(renumber);
+            barrier.needed_by.iter_mut().for_each(renumber);
+        }
+        for hazard in buffers {
+            hazard.after.iter_mut().for_each(renumber);
+            hazard.needed_by.iter_mut().for_each(renumber);
+        }
     }
 }
 

@@ -24,11 +24,12 @@ pub(super) struct Access {
     pub(super) writes: bool,
 }
 
-/// Whether a draw replaces every texel of its colour targets.
+/// Whether a draw reaches every texel of its targets, and passes all tests there.
 fn covers(draw: &Draw) -> bool {
-    draw.geometry == Geometry::FullScreen
-        && !draw.discards
-        && draw.depth.is_none_or(|depth| depth.test == CompareOp::Always && depth.stencil.is_none())
+    let untested = |depth: DepthTarget| {
+        depth.test == CompareOp::Always && depth.stencil.is_none_or(|stencil| stencil.test == CompareOp::Always)
+    };
+    draw.geometry == Geometry::FullScreen && !draw.discards && draw.depth.is_none_or(untested)
 }
 
 /// Every access to images of this frame.
@@ -55,11 +56,14 @@ pub(super) fn accesses(pass: &Pass) -> Vec<Access> {
                 add(target.part, How::Attachment, keeps, true);
             }
             if let Some(DepthTarget { part, clear, write, stencil, .. }) = draw.depth {
-                add(part, How::Attachment, clear.is_none(), write || clear.is_some());
+                let keeps = clear.is_none() && !(covers(draw) && write);
+                add(part, How::Attachment, keeps, write || clear.is_some());
                 if let Some(stencil) = stencil {
                     let writes = stencil.clear.is_some() || stencil.pass != StencilOp::Keep;
                     let part = Part { plane: Plane::Stencil, ..part };
-                    add(part, How::Attachment, stencil.clear.is_none(), writes);
+                    let sets = matches!(stencil.pass, StencilOp::Zero | StencilOp::Replace);
+                    let keeps = stencil.clear.is_none() && !(covers(draw) && sets);
+                    add(part, How::Attachment, keeps, writes);
                 }
             }
         }

@@ -1,0 +1,188 @@
+//! Helper processes: GLSL is compiled, and drivers are tested, where a crash ends no more than a child process.
+//!
+//! The GLSL compiler has no bounds of its own: a few hundred bytes of nested macros overflow its stack, or keep it busy
+//! forever. Drivers crash as well. A program that names a helper has both done in a child process, with limits on time,
+//! memory and stack; its death is an error like any other, and the next shader gets a new one.
+//!
+//! A program can be its own helper: its `main` calls [`serve`] before anything else, and it names itself by
+//! [`Helper::this_program`]. Without a helper all of this happens in the program's own process, without limits.
+
+mod limits;
+mod process;
+mod protocol;
+mod serve;
+
+pub use limits::Limits;
+pub use serve::serve;
+
+pub(crate) use protocol::SelfTest;
+
+use crate::cancel::Cancel;
+use crate::depth_resolve::DepthResolve;
+use crate::shaders::{Failure, IncludedFile, Job};
+use process::{Running, Streams};
+use protocol::{Answer, Request};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// A self-test that takes longer has failed. It takes about a second where nothing is wrong.
+const SELF_TEST_TIME: Duration = Duration::from_secs(60);
+
+/// A program that is started as a helper process when it is needed. Clones share one process.
+#[derive(Debug, Clone)]
+pub struct Helper {
+    program: PathBuf,
+    limits: Limits,
+    cache: Option<PathBuf>,
+    /// The process that compiles, once one was started and as long as it lives.
+    compiler: Arc<Mutex<Option<Running>>>,
+    /// What gives up waits for it.
+    cancel: Arc<Cancel>,
+}
+
+/// Why a helper process gave no answer.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum NoAnswer {
+    /// It took too long.
+    #[error("took longer than {} s, which is its limit", .0.as_secs_f64())]
+    TooLong(Duration),
+    /// Its stack overflowed.
+    #[error("needed a stack of more than {} MiB, which is its limit", .0 >> 20)]
+    Stack(usize),
+    /// It ran out of memory.
+    #[error("needed more memory than {} MiB, which is its limit", .0 >> 20)]
+    Memory(u64),
+    /// It died of something else.
+    #[error("crashed ({0})")]
+    Died(String),
+    /// The program asked for the wait to be given up.
+    #[error("was cancelled")]
+    Cancelled,
+    /// It can't be started, or isn't a helper.
+    #[error("can't be started: {0}")]
+    Unusable(String),
+}
+
+impl Helper {
+    /// The program at `program`, whose `main` calls [`serve`].
+    ///
+    /// What the self-tests of drivers find is kept in the user's cache folder (`$XDG_CACHE_HOME/framewright` or
+    /// `~/.cache/framewright`).
+    #[must_use]
+    pub fn program(program: impl Into<PathBuf>, limits: Limits) -> Helper {
+        let cache = crate::layer::cache_folder().map(|cache| cache.join("self-tests"));
+        Helper { program: program.into(), limits, cache, compiler: Arc::default(), cancel: Arc::default() }
+    }
+
+    /// The running program itself, whose `main` calls [`serve`].
+    ///
+    /// # Errors
+    /// If the system doesn't tell where the program lies.
+    pub fn this_program(limits: Limits) -> io::Result<Helper> {
+        Ok(Helper::program(std::env::current_exe()?, limits))
+    }
+
+    /// With another folder for what the self-tests find; `None`: they run anew in each process.
+    #[must_use]
+    pub fn with_cache(self, cache: Option<PathBuf>) -> Helper {
+        Helper { cache, ..self }
+    }
+
+    /// Has every wait for a helper process end soon after `asked` becomes true, for all clones. It is asked about 20 times a
+    /// second, from another thread. Only the first call counts.
+    ///
+    /// The process is ended. A shader that it was compiling has an error then, which its library keeps; a device that it was
+    /// testing counts as not tested.
+    pub fn cancel_when(&self, asked: impl Fn() -> bool + Send + Sync + 'static) {
+        self.cancel.when(asked);
+    }
+
+    /// The program that is started.
+    pub(crate) fn path(&self) -> &Path {
+        &self.program
+    }
+
+    /// Where the findings of self-tests are kept.
+    pub(crate) fn cache(&self) -> Option<&Path> {
+        self.cache.as_deref()
+    }
+
+    /// Compiles one stage. `includes` finds the files that it includes.
+    pub(crate) fn compile(
+        &self,
+        job: &Job,
+        includes: &mut dyn FnMut(&str, &str) -> Result<IncludedFile, String>,
+    ) -> Result<Result<Vec<u32>, Failure>, NoAnswer> {
+        let mut compiler = self.compiler.lock().unwrap_or_else(PoisonError::into_inner);
+        let running = match compiler.take() {
+            Some(running) => running,
+            None => self.start(&self.limits)?,
+        };
+        let (compiled, running) = running.within(self.limits.time, &self.cancel, |streams| {
+            streams.send(&Request::Compile(job.clone()))?;
+            loop {
+                match streams.receive()? {
+                    Answer::Include { from, name } => streams.send(&Request::Included(includes(&from, &name)))?,
+                    Answer::Spirv => return Ok(Ok(streams.receive_words()?)),
+                    Answer::Failure(failure) => return Ok(Err(failure)),
+                    Answer::DepthResolve(_) | Answer::DrawsViews(_) | Answer::NotTested(_) => {
+                        return Err(Streams::garbage());
+                    }
+                }
+            }
+        })?;
+        match (&compiled, self.limits.memory) {
+            (Err(Failure::OutOfMemory), Some(memory)) => return Err(NoAnswer::Memory(memory)),
+            // Whether a compiler that failed can go on isn't known.
+            (Err(Failure::OutOfMemory | Failure::Internal(_)), _) => {}
+            (Ok(_) | Err(Failure::Messages(_)), _) => *compiler = running,
+        }
+        Ok(compiled)
+    }
+
+    /// How the device of this identity resolves depth, for several views at once too if it `draws_views`; the inner error says
+    /// why that can't be tried.
+    pub(crate) fn depth_resolve(
+        &self,
+        device: &str,
+        draws_views: bool,
+    ) -> Result<Result<DepthResolve, String>, NoAnswer> {
+        self.test(SelfTest::DepthResolve { draws_views }, device, |answer| match answer {
+            Answer::DepthResolve(found) => Some(found),
+            _ => None,
+        })
+    }
+
+    /// Whether the device of this identity draws several views at once; the inner error says why that can't be tried.
+    pub(crate) fn draws_views(&self, device: &str) -> Result<Result<bool, String>, NoAnswer> {
+        self.test(SelfTest::Multiview, device, |answer| match answer {
+            Answer::DrawsViews(found) => Some(found),
+            _ => None,
+        })
+    }
+
+    /// Starts a process, unless waits for it would be given up.
+    fn start(&self, limits: &Limits) -> Result<Running, NoAnswer> {
+        if self.cancel.is_asked() { Err(NoAnswer::Cancelled) } else { Running::start(&self.program, limits) }
+    }
+
+    /// Tests a device in a process of its own: drivers need more memory than the GLSL compiler may have.
+    fn test<T>(
+        &self,
+        test: SelfTest,
+        device: &str,
+        found: impl FnOnce(Answer) -> Option<T>,
+    ) -> Result<Result<T, String>, NoAnswer> {
+        let limits = Limits { memory: None, time: SELF_TEST_TIME, ..self.limits.clone() };
+        let found = self.start(&limits)?.within(limits.time, &self.cancel, |streams| {
+            streams.send(&Request::SelfTest { test, device: device.to_owned() })?;
+            match streams.receive()? {
+                Answer::NotTested(why) => Ok(Err(why)),
+                answer => found(answer).map(Ok).ok_or_else(Streams::garbage),
+            }
+        });
+        found.map(|(answer, _)| answer)
+    }
+}

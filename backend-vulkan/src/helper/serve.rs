@@ -1,0 +1,117 @@
+//! The helper process itself: it compiles GLSL and tests drivers for the program that started it.
+
+use super::limits;
+use super::protocol::{self, ARGUMENT, Answer, Request, SelfTest};
+use crate::device::Device;
+use crate::shaders::{Failure, IncludedFile, Job, compile};
+use crate::{depth_resolve, end_process, multiview};
+use shaderc::Compiler;
+use std::env;
+use std::fs::File;
+use std::io;
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
+
+/// Turns this process into a helper if it was started as one, and comes back at once if not. `main` calls this before
+/// anything else; a helper ends in here.
+pub fn serve() {
+    let mut arguments = env::args_os().skip(1);
+    if arguments.next().is_none_or(|first| first != ARGUMENT) {
+        return;
+    }
+    let mut number = || arguments.next().and_then(|it| it.to_str().and_then(|it| it.parse::<u64>().ok()));
+    let (Some(memory), Some(stack)) = (number(), number().and_then(|it| usize::try_from(it).ok())) else {
+        end_process(2);
+    };
+    limits::apply((memory > 0).then_some(memory));
+    // A program that ends, however it does, closes the pipe: then this process ends too, whatever its other thread does. Drivers
+    // register functions for the end of a process, which may wait for that thread: they don't run.
+    let ended = match output() {
+        Ok(output) => work(output, stack),
+        Err(error) => Err(error),
+    };
+    end_process(if ended.is_ok() { 0 } else { 1 });
+}
+
+/// Hands on what the program says until it says no more.
+fn work(output: File, stack: usize) -> io::Result<()> {
+    let (hand_on, requests) = mpsc::channel();
+    let work = move || {
+        // Without the program nobody needs the answers.
+        let code = if answer(&requests, output).is_ok() { 0 } else { 1 };
+        end_process(code);
+    };
+    thread::Builder::new().name("helper".to_owned()).stack_size(stack).spawn(work)?;
+    let mut input = io::stdin().lock();
+    while let Ok(frame) = protocol::read_frame(&mut input) {
+        if hand_on.send(frame).is_err() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Standard output, which from now on is only for answers: what drivers and compilers print goes to standard error.
+fn output() -> io::Result<File> {
+    #[cfg(unix)]
+    {
+        use std::os::fd::AsFd;
+        let output = io::stdout().as_fd().try_clone_to_owned()?;
+        nix::unistd::dup2_stdout(io::stderr())?;
+        Ok(output.into())
+    }
+    #[cfg(windows)]
+    {
+        use std::os::windows::io::AsHandle;
+        Ok(io::stdout().as_handle().try_clone_to_owned()?.into())
+    }
+}
+
+/// Answers requests.
+fn answer(requests: &Receiver<Vec<u8>>, mut output: File) -> io::Result<()> {
+    let mut compiler = None;
+    while let Ok(frame) = requests.recv() {
+        match protocol::parse(&frame)? {
+            Request::Compile(job) => {
+                let compiler = match &mut compiler {
+                    Some(compiler) => compiler,
+                    none => none.insert(Compiler::new().map_err(io::Error::other)?),
+                };
+                match compiled(compiler, &job, requests, &output) {
+                    Ok(words) => {
+                        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+                        protocol::write(&mut output, &Answer::Spirv)?;
+                        protocol::write_frame(&mut output, &bytes)?;
+                    }
+                    Err(failure) => protocol::write(&mut output, &Answer::Failure(failure))?,
+                }
+            }
+            Request::SelfTest { test, device } => protocol::write(&mut output, &tested(test, &device))?,
+            Request::Included(_) => return Err(protocol::invalid()),
+        }
+    }
+    Ok(())
+}
+
+/// Compiles, and asks the program for what is included.
+fn compiled(compiler: &Compiler, job: &Job, requests: &Receiver<Vec<u8>>, output: &File) -> Result<Vec<u32>, Failure> {
+    let ask = |from: &str, name: &str| -> io::Result<Result<IncludedFile, String>> {
+        let (from, name) = (from.to_owned(), name.to_owned());
+        protocol::write(&mut &*output, &Answer::Include { from, name })?;
+        match protocol::parse(&requests.recv().map_err(io::Error::other)?)? {
+            Request::Included(found) => Ok(found),
+            Request::Compile(_) | Request::SelfTest { .. } => Err(protocol::invalid()),
+        }
+    };
+    let mut includes = |from: &str, name: &str| ask(from, name).unwrap_or_else(|error| Err(error.to_string()));
+    compile(compiler, job, &mut includes)
+}
+
+/// Tests a device, and closes it: drivers crash then too.
+fn tested(test: SelfTest, identity: &str) -> Answer {
+    let tested = Device::open_identified(identity).and_then(|device| match test {
+        SelfTest::DepthResolve { draws_views } => depth_resolve::probe(&device, draws_views).map(Answer::DepthResolve),
+        SelfTest::Multiview => multiview::probe(&device).map(Answer::DrawsViews),
+    });
+    tested.unwrap_or_else(|error| Answer::NotTested(error.to_string()))
+}

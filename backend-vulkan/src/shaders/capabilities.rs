@@ -1,0 +1,134 @@
+//! The capabilities of SPIR-V that stages may need, and what GLSL to write instead of what needs others.
+
+use super::compile::Stage;
+use super::module::Indexed;
+use super::text::Refused;
+use rspirv::dr::Operand;
+use rspirv::spirv::Capability;
+
+/// What every stage may need: the minimum device has no more, but for what is said here.
+const EVERYWHERE: [Capability; 15] = [
+    Capability::Matrix,
+    Capability::Shader,
+    Capability::Sampled1D,
+    Capability::Image1D,
+    Capability::SampledBuffer,
+    Capability::ImageBuffer,
+    Capability::ImageQuery,
+    Capability::DerivativeControl,
+    Capability::SampleRateShading,
+    Capability::InterpolationFunction,
+    Capability::DemoteToHelperInvocation,
+    // Shaders have it only where they are compiled for a local read, which is for devices that have those.
+    Capability::InputAttachment,
+    // A device that can't see several cubes at once refuses the pass.
+    Capability::SampledCubeArray,
+    Capability::ImageCubeArray,
+    // A device whose profile doesn't list the format for storage refuses the image. Vulkan makes the capability itself no
+    // device's choice.
+    Capability::StorageImageExtendedFormats,
+];
+
+/// What compute shaders may need besides: Vulkan 1.1 promises them `subgroupElect`, `subgroupBarrier` and the like.
+const COMPUTE: [Capability; 1] = [Capability::GroupNonUniform];
+
+/// What shaders need besides that draw for both eyes at once.
+const FOR_BOTH_EYES: [Capability; 4] =
+    [Capability::MultiView, Capability::ClipDistance, Capability::ShaderLayer, Capability::ShaderViewportIndexLayerEXT];
+
+/// What isn't supported: capabilities, how words of GLSL begin that need them, and what to write instead.
+type Row = (&'static [Capability], &'static [&'static str], &'static str);
+
+const SUBGROUPS: &[&str] = &["subgroup", "gl_Subgroup", "GL_KHR_shader_subgroup"];
+
+const UNSUPPORTED: &[Row] = &[
+    (&[Capability::Float64], &["double", "dvec", "dmat"], "64-bit floating point: write `float`"),
+    (
+        &[Capability::Int64, Capability::Int16, Capability::Int8],
+        &[
+            "int64", "uint64", "i64vec", "u64vec", "int16", "uint16", "i16vec", "u16vec", "int8", "uint8", "i8vec",
+            "u8vec",
+        ],
+        "integers of another size than 32 bits: write `int` or `uint`",
+    ),
+    (&[Capability::Float16], &["float16", "f16vec", "f16mat"], "16-bit floating point: write `float`"),
+    (
+        &[Capability::StorageImageReadWithoutFormat, Capability::StorageImageWriteWithoutFormat],
+        &["image1D", "image2D", "image3D", "imageCube", "uimage", "iimage"],
+        "a storage image without a format: name that of the pass's image, such as `layout(rgba16f)`",
+    ),
+    (
+        &[Capability::GroupNonUniform],
+        SUBGROUPS,
+        "subgroups in a stage that draws, where not every device has them: use them in a compute shader",
+    ),
+    (
+        &[
+            Capability::GroupNonUniformVote,
+            Capability::GroupNonUniformArithmetic,
+            Capability::GroupNonUniformBallot,
+            Capability::GroupNonUniformShuffle,
+            Capability::GroupNonUniformShuffleRelative,
+            Capability::GroupNonUniformClustered,
+            Capability::GroupNonUniformQuad,
+        ],
+        SUBGROUPS,
+        "operations of subgroups that not every device has: Vulkan promises `subgroupElect`, `subgroupBarrier` and \
+         `subgroupMemoryBarrier` alone; use `shared` variables",
+    ),
+    (
+        &[Capability::Geometry],
+        &["gl_PrimitiveID", "gl_Layer"],
+        "numbers of primitives and layers: pass what tells them apart from the vertex stage, as `flat`",
+    ),
+    (
+        &[Capability::ShaderLayer, Capability::ShaderViewportIndexLayerEXT, Capability::MultiViewport],
+        &["gl_Layer", "gl_ViewportIndex"],
+        "layers and viewports that a vertex shader chooses: draw into each layer by a pass of its own",
+    ),
+    (
+        &[Capability::ClipDistance, Capability::CullDistance],
+        &["gl_ClipDistance", "gl_CullDistance"],
+        "clip and cull distances: use `discard` in the fragment stage",
+    ),
+    (
+        &[Capability::DrawParameters],
+        &["gl_BaseVertex", "gl_BaseInstance", "gl_DrawID"],
+        "parameters of draws: use `gl_VertexIndex` and `gl_InstanceIndex`",
+    ),
+    (
+        &[Capability::ImageGatherExtended],
+        &["textureGather"],
+        "gathers with offsets that vary or differ: use `textureGatherOffset` with a constant, or `texelFetch`",
+    ),
+    (
+        &[Capability::StorageImageMultisample, Capability::ImageMSArray],
+        &["image2DMS", "uimage2DMS", "iimage2DMS"],
+        "storage images with several samples: sample them by a `sampler2DMS`",
+    ),
+];
+
+/// Refuses what isn't supported, with the words that need it and what to write instead.
+///
+/// # Errors
+/// The first capability that a stage needs and may not.
+pub(super) fn check_capabilities(module: &Indexed<'_>, stage: Stage, both_eyes: bool) -> Result<(), Refused> {
+    let needed = module.module.capabilities.iter().filter_map(|it| match it.operands.first() {
+        Some(Operand::Capability(capability)) => Some(*capability),
+        _ => None,
+    });
+    let allowed = |it: &Capability| {
+        EVERYWHERE.contains(it)
+            || stage == Stage::Compute && COMPUTE.contains(it)
+            || both_eyes && FOR_BOTH_EYES.contains(it)
+    };
+    // The most exact is said: `subgroupBallot` needs what all operations of subgroups need, too.
+    let Some(capability) = needed.filter(|it| !allowed(it)).max_by_key(|it| *it != Capability::GroupNonUniform) else {
+        return Ok(());
+    };
+    let needs = |what: &str| format!("it needs SPIR-V's capability {capability:?}, which isn't supported{what}");
+    Err(match UNSUPPORTED.iter().find(|(capabilities, ..)| capabilities.contains(&capability)) {
+        Some((_, words, what)) => Refused::beginning(words, needs(&format!(": {what}"))),
+        None => needs("").into(),
+    })
+}

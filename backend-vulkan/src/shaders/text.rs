@@ -1,0 +1,166 @@
+//! The GLSL text of a stage: its words, its lines, and the files that it includes. SPIR-V says what a stage uses, and the
+//! text on which line that stands.
+
+use super::compile::MAX_INCLUDES;
+use super::files::{Found, ShaderFiles};
+use framewright_graph::file_path::FilePath;
+use std::collections::BTreeSet;
+
+/// Why a stage can't be used, and the words of its text that show where.
+#[derive(Debug)]
+pub(super) struct Refused {
+    what: String,
+    shown_by: Words,
+}
+
+/// Words of a text.
+#[derive(Debug)]
+enum Words {
+    None,
+    /// One word.
+    Whole(String),
+    /// Every word with one of these beginnings.
+    Beginning(&'static [&'static str]),
+}
+
+impl From<String> for Refused {
+    fn from(what: String) -> Refused {
+        Refused { what, shown_by: Words::None }
+    }
+}
+
+impl Refused {
+    /// With the name that the text gives to what is refused.
+    pub(super) fn named(name: &str, what: String) -> Refused {
+        Refused { what, shown_by: Words::Whole(name.to_owned()) }
+    }
+
+    /// With beginnings of the words that are refused.
+    pub(super) fn beginning(words: &'static [&'static str], what: String) -> Refused {
+        Refused { what, shown_by: Words::Beginning(words) }
+    }
+
+    /// As a message with its place: `FILE:LINE: …`, or `FILE: …` where no line shows it.
+    pub(super) fn placed(&self, files: &ShaderFiles, stage: &Found) -> String {
+        let wanted = |word: &str| match &self.shown_by {
+            Words::None => false,
+            Words::Whole(name) => word == name,
+            Words::Beginning(beginnings) => beginnings.iter().any(|beginning| word.starts_with(beginning)),
+        };
+        format!("{}: {}", place(files, stage, wanted).unwrap_or_else(|| stage.shown.clone()), self.what)
+    }
+}
+
+/// The first place, as `FILE:LINE`, where a stage's file or one that it includes has such a word outside comments.
+pub(super) fn place(files: &ShaderFiles, stage: &Found, wanted: impl Fn(&str) -> bool) -> Option<String> {
+    let line = |found: &Found| {
+        let text = without_comments(&found.text);
+        let at = text.lines().position(|line| words(line).any(&wanted))?;
+        Some(format!("{}:{}", found.shown, at + 1))
+    };
+    line(stage).or_else(|| included(files, stage).iter().find_map(line))
+}
+
+/// The files that a stage's file includes, and those that they include, each once. No more than [`MAX_INCLUDES`] are looked
+/// for: the compiler refuses a stage with more.
+pub(super) fn included(files: &ShaderFiles, stage: &Found) -> Vec<Found> {
+    included_by(stage, |from, name| files.included(from, name).ok().flatten())
+}
+
+/// The same with files that `read` finds. A name in a folder is read once, however often it is included.
+fn included_by(stage: &Found, mut read: impl FnMut(&FilePath, &str) -> Option<Found>) -> Vec<Found> {
+    let (mut looked_for, mut seen) = (BTreeSet::new(), BTreeSet::new());
+    let mut all: Vec<Found> = Vec::new();
+    let mut looked_at = 0;
+    loop {
+        let from = match looked_at {
+            0 => Some(stage),
+            at => all.get(at - 1),
+        };
+        let Some(from) = from else { return all };
+        let path = from.path.clone();
+        for name in named_in(&from.text) {
+            if looked_for.len() == MAX_INCLUDES {
+                return all;
+            }
+            let shipped = matches!(path, FilePath::Shipped(_));
+            if !looked_for.insert((shipped, path.folder().to_owned(), name.clone())) {
+                continue;
+            }
+            all.extend(read(&path, &name).filter(|file| seen.insert(file.path.to_string())));
+        }
+        looked_at += 1;
+    }
+}
+
+/// The names in a text's `#include` directives.
+fn named_in(text: &str) -> Vec<String> {
+    let text = without_comments(text);
+    let named = text.lines().filter_map(|line| {
+        let directive = line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("include")?;
+        directive.split('"').nth(1).map(str::to_owned)
+    });
+    named.collect()
+}
+
+/// The words of a text without comments: names, and numbers that begin with a digit.
+pub(super) fn words(text: &str) -> impl Iterator<Item = &str> {
+    let words = text.split(|letter: char| letter != '_' && !letter.is_ascii_alphanumeric());
+    words.filter(|word| !word.is_empty())
+}
+
+/// A GLSL text with a blank in place of each comment. Lines keep their numbers.
+pub(super) fn without_comments(text: &str) -> String {
+    let mut kept = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(start) = rest.find("//").into_iter().chain(rest.find("/*")).min() {
+        let (before, comment) = rest.split_at(start);
+        kept.extend([before, " "]);
+        let (_, inside) = comment.split_at(2);
+        let end = match comment.starts_with("//") {
+            true => inside.find('\n'),
+            false => inside.find("*/").map(|end| end + 2),
+        };
+        let (inside, behind) = inside.split_at(end.unwrap_or(inside.len()));
+        kept.extend(inside.matches('\n'));
+        rest = behind;
+    }
+    kept + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How often files are read for a stage with this text, whose files hold `text` each.
+    fn reads(stage: String, text: impl Fn(&str) -> String) -> usize {
+        let found = |name: &str, text: String| Found { path: name.into(), shown: name.to_owned(), text };
+        let mut reads = 0;
+        included_by(&found("stage.frag", stage), |_, name| {
+            reads += 1;
+            Some(found(name, text(name)))
+        });
+        reads
+    }
+
+    #[test]
+    fn a_file_is_read_once_however_often_it_is_included() {
+        let thousand = |name: &str| format!("#include \"{name}\"\n").repeat(1000);
+        assert_eq!(reads(thousand("a.glsl"), |_| thousand("a.glsl")), 1);
+        assert_eq!(reads(thousand("a.glsl"), |_| thousand("b.glsl")), 2);
+    }
+
+    #[test]
+    fn no_more_files_are_read_than_the_compiler_includes() {
+        let others =
+            |beginning: &str| (0..1000).map(|at| format!("#include \"{beginning}{at}\"\n")).collect::<String>();
+        assert_eq!(reads(others("a"), |_| String::new()), MAX_INCLUDES);
+        assert_eq!(reads("#include \"a\"".to_owned(), |name| others(name)), MAX_INCLUDES);
+    }
+
+    #[test]
+    fn a_comment_of_several_lines_leaves_the_numbers_of_lines() {
+        assert_eq!(without_comments("a /* b\nc */ d // e\nf"), "a  \n d  \nf");
+        assert_eq!(without_comments("a /* b\n"), "a  \n");
+    }
+}

@@ -1,0 +1,164 @@
+//! Helper processes that die, or are none, as a program that names one meets them.
+#![cfg(unix)]
+
+use framewright_graph::device::Profile;
+use framewright_graph::frame::Draw;
+use framewright_graph::interface::{DrawInterface, ShaderInterfaces, ShaderProblem, Variant};
+use framewright_graph::view::Stereo;
+use framewright_vulkan::helper::Limits;
+use framewright_vulkan::{Device, DeviceOptions, Helper, ShaderLibrary};
+use std::fs;
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// One test at a time: a program can't be started while a child that another test just forked still holds it open for writing.
+fn alone() -> MutexGuard<'static, ()> {
+    static ALONE: Mutex<()> = Mutex::new(());
+    ALONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A device of its own; `None`, with a message, where the machine has none. In CI that is a failure.
+fn device() -> Option<Device> {
+    match Device::open(&DeviceOptions::default()) {
+        Ok(device) => Some(device),
+        Err(error) => {
+            assert!(std::env::var_os("CI").is_none(), "in CI this is a failure: {error}");
+            eprintln!("SKIPPED: {error}");
+            None
+        }
+    }
+}
+
+/// A program in `folder` that runs these lines of a shell and notes each start in the file `starts`.
+fn program(folder: &Path, lines: &str) -> PathBuf {
+    let path = folder.join("program");
+    let starts = folder.join("starts");
+    fs::write(&path, format!("#!/bin/sh\necho start >> '{}'\n{lines}\n", starts.display())).expect("written");
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).expect("it may run");
+    path
+}
+
+fn starts(folder: &Path) -> usize {
+    fs::read_to_string(folder.join("starts")).unwrap_or_default().lines().count()
+}
+
+#[test]
+fn a_device_whose_self_test_dies_is_used_without_the_feature_and_that_is_kept() {
+    let _alone = alone();
+    let Some(device) = device() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let dies = program(folder.path(), "kill -SEGV $$");
+    let helper = Helper::program(&dies, Limits::default()).with_cache(Some(folder.path().join("cache")));
+    let device = device.with_helper(&helper);
+    let profile = device.profile();
+    assert_eq!((profile.max_multiview_views, profile.refuted_multiview), (1, true));
+    assert_eq!(profile.depth_resolve, [], "{:?}", profile.refuted_depth_resolve);
+    assert!(!profile.refuted_depth_resolve.is_empty());
+    let without = device.used_without();
+    let said = "its self-test crashed (SIGSEGV)";
+    assert!(without.len() == 2 && without.iter().all(|what| what.ends_with(said)), "{without:?}");
+    assert_eq!(starts(folder.path()), 2, "each test has a process of its own");
+
+    let again = Device::open(&DeviceOptions::default()).expect("the same device").with_helper(&helper);
+    assert_eq!(again.profile(), profile);
+    assert_eq!(again.used_without(), without);
+    assert_eq!(starts(folder.path()), 2, "it isn't tested again");
+
+    // Another build of the program may have mended it.
+    program(folder.path(), "kill -SEGV $$ # again");
+    let again = Device::open(&DeviceOptions::default()).expect("the same device").with_helper(&helper);
+    assert_eq!(again.used_without(), without);
+    assert_eq!(starts(folder.path()), 4);
+}
+
+#[test]
+fn a_self_test_that_overflows_the_stack_says_so_however_much_was_said_before() {
+    let _alone = alone();
+    let Some(device) = device() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let overflows = program(
+        folder.path(),
+        "head -c 1000000 /dev/zero | tr '\\0' 'a' >&2\necho \"thread 'helper' has overflowed its stack\" >&2\nkill -ABRT $$",
+    );
+    let helper = Helper::program(&overflows, Limits::default()).with_cache(None);
+    let without = device.with_helper(&helper).used_without();
+    let said = "its self-test needed a stack of more than 8 MiB, which is its limit";
+    assert!(without.len() == 2 && without.iter().all(|what| what.ends_with(said)), "{without:?}");
+}
+
+#[test]
+fn a_self_test_that_can_not_be_started_leaves_the_device_without_the_feature_and_is_not_kept() {
+    let _alone = alone();
+    let Some(device) = device() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let cache = folder.path().join("cache");
+    let helper = Helper::program(folder.path().join("nothing"), Limits::default()).with_cache(Some(cache.clone()));
+    let device = device.with_helper(&helper);
+    let without = device.used_without();
+    assert!(
+        without.len() == 2 && without.iter().all(|what| what.contains("its self-test can't be started")),
+        "{without:?}"
+    );
+    assert!(!cache.exists());
+    // That is no finding about the device.
+    let profile = device.profile();
+    assert!(profile.untested_multiview && !profile.refuted_multiview && profile.max_multiview_views == 1);
+    assert!(!profile.untested_depth_resolve.is_empty() && profile.refuted_depth_resolve.is_empty());
+    assert_eq!(profile.depth_resolve, []);
+    let said = Stereo::Multiview.lacks(&profile).expect("it isn't used");
+    assert!(said.ends_with("and that couldn't be tested"), "{said}");
+    let text = profile.to_ron().expect("a text");
+    assert!(text.contains("untested_multiview: true") && !text.contains("refuted_"), "{text}");
+    assert_eq!(Profile::from_ron(&text).expect("it is read").untested_depth_resolve, profile.untested_depth_resolve);
+}
+
+const SHADERS: &[(&str, &str)] = &[
+    ("full_screen.vert", "#version 460\nvoid main() { gl_Position = vec4(0.0); }\n"),
+    ("plain.frag", "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n"),
+];
+
+/// What comes of a shader with this helper.
+fn compiled(program: &Path) -> ShaderProblem {
+    let limits = Limits { time: Duration::from_secs(2), ..Limits::default() };
+    let library = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
+    let mut library = library.with_helper(&Helper::program(program, limits));
+    library.draw_shader("plain", Draw::FullScreen, &Variant::default()).expect_err("no helper")
+}
+
+fn unusable(program: &Path) -> String {
+    match compiled(program) {
+        ShaderProblem::Unsupported { what } => what,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn broken(program: &Path) -> String {
+    match compiled(program) {
+        ShaderProblem::DoesNotCompile { messages } => messages[0].text.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_program_that_is_no_helper_is_an_error_and_nothing_waits_for_it() {
+    let _alone = alone();
+    let begin = Instant::now();
+    let folder = tempfile::tempdir().expect("a folder");
+    assert!(unusable(&folder.path().join("none")).contains("can't be started"));
+    // It says back what it is told.
+    assert!(unusable(&program(folder.path(), "exec cat")).contains("doesn't speak as a helper does"));
+    assert!(
+        unusable(&program(folder.path(), "echo 'a line of a program that knows nothing of helpers'"))
+            .contains("can't be")
+    );
+    let text = broken(&program(folder.path(), "exit 7"));
+    assert!(text.contains("the GLSL compiler crashed") && text.contains('7'), "{text}");
+    let text = broken(&program(folder.path(), "kill -KILL $$"));
+    assert_eq!(text, "shipped:plain.frag: the GLSL compiler crashed (SIGKILL)");
+    // It reads nothing and says nothing.
+    let text = broken(&program(folder.path(), "exec sleep 1000"));
+    assert!(text.contains("took longer than 2 s"), "{text}");
+    assert!(begin.elapsed() < Duration::from_secs(30));
+}

@@ -1,0 +1,53 @@
+//! What a scene says that isn't drawn is told by every command that reads it.
+
+mod support;
+
+use serde_json::Value;
+use support::{Place, Vulkan};
+
+const SCENE: &str = r#"{
+    "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_unlit"],
+    "buffers": [{"uri": "triangle.bin", "byteLength": 36.0}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "materials": [{"extensions": {"KHR_materials_unlit": {}}, "pbrMetallicRoughness": {"roughnessFactor": 0.1}}],
+    "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}]
+}"#;
+
+const NOTES: [&str; 2] = [
+    "the extension `KHR_materials_unlit` is not supported, and ignored (material 0)",
+    "roughness factors are ignored (material 0)",
+];
+
+fn place() -> Place {
+    let place = Place::new();
+    let corners = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let bytes: Vec<u8> = corners.iter().flatten().flat_map(|number| number.to_le_bytes()).collect();
+    place.file("triangle.bin", bytes);
+    place.file("scene.gltf", SCENE);
+    place
+}
+
+#[test]
+fn inspect_and_facts_tell_what_a_scene_says_that_is_not_drawn() {
+    for arguments in [&["inspect", "forward", "--scene", "scene.gltf"][..], &["facts", "scene.gltf"]] {
+        let outcome = place().run(arguments).exits(0);
+        for note in NOTES {
+            assert_eq!(outcome.err.matches(&format!("note: scene.gltf: {note}\n")).count(), 1, "{}", outcome.err);
+        }
+    }
+}
+
+#[test]
+fn run_tells_what_a_scene_says_that_is_not_drawn_and_reports_it() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = place();
+    let arguments = ["run", "forward", "--scene", "scene.gltf", "--size", "16x16", "--report", "report.json"];
+    let outcome = place.run_with(&variables, &arguments).exits(0);
+    for note in NOTES {
+        assert!(outcome.err.contains(&format!("note: scene.gltf: {note}\n")), "{}", outcome.err);
+    }
+    let report = std::fs::read_to_string(place.path("report.json")).expect("written");
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    assert_eq!(report["scene_notes"], Value::from(NOTES.to_vec()));
+}
