@@ -6,6 +6,9 @@
 use super::compile::Stage;
 use framewright_graph::interface::EyeSource;
 use framewright_graph::view::EyeForm;
+use rspirv::binary::Assemble;
+use rspirv::dr::Builder;
+use rspirv::spirv::{AddressingModel, Capability, ExecutionMode, ExecutionModel, FunctionControl, MemoryModel};
 
 /// The variable that says which eye is drawn for: 0 the left one, 1 the right one.
 pub(super) const EYE: &str = "framewright_eye";
@@ -40,6 +43,11 @@ impl BothEyes {
     /// Whether the vertex stage hands the eye to the fragment stage, at a location of its own.
     pub(super) fn counts_instances(self) -> bool {
         matches!(self.source, EyeSource::InstanceBit | EyeSource::InstanceParity)
+    }
+
+    /// Whether one draw fills both halves of a picture: clip distances cut what reaches over the seam.
+    pub(super) fn cuts_at_seam(self) -> bool {
+        self.form == EyeForm::Halves && self.source == EyeSource::InstanceParity
     }
 
     /// The text with what finds out the eye before it and behind it.
@@ -100,6 +108,24 @@ impl BothEyes {
         };
         format!("    {HANDED_ON} = {EYE};\n{place}")
     }
+}
+
+/// A fragment stage that does nothing.
+pub(super) fn empty_fragment_stage() -> Vec<u32> {
+    let mut module = Builder::new();
+    module.set_version(1, 0);
+    module.capability(Capability::Shader);
+    module.memory_model(AddressingModel::Logical, MemoryModel::GLSL450);
+    let void = module.type_void();
+    let function = module.type_function(void, []);
+    let main =
+        module.begin_function(void, None, FunctionControl::NONE, function).expect("no function was begun before");
+    module.begin_block(None).expect("a function was begun");
+    module.ret().expect("a block was begun");
+    module.end_function().expect("a function was begun");
+    module.entry_point(ExecutionModel::Fragment, main, "main", []);
+    module.execution_mode(main, ExecutionMode::OriginUpperLeft, []);
+    module.module().assemble()
 }
 
 /// Where the line behind `#version` begins, before which nothing but comments may stand; a text without one

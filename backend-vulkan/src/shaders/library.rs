@@ -2,7 +2,7 @@
 
 use super::compile::{Job, Stage};
 use super::compilers::Compilers;
-use super::eyes::{BothEyes, EYE};
+use super::eyes::{self, BothEyes, EYE};
 use super::files::{Found, ShaderFiles};
 use super::layers;
 use super::reflect::{StageInterface, reflect};
@@ -142,7 +142,10 @@ impl ShaderLibrary {
         let spirv = vertex.spirv.clone();
         if variant.depth_only && changes_nothing(&fragment.reflected.interface) {
             let (interface, input_attachments) = (vertex.reflected.interface.clone(), Vec::new());
-            return Ok(CompiledShader { vertex: spirv, fragment: None, interface, usual_vertices, input_attachments });
+            // One driver takes no notice of clip distances where there is no fragment stage: docs/drivers.md.
+            let cut = both_eyes(variant).is_some_and(BothEyes::cuts_at_seam);
+            let fragment = cut.then(|| eyes::empty_fragment_stage().into());
+            return Ok(CompiledShader { vertex: spirv, fragment, interface, usual_vertices, input_attachments });
         }
         Ok(CompiledShader {
             vertex: spirv,

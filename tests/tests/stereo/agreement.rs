@@ -11,11 +11,15 @@ use std::error::Error;
 
 /// A pipeline, its settings, the scene, how many frames are drawn, and how many pixels of 5,917 may be off in a half. There the
 /// right eye's picture begins elsewhere: edges fall on one side or the other of what a driver's coordinates can say, and textures
-/// are looked up by squares of two by two pixels, which odd widths cut otherwise. What blurs spreads that.
+/// are looked up by squares of two by two pixels, which odd widths cut otherwise. What blurs spreads that. A driver may choose by a
+/// pixel's place which samples alpha covers (lavapipe 25 does): the right eye of an odd width has other places.
 type Shipped<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str, u32, usize);
 
+/// So many are off where a driver chooses by a pixel's place, and at most six at even widths.
+const BY_PLACE: usize = 140;
+
 const SPHERES: &str = "spheres_and_cubes";
-const CASES: [Shipped<'_>; 23] = [
+const CASES: [Shipped<'_>; 24] = [
     ("auto_exposure", &[], SPHERES, 3, 6),
     ("auto_exposure", &[("msaa", "1"), ("adaptation", "0")], SPHERES, 3, 4),
     ("deferred", &[("shadow_size", "512")], "courtyard", 1, 4),
@@ -28,7 +32,8 @@ const CASES: [Shipped<'_>; 23] = [
     ("forward", &[("hdr", "false"), ("tone_mapping", "false")], SPHERES, 1, 6),
     ("forward_overlay", &[], SPHERES, 1, 14),
     ("image_quality", &[("msaa", "1"), ("hdr", "false"), ("tone_mapping", "clip")], SPHERES, 1, 4),
-    ("image_quality", &[("alpha_to_coverage", "true")], SPHERES, 1, 14),
+    ("image_quality", &[("alpha_to_coverage", "true")], SPHERES, 1, BY_PLACE),
+    ("image_quality", &[("depth_resolve", "DepthOnly"), ("depth_stripes", "blended")], SPHERES, 1, 8),
     ("image_quality", &[("render_scale", "0.77"), ("depth_stripes", "copied"), ("blur", "3")], SPHERES, 1, 48),
     ("post", &[("blur", "2")], SPHERES, 1, 22),
     ("post", &[("msaa", "1")], SPHERES, 1, 11),
@@ -46,11 +51,12 @@ const CASES: [Shipped<'_>; 23] = [
 fn every_shipped_pipeline_shows_each_eye_what_it_sees_alone() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let (mut found, mut wrong) = (Vec::new(), false);
-    // What differs by settings does so at odd widths.
-    let even = CASES.iter().enumerate().filter(|(at, case)| *at == 0 || CASES[at - 1].0 != case.0);
-    let even = even.map(|(_, case)| (*case, EVEN));
-    for (case, extent) in CASES.iter().map(|case| (*case, EXTENT)).chain(even) {
+    // What differs by settings does so at odd widths, but for what a driver chooses by a pixel's place.
+    let even = CASES.iter().enumerate();
+    let even = even.filter(|(at, case)| *at == 0 || CASES[at - 1].0 != case.0 || case.4 == BY_PLACE);
+    for (case, extent) in CASES.iter().map(|case| (*case, EXTENT)).chain(even.map(|(_, case)| (*case, EVEN))) {
         let (pipeline, set, scene, frames, most) = case;
+        let most = if (most, extent) == (BY_PLACE, EVEN) { 6 } else { most };
         let (file, scene) = (shipped(pipeline), load(&in_repository(&format!("examples/scenes/{scene}.ron")))?);
         let case = Case { pipeline: &file, set, scene: &scene, extent, frames };
         let alone = drawn(device, &case, upright(Stereo::MultiPass), &Eyes::default())?;
