@@ -52,13 +52,15 @@ const CASES: [Shipped<'_>; 24] = [
     ("temporal", &[], "passing", 3, 8),
 ];
 
-/// In each way that draws for both eyes at once: where it puts them, and for each picture of each eye how many pixels are off, and
-/// how many of those by more than three steps away from an edge.
-fn off(
-    device: &Device,
-    case: Shipped<'_>,
-    extent: [u32; 2],
-) -> Result<Vec<(Stereo, Option<EyeForm>, Vec<[usize; 2]>)>, Box<dyn Error>> {
+/// A way that draws for both eyes at once: where it puts them, and for each picture of each eye how many pixels are off, and how
+/// many of those by more than three steps away from an edge.
+struct Way {
+    stereo: Stereo,
+    form: Option<EyeForm>,
+    off: Vec<[usize; 2]>,
+}
+
+fn ways(device: &Device, case: Shipped<'_>, extent: [u32; 2]) -> Result<Vec<Way>, Box<dyn Error>> {
     let (pipeline, set, scene, frames, _) = case;
     let (file, scene) = (shipped(pipeline), load(&in_repository(&format!("examples/scenes/{scene}.ron")))?);
     let case = Case { pipeline: &file, set, scene: &scene, extent, frames };
@@ -72,7 +74,8 @@ fn off(
         assert_eq!(form.is_none(), by_buffer, "{pipeline}, {}: {}", stereo.name(), both.plan.tree());
         let frames = both.frames.iter().zip(&alone.frames);
         let pictures = frames.flat_map(|(both, alone)| both.iter().flatten().zip(alone.iter().flatten()));
-        ways.push((stereo, form, pictures.map(|(one, other)| apart_within(one, other, extent)).collect()));
+        let off = pictures.map(|(one, other)| apart_within(one, other, extent)).collect();
+        ways.push(Way { stereo, form, off });
     }
     Ok(ways)
 }
@@ -85,7 +88,7 @@ fn agree<'a>(
 ) -> Result<(), Box<dyn Error>> {
     let (mut found, mut wrong) = (Vec::new(), false);
     for (case, extent, most) in cases {
-        for (stereo, form, off) in off(device, case, extent)? {
+        for Way { stereo, form, off } in ways(device, case, extent)? {
             let [most, away] = if form == Some(EyeForm::Halves) { [most, away] } else { [0; 2] };
             wrong |= off.iter().any(|[off, within]| *off > most || *within > away);
             if off.iter().any(|off| *off != [0, 0]) {
@@ -115,7 +118,7 @@ fn every_shipped_pipeline_shows_each_eye_what_it_sees_alone() -> Result<(), Box<
 #[test]
 fn larger_pictures_agree_too() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
-    let blurred = |case: &&Shipped<'_>| case.1.iter().any(|set| *set == ("blur", "3"));
+    let blurred = |case: &&Shipped<'_>| case.1.contains(&("blur", "3"));
     agree(device, CASES.iter().filter(blurred).map(|case| (*case, LARGE, MOST_OF_LARGE)), 0)
 }
 
