@@ -53,10 +53,7 @@ pub(crate) fn devices(arguments: &Devices) -> Result<Exit, Error> {
     let found: Vec<_> = Device::list()?.into_iter().map(|device| (used_without(&device, &helper), device)).collect();
     let shown = match arguments.format {
         CheckFormat::Human => table(&found),
-        CheckFormat::Json => text::json(&Answer {
-            format_version: 1,
-            devices: found.iter().map(|(opened, device)| entry(device, opened)).collect(),
-        })?,
+        CheckFormat::Json => text::json(&answer(&found))?,
     };
     text::print(&shown).map_err(Error::Print)?;
     Ok(Exit::Fine)
@@ -103,6 +100,10 @@ fn used_without(device: &DeviceSummary, helper: &Helper) -> Opened {
     }
 }
 
+fn answer(devices: &[(Opened, DeviceSummary)]) -> Answer<'_> {
+    Answer { format_version: 1, devices: devices.iter().map(|(opened, device)| entry(device, opened)).collect() }
+}
+
 fn entry<'a>(device: &'a DeviceSummary, opened: &'a Opened) -> Entry<'a> {
     Entry {
         index: device.index,
@@ -147,4 +148,40 @@ fn table(devices: &[(Opened, DeviceSummary)]) -> String {
         Err(problem) => format!("device {index} can't be opened: {}\n", text::escape(problem)),
     });
     table.to_string() + "\n" + &below.collect::<String>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The devices of this machine, and one that is listed and is gone when it is opened.
+    fn with_one_that_is_gone() -> Option<Vec<(Opened, DeviceSummary)>> {
+        let list = || Device::list().ok().filter(|devices| !devices.is_empty());
+        let mut gone = list()?.swap_remove(0);
+        gone.index = 99;
+        gone.missing.clear();
+        let helper = helper::usual().expect("this program");
+        let there = list()?.into_iter().map(|device| (Ok(Vec::new()), device));
+        Some(there.chain([(used_without(&gone, &helper), gone)]).collect())
+    }
+
+    #[test]
+    fn a_device_that_can_not_be_opened_is_not_usable_and_both_forms_say_why() {
+        let Some(devices) = with_one_that_is_gone() else { return eprintln!("SKIPPED: no device") };
+        let why = "no device number 99; there are: ";
+        let answer = serde_json::to_value(answer(&devices)).expect("JSON");
+        let (gone, there) = answer["devices"].as_array().and_then(|devices| devices.split_last()).expect("a device");
+        assert_eq!(
+            (&gone["usable"], &gone["missing"], &gone["used_without"]),
+            (&false.into(), &[(); 0][..].into(), &[(); 0][..].into())
+        );
+        assert!(gone["not_opened"].as_str().is_some_and(|said| said.starts_with(why)), "{gone:#}");
+        for device in there {
+            let lacks_nothing = device["missing"].as_array().is_some_and(Vec::is_empty);
+            assert!(device.get("not_opened").is_none() && device["usable"] == lacks_nothing, "{device:#}");
+        }
+        let table = table(&devices);
+        assert_eq!(table.matches("| no: it can't be opened |").count(), 1, "{table}");
+        assert!(table.contains(&format!("\ndevice 99 can't be opened: {why}")), "{table}");
+    }
 }

@@ -121,3 +121,24 @@ fn a_layer_that_is_absent_or_broken_is_told_by_the_variable_that_leads_there() {
         }
     }
 }
+
+/// Silence proves nothing of a layer that doesn't report the mistakes that are planted to test it.
+#[test]
+fn a_layer_whose_settings_keep_it_from_speaking_is_told_from_one_that_finds_nothing() {
+    for vulkan in [Vulkan::LAVAPIPE_CURRENT, Vulkan::LAVAPIPE_OLD] {
+        let Some(variables) = vulkan.variables() else { return };
+        let place = place();
+        let filter = "khronos_validation.message_id_filter = SYNC-HAZARD-WRITE-AFTER-WRITE\n";
+        let settings = place.file("vk_layer_settings.txt", filter);
+        let quiet = [&variables[..], &[("VK_LAYER_SETTINGS_PATH", settings.to_str().expect("text"))]].concat();
+        let before = place.names();
+        let outcome = place.run_with(&quiet, VALIDATED).exits(3);
+        outcome.mentions(
+            " did not report a clear that doesn't wait for another clear, which was planted to test it: check ",
+        );
+        assert_eq!(place.names(), before, "nothing is written");
+        place.file("vk_layer_settings.txt", "");
+        let outcome = place.run_with(&quiet, VALIDATED).exits(0);
+        assert!(outcome.out.contains(" reported the mistakes that were planted to test it\n"), "{}", outcome.out);
+    }
+}

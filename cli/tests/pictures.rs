@@ -5,25 +5,9 @@ mod support;
 use image::{GenericImageView, Rgb, RgbImage};
 use serde_json::Value;
 use std::path::Path;
-use support::{Outcome, Place, Vulkan};
+use support::{Outcome, Place, Vulkan, shipped_pipelines};
 
 const SIZE: [u32; 2] = [160, 90];
-
-/// All shipped pipelines.
-const PIPELINES: [&str; 12] = [
-    "auto_exposure",
-    "deferred",
-    "deferred_mobile",
-    "dynamic_resolution",
-    "forward",
-    "forward_overlay",
-    "image_quality",
-    "post",
-    "shadows",
-    "snow",
-    "soft_focus",
-    "temporal",
-];
 
 /// Draws the shipped scene through a shipped pipeline; `None` where the driver or layer is missing.
 fn draw(place: &Place, vulkan: Vulkan, pipeline: &str, more: &[&str]) -> Option<Outcome> {
@@ -79,7 +63,7 @@ fn no_way_to_make_a_plan_changes_a_pixel() {
         &["--order", "low-memory"],
         &["--order", "random:7"],
     ];
-    for pipeline in PIPELINES {
+    for pipeline in &shipped_pipelines() {
         let frames = ["--frames", "3"];
         let file = ["-o", "plain.png"];
         let Some(plain) = draw(&place, Vulkan::LAVAPIPE, pipeline, &[&frames[..], &file].concat()) else { return };
@@ -116,57 +100,62 @@ fn silent(vulkan: Vulkan, pipeline: &str) {
 
 #[test]
 fn shipped_pipelines_are_silent_on_lavapipe_under_the_current_layer() {
-    for pipeline in PIPELINES {
+    for pipeline in &shipped_pipelines() {
         silent(Vulkan::LAVAPIPE_CURRENT, pipeline);
     }
 }
 
 #[test]
 fn shipped_pipelines_are_silent_on_lavapipe_under_the_distributions_layer() {
-    for pipeline in PIPELINES {
+    for pipeline in &shipped_pipelines() {
         silent(Vulkan::LAVAPIPE_OLD, pipeline);
     }
 }
 
 #[test]
 fn shipped_pipelines_are_silent_on_swiftshader_under_the_current_layer() {
-    for pipeline in PIPELINES {
+    for pipeline in &shipped_pipelines() {
         silent(Vulkan::SWIFTSHADER_CURRENT, pipeline);
     }
 }
 
+/// Scaled up, an edge is spread over pixels that look smooth: smooth are then only those that are further from it.
 #[test]
 fn both_drivers_draw_the_same_pictures_up_to_their_edges() {
     let place = Place::new();
+    let mut cases = Vec::new();
+    for pipeline in shipped_pipelines() {
+        let scales: &[(&str, u32)] = match &*pipeline {
+            "dynamic_resolution" => &[("render_scale=1", 1), ("render_scale=0.7", 2)],
+            "deferred_mobile" => &[("scale=1", 1), ("scale=0.5", 2)],
+            _ => &[("", 1)],
+        };
+        cases.extend(scales.iter().map(|(set, around)| (pipeline.clone(), "spheres_and_cubes", *set, *around)));
+    }
     // In the other scene the sun casts shadows.
-    let in_courtyard = [("deferred", "courtyard"), ("shadows", "courtyard")];
-    for (pipeline, scene) in PIPELINES.map(|pipeline| (pipeline, "spheres_and_cubes")).into_iter().chain(in_courtyard) {
+    cases.extend(["deferred", "shadows"].map(|pipeline| (pipeline.to_owned(), "courtyard", "", 1)));
+    for (pipeline, scene, set, around) in cases {
+        let set: &[&str] = if set.is_empty() { &[] } else { &["--set", set] };
         for (vulkan, file) in [(Vulkan::LAVAPIPE, "lavapipe.png"), (Vulkan::SWIFTSHADER_CURRENT, "swiftshader.png")] {
-            // Scaled up, an edge is spread over pixels that look smooth.
-            let sharp: &[&str] = match pipeline {
-                "dynamic_resolution" => &["--set", "render_scale=1"],
-                "deferred_mobile" => &["--set", "scale=1"],
-                _ => &[],
-            };
-            let more = [&["--frames", "3", "-o", file], sharp].concat();
-            let Some(outcome) = draw_scene(&place, vulkan, pipeline, scene, &more) else { return };
+            let more = [&["--frames", "3", "-o", file], set].concat();
+            let Some(outcome) = draw_scene(&place, vulkan, &pipeline, scene, &more) else { return };
             outcome.exits(0);
         }
         let (ours, theirs) = (picture(&place.path("lavapipe.png")), picture(&place.path("swiftshader.png")));
         let differ = |a: &Rgb<u8>, b: &Rgb<u8>| (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap_or(0);
         // On edges the drivers round coverage differently: only where the picture is smooth must they agree.
         let smooth = |x: u32, y: u32| {
-            let around = (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y)));
-            around.into_iter().all(|(i, k)| differ(ours.get_pixel(i, k), ours.get_pixel(x, y)) <= 16)
+            let square = (y - around..=y + around).flat_map(|y| (x - around..=x + around).map(move |x| (x, y)));
+            square.into_iter().all(|(i, k)| differ(ours.get_pixel(i, k), ours.get_pixel(x, y)) <= 16)
         };
-        let inside = (1..SIZE[1] - 1).flat_map(|y| (1..SIZE[0] - 1).map(move |x| (x, y)));
+        let inside = (around..SIZE[1] - around).flat_map(|y| (around..SIZE[0] - around).map(move |x| (x, y)));
         let compared: Vec<u8> = inside
             .filter(|(x, y)| smooth(*x, *y))
             .map(|(x, y)| differ(ours.get_pixel(x, y), theirs.get_pixel(x, y)))
             .collect();
         let (apart, all) = (compared.iter().filter(|difference| **difference > 2).count(), compared.len());
-        assert!(all > 5000, "{pipeline}: only {all} pixels are smooth");
-        assert!(apart * 200 <= all, "{pipeline}: {apart} of {all} smooth pixels are further apart than 2/255");
+        assert!(all > 5000, "{pipeline} {set:?}: only {all} pixels are smooth");
+        assert!(apart * 200 <= all, "{pipeline} {set:?}: {apart} of {all} smooth pixels are further apart than 2/255");
     }
 }
 

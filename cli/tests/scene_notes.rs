@@ -14,8 +14,9 @@ const SCENE: &str = r#"{
     "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}]
 }"#;
 
-const NOTES: [&str; 2] = [
+const NOTES: [&str; 3] = [
     "the extension `KHR_materials_unlit` is not supported, and ignored (material 0)",
+    "metallic factors, 1 where none is given, are ignored (material 0)",
     "roughness factors are ignored (material 0)",
 ];
 

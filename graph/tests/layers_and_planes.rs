@@ -3,18 +3,19 @@
 #[allow(dead_code, reason = "most of what the builder can do isn't needed here")]
 mod raster;
 
-use framewright_graph::compile::{Options, compile};
+use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::Estimated;
 use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM};
-use framewright_graph::frame::{Blend, Frame, StencilState};
-use framewright_graph::plan::{Plan, Side, Work};
+use framewright_graph::frame::{Blend, Draw, DrawList, Frame, Lifetime, Pass, StencilState, Work};
+use framewright_graph::plan::{self, Plan, Side};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Aspects, CompareOp, Layout, StencilOp, Subresources};
+use framewright_graph::vocabulary::{Aspects, CompareOp, FillValue, Layout, StencilOp, Subresources};
 use raster::Raster;
 
 fn compiled(frame: &Frame) -> Result<Plan, String> {
     let device = raster::device();
-    let plan = compile(frame, &device, &mut Estimated(&device), &Options::default());
+    let options = Options { order: Order::File, ..Options::default() };
+    let plan = compile(frame, &device, &mut Estimated(&device), &options);
     let plan =
         plan.map_err(|errors| errors.iter().map(|error| error.message.clone()).collect::<Vec<_>>().join("; "))?;
     assert_eq!(verify(&plan), [], "{}", plan.tree());
@@ -77,7 +78,7 @@ fn one_layer_read(more: bool) -> Frame {
 
 fn resolved_layers(plan: &Plan) -> Vec<(u32, u32)> {
     let resolves = plan.steps.iter().filter_map(|step| match &step.work {
-        Work::Resolve(resolve) => Some(resolve),
+        plan::Work::Resolve(resolve) => Some(resolve),
         _ => None,
     });
     let part = |side: &Side| match side {
@@ -97,6 +98,38 @@ fn a_resolve_of_an_array_covers_the_layers_that_are_written_and_read() {
     assert_eq!(resolved_layers(&plan), [(0, 2)], "{}", plan.tree());
 }
 
+/// `more` keeps layer 1 from frame to frame, which needs it and resolves nothing of it.
+#[test]
+fn a_layer_that_is_written_and_never_read_resolved_is_not_resolved() {
+    let mut frame = one_layer_read(true);
+    frame.images[0].lifetime = Lifetime::Persistent { initial: FillValue::Color([0.0; 4]) };
+    frame.passes[1].color[0].clear = None;
+    frame.passes[1].color[0].blend = Blend::Additive;
+    let plan = compiled(&frame).expect("it is legal");
+    assert!(plan.tree().contains("more"), "{}", plan.tree());
+    assert_eq!(resolved_layers(&plan), [(0, 1)], "{}", plan.tree());
+}
+
+#[test]
+fn a_layer_that_is_read_resolved_only_after_a_later_write_is_resolved_then() {
+    let mut raster = Raster::default();
+    let many = raster.image("many", R8G8B8A8_UNORM, 4);
+    let [first, second] = ["first", "second"].map(|name| raster.image(name, R8G8B8A8_UNORM, 1));
+    for (number, screen) in [first, second].into_iter().enumerate() {
+        raster.objects(["one", "more"][number]).clear(many);
+        raster.full_screen(["show", "show_more"][number]).sample(many).color(screen, Blend::Replace);
+    }
+    let mut frame = raster.outputs(&[first, second]);
+    frame.images[0].layers = 2;
+    for (pair, number) in frame.passes.chunks_mut(2).zip(0..) {
+        pair[0].color[0].range = layer(number);
+        pair[1].sampled[0].range = layer(number);
+    }
+    let plan = compiled(&frame).expect("it is legal");
+    let resolved = resolved_layers(&plan);
+    assert_eq!((resolved[0], resolved.len()), ((0, 1), 2), "{}", plan.tree());
+}
+
 /// A triangle meets one layer, unless its shader chooses others.
 #[test]
 fn a_full_screen_draw_covers_no_more_than_one_layer() {
@@ -107,6 +140,37 @@ fn a_full_screen_draw_covers_no_more_than_one_layer() {
         refusal.expect_err("nothing has written the second layer"),
         "`cover` is the first to write `color`, and may leave parts of it untouched"
     );
+}
+
+#[test]
+fn a_draw_that_does_not_surely_reach_every_sample_covers_nothing() {
+    type Change = fn(&mut Pass);
+    let with = |change: Change| {
+        let mut raster = Raster::default();
+        let color = raster.image("color", R8G8B8A8_UNORM, 4);
+        let screen = raster.image("screen", R8G8B8A8_UNORM, 1);
+        raster.full_screen("cover").color(color, Blend::Replace);
+        raster.full_screen("show").sample(color).color(screen, Blend::Replace);
+        let mut frame = raster.output(screen);
+        change(&mut frame.passes[0]);
+        compiled(&frame).map(|plan| plan.tree())
+    };
+    fn draws(pass: &mut Pass, new: Draw, discarding: bool) {
+        let Work::Draw { draw, discards, .. } = &mut pass.work else { panic!("it draws") };
+        (*draw, *discards) = (new, discarding);
+    }
+    with(|_| {}).expect("it covers");
+    let others: [(&str, Change); 5] = [
+        ("objects", |pass| draws(pass, Draw::Objects(DrawList::Opaque), false)),
+        ("the sky", |pass| draws(pass, Draw::Sky, false)),
+        ("fragments that may be discarded", |pass| draws(pass, Draw::FullScreen, true)),
+        ("alpha that says how many samples are covered", |pass| pass.alpha_to_coverage = true),
+        ("light that is added", |pass| pass.color[0].blend = Blend::Additive),
+    ];
+    for (what, change) in others {
+        let refusal = with(change).err().unwrap_or_else(|| panic!("{what} is taken for covering"));
+        assert_eq!(refusal, "`cover` is the first to write `color`, and may leave parts of it untouched", "{what}");
+    }
 }
 
 #[test]

@@ -14,9 +14,10 @@ use std::cell::Cell;
 const WHOLE: Subresources = Subresources::WHOLE;
 const LOCAL: Layout = Layout::RenderingLocalReadKhr;
 
-const SHADERS: &[(&str, &str)] = &[(
-    "increase.frag",
-    "#version 460
+const SHADERS: &[(&str, &str)] = &[
+    (
+        "increase.frag",
+        "#version 460
         #ifdef LOCAL_READ_source
         layout(input_attachment_index = 0, set = 0, binding = 0) uniform usubpassInput source;
         #define HERE subpassLoad(source)
@@ -26,7 +27,17 @@ const SHADERS: &[(&str, &str)] = &[(
         #endif
         layout(location = 0) out uint color;
         void main() { color = HERE.r + 500; }",
-)];
+    ),
+    (
+        "every_other.frag",
+        "#version 460
+        layout(location = 0) out uint color;
+        void main() {
+            if (int(gl_FragCoord.x) % 2 == 1) discard;
+            color = 1000 + uint(gl_FragCoord.x) + 10 * uint(gl_FragCoord.y);
+        }",
+    ),
+];
 
 /// `number` draws into `a`, and `increase` draws what it reads there at its own position into the output `b`.
 fn in_two_scopes(device: &Device) -> Plan {
@@ -129,6 +140,44 @@ fn a_pass_reads_what_its_scope_drew_at_its_own_position() {
         ran.set(true);
     });
     assert!(ran.get() || std::env::var_os("CI").is_none(), "no driver here has local reads: SwiftShader does");
+}
+
+/// docs/synchronization.md: a pass that draws over what was read at its own position stands behind a local barrier.
+#[test]
+fn what_was_read_at_its_own_position_is_drawn_over_and_read_again() {
+    on_each_driver(|device| {
+        let mut small = Small::default();
+        let [a, b, c] = ["a", "b", "c"].map(|name| small.image(name, Format::R32_UINT, [3, 2]));
+        let increase = |name: &str, target| {
+            let mut pass = draw("increase", Draw::FullScreen).samples("source", a, WHOLE).draws(target, WHOLE, None);
+            pass.sampled[0].own_pixel = true;
+            pass.name = name.into();
+            pass
+        };
+        let mut over = draw("every_other", Draw::FullScreen).draws(a, WHOLE, None);
+        if let framewright_graph::frame::Work::Draw { discards, .. } = &mut over.work {
+            *discards = true;
+        }
+        small.pass(draw("number", Draw::FullScreen).draws(a, WHOLE, None));
+        small.pass(increase("before", b));
+        small.pass(over);
+        small.pass(increase("after", c));
+        small.image_output(b);
+        small.image_output(c);
+        let plan = planned(device, &small.frame, &Options::default());
+        if device.profile().local_read {
+            let Work::Render(scope) = &plan.steps[0].work else { panic!("{}", plan.tree()) };
+            let barriers: Vec<(&str, bool)> = scope.passes.iter().map(|it| (&*it.name, it.local_barrier)).collect();
+            assert_eq!(barriers, [("number", false), ("before", true), ("every_other", true), ("after", true)]);
+        }
+        let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default());
+        let executor = executor.as_mut().expect("an executor");
+        for _ in 0..2 {
+            frame(executor);
+            assert_eq!(texels(executor, "b", 0), [500, 501, 502, 510, 511, 512]);
+            assert_eq!(texels(executor, "c", 0), [1500, 501, 1502, 1510, 511, 1512]);
+        }
+    });
 }
 
 #[test]

@@ -74,7 +74,7 @@ fn every_extension_that_is_not_known_is_noted_once_with_what_uses_it() {
             "KHR_materials_emissive_strength": {"emissiveStrength": 2},
         });
         for _ in 0..3 {
-            let same = json!({"extensions": unlit.clone()});
+            let same = json!({"extensions": unlit.clone(), "pbrMetallicRoughness": {"metallicFactor": 0}});
             json["materials"].as_array_mut().expect("a list").push(same);
         }
         json["nodes"][0]["extensions"] =
@@ -128,10 +128,25 @@ fn metallic_and_roughness_factors_are_noted_once_each() {
     assert_eq!(
         scene.notes,
         [
-            "metallic factors are ignored (material 1 and 1 more)",
+            "metallic factors, 1 where none is given, are ignored (material 1 and 1 more)",
             "roughness factors are ignored (material 0 and 2 more)",
         ]
     );
+}
+
+/// glTF 2.0, section 5.22: a metallic factor that is left out is 1.
+#[test]
+fn a_material_that_gives_no_metallic_factor_is_a_metal_and_noted_like_one() {
+    let noted = |materials: Value| loaded(|json| json["materials"] = materials).notes;
+    let none = json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}});
+    let zero = json!({"pbrMetallicRoughness": {"metallicFactor": 0.0}});
+    let metals = "metallic factors, 1 where none is given, are ignored";
+    assert_eq!(noted(json!([zero, none])), [format!("{metals} (material 1)")]);
+    assert_eq!(
+        noted(json!([{}, zero, none, {"pbrMetallicRoughness": {}}])),
+        [format!("{metals} (material 0 and 2 more)")]
+    );
+    assert_eq!(noted(json!([zero, zero])), [""; 0]);
 }
 
 #[test]

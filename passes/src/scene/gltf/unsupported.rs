@@ -74,17 +74,17 @@ pub(super) fn note(document: &Document, notes: &mut Notes) {
     let (mut metallic, mut rough) = (Users::default(), Users::default());
     for (number, material) in document.materials.iter().enumerate() {
         let pbr = &material.pbr_metallic_roughness;
-        // Everything is drawn as what is no metal.
-        if pbr.metallic_factor.is_some_and(|factor| factor != 0.0) {
+        // Everything is drawn as what is no metal, and a material that says nothing is one.
+        if pbr.metallic_factor.unwrap_or(1.0) != 0.0 {
             metallic.add(format!("material {number}"));
         }
         if pbr.roughness_factor.is_some() {
             rough.add(format!("material {number}"));
         }
     }
-    for (which, users) in [("metallic", metallic), ("roughness", rough)] {
+    for (which, users) in [("metallic factors, 1 where none is given,", metallic), ("roughness factors", rough)] {
         if let Some(users) = users.told() {
-            notes.add(format!("{which} factors are ignored ({users})"));
+            notes.add(format!("{which} are ignored ({users})"));
         }
     }
 }
