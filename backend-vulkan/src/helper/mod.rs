@@ -30,7 +30,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 /// A self-test that isn't over by then takes long.
-const LONG: Duration = Duration::from_secs(1);
+const LONG: Duration = Duration::from_secs(2);
 
 /// What is told of a device whose self-tests take long.
 type Tell = dyn Fn(&LongTest) + Send + Sync;
@@ -133,7 +133,7 @@ impl Helper {
         self.cancel.when(asked);
     }
 
-    /// Has `tell` called when a self-test of a device has gone on for a second: it may take as long as
+    /// Has `tell` called when a self-test of a device has gone on for two seconds: it may take as long as
     /// [`Limits::self_test`] says, and the program waits for it. It is called at most once for each test, from another thread, for
     /// all clones. Only the first call counts.
     pub fn when_a_test_takes_long(&self, tell: impl Fn(&LongTest) + Send + Sync + 'static) {
