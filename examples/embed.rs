@@ -20,7 +20,7 @@ const EXTENT: [u32; 2] = [640, 360];
 
 fn main() -> Result<(), Box<dyn Error>> {
     // This program is its own helper: what a shader or a driver does wrong ends a child process, and not this one. Without these
-    // two lines and `with_helper` below all happens here.
+    // two lines, and naming it to the shaders and the device below, all happens here.
     helper::serve();
     let helper = Helper::this_program(Limits::default())?;
 
@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .map_err(|mistakes| describe::render(&sources, &mistakes))?;
 
     // The frame and what a device can do become a Plan, which somebody else than its maker verifies.
-    let device = Device::open(&DeviceOptions::default())?.with_helper(&helper);
+    let device = Device::open(&DeviceOptions { helper: Some(helper), ..DeviceOptions::default() })?;
     let plan = compile::compile(&frame, &device.profile(), &mut device.memory(), &compile::Options::default())
         .map_err(|mistakes| describe::render(&sources, &mistakes))?;
     assert!(verify::verify(&plan).is_empty());

@@ -42,6 +42,9 @@ pub struct DeviceOptions {
     pub choice: DeviceChoice,
     /// Whether the validation layer watches, synchronisation included. See [`crate::layer`] for how it is found.
     pub validation: bool,
+    /// Where it is tested; `None`: in this process. In a helper process a driver that crashes in a test ends no more than that,
+    /// and what the tests find is kept for this version of the driver.
+    pub helper: Option<Helper>,
 }
 
 /// A device that exists.
@@ -99,7 +102,7 @@ pub(crate) struct Shared {
     /// What its self-tests found, once they ran.
     self_tests: OnceLock<SelfTests>,
     /// Where they run, if not in this process.
-    helper: OnceLock<Helper>,
+    helper: Option<Helper>,
     abandoned: OnceLock<Unfinished>,
     /// What gives up waits for it.
     pub(crate) cancel: Cancel,
@@ -194,7 +197,7 @@ impl Device {
             caches: crate::caches::Caches::default(),
             allocator: ManuallyDrop::new(Mutex::new(allocator)),
             self_tests: OnceLock::new(),
-            helper: OnceLock::new(),
+            helper: options.helper.clone(),
             abandoned: OnceLock::new(),
             cancel: Cancel::default(),
             raw,
@@ -204,7 +207,7 @@ impl Device {
     }
 
     /// What the device can do, as far as Plans depend on it. The first time it is tried how the device resolves depth, and
-    /// whether it draws several views at once, which takes small frames: in a helper process, if [`Device::with_helper`] named
+    /// whether it draws several views at once, which takes small frames: in a helper process, if [`DeviceOptions::helper`] names
     /// one.
     #[must_use]
     pub fn profile(&self) -> Profile {
@@ -218,14 +221,6 @@ impl Device {
         profile
     }
 
-    /// Has the device tested in a helper process, so that a driver that crashes in a test ends no more than that. What the
-    /// tests find is kept for this version of the driver. A device that was tested already isn't tested again.
-    #[must_use]
-    pub fn with_helper(self, helper: &Helper) -> Device {
-        self.shared.helper.get_or_init(|| helper.clone());
-        self
-    }
-
     /// What the device says it can do and is used without, and why: it failed the self-test, or the test gave no answer.
     /// The first time the device is tested.
     #[must_use]
@@ -234,14 +229,14 @@ impl Device {
     }
 
     fn self_tests(&self) -> &SelfTests {
-        self.shared.self_tests.get_or_init(|| SelfTests::of(self, self.shared.helper.get()))
+        self.shared.self_tests.get_or_init(|| SelfTests::of(self, self.shared.helper.as_ref()))
     }
 
     /// Opens the device of this identity, for its self-tests.
     pub(crate) fn open_identified(identity: &str) -> Result<Device, Error> {
         let found = Device::list()?.into_iter().find(|device| device.identity == identity);
         let choice = DeviceChoice::Index(found.ok_or(Error::NoDevice)?.index);
-        Device::open(&DeviceOptions { choice, validation: false })
+        Device::open(&DeviceOptions { choice, ..DeviceOptions::default() })
     }
 
     /// What images and buffers take of this device's memory, for [`framewright_graph::compile`].

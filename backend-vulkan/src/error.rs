@@ -48,7 +48,7 @@ pub enum Error {
         known: Vec<String>,
     },
     /// The device is less than the minimum.
-    #[error("{} lacks {}; choose another with --device, or install a newer driver: {INSTALL}", escape(device), missing.join(", "))]
+    #[error("{} lacks {}; choose another device, or install a newer driver: {INSTALL}", escape(device), missing.join(", "))]
     Lacking {
         /// The device.
         device: String,

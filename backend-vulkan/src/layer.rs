@@ -8,9 +8,10 @@
 use crate::error::Error;
 use std::env;
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::{self, Command};
+use std::process::Command;
+use tempfile::NamedTempFile;
 
 /// The current layer, as `chromium-common` installs it.
 const CURRENT_LAYER: &str = "/usr/lib/chromium/libVkLayer_khronos_validation.so";
@@ -76,9 +77,10 @@ fn write_manifest(folder: &Path) -> io::Result<()> {
 /// Writes a file of a folder whole or not at all, and the folder if there is none.
 pub(crate) fn replace(folder: &Path, path: &Path, contents: &[u8]) -> io::Result<()> {
     fs::create_dir_all(folder)?;
-    let unfinished = folder.join(format!("unfinished-{}", process::id()));
-    fs::write(&unfinished, contents)?;
-    fs::rename(&unfinished, path)
+    let mut unfinished = NamedTempFile::new_in(folder)?;
+    unfinished.write_all(contents)?;
+    unfinished.persist(path).map_err(|error| error.error)?;
+    Ok(())
 }
 
 /// The extensions are those that this crate asks for; the version is one that every loader of Vulkan 1.3 takes.
@@ -103,4 +105,31 @@ fn manifest() -> String {
 }}
 "#
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::thread;
+
+    #[test]
+    fn threads_that_write_one_file_at_once_all_write_it_whole_and_leave_nothing_beside_it() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder.path().join("made");
+        let file = folder.join("kept.json");
+        let contents = |number: u8| vec![number; 100_000];
+        thread::scope(|scope| {
+            for number in 0..8 {
+                let (folder, file) = (&folder, &file);
+                scope.spawn(move || {
+                    for _ in 0..50 {
+                        replace(folder, file, &contents(number)).expect("written");
+                    }
+                });
+            }
+        });
+        let found = fs::read(&file).expect("a file");
+        assert_eq!(found, contents(found[0]));
+        assert_eq!(fs::read_dir(&folder).expect("listed").count(), 1);
+    }
 }

@@ -40,38 +40,17 @@ struct Kept {
 impl SelfTests {
     /// What the self-tests of `device` find, or found before.
     pub(crate) fn of(device: &Device, helper: Option<&Helper>) -> SelfTests {
-        let Some(helper) = helper else { return SelfTests::run(device, None).0 };
+        let Some(helper) = helper else { return Both::test(device, None).found(device, None) };
         let (key, file) = (key(device, helper), file(device, helper));
         if let Some(known) = file.as_deref().and_then(|file| known(file, &key)) {
             return known;
         }
-        let (found, lasting) = SelfTests::run(device, Some(helper));
-        if let Some(file) = file.filter(|_| lasting) {
-            keep(&file, Kept { key, found: found.clone() });
-        }
-        found
-    }
-
-    /// What they find now, in helper processes if there is a helper, and whether they would find it again.
-    fn run(device: &Device, helper: Option<&Helper>) -> (SelfTests, bool) {
-        let identity = &device.summary().identity;
-        let views = Tested::of(match helper {
-            Some(helper) => helper.draws_views(identity),
-            None => Ok(multiview::probe(device).map_err(|error| error.to_string())),
+        let both = Both::test(device, Some(helper));
+        let kept = file.filter(|_| both.are_kept()).and_then(|file| {
+            let found = both.found(device, Some(&file));
+            keep(&file, &Kept { key, found: found.clone() }).then_some(found)
         });
-        let draws_views = views.found.unwrap_or(false);
-        let depth = Tested::of(match helper {
-            Some(helper) => helper.depth_resolve(identity, draws_views),
-            None => Ok(depth_resolve::probe(device, draws_views).map_err(|error| error.to_string())),
-        });
-        let found = SelfTests {
-            depth_resolve: depth.found.unwrap_or_else(|| DepthResolve::without_answer(device, depth.lasts)),
-            depth_resolve_unknown: depth.why,
-            draws_views,
-            draws_views_unknown: views.why,
-            draws_views_untested: !views.lasts,
-        };
-        (found, depth.lasts && views.lasts)
+        kept.unwrap_or_else(|| both.found(device, None))
     }
 
     /// What the device says it can do and is used without, and why. `multiview`: it says that it draws several views.
@@ -94,35 +73,99 @@ impl SelfTests {
     }
 }
 
+/// What came of both self-tests.
+struct Both {
+    views: Tested<bool>,
+    depth: Tested<DepthResolve>,
+}
+
+impl Both {
+    /// Tests a device now, in helper processes if there is a helper.
+    fn test(device: &Device, helper: Option<&Helper>) -> Both {
+        let summary = device.summary();
+        let views = Tested::of(match helper {
+            Some(helper) => helper.draws_views(summary),
+            None => Ok(multiview::probe(device).map_err(|error| error.to_string())),
+        });
+        let draws_views = views.found.unwrap_or(false);
+        let depth = Tested::of(match helper {
+            Some(helper) => helper.depth_resolve(summary, draws_views),
+            None => Ok(depth_resolve::probe(device, draws_views).map_err(|error| error.to_string())),
+        });
+        Both { views, depth }
+    }
+
+    /// Whether what they found is kept. A test that took too long may have met a busy machine only; but what hangs would cost every
+    /// command the same time again.
+    fn are_kept(&self) -> bool {
+        [self.views.end, self.depth.end].iter().all(|end| *end != End::NotDone)
+    }
+
+    /// What they found, kept in a file if there is one.
+    fn found(&self, device: &Device, kept: Option<&Path>) -> SelfTests {
+        let depth = self.depth.found.clone();
+        let fails = self.depth.end == End::Finding;
+        SelfTests {
+            depth_resolve: depth.unwrap_or_else(|| DepthResolve::without_answer(device, fails)),
+            depth_resolve_unknown: self.depth.why(kept),
+            draws_views: self.views.found.unwrap_or(false),
+            draws_views_unknown: self.views.why(kept),
+            draws_views_untested: self.views.end != End::Finding,
+        }
+    }
+}
+
+/// What the end of a self-test says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum End {
+    /// Something of the device: it would end so again.
+    Finding,
+    /// That it takes too long, at least now.
+    TooLong,
+    /// Nothing: it couldn't be done.
+    NotDone,
+}
+
 /// What came of a self-test.
 struct Tested<T> {
     /// What it found.
     found: Option<T>,
     /// Why it found nothing.
     why: Option<String>,
-    /// Whether it would end so again. If not, it says nothing of the device.
-    lasts: bool,
+    /// What its end says.
+    end: End,
 }
 
 impl<T> Tested<T> {
     /// By the answer of a helper process, or the same of this process.
     fn of(answer: Result<Result<T, String>, NoAnswer>) -> Tested<T> {
-        let (found, why, lasts) = match answer {
-            Ok(Ok(found)) => (Some(found), None, true),
-            Ok(Err(why)) => (None, Some(format!("its self-test couldn't be done: {why}")), false),
-            Err(end) => (None, Some(format!("its self-test {end}")), lasts(&end)),
+        let (found, why, end) = match answer {
+            Ok(Ok(found)) => (Some(found), None, End::Finding),
+            Ok(Err(why)) => (None, Some(format!("its self-test couldn't be done: {why}")), End::NotDone),
+            Err(end) => (None, Some(format!("its self-test {end}")), end_of(&end)),
         };
-        Tested { found, why, lasts }
+        Tested { found, why, end }
+    }
+
+    /// Why it found nothing; and if only time was short, how it is tried again in spite of the file that keeps that.
+    fn why(&self, kept: Option<&Path>) -> Option<String> {
+        match (self.end, kept) {
+            (End::TooLong, Some(file)) => {
+                self.why.as_ref().map(|why| format!("{why}; to have it tested again, remove {}", file.display()))
+            }
+            _ => self.why.clone(),
+        }
     }
 }
 
-/// Whether a self-test would end so again. A busy machine is slow, a helper that can't be started now may be there later, and
-/// these signals come from others: the user, or a system that is short of memory.
-fn lasts(end: &NoAnswer) -> bool {
+/// What it says that a helper process gave no answer. A helper that can't be started now may be there later, and these signals come
+/// from others: the user, or a system that is short of memory.
+fn end_of(end: &NoAnswer) -> End {
     match end {
-        NoAnswer::Died(how) => !["SIGHUP", "SIGINT", "SIGKILL", "SIGTERM"].contains(&how.as_str()),
-        NoAnswer::Stack(_) => true,
-        NoAnswer::Memory(_) | NoAnswer::TooLong(_) | NoAnswer::Cancelled | NoAnswer::Unusable(_) => false,
+        NoAnswer::Died(how) if ["SIGHUP", "SIGINT", "SIGKILL", "SIGTERM"].contains(&how.as_str()) => End::NotDone,
+        NoAnswer::Died(_) | NoAnswer::Stack(_) => End::Finding,
+        NoAnswer::TooLong(_) => End::TooLong,
+        NoAnswer::Memory(_) | NoAnswer::Cancelled | NoAnswer::Unusable(_) => End::NotDone,
     }
 }
 
@@ -150,10 +193,11 @@ fn known(file: &Path, key: &str) -> Option<SelfTests> {
     (kept.key == key).then_some(kept.found)
 }
 
-/// Keeps what was found. Where that isn't possible it is found anew each time.
-fn keep(file: &Path, kept: Kept) {
-    if let (Some(folder), Ok(text)) = (file.parent(), serde_json::to_vec_pretty(&kept)) {
-        let _ = layer::replace(folder, file, &text);
+/// Keeps what was found, and says whether that was possible. Where it isn't it is found anew each time.
+fn keep(file: &Path, kept: &Kept) -> bool {
+    match (file.parent(), serde_json::to_vec_pretty(kept)) {
+        (Some(folder), Ok(text)) => layer::replace(folder, file, &text).is_ok(),
+        _ => false,
     }
 }
 
@@ -165,21 +209,23 @@ mod tests {
 
     #[test]
     fn a_self_test_without_an_answer_is_a_finding_only_if_the_driver_ended_it() {
-        let tested = |answer: Result<Result<bool, String>, NoAnswer>| Tested::of(answer);
+        let no_answer = |answer: Result<Result<bool, String>, NoAnswer>| {
+            let tested = Tested::of(answer);
+            assert!(tested.found.is_none() && tested.why.is_some());
+            tested.end
+        };
         for ended in [NoAnswer::Died("SIGSEGV".to_owned()), NoAnswer::Stack(1 << 20)] {
-            let tested = tested(Err(ended));
-            assert!(tested.found.is_none() && tested.why.is_some() && tested.lasts);
+            assert_eq!(no_answer(Err(ended)), End::Finding);
         }
+        assert_eq!(no_answer(Err(NoAnswer::TooLong(Duration::from_secs(1)))), End::TooLong);
         let not_done = [
             Ok(Err("no memory".to_owned())),
-            Err(NoAnswer::TooLong(Duration::from_secs(1))),
             Err(NoAnswer::Cancelled),
             Err(NoAnswer::Died("SIGKILL".to_owned())),
             Err(NoAnswer::Unusable("it is none".to_owned())),
         ];
         for ended in not_done {
-            let tested = tested(ended);
-            assert!(tested.found.is_none() && tested.why.is_some() && !tested.lasts);
+            assert_eq!(no_answer(ended), End::NotDone);
         }
     }
 

@@ -86,3 +86,14 @@ fn alpha_that_reaches_anything_else_is_read() {
     let stores = "vec4 kept = vec4(0.0); float mark(float it) { if (it > 0.5) { kept = vec4(1.0); } return 1.0; }";
     assert_eq!(of(stores, "color = vec4(mark(texture(source, uv).a)) + kept;"), Some(AlphaUse::Read));
 }
+
+#[test]
+fn alpha_that_is_handed_on_deeper_than_is_followed_counts_as_read() {
+    let chain = |deep: u32| {
+        let next = |at: u32| format!("vec3 f{at}(vec4 it) {{ return f{}(it); }}\n", at - 1);
+        "vec3 f0(vec4 it) { return it.rgb; }\n".to_owned() + &(1..=deep).map(next).collect::<String>()
+    };
+    let main = |deep: u32| format!("color = vec4(f{deep}(texture(source, uv)), 1.0);");
+    assert_eq!(of(&chain(50), &main(50)), None);
+    assert_eq!(of(&chain(3000), &main(3000)), Some(AlphaUse::Read));
+}

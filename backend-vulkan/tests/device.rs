@@ -86,7 +86,7 @@ fn an_unknown_device_name_suggests_a_near_one() {
     let Some(device) = common::device() else { return };
     let first_word = device.summary().name.split(' ').next().expect("a name").to_owned();
     let wrong = first_word.replacen(first_word.chars().nth(1).expect("two letters"), "x", 1);
-    let options = DeviceOptions { choice: DeviceChoice::Name(wrong), validation: false };
+    let options = DeviceOptions { choice: DeviceChoice::Name(wrong), ..DeviceOptions::default() };
     match Device::open(&options).err() {
         Some(Error::UnknownDevice { near: Some(near), .. }) => assert_eq!(near, device.summary().name),
         other => panic!("{other:?}"),
@@ -101,10 +101,10 @@ fn a_device_is_found_by_number_by_name_and_by_part_of_its_name() {
     for choice in
         [DeviceChoice::Index(summary.index), DeviceChoice::Name(summary.name.clone()), DeviceChoice::Name(part)]
     {
-        let opened = Device::open(&DeviceOptions { choice, validation: false }).expect("it is there");
+        let opened = Device::open(&DeviceOptions { choice, ..DeviceOptions::default() }).expect("it is there");
         assert_eq!(opened.summary().name, summary.name);
     }
-    let beyond = DeviceOptions { choice: DeviceChoice::Index(99), validation: false };
+    let beyond = DeviceOptions { choice: DeviceChoice::Index(99), ..DeviceOptions::default() };
     assert!(matches!(Device::open(&beyond).err(), Some(Error::UnknownDevice { .. })));
 }
 

@@ -172,7 +172,7 @@ fn the_canary_is_heard_and_kept_apart() {
 fn a_device_without_validation_has_no_canary() {
     let Some(device) = common::device() else { return };
     let choice = framewright_vulkan::DeviceChoice::Index(device.summary().index);
-    let options = framewright_vulkan::DeviceOptions { choice, validation: false };
+    let options = framewright_vulkan::DeviceOptions { choice, ..Default::default() };
     let silent = Device::open(&options).expect("the same device");
     assert!(matches!(silent.canary(), Err(Error::NoValidationLayer { .. })));
 }

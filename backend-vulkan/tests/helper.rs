@@ -1,16 +1,17 @@
 //! Helper processes that die, or are none, as a program that names one meets them.
 #![cfg(unix)]
 
+use framewright_graph::describe::OutsideChoice;
 use framewright_graph::device::Profile;
 use framewright_graph::frame::Draw;
-use framewright_graph::interface::{DrawInterface, ShaderInterfaces, ShaderProblem, Variant};
+use framewright_graph::interface::{DrawInterface, ShaderInterfaces, ShaderMessage, ShaderProblem, Variant};
 use framewright_graph::view::Stereo;
 use framewright_vulkan::helper::Limits;
 use framewright_vulkan::{Device, DeviceOptions, Helper, ShaderLibrary};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// One test at a time: a program can't be started while a child that another test just forked still holds it open for writing.
@@ -19,9 +20,9 @@ fn alone() -> MutexGuard<'static, ()> {
     ALONE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A device of its own; `None`, with a message, where the machine has none. In CI that is a failure.
-fn device() -> Option<Device> {
-    match Device::open(&DeviceOptions::default()) {
+/// A device that is tested by this helper; `None`, with a message, where the machine has none. In CI that is a failure.
+fn tested_by(helper: &Helper) -> Option<Device> {
+    match Device::open(&DeviceOptions { helper: Some(helper.clone()), ..DeviceOptions::default() }) {
         Ok(device) => Some(device),
         Err(error) => {
             assert!(std::env::var_os("CI").is_none(), "in CI this is a failure: {error}");
@@ -47,11 +48,10 @@ fn starts(folder: &Path) -> usize {
 #[test]
 fn a_device_whose_self_test_dies_is_used_without_the_feature_and_that_is_kept() {
     let _alone = alone();
-    let Some(device) = device() else { return };
     let folder = tempfile::tempdir().expect("a folder");
     let dies = program(folder.path(), "kill -SEGV $$");
     let helper = Helper::program(&dies, Limits::default()).with_cache(Some(folder.path().join("cache")));
-    let device = device.with_helper(&helper);
+    let Some(device) = tested_by(&helper) else { return };
     let profile = device.profile();
     assert_eq!((profile.max_multiview_views, profile.refuted_multiview), (1, true));
     assert_eq!(profile.depth_resolve, [], "{:?}", profile.refuted_depth_resolve);
@@ -61,14 +61,14 @@ fn a_device_whose_self_test_dies_is_used_without_the_feature_and_that_is_kept() 
     assert!(without.len() == 2 && without.iter().all(|what| what.ends_with(said)), "{without:?}");
     assert_eq!(starts(folder.path()), 2, "each test has a process of its own");
 
-    let again = Device::open(&DeviceOptions::default()).expect("the same device").with_helper(&helper);
+    let again = tested_by(&helper).expect("the same device");
     assert_eq!(again.profile(), profile);
     assert_eq!(again.used_without(), without);
     assert_eq!(starts(folder.path()), 2, "it isn't tested again");
 
     // Another build of the program may have mended it.
     program(folder.path(), "kill -SEGV $$ # again");
-    let again = Device::open(&DeviceOptions::default()).expect("the same device").with_helper(&helper);
+    let again = tested_by(&helper).expect("the same device");
     assert_eq!(again.used_without(), without);
     assert_eq!(starts(folder.path()), 4);
 }
@@ -76,26 +76,63 @@ fn a_device_whose_self_test_dies_is_used_without_the_feature_and_that_is_kept() 
 #[test]
 fn a_self_test_that_overflows_the_stack_says_so_however_much_was_said_before() {
     let _alone = alone();
-    let Some(device) = device() else { return };
     let folder = tempfile::tempdir().expect("a folder");
     let overflows = program(
         folder.path(),
         "head -c 1000000 /dev/zero | tr '\\0' 'a' >&2\necho \"thread 'helper' has overflowed its stack\" >&2\nkill -ABRT $$",
     );
     let helper = Helper::program(&overflows, Limits::default()).with_cache(None);
-    let without = device.with_helper(&helper).used_without();
+    let Some(device) = tested_by(&helper) else { return };
+    let without = device.used_without();
     let said = "its self-test needed a stack of more than 8 MiB, which is its limit";
     assert!(without.len() == 2 && without.iter().all(|what| what.ends_with(said)), "{without:?}");
 }
 
 #[test]
+fn a_self_test_that_hangs_is_told_of_and_given_up_and_not_tried_again_until_its_file_is_removed() {
+    let _alone = alone();
+    let folder = tempfile::tempdir().expect("a folder");
+    let (hangs, cache) = (program(folder.path(), "exec sleep 1000"), folder.path().join("cache"));
+    let limits = Limits { self_test: Duration::from_secs(2), ..Limits::default() };
+    let helper = Helper::program(&hangs, limits).with_cache(Some(cache.clone()));
+    let told = Arc::new(Mutex::new(Vec::new()));
+    let tell = told.clone();
+    helper.when_a_test_takes_long(move |test| tell.lock().expect("no panic").push(test.clone()));
+    let told = || told.lock().expect("no panic").clone();
+    let Some(device) = tested_by(&helper) else { return };
+    let without = device.used_without();
+    let file = fs::read_dir(&cache).expect("a folder").next().expect("a file").expect("a file").path();
+    let said = format!(
+        "its self-test took longer than 2 s, which is its limit; to have it tested again, remove {}",
+        file.display()
+    );
+    assert!(without.len() == 2 && without.iter().all(|what| what.ends_with(&said)), "{without:?}");
+    assert_eq!(told().len(), 2, "{:?}", told());
+    assert!(told().iter().all(|it| it.device == device.summary().name && it.limit == Duration::from_secs(2)));
+    // That may be the machine's doing.
+    let profile = device.profile();
+    assert!(profile.untested_multiview && !profile.refuted_multiview && profile.refuted_depth_resolve.is_empty());
+
+    let again = tested_by(&helper).expect("the same device");
+    assert_eq!((again.used_without(), again.profile()), (without.clone(), profile));
+    assert_eq!((starts(folder.path()), told().len()), (2, 2), "nothing waits again");
+    fs::remove_file(&file).expect("removed");
+    assert_eq!(tested_by(&helper).expect("the same device").used_without(), without);
+    assert_eq!(starts(folder.path()), 4);
+
+    // Where it can't be kept nothing is there to remove.
+    let helper = helper.with_cache(None);
+    let without = tested_by(&helper).expect("the same device").used_without();
+    assert!(without.iter().all(|what| what.ends_with("longer than 2 s, which is its limit")), "{without:?}");
+}
+
+#[test]
 fn a_self_test_that_can_not_be_started_leaves_the_device_without_the_feature_and_is_not_kept() {
     let _alone = alone();
-    let Some(device) = device() else { return };
     let folder = tempfile::tempdir().expect("a folder");
     let cache = folder.path().join("cache");
     let helper = Helper::program(folder.path().join("nothing"), Limits::default()).with_cache(Some(cache.clone()));
-    let device = device.with_helper(&helper);
+    let Some(device) = tested_by(&helper) else { return };
     let without = device.used_without();
     assert!(
         without.len() == 2 && without.iter().all(|what| what.contains("its self-test can't be started")),
@@ -134,9 +171,9 @@ fn unusable(program: &Path) -> String {
     }
 }
 
-fn broken(program: &Path) -> String {
+fn broken(program: &Path) -> ShaderMessage {
     match compiled(program) {
-        ShaderProblem::DoesNotCompile { messages } => messages[0].text.clone(),
+        ShaderProblem::DoesNotCompile { messages } => messages[0].clone(),
         other => panic!("{other:?}"),
     }
 }
@@ -153,12 +190,20 @@ fn a_program_that_is_no_helper_is_an_error_and_nothing_waits_for_it() {
         unusable(&program(folder.path(), "echo 'a line of a program that knows nothing of helpers'"))
             .contains("can't be")
     );
-    let text = broken(&program(folder.path(), "exit 7"));
+    let text = broken(&program(folder.path(), "exit 7")).text;
     assert!(text.contains("the GLSL compiler crashed") && text.contains('7'), "{text}");
-    let text = broken(&program(folder.path(), "kill -KILL $$"));
-    assert_eq!(text, "shipped:plain.frag: the GLSL compiler crashed (SIGKILL)");
+    let killed = broken(&program(folder.path(), "kill -KILL $$"));
+    assert_eq!(killed.text, "shipped:plain.frag: the GLSL compiler crashed (SIGKILL)");
+    assert_eq!(killed.limit, None);
+    let quote = killed.quote.expect("the shader's file");
+    assert_eq!((&*quote.file, quote.line, &*quote.text), ("shipped:plain.frag", 1, "#version 460"));
     // It reads nothing and says nothing.
-    let text = broken(&program(folder.path(), "exec sleep 1000"));
-    assert!(text.contains("took longer than 2 s"), "{text}");
+    let late = broken(&program(folder.path(), "exec sleep 1000"));
+    assert_eq!(late.text, "shipped:plain.frag: the GLSL compiler took longer than 2 s, which is its limit");
+    assert_eq!(late.limit, Some(OutsideChoice::ShaderTime));
+    let overflows = "echo \"thread 'helper' has overflowed its stack\" >&2\nkill -ABRT $$";
+    assert_eq!(broken(&program(folder.path(), overflows)).limit, Some(OutsideChoice::ShaderStack));
+    let full = "echo 'terminate called after throwing an instance of std::bad_alloc' >&2\nkill -ABRT $$";
+    assert_eq!(broken(&program(folder.path(), full)).limit, Some(OutsideChoice::ShaderMemory));
     assert!(begin.elapsed() < Duration::from_secs(30));
 }

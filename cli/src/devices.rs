@@ -63,7 +63,8 @@ fn save(arguments: &Devices, file: &Path) -> Result<Exit, Error> {
     let read = ReadFiles::default();
     output::prepare(std::iter::once(file), &read)?;
     let choice = run::choice(arguments.device.as_deref())?;
-    let device = Device::open(&DeviceOptions { choice, validation: false })?.with_helper(&helper::usual()?);
+    let helper = Some(helper::usual()?);
+    let device = Device::open(&DeviceOptions { choice, validation: false, helper })?;
     let profile = device.profile().with_usual_needs(&mut device.memory());
     let text = profile.to_ron().map_err(|problem| Error::Unwritable(problem.to_string()))?;
     output::write(&[(file, text.as_bytes())], &read)?;
@@ -94,8 +95,8 @@ fn used_without(device: &DeviceSummary, helper: &Helper) -> Opened {
         return Ok(Vec::new());
     }
     let choice = DeviceChoice::Index(device.index);
-    match Device::open(&DeviceOptions { choice, validation: false }) {
-        Ok(device) => Ok(device.with_helper(helper).used_without()),
+    match Device::open(&DeviceOptions { choice, validation: false, helper: Some(helper.clone()) }) {
+        Ok(device) => Ok(device.used_without()),
         Err(problem) => Err(problem.to_string()),
     }
 }

@@ -1,9 +1,10 @@
 //! Everything that ends a command early, and the exit code that it ends with.
 
-use crate::{links, picture, text};
+use crate::{links, options, picture, text};
 use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::file_path::for_shell;
 use framewright_graph::format::Format;
+use framewright_graph::interface::ShaderProblem;
 use framewright_graph::root::NoFile;
 use framewright_graph::source::Sources;
 use framewright_passes::scene::SceneError;
@@ -281,6 +282,11 @@ pub(crate) struct Wrong {
 }
 
 impl Error {
+    /// Mistakes of a pipeline, or of what the command line asks of it, with the options that mend them.
+    pub(crate) fn wrong(sources: Sources, diagnostics: Vec<Diagnostic>, exit: Exit) -> Error {
+        Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics: options::named(diagnostics), exit }) }
+    }
+
     /// What is printed: every mistake has a heading of its own.
     #[must_use]
     pub(crate) fn shown(&self) -> String {
@@ -362,15 +368,22 @@ fn no_output(name: &str, outputs: &[String], image: bool) -> String {
 }
 
 /// What to do about a device that refuses.
-fn remedy(problem: &framewright_vulkan::Error) -> &'static str {
+fn remedy(problem: &framewright_vulkan::Error) -> String {
     match problem {
         framewright_vulkan::Error::OutOfMemory { .. } => {
-            "\nhelp: choose a smaller --size, fewer samples, or fewer or smaller images; `framewright inspect` lists them with what each takes"
+            "\nhelp: choose a smaller --size, fewer samples, or fewer or smaller images; `framewright inspect` lists them with what each takes".to_owned()
         }
         framewright_vulkan::Error::Vulkan { .. } => {
-            "\nhelp: the driver refused: choose another device with --device (`framewright devices` lists them), or install a newer driver"
+            "\nhelp: the driver refused: choose another device with --device (`framewright devices` lists them), or install a newer driver".to_owned()
         }
-        _ => "",
+        framewright_vulkan::Error::Lacking { .. } => {
+            "\nhelp: --device chooses another (`framewright devices` lists them)".to_owned()
+        }
+        framewright_vulkan::Error::Shader { problem: ShaderProblem::DoesNotCompile { messages }, .. } => {
+            let limit = messages.iter().find_map(|message| message.limit);
+            limit.map_or_else(String::new, |limit| format!("\nhelp: {}", options::option(limit)))
+        }
+        _ => String::new(),
     }
 }
 

@@ -2,9 +2,10 @@
 
 use crate::args::ShaderLimits;
 use crate::error::Error;
-use crate::interrupt;
+use crate::{interrupt, text};
 use framewright_vulkan::Helper;
-use framewright_vulkan::helper::Limits;
+use framewright_vulkan::helper::{Limits, LongTest};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// A helper whose compiler of shaders keeps to these limits.
@@ -17,6 +18,7 @@ pub(crate) fn with(limits: &ShaderLimits) -> Result<Helper, Error> {
         time: Duration::from_secs(limits.shader_seconds.into()),
         memory: Some(mebibytes(limits.shader_memory)),
         stack: usize::try_from(mebibytes(limits.shader_stack)).unwrap_or(usize::MAX),
+        ..Limits::default()
     };
     within(limits)
 }
@@ -29,9 +31,21 @@ pub(crate) fn usual() -> Result<Helper, Error> {
     within(Limits::default())
 }
 
-/// A helper that Ctrl-C ends.
+/// A helper that Ctrl-C ends, and that says what takes it long.
 fn within(limits: Limits) -> Result<Helper, Error> {
     let helper = Helper::this_program(limits).map_err(Error::Helper)?;
     helper.cancel_when(interrupt::asked);
+    let told = Mutex::new(String::new());
+    helper.when_a_test_takes_long(move |LongTest { device, limit, .. }| {
+        let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
+        if *told != *device {
+            text::say(&format!(
+                "note: testing what `{}` does takes long; each of two tests is given up after {} s, and what comes of it is kept",
+                text::escape(device),
+                limit.as_secs()
+            ));
+            told.clone_from(device);
+        }
+    });
     Ok(helper)
 }

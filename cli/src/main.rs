@@ -14,6 +14,7 @@ mod layer;
 mod links;
 mod new;
 mod notes;
+mod options;
 mod output;
 mod picture;
 mod placed;

@@ -1,6 +1,6 @@
 //! Mistakes that only a run finds, with their places in the pipeline's files.
 
-use crate::error::{Error, Exit, Wrong};
+use crate::error::{Error, Exit};
 use framewright_graph::describe::Diagnostic;
 use framewright_graph::frame::Frame;
 use framewright_graph::source::Sources;
@@ -36,6 +36,5 @@ pub(crate) fn texture(frame: &Frame, problem: framewright_vulkan::Error) -> Erro
 }
 
 fn wrong(frame: &Frame, diagnostics: Vec<Diagnostic>) -> Error {
-    let sources = Sources::clone(&frame.sources);
-    Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, exit: Exit::Found }) }
+    Error::wrong(Sources::clone(&frame.sources), diagnostics, Exit::Found)
 }

@@ -1,6 +1,6 @@
 //! From a pipeline file to its verified Plan: the part that `check`, `inspect` and `run` share.
 
-use crate::error::{Error, Exit, Wrong};
+use crate::error::{Error, Exit};
 use crate::files::{self, PipelineFile, What};
 use crate::values::{Modes, Size};
 use crate::{args, helper, shipped};
@@ -106,7 +106,7 @@ pub(crate) fn load(arguments: &args::Pipeline, read: &ReadFiles) -> Result<Loade
     let own = Found { shown, relative: path, bytes };
     let mut pipeline = describe::read_extended(&mut sources, &mut named, own, extensions).map_err(|diagnostics| {
         let exit = if named.denied { Exit::Environment } else { Exit::Found };
-        Error::Wrong { wrong: Box::new(Wrong { sources: sources.clone(), diagnostics, exit }) }
+        Error::wrong(sources.clone(), diagnostics, exit)
     })?;
     choose(arguments, &mut pipeline, &mut sources, read)?;
     let helper = helper::with(&arguments.limits)?;
@@ -142,10 +142,9 @@ fn choose(
     if !mistakes.is_empty() {
         return Err(wrong(sources, mistakes));
     }
-    pipeline.choose(arguments.preset.as_deref(), &files).map_err(|unknown| {
-        let (sources, diagnostics) = (sources.clone(), vec![unknown]);
-        Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, exit: Exit::Usage }) }
-    })
+    pipeline
+        .choose(arguments.preset.as_deref(), &files)
+        .map_err(|unknown| Error::wrong(sources.clone(), vec![unknown], Exit::Usage))
 }
 
 impl Loaded {
@@ -186,8 +185,7 @@ impl Loaded {
         if diagnostics.is_empty() {
             return Ok(());
         }
-        let sources = Sources::clone(&self.sources);
-        Err(Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, exit: Exit::Usage }) })
+        Err(Error::wrong(Sources::clone(&self.sources), diagnostics, Exit::Usage))
     }
 
     /// Makes sure that the device that a profile describes has the memory that a Plan takes.
@@ -231,5 +229,5 @@ fn inputs<'a>(set: &'a [(String, String)], stereo: Stereo, view: View<'a>) -> In
 }
 
 fn wrong(sources: &Sources, diagnostics: Vec<Diagnostic>) -> Error {
-    Error::Wrong { wrong: Box::new(Wrong { sources: sources.clone(), diagnostics, exit: Exit::Found }) }
+    Error::wrong(sources.clone(), diagnostics, Exit::Found)
 }

@@ -46,7 +46,8 @@ fn draw_and_write(arguments: &Run) -> Result<Exit, Error> {
     // Only now: until here nothing is lost when the system ends the program, and a named pipe may keep it waiting forever.
     interrupt::watch();
 
-    let device = Device::open(&DeviceOptions { choice, validation: arguments.validate })?.with_helper(&pipeline.helper);
+    let helper = Some(pipeline.helper.clone());
+    let device = Device::open(&DeviceOptions { choice, validation: arguments.validate, helper })?;
     device.cancel_when(interrupt::asked);
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
     let planned = planned(arguments, &mut pipeline, &scene, &device)?;

@@ -1,7 +1,7 @@
 //! `framewright schema`: the language as a JSON Schema, and files as the JSON that it describes.
 
 use crate::args::Schema;
-use crate::error::{Error, Exit, Wrong};
+use crate::error::{Error, Exit};
 use crate::{files, text};
 use framewright_graph::describe::LARGEST_FILE;
 use framewright_graph::describe::forms;
@@ -23,8 +23,7 @@ pub(crate) fn schema(arguments: &Schema) -> Result<Exit, Error> {
             let number = sources.add(shown.clone(), &*shown, text.clone());
             let mut diagnostics = Vec::new();
             let tree = Tree::read(number, text.into(), &mut diagnostics).filter(|_| diagnostics.is_empty());
-            let wrong =
-                |diagnostics| Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics, exit: Exit::Found }) };
+            let wrong = |diagnostics| Error::wrong(sources, diagnostics, Exit::Found);
             match tree.map(|tree| forms::convert(tree.root())) {
                 Some(Ok(value)) => value,
                 Some(Err(diagnostics)) => return Err(wrong(diagnostics)),

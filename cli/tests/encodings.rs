@@ -23,8 +23,7 @@ use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::twin::hdr10::{PQ_PEAK, decode_pq, encode_hdr10};
 use framewright_vulkan::{
-    Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder,
-    ShaderLibrary, Texels,
+    Device, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary, Texels,
 };
 use picture::{File, Picture};
 use std::io::Read;
@@ -90,7 +89,7 @@ fn leaves(frame: &mut Frame, image: ImageIndex, encoding: Option<Encoding>) {
 
 /// The first output of a frame, with what the Plan says of where it is encoded.
 fn texels(frame: &Frame) -> (Texels, Option<Encoding>, Option<String>) {
-    let options = DeviceOptions { choice: DeviceChoice::Default, validation: true };
+    let options = DeviceOptions { validation: true, ..DeviceOptions::default() };
     let device = Device::open(&options).expect("a device");
     device.canary().expect("the layer is awake");
     let plan = compile(frame, &device.profile(), &mut device.memory(), &Options::default()).expect("a Plan");

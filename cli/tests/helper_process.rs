@@ -70,9 +70,14 @@ fn a_shader_that_takes_too_much_is_an_error_of_the_file() {
         let arguments = ["check", "p.ron", "--shader-seconds", "2", "--shader-memory", "512"];
         let outcome =
             place(&bad).run(&arguments).exits(1).mentions("error: shader `bad` doesn't compile\n --> p.ron:3:");
-        let named = |limit: &&str| outcome.err.contains(&format!("./bad.frag: the GLSL compiler needed {limit}"));
-        let timed = |limit: &&str| outcome.err.contains(&format!("./bad.frag: the GLSL compiler took {limit}"));
-        assert!(limits.iter().any(|limit| named(limit) || timed(limit)), "{limits:?}: {}", outcome.err);
+        let words = |limit: &&str| {
+            let verb = if limit.starts_with("longer") { "took" } else { "needed" };
+            outcome.err.contains(&format!(
+                "^ the GLSL compiler {verb} {limit}, which is its limit; on which line isn't known\n"
+            ))
+        };
+        assert!(limits.iter().any(words), "{limits:?}: {}", outcome.err);
+        assert!(outcome.err.contains("\n ::: ./bad.frag:1:1\n"), "{}", outcome.err);
         assert!(begin.elapsed() < Duration::from_secs(30), "{:?}: {limits:?}", begin.elapsed());
     }
 }
@@ -111,9 +116,40 @@ fn every_command_that_compiles_shaders_survives_one_that_overflows_the_stack() {
 fn the_limits_of_shaders_are_raised_on_the_command_line() {
     let place = place(&deep());
     place.run(&["check", "p.ron", "--shader-stack", "256"]).exits(0);
-    place.run(&["check", "p.ron"]).exits(1).mentions("`--shader-stack` raises it");
+    place.run(&["check", "p.ron"]).exits(1).mentions("help: `--shader-stack` raises it\n");
     place.run(&["check", "p.ron", "--shader-stack", "0"]).exits(2);
     place.run(&["check", "p.ron", "--shader-stack", "1024"]).exits(2).mentions("must be less than `--shader-memory`");
+}
+
+#[test]
+fn more_memory_and_more_time_for_shaders_are_allowed_on_the_command_line() {
+    // Some hundred thousand words of SPIR-V, and the tree that they are made of.
+    let many = fragment(&doubling(16, "color += uv.xyxy;", " "), "0.0); A16 (color");
+    let place = place(&many);
+    let check = |memory: &str| place.run(&["check", "p.ron", "--shader-memory", memory, "--shader-seconds", "3600"]);
+    check("192").exits(1).mentions("needed more memory than 192 MiB").mentions("help: `--shader-memory` raises it\n");
+    check("4096").exits(0);
+    // That is the shader's doing.
+    place.file("bad.frag", fragment("", "1.0"));
+    check("192").exits(0);
+    // Whatever time it is given.
+    place.file("bad.frag", endless());
+    for seconds in ["1", "3"] {
+        let check = place.run(&["check", "p.ron", "--shader-seconds", seconds]).exits(1);
+        let said = format!("took longer than {seconds} s, which is its limit");
+        check.mentions(&said).mentions("help: `--shader-seconds` raises it\n");
+    }
+}
+
+#[test]
+fn the_file_of_a_shader_that_takes_too_much_is_a_place_for_programs_too() {
+    let json = place(&deep()).run(&["check", "p.ron", "--format", "json"]).exits(1).out;
+    let answer: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let mistake = &answer["diagnostics"][0];
+    assert_eq!((&mistake["file"], &mistake["line"]), (&"p.ron".into(), &3.into()), "{answer:#}");
+    let label = &mistake["labels"][1];
+    assert_eq!((&label["file"], &label["line"]), (&"./bad.frag".into(), &1.into()), "{answer:#}");
+    assert_eq!(mistake["help"], "`--shader-stack` raises it", "{answer:#}");
 }
 
 #[test]
@@ -126,7 +162,8 @@ fn the_shader_after_one_that_ended_its_process_is_compiled_by_a_new_one() {
     place
         .run(&["check", "p.ron"])
         .exits(1)
-        .mentions("./bad.frag: the GLSL compiler needed a stack")
+        .mentions("\n ::: ./bad.frag:1:1\n")
+        .mentions("the GLSL compiler needed a stack")
         .mentions("'nothing' : undeclared identifier");
 }
 
@@ -220,12 +257,11 @@ fn a_helper_process_compiles_shaders_to_the_same_words() {
 
 #[test]
 fn a_helper_process_finds_of_a_device_what_this_process_finds() {
-    let open = || Device::open(&DeviceOptions::default());
-    let (Ok(here), Ok(helped)) = (open(), open()) else {
+    let open = |helper| Device::open(&DeviceOptions { helper, ..DeviceOptions::default() });
+    let (Ok(here), Ok(helped)) = (open(None), open(Some(helper()))) else {
         assert!(std::env::var_os("CI").is_none(), "CI must have a device");
         return;
     };
-    let helped = helped.with_helper(&helper());
     assert_eq!(helped.profile(), here.profile());
     assert_eq!(helped.used_without(), here.used_without());
 }
@@ -288,4 +324,46 @@ fn a_profile_and_a_refusal_say_of_a_self_test_that_could_not_be_done_that_it_was
     let multiview = ["inspect", "forward", "--device", "saved.ron", "--stereo", "multiview"];
     let outcome = place.run(&multiview).exits(3).mentions("several views at once, and that couldn't be tested");
     assert!(!outcome.err.contains("a test showed"), "{}", outcome.err);
+}
+
+/// Starts `devices` with nothing kept, and holds its first helper up as a driver that hangs would. `None`: that came too late.
+#[cfg(target_os = "linux")]
+fn held_up(variables: &[(&str, &str)]) -> Option<(Place, Started, nix::unistd::Pid)> {
+    use nix::sys::signal::{Signal, kill};
+    use nix::unistd::Pid;
+    let place = Place::new();
+    let mut command = place.command(&["devices"]);
+    command.envs(variables.iter().copied()).env("XDG_CACHE_HOME", place.path("cache"));
+    let mut command = Started(command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("it starts"));
+    // Before it is a helper it is a copy of the command, which waits for it.
+    let is_helper = |id: &&String| {
+        let arguments = std::fs::read_to_string(format!("/proc/{id}/cmdline")).unwrap_or_default();
+        arguments.contains("--framewright-helper")
+    };
+    let mut helper = None;
+    within(60, || {
+        let found = children(&command.0).iter().find(is_helper).and_then(|id| id.parse().ok()).map(Pid::from_raw);
+        helper = found.filter(|helper| kill(*helper, Signal::SIGSTOP).is_ok());
+        helper.is_some() || command.0.try_wait().expect("it can be asked").is_some()
+    });
+    helper.map(|helper| (place, command, helper))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_command_that_waits_for_a_self_test_says_so() {
+    use std::io::{BufRead, BufReader};
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let told = (0..3).find_map(|_| {
+        let (place, mut command, helper) = held_up(&variables)?;
+        let mut said = BufReader::new(command.0.stderr.take().expect("piped")).lines();
+        Some((said.next()?.expect("a text"), said, command, helper, place))
+    });
+    let (first, said, mut command, helper, _place) = told.expect("a helper that was held up in time");
+    let (start, end) =
+        ("note: testing what `llvmpipe", "each of two tests is given up after 60 s, and what comes of it is kept");
+    assert!(first.starts_with(start) && first.ends_with(end), "{first}");
+    nix::sys::signal::kill(helper, nix::sys::signal::Signal::SIGKILL).expect("it can be ended");
+    assert_eq!(said.count(), 0, "it is said once");
+    assert_eq!(command.0.wait().expect("it ended").code(), Some(0));
 }

@@ -50,3 +50,42 @@ fn every_whole_file_of_the_reference_is_fine() {
     }
     assert!(checked >= 11, "{checked} whole files");
 }
+
+/// The options of all commands, as their helps list them.
+fn options() -> Vec<String> {
+    let place = Place::new();
+    let helps = ["check", "inspect", "run", "facts", "new", "schema", "devices"]
+        .map(|command| place.run(&[command, "--help"]).out);
+    let words = |help: &String| {
+        help.split_whitespace().filter_map(|word| word.strip_prefix("--")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let mut options: Vec<String> = helps.iter().flat_map(words).collect();
+    options.sort();
+    options.dedup();
+    options
+}
+
+/// The texts of all Rust files in a folder, without lines that are comments.
+fn code(folder: &std::path::Path) -> String {
+    let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("readable").path());
+    let text = |path: std::path::PathBuf| match path.extension() {
+        _ if path.is_dir() => code(&path),
+        Some(end) if end == "rs" => std::fs::read_to_string(path).expect("a text"),
+        _ => String::new(),
+    };
+    let texts: String = entries.map(text).collect();
+    texts.lines().filter(|line| !line.trim_start().starts_with("//")).map(|line| line.to_owned() + "\n").collect()
+}
+
+#[test]
+fn no_library_names_an_option_of_the_command() {
+    let options = options();
+    assert!(options.iter().any(|option| option == "shader-memory") && options.len() > 25, "{options:?}");
+    for library in ["graph/src", "passes/src", "backend-vulkan/src"] {
+        let code = code(&repository(library));
+        for option in &options {
+            let named = code.lines().find(|line| line.contains(&format!("--{option}")));
+            assert_eq!(named, None, "{library}");
+        }
+    }
+}

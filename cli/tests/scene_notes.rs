@@ -52,3 +52,25 @@ fn run_tells_what_a_scene_says_that_is_not_drawn_and_reports_it() {
     let report: Value = serde_json::from_str(&report).expect("JSON");
     assert_eq!(report["scene_notes"], Value::from(NOTES.to_vec()));
 }
+
+#[test]
+fn run_tells_like_inspect_that_a_scene_needs_finer_depth_than_was_asked_for() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    let outcome = |near: &str, command: &str, rest: &[&str]| {
+        let scene = "Scene(version: 1, camera: (position: (0, 2, 9), target: (0, 0, 0), fov: 40, near: NEAR),\n\
+            materials: [(name: \"plain\", color: (1, 1, 1))], objects: [Cube(name: \"a\", material: \"plain\", size: 2)])\n";
+        place.file("scene.ron", scene.replace("NEAR", near));
+        let smallest =
+            ["image_quality", "--scene", "scene.ron", "--size", "16x16", "--set", "depth_precision=Smallest"];
+        place.run_with(&variables, &[&[command], &smallest[..], rest].concat()).exits(0)
+    };
+    let plan: Value = serde_json::from_str(&outcome("0.0001", "inspect", &["--format", "json"]).out).expect("JSON");
+    let notes = plan["notes"].as_array().expect("a list");
+    let text = |note: &&Value| note["text"].as_str().is_some_and(|text| text.contains("D16_UNORM is too coarse"));
+    let note = notes.iter().find(text).expect("it is noted");
+    let said = format!("note: `depth`: {} (image_quality.ron:", note["text"].as_str().expect("a text"));
+    outcome("0.0001", "run", &[]).mentions(&said);
+    let fine = outcome("0.1", "run", &[]);
+    assert!(!fine.err.contains("too coarse"), "{}", fine.err);
+}

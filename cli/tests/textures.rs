@@ -165,7 +165,7 @@ fn textures_that_are_missing_damaged_or_outside_are_found_with_their_place_witho
     place.file("textures.ron", outside);
     let answer = place.run(&["check", "textures.ron"]).exits(1);
     let answer = answer.mentions("error: `../deep.png` leads out of").mentions("error: `/table.png` leads out of");
-    answer.mentions("help: give a folder that holds both by `--root`, or allow all by `--allow-outside`");
+    answer.mentions("help: give a folder that holds both; `--root` names it, or `--allow-outside` allows all");
 }
 
 #[test]

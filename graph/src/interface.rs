@@ -4,7 +4,7 @@ mod shape;
 
 pub use shape::{Component, Dimension, ImageShape};
 
-use crate::describe::Quote;
+use crate::describe::{OutsideChoice, Quote};
 use crate::file_path::FilePath;
 use crate::format::Format;
 use crate::frame::Draw;
@@ -207,8 +207,10 @@ pub enum ShaderProblem {
 pub struct ShaderMessage {
     /// The compiler's words, with the shader's own file and line.
     pub text: String,
-    /// The line that it is about, where that is known.
+    /// The line that it is about, where that is known, or its file.
     pub quote: Option<Quote>,
+    /// The limit that was exceeded, if the compiler has limits and that is the mistake.
+    pub limit: Option<OutsideChoice>,
 }
 
 impl fmt::Display for ShaderMessage {

@@ -28,7 +28,7 @@ pub fn device() -> Option<&'static Device> {
     static DEVICE: OnceLock<Option<Device>> = OnceLock::new();
     let open = || {
         let choice = std::env::var("FRAMEWRIGHT_TEST_DEVICE").map_or(DeviceChoice::Default, DeviceChoice::Name);
-        let opened = Device::open(&DeviceOptions { choice, validation: true });
+        let opened = Device::open(&DeviceOptions { choice, validation: true, ..DeviceOptions::default() });
         // The layer's silence proves nothing before it has reported a planted mistake.
         match opened.and_then(|device| device.canary().map(|_| device)) {
             Ok(device) => Some(device),

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-/// What the GLSL compiler may use in a helper process.
+/// What may be used in a helper process: by the GLSL compiler, and of time by a self-test of a driver.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Limits {
     /// Time for one stage of one shader. A usual one takes some milliseconds, and the first one of a process a third of a second.
@@ -11,12 +11,15 @@ pub struct Limits {
     pub memory: Option<u64>,
     /// Bytes of stack.
     pub stack: usize,
+    /// Time for one self-test of a driver, of which a device has two. One takes about a second where nothing is wrong.
+    pub self_test: Duration,
 }
 
 impl Default for Limits {
-    /// Ten seconds, 1 GiB of memory, 8 MiB of stack.
+    /// Ten seconds, 1 GiB of memory, 8 MiB of stack; a minute for a self-test.
     fn default() -> Limits {
-        Limits { time: Duration::from_secs(10), memory: Some(1 << 30), stack: 8 << 20 }
+        let [time, self_test] = [10, 60].map(Duration::from_secs);
+        Limits { time, memory: Some(1 << 30), stack: 8 << 20, self_test }
     }
 }
 

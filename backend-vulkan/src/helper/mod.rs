@@ -19,16 +19,31 @@ pub(crate) use protocol::SelfTest;
 
 use crate::cancel::Cancel;
 use crate::depth_resolve::DepthResolve;
+use crate::device::DeviceSummary;
 use crate::shaders::{Failure, IncludedFile, Job};
 use process::{Running, Streams};
 use protocol::{Answer, Request};
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
-/// A self-test that takes longer has failed. It takes about a second where nothing is wrong.
-const SELF_TEST_TIME: Duration = Duration::from_secs(60);
+/// A self-test that isn't over by then takes long.
+const LONG: Duration = Duration::from_secs(2);
+
+/// What is told of a device whose self-tests take long.
+type Tell = dyn Fn(&LongTest) + Send + Sync;
+
+/// A self-test that takes long.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct LongTest {
+    /// The device's own name.
+    pub device: String,
+    /// How long each of its two self-tests may take.
+    pub limit: Duration,
+}
 
 /// A program that is started as a helper process when it is needed. Clones share one process.
 #[derive(Debug, Clone)]
@@ -40,6 +55,18 @@ pub struct Helper {
     compiler: Arc<Mutex<Option<Running>>>,
     /// What gives up waits for it.
     cancel: Arc<Cancel>,
+    /// Whom it is told that a self-test takes long.
+    tell: Arc<Told>,
+}
+
+/// Whom something is told, if anyone.
+#[derive(Default)]
+struct Told(OnceLock<Box<Tell>>);
+
+impl fmt::Debug for Told {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Told").field(&self.0.get().is_some()).finish()
+    }
 }
 
 /// Why a helper process gave no answer.
@@ -73,7 +100,14 @@ impl Helper {
     #[must_use]
     pub fn program(program: impl Into<PathBuf>, limits: Limits) -> Helper {
         let cache = crate::layer::cache_folder().map(|cache| cache.join("self-tests"));
-        Helper { program: program.into(), limits, cache, compiler: Arc::default(), cancel: Arc::default() }
+        Helper {
+            program: program.into(),
+            limits,
+            cache,
+            compiler: Arc::default(),
+            cancel: Arc::default(),
+            tell: Arc::default(),
+        }
     }
 
     /// The running program itself, whose `main` calls [`serve`].
@@ -99,6 +133,13 @@ impl Helper {
         self.cancel.when(asked);
     }
 
+    /// Has `tell` called when a self-test of a device has gone on for two seconds: it may take as long as
+    /// [`Limits::self_test`] says, and the program waits for it. It is called at most once for each test, from another thread, for
+    /// all clones. Only the first call counts.
+    pub fn when_a_test_takes_long(&self, tell: impl Fn(&LongTest) + Send + Sync + 'static) {
+        let _ = self.tell.0.set(Box::new(tell));
+    }
+
     /// The program that is started.
     pub(crate) fn path(&self) -> &Path {
         &self.program
@@ -120,7 +161,7 @@ impl Helper {
             Some(running) => running,
             None => self.start(&self.limits)?,
         };
-        let (compiled, running) = running.within(self.limits.time, &self.cancel, |streams| {
+        let (compiled, running) = running.within(self.limits.time, &self.cancel, None, |streams| {
             streams.send(&Request::Compile(job.clone()))?;
             loop {
                 match streams.receive()? {
@@ -137,16 +178,16 @@ impl Helper {
             (Err(Failure::OutOfMemory), Some(memory)) => return Err(NoAnswer::Memory(memory)),
             // Whether a compiler that failed can go on isn't known.
             (Err(Failure::OutOfMemory | Failure::Internal(_)), _) => {}
-            (Ok(_) | Err(Failure::Messages(_)), _) => *compiler = running,
+            (Ok(_) | Err(Failure::Messages(_) | Failure::TooLarge(_)), _) => *compiler = running,
         }
         Ok(compiled)
     }
 
-    /// How the device of this identity resolves depth, for several views at once too if it `draws_views`; the inner error says
+    /// How the device resolves depth, for several views at once too if it `draws_views`; the inner error says
     /// why that can't be tried.
     pub(crate) fn depth_resolve(
         &self,
-        device: &str,
+        device: &DeviceSummary,
         draws_views: bool,
     ) -> Result<Result<DepthResolve, String>, NoAnswer> {
         self.test(SelfTest::DepthResolve { draws_views }, device, |answer| match answer {
@@ -155,8 +196,8 @@ impl Helper {
         })
     }
 
-    /// Whether the device of this identity draws several views at once; the inner error says why that can't be tried.
-    pub(crate) fn draws_views(&self, device: &str) -> Result<Result<bool, String>, NoAnswer> {
+    /// Whether the device draws several views at once; the inner error says why that can't be tried.
+    pub(crate) fn draws_views(&self, device: &DeviceSummary) -> Result<Result<bool, String>, NoAnswer> {
         self.test(SelfTest::Multiview, device, |answer| match answer {
             Answer::DrawsViews(found) => Some(found),
             _ => None,
@@ -172,12 +213,17 @@ impl Helper {
     fn test<T>(
         &self,
         test: SelfTest,
-        device: &str,
+        device: &DeviceSummary,
         found: impl FnOnce(Answer) -> Option<T>,
     ) -> Result<Result<T, String>, NoAnswer> {
-        let limits = Limits { memory: None, time: SELF_TEST_TIME, ..self.limits.clone() };
-        let found = self.start(&limits)?.within(limits.time, &self.cancel, |streams| {
-            streams.send(&Request::SelfTest { test, device: device.to_owned() })?;
+        let limits = Limits { memory: None, ..self.limits.clone() };
+        let tell = || {
+            if let Some(tell) = self.tell.0.get() {
+                tell(&LongTest { device: device.name.clone(), limit: limits.self_test });
+            }
+        };
+        let found = self.start(&limits)?.within(limits.self_test, &self.cancel, Some(&tell), |streams| {
+            streams.send(&Request::SelfTest { test, device: device.identity.clone() })?;
             match streams.receive()? {
                 Answer::NotTested(why) => Ok(Err(why)),
                 answer => found(answer).map(Ok).ok_or_else(Streams::garbage),

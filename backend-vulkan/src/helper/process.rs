@@ -1,8 +1,9 @@
 //! A helper process, seen from the program: how it is started, spoken with, and what its end says.
 
-use super::protocol::{self, ARGUMENT, Answer, MARK, Request};
-use super::{Limits, NoAnswer};
+use super::protocol::{self, ARGUMENT, Answer, LARGEST_FRAME, MARK, Request};
+use super::{LONG, Limits, NoAnswer};
 use crate::cancel::{Cancel, SLICE};
+use crate::shaders::LARGEST_SPIRV;
 use std::env;
 use std::io::{self, BufReader, Read};
 use std::panic::resume_unwind;
@@ -44,12 +45,12 @@ impl Streams {
 
     /// Waits for an answer.
     pub(super) fn receive(&mut self) -> io::Result<Answer> {
-        protocol::parse(&protocol::read_frame(&mut self.from)?)
+        protocol::parse(&protocol::read_frame(&mut self.from, LARGEST_FRAME)?)
     }
 
     /// Waits for SPIR-V.
     pub(super) fn receive_words(&mut self) -> io::Result<Vec<u32>> {
-        let bytes = protocol::read_frame(&mut self.from)?;
+        let bytes = protocol::read_frame(&mut self.from, LARGEST_SPIRV)?;
         let (words, rest) = bytes.as_chunks();
         if rest.is_empty() {
             Ok(words.iter().map(|word| u32::from_le_bytes(*word)).collect())
@@ -91,19 +92,20 @@ impl Running {
         Ok(Running { child: Mutex::new(child), streams, said, limits: limits.clone() })
     }
 
-    /// Talks with it for at most so long, or until it is cancelled. What comes back beside the answer goes on: after an error it
+    /// Talks with it for at most so long, or until it is cancelled; `long` is called once if it isn't over soon. What comes back beside the answer goes on: after an error it
     /// is gone, and after an answer that came just too late.
     pub(super) fn within<T>(
         mut self,
         time: Duration,
         cancel: &Cancel,
+        long: Option<&(dyn Fn() + Sync)>,
         talk: impl FnOnce(&mut Streams) -> io::Result<T>,
     ) -> Result<(T, Option<Running>), NoAnswer> {
         let (child, streams) = (&self.child, &mut self.streams);
         let (answer, killed) = thread::scope(|scope| {
             let (done, end) = mpsc::channel::<()>();
             let watch = scope.spawn(move || {
-                let why = given_up(&end, time, cancel);
+                let why = given_up(&end, time, cancel, long);
                 if why.is_some() {
                     kill(child);
                 }
@@ -183,12 +185,22 @@ fn last_words(mut stream: ChildStderr) -> io::Result<Receiver<Vec<u8>>> {
 }
 
 /// Waits for the end of a talk; or says why that is given up.
-fn given_up(end: &Receiver<()>, time: Duration, cancel: &Cancel) -> Option<NoAnswer> {
+fn given_up(
+    end: &Receiver<()>,
+    time: Duration,
+    cancel: &Cancel,
+    mut long: Option<&(dyn Fn() + Sync)>,
+) -> Option<NoAnswer> {
     let begun = Instant::now();
     loop {
         let left = time.saturating_sub(begun.elapsed());
         if end.recv_timeout(left.min(SLICE)) != Err(RecvTimeoutError::Timeout) {
             return None;
+        }
+        if begun.elapsed() >= LONG
+            && let Some(long) = long.take()
+        {
+            long();
         }
         if cancel.is_asked() {
             return Some(NoAnswer::Cancelled);
@@ -224,13 +236,15 @@ mod tests {
             thread::sleep(Duration::from_millis(200));
             Ok(3)
         };
-        let (answer, goes_on) = start().within(Duration::from_millis(1), &Cancel::default(), late).expect("an answer");
+        let (answer, goes_on) =
+            start().within(Duration::from_millis(1), &Cancel::default(), None, late).expect("an answer");
         assert!(answer == 3 && goes_on.is_none());
-        let (answer, goes_on) = start().within(Duration::from_secs(60), &Cancel::default(), late).expect("an answer");
+        let (answer, goes_on) =
+            start().within(Duration::from_secs(60), &Cancel::default(), None, late).expect("an answer");
         assert!(answer == 3 && goes_on.is_some());
         let cancel = Cancel::default();
         cancel.when(|| true);
-        let (answer, goes_on) = start().within(Duration::from_secs(60), &cancel, late).expect("an answer");
+        let (answer, goes_on) = start().within(Duration::from_secs(60), &cancel, None, late).expect("an answer");
         assert!(answer == 3 && goes_on.is_none());
     }
 }

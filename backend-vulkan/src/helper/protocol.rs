@@ -14,7 +14,7 @@ pub(super) const ARGUMENT: &str = "--framewright-helper";
 pub(super) const MARK: &str = "FRAMEWRIGHT_HELPER";
 
 /// Longer frames are no frames of ours.
-const LARGEST_FRAME: u32 = 1 << 28;
+pub(super) const LARGEST_FRAME: usize = 1 << 28;
 
 /// What the program says.
 #[derive(Debug, Serialize, Deserialize)]
@@ -55,18 +55,18 @@ pub(crate) enum SelfTest {
 
 /// Writes a frame.
 pub(super) fn write_frame(to: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
-    let length = u32::try_from(bytes.len()).ok().filter(|length| *length <= LARGEST_FRAME).ok_or_else(invalid)?;
+    let length = u32::try_from(bytes.len()).ok().filter(|_| bytes.len() <= LARGEST_FRAME).ok_or_else(invalid)?;
     to.write_all(&length.to_le_bytes())?;
     to.write_all(bytes)?;
     to.flush()
 }
 
-/// Reads a frame.
-pub(super) fn read_frame(from: &mut impl Read) -> io::Result<Vec<u8>> {
+/// Reads a frame of at most so many bytes.
+pub(super) fn read_frame(from: &mut impl Read, most: usize) -> io::Result<Vec<u8>> {
     let mut length = [0; 4];
     from.read_exact(&mut length)?;
     let length = u32::from_le_bytes(length);
-    if length > LARGEST_FRAME {
+    if length as usize > most {
         return Err(invalid());
     }
     let mut bytes = Vec::new();
@@ -87,4 +87,17 @@ pub(super) fn parse<T: DeserializeOwned>(frame: &[u8]) -> io::Result<T> {
 /// Something that isn't of this protocol.
 pub(super) fn invalid() -> io::Error {
     io::ErrorKind::InvalidData.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_that_says_it_is_longer_than_it_may_be_is_not_read() {
+        let mut frame = Vec::new();
+        write_frame(&mut frame, b"words").expect("written");
+        assert_eq!(read_frame(&mut &*frame, 5).expect("read"), b"words");
+        assert_eq!(read_frame(&mut &*frame, 4).expect_err("too long").kind(), io::ErrorKind::InvalidData);
+    }
 }

@@ -1,7 +1,7 @@
 //! The helper process itself: it compiles GLSL and tests drivers for the program that started it.
 
 use super::limits;
-use super::protocol::{self, ARGUMENT, Answer, Request, SelfTest};
+use super::protocol::{self, ARGUMENT, Answer, LARGEST_FRAME, Request, SelfTest};
 use crate::device::Device;
 use crate::shaders::{Failure, IncludedFile, Job, compile};
 use crate::{depth_resolve, end_process, multiview};
@@ -43,7 +43,7 @@ fn work(output: File, stack: usize) -> io::Result<()> {
     };
     thread::Builder::new().name("helper".to_owned()).stack_size(stack).spawn(work)?;
     let mut input = io::stdin().lock();
-    while let Ok(frame) = protocol::read_frame(&mut input) {
+    while let Ok(frame) = protocol::read_frame(&mut input, LARGEST_FRAME) {
         if hand_on.send(frame).is_err() {
             break;
         }

@@ -13,6 +13,9 @@ use std::collections::HashMap;
 /// The component that is followed.
 const ALPHA: u32 = 3;
 
+/// Calls are followed so deep; alpha that is handed on deeper counts as read.
+const DEEPEST: u32 = 64;
+
 /// What steers the code and does nothing else.
 const BRANCHES: [Op; 7] =
     [Op::Branch, Op::BranchConditional, Op::Switch, Op::SelectionMerge, Op::LoopMerge, Op::Return, Op::Unreachable];
@@ -62,6 +65,8 @@ struct Flow<'m> {
     known: HashMap<Given, Made>,
     colors: bool,
     used: Option<AlphaUse>,
+    /// Functions that are being followed.
+    depth: u32,
     /// Whether a global variable turned out to depend on alpha.
     found: bool,
 }
@@ -86,7 +91,8 @@ impl<'m> Flow<'m> {
         let variables = module.variables().map(|(_, it)| it);
         let types = code.chain(variables).filter_map(|it| Some((it.result_id?, it.result_type?))).collect();
         let globals = HashMap::from([(image, Of::Image)]);
-        Flow { module, functions, types, chains, globals, known: HashMap::new(), colors, used: None, found: true }
+        let known = HashMap::new();
+        Flow { module, functions, types, chains, globals, known, colors, used: None, depth: 0, found: true }
     }
 
     /// Follows a function; GLSL has no recursion.
@@ -96,6 +102,11 @@ impl<'m> Flow<'m> {
             return made.clone();
         }
         let Some(code) = self.functions.get(&function).copied() else { return Made::default() };
+        if self.depth == DEEPEST {
+            self.read();
+            return Made::default();
+        }
+        self.depth += 1;
         let parameters: Vec<u32> = code.parameters.iter().filter_map(|it| it.result_id).collect();
         let known = parameters.iter().zip(given).filter_map(|(parameter, given)| Some((*parameter, (*given)?)));
         let (is_main, locals) = (given.is_empty() && self.is_entry(function), known.collect());
@@ -104,6 +115,7 @@ impl<'m> Flow<'m> {
             code.blocks.iter().flat_map(|it| &it.instructions).for_each(|it| self.step(&mut frame, it));
         }
         let parameters = parameters.iter().map(|parameter| frame.locals.get(parameter).copied()).collect();
+        self.depth -= 1;
         let made = Made { returned: frame.returned, parameters };
         self.known.insert(key, made.clone());
         made

@@ -196,33 +196,13 @@ pub(super) fn component_of(ty: &str) -> Component {
 /// A uniform block's members, and its size rounded up to 16 bytes as std140 does.
 fn block(module: &Indexed<'_>, structure: &Instruction) -> Block {
     let Some(structure_id) = structure.result_id else { return Block::default() };
-    let mut block = Block::default();
+    let mut block = Block { bytes: module.block_bytes(structure_id), ..Block::default() };
     for (index, operand) in (0_u32..).zip(&structure.operands) {
         let Some(ty) = operand.id_ref_any() else { continue };
-        let member_number =
-            |decoration| module.member_decoration(structure_id, index, decoration).flatten().and_then(number);
-        let offset = member_number(Decoration::Offset).unwrap_or(0);
-        let bytes = bytes_of(module, ty, member_number(Decoration::MatrixStride).unwrap_or(16));
-        block.bytes = block.bytes.max(offset.saturating_add(bytes));
+        let offset = module.member_decoration(structure_id, index, Decoration::Offset).flatten().and_then(number);
+        let offset = offset.unwrap_or(0);
         let name = module.member_name(structure_id, index).to_owned();
         block.members.push(Member { name, offset, ty: module.type_name(ty) });
     }
-    block.bytes = block.bytes.checked_next_multiple_of(16).unwrap_or(u32::MAX);
     block
-}
-
-/// Bytes that a block member of type `ty` spans.
-fn bytes_of(module: &Indexed<'_>, ty: u32, matrix_stride: u32) -> u32 {
-    let Some(it) = module.global(ty) else { return 0 };
-    let element = id(it, 0).unwrap_or(0);
-    match it.class.opcode {
-        Op::TypeVector => bytes_of(module, element, matrix_stride).saturating_mul(module.components(ty)),
-        Op::TypeMatrix => matrix_stride.saturating_mul(it.operands.get(1).and_then(number).unwrap_or(0)),
-        Op::TypeArray => {
-            let stride = module.decoration_number(ty, Decoration::ArrayStride).unwrap_or(16);
-            stride.saturating_mul(module.array_length(it))
-        }
-        Op::TypeStruct => block(module, it).bytes,
-        _ => it.operands.first().and_then(number).unwrap_or(32) / 8,
-    }
 }

@@ -11,6 +11,8 @@ use std::cell::{Cell, RefCell};
 const MAX_INCLUDE_DEPTH: usize = 16;
 /// A shader may include this many files, repetitions counted.
 pub(super) const MAX_INCLUDES: usize = 256;
+/// Most bytes of SPIR-V of one stage: usual ones have some ten thousand. What it uses is read from it in the program's own process.
+pub(crate) const LARGEST_SPIRV: usize = 16 << 20;
 
 /// A shader stage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -54,6 +56,8 @@ pub(crate) enum Failure {
     OutOfMemory,
     /// The compiler failed itself, in its own words.
     Internal(String),
+    /// It becomes so many bytes of SPIR-V, more than [`LARGEST_SPIRV`].
+    TooLarge(usize),
 }
 
 /// Finds the file that the file of one name includes by another name.
@@ -101,9 +105,17 @@ pub(crate) fn compile(
         Stage::Compute => ShaderKind::Compute,
     };
     match compiler.compile_into_spirv(text, kind, shown, "main", Some(&options)) {
-        Ok(artifact) => Ok(artifact.as_binary().to_vec()),
+        Ok(artifact) => bounded(artifact.as_binary(), LARGEST_SPIRV).map(<[u32]>::to_vec),
         Err(shaderc::Error::CompilationError(_, text)) => Err(Failure::Messages(lines(&text))),
         Err(error) => Err(failed(&error)),
+    }
+}
+
+/// SPIR-V, unless it has more bytes than `most`.
+fn bounded(words: &[u32], most: usize) -> Result<&[u32], Failure> {
+    match size_of_val(words) {
+        bytes if bytes > most => Err(Failure::TooLarge(bytes)),
+        _ => Ok(words),
     }
 }
 
@@ -123,6 +135,12 @@ fn lines(text: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn spirv_is_taken_up_to_a_bound_and_no_further() {
+        assert!(matches!(bounded(&[1, 2], 8), Ok([1, 2])));
+        assert!(matches!(bounded(&[1, 2], 7), Err(Failure::TooLarge(8))));
+    }
 
     #[test]
     fn only_an_exception_of_the_compiler_is_lack_of_memory() {

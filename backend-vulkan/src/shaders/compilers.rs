@@ -1,9 +1,10 @@
 //! Where GLSL is compiled: in this process, or in a helper process.
 
-use super::compile::{Failure, IncludedFile, Job, compile};
+use super::compile::{Failure, IncludedFile, Job, LARGEST_SPIRV, compile};
 use super::files::{Found, ShaderFiles};
 use super::messages::located;
 use crate::helper::{Helper, NoAnswer};
+use framewright_graph::describe::{OutsideChoice, Quote};
 use framewright_graph::file_path::FilePath;
 use framewright_graph::interface::{ShaderMessage, ShaderProblem};
 use shaderc::Compiler;
@@ -45,34 +46,48 @@ impl Compilers {
                 };
                 compile(compiler, job, &mut includes)
             }
-            Compilers::Helper(helper) => {
-                helper.compile(job, &mut includes).map_err(|end| no_answer(&job.shown, &end))?
-            }
+            Compilers::Helper(helper) => helper.compile(job, &mut includes).map_err(|end| no_answer(source, &end))?,
         };
         let text = |name: &str| known.get(name).map(|(_, text)| text.as_str());
         compiled.map_err(|failure| match failure {
             Failure::Messages(messages) => ShaderProblem::DoesNotCompile { messages: located(messages, text) },
-            Failure::OutOfMemory => without_line(format!("{}: the GLSL compiler ran out of memory", job.shown)),
-            Failure::Internal(words) => without_line(format!("{}: the GLSL compiler failed: {words}", job.shown)),
+            Failure::OutOfMemory => of_file(source, "ran out of memory", None),
+            Failure::Internal(words) => of_file(source, &format!("failed: {words}"), None),
+            Failure::TooLarge(bytes) => ShaderProblem::Unsupported {
+                what: format!(
+                    "{}: it becomes {bytes} bytes of SPIR-V, and at most {LARGEST_SPIRV} are taken",
+                    source.shown
+                ),
+            },
         })
     }
 }
 
-/// That the helper process gave no answer about the file `shown`.
-fn no_answer(shown: &str, end: &NoAnswer) -> ShaderProblem {
-    let raise = match end {
-        NoAnswer::TooLong(_) => "; `--shader-seconds` raises it",
-        NoAnswer::Stack(_) => "; `--shader-stack` raises it",
-        NoAnswer::Memory(_) => "; `--shader-memory` raises it",
-        NoAnswer::Died(_) | NoAnswer::Cancelled => "",
+/// That the helper process gave no answer about a file.
+fn no_answer(source: &Found, end: &NoAnswer) -> ShaderProblem {
+    let limit = match end {
+        NoAnswer::TooLong(_) => Some(OutsideChoice::ShaderTime),
+        NoAnswer::Stack(_) => Some(OutsideChoice::ShaderStack),
+        NoAnswer::Memory(_) => Some(OutsideChoice::ShaderMemory),
+        NoAnswer::Died(_) | NoAnswer::Cancelled => None,
         NoAnswer::Unusable(_) => {
             return ShaderProblem::Unsupported { what: format!("the helper process that compiles shaders {end}") };
         }
     };
-    without_line(format!("{shown}: the GLSL compiler {end}{raise}"))
+    of_file(source, &end.to_string(), limit)
 }
 
-/// What keeps a shader from being compiled, on no line of it.
-fn without_line(text: String) -> ShaderProblem {
-    ShaderProblem::DoesNotCompile { messages: vec![ShaderMessage { text, quote: None }] }
+/// What the GLSL compiler met on the way through a file. It had no time to say on which line: the file's first one stands for the
+/// file.
+fn of_file(source: &Found, what: &str, limit: Option<OutsideChoice>) -> ShaderProblem {
+    let words = format!("the GLSL compiler {what}");
+    let quote = Quote {
+        file: source.shown.clone(),
+        line: 1,
+        text: source.text.lines().next().unwrap_or_default().to_owned(),
+        underlined: 0..0,
+        remark: format!("{words}; on which line isn't known"),
+    };
+    let text = format!("{}: {words}", source.shown);
+    ShaderProblem::DoesNotCompile { messages: vec![ShaderMessage { text, quote: Some(quote), limit }] }
 }

@@ -12,9 +12,9 @@ pub(super) fn located<'t>(messages: Vec<String>, text: impl Fn(&str) -> Option<&
     let more = messages.len().saturating_sub(MOST);
     let shown = messages.into_iter().take(MOST);
     let mut located: Vec<_> =
-        shown.map(|message| ShaderMessage { quote: quote(&message, &text), text: message }).collect();
+        shown.map(|message| ShaderMessage { quote: quote(&message, &text), text: message, limit: None }).collect();
     if more > 0 {
-        located.push(ShaderMessage { text: format!("and {more} more"), quote: None });
+        located.push(ShaderMessage { text: format!("and {more} more"), quote: None, limit: None });
     }
     located
 }

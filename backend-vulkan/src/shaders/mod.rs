@@ -15,5 +15,5 @@ mod reflect;
 mod rotation;
 mod text;
 
-pub(crate) use compile::{Failure, IncludedFile, Job, compile};
+pub(crate) use compile::{Failure, IncludedFile, Job, LARGEST_SPIRV, compile};
 pub use library::{CompiledCompute, CompiledShader, ShaderLibrary, Spirv};

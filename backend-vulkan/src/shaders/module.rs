@@ -4,14 +4,29 @@ use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Decoration, Op, StorageClass};
 use std::collections::HashMap;
 
-/// A module, indexed.
+/// A module, indexed. Types may be nested as deep and as wide as they like: nothing here calls itself for what a type is made of.
 pub(super) struct Indexed<'m> {
     /// The module itself.
     pub(super) module: &'m Module,
     globals: HashMap<u32, &'m Instruction>,
-    own_bytes: HashMap<u32, u64>,
+    /// Of each type and constant.
+    sizes: HashMap<u32, Sizes>,
     names: HashMap<u32, &'m str>,
     member_names: HashMap<(u32, u32), &'m str>,
+    /// The first operand of each decoration that has one.
+    decorations: HashMap<(u32, Decoration), Option<&'m Operand>>,
+    member_decorations: HashMap<(u32, u32, Decoration), Option<&'m Operand>>,
+}
+
+/// What a type takes.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sizes {
+    /// Bytes of a variable of it, with each scalar in four.
+    own_bytes: u64,
+    /// Locations of a value of it.
+    locations: u32,
+    /// Of a struct the bytes as a block, rounded up to 16 as std140 does.
+    block_bytes: u32,
 }
 
 impl<'m> Indexed<'m> {
@@ -31,20 +46,49 @@ impl<'m> Indexed<'m> {
                 _ => {}
             }
         }
-        let mut indexed = Indexed { module, globals, own_bytes: HashMap::new(), names, member_names };
+        let mut decorations = HashMap::new();
+        let mut member_decorations = HashMap::new();
+        for instruction in &module.annotations {
+            match &instruction.operands[..] {
+                [Operand::IdRef(on), Operand::Decoration(kind), rest @ ..]
+                    if instruction.class.opcode == Op::Decorate =>
+                {
+                    decorations.entry((*on, *kind)).or_insert(rest.first());
+                }
+                [Operand::IdRef(on), Operand::LiteralBit32(member), Operand::Decoration(kind), rest @ ..] => {
+                    member_decorations.entry((*on, *member, *kind)).or_insert(rest.first());
+                }
+                _ => {}
+            }
+        }
+        let sizes = HashMap::new();
+        let mut indexed = Indexed { module, globals, sizes, names, member_names, decorations, member_decorations };
         // SPIR-V declares a type after those that it is made of, so each is measured once.
         for it in &module.types_global_values {
             if let Some(ty) = it.result_id {
-                let bytes = indexed.measured(it);
-                indexed.own_bytes.insert(ty, bytes);
+                let sizes = Sizes {
+                    own_bytes: indexed.measured(it),
+                    locations: indexed.located(it),
+                    block_bytes: indexed.laid_out(it),
+                };
+                indexed.sizes.insert(ty, sizes);
             }
         }
         indexed
     }
 
+    fn sizes(&self, ty: u32) -> Sizes {
+        self.sizes.get(&ty).copied().unwrap_or_default()
+    }
+
     /// Bytes that a variable of a type takes, with each scalar in four; 0 for what isn't a type.
     pub(super) fn own_bytes(&self, ty: u32) -> u64 {
-        self.own_bytes.get(&ty).copied().unwrap_or(0)
+        self.sizes(ty).own_bytes
+    }
+
+    /// Bytes that a struct takes as a block, rounded up to 16 as std140 does.
+    pub(super) fn block_bytes(&self, structure: u32) -> u32 {
+        self.sizes(structure).block_bytes
     }
 
     fn measured(&self, it: &Instruction) -> u64 {
@@ -60,6 +104,49 @@ impl<'m> Indexed<'m> {
                 members.fold(0, |sum: u64, member| sum.saturating_add(self.own_bytes(member)))
             }
             _ => 0,
+        }
+    }
+
+    fn located(&self, it: &Instruction) -> u32 {
+        let element = || id(it, 0).map_or(1, |element| self.sizes(element).locations);
+        match it.class.opcode {
+            Op::TypeMatrix => it.operands.get(1).and_then(number).unwrap_or(1),
+            Op::TypeArray => self.array_length(it).saturating_mul(element()),
+            Op::TypeStruct => {
+                let members = it.operands.iter().filter_map(Operand::id_ref_any);
+                members.fold(0, |sum: u32, member| sum.saturating_add(self.sizes(member).locations))
+            }
+            _ => 1,
+        }
+    }
+
+    fn laid_out(&self, it: &Instruction) -> u32 {
+        let (Op::TypeStruct, Some(structure)) = (it.class.opcode, it.result_id) else { return 0 };
+        let members = (0_u32..).zip(it.operands.iter().map(Operand::id_ref_any));
+        let ends = members.filter_map(|(member, ty)| {
+            let said = |decoration| self.member_decoration(structure, member, decoration).flatten().and_then(number);
+            let bytes = self.member_bytes(ty?, said(Decoration::MatrixStride).unwrap_or(16));
+            Some(said(Decoration::Offset).unwrap_or(0).saturating_add(bytes))
+        });
+        ends.max().unwrap_or(0).checked_next_multiple_of(16).unwrap_or(u32::MAX)
+    }
+
+    /// Bytes that a block's member of type `ty` spans.
+    fn member_bytes(&self, ty: u32, matrix_stride: u32) -> u32 {
+        let Some(it) = self.global(ty) else { return 0 };
+        let scalar_bytes = |it: &Instruction| it.operands.first().and_then(number).unwrap_or(32) / 8;
+        match it.class.opcode {
+            Op::TypeVector => {
+                let element = id(it, 0).and_then(|element| self.global(element)).map_or(0, scalar_bytes);
+                element.saturating_mul(self.components(ty))
+            }
+            Op::TypeMatrix => matrix_stride.saturating_mul(it.operands.get(1).and_then(number).unwrap_or(0)),
+            Op::TypeArray => {
+                let stride = self.decoration_number(ty, Decoration::ArrayStride).unwrap_or(16);
+                stride.saturating_mul(self.array_length(it))
+            }
+            Op::TypeStruct => self.block_bytes(ty),
+            _ => scalar_bytes(it),
         }
     }
 
@@ -91,14 +178,7 @@ impl<'m> Indexed<'m> {
 
     /// The first operand of a decoration of `id`: `None` if not decorated so, `Some(None)` if it takes no operand.
     pub(super) fn decoration(&self, id: u32, wanted: Decoration) -> Option<Option<&'m Operand>> {
-        self.module.annotations.iter().find_map(|it| match &it.operands[..] {
-            [Operand::IdRef(on), Operand::Decoration(kind), rest @ ..]
-                if it.class.opcode == Op::Decorate && *on == id && *kind == wanted =>
-            {
-                Some(rest.first())
-            }
-            _ => None,
-        })
+        self.decorations.get(&(id, wanted)).copied()
     }
 
     /// A decoration's number: location, binding, set, stride.
@@ -108,14 +188,7 @@ impl<'m> Indexed<'m> {
 
     /// The first operand of a decoration of a struct's member.
     pub(super) fn member_decoration(&self, of: u32, member: u32, wanted: Decoration) -> Option<Option<&'m Operand>> {
-        self.module.annotations.iter().find_map(|it| match &it.operands[..] {
-            [Operand::IdRef(on), Operand::LiteralBit32(index), Operand::Decoration(kind), rest @ ..]
-                if *on == of && *index == member && *kind == wanted =>
-            {
-                Some(rest.first())
-            }
-            _ => None,
-        })
+        self.member_decorations.get(&(of, member, wanted)).copied()
     }
 
     /// Every instruction of every function. The compiler leaves out functions that nobody calls.
@@ -130,17 +203,31 @@ impl<'m> Indexed<'m> {
 
     /// A type as GLSL writes it: `float`, `uvec2`, `mat4`, `mat3x4`, `vec4[8]`, or a struct's name.
     pub(super) fn type_name(&self, ty: u32) -> String {
+        let mut lengths = Vec::new();
+        let mut ty = ty;
+        // No array has more dimensions than there are types.
+        while let Some(it) = self.global(ty).filter(|_| lengths.len() < self.globals.len()) {
+            match it.class.opcode {
+                Op::TypeArray => lengths.push(format!("[{}]", self.array_length(it))),
+                Op::TypeRuntimeArray => lengths.push("[]".to_owned()),
+                _ => break,
+            }
+            ty = id(it, 0).unwrap_or(0);
+        }
+        lengths.push(self.element_name(ty));
+        lengths.reverse();
+        lengths.concat()
+    }
+
+    /// The name of a type that is no array.
+    fn element_name(&self, ty: u32) -> String {
         let Some(it) = self.global(ty) else { return "?".to_owned() };
         let element = || id(it, 0).unwrap_or(0);
         match it.class.opcode {
-            Op::TypeBool => "bool".to_owned(),
-            Op::TypeInt if it.operands.get(1).and_then(number) == Some(1) => "int".to_owned(),
-            Op::TypeInt => "uint".to_owned(),
-            Op::TypeFloat if it.operands.first().and_then(number) == Some(64) => "double".to_owned(),
-            Op::TypeFloat => "float".to_owned(),
             Op::TypeVector => {
-                let component = self.type_name(element());
-                let prefix = if component == "float" { String::new() } else { component[..1].to_owned() };
+                let component = self.scalar_name(element());
+                let prefix = component.chars().next().filter(|_| component != "float");
+                let prefix = prefix.map_or_else(String::new, String::from);
                 format!("{prefix}vec{}", it.operands.get(1).and_then(number).unwrap_or(0))
             }
             Op::TypeMatrix => {
@@ -148,9 +235,20 @@ impl<'m> Indexed<'m> {
                 let rows = self.components(element());
                 if rows == columns { format!("mat{columns}") } else { format!("mat{columns}x{rows}") }
             }
-            Op::TypeArray => format!("{}[{}]", self.type_name(element()), self.array_length(it)),
-            Op::TypeRuntimeArray => format!("{}[]", self.type_name(element())),
-            _ => self.name(ty).to_owned(),
+            _ => self.scalar_name(ty).to_owned(),
+        }
+    }
+
+    /// The name of a scalar type or a struct.
+    fn scalar_name(&self, ty: u32) -> &'m str {
+        let Some(it) = self.global(ty) else { return "?" };
+        match it.class.opcode {
+            Op::TypeBool => "bool",
+            Op::TypeInt if it.operands.get(1).and_then(number) == Some(1) => "int",
+            Op::TypeInt => "uint",
+            Op::TypeFloat if it.operands.first().and_then(number) == Some(64) => "double",
+            Op::TypeFloat => "float",
+            _ => self.name(ty),
         }
     }
 
@@ -164,7 +262,7 @@ impl<'m> Indexed<'m> {
 
     /// The last location that a variable of type `ty` takes, as its own decoration or those of its members say; `None` without one.
     pub(super) fn last_location(&self, variable: u32, ty: u32) -> Option<u32> {
-        let last = |first: u32, ty: u32| first.saturating_add(self.locations(ty).saturating_sub(1));
+        let last = |first: u32, ty: u32| first.saturating_add(self.sizes(ty).locations.saturating_sub(1));
         if let Some(first) = self.decoration_number(variable, Decoration::Location) {
             return Some(last(first, ty));
         }
@@ -174,21 +272,6 @@ impl<'m> Indexed<'m> {
             Some(last(first, member.id_ref_any()?))
         });
         placed.max()
-    }
-
-    /// How many locations a value of type `ty` takes.
-    fn locations(&self, ty: u32) -> u32 {
-        let Some(it) = self.global(ty) else { return 1 };
-        let element = || id(it, 0).map_or(1, |element| self.locations(element));
-        match it.class.opcode {
-            Op::TypeMatrix => it.operands.get(1).and_then(number).unwrap_or(1),
-            Op::TypeArray => self.array_length(it).saturating_mul(element()),
-            Op::TypeStruct => {
-                let members = it.operands.iter().filter_map(Operand::id_ref_any);
-                members.fold(0, |sum: u32, member| sum.saturating_add(self.locations(member)))
-            }
-            _ => 1,
-        }
     }
 
     /// Elements of an array type.
@@ -218,5 +301,66 @@ pub(super) fn storage_class(variable: &Instruction) -> Option<StorageClass> {
     match variable.operands.first() {
         Some(Operand::StorageClass(class)) => Some(*class),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Deep enough to overflow any stack that is a function call for each level.
+    const DEEP: usize = 100_000;
+
+    /// Types, of which each is made of those before it.
+    struct Types(Module);
+
+    impl Types {
+        fn add(&mut self, opcode: Op, operands: Vec<Operand>) -> u32 {
+            let ty = self.0.types_global_values.len() as u32 + 1;
+            self.0.types_global_values.push(Instruction::new(opcode, None, Some(ty), operands));
+            ty
+        }
+
+        fn made_of(&mut self, opcode: Op, parts: &[u32]) -> u32 {
+            self.add(opcode, parts.iter().map(|part| Operand::IdRef(*part)).collect())
+        }
+
+        fn float(&mut self) -> u32 {
+            self.add(Op::TypeFloat, vec![Operand::LiteralBit32(32)])
+        }
+    }
+
+    #[test]
+    fn arrays_have_names_and_sizes_however_many_dimensions_they_have() {
+        let mut types = Types(Module::new());
+        let float = types.float();
+        let uint = types.add(Op::TypeInt, vec![Operand::LiteralBit32(32), Operand::LiteralBit32(0)]);
+        let [one, two] = [1, 2].map(|length| types.add(Op::Constant, vec![Operand::LiteralBit32(length)]));
+        let vector = types.add(Op::TypeVector, vec![Operand::IdRef(uint), Operand::LiteralBit32(2)]);
+        let table = types.made_of(Op::TypeArray, &[vector, two]);
+        let rows = types.made_of(Op::TypeRuntimeArray, &[table]);
+        let deep = (0..DEEP).fold(float, |ty, _| types.made_of(Op::TypeArray, &[ty, one]));
+        let module = Indexed::new(&types.0);
+        assert_eq!(module.type_name(rows), "uvec2[2][]");
+        assert_eq!(module.type_name(deep), format!("float{}", "[1]".repeat(DEEP)));
+        assert_eq!((module.own_bytes(deep), module.sizes(deep).locations), (4, 1));
+    }
+
+    #[test]
+    fn structs_have_sizes_however_deep_they_are_nested_and_however_often() {
+        let mut types = Types(Module::new());
+        let float = types.float();
+        let deep = (0..DEEP).fold(float, |ty, _| types.made_of(Op::TypeStruct, &[ty]));
+        let wide = (0..64).fold(float, |ty, _| types.made_of(Op::TypeStruct, &[ty, ty]));
+        let module = Indexed::new(&types.0);
+        assert_eq!((module.own_bytes(deep), module.sizes(deep).locations, module.block_bytes(deep)), (4, 1, 16));
+        assert_eq!((module.own_bytes(wide), module.sizes(wide).locations), (u64::MAX, u32::MAX));
+    }
+
+    #[test]
+    fn an_array_that_is_made_of_itself_has_a_name_that_ends() {
+        let mut types = Types(Module::new());
+        types.made_of(Op::TypeRuntimeArray, &[1]);
+        assert_eq!(Indexed::new(&types.0).type_name(1), "[]");
     }
 }

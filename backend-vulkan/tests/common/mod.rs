@@ -19,7 +19,7 @@ pub(crate) fn open() -> Option<Device> {
     find_layer();
     let name = std::env::var("FRAMEWRIGHT_TEST_DEVICE").ok();
     let choice = name.map_or(DeviceChoice::Default, DeviceChoice::Name);
-    match Device::open(&DeviceOptions { choice, validation: true }) {
+    match Device::open(&DeviceOptions { choice, validation: true, ..DeviceOptions::default() }) {
         Ok(device) => Some(device),
         Err(error) if error.blame() == Blame::Environment => {
             skip(&error);

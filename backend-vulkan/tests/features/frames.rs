@@ -79,7 +79,11 @@ pub(crate) fn on_each_driver(test: impl Fn(&Device)) {
 pub(crate) fn on_each_driver_with(test: impl Fn(Device)) {
     find_drivers();
     for name in drivers() {
-        let device = match Device::open(&DeviceOptions { choice: DeviceChoice::Name(name), validation: true }) {
+        let device = match Device::open(&DeviceOptions {
+            choice: DeviceChoice::Name(name),
+            validation: true,
+            ..DeviceOptions::default()
+        }) {
             Ok(device) => device,
             Err(error) if error.blame() == Blame::Environment => {
                 skip(&error);

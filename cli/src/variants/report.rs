@@ -6,6 +6,7 @@ use super::judge::Subject;
 use super::run::Found;
 use super::space::{Choice, Space};
 use crate::args::Check;
+use crate::options;
 use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::plan::Totals;
 use framewright_graph::source::Sources;
@@ -196,6 +197,7 @@ fn axis_told(varied: &Varied, values: &[String]) -> AxisTold {
 
 fn failure_told(subject: &Subject<'_>, cause: Cause) -> FailureTold {
     let Cause { diagnostic, variants, devices, choice, least } = cause;
+    let diagnostic = options::named_one(diagnostic);
     let all = subject.axes.list.last().map_or(&[][..], |axis| &axis.values[..]);
     FailureTold {
         diagnostic: as_json(subject.sources, &diagnostic),

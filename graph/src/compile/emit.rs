@@ -313,7 +313,7 @@ fn notes(parts: &Parts<'_>) -> Vec<Note> {
         at: frame.sources.place(pass.span),
     });
     let remarks = frame.remarks.iter().map(|remark| Note {
-        stage: Stage::Expand,
+        stage: if remark.instead { Stage::Fit } else { Stage::Expand },
         subject: remark.subject.clone(),
         text: remark.text.clone(),
         at: frame.sources.place(remark.span),

@@ -60,6 +60,26 @@ pub(super) fn buffer_access(used: &BufferUse) -> (bool, bool) {
     }
 }
 
+/// What a pass reads of images as they were before it, otherwise than as attachments and storage images: each image, which part
+/// of it, and where that stands.
+pub(super) fn images_read<'f>(
+    frame: &'f Frame,
+    pass: &'f Pass,
+) -> impl Iterator<Item = (ImageIndex, Subresources, Span)> + 'f {
+    let sampled = pass.sampled.iter().filter(|it| it.frames_ago == 0);
+    let sampled = sampled.map(|it| (it.image, parts::seen(&frame.images[it.image.0 as usize], it.range), it.span));
+    let transferred = pass.transfers.iter().filter(|it| it.frames_ago == 0 && !it.write);
+    let transferred = transferred.filter_map(|it| match it.resource {
+        Resource::Image(image) => Some((image, it.range, it.span)),
+        Resource::Buffer(_) => None,
+    });
+    let forwarded = match pass.work {
+        Work::Forward { from, .. } => Some((from, Subresources::WHOLE, pass.span)),
+        _ => None,
+    };
+    sampled.chain(transferred).chain(forwarded)
+}
+
 pub(super) fn link(frame: &Frame, grids: &Grids) -> Result<Linked, Vec<Diagnostic>> {
     let mut first_part = Vec::with_capacity(frame.images.len() + frame.buffers.len());
     let mut written = Vec::with_capacity(frame.images.len() + frame.buffers.len());
@@ -132,11 +152,8 @@ struct Linker<'f> {
 
 impl Linker<'_> {
     fn pass(&mut self, pass: &Pass) {
-        for sampled in &pass.sampled {
-            if sampled.frames_ago == 0 {
-                let range = parts::seen(&self.frame.images[sampled.image.0 as usize], sampled.range);
-                self.image(pass, sampled.image, range, sampled.span, true, false);
-            }
+        for (image, range, span) in images_read(self.frame, pass) {
+            self.image(pass, image, range, span, true, false);
         }
         for storage in &pass.storage {
             self.image(pass, storage.image, storage.range, storage.span, storage.read, storage.write);
@@ -161,17 +178,14 @@ impl Linker<'_> {
             }
         }
         for used in &pass.transfers {
-            if used.frames_ago == 0 {
-                match used.resource {
-                    Resource::Image(image) => {
-                        self.image(pass, image, used.range, used.span, !used.write, used.write);
-                    }
-                    buffer => self.access(pass, buffer, 0, used.span, !used.write, used.write),
-                }
+            match used.resource {
+                _ if used.frames_ago > 0 => {}
+                Resource::Image(image) if used.write => self.image(pass, image, used.range, used.span, false, true),
+                Resource::Image(_) => {}
+                buffer => self.access(pass, buffer, 0, used.span, !used.write, used.write),
             }
         }
-        if let Work::Forward { from, to, .. } = pass.work {
-            self.image(pass, from, Subresources::WHOLE, pass.span, true, false);
+        if let Work::Forward { to, .. } = pass.work {
             self.image(pass, to, Subresources::WHOLE, pass.span, false, true);
         }
     }

@@ -25,6 +25,26 @@ pub struct Diagnostic {
     pub quotes: Vec<Quote>,
     /// What to do.
     pub help: Option<String>,
+    /// What can be chosen otherwise outside of all files.
+    pub choice: Option<OutsideChoice>,
+}
+
+/// Something that no file says and that may mend a mistake: whoever runs the program chooses it. Messages name it by no option of
+/// a program; a program that has one adds it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OutsideChoice {
+    /// The folder from which files may be read.
+    Root,
+    /// Extensions that are applied to a pipeline which doesn't name them.
+    Extensions,
+    /// The size of the output.
+    OutputSize,
+    /// How long compiling a stage of a shader may take.
+    ShaderTime,
+    /// How much memory that may take.
+    ShaderMemory,
+    /// How much stack that may take.
+    ShaderStack,
 }
 
 /// A place with a remark.
@@ -77,6 +97,13 @@ impl Diagnostic {
     #[must_use]
     pub fn label(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
         self.labels.push(Label { span, text: short(text.into()) });
+        self
+    }
+
+    /// With what can be chosen otherwise outside of all files.
+    #[must_use]
+    pub fn choice(mut self, choice: OutsideChoice) -> Diagnostic {
+        self.choice = Some(choice);
         self
     }
 

@@ -1,5 +1,6 @@
 //! `include`: files with fragments, each read once however often it is named.
 
+use super::OutsideChoice;
 use super::fragments::LibraryFields;
 use super::loader::{self, Loader};
 use super::reader::Reader;
@@ -34,13 +35,15 @@ pub struct Unread {
     pub why: String,
     /// What to do.
     pub help: Option<String>,
+    /// What can be chosen otherwise outside of all files.
+    pub choice: Option<OutsideChoice>,
     /// Whether it is there, and the user has no right to read it: then nothing is wrong with the files.
     pub denied: bool,
 }
 
 impl From<String> for Unread {
     fn from(why: String) -> Unread {
-        Unread { why, help: None, denied: false }
+        Unread { why, help: None, choice: None, denied: false }
     }
 }
 

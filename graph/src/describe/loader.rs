@@ -50,7 +50,8 @@ impl<'a> Loader<'a> {
             return None;
         }
         let found = self.files.read(from, path);
-        found.map_err(|Unread { why, help, .. }| reader.report(Diagnostic { help, ..Diagnostic::new(span, why) })).ok()
+        let wrong = |Unread { why, help, choice, .. }| Diagnostic { help, choice, ..Diagnostic::new(span, why) };
+        found.map_err(|unread| reader.report(wrong(unread))).ok()
     }
 
     /// The text of a file that was named at `span`; `words` say what for: "included here".

@@ -71,7 +71,7 @@ mod work;
 
 pub(crate) use buffers::LARGEST_BUFFER;
 pub use choices::{Choice, ChosenBy, InForce, Preset, SETTINGS_VERSION, SettingsFile};
-pub use diagnostic::{Diagnostic, Label, Quote};
+pub use diagnostic::{Diagnostic, Label, OutsideChoice, Quote};
 pub(crate) use diagnostic::{MOST_KEPT, keep};
 pub use document::Document;
 pub(crate) use foreign_formats::vulkans_name;

@@ -1,6 +1,6 @@
 //! The files that a pipeline on disk names: those beside it, then those that are shipped with the program.
 
-use super::{Files, Found, LARGEST_FILE, Unread, suggest};
+use super::{Files, Found, LARGEST_FILE, OutsideChoice, Unread, suggest};
 use crate::file_path::{FilePath, for_shell};
 use crate::root::{NoFile, Root};
 use std::collections::HashMap;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 pub type Shipped = &'static [(&'static str, &'static str)];
 
 /// What to do about a file that lies outside the root.
-pub(super) const WITHIN_ROOT: &str = "give a folder that holds both by `--root`, or allow all by `--allow-outside`";
+pub(super) const WITHIN_ROOT: &str = "give a folder that holds both";
 
 /// Files beside a pipeline, then shipped ones.
 ///
@@ -101,6 +101,7 @@ impl Files for PipelineFiles {
                 return self.carried(beside.path()).ok_or_else(|| Unread {
                     why: format!("there is no file `{path}` among those that are shipped"),
                     help: self.near(path),
+                    choice: None,
                     denied: false,
                 });
             }
@@ -113,17 +114,20 @@ impl Files for PipelineFiles {
                 self.carried(shipped.path()).ok_or_else(|| Unread {
                     why: format!("there is no file `{path}` beside `{from}`, and none of that path is shipped"),
                     help: self.near(path),
+                    choice: None,
                     denied: false,
                 })
             }
             Err(outside @ NoFile::Outside { .. }) => Err(Unread {
                 why: format!("`{path}` {outside}, from which nothing may be read"),
                 help: Some(WITHIN_ROOT.to_owned()),
+                choice: Some(OutsideChoice::Root),
                 denied: false,
             }),
             Err(denied @ NoFile::Denied { .. }) => Err(Unread {
                 why: format!("`{path}` {denied}"),
                 help: Some(format!("chmod u+r {}", for_shell(&root.folder().join(&named)))),
+                choice: None,
                 denied: true,
             }),
             Err(other) => Err(unread(other)),

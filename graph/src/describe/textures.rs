@@ -1,6 +1,5 @@
 //! `textures`: images whose texels come from picture files.
 
-use super::Diagnostic;
 use super::forms::{Described, Form, Plain, names};
 use super::leaf::Leaf;
 use super::pipeline::{Name, Spanned};
@@ -8,6 +7,7 @@ use super::pipeline_files::WITHIN_ROOT;
 use super::reader::Reader;
 use super::resources::{Format, Image, Layers, Lifetime, Mips, Samples, Shape, Size};
 use super::scope::Scope;
+use super::{Diagnostic, OutsideChoice};
 use super::{leaf, parameters, values};
 use crate::fields;
 use crate::file_path::FilePath;
@@ -78,15 +78,16 @@ pub(super) fn look(
             Ok(FilePath::Own(path)) => {
                 let file = TextureFile { path, color_space };
                 info(&file).map(|info| Picture { file: Arc::new(file), info }).map_err(|problem| {
-                    let help = (problem == TextureProblem::Outside).then(|| WITHIN_ROOT.to_owned());
-                    (problem.to_string(), help)
+                    let outside = problem == TextureProblem::Outside;
+                    let help = outside.then(|| WITHIN_ROOT.to_owned());
+                    (problem.to_string(), help, outside.then_some(OutsideChoice::Root))
                 })
             }
-            Ok(FilePath::Shipped(_)) => Err(("can't be read: no textures are shipped".to_owned(), None)),
-            Err(problem) => Err((problem.to_string(), None)),
+            Ok(FilePath::Shipped(_)) => Err(("can't be read: no textures are shipped".to_owned(), None, None)),
+            Err(problem) => Err((problem.to_string(), None, None)),
         };
-        let picture = picture.map_err(|(why, help)| {
-            reader.report(Diagnostic { help, ..Diagnostic::new(span, format!("`{path}` {why}")) });
+        let picture = picture.map_err(|(why, help, choice)| {
+            reader.report(Diagnostic { help, choice, ..Diagnostic::new(span, format!("`{path}` {why}")) });
         });
         let picture = picture.ok();
         pictures.insert(span, picture);

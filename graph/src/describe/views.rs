@@ -11,7 +11,7 @@ use super::pipeline::{Name, Setting};
 use super::reader::Reader;
 use super::scope::{Given, Scope};
 use super::surroundings::Surroundings;
-use super::{Diagnostic, LARGEST_SIZE, Label, body, properties, shown_number, sizes, values};
+use super::{Diagnostic, LARGEST_SIZE, Label, OutsideChoice, body, properties, shown_number, sizes, values};
 use crate::change::{Action, Change};
 use crate::fields;
 use crate::jitter::{self, Jitter};
@@ -227,7 +227,10 @@ fn view<'a>(
     }
     let extent = match fields.size {
         Some(leaf) if main => {
-            reader.wrong(leaf, FIRST_IS_THE_FRAMES, "leave `size` out; `--size` chooses it");
+            if !leaf.is_broken() {
+                let wrong = Diagnostic::new(leaf.span(), FIRST_IS_THE_FRAMES).help("leave `size` out");
+                reader.report(wrong.choice(OutsideChoice::OutputSize));
+            }
             None
         }
         Some(leaf) => size(reader, scope, leaf),

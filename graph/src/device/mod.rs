@@ -60,7 +60,12 @@ pub struct Profile {
     #[serde(default)]
     pub vertex_layer: bool,
     /// Most clip distances of a shader; 0 if it has none (`shaderClipDistance`), `None` where that isn't known.
-    #[serde(default, with = "sound::known", skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "sound::known",
+        deserialize_with = "sound::clip_distances"
+    )]
     pub max_clip_distances: Option<u32>,
     /// How depth can be resolved by the rendering scope that draws it, as far as the device does what it says.
     #[serde(default = "least_depth_resolve")]
@@ -181,7 +186,12 @@ pub struct MemoryModel {
     #[serde(default = "first_type", deserialize_with = "sound::type_bits")]
     pub type_bits: u32,
     /// Bytes of the largest heap that images can lie in; `None`: not known.
-    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "sound::heap_bytes")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "sound::known",
+        deserialize_with = "sound::heap_bytes"
+    )]
     pub heap_bytes: Option<u64>,
 }
 

@@ -59,6 +59,7 @@ impl Profile {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::device::MemoryModel;
     use crate::format::Format;
 
     /// A small profile, to be damaged.
@@ -92,6 +93,19 @@ mod tests {
             let again = Profile::from_ron(&profile.to_ron().expect("written"));
             assert_eq!(again, Ok(profile), "{name}");
         }
+    }
+
+    #[test]
+    fn numbers_that_may_be_unknown_stand_for_themselves_or_are_left_out() {
+        let small = Profile::from_ron(SMALL).expect("read");
+        assert_eq!((small.max_clip_distances, small.memory.heap_bytes), (None, None));
+        let unknown = small.to_ron().expect("written");
+        assert!(!unknown.contains("max_clip_distances") && !unknown.contains("heap_bytes"), "{unknown}");
+        let memory = MemoryModel { heap_bytes: Some(1 << 30), ..small.memory.clone() };
+        let known = Profile { max_clip_distances: Some(0), memory, ..small };
+        let text = known.to_ron().expect("written");
+        assert!(text.contains("max_clip_distances: 0,") && text.contains("heap_bytes: 1073741824"), "{text}");
+        assert_eq!(Profile::from_ron(&text), Ok(known));
     }
 
     #[test]

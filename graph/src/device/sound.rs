@@ -3,7 +3,7 @@
 use super::{FormatSupport, KnownNeeds};
 use crate::vocabulary::{Aspects, Usage};
 use serde::de::Error;
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Largest extent or number of layers that is taken, four times what any device has today.
 const LARGEST_EXTENT: u32 = 1 << 16;
@@ -59,11 +59,25 @@ fn power_of_two<E: Error>(value: u64, most: u64) -> Result<u64, E> {
     }
 }
 
-/// Bytes of a heap.
+/// Bytes of a heap, where they are known.
 pub(super) fn heap_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u64>, D::Error> {
-    match Option::<u64>::deserialize(deserializer)? {
-        Some(0) => Err(D::Error::custom("a heap without memory: leave it out if it isn't known")),
-        bytes => Ok(bytes),
+    match u64::deserialize(deserializer)? {
+        0 => Err(D::Error::custom("a heap without memory: leave it out if it isn't known")),
+        bytes => Ok(Some(bytes)),
+    }
+}
+
+/// A number of clip distances, where it is known.
+pub(super) fn clip_distances<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u32>, D::Error> {
+    u32::deserialize(deserializer).map(Some)
+}
+
+/// Writes a number that stands for itself where it is known. Where it isn't the field is left out, and this isn't called.
+#[allow(clippy::ref_option, reason = "serde hands a field over so")]
+pub(super) fn known<S: Serializer, T: Serialize>(number: &Option<T>, to: S) -> Result<S::Ok, S::Error> {
+    match number {
+        Some(number) => number.serialize(to),
+        None => to.serialize_none(),
     }
 }
 
@@ -188,18 +202,4 @@ impl Check for KnownNeeds {
 /// Vulkan's names of usages.
 fn names(usage: Usage) -> String {
     usage.iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(" or ")
-}
-
-/// A number that stands for itself where it is known, and is left out where it isn't.
-pub(super) mod known {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    #[allow(clippy::ref_option, clippy::trivially_copy_pass_by_ref, reason = "serde hands a field over so")]
-    pub(in super::super) fn serialize<S: Serializer>(number: &Option<u32>, to: S) -> Result<S::Ok, S::Error> {
-        number.unwrap_or(0).serialize(to)
-    }
-
-    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u32>, D::Error> {
-        u32::deserialize(from).map(Some)
-    }
 }

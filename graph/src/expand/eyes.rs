@@ -65,6 +65,7 @@ pub(super) fn split(
             subject: pass.name.text.clone(),
             span: mistake.labels.first().map_or(pass.name.span, |label| label.span),
             text: format!("can't be drawn for two eyes: {}", mistake.message),
+            instead: false,
         }));
         found
     };
@@ -102,7 +103,7 @@ fn images_apart(apart: &Apart, pipeline: &Pipeline) -> Vec<Remark> {
     let remark = |(at, image): (usize, &describe::Image)| {
         let why = apart.why(at)?;
         let text = format!("is drawn for one eye after the other: {why}");
-        Some(Remark { subject: image.name.text.clone(), span: image.name.span, text })
+        Some(Remark { subject: image.name.text.clone(), span: image.name.span, text, instead: false })
     };
     images.filter_map(remark).collect()
 }
@@ -125,7 +126,7 @@ fn remarks(own: &[bool], pipeline: &Pipeline, whose: &[For]) -> Vec<Remark> {
         let text = format!(
             "draws `{name}` once for both eyes, and what each eye sees is made of it: say `per_eye: true` of it"
         );
-        Some(Remark { subject: pass.name.text.clone(), span: shared.span, text })
+        Some(Remark { subject: pass.name.text.clone(), span: shared.span, text, instead: false })
     };
     passes().filter(|(pass, whose)| **whose == For::Both && sees(pass)).filter_map(|(pass, _)| remark(pass)).collect()
 }

@@ -113,7 +113,7 @@ pub(super) fn choose(
         let hindrance = group.iter().find_map(|at| uses.hindrance(ImageIndex(*at), no_alpha));
         if let Some(Hindrance { why, span }) = hindrance {
             let text = format!("{} is taken in spite of {}: {why}", choice.usual, choice.because);
-            remarks.push(Remark { subject: described.name.text.clone(), span, text });
+            remarks.push(Remark { subject: described.name.text.clone(), span, text, instead: true });
             continue;
         }
         if let Some(coarse) = too_coarse {
@@ -123,7 +123,8 @@ pub(super) fn choose(
                 choice.because,
                 reach(coarse).floor()
             );
-            remarks.push(Remark { subject: described.name.text.clone(), span: described.format.span, text });
+            let span = described.format.span;
+            remarks.push(Remark { subject: described.name.text.clone(), span, text, instead: true });
         }
         if format == choice.usual {
             continue;

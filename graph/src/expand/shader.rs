@@ -122,7 +122,8 @@ fn report(shader: &Name, problem: &ShaderProblem) -> Diagnostic {
             let rest = messages.iter().filter(|message| message.quote.is_none()).map(ToString::to_string);
             let rest = rest.collect::<Vec<_>>().join("\n");
             let broken = Diagnostic::new(span, format!("shader `{name}` doesn't compile"));
-            Diagnostic { quotes, help: (!rest.is_empty()).then_some(rest), ..broken }
+            let choice = messages.iter().find_map(|message| message.limit);
+            Diagnostic { quotes, help: (!rest.is_empty()).then_some(rest), choice, ..broken }
         }
         ShaderProblem::Unsupported { what } => Diagnostic::new(span, format!("shader `{name}` can't be used: {what}")),
     }

@@ -24,7 +24,7 @@ fn remark(chosen: &Chosen<'_>, pass: &Pass) -> Option<Remark> {
              over it; say `view: \"{own}\"` of the image too, or of neither",
             image.name.text
         );
-        Some(Remark { subject: pass.name.text.clone(), span: part.image.span, text })
+        Some(Remark { subject: pass.name.text.clone(), span: part.image.span, text, instead: false })
     })
 }
 

@@ -75,6 +75,8 @@ pub struct Remark {
     pub span: Span,
     /// What it is.
     pub text: String,
+    /// Whether something else is taken than what was asked for, so that the picture may differ.
+    pub instead: bool,
 }
 
 /// A pass, or an image that it samples, that a condition switched off.

@@ -40,7 +40,7 @@ pub enum Stage {
     Link,
     /// What reaches no output goes.
     Cull,
-    /// Sample counts and formats that the device has.
+    /// Sample counts and formats that the device has, and that hold what the scene and the passes need.
     Fit,
     /// Samples, sizes and formats meet.
     Adapt,

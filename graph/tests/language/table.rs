@@ -381,7 +381,7 @@ impl ShaderInterfaces for Table {
                     underlined: 22..26,
                     remark: "'colr' : undeclared identifier".to_owned(),
                 };
-                let message = ShaderMessage { text, quote: Some(quote) };
+                let message = ShaderMessage { text, quote: Some(quote), limit: None };
                 return Err(ShaderProblem::DoesNotCompile { messages: vec![message] });
             }
             "comparing" => full_screen(vec![

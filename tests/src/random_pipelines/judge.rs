@@ -20,8 +20,8 @@ use framewright_graph::view::Stereo;
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::{
-    CustomRecorder, Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message,
-    Recorder, ShaderLibrary,
+    CustomRecorder, Device, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder,
+    ShaderLibrary,
 };
 use std::any::Any;
 use std::collections::HashSet;
@@ -128,7 +128,7 @@ impl Judge {
     /// # Errors
     /// If there is none, or no validation layer that is awake, or no place for shaders.
     pub fn new() -> Result<Judge, Box<dyn std::error::Error>> {
-        let device = Device::open(&DeviceOptions { choice: DeviceChoice::Default, validation: true })?;
+        let device = Device::open(&DeviceOptions { validation: true, ..DeviceOptions::default() })?;
         device.canary()?;
         let folder = tempfile::tempdir()?;
         let shaders = ShaderLibrary::new(vec![Root::new(folder.path().to_owned())], SHADERS, interface);

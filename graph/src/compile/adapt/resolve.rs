@@ -5,7 +5,7 @@
 
 use super::{Adapter, access};
 use crate::compile::model::{OpKind, ResolveShader, StoreIndex, Use};
-use crate::compile::parts;
+use crate::compile::{link, parts};
 use crate::describe::Diagnostic;
 use crate::device::Profile;
 use crate::frame::{Face, ImageIndex, Resolve, ResolveWay, Resource, Work};
@@ -174,18 +174,17 @@ impl Adapter<'_> {
         }
         let mut read = vec![false; grid.len() as usize];
         let mut reads = |range| {
-            let range = parts::resolve(declared, parts::seen(declared, range));
-            grid.cover(range).for_each(|part| read[part as usize] = true);
+            grid.cover(parts::resolve(declared, range)).for_each(|part| read[part as usize] = true);
         };
         if input.frame.outputs.iter().any(|output| output.resource == Resource::Image(image)) {
             reads(Subresources::WHOLE);
         }
         for pass in &input.frame.passes {
-            let sampled = pass.sampled.iter().filter(|it| it.image == image && it.frames_ago == 0);
-            sampled.for_each(|sampled| reads(sampled.range));
-            let copied = pass.transfers.iter().filter(|it| it.resource == Resource::Image(image) && !it.write);
-            copied.for_each(|copied| reads(copied.range));
-            if matches!(pass.work, Work::Forward { from, to, .. } if from == image || to == image) {
+            link::images_read(input.frame, pass)
+                .filter(|(read, ..)| *read == image)
+                .for_each(|(_, range, _)| reads(range));
+            // It may hold another image's contents, whose readers aren't its own.
+            if matches!(pass.work, Work::Forward { to, .. } if to == image) {
                 reads(Subresources::WHOLE);
             }
         }

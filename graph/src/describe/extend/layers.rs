@@ -7,7 +7,7 @@ use super::super::leaf::{Leaf, Shape};
 use super::super::loader::{self, Loader};
 use super::super::reader::Reader;
 use super::super::tree::Tree;
-use super::super::{Diagnostic, Found};
+use super::super::{Diagnostic, Found, OutsideChoice};
 use super::super::{body, outputs, precision, resolves, textures, views};
 use super::apply::CHANGES;
 use crate::change::Action;
@@ -168,7 +168,8 @@ impl Layer {
         let Shape::Word(word @ "Extension", _) = self.tree.root().shape() else { return true };
         let wrong =
             Diagnostic::new(self.tree.root().span_of(word), "this is an extension, and a pipeline is needed here");
-        reader.report(wrong.help("a pipeline applies it by `extensions: [\"…\"]`, the command by `--extend`"));
+        let help = "a pipeline applies it by `extensions: [\"…\"]`";
+        reader.report(wrong.help(help).choice(OutsideChoice::Extensions));
         false
     }
 

@@ -1,0 +1,30 @@
+//! What no file says, by the option of the command line that chooses it: libraries name no options.
+
+use framewright_graph::describe::{Diagnostic, OutsideChoice};
+
+/// What to do about a choice, by an option.
+pub(crate) fn option(choice: OutsideChoice) -> &'static str {
+    match choice {
+        OutsideChoice::Root => "`--root` names it, or `--allow-outside` allows all",
+        OutsideChoice::Extensions => "the command applies it by `--extend`",
+        OutsideChoice::OutputSize => "`--size` chooses it",
+        OutsideChoice::ShaderTime => "`--shader-seconds` raises it",
+        OutsideChoice::ShaderMemory => "`--shader-memory` raises it",
+        OutsideChoice::ShaderStack => "`--shader-stack` raises it",
+    }
+}
+
+/// Mistakes, with the options that mend them.
+pub(crate) fn named(diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    diagnostics.into_iter().map(named_one).collect()
+}
+
+/// A mistake, with the option that mends it.
+pub(crate) fn named_one(mut diagnostic: Diagnostic) -> Diagnostic {
+    let option = diagnostic.choice.take().map(|choice| option(choice).to_owned());
+    diagnostic.help = match (diagnostic.help, option) {
+        (Some(help), Some(option)) => Some(format!("{help}; {option}")),
+        (help, option) => help.or(option),
+    };
+    diagnostic
+}
