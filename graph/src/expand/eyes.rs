@@ -207,7 +207,9 @@ fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[describe::Image], error
             let name = &images[at].name.text;
             let wrong = Diagnostic::new(part.image.span, format!("`{name}` is the same for both eyes"));
             let wrong = wrong.label(images[at].name.span, "declared here");
-            errors.push(wrong.help(format!("write `\"{name}\"`, or say `per_eye: true` of it")));
+            errors.push(
+                wrong.help(format!("write `\"{name}\"` in place of `Eye(…)`, or say `per_eye: true` of `{name}`")),
+            );
         }
     });
 }
@@ -256,7 +258,7 @@ fn whose(own: &[bool], pass: &mut Pass, images: &[describe::Image], errors: &mut
             let message =
                 format!("pass `{name}` runs once for each eye, and both would write this one's `{}`", image(*one));
             let wrong = Diagnostic::new(one.span, message).label(written.span, "each eye has its own");
-            errors.push(wrong.help(format!("write `\"{}\"`: each eye's is meant", image(*one))));
+            errors.push(wrong.help(format!("write `\"{}\"` in place of `Eye(…)`: each eye's is meant", image(*one))));
             For::Each
         }
         (Some(_), None, None, _) => For::Each,
