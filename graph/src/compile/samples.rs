@@ -201,7 +201,10 @@ fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
         )
         .label(a.span, words(first))
         .label(b.span, words(other))
-        .help(format!("let one follow the other: `size: Like(\"{}\"), samples: Like(\"{}\")`", a.name, a.name)),
+        .help(format!(
+            "let one follow the other: say `size: Like(\"{0}\")`, and `samples: Like(\"{0}\")` of `{1}`",
+            a.name, b.name
+        )),
     )
 }
 

@@ -291,7 +291,7 @@ pub(super) fn bare_word<'src>(
             {
                 let message = format!("this setting allows `{}`, which is not {}", odd, words.what);
                 let known: Vec<String> = words.all.iter().map(|word| format!("`{}`", word.word)).collect();
-                let help = format!("write {} in place of `{odd}`", known.join(" or "));
+                let help = format!("write one of {} in place of `{odd}`", known.join(", "));
                 let declared = &parameter.name;
                 let wrong = Diagnostic::new(leaf.span(), message).label(declared.span, "declared here");
                 reader.report(wrong.help(help));

@@ -292,7 +292,11 @@ fn draw_work<'src>(
         for (field, foreign) in [("vertex", fields.vertex), ("index", fields.index)] {
             let Some(foreign) = foreign else { continue };
             let message = format!("{what} has `{field}`, which means nothing beside `{word}`");
-            reader.wrong(foreign, message, "leave it out: buffers of vertices go with `Vertices(…)` and `Indirect(…)`");
+            reader.wrong(
+                foreign,
+                message,
+                &format!("leave `{field}` out: buffers of vertices go with `Vertices(…)` and `Indirect(…)`"),
+            );
         }
     }
     let (draw, verb) = match word {

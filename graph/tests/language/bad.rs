@@ -6,6 +6,7 @@ use framewright_graph::describe::{self, Diagnostic, Files, Found, Unread};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::file_path::FilePath;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
 use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
 use std::path::{Path, PathBuf};
@@ -14,7 +15,7 @@ use std::sync::Arc;
 /// Mistakes that are shown before the others are counted.
 const MOST_SHOWN: usize = 20;
 
-/// What a file's first lines ask for: `//! set NAME=VALUE`, `//! dump IMAGE`, `//! size WxH`; `//! device NAME`: a shipped
+/// What a file's first lines ask for: `//! set NAME=VALUE`, `//! dump IMAGE`, `//! size WxH`, `//! rotate 90`; `//! device NAME`: a shipped
 /// device that it is compiled for as well, `//! device NAME without FORMAT`: one that has not that format.
 fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
     let (mut set, mut dump, mut size) = (Vec::new(), Vec::new(), INPUTS.output_extent);
@@ -29,7 +30,7 @@ fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
                 let (width, height) = extent.split_once('x').expect("size WxH");
                 size = [width, height].map(|extent| extent.parse().expect("a whole number"));
             }
-            Some(("device", _)) => {}
+            Some(("device" | "rotate", _)) => {}
             _ => panic!("what is `{line}`?"),
         }
     }
@@ -71,7 +72,8 @@ pub(crate) fn mistakes(name: &str, text: String) -> (Arc<Sources>, Vec<Diagnosti
 pub(crate) fn mistakes_if_any(name: &str, text: String) -> (Arc<Sources>, Vec<Diagnostic>) {
     let (set, dump, output_extent) = asked(&text);
     let device = device(&text);
-    let inputs = Inputs { set: &set, dump: &dump, output_extent, device: device.as_ref(), ..INPUTS };
+    let rotation = if text.contains("//! rotate 90\n") { Rotation::Rotate90 } else { Rotation::Identity };
+    let inputs = Inputs { set: &set, dump: &dump, output_extent, device: device.as_ref(), rotation, ..INPUTS };
     let mut sources = Sources::default();
     let pipeline = describe::read_with(&mut sources, &mut Folder, name, name, text);
     let sources = Arc::new(sources);
