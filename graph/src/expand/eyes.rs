@@ -245,13 +245,14 @@ fn whose(own: &[bool], pass: &mut Pass, images: &[describe::Image], errors: &mut
     });
     let image = |of: ImageRef| &images[of.index.0 as usize].name.text;
     match (written, eyes.first(), shared.first(), read) {
-        (Some(written), _, Some((_, span)), _) => {
+        (Some(written), _, Some((shared, span)), _) => {
             let message = format!("pass `{name}` runs once for each eye, and both would write this");
             let wrong = Diagnostic::new(*span, message);
             let wrong = wrong.label(written.span, "each eye has its own");
-            errors.push(wrong.help(
-                "write it in a pass of its own; of an image say `per_eye: true`; of what is only read `access: Read`",
-            ));
+            errors.push(wrong.help(match shared {
+                Some(image) => format!("say `per_eye: true` of `{}`, or write it in a pass of its own", image.text),
+                None => "write it in a pass of its own; if it is only read, say `access: Read` of it".to_owned(),
+            }));
             For::Each
         }
         (Some(written), Some((_, one)), ..) => {

@@ -9,13 +9,14 @@ use framewright_graph::file_path::FilePath;
 use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
 use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
+use framewright_graph::view::Stereo;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Mistakes that are shown before the others are counted.
 const MOST_SHOWN: usize = 20;
 
-/// What a file's first lines ask for: `//! set NAME=VALUE`, `//! dump IMAGE`, `//! size WxH`, `//! rotate 90`; `//! device NAME`: a shipped
+/// What a file's first lines ask for: `//! set NAME=VALUE`, `//! dump IMAGE`, `//! size WxH`, `//! rotate 90`, `//! eyes 2`; `//! device NAME`: a shipped
 /// device that it is compiled for as well, `//! device NAME without FORMAT`: one that has not that format.
 fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
     let (mut set, mut dump, mut size) = (Vec::new(), Vec::new(), INPUTS.output_extent);
@@ -30,7 +31,7 @@ fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
                 let (width, height) = extent.split_once('x').expect("size WxH");
                 size = [width, height].map(|extent| extent.parse().expect("a whole number"));
             }
-            Some(("device" | "rotate", _)) => {}
+            Some(("device" | "rotate" | "eyes", _)) => {}
             _ => panic!("what is `{line}`?"),
         }
     }
@@ -72,8 +73,9 @@ pub(crate) fn mistakes(name: &str, text: String) -> (Arc<Sources>, Vec<Diagnosti
 pub(crate) fn mistakes_if_any(name: &str, text: String) -> (Arc<Sources>, Vec<Diagnostic>) {
     let (set, dump, output_extent) = asked(&text);
     let device = device(&text);
+    let stereo = if text.contains("//! eyes 2\n") { Stereo::MultiPass } else { Stereo::Off };
     let rotation = if text.contains("//! rotate 90\n") { Rotation::Rotate90 } else { Rotation::Identity };
-    let inputs = Inputs { set: &set, dump: &dump, output_extent, device: device.as_ref(), rotation, ..INPUTS };
+    let inputs = Inputs { set: &set, dump: &dump, output_extent, device: device.as_ref(), rotation, stereo, ..INPUTS };
     let mut sources = Sources::default();
     let pipeline = describe::read_with(&mut sources, &mut Folder, name, name, text);
     let sources = Arc::new(sources);
