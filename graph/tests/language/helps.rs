@@ -72,7 +72,7 @@ impl File {
             Offer::Known(_) => !it.message.starts_with("there is no"),
             Offer::Write { new, .. } => {
                 let named = |of: &&str| it.message.starts_with(&format!("{of} `{}` ", new.trim_matches('"')));
-                ["shader", "fragment"].iter().any(|of| named(of))
+                ["shader", "fragment"].iter().any(named)
             }
             _ => false,
         };
@@ -147,7 +147,8 @@ fn has_none(wrong: &BTreeSet<String>) -> bool {
     let lacks = |it: &String| it.starts_with("there is no ") || it.ends_with(" is needed here");
     // Not where it was meant to be said.
     let elsewhere = |it: &String| {
-        it.contains(" has no field ") || it == "expected a comma" || it.starts_with("expected `Pipeline(")
+        let begins = ["expected `Pipeline(", "expected `Settings("].iter().any(|lead| it.starts_with(lead));
+        it.contains(" has no field ") || it == "expected a comma" || begins
     };
     wrong.iter().any(lacks) && wrong.iter().all(|it| lacks(it) || elsewhere(it))
 }

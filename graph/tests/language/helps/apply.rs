@@ -130,7 +130,8 @@ pub(super) fn applied(text: &str, places: &[Range<usize>], offer: &Offer, all: &
             let then = |text: String, before: &str| {
                 let [old, new] = difference(before, &text);
                 let moved = |at: usize| if at >= old.end { at + new.len() - old.len() } else { at };
-                applied(&text, &[moved(place.start)..moved(place.end)], second, &[])
+                let place = moved(place.start)..moved(place.end);
+                applied(&text, std::slice::from_ref(&place), second, &[])
             };
             applied(text, places, first, &[]).into_iter().flat_map(|it| then(it, text)).collect()
         }
