@@ -397,7 +397,7 @@ fn depth_that_the_device_does_not_filter_is_refused_with_its_place() {
             .exits(1)
             .mentions("error: `show` can't filter `depth`: `lavapipe` can't do that with D")
             .mentions(" --> p.ron:8:40\n")
-            .mentions("write `filter: Nearest`, or choose another format");
+            .mentions("write `(image: \"depth\", filter: Nearest)`, or choose another format");
         place.run(&["check", "p.ron", "--device", "swiftshader"]).exits(0);
     }
     // Without a word it isn't filtered.

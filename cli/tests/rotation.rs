@@ -66,5 +66,5 @@ fn other_angles_and_pipelines_without_a_screen_are_refused() {
     place.run(&["check", "p.ron"]).exits(0);
     let said = place.run(&["check", "p.ron", "--rotate", "90"]).exits(1);
     let said = said.mentions("nothing can be rotated by 90°: no output is made to be shown on a screen");
-    said.mentions("p.ron:5:15").mentions("give the image of an output `format: Output`");
+    said.mentions("p.ron:5:15").mentions("say `format: Output` of `light`");
 }

@@ -53,6 +53,17 @@ impl Encoding {
         }
     }
 
+    /// What to say so that an image can hold it.
+    pub(crate) fn help(self, image: &str) -> String {
+        let format = match self {
+            Encoding::Srgb => Format::R8G8B8A8_SRGB,
+            Encoding::Unorm => Format::R8G8B8A8_UNORM,
+            Encoding::Linear => Format::R16G16B16A16_SFLOAT,
+            Encoding::Hdr10 => Format::A2B10G10R10_UNORM_PACK32,
+        };
+        format!("`{}` takes {}: say `format: {format}` of `{image}`", self.name(), self.formats())
+    }
+
     /// Its name, as pipelines write it.
     #[must_use]
     pub const fn name(self) -> &'static str {

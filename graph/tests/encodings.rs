@@ -119,7 +119,10 @@ fn an_encoding_that_the_format_cannot_hold_is_refused_with_its_place() {
         let name = encoding.name();
         assert_eq!(errors.len(), 1, "{errors:?}");
         assert_eq!(errors[0].message, format!("`screen` can't leave the frame as `{name}`: it is {format}"));
-        assert_eq!(errors[0].help.as_deref(), Some(help));
+        let said = errors[0].help.as_deref().and_then(|said| said.strip_suffix("` of `screen`"));
+        let (takes, named) = said.and_then(|said| said.split_once(": say `format: ")).expect("a format of the image");
+        assert_eq!(takes, help);
+        assert!(Format::ALL.iter().any(|format| format.name() == named && encoding.fits(*format)), "{named}");
         assert_eq!(errors[0].labels[0].span, span);
     }
 }

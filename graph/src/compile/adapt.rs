@@ -404,7 +404,10 @@ impl Adapter<'_> {
         if writes && let Some(sampled) = pass.sampled.iter().find(same) {
             let name = &self.input.frame.images[image.0 as usize].name;
             let message = format!("`{}` samples the depth `{name}` that it also writes", pass.name);
-            self.errors.push(Diagnostic::new(sampled.span, message).help("test it without writing: `write: false`"));
+            self.errors.push(
+                Diagnostic::new(sampled.span, message)
+                    .help(format!("test it without writing: say `depth: (image: \"{name}\", write: false)`")),
+            );
         }
     }
 }

@@ -157,7 +157,7 @@ fn wrong_encoding(frame: &Frame, output: &Output) -> Option<Diagnostic> {
         return None;
     }
     let message = format!("`{}` can't leave the frame as `{name}`: it is {}", image.name, image.format);
-    let help = format!("`{name}` takes {}", encoding.formats());
+    let help = encoding.help(&image.name);
     Some(Diagnostic::new(output.span, message).label(image.span, "declared here").help(help))
 }
 

@@ -9,9 +9,9 @@ use crate::frame::{Blend, Frame, Image, ImageIndex, Lifetime, Pass, Resource, Sh
 use crate::plan::{Note, Stage};
 use crate::source::Span;
 use crate::states::usage_for;
-use crate::vocabulary::{State, Subresources, Usage};
+use crate::vocabulary::{Filter, Sampler, State, Subresources, Usage};
 use petgraph::unionfind::UnionFind;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a device can do with each format, found at once.
 struct Supports<'d> {
@@ -113,6 +113,23 @@ fn attachments(pass: &Pass) -> impl Iterator<Item = (ImageIndex, Subresources)> 
     color.chain(pass.depth.as_ref().map(|depth| (depth.image, depth.range)))
 }
 
+/// An image and all that have as many samples, since passes draw into them together.
+pub(super) fn drawn_together(passes: &[Pass], image: ImageIndex) -> BTreeSet<ImageIndex> {
+    let mut together = BTreeSet::from([image]);
+    loop {
+        let before = together.len();
+        for pass in passes {
+            let drawn = || attachments(pass).map(|(image, _)| image);
+            if drawn().any(|image| together.contains(&image)) {
+                together.extend(drawn());
+            }
+        }
+        if together.len() == before {
+            return together;
+        }
+    }
+}
+
 pub(super) fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
     let mut add = |image: ImageIndex, used: Usage| usage[image.0 as usize] |= used;
     let shape = |image: ImageIndex| {
@@ -184,7 +201,10 @@ fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
         )
         .label(a.span, words(first))
         .label(b.span, words(other))
-        .help(format!("let one follow the other: `size: Like(\"{}\"), samples: Like(\"{}\")`", a.name, a.name)),
+        .help(format!(
+            "let one follow the other: say `size: Like(\"{0}\")`, and `samples: Like(\"{0}\")` of `{1}`",
+            a.name, b.name
+        )),
     )
 }
 
@@ -217,18 +237,35 @@ fn check_support(frame: &Frame, image: usize, used: Usage, supports: &Supports<'
         if let Some(storage) = stored.next().filter(|_| !supported.contains(Usage::STORAGE)) {
             wrong = wrong.label(storage.span, "a shader stores it here");
         }
-        errors.push(wrong.help(others(declared.format, used, supports)));
+        errors.push(wrong.help(others(frame, ImageIndex(image as u32), supports)));
     }
 }
 
-/// The formats of the same kind that the device has for what an image is used for.
-fn others(format: Format, used: Usage, supports: &Supports<'_>) -> String {
+/// The formats of the same kind with which the device can do all that is done with an image.
+fn others(frame: &Frame, index: ImageIndex, supports: &Supports<'_>) -> String {
+    let image = &frame.images[index.0 as usize];
+    let format = image.format;
+    let mut usage = vec![Usage::empty(); frame.images.len()];
+    frame.passes.iter().for_each(|pass| note_usage(frame, pass, &mut usage));
+    note_states(frame, &mut usage);
+    let mut sampled = frame.passes.iter().flat_map(|pass| &pass.sampled).filter(|it| it.image == index);
+    let mut drawn = frame.passes.iter().flat_map(|pass| &pass.color).filter(|it| it.image == index);
+    let filtered = sampled.any(|it| it.sampler.is_linear());
+    let blended = drawn.any(|it| it.blend != Blend::Replace);
+    let can = |support: &FormatSupport| {
+        support.usage.contains(usage[index.0 as usize])
+            && (support.linear_filter || !filtered)
+            && (support.blend || !blended)
+    };
     let alike = |other: &&Format| other.aspects() == format.aspects() && other.is_integer() == format.is_integer();
-    let able = |other: &&Format| supports.of(**other).is_some_and(|support| support.usage.contains(used));
+    let able = |other: &&Format| supports.of(**other).is_some_and(can);
     let names: Vec<String> = Format::ALL.iter().filter(alike).filter(able).map(|it| format!("`{it}`")).collect();
     match &names[..] {
         [] => format!("`{}` has no format of this kind for that", supports.device.name),
-        names => format!("choose another format: for that `{}` has {}", supports.device.name, names.join(", ")),
+        names => {
+            let (names, device) = (names.join(", "), &supports.device.name);
+            format!("write another `format` of `{}`: {names}, which `{device}` has for that", image.name)
+        }
     }
 }
 
@@ -245,12 +282,20 @@ fn check_operations(frame: &Frame, pass: &Pass, supports: &Supports<'_>, errors:
     let support = |image: ImageIndex| supports.of(frame.images[image.0 as usize].format);
     for sampled in pass.sampled.iter().filter(|sampled| sampled.sampler.is_linear()) {
         if support(sampled.image).is_some_and(|support| !support.linear_filter) {
-            refuse(sampled.image, sampled.span, "filter", "write `filter: Nearest`, or choose another format");
+            let nearest = |filter: Filter, field: &str| match filter {
+                Filter::Linear => format!(", {field}: Nearest"),
+                Filter::Nearest => String::new(),
+            };
+            let Sampler { filter, mips, .. } = sampled.sampler;
+            let fields = nearest(filter, "filter") + &nearest(mips, "mip_filter");
+            let name = &frame.images[sampled.image.0 as usize].name;
+            let help = format!("write `(image: \"{name}\"{fields})`, or choose another format");
+            refuse(sampled.image, sampled.span, "filter", &help);
         }
     }
     for target in pass.color.iter().filter(|target| target.blend != Blend::Replace) {
         if support(target.image).is_some_and(|support| !support.blend) {
-            refuse(target.image, target.span, "blend into", "choose another format");
+            refuse(target.image, target.span, "blend into", &others(frame, target.image, supports));
         }
     }
 }

@@ -52,7 +52,11 @@ pub(super) fn lower<'src>(
     let (list, index, of, reach) = (list?, index?, of?, reach?);
     if index >= of {
         let beyond = Diagnostic::new(fields.cascade.span(), format!("there is no cascade {index} of {of}"));
-        scope.fault(reader, fields.cascade, beyond.label(fields.of.span(), "so many").help("the first one is 0"));
+        scope.fault(
+            reader,
+            fields.cascade,
+            beyond.label(fields.of.span(), "so many").help(format!("write a number from 0 to {}", of - 1)),
+        );
         return None;
     }
     Some(Cascade { list, index, of, reach })
@@ -68,7 +72,7 @@ fn reach<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Opti
     let known = Metres::try_from(metres as f32);
     if known.is_err() {
         let wrong = Diagnostic::new(leaf.span(), "shadows can't reach that far");
-        let wrong = wrong.help("a number of metres above 0 that 32 bits can hold, or 0 for the whole scene");
+        let wrong = wrong.help("write `0` for the whole scene, or a number of metres above 0 that 32 bits can hold");
         scope.fault(reader, leaf, wrong.remark(because.as_deref().unwrap_or_default()));
     }
     known.ok().map(Some)

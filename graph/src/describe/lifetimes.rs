@@ -263,8 +263,9 @@ pub(super) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: Of) -> Opti
     }
     let fitting: Vec<(&'static str, StateWord)> = WORDS.into_iter().filter(|(_, word)| word.fits(of)).collect();
     let known: Vec<&'static str> = WORDS.iter().map(|(word, _)| *word).collect();
-    let words: Vec<&str> = fitting.iter().map(|(word, _)| *word).collect();
-    let forms = format!("write {}, or `(stages: […], accesses: […], layout: …)`", words.join(", "));
+    let words: Vec<String> = fitting.iter().map(|(word, _)| format!("`{word}`")).collect();
+    let layout = if of == Of::Image { ", layout: …" } else { "" };
+    let forms = format!("write {} or `(stages: […], accesses: […]{layout})`", words.join(", "));
     let (word, rest) = reader.word(leaf, "a state", &known, &forms)?;
     reader.bare(word, rest)?;
     let Some((_, word)) = fitting.into_iter().find(|(fitting, _)| *fitting == word) else {

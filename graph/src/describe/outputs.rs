@@ -41,11 +41,13 @@ const ENCODINGS: [(&str, Encoding); 4] = [
     (Encoding::Hdr10.name(), Encoding::Hdr10),
 ];
 
+const NAME_ONE: &str = "name the image that is shown: `outputs: [\"…\"]`, in an extension `Insert(outputs: [\"…\"])`";
+
 /// The images and buffers that leave the frame, each once.
 pub(super) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, list: Leaf<'src>) -> Option<Vec<Output>> {
     let leaves = reader.list(list, "`outputs`")?;
     if leaves.is_empty() {
-        reader.wrong(list, "a frame without outputs shows nothing", "name the image that is shown: `outputs: [\"…\"]`");
+        reader.wrong(list, "a frame without outputs shows nothing", NAME_ONE);
         return None;
     }
     let outputs: Vec<Option<Output>> = leaves.into_iter().map(|leaf| output(reader, scope, leaf)).collect();

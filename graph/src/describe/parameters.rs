@@ -206,7 +206,7 @@ pub(super) fn lower<'src>(reader: &mut Reader, fields: &ParameterFields<'src>) -
 /// What it may be, and whether it has to be given.
 fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(ParameterKind, bool)> {
     let (word, rest) = reader.one_of(leaf, &KINDS)?;
-    let (kind, required) = match word {
+    let (kind, default_at) = match word {
         "Image" => return reader.bare(word, rest).map(|()| (ParameterKind::Image, true)),
         "Buffer" => return reader.bare(word, rest).map(|()| (ParameterKind::Buffer, true)),
         "Format" => {
@@ -223,7 +223,7 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(ParameterKind, b
                 Some(default) => reader.truth(default)?,
                 None => false,
             };
-            (SettingKind::Bool { default }, fields.default.is_none())
+            (SettingKind::Bool { default }, fields.default)
         }
         "OneOf" => one_of(reader, leaf, rest)?,
         "Number" => {
@@ -233,7 +233,7 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(ParameterKind, b
                 range(reader, [fields.default, fields.min, fields.max], read, (f64::MIN, f64::MAX))?;
             steps_begin(reader, fields.step, fields.min)?;
             let step = step(reader, fields.step, read, 0.0)?;
-            (SettingKind::Number { default: default.unwrap_or(min), min, max, step }, default.is_none())
+            (SettingKind::Number { default: default.unwrap_or(min), min, max, step }, fields.default)
         }
         _ => {
             let fields =
@@ -243,13 +243,13 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(ParameterKind, b
                 range(reader, [fields.default, fields.min, fields.max], read, (i64::MIN, i64::MAX))?;
             steps_begin(reader, fields.step, fields.min)?;
             let step = step(reader, fields.step, read, 0)?.unwrap_or(1);
-            (SettingKind::Integer { default: default.unwrap_or(min), min, max, step }, default.is_none())
+            (SettingKind::Integer { default: default.unwrap_or(min), min, max, step }, fields.default)
         }
     };
-    if !required {
-        default_on_step(reader, leaf, &kind)?;
+    if let Some(default) = default_at {
+        default_on_step(reader, default, &kind)?;
     }
-    Some((ParameterKind::Value(kind), required))
+    Some((ParameterKind::Value(kind), default_at.is_none()))
 }
 
 /// What stands in parentheses, if there are any.
@@ -265,7 +265,11 @@ fn within<'src, T: super::fields::FromLeaf<'src> + Default>(
     }
 }
 
-fn one_of<'src>(reader: &mut Reader, leaf: Leaf<'src>, rest: Option<Leaf<'src>>) -> Option<(SettingKind, bool)> {
+fn one_of<'src>(
+    reader: &mut Reader,
+    leaf: Leaf<'src>,
+    rest: Option<Leaf<'src>>,
+) -> Option<(SettingKind, Option<Leaf<'src>>)> {
     let fields: ParameterOneOfFields<'_> = reader.inside(leaf, rest, "OneOf(default: …, of: […])")?;
     let entries = reader.list(fields.of, "`of`")?;
     let Some(first) = entries.first().copied() else {
@@ -281,7 +285,7 @@ fn one_of<'src>(reader: &mut Reader, leaf: Leaf<'src>, rest: Option<Leaf<'src>>)
         let (default, of) = listed(reader, default, &entries, |reader, leaf| reader.integer(leaf))?;
         SettingKind::OneOf { default, of }
     };
-    Some((kind, fields.default.is_none()))
+    Some((kind, fields.default))
 }
 
 /// Reports a step where nothing says which value it leads on from.

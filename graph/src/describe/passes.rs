@@ -359,7 +359,7 @@ impl Of {
 pub(super) fn stand_ins_make_sense(reader: &mut Reader, conditional: bool, leaf: Leaf<'_>, of: Of, pass: &Pass) {
     if !conditional {
         let idle = Diagnostic::new(leaf.span(), "`otherwise` never comes to pass: there is no `when`");
-        reader.report(idle.help("add `when`, or remove `otherwise`"));
+        reader.report(idle.help("add `when: …`, or remove `otherwise`"));
     }
     let mut first = HashMap::new();
     for stand_in in &pass.otherwise {

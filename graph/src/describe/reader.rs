@@ -240,7 +240,7 @@ impl Reader {
             }
         };
         if !number.is_finite() {
-            self.wrong(leaf, "this number is too large", "64-bit floating point reaches about 1.8e308");
+            self.wrong(leaf, "this number is too large", "64-bit floating point reaches about 1.79e308");
             return None;
         }
         Some(number)

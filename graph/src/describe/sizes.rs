@@ -129,7 +129,7 @@ pub(super) fn scale<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'sr
     if by <= 0.0 {
         let wrong = format!("a scale is greater than 0, found {}", shown_number(by));
         let because = scope.within_view(because.as_deref().unwrap_or_default());
-        let help = "numbers above 0 are allowed: 1 is the same size, 0.5 half the width and half the height";
+        let help = "write a number above 0: `1` is the same size, `0.5` half the width and half the height";
         scope.fault(reader, leaf, Diagnostic::new(leaf.span(), wrong).remark(because).help(help));
         return None;
     }

@@ -240,7 +240,7 @@ fn component<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> 
 fn clear_depth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<f32> {
     let (depth, because) = values::number_because(reader, scope, leaf, "depth")?;
     if !(0.0..=1.0).contains(&depth) {
-        let help = "depth is reversed: 0 is infinitely far, 1 is nearest";
+        let help = "write a depth from 0 to 1: 0 is infinitely far, 1 is nearest";
         let wrong = format!("depth lies from 0 to 1, found {}", super::shown_number(depth));
         let wrong = Diagnostic::new(leaf.span(), wrong).remark(because.as_deref().unwrap_or_default());
         scope.fault(reader, leaf, wrong.help(help));

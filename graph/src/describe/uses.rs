@@ -97,13 +97,21 @@ pub(super) fn arguments<'t>(
         });
     }
     if let Some(first) = missing.first() {
+        let example = |parameter: &&&Parameter| {
+            let value = match parameter.kind.ty() {
+                Type::Image => "\"an_image\"",
+                Type::Buffer => "\"a_buffer\"",
+                _ => "…",
+            };
+            format!("\"{}\": {value}", parameter.name.text)
+        };
+        let examples: Vec<String> = missing.iter().map(|it| example(&it)).collect();
         let names = enumerated(missing.iter().map(|parameter| format!("`{}`", parameter.name.text)));
         let what = if missing.len() == 1 { "parameter" } else { "parameters" };
         let message = format!("fragment `{called}` needs the {what} {names}");
         let wrong =
             Diagnostic::new(fields.r#use.span(), message).label(first.name.span, "declared here, without default");
-        let example = if first.kind.ty() == Type::Image { "\"an_image\"" } else { "…" };
-        reader.report(wrong.help(format!("add `with: {{\"{}\": {example}}}`", first.name.text)));
+        reader.report(wrong.help(format!("add `with: {{{}}}`", examples.join(", "))));
     }
     values
 }
@@ -170,13 +178,10 @@ fn unquoted(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>, kind: &Setti
     let SettingKind::Choice { of, .. } = kind else { return Some(()) };
     let Some(word) = leaf.plain().filter(|word| scope.names_nothing(word)) else { return Some(()) };
     let known = of.iter().any(|text| **text == *word);
-    let example = of.first().filter(|_| !known).map_or(word, |first| first);
+    let meant: Vec<_> = of.iter().filter(|text| !known || ***text == *word).collect();
+    let all = enumerated(meant.iter().map(|text| format!("`\"'{text}'\"`")));
     let message = format!("texts in expressions stand in single quotes, found `{word}`");
-    reader.wrong(
-        leaf,
-        message,
-        &format!("write it in single quotes inside the quotes: `\"'{example}'\"`; it is {}", kind.allowed()),
-    );
+    reader.wrong(leaf, message, &format!("write it in single quotes inside the quotes: {all}"));
     None
 }
 

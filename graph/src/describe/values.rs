@@ -290,7 +290,11 @@ pub(super) fn bare_word<'src>(
                 && let Some(odd) = parameter.texts().iter().find(|text| words.find(text).is_none())
             {
                 let message = format!("this setting allows `{}`, which is not {}", odd, words.what);
-                reader.wrong(leaf, message, &words.forms());
+                let known: Vec<String> = words.all.iter().map(|word| format!("`{}`", word.word)).collect();
+                let help = format!("write one of {} in place of `{odd}`", known.join(", "));
+                let declared = &parameter.name;
+                let wrong = Diagnostic::new(leaf.span(), message).label(declared.span, "declared here");
+                reader.report(wrong.help(help));
                 return None;
             }
             (given.value.clone(), scope.because(parameter, given))

@@ -265,7 +265,7 @@ fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: &str, word: &str) {
         let Some(leaf) = leaf.filter(|_| !words.contains(&word)) else { continue };
         let fitting: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
         let message = format!("{what} has `{field}`, which means nothing beside `{word}`");
-        let help = format!("`{field}` goes with {}", fitting.join(", "));
+        let help = format!("leave `{field}` out: it goes with {}", fitting.join(", "));
         let diagnostic = super::Diagnostic::new(leaf.span(), message);
         reader.report(diagnostic.help(help));
     }
@@ -292,7 +292,11 @@ fn draw_work<'src>(
         for (field, foreign) in [("vertex", fields.vertex), ("index", fields.index)] {
             let Some(foreign) = foreign else { continue };
             let message = format!("{what} has `{field}`, which means nothing beside `{word}`");
-            reader.wrong(foreign, message, "buffers of vertices go with `Vertices(…)` and `Indirect(…)`");
+            reader.wrong(
+                foreign,
+                message,
+                &format!("leave `{field}` out: buffers of vertices go with `Vertices(…)` and `Indirect(…)`"),
+            );
         }
     }
     let (draw, verb) = match word {
@@ -359,7 +363,11 @@ fn dispatch_work<'src>(
 ) -> Option<Work> {
     let shader = reader.outside_name(leaf, "a shader");
     let Some(leaf) = fields.groups else {
-        reader.wrong(leaf, format!("{what} doesn't say how many workgroups run"), &GROUPS.forms());
+        reader.wrong(
+            leaf,
+            format!("{what} doesn't say how many workgroups run"),
+            "add `groups: Count(8, 8, 1)`, or another number",
+        );
         return None;
     };
     let groups = groups(reader, scope, leaf);

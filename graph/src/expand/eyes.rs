@@ -208,7 +208,9 @@ fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[describe::Image], error
             let name = &images[at].name.text;
             let wrong = Diagnostic::new(part.image.span, format!("`{name}` is the same for both eyes"));
             let wrong = wrong.label(images[at].name.span, "declared here");
-            errors.push(wrong.help(format!("write `\"{name}\"`, or say `per_eye: true` of it")));
+            errors.push(
+                wrong.help(format!("write `\"{name}\"` in place of `Eye(…)`, or say `per_eye: true` of `{name}`")),
+            );
         }
     });
 }
@@ -244,20 +246,21 @@ fn whose(own: &[bool], pass: &mut Pass, images: &[describe::Image], errors: &mut
     });
     let image = |of: ImageRef| &images[of.index.0 as usize].name.text;
     match (written, eyes.first(), shared.first(), read) {
-        (Some(written), _, Some((_, span)), _) => {
+        (Some(written), _, Some((shared, span)), _) => {
             let message = format!("pass `{name}` runs once for each eye, and both would write this");
             let wrong = Diagnostic::new(*span, message);
             let wrong = wrong.label(written.span, "each eye has its own");
-            errors.push(wrong.help(
-                "write it in a pass of its own; of an image say `per_eye: true`; of what is only read `access: Read`",
-            ));
+            errors.push(wrong.help(match shared {
+                Some(image) => format!("say `per_eye: true` of `{}`, or write it in a pass of its own", image.text),
+                None => "write it in a pass of its own; if it is only read, say `access: Read` of it".to_owned(),
+            }));
             For::Each
         }
         (Some(written), Some((_, one)), ..) => {
             let message =
                 format!("pass `{name}` runs once for each eye, and both would write this one's `{}`", image(*one));
             let wrong = Diagnostic::new(one.span, message).label(written.span, "each eye has its own");
-            errors.push(wrong.help(format!("write `\"{}\"`: each eye's is meant", image(*one))));
+            errors.push(wrong.help(format!("write `\"{}\"` in place of `Eye(…)`: each eye's is meant", image(*one))));
             For::Each
         }
         (Some(_), None, None, _) => For::Each,

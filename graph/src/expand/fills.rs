@@ -19,7 +19,7 @@ pub(super) fn typed(fill: Fill, format: Option<Format>) -> Result<FillValue, (St
         let Fill::Number(number) = fill else {
             return Err((
                 "a buffer is filled with one number".to_owned(),
-                "write a whole number of 32 bits".to_owned(),
+                "write a whole number of 32 bits: `0`".to_owned(),
             ));
         };
         let word = bits(number, 32).ok_or_else(|| {
@@ -65,21 +65,29 @@ pub(super) fn typed(fill: Fill, format: Option<Format>) -> Result<FillValue, (St
 fn depth(fill: Fill, format: Format) -> Result<FillValue, (String, String)> {
     let (depth, stencil) = match fill {
         Fill::Number(depth) => (depth, 0.0),
-        Fill::DepthStencil(..) if !format.aspects().contains(Aspects::STENCIL) => {
-            return Err((format!("{format} has no stencil plane"), "write the depth alone".to_owned()));
+        Fill::DepthStencil(depth, _) if !format.aspects().contains(Aspects::STENCIL) => {
+            return Err((
+                format!("{format} has no stencil plane"),
+                format!("write `{}`, the depth alone", shown_number(depth)),
+            ));
         }
         Fill::DepthStencil(depth, stencil) => (depth, stencil),
         Fill::Color(_) => {
-            let help = "write the depth, or `(depth, stencil)`".to_owned();
+            let stencil = format.aspects().contains(Aspects::STENCIL);
+            let help = if stencil { "write a depth and a stencil value: `(0.0, 0)`" } else { "write a depth: `0.0`" };
+            let help = help.to_owned();
             return Err((format!("a colour can't fill an image that holds depth ({format})"), help));
         }
     };
     if !(0.0..=1.0).contains(&depth) {
-        let help = "depth is reversed: 0 is infinitely far, 1 is nearest".to_owned();
+        let help = "write a depth from 0 to 1: 0 is infinitely far, 1 is nearest".to_owned();
         return Err((format!("depth lies from 0 to 1, found {}", shown_number(depth)), help));
     }
     let Some(stencil) = bits(stencil, 8).and_then(|stencil| u8::try_from(stencil).ok()) else {
-        return Err((format!("{} is no stencil value", shown_number(stencil)), "0 to 255 are allowed".to_owned()));
+        return Err((
+            format!("{} is no stencil value", shown_number(stencil)),
+            "a stencil value has 8 bits: the largest is 255".to_owned(),
+        ));
     };
     #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]
     Ok(FillValue::Depth(depth as f32, stencil))

@@ -129,11 +129,11 @@ fn asked(
     };
     let (way, integers) = (resolve.value, image.format.is_integer());
     let (fits, ways) = match way {
-        _ if depth => (way != ResolveWay::Weighted, "depth is drawn again, sample zero, least, greatest or averaged"),
-        _ if integers => (way == ResolveWay::By(ResolveMode::SampleZero), "integers are sample zero"),
+        _ if depth => (way != ResolveWay::Weighted, "write `DepthOnly`, `SampleZero`, `Min`, `Max` or `Average`"),
+        _ if integers => (way == ResolveWay::By(ResolveMode::SampleZero), "write `SampleZero`"),
         way => {
             let known = [ResolveWay::By(ResolveMode::Average), ResolveWay::Weighted];
-            (known.contains(&way), "colour is averaged, or weighted")
+            (known.contains(&way), "write `Average` or `Weighted`")
         }
     };
     if !fits {

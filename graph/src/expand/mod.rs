@@ -277,7 +277,15 @@ fn outputs(chosen: &Chosen<'_>, things: &Things, inputs: &Inputs<'_>, errors: &m
         let degrees = inputs.rotation.degrees();
         let message = format!("nothing can be rotated by {degrees}°: no output is made to be shown on a screen");
         let span = pipeline.outputs.first().map_or(Span::NONE, |output| output.resource.span);
-        errors.push(Diagnostic::new(span, message).help("give the image of an output `format: Output`"));
+        let images = pipeline.outputs.iter().filter_map(|output| match output.resource.resource {
+            Resource::Image(image) => Some(&chosen.image(image).name.text),
+            Resource::Buffer(_) => None,
+        });
+        let wrong = Diagnostic::new(span, message);
+        errors.push(match images.into_iter().next() {
+            Some(image) => wrong.help(format!("say `format: Output` of `{image}`")),
+            None => wrong.help("let an image leave the frame"),
+        });
     }
     dumped(pipeline, dump, &mut outputs, errors);
     outputs
@@ -304,7 +312,7 @@ fn encoded(
         let (image, word) = (chosen.image(index), encoding.value.name());
         let message = format!("`{}` can't leave the frame as `{word}`: it is {format}", image.name.text);
         let wrong = Diagnostic::new(encoding.span, message).label(image.format.span, "its format");
-        errors.push(wrong.help(format!("`{word}` takes {}", encoding.value.formats())));
+        errors.push(wrong.help(encoding.value.help(&image.name.text)));
     }
     fits
 }

@@ -243,7 +243,17 @@ impl Check<'_> {
             return waits::report(self.chosen, &circle);
         }
         let below = &self.chosen.pipeline.passes[writer.position].name.text;
+        // Of what is repeated none can be moved by itself.
+        if self.chosen.pipeline.passes[writer.position].name.span == self.chosen.pipeline.passes[position].name.span {
+            let help = "what is repeated reads what stood there before, and what those of lower numbers wrote";
+            return wrong.label(writer.span, format!("first written here, by `{below}`")).help(help);
+        }
         let wrong = wrong.label(writer.span, "first written here, further below");
+        // Further up it would itself read what nothing has written.
+        let reads = self.states[writer.position].runs().iter().flat_map(|pass| touches::reads(self.things, pass));
+        if reads.into_iter().any(|own| own.resource == of && own.frames_ago == 0 && own.cells == read.cells) {
+            return wrong.help(format!("another pass has to write it first, since `{below}` reads it as well"));
+        }
         let wrong = self.removed(wrong, &self.chosen.name(of).text);
         if let Some(Lifetime::History { .. }) = self.things.lifetime(of) {
             let name = &self.chosen.name(of).text;

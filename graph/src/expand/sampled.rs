@@ -236,8 +236,15 @@ impl Check<'_> {
                 "pass `{}` gives {given} of `{image_name}`, but shader `{shader}` reads {wanted}",
                 self.pass.name.text
             );
-            let help =
-                format!("`{name}` is a `{declaration}` in the shader; the plain name `\"{image_name}\"` fits either");
+            let face = match self.sample.face {
+                Face::Samples => "Samples",
+                // A plain name contradicts nothing.
+                Face::Resolved | Face::Plain => "Resolved",
+                Face::DepthOnly => "DepthOnly",
+            };
+            let help = format!(
+                "write `\"{image_name}\"` in place of `{face}(…)`: `{name}` is a `{declaration}` in the shader"
+            );
             errors.push(Diagnostic::new(span, message).help(help));
         } else if multisampled && self.image.image.samples == 1 {
             let message = format!(
@@ -259,7 +266,7 @@ impl Check<'_> {
             let message = format!("`{}` is no depth: it is {}", image.name, image.format);
             let declared = self.chosen.image(self.sample.part.image.index).format.span;
             let wrong = Diagnostic::new(self.sample.part.image.span, message).label(declared, "its format");
-            errors.push(wrong.help(format!("`DepthOnly` is for depth; write `\"{}\"`", image.name)));
+            errors.push(wrong.help(format!("write `\"{}\"` in place of `DepthOnly(…)`", image.name)));
         }
     }
 
@@ -311,7 +318,7 @@ impl Check<'_> {
         if let Some(address) = self.sample.address.filter(|address| address.value != AddressMode::ClampToEdge) {
             let message = format!("`{}` is used in part, and beyond that it holds nothing", image.name);
             let wrong = Diagnostic::new(address.span, message).label(declared, "its size may change");
-            errors.push(wrong.help("`Clamp` ends at the part's edges"));
+            errors.push(wrong.help("write `Clamp`: it ends at the part's edges"));
         }
     }
 
@@ -339,7 +346,7 @@ impl Check<'_> {
         if self.declared.input && !own_pixel {
             let message = format!("shader `{}` reads `{name}` at the fragment's own position only", self.shader);
             let span = self.sample.own_pixel.map_or(self.sample.binding.span, |own| own.span);
-            errors.push(Diagnostic::new(span, message).help("`own_pixel` is true then; it may be left out"));
+            errors.push(Diagnostic::new(span, message).help("leave `own_pixel` out: it is true then"));
         }
         if !own_pixel {
             return;
@@ -349,7 +356,7 @@ impl Check<'_> {
         let target = target.chain(lowered.depth.iter().map(|target| (target.image, target.range))).next();
         let Some((target, range)) = target else {
             let message = format!("pass `{}` draws no pixels, so it has no own ones", self.pass.name.text);
-            errors.push(Diagnostic::new(span, message).help("`own_pixel` is for passes that draw"));
+            errors.push(Diagnostic::new(span, message).help("leave `own_pixel` out: it is for passes that draw"));
             return;
         };
         let Some(target) = things.image(target).map(|target| &target.image) else { return };

@@ -55,7 +55,7 @@ pub(super) fn shaped(
     if image.mips > most {
         let extent = if depth > 1 { format!("{width}×{height}×{depth}") } else { format!("{width}×{height}") };
         let message = format!("`{name}` can't have {} mip levels: {extent} texels have {most}", image.mips);
-        errors.push(Diagnostic::new(described.mips.span, message).help("`mips: Full` has as many as there are"));
+        errors.push(Diagnostic::new(described.mips.span, message).help("write `Full`: as many as there are"));
     }
     if image.shape == Shape::Cube && width != height {
         let message = format!("`{name}` is a cube, but its sides are {width}×{height}");
@@ -63,9 +63,8 @@ pub(super) fn shaped(
     }
     if image.shape == Shape::Cube && !layers.is_multiple_of(6) {
         let message = format!("`{name}` is a cube and can't have {layers} layers");
-        errors.push(
-            Diagnostic::new(described.layers.span, message).help("a cube has six layers, several have twelve, …"),
-        );
+        errors
+            .push(Diagnostic::new(described.layers.span, message).help("write `6`, or `12` for two cubes, and so on"));
     }
     if image.shape == Shape::D3 && layers > 1 {
         let message = format!("`{name}` is three-dimensional and can't have {layers} layers");

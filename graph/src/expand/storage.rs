@@ -139,7 +139,10 @@ pub(super) fn check<'i>(
             }
             Some(BindingKind::UniformBlock(_)) => {
                 let message = format!("the block `{PARAMS}` takes the pass's parameters, not a buffer");
-                errors.push(Diagnostic::new(name.span, message).help(format!("write `{PARAMS}: {{\"…\": …}}`")));
+                errors.push(
+                    Diagnostic::new(name.span, message)
+                        .help(format!("leave it out; parameters are given by `{PARAMS}: {{\"…\": …}}`")),
+                );
             }
             _ => unknown(name, "no uniform block", errors),
         }

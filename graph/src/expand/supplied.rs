@@ -81,7 +81,10 @@ fn resource(shader: &Name, binding: &Binding, supplied: &[Supplied], errors: &mu
     };
     if (there.set, there.binding) != (binding.set, binding.binding) {
         let message = format!("{wanted}, but `{name}` is at set {}, binding {}", there.set, there.binding);
-        errors.push(here(message).help(format!("write `layout(set = {}, binding = {})`", there.set, there.binding)));
+        errors.push(
+            here(message)
+                .help(format!("in the shader: write `layout(set = {}, binding = {})`", there.set, there.binding)),
+        );
         return;
     }
     let plain =

@@ -40,7 +40,7 @@ pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass, e
     {
         let message = format!("`{}` has no stencil plane ({})", image.image.name, image.image.format);
         let wrong = Diagnostic::new(stencil.span, message).label(declared(target.part.image), "its format");
-        errors.push(wrong.help("`format: DepthStencil` has one"));
+        errors.push(wrong.help(format!("say `format: DepthStencil` of `{}`", image.image.name)));
     }
     let parts = pass.color.iter().map(|target| &target.part).chain(pass.depth.as_ref().map(|target| &target.part));
     let parts: Vec<Part<'_>> = parts.filter_map(|part| drawn(chosen, things, part, errors)).collect();
@@ -129,7 +129,7 @@ fn agree(pass: &describe::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
                 .remark(parts::size_words(other.extent, another))
                 .label(first.part.image.span, parts::size_words(first.extent, one));
             let whole = (one.extent, one.room) != (another.extent, another.room);
-            let help = format!("let one follow the other: `size: Like(\"{}\")`", one.name);
+            let help = format!("let one follow the other: say `size: Like(\"{}\")` of `{}`", one.name, another.name);
             errors.push(if whole { wrong.help(help) } else { wrong.help("draw into the same mip level of both") });
         }
         if one.samples != another.samples {
@@ -141,7 +141,10 @@ fn agree(pass: &describe::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
                 Diagnostic::new(span, message)
                     .remark(other.image.samples_words())
                     .label(first.part.image.span, first.image.samples_words())
-                    .help(format!("let one follow the other: `samples: Like(\"{}\")`", one.name)),
+                    .help(format!(
+                        "let one follow the other: say `samples: Like(\"{}\")` of `{}`",
+                        one.name, another.name
+                    )),
             );
         }
         if first.layers != other.layers {

@@ -104,7 +104,8 @@ pub(super) fn copy(
                     "`{}` has {} bytes and `{}` has {}: a copy fills its target whole",
                     source.name, source.bytes, target.name, target.bytes
                 );
-                let help = format!("let one follow the other: `bytes: Like(\"{}\")`", source.name);
+                let help =
+                    format!("let one follow the other: say `bytes: Like(\"{}\")` of `{}`", source.name, target.name);
                 errors.push(Diagnostic::new(other.buffer.span, message).help(help));
             }
         }

@@ -85,8 +85,10 @@ pub(super) fn report(chosen: &Chosen<'_>, circle: &[Need]) -> Diagnostic {
     for (span, text) in labels {
         diagnostic = diagnostic.label(span, text);
     }
-    let start = circle.first().map_or("", |need| &*chosen.name(need.resource).text);
+    let Some(Need { resource, .. }) = circle.first() else { return diagnostic };
+    let start = &chosen.name(*resource).text;
+    let kind = if matches!(resource, Resource::Image(_)) { "image" } else { "buffer" };
     diagnostic.help(format!(
-        "let one of them read what the frame before left: `lifetime: History` for `{start}`, and `previous: 1` here"
+        "let one of them read what the frame before left: say `lifetime: History` of `{start}`, and `({kind}: \"{start}\", previous: 1)` here"
     ))
 }

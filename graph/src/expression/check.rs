@@ -359,13 +359,20 @@ impl Check<'_> {
             },
             _ => (format!("{needs}, but {is}"), Span::NONE),
         };
+        let written = self.program.quoted(node);
+        let written = written.trim_matches('`');
         let help = match (ty, wanted) {
-            (Type::Number, [Type::Integer]) => Some("`floor(…)`, `round(…)` and `ceil(…)` give whole numbers"),
-            (Type::Integer | Type::Number, [Type::Bool]) => Some("compare it: `levels > 0`"),
-            (Type::Text, [.., Type::Image | Type::Buffer]) => Some("names of images and buffers stand without quotes"),
+            (Type::Number, [Type::Integer]) => {
+                Some(format!("write `floor({written})`, `round({written})` or `ceil({written})`"))
+            }
+            // What it is a part of may hold more tightly together than `>` does.
+            (Type::Integer | Type::Number, [Type::Bool]) => Some(format!("compare it: `({written} > 0)`")),
+            (Type::Text, [.., Type::Image | Type::Buffer]) => {
+                Some("names of images and buffers stand without quotes".to_owned())
+            }
             _ => None,
         };
-        self.report(node, message, declared, help.map(str::to_owned));
+        self.report(node, message, declared, help);
     }
 
     /// "`levels` is a whole number"

@@ -203,7 +203,7 @@ impl<'a> Parser<'a> {
                 // What the tokens call a number is one; only its size may be too large.
                 let number = digits.parse().unwrap_or(f64::INFINITY);
                 if !f64::is_finite(number) {
-                    return Err(too_large(range, "64-bit floating point reaches about 1.8e308"));
+                    return Err(too_large(range, "64-bit floating point reaches about 1.79e308"));
                 }
                 self.literal(Value::Number(number), &range)
             }

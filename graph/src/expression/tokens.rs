@@ -127,9 +127,9 @@ fn name(text: &str, start: usize) -> Result<usize, Mistake> {
 fn unexpected(found: char, start: usize) -> Mistake {
     let mistake = Mistake::new(start..start + found.len_utf8(), format!("unexpected `{found}` in an expression"));
     match found {
-        '=' => mistake.help("equality is written `==`"),
-        '&' => mistake.help("\"and\" is written `&&`"),
-        '|' => mistake.help("\"or\" is written `||`"),
+        '=' => mistake.help("write `==`"),
+        '&' => mistake.help("write `&&`"),
+        '|' => mistake.help("write `||`"),
         '"' | '“' | '”' | '‘' | '’' | '`' => mistake.help("texts stand in single quotes: `'high'`"),
         '^' => mistake.help("powers are written `pow(a, b)`"),
         '?' | ':' => mistake.help("a choice is written `if(condition, a, b)`"),

@@ -1,18 +1,23 @@
 //! Every file under `bad/` is wrong, its name says how, and the whole answer stands beside it.
 
 use crate::table::{INPUTS, Pictures, Table};
+use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe::{self, Diagnostic, Files, Found, Unread};
+use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::file_path::FilePath;
+use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Sources;
 use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
+use framewright_graph::view::Stereo;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Mistakes that are shown before the others are counted.
 const MOST_SHOWN: usize = 20;
 
-/// What a file's first lines ask for: `//! set NAME=VALUE`, `//! dump IMAGE`, `//! size WxH`.
+/// What a file's first lines ask for: `//! set NAME=VALUE`, `//! dump IMAGE`, `//! size WxH`, `//! rotate 90`, `//! eyes 2`; `//! device NAME`: a shipped
+/// device that it is compiled for as well, `//! device NAME without FORMAT`: one that has not that format.
 fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
     let (mut set, mut dump, mut size) = (Vec::new(), Vec::new(), INPUTS.output_extent);
     for line in text.lines().map_while(|line| line.strip_prefix("//! ")) {
@@ -26,6 +31,7 @@ fn asked(text: &str) -> (Vec<(String, String)>, Vec<String>, [u32; 2]) {
                 let (width, height) = extent.split_once('x').expect("size WxH");
                 size = [width, height].map(|extent| extent.parse().expect("a whole number"));
             }
+            Some(("device" | "rotate" | "eyes", _)) => {}
             _ => panic!("what is `{line}`?"),
         }
     }
@@ -46,6 +52,16 @@ impl Files for Folder {
     }
 }
 
+/// The device that a file is compiled for, if its first line names one.
+pub(crate) fn device(text: &str) -> Option<Profile> {
+    let asked = text.strip_prefix("//! device ")?.lines().next()?;
+    let (name, lacks) = asked.split_once(" without ").unwrap_or((asked, ""));
+    let (_, profile) = SHIPPED_PROFILES.iter().find(|(known, _)| *known == name).expect("a shipped device");
+    let mut profile = Profile::from_ron(profile).expect("a profile");
+    profile.formats.retain(|it| it.format.name() != lacks);
+    Some(profile)
+}
+
 /// What is wrong with a file.
 pub(crate) fn mistakes(name: &str, text: String) -> (Arc<Sources>, Vec<Diagnostic>) {
     let (sources, errors) = mistakes_if_any(name, text);
@@ -56,12 +72,19 @@ pub(crate) fn mistakes(name: &str, text: String) -> (Arc<Sources>, Vec<Diagnosti
 /// What is wrong with a file that may be right.
 pub(crate) fn mistakes_if_any(name: &str, text: String) -> (Arc<Sources>, Vec<Diagnostic>) {
     let (set, dump, output_extent) = asked(&text);
-    let inputs = Inputs { set: &set, dump: &dump, output_extent, ..INPUTS };
+    let device = device(&text);
+    let stereo = if text.contains("//! eyes 2\n") { Stereo::MultiPass } else { Stereo::Off };
+    let rotation = if text.contains("//! rotate 90\n") { Rotation::Rotate90 } else { Rotation::Identity };
+    let inputs = Inputs { set: &set, dump: &dump, output_extent, device: device.as_ref(), rotation, stereo, ..INPUTS };
     let mut sources = Sources::default();
     let pipeline = describe::read_with(&mut sources, &mut Folder, name, name, text);
     let sources = Arc::new(sources);
     let frame = pipeline.and_then(|pipeline| expand(&pipeline, sources.clone(), &inputs, &mut Table));
-    (sources, frame.err().unwrap_or_default())
+    let plan = frame.and_then(|frame| match device {
+        Some(device) => compile(&frame, &device, &mut Estimated(&device), &Options::default()).map(drop),
+        None => Ok(()),
+    });
+    (sources, plan.err().unwrap_or_default())
 }
 
 /// What is said about a file, in both forms.
@@ -72,7 +95,7 @@ fn answer(name: &str, text: String) -> (String, serde_json::Value) {
     (shown.join("\n"), describe::to_json(&sources, &errors))
 }
 
-fn folder() -> PathBuf {
+pub(crate) fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/language/bad")
 }
 

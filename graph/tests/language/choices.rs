@@ -127,19 +127,33 @@ fn a_preset_that_is_not_there_is_said_with_one_that_is_near() {
     assert_eq!(unknown.help.as_deref(), Some("there are `low`, `high`, `plain`"));
 }
 
-/// Every file under `bad_settings/`: its name, the texts, and what is wrong with it.
-pub(crate) fn bad_files() -> Vec<(String, Sources, Vec<Diagnostic>)> {
+/// Every file under `bad_settings/`: its name and its text.
+pub(crate) fn bad_texts() -> Vec<(String, String)> {
     let paths = folder().read_dir().expect("the folder of bad files").map(|entry| entry.expect("an entry").path());
     let mut paths: Vec<_> = paths.filter(|path| path.extension().is_some_and(|found| found == "ron")).collect();
     paths.sort();
-    let answer = |path: &PathBuf| {
+    let named = |path: &PathBuf| {
         let name = path.file_name().expect("a name").to_string_lossy().into_owned();
-        let (mut sources, document) = document();
-        let text = std::fs::read_to_string(path).expect("a text");
-        let errors = document.read_settings(&mut sources, &name, &name, text).expect_err(&name);
+        (name, std::fs::read_to_string(path).expect("a text"))
+    };
+    paths.iter().map(named).collect()
+}
+
+/// What is wrong with a settings file.
+pub(crate) fn mistakes(name: &str, text: String) -> (Sources, Vec<Diagnostic>) {
+    let (mut sources, document) = document();
+    let errors = document.read_settings(&mut sources, name, name, text).err();
+    (sources, errors.unwrap_or_default())
+}
+
+/// Every file under `bad_settings/`: its name, the texts, and what is wrong with it.
+pub(crate) fn bad_files() -> Vec<(String, Sources, Vec<Diagnostic>)> {
+    let answer = |(name, text): (String, String)| {
+        let (sources, errors) = mistakes(&name, text);
+        assert!(!errors.is_empty(), "{name}");
         (name, sources, errors)
     };
-    paths.iter().map(answer).collect()
+    bad_texts().into_iter().map(answer).collect()
 }
 
 fn folder() -> PathBuf {

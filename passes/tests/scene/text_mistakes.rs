@@ -98,7 +98,7 @@ fn numbers_must_be_finite_and_in_range() {
     assert_eq!(mistakes(&ball("radius: -inf")), ["4:34 expected a finite number, found `-inf`"]);
     assert_eq!(
         mistakes(&ball("radius: 1e999")),
-        ["4:34 this number is too large / 64-bit floating point reaches about 1.8e308"]
+        ["4:34 this number is too large / 64-bit floating point reaches about 1.79e308"]
     );
     assert_eq!(
         mistakes(&ball("radius: 1, position: (0, 1e12, 0)")),

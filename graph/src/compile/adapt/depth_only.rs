@@ -55,13 +55,14 @@ impl Adapter<'_> {
                 let name = &declared.name;
                 let message = format!("{because}, and its depth can't be drawn again with 1: {what}");
                 // Several layers can't be resolved either.
+                let one = self.one_sample(image);
                 let help = match declared.layers {
                     1 => format!(
-                        "say how the samples of `{name}` become one, `resolve: SampleZero`, `Min`, `Max` or `Average`; or \
-                         sample it as `sampler2DMS`, or give it 1 sample"
+                        "say `resolve: SampleZero`, `resolve: Min`, `resolve: Max` or `resolve: Average` of `{name}`, sample \
+                         it as `sampler2DMS`, or {one}"
                     ),
                     _ => format!(
-                        "sample a layer of `{name}` as `sampler2DMS`, give each layer an image of its own, or give it 1 sample"
+                        "sample a layer of `{name}` as `sampler2DMS`, give each layer an image of its own, or {one}"
                     ),
                 };
                 self.errors.push(Diagnostic::new(span, message).label(at, "drawn here").help(help));

@@ -116,6 +116,23 @@ impl Adapter<'_> {
         self.forward_by_draw(number, pass, source, to, why);
     }
 
+    /// What to say so that an image can take another one's texels as they are.
+    fn alike(&self, pass: &Pass, held: &ImageDescriptor, to: &Image) -> String {
+        let Work::Forward { from, .. } = pass.work else { return String::new() };
+        let from = &self.input.frame.images[from.0 as usize];
+        let fields = [
+            (held.format != to.format, format!("`format: {}`", held.format)),
+            (held.extent != to.extent, format!("`size: Like(\"{}\")`", from.name)),
+            (from.samples != to.samples, format!("`samples: Like(\"{}\")`", from.name)),
+            (held.layers != to.layers, format!("`layers: Like(\"{}\")`", from.name)),
+        ];
+        let differ: Vec<String> = fields.into_iter().filter_map(|(differs, field)| differs.then_some(field)).collect();
+        match &differ[..] {
+            [] => "give both the same format, size, samples, mip levels and shape".to_owned(),
+            differ => format!("say {} of `{}`", differ.join(", and "), to.name),
+        }
+    }
+
     fn forward_by_draw(&mut self, number: u32, pass: &Pass, source: StoreIndex, to: ImageIndex, why: String) {
         let target_image = &self.input.frame.images[to.0 as usize];
         let Some(held) = self.adapted.stores[source as usize].image().copied() else { return };
@@ -126,7 +143,7 @@ impl Adapter<'_> {
             || target_image.layers > 1
         {
             let message = format!("{why}, but {} can't be drawn into {}", held.format, target_image.format);
-            self.errors.push(Diagnostic::new(pass.span, message).help("give both the same format, size and samples"));
+            self.errors.push(Diagnostic::new(pass.span, message).help(self.alike(pass, &held, target_image)));
             return;
         }
         let rotation = self.rotation(source);

@@ -5,10 +5,11 @@
 
 use super::{Adapter, access};
 use crate::compile::model::{OpKind, ResolveShader, StoreIndex, Use};
+use crate::compile::samples::drawn_together;
 use crate::compile::{link, parts};
 use crate::describe::Diagnostic;
 use crate::device::Profile;
-use crate::frame::{Face, ImageIndex, Resolve, ResolveWay, Resource, Work};
+use crate::frame::{Face, Frame, ImageIndex, Resolve, ResolveWay, Resource, Work};
 use crate::plan::Inserted;
 use crate::plan::names::vulkan;
 use crate::source::Span;
@@ -59,10 +60,19 @@ impl Adapter<'_> {
     }
 
     pub(super) fn refuse_stencil(&mut self, image: ImageIndex, because: &str, span: Span) {
-        let name = &self.input.frame.images[image.0 as usize].name;
-        let help =
-            format!("sample it as `usampler2DMS`, choose a depth format without stencil, or give `{name}` 1 sample");
+        let help = format!(
+            "sample it as `usampler2DMS`, choose a depth format without stencil, or {}",
+            self.one_sample(image)
+        );
         self.errors.push(Diagnostic::new(span, format!("{because}; stencil can't be resolved")).help(help));
+    }
+
+    /// What to say so that an image has one sample: it has as many as what is drawn together with it.
+    pub(super) fn one_sample(&self, image: ImageIndex) -> String {
+        let Frame { images, passes, .. } = self.input.frame;
+        let together = drawn_together(passes, image);
+        let names: Vec<String> = together.iter().map(|it| format!("`{}`", images[it.0 as usize].name)).collect();
+        format!("say `samples: 1` of {}", names.join(" and "))
     }
 
     /// Colour averaged or weighted, integers sample zero.
@@ -93,7 +103,8 @@ impl Adapter<'_> {
     fn refuses_layers(&mut self, image: ImageIndex, because: &str, span: Span) -> bool {
         let declared = &self.input.frame.images[image.0 as usize];
         if declared.layers > 1 {
-            let help = format!("give each layer of `{}` an image of its own, or give it 1 sample", declared.name);
+            let help =
+                format!("give each layer of `{}` an image of its own, or {}", declared.name, self.one_sample(image));
             let message = format!("{because}; an image of several layers can't be resolved, whichever of them is read");
             self.errors.push(Diagnostic::new(span, message).help(help));
         }

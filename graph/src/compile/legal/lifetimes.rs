@@ -71,7 +71,7 @@ pub(super) fn check_state(state: &State, span: Span, of: Subject<'_>, when: When
         return Some(Diagnostic::new(span, message).help(help));
     }
     let odd = of.format.is_none() && state.layout != Layout::Undefined;
-    odd.then(|| Diagnostic::new(span, format!("`{}` is a buffer and has a layout", of.name)).help("write UNDEFINED"))
+    odd.then(|| Diagnostic::new(span, format!("`{}` is a buffer and has a layout", of.name)).help("write `UNDEFINED`"))
 }
 
 /// Whether a value can't fill an image with that format, or a buffer.

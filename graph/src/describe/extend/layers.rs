@@ -212,7 +212,9 @@ impl Layer {
                 if let Some(passes) = all.passes {
                     let wrong =
                         Diagnostic::new(passes.start(), "a pipeline that extends another has no `passes` of its own");
-                    reader.report(wrong.help("say where they belong: `changes: [Insert(at: End, passes: […])]`"));
+                    reader.report(
+                        wrong.help("move them to where they belong, such as `changes: [Insert(at: End, passes: […])]`"),
+                    );
                 }
                 common!(all: include settings presets views fragments textures images buffers outputs depth color depth_format changes)
             }
