@@ -40,7 +40,7 @@ fn within(limits: Limits) -> Result<Helper, Error> {
         let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
         if *told != *device {
             text::say(&format!(
-                "note: testing what `{}` does takes long; each of two tests is given up after {} s, and what comes of it is kept",
+                "note: testing what `{}` does takes long; each of two tests is given up after {} s",
                 text::escape(device),
                 limit.as_secs()
             ));

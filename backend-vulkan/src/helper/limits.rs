@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-/// What may be used in a helper process: by the GLSL compiler, and of time by a self-test of a driver.
+/// Limits of the GLSL compiler in a helper process, and on the time of a driver's self-test.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Limits {
     /// Time for one stage of one shader. A usual one takes some milliseconds, and the first one of a process a third of a second.

@@ -135,7 +135,7 @@ impl Helper {
 
     /// Has `tell` called when a self-test of a device has gone on for two seconds: it may take as long as
     /// [`Limits::self_test`] says, and the program waits for it. It is called at most once for each test, from another thread, for
-    /// all clones. Only the first call counts.
+    /// all clones, and mustn't block: until it comes back the test isn't given up. Only the first call counts.
     pub fn when_a_test_takes_long(&self, tell: impl Fn(&LongTest) + Send + Sync + 'static) {
         let _ = self.tell.0.set(Box::new(tell));
     }

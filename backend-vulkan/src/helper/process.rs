@@ -197,7 +197,8 @@ fn given_up(
         if end.recv_timeout(left.min(SLICE)) != Err(RecvTimeoutError::Timeout) {
             return None;
         }
-        if begun.elapsed() >= LONG
+        let passed = begun.elapsed();
+        if passed >= LONG
             && let Some(long) = long.take()
         {
             long();
@@ -205,7 +206,7 @@ fn given_up(
         if cancel.is_asked() {
             return Some(NoAnswer::Cancelled);
         }
-        if begun.elapsed() >= time {
+        if passed >= time {
             return Some(NoAnswer::TooLong(time));
         }
     }

@@ -203,20 +203,20 @@ impl<'m> Indexed<'m> {
 
     /// A type as GLSL writes it: `float`, `uvec2`, `mat4`, `mat3x4`, `vec4[8]`, or a struct's name.
     pub(super) fn type_name(&self, ty: u32) -> String {
-        let mut lengths = Vec::new();
+        let mut lengths = String::new();
         let mut ty = ty;
+        let mut dimensions = 0;
         // No array has more dimensions than there are types.
-        while let Some(it) = self.global(ty).filter(|_| lengths.len() < self.globals.len()) {
+        while let Some(it) = self.global(ty).filter(|_| dimensions < self.globals.len()) {
             match it.class.opcode {
-                Op::TypeArray => lengths.push(format!("[{}]", self.array_length(it))),
-                Op::TypeRuntimeArray => lengths.push("[]".to_owned()),
+                Op::TypeArray => lengths += &format!("[{}]", self.array_length(it)),
+                Op::TypeRuntimeArray => lengths += "[]",
                 _ => break,
             }
+            dimensions += 1;
             ty = id(it, 0).unwrap_or(0);
         }
-        lengths.push(self.element_name(ty));
-        lengths.reverse();
-        lengths.concat()
+        self.element_name(ty) + &lengths
     }
 
     /// The name of a type that is no array.
@@ -341,7 +341,7 @@ mod tests {
         let rows = types.made_of(Op::TypeRuntimeArray, &[table]);
         let deep = (0..DEEP).fold(float, |ty, _| types.made_of(Op::TypeArray, &[ty, one]));
         let module = Indexed::new(&types.0);
-        assert_eq!(module.type_name(rows), "uvec2[2][]");
+        assert_eq!(module.type_name(rows), "uvec2[][2]");
         assert_eq!(module.type_name(deep), format!("float{}", "[1]".repeat(DEEP)));
         assert_eq!((module.own_bytes(deep), module.sizes(deep).locations), (4, 1));
     }

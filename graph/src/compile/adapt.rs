@@ -248,7 +248,8 @@ impl Adapter<'_> {
     fn sampled(&mut self, number: u32, pass: &Pass, sampled: &Sampled) -> Option<StoreIndex> {
         let declared = &self.input.frame.images[sampled.image.0 as usize];
         if sampled.frames_ago > 0 {
-            return Some(self.current(sampled.image) + sampled.frames_ago);
+            let earlier = self.current(sampled.image) + sampled.frames_ago;
+            return self.can_be_seen_later(pass, sampled, earlier).then_some(earlier);
         }
         let before = self.current(sampled.image);
         let count = self.samples(before);
@@ -280,6 +281,23 @@ impl Adapter<'_> {
             self.note(&declared.name, text, sampled.span);
         }
         Some(self.version_before(number, pass, sampled, before))
+    }
+
+    /// Whether a shader sees an earlier frame as it was left: it isn't resolved.
+    fn can_be_seen_later(&mut self, pass: &Pass, sampled: &Sampled, earlier: StoreIndex) -> bool {
+        let count = self.samples(earlier);
+        if count == 1 || sampled.face == Face::Samples {
+            return true;
+        }
+        let name = &self.input.frame.images[sampled.image.0 as usize].name;
+        let message = format!(
+            "`{}` samples an earlier frame of `{name}`, which has {count} samples; only a frame's own images are resolved",
+            pass.name
+        );
+        let help = "let a pass draw it into an image with 1 sample and `lifetime: History`, and sample an earlier frame of that \
+            one; or declare it `sampler2DMS` in the shader";
+        self.errors.push(Diagnostic::new(sampled.span, message).help(help));
+        false
     }
 
     /// A pass that samples what it also writes reads the version before itself, which `before` holds.

@@ -61,7 +61,7 @@ fn power_of_two<E: Error>(value: u64, most: u64) -> Result<u64, E> {
 
 /// Bytes of a heap, where they are known.
 pub(super) fn heap_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u64>, D::Error> {
-    match u64::deserialize(deserializer)? {
+    match u64::deserialize(deserializer).map_err(written_anew)? {
         0 => Err(D::Error::custom("a heap without memory: leave it out if it isn't known")),
         bytes => Ok(Some(bytes)),
     }
@@ -69,7 +69,14 @@ pub(super) fn heap_bytes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<O
 
 /// A number of clip distances, where it is known.
 pub(super) fn clip_distances<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u32>, D::Error> {
-    u32::deserialize(deserializer).map(Some)
+    u32::deserialize(deserializer).map(Some).map_err(written_anew)
+}
+
+/// Older profiles have `Some(…)` around such a number.
+fn written_anew<E: serde::de::Error>(error: E) -> E {
+    E::custom(format!(
+        "{error}: a plain number stands here; a profile with `Some(…)` is an older one, which is saved anew"
+    ))
 }
 
 /// Writes a number that stands for itself where it is known. Where it isn't the field is left out, and this isn't called.

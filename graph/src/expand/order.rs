@@ -10,6 +10,7 @@ use crate::describe::{Diagnostic, StandIn, keep};
 use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::source::Span;
 use crate::vocabulary::{Aspects, Layout};
+use std::iter::{once, successors};
 
 /// After so many mistakes it is no longer looked for which writer was meant: that would take long in a large file.
 const MANY_MISTAKES: usize = 100;
@@ -229,6 +230,15 @@ impl Check<'_> {
         keep(self.errors, diagnostic);
     }
 
+    /// Where a pass is named, and each use that it came by: the same places for all that one entry repeats.
+    fn named_at(&self, position: usize) -> Vec<Span> {
+        let pipeline = self.chosen.pipeline;
+        let pass = &pipeline.passes[position];
+        let whole = |within: Option<u32>| within.and_then(|at| pipeline.instances.get(at as usize));
+        let uses = successors(whole(pass.instance), |instance| whole(instance.within));
+        once(pass.name.span).chain(uses.map(|instance| instance.span)).collect()
+    }
+
     /// A read that stands before the first write.
     fn too_early(&self, position: usize, read: &Read, what: &str, writer: Writer) -> Diagnostic {
         let of = read.resource;
@@ -244,8 +254,8 @@ impl Check<'_> {
         }
         let below = &self.chosen.pipeline.passes[writer.position].name.text;
         // Of what is repeated none can be moved by itself.
-        if self.chosen.pipeline.passes[writer.position].name.span == self.chosen.pipeline.passes[position].name.span {
-            let help = "what is repeated reads what stood there before, and what those of lower numbers wrote";
+        if self.named_at(writer.position) == self.named_at(position) {
+            let help = "a repetition can read only what repetitions with lower numbers wrote";
             return wrong.label(writer.span, format!("first written here, by `{below}`")).help(help);
         }
         let wrong = wrong.label(writer.span, "first written here, further below");

@@ -359,15 +359,18 @@ impl Check<'_> {
             },
             _ => (format!("{needs}, but {is}"), Span::NONE),
         };
-        let written = self.program.quoted(node);
-        let written = written.trim_matches('`');
-        let help = match (ty, wanted) {
-            (Type::Number, [Type::Integer]) => {
+        let written = self.program.short(node);
+        let help = match (ty, wanted, written) {
+            (Type::Number, [Type::Integer], Some(written)) => {
                 Some(format!("write `floor({written})`, `round({written})` or `ceil({written})`"))
             }
+            (Type::Number, [Type::Integer], None) => Some("round it: `floor(…)`, `round(…)` or `ceil(…)`".to_owned()),
             // What it is a part of may hold more tightly together than `>` does.
-            (Type::Integer | Type::Number, [Type::Bool]) => Some(format!("compare it: `({written} > 0)`")),
-            (Type::Text, [.., Type::Image | Type::Buffer]) => {
+            (Type::Integer | Type::Number, [Type::Bool], Some(written)) => {
+                Some(format!("compare it: `({written} > 0)`"))
+            }
+            (Type::Integer | Type::Number, [Type::Bool], None) => Some("compare it: `(… > 0)`".to_owned()),
+            (Type::Text, [.., Type::Image | Type::Buffer], _) => {
                 Some("names of images and buffers stand without quotes".to_owned())
             }
             _ => None,

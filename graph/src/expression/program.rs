@@ -156,6 +156,11 @@ impl Program {
     pub(super) fn quoted(&self, index: u32) -> String {
         shown(self.text.part(self.range(index)))
     }
+
+    /// The text of a part, if it is short enough for messages to repeat it whole.
+    pub(super) fn short(&self, index: u32) -> Option<&str> {
+        Some(self.text.part(self.range(index))).filter(|text| text.chars().nth(MOST_SHOWN).is_none())
+    }
 }
 
 /// Longer texts are cut in messages.
