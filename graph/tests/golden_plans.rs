@@ -171,15 +171,23 @@ fn touches(work: &Work, resource: Resource) -> bool {
     }
 }
 
-#[test]
-fn every_barrier_names_the_first_step_that_needs_it_and_not_the_step_where_it_stands() {
+/// Every Plan that is held here, for lavapipe, with its name.
+fn on_lavapipe() -> Vec<(String, Plan)> {
     let (_, lavapipe) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
     let device = Profile::from_ron(lavapipe).expect("shipped profiles are read");
-    let mut earlier = 0;
-    for (file, (name, set, facts)) in all() {
+    let compiled = all().into_iter().map(|(file, (name, set, facts))| {
         let inputs = Inputs { set: &set, facts, facts_known: true, ..INPUTS };
         let plan = compile(&expanded(&file, &inputs), &device, &mut Estimated(&device), &Options::default());
         let plan = plan.unwrap_or_else(|wrong| panic!("{name}: {wrong:?}"));
+        (name, plan)
+    });
+    compiled.collect()
+}
+
+#[test]
+fn every_barrier_names_the_first_step_that_needs_it_and_not_the_step_where_it_stands() {
+    let mut earlier = 0;
+    for (name, plan) in on_lavapipe() {
         for (number, step) in plan.steps.iter().enumerate() {
             let images = step.image_barriers.iter().map(|it| (Resource::Image(it.image), it.needed_by));
             let buffers = step.memory_barriers.iter().flat_map(|it| &it.buffers);
@@ -204,13 +212,8 @@ fn every_barrier_names_the_first_step_that_needs_it_and_not_the_step_where_it_st
 /// that lies on the same bytes.
 #[test]
 fn memory_is_free_where_the_first_barrier_of_what_takes_it_stands() {
-    let (_, lavapipe) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
-    let device = Profile::from_ron(lavapipe).expect("shipped profiles are read");
     let mut earlier = 0;
-    for (file, (name, set, facts)) in all() {
-        let inputs = Inputs { set: &set, facts, facts_known: true, ..INPUTS };
-        let plan = compile(&expanded(&file, &inputs), &device, &mut Estimated(&device), &Options::default());
-        let plan = plan.unwrap_or_else(|wrong| panic!("{name}: {wrong:?}"));
+    for (name, plan) in on_lavapipe() {
         let placed = |image: &Image| match &image.role {
             Role::Transient(placement) => Some(placement.clone()),
             _ => None,

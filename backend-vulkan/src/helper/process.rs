@@ -92,8 +92,9 @@ impl Running {
         Ok(Running { child: Mutex::new(child), streams, said, limits: limits.clone() })
     }
 
-    /// Talks with it for at most so long, or until it is cancelled; `long` is called once if it isn't over soon. What comes back beside the answer goes on: after an error it
-    /// is gone, and after an answer that came just too late.
+    /// Talks with the process until `time` is over or `cancel` is asked for. `long` is called once if the talk goes on for
+    /// [`LONG`]. The process comes back beside the answer, unless it was ended because the answer came too late. After an
+    /// error it is ended.
     pub(super) fn within<T>(
         mut self,
         time: Duration,

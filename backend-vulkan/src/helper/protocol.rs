@@ -61,7 +61,7 @@ pub(super) fn write_frame(to: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
     to.flush()
 }
 
-/// Reads a frame of at most so many bytes.
+/// Reads a frame; one of more than `most` bytes is an error.
 pub(super) fn read_frame(from: &mut impl Read, most: usize) -> io::Result<Vec<u8>> {
     let mut length = [0; 4];
     from.read_exact(&mut length)?;

@@ -56,7 +56,7 @@ pub(crate) enum Failure {
     OutOfMemory,
     /// The compiler failed itself, in its own words.
     Internal(String),
-    /// It becomes so many bytes of SPIR-V, more than [`LARGEST_SPIRV`].
+    /// The bytes of its SPIR-V, which are more than [`LARGEST_SPIRV`].
     TooLarge(usize),
 }
 

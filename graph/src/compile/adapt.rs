@@ -249,7 +249,7 @@ impl Adapter<'_> {
         let declared = &self.input.frame.images[sampled.image.0 as usize];
         if sampled.frames_ago > 0 {
             let earlier = self.current(sampled.image) + sampled.frames_ago;
-            return self.can_be_seen_later(pass, sampled, earlier).then_some(earlier);
+            return self.samples_unresolved(pass, sampled, earlier).then_some(earlier);
         }
         let before = self.current(sampled.image);
         let count = self.samples(before);
@@ -283,8 +283,8 @@ impl Adapter<'_> {
         Some(self.version_before(number, pass, sampled, before))
     }
 
-    /// Whether a shader sees an earlier frame as it was left: it isn't resolved.
-    fn can_be_seen_later(&mut self, pass: &Pass, sampled: &Sampled, earlier: StoreIndex) -> bool {
+    /// Whether a shader can sample an earlier frame, which is never resolved. Reports it if not.
+    fn samples_unresolved(&mut self, pass: &Pass, sampled: &Sampled, earlier: StoreIndex) -> bool {
         let count = self.samples(earlier);
         if count == 1 || sampled.face == Face::Samples {
             return true;

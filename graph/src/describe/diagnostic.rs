@@ -29,8 +29,8 @@ pub struct Diagnostic {
     pub choice: Option<OutsideChoice>,
 }
 
-/// Something that no file says and that may mend a mistake: whoever runs the program chooses it. Messages name it by no option of
-/// a program; a program that has one adds it.
+/// A choice that is made when a program is run, in no file, and that may mend a mistake. Messages don't name a program's option
+/// for it: a program that has one adds its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OutsideChoice {
     /// The folder from which files may be read.

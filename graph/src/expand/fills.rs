@@ -75,8 +75,7 @@ fn depth(fill: Fill, format: Format) -> Result<FillValue, (String, String)> {
         Fill::Color(_) => {
             let stencil = format.aspects().contains(Aspects::STENCIL);
             let help = if stencil { "write a depth and a stencil value: `(0.0, 0)`" } else { "write a depth: `0.0`" };
-            let help = help.to_owned();
-            return Err((format!("a colour can't fill an image that holds depth ({format})"), help));
+            return Err((format!("a colour can't fill an image that holds depth ({format})"), help.to_owned()));
         }
     };
     if !(0.0..=1.0).contains(&depth) {

@@ -107,7 +107,9 @@ fn surroundings<'a>(inputs: &Inputs<'a>) -> Surroundings<'a> {
 fn check_extent(extent: [u32; 2], errors: &mut Vec<Diagnostic>) {
     let [width, height] = extent;
     if extent.iter().any(|extent| !(1..=LARGEST_SIZE).contains(extent)) {
-        errors.push(nowhere(format!("the frame can't be {width}×{height}: 1 to {LARGEST_SIZE} texels are allowed")));
+        errors.push(Diagnostic::nowhere(format!(
+            "the frame can't be {width}×{height}: 1 to {LARGEST_SIZE} texels are allowed"
+        )));
     }
 }
 
@@ -329,12 +331,13 @@ fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, error
             .collect();
         if found.is_empty() {
             let help = suggestion(name, pipeline.images.iter().map(|image| &*image.name.text));
-            errors.push(Diagnostic { help, ..nowhere(format!("there is no image named `{name}` to dump")) });
+            errors
+                .push(Diagnostic { help, ..Diagnostic::nowhere(format!("there is no image named `{name}` to dump")) });
         }
         for (index, eye) in found {
             if let describe::Lifetime::File(file) = &pipeline.images[index].lifetime.value {
                 let why = format!("`{name}` can't be dumped: no pass makes it, it comes from `{}`", file.path);
-                errors.push(nowhere(why));
+                errors.push(Diagnostic::nowhere(why));
                 continue;
             }
             let Ok(index) = u32::try_from(index) else { continue };
@@ -344,11 +347,6 @@ fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, error
             }
         }
     }
-}
-
-/// A mistake that stands in no file.
-fn nowhere(message: String) -> Diagnostic {
-    Diagnostic::nowhere(message)
 }
 
 impl<'a> Chosen<'a> {

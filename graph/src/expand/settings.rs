@@ -1,6 +1,5 @@
 //! Values of settings: the user's choice where it is allowed, else what a file or a preset chose, else the default.
 
-use super::nowhere;
 use crate::describe::{ChosenBy, Diagnostic, Document, InForce, Setting, SettingKind, shown_number, suggestion};
 use crate::expression::Value;
 use std::collections::HashMap;
@@ -15,7 +14,7 @@ pub(super) fn choose(document: &Document, set: &[(String, String)], errors: &mut
         let Some(at) = index.get(name.as_str()) else {
             let help = suggestion(name, settings.iter().map(|setting| &*setting.name.text))
                 .or_else(|| Some("this pipeline has no settings".to_owned()));
-            errors.push(Diagnostic { help, ..nowhere(format!("there is no setting named `{name}`")) });
+            errors.push(Diagnostic { help, ..Diagnostic::nowhere(format!("there is no setting named `{name}`")) });
             continue;
         };
         let setting = &settings[*at];

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 type Lie = fn(&mut Value);
 
 /// One textured square: accessor 0 holds positions, 1 normals, 2 texture coordinates, 3 indices.
-fn sound() -> Builder {
+pub(crate) fn sound() -> Builder {
     let mut file = Builder::default();
     let picture = image::RgbaImage::from_pixel(1, 1, image::Rgba([255, 0, 0, 255]));
     let texture = file.texture("dot", "image/png", &png(&picture), json!({}));

@@ -1,27 +1,11 @@
 //! What a glTF file says that isn't drawn is noted, and what it says in an unusual way is read.
 
-use crate::fixtures::shapes::square;
-use crate::fixtures::{
-    builder::{Builder, pack},
-    png,
-};
+use crate::fixtures::builder::pack;
+use crate::gltf_mistakes::sound;
 use framewright_passes::scene::{Scene, Wrap, gltf};
 use glam::DVec3;
 use serde_json::{Value, json};
 use std::sync::Arc;
-
-/// One textured square.
-fn sound() -> Builder {
-    let mut file = Builder::default();
-    let picture = image::RgbaImage::from_pixel(1, 1, image::Rgba([255, 0, 0, 255]));
-    let texture = file.texture("dot", "image/png", &png(&picture), json!({}));
-    let pbr = json!({"baseColorTexture": {"index": texture}});
-    let material = file.material(json!({"name": "red", "pbrMetallicRoughness": pbr}));
-    let primitive = file.primitive(&square(), Some(material));
-    let mesh = file.mesh("square", vec![primitive]);
-    file.root(json!({"mesh": mesh, "name": "square"}));
-    file
-}
 
 /// What becomes of the file after its JSON was changed.
 fn read(change: impl FnOnce(&mut Value)) -> Result<Scene, String> {

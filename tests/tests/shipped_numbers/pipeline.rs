@@ -43,7 +43,8 @@ impl Pipeline {
         self.outputs.push(format!("{name:?}"));
     }
 
-    /// An output for each of a shader's, all of 32 bits, so that what is read is what the shader stores; as a pass names them.
+    /// The outputs as a pass names them: one for each output of the shader. All have 32 bits, so that the texels that are read are the
+    /// values that the shader stores.
     pub(crate) fn targets(&mut self, pass: &str, outputs: &[FragmentOutput]) -> String {
         let mut targets = String::new();
         for output in outputs {

@@ -16,7 +16,7 @@ use std::error::Error;
 /// pixel's place which samples alpha covers (lavapipe 25 does): the right eye of an odd width has other places.
 type Shipped<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str, u32, usize);
 
-/// So many are off where a driver chooses by a pixel's place, and at most six at even widths.
+/// Most pixels that are off where a driver chooses by a pixel's place. At even widths at most six are.
 const BY_PLACE: usize = 140;
 
 const LARGE: [u32; 2] = [641, 361];
