@@ -4,10 +4,9 @@
 //! `framewright_vulkan::DrawSource` in place of [`SceneDrawSource`]: something that records the draws of its objects when
 //! it is asked for them.
 
-use framewright_graph::root::Root;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Sources;
-use framewright_graph::{compile, describe, expand, verify, view};
+use framewright_graph::base::{self, Root, Sources};
+use framewright_graph::vulkan::Rotation;
+use framewright_graph::{compile, expand, frame, language, verify};
 use framewright_passes::draw::{self, SceneDrawSource};
 use framewright_passes::{scene, shipped};
 use framewright_vulkan::helper::{self, Limits};
@@ -31,8 +30,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = examples.join("pipelines/forward.ron");
     let mut sources = Sources::default();
     let text = std::fs::read_to_string(&file)?;
-    let pipeline = describe::read(&mut sources, &file.to_string_lossy(), "forward.ron", text)
-        .map_err(|mistakes| describe::render(&sources, &mistakes))?;
+    let pipeline = language::read(&mut sources, &file.to_string_lossy(), "forward.ron", text)
+        .map_err(|mistakes| base::render(&sources, &mistakes))?;
     let sources = Arc::new(sources);
     let shaders = ShaderLibrary::new(vec![Root::new("shaders".into())], shipped::SHADERS, draw::interface);
     let mut shaders = shaders.with_helper(&helper);
@@ -44,15 +43,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         rotation: Rotation::Identity,
         dump: &[],
         device: None,
-        stereo: view::Stereo::Off,
+        stereo: frame::Stereo::Off,
     };
     let frame = expand::expand(&pipeline, sources.clone(), &inputs, &mut shaders)
-        .map_err(|mistakes| describe::render(&sources, &mistakes))?;
+        .map_err(|mistakes| base::render(&sources, &mistakes))?;
 
     // The frame and what a device can do become a Plan, which somebody else than its maker verifies.
     let device = Device::open(&DeviceOptions { helper: Some(helper), ..DeviceOptions::default() })?;
     let plan = compile::compile(&frame, &device.profile(), &mut device.memory(), &compile::Options::default())
-        .map_err(|mistakes| describe::render(&sources, &mistakes))?;
+        .map_err(|mistakes| base::render(&sources, &mistakes))?;
     assert!(verify::verify(&plan).is_empty());
     println!("{}", plan.tree());
 

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::memory::{Kind, Memory};
 use ash::vk;
 use framewright_graph::device::BufferDescriptor;
-use framewright_graph::plan::Sharing;
+use framewright_graph::vulkan::Sharing;
 use std::sync::Arc;
 
 /// A buffer bound to memory. The memory lives at least as long.

@@ -3,7 +3,7 @@
 use crate::device::Shared;
 use crate::error::Error;
 use ash::vk;
-use framewright_graph::interface::MOST_PARTS;
+use framewright_graph::shader::MOST_PARTS;
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Mutex, PoisonError};

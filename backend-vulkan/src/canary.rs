@@ -10,10 +10,8 @@ use crate::submit::Commands;
 use crate::validation::{Message, MessageKind, Severity};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
-use framewright_graph::format::Format;
-use framewright_graph::frame::Shape;
-use framewright_graph::plan::{Queue, Sharing, Subresources};
-use framewright_graph::vocabulary::Usage;
+use framewright_graph::plan::{Queue, Subresources};
+use framewright_graph::vulkan::{Format, Shape, Sharing, Usage};
 use std::sync::Arc;
 
 /// What the layer proved that it sees.

@@ -9,10 +9,7 @@ use ash::vk;
 use framewright_graph::device::{
     BufferDescriptor, FormatSupport, ImageDescriptor, MemoryModel, MemoryProvider, Profile, Queues,
 };
-use framewright_graph::format::Format;
-use framewright_graph::frame::Shape;
-use framewright_graph::plan::Sharing;
-use framewright_graph::vocabulary::Usage;
+use framewright_graph::vulkan::{Format, Shape, Sharing, Usage};
 use std::ffi::CStr;
 
 /// The Vulkan version that devices and the loader must have.

@@ -8,7 +8,7 @@ use crate::readback::memory_change;
 use crate::record::{barriers, state_change};
 use ash::vk;
 use framewright_graph::plan::{BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
-use framewright_graph::vocabulary::State;
+use framewright_graph::vulkan::State;
 use std::sync::Arc;
 
 /// One image or buffer that goes on.

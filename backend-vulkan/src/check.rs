@@ -10,7 +10,7 @@ use ash::vk;
 use framewright_graph::device::{ImageDescriptor, MemoryNeeds};
 use framewright_graph::plan::{Buffer, Image, Placement, Plan, Queue, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vocabulary::{Aspects, BufferUsage, Layout, Usage};
+use framewright_graph::vulkan::{Aspects, BufferUsage, Layout, Usage};
 
 /// Which of the Plan's own mistakes are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

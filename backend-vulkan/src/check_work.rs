@@ -5,12 +5,11 @@ use crate::convert;
 use crate::device::Shared;
 use crate::error::Error;
 use ash::vk;
-use framewright_graph::frame::{Blend, Shape};
+use framewright_graph::frame::{Blend, EyeForm, Stereo};
 use framewright_graph::plan::{
     Attachment, BindingKind, ImageId, Pass, Plan, RenderScope, Resource, Side, Step, Transfer, Work,
 };
-use framewright_graph::view::{EyeForm, Stereo};
-use framewright_graph::vocabulary::{Filter, Layout};
+use framewright_graph::vulkan::{Filter, Layout, Shape};
 
 /// Whether the device can execute such a step, on the queue that it names.
 pub(crate) fn executable(shared: &Shared, plan: &Plan, step: &Step) -> Result<(), Error> {

@@ -16,7 +16,7 @@ use crate::textures::Staged;
 use crate::uses::Uses;
 use ash::vk;
 use framewright_graph::plan::{self, BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
-use framewright_graph::vocabulary::{Accesses, Aspects, FillValue, Layout, Stages, State, Usage};
+use framewright_graph::vulkan::{Accesses, Aspects, FillValue, Layout, Stages, State, Usage};
 use std::sync::Arc;
 
 /// Not used by anything yet.

@@ -1,11 +1,10 @@
 //! From the graph's words to Vulkan's enumerants. Flags and formats share their values; the rest are tables.
 
 use ash::vk;
-use framewright_graph::format::Format;
 use framewright_graph::plan::Subresources;
-use framewright_graph::vocabulary::{
-    Accesses, Aspects, BufferUsage, CompareOp, FillValue, Filter, Layout, LoadOp, ResolveMode, Stages, StencilOp,
-    StoreOp, Usage,
+use framewright_graph::vulkan::{
+    Accesses, Aspects, BufferUsage, CompareOp, FillValue, Filter, Format, Layout, LoadOp, ResolveMode, Stages,
+    StencilOp, StoreOp, Usage,
 };
 
 pub(crate) fn format(format: Format) -> vk::Format {

@@ -13,17 +13,15 @@ use crate::readback::Texels;
 use crate::recorder::{DrawSource, Recorder};
 use crate::shaders::ShaderLibrary;
 use crate::{capabilities, convert};
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Profile;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, Face, Frame, Image, ImageIndex, Pass, Resolve, ResolveWay, Resource,
-    Sampled, Work,
+    Blend, ColorTarget, DepthTarget, Draw, EyeForm, Face, Frame, Image, ImageIndex, Pass, Resolve, ResolveWay,
+    Resource, Sampled, Stereo, Work,
 };
-use framewright_graph::interface::DrawInterface;
-use framewright_graph::source::Span;
-use framewright_graph::view::{EyeForm, Stereo};
-use framewright_graph::vocabulary::{CompareOp, Filter, ResolveMode, Sampler, Stages, Subresources};
+use framewright_graph::shader::DrawInterface;
+use framewright_graph::vulkan::{CompareOp, Filter, Format, ResolveMode, Sampler, Stages, Subresources};
 use serde::{Deserialize, Serialize};
 
 /// The modes in which depth can be resolved.

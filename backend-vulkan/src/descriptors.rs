@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::resources::{Buffer, Texture};
 use crate::shader_fit::check_brought;
 use ash::vk;
-use framewright_graph::interface::{DrawInterface, PASS_SET, SuppliedKind};
+use framewright_graph::shader::{DrawInterface, PASS_SET, SuppliedKind};
 use std::sync::Arc;
 
 /// A descriptor set in a pool of its own.

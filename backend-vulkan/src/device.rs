@@ -11,7 +11,7 @@ use crate::queues::{Families, Queues};
 use crate::self_tests::SelfTests;
 use crate::validation::Messages;
 use ash::{ext, khr, vk};
-use framewright_graph::describe::nearest;
+use framewright_graph::base::nearest;
 use framewright_graph::device::{BufferDescriptor, ImageDescriptor, MemoryNeeds, Profile};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::ffi::{CStr, FromBytesUntilNulError};

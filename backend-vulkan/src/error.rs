@@ -1,11 +1,10 @@
 //! Everything that can go wrong here, as data; the sentence is made where it is shown.
 
 use ash::vk;
-use framewright_graph::amount;
-use framewright_graph::describe::escape;
+use framewright_graph::base::{amount, escape};
 use framewright_graph::device::MemoryNeeds;
-use framewright_graph::interface::ShaderProblem;
-use framewright_graph::texture::TextureProblem;
+use framewright_graph::frame::TextureProblem;
+use framewright_graph::shader::ShaderProblem;
 use framewright_graph::verify::Violation;
 
 /// The packages that bring a loader, a driver that needs no graphics card, and a validation layer.

@@ -11,7 +11,7 @@ use crate::readback::{Readback, Texels, first_plane, mip_extent, plane_bytes};
 use crate::turn;
 use ash::vk;
 use framewright_graph::plan::{BufferId, ImageId, Queue, Resource, Role};
-use framewright_graph::vocabulary::{Aspects, Layout, State, Usage};
+use framewright_graph::vulkan::{Aspects, Layout, State, Usage};
 
 impl Executor {
     /// The output number `output` of the Plan, an image, as the last frame left it: colour or depth of its first mip level.

@@ -14,8 +14,8 @@ use crate::shaders::ShaderLibrary;
 use crate::textures::{Staged, staged};
 use crate::timing::FrameReport;
 use crate::uses::Uses;
+use framewright_graph::frame::{NoTextures, Textures};
 use framewright_graph::plan::Plan;
-use framewright_graph::texture::{NoTextures, Textures};
 use std::sync::Arc;
 use std::time::Duration;
 

@@ -5,9 +5,9 @@
 
 use crate::uses::Uses;
 use framewright_graph::plan::{
-    ImageBarrier, ImageId, Pass, Plan, Queue, Resource, Role, Sharing, Side, Step, Subresources, Work,
+    ImageBarrier, ImageId, Pass, Plan, Queue, Resource, Role, Side, Step, Subresources, Work,
 };
-use framewright_graph::vocabulary::Layout;
+use framewright_graph::vulkan::{Layout, Sharing};
 use std::collections::HashSet;
 
 /// A part of an image that one queue at a time may use.
@@ -113,11 +113,11 @@ fn used(step: &Step, use_part: &mut impl FnMut(ImageId, Subresources)) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_graph::format::Format;
-    use framewright_graph::frame::Shape;
     use framewright_graph::plan::{Access, Cause, DeviceUsed, Hazard, Image, Initial, StepId, Totals};
-    use framewright_graph::rotation::Rotation;
-    use framewright_graph::vocabulary::{Accesses, FillValue, Stages, State, Usage};
+    use framewright_graph::vulkan::Format;
+    use framewright_graph::vulkan::Rotation;
+    use framewright_graph::vulkan::Shape;
+    use framewright_graph::vulkan::{Accesses, FillValue, Stages, State, Usage};
 
     const FORMAT: Format = Format::R32_UINT;
     const LAYOUT: Layout = Layout::General;
@@ -154,7 +154,7 @@ mod tests {
             device: DeviceUsed { name: String::new(), exact_memory: true },
             settings: Vec::new(),
             changes: Vec::new(),
-            stereo: framewright_graph::view::Stereo::Off,
+            stereo: framewright_graph::frame::Stereo::Off,
             views: Vec::new(),
             images: vec![image],
             buffers: Vec::new(),

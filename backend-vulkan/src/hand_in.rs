@@ -7,7 +7,7 @@ use crate::record::{Frame, barriers, state_change};
 use crate::uses::Uses;
 use ash::vk;
 use framewright_graph::plan::{Plan, Resource, Role, StepId, Subresources, Wait};
-use framewright_graph::vocabulary::{Layout, Stages, State};
+use framewright_graph::vulkan::{Layout, Stages, State};
 
 /// The handing in of one image or buffer.
 #[derive(Debug, Clone, PartialEq, Eq)]

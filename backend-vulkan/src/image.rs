@@ -6,8 +6,8 @@ use crate::error::Error;
 use crate::memory::Memory;
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
-use framewright_graph::frame::Shape;
-use framewright_graph::plan::{Sharing, Subresources};
+use framewright_graph::plan::Subresources;
+use framewright_graph::vulkan::{Shape, Sharing};
 use std::sync::Arc;
 
 /// How an image of this description is created: the one place that knows, so that memory needs are those of the image.

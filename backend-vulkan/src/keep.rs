@@ -7,7 +7,7 @@ use crate::record::Frame;
 use crate::uses::Uses;
 use ash::vk;
 use framewright_graph::plan::{Output, Plan, Resource, Role};
-use framewright_graph::vocabulary::State;
+use framewright_graph::vulkan::State;
 use std::sync::Arc;
 
 /// The copying of one output.

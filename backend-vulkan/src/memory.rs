@@ -3,7 +3,7 @@
 use crate::device::{Device, Shared};
 use crate::error::Error;
 use ash::vk;
-use framewright_graph::amount;
+use framewright_graph::base::amount;
 use framewright_graph::device::{BufferDescriptor, ImageDescriptor, MemoryNeeds, MemoryProvider};
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};

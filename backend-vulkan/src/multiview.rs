@@ -10,13 +10,13 @@ use crate::device::Device;
 use crate::error::Error;
 use crate::executor::{Executor, ExecutorOptions};
 use crate::shaders::ShaderLibrary;
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, ColorTarget, Draw, Frame, Image, ImageIndex, Pass, Resource, Work};
-use framewright_graph::interface::DrawInterface;
-use framewright_graph::source::Span;
-use framewright_graph::view::{EyeForm, Stereo};
-use framewright_graph::vocabulary::Subresources;
+use framewright_graph::frame::{
+    Blend, ColorTarget, Draw, EyeForm, Frame, Image, ImageIndex, Pass, Resource, Stereo, Work,
+};
+use framewright_graph::shader::DrawInterface;
+use framewright_graph::vulkan::{Format, Subresources};
 
 const SHADERS: &[(&str, &str)] = &[
     (

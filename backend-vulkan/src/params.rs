@@ -1,8 +1,8 @@
 //! The bytes of a pass's parameter block.
 
 use framewright_graph::frame::ParamValue;
-use framewright_graph::interface::Block;
 use framewright_graph::plan;
+use framewright_graph::shader::Block;
 
 /// Name of the block that holds a pass's parameters.
 pub(crate) const PARAMS: &str = "params";
@@ -63,7 +63,7 @@ fn value(ty: &str, value: ParamValue) -> Option<[u8; 4]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_graph::interface::Member;
+    use framewright_graph::shader::Member;
 
     fn member(name: &str, offset: u32, ty: &str) -> Member {
         Member { name: name.to_owned(), offset, ty: ty.to_owned() }

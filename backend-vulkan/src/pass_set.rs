@@ -11,10 +11,10 @@ use crate::memory::Kind;
 use crate::params::{self, PARAMS};
 use crate::physical::{Physical, part};
 use ash::vk;
-use framewright_graph::interface::{self, Block, Component, Dimension, ImageShape, PASS_SET};
+use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource, Subresources};
-use framewright_graph::view::EyeForm;
-use framewright_graph::vocabulary::{self, Accesses, Aspects, Filter, Sampler, Stages};
+use framewright_graph::shader::{self, Block, PASS_SET};
+use framewright_graph::vulkan::{self, Accesses, Aspects, Component, Dimension, Filter, ImageShape, Sampler, Stages};
 use std::sync::Arc;
 
 /// What a pass's own set is filled with, whatever stands for its images and buffers.
@@ -47,7 +47,7 @@ impl SetTemplate {
         shared: &Arc<Shared>,
         plan: &Plan,
         pass: &plan::Pass,
-        shader: &[interface::Binding],
+        shader: &[shader::Binding],
     ) -> Result<SetTemplate, Error> {
         let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
         let own = || shader.iter().filter(|it| it.set == PASS_SET);
@@ -59,13 +59,13 @@ impl SetTemplate {
         let (mut bindings, mut params) = (Vec::new(), None);
         for wanted in own() {
             let (ty, bound) = match &wanted.kind {
-                interface::BindingKind::UniformBlock(block)
+                shader::BindingKind::UniformBlock(block)
                     if wanted.name == PARAMS && buffer_of(pass, PARAMS).is_none() =>
                 {
                     params = Some((block.clone(), filled(shared, block, pass)?));
                     (vk::DescriptorType::UNIFORM_BUFFER, Bound::Params)
                 }
-                interface::BindingKind::UniformBlock(_) | interface::BindingKind::StorageBlock { .. } => {
+                shader::BindingKind::UniformBlock(_) | shader::BindingKind::StorageBlock { .. } => {
                     block(plan, pass, wanted).map_err(mismatch)?
                 }
                 _ => {
@@ -154,19 +154,19 @@ fn buffer_of<'p>(pass: &'p plan::Pass, name: &str) -> Option<&'p plan::BufferAcc
 }
 
 /// The buffer behind a block.
-fn block(plan: &Plan, pass: &plan::Pass, wanted: &interface::Binding) -> Result<(vk::DescriptorType, Bound), String> {
+fn block(plan: &Plan, pass: &plan::Pass, wanted: &shader::Binding) -> Result<(vk::DescriptorType, Bound), String> {
     let name = &wanted.name;
     let access = buffer_of(pass, name).ok_or_else(|| format!("nothing is bound to `{name}`"))?;
     let buffer = &plan.buffers[access.buffer.0 as usize];
     match &wanted.kind {
-        interface::BindingKind::UniformBlock(block) if access.accesses.contains(Accesses::UNIFORM_READ) => {
+        shader::BindingKind::UniformBlock(block) if access.accesses.contains(Accesses::UNIFORM_READ) => {
             if u64::from(block.bytes) > buffer.bytes.next_multiple_of(16) {
                 let held = buffer.bytes;
                 return Err(format!("the block `{name}` takes {} bytes, and its buffer holds {held}", block.bytes));
             }
             Ok((vk::DescriptorType::UNIFORM_BUFFER, Bound::Buffer(access.buffer)))
         }
-        interface::BindingKind::StorageBlock { writable, .. }
+        shader::BindingKind::StorageBlock { writable, .. }
             if access.accesses.intersects(Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE) =>
         {
             only_read(name, *writable, access.accesses)?;
@@ -198,7 +198,7 @@ fn image(
     shared: &Shared,
     plan: &Plan,
     pass: &plan::Pass,
-    wanted: &interface::Binding,
+    wanted: &shader::Binding,
 ) -> Result<(vk::DescriptorType, BoundImage), String> {
     let name = &wanted.name;
     let bound = pass.accesses.iter().find_map(|it| {
@@ -231,14 +231,14 @@ fn image(
     let layout = convert::layout(access.layout);
     let whole = |shape, sampler| BoundImage { image: access.image, range, shape, layout, sampler };
     match (&wanted.kind, kind) {
-        (interface::BindingKind::SampledImage(shape), BindingKind::Sampled(sampler)) => {
+        (shader::BindingKind::SampledImage(shape), BindingKind::Sampled(sampler)) => {
             samples(shape.multisampled)?;
             read(shape.component)?;
             let arrayed = shape.arrayed || range.layers > 1 && image.eyes.is_some();
             let shape = view_shape(shared, name, ImageShape { arrayed, ..*shape }, image, range)?;
             Ok((vk::DescriptorType::COMBINED_IMAGE_SAMPLER, whole(shape, Some(sampler))))
         }
-        (interface::BindingKind::StorageImage { shape, format, writable, .. }, BindingKind::Storage) => {
+        (shader::BindingKind::StorageImage { shape, format, writable, .. }, BindingKind::Storage) => {
             samples(shape.multisampled)?;
             only_read(name, *writable, access.accesses)?;
             if *format != Some(image.format) {
@@ -248,13 +248,13 @@ fn image(
             let shape = view_shape(shared, name, *shape, image, range)?;
             Ok((vk::DescriptorType::STORAGE_IMAGE, whole(shape, None)))
         }
-        (interface::BindingKind::InputAttachment { multisampled, component }, BindingKind::InputAttachment) => {
+        (shader::BindingKind::InputAttachment { multisampled, component }, BindingKind::InputAttachment) => {
             samples(*multisampled)?;
             read(*component)?;
             let shape = if range.layers > 1 { ViewShape::Layers } else { ViewShape::Flat };
             Ok((vk::DescriptorType::INPUT_ATTACHMENT, whole(shape, None)))
         }
-        (interface::BindingKind::Other(other), _) => Err(format!("`{name}` can't be in set 0: {}", other.what)),
+        (shader::BindingKind::Other(other), _) => Err(format!("`{name}` can't be in set 0: {}", other.what)),
         (wanted, kind) => Err(format!("`{name}` is bound as {kind:?}, and the shader declares {wanted:?}")),
     }
 }
@@ -267,8 +267,8 @@ fn view_shape(
     image: &plan::Image,
     range: Subresources,
 ) -> Result<ViewShape, String> {
-    let deep = image.shape == framewright_graph::frame::Shape::D3;
-    let cubic = image.shape == framewright_graph::frame::Shape::Cube;
+    let deep = image.shape == framewright_graph::vulkan::Shape::D3;
+    let cubic = image.shape == framewright_graph::vulkan::Shape::Cube;
     match (shape.dimension, shape.arrayed) {
         (Dimension::D2, false) if range.layers == 1 && !deep => Ok(ViewShape::Flat),
         (Dimension::D2, true) if !deep => Ok(ViewShape::Layers),
@@ -287,9 +287,9 @@ impl From<Sampler> for SamplerDescriptor {
             Filter::Linear => TexelFilter::Linear,
         };
         let address = match sampler.address {
-            vocabulary::AddressMode::ClampToEdge => AddressMode::ClampToEdge,
-            vocabulary::AddressMode::Repeat => AddressMode::Repeat,
-            vocabulary::AddressMode::MirroredRepeat => AddressMode::MirroredRepeat,
+            vulkan::AddressMode::ClampToEdge => AddressMode::ClampToEdge,
+            vulkan::AddressMode::Repeat => AddressMode::Repeat,
+            vulkan::AddressMode::MirroredRepeat => AddressMode::MirroredRepeat,
         };
         let filter = texel_filter(sampler.filter);
         SamplerDescriptor { magnify: filter, minify: filter, mip: texel_filter(sampler.mips), address: [address; 3] }

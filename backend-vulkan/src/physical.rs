@@ -8,9 +8,9 @@ use crate::memory::{Kind, Memory};
 use crate::standing::Standing;
 use ash::vk;
 use framewright_graph::device::{BufferDescriptor, ImageDescriptor};
+use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{self, BufferId, ImageId, Placement, Plan, Resource, Role, Subresources};
-use framewright_graph::view::EyeForm;
-use framewright_graph::vocabulary::{BufferUsage, Usage};
+use framewright_graph::vulkan::{BufferUsage, Usage};
 use std::collections::HashSet;
 use std::sync::Arc;
 

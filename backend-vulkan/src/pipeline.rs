@@ -5,10 +5,9 @@ use crate::device::Shared;
 use crate::error::Error;
 use crate::shaders::Spirv;
 use ash::vk;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, StencilState};
 use framewright_graph::plan::DepthState;
-use framewright_graph::rotation::Rotation;
+use framewright_graph::vulkan::{Format, Rotation};
 
 /// Everything that a graphics pipeline is made of. Viewport, scissor, cull mode and front face are set while recording.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]

@@ -11,9 +11,8 @@
 use crate::convert::{self, Clear};
 use crate::record::{Frame, Place, barriers, fill, memory_barriers};
 use ash::vk;
-use framewright_graph::format::{Format, Numeric};
 use framewright_graph::plan::{Buffer, ImageBarrier, Resource, Role, Step, Work};
-use framewright_graph::vocabulary::{Aspects, Layout};
+use framewright_graph::vulkan::{Aspects, Format, Layout, Numeric};
 
 const CLEAR_STAGE: vk::PipelineStageFlags2 = vk::PipelineStageFlags2::CLEAR;
 const CLEAR_ACCESS: vk::AccessFlags2 = vk::AccessFlags2::TRANSFER_WRITE;

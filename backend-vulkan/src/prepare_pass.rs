@@ -13,13 +13,12 @@ use crate::shader_fit::{
 use crate::shaders::{CompiledShader, ShaderLibrary};
 use crate::standing::Turns;
 use ash::vk;
-use framewright_graph::frame::{BufferRole, Draw, Groups};
-use framewright_graph::interface::{
+use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups, Stereo};
+use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
+use framewright_graph::shader::{
     DrawInterface, EyeSource, MOST_PARTS, PASS_SET, ShaderInterfaces, ShaderProblem, Variant,
 };
-use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
-use framewright_graph::view::{EyeForm, Stereo};
-use framewright_graph::vocabulary::Accesses;
+use framewright_graph::vulkan::Accesses;
 use std::sync::Arc;
 
 /// The objects of a pass of a rendering scope.

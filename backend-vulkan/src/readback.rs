@@ -1,19 +1,16 @@
 //! Contents of images and buffers, copied to the host.
 
 use crate::buffer::RawBuffer;
-use crate::convert;
 use crate::device::Shared;
 use crate::error::Error;
 use crate::image::Image;
 use crate::memory::Kind;
 use crate::record::{Place, barriers, copy_between, state_change};
-use crate::turn;
+use crate::{convert, turn};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
-use framewright_graph::format::Format;
 use framewright_graph::plan::Subresources;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::vocabulary::{Accesses, Aspects, Layout, Stages, State};
+use framewright_graph::vulkan::{Accesses, Aspects, Format, Layout, Rotation, Stages, State};
 use std::sync::Arc;
 
 /// Texels of one plane of one mip level of an image: of the upright picture, where the image holds a rotated one.

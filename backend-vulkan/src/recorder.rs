@@ -9,10 +9,9 @@ use crate::error::Error;
 use crate::prepare_pass::Drawn;
 use crate::resources::Buffer;
 use ash::vk;
-use framewright_graph::frame::Draw;
+use framewright_graph::frame::{Draw, EyeForm, Stereo};
 use framewright_graph::plan;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::view::{EyeForm, Stereo};
+use framewright_graph::vulkan::Rotation;
 use std::ops::Range;
 
 /// Whoever draws the objects and the sky, and records custom passes. An engine supplies its own.

@@ -8,10 +8,8 @@ use crate::image::{Image, View, ViewShape};
 use crate::memory::Kind;
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
-use framewright_graph::format::Format;
-use framewright_graph::frame::Shape;
-use framewright_graph::plan::{Queue, Sharing, Subresources};
-use framewright_graph::vocabulary::Usage;
+use framewright_graph::plan::{Queue, Subresources};
+use framewright_graph::vulkan::{Format, Shape, Sharing, Usage};
 use std::sync::Arc;
 
 /// What a buffer is for.

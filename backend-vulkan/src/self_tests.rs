@@ -7,7 +7,7 @@ use crate::depth_resolve::{self, DepthResolve};
 use crate::device::Device;
 use crate::helper::{Helper, NoAnswer};
 use crate::{layer, multiview};
-use framewright_graph::vocabulary::ResolveMode;
+use framewright_graph::vulkan::ResolveMode;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};

@@ -3,11 +3,11 @@
 use crate::device::Shared;
 use crate::pipeline::VertexAttribute;
 use ash::vk;
-use framewright_graph::interface::{
-    Binding, BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterface, SuppliedKind,
-    VertexInput,
-};
 use framewright_graph::plan::{self, Plan};
+use framewright_graph::shader::{
+    Binding, BindingKind, DrawInterface, PASS_SET, ShaderInterface, SuppliedKind, VertexInput,
+};
+use framewright_graph::vulkan::{Component, Dimension, ImageShape};
 
 /// A stage may be given so many resources of a kind and read so large a block, and no more. What is brought along counts
 /// whether it is read or not.

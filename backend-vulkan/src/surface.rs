@@ -1,7 +1,7 @@
 //! What a surface wants of the pictures that it is given.
 
 use ash::vk;
-use framewright_graph::rotation::Rotation;
+use framewright_graph::vulkan::Rotation;
 
 /// By how much a surface wants pictures to be turned, from the `currentTransform` of its capabilities: a swapchain that is made
 /// with the same `preTransform` shows what is drawn so, without another turn by whoever composes the screen. `None` for the

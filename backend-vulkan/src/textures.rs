@@ -5,8 +5,8 @@ use crate::device::Shared;
 use crate::error::Error;
 use crate::memory::Kind;
 use ash::vk;
+use framewright_graph::frame::{TextureFile, Textures};
 use framewright_graph::plan::{Image, ImageId, Initial, Plan, Role};
-use framewright_graph::texture::{TextureFile, Textures};
 use std::sync::Arc;
 
 /// The texels of one image, where the device can copy from.

@@ -1,6 +1,6 @@
 //! Texels of rotated images: outside of frames they are those of the upright picture.
 
-use framewright_graph::rotation::Rotation;
+use framewright_graph::vulkan::Rotation;
 
 /// The texels of the upright picture, layer after layer, from those of the turned one, which is `turned` wide and high. A texel
 /// takes `texel_bytes` bytes.

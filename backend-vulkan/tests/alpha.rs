@@ -1,8 +1,8 @@
 //! What shaders do with the alpha of what they sample is read off their SPIR-V.
 
+use framewright_graph::base::Root;
 use framewright_graph::frame::Draw;
-use framewright_graph::interface::{AlphaUse, DrawInterface, ShaderInterfaces, Variant};
-use framewright_graph::root::Root;
+use framewright_graph::shader::{AlphaUse, DrawInterface, ShaderInterfaces, Variant};
 use framewright_vulkan::ShaderLibrary;
 
 const VERTEX: &[(&str, &str)] = &[("full_screen.vert", "#version 460\nvoid main() { gl_Position = vec4(0.0); }\n")];

@@ -1,10 +1,10 @@
 //! What the shaders of both eyes are made of: nothing of it is left where there is one eye (ST-6), each look-up of what both eyes
 //! have in layers is given its layer, and all that is made so is valid SPIR-V.
 
-use framewright_graph::frame::Draw;
-use framewright_graph::interface::{DrawInterface, EyeSource, ImageShape, ShaderProblem, Variant};
-use framewright_graph::root::Root;
-use framewright_graph::view::{Eye, EyeForm};
+use framewright_graph::base::Root;
+use framewright_graph::frame::{Draw, Eye, EyeForm};
+use framewright_graph::shader::{DrawInterface, EyeSource, ShaderProblem, Variant};
+use framewright_graph::vulkan::ImageShape;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::ShaderLibrary;
 use rspirv::dr::{Instruction, Module, Operand};
@@ -374,12 +374,12 @@ fn functions_that_get_both_kinds_of_images_are_there_for_both() {
 #[test]
 fn every_kind_of_flat_image_and_look_up_has_its_layer() {
     let shape = |multisampled, component| ImageShape {
-        dimension: framewright_graph::interface::Dimension::D2,
+        dimension: framewright_graph::vulkan::Dimension::D2,
         arrayed: false,
         multisampled,
         component,
     };
-    use framewright_graph::interface::Component;
+    use framewright_graph::vulkan::Component;
     let text = "
         layout(set = 0, binding = 0) uniform sampler2DMS samples;
         layout(set = 0, binding = 1) uniform usampler2D counts;

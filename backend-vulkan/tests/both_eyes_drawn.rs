@@ -2,15 +2,15 @@
 
 mod common;
 
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Profile;
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, ColorTarget, Draw, DrawList, Frame, Image, ImageIndex, Pass, Resource, Work};
-use framewright_graph::interface::DrawInterface;
+use framewright_graph::frame::{
+    Blend, ColorTarget, Draw, DrawList, EyeForm, Frame, Image, ImageIndex, Pass, Resource, Stereo, Work,
+};
 use framewright_graph::plan::Plan;
-use framewright_graph::source::Span;
-use framewright_graph::view::{EyeForm, Stereo};
-use framewright_graph::vocabulary::Subresources;
+use framewright_graph::shader::DrawInterface;
+use framewright_graph::vulkan::{Format, Subresources};
 use framewright_vulkan::{Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, ShaderLibrary};
 use std::time::Instant;
 

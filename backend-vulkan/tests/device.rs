@@ -3,11 +3,8 @@
 mod common;
 
 use framewright_graph::device::{ImageDescriptor, MemoryProvider};
-use framewright_graph::format::Format;
-use framewright_graph::frame::Shape;
-use framewright_graph::interface::{DrawInterface, Supplied, SuppliedKind};
-use framewright_graph::plan::Sharing;
-use framewright_graph::vocabulary::Usage;
+use framewright_graph::shader::{DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::vulkan::{Format, Shape, Sharing, Usage};
 use framewright_vulkan::{
     BufferUsage, Device, DeviceChoice, DeviceOptions, Error, Resource, SamplerDescriptor, minimum_features,
 };

@@ -4,9 +4,9 @@ mod common;
 
 use common::plans::{EXTENT, RESOLVED, add_up, resolve_then_sample};
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::interface::{Attribute, DrawInterface, Supplied, SuppliedKind};
 use framewright_graph::plan::{ImageBarrier, Plan, Role, Work};
-use framewright_graph::vocabulary::{Accesses, LoadOp, Stages};
+use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::vulkan::{Accesses, LoadOp, Stages};
 use framewright_vulkan::{
     BufferUsage, Device, DrawSource, Error, Executor, ExecutorOptions, IndexType, Recorder, Resource, ShaderLibrary,
 };
@@ -149,7 +149,7 @@ fn poison_shows_where_nobody_wrote() {
 fn a_plan_without_poison_in_mind_is_not_poisoned() {
     let Some(device) = common::device() else { return };
     let mut plan = plan(device);
-    plan.images[0].usage.remove(framewright_graph::vocabulary::Usage::TRANSFER_DST);
+    plan.images[0].usage.remove(framewright_graph::vulkan::Usage::TRANSFER_DST);
     let options = ExecutorOptions { poison: true, ..ExecutorOptions::default() };
     let refused = Executor::new(device, &plan, &mut library(), &options).err();
     let message = refused.map(|error| error.to_string()).unwrap_or_default();

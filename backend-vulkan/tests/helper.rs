@@ -1,11 +1,10 @@
 //! Helper processes that die, or are none, as a program that names one meets them.
 #![cfg(unix)]
 
-use framewright_graph::describe::OutsideChoice;
+use framewright_graph::base::OutsideChoice;
 use framewright_graph::device::Profile;
-use framewright_graph::frame::Draw;
-use framewright_graph::interface::{DrawInterface, ShaderInterfaces, ShaderMessage, ShaderProblem, Variant};
-use framewright_graph::view::Stereo;
+use framewright_graph::frame::{Draw, Stereo};
+use framewright_graph::shader::{DrawInterface, ShaderInterfaces, ShaderMessage, ShaderProblem, Variant};
 use framewright_vulkan::helper::Limits;
 use framewright_vulkan::{Device, DeviceOptions, Helper, ShaderLibrary};
 use std::fs;

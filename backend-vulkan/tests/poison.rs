@@ -2,13 +2,12 @@
 
 mod common;
 
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Face, Frame, ImageIndex, Pass, Sampled, Work};
-use framewright_graph::interface::DrawInterface;
 use framewright_graph::plan::{Plan, Role};
-use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{Filter, Sampler, Stages, Subresources};
+use framewright_graph::shader::DrawInterface;
+use framewright_graph::vulkan::{Filter, Format, Sampler, Stages, Subresources};
 use framewright_vulkan::{Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, ShaderLibrary};
 
 /// Each image holds the one before, and a little more; `sum` adds two.

@@ -4,14 +4,13 @@ mod common;
 
 use common::plans::{EXTENT, FORMAT, add_up, resolve_then_sample};
 use framewright_graph::device::{FormatSupport, ImageDescriptor, MemoryNeeds, MemoryProvider};
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Draw, DrawList, Shape};
-use framewright_graph::interface::{Attribute, DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::plan::{
     Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, Heap, Image, ImageId, Placement, Plan, Role,
-    Sharing, StepId, Subresources, Work,
+    StepId, Subresources, Work,
 };
-use framewright_graph::vocabulary::{Filter, Layout, ResolveMode, Sampler, Usage};
+use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::vulkan::{Filter, Format, Layout, ResolveMode, Sampler, Shape, Sharing, Usage};
 use framewright_vulkan::{BufferUsage, Device, Executor, ExecutorOptions, Resource, ShaderLibrary};
 
 const SHADERS: &[(&str, &str)] = &[

@@ -1,13 +1,11 @@
 //! Shaders found, compiled and reflected. No device is needed.
 
-use framewright_graph::format::Format;
+use framewright_graph::base::Root;
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::interface::{
-    Binding, BindingKind, Component, Dimension, DrawInterface, ImageShape, ShaderInterface, ShaderInterfaces,
-    ShaderProblem, Variant,
+use framewright_graph::shader::{
+    Binding, BindingKind, DrawInterface, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
 };
-use framewright_graph::root::Root;
-use framewright_graph::vocabulary::Stages;
+use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
 use framewright_vulkan::ShaderLibrary;
 use std::fs;
 use std::path::Path;

@@ -3,10 +3,9 @@
 mod common;
 
 use common::plans::resolve_then_sample;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::interface::DrawInterface;
-use framewright_graph::vocabulary::Aspects;
+use framewright_graph::shader::DrawInterface;
+use framewright_graph::vulkan::{Aspects, Format};
 use framewright_vulkan::{DrawSource, Error, Executor, ExecutorOptions, Recorder, SamplerDescriptor, ShaderLibrary};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

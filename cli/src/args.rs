@@ -6,7 +6,7 @@ use crate::values::{
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use framewright_graph::compile::{Options, Order};
-use framewright_graph::rotation::Rotation;
+use framewright_graph::vulkan::Rotation;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 

@@ -5,10 +5,9 @@ use crate::error::{Error, Exit};
 use crate::planning::{self, View};
 use crate::values::DEFAULT_SIZE;
 use crate::{every_device, notes, profiles, progress, text, variants};
-use framewright_graph::describe;
+use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::plan::{Note, Plan, Totals};
-use framewright_graph::read_files::ReadFiles;
 use serde::Serialize;
 use std::ffi::OsStr;
 
@@ -121,7 +120,7 @@ pub(crate) fn verdict(device: String, result: Result<Plan, Error>) -> Result<Ver
             verdict.notes = plan.notes;
             verdict.totals = Some(plan.totals);
         }
-        Err(Error::Wrong { wrong }) => verdict.diagnostics = describe::to_json(&wrong.sources, &wrong.diagnostics),
+        Err(Error::Wrong { wrong }) => verdict.diagnostics = base::to_json(&wrong.sources, &wrong.diagnostics),
         Err(Error::Violations { violations }) => verdict.violations = violations,
         Err(other) => return Err(other),
     }

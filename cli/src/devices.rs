@@ -5,7 +5,7 @@ use crate::error::{Error, Exit};
 use crate::{helper, output, run, text};
 use comfy_table::Table;
 use comfy_table::presets::ASCII_MARKDOWN;
-use framewright_graph::read_files::ReadFiles;
+use framewright_graph::base::ReadFiles;
 use framewright_vulkan::{Device, DeviceChoice, DeviceOptions, DeviceSummary, Helper};
 use serde::Serialize;
 use std::path::Path;

@@ -1,12 +1,9 @@
 //! Everything that ends a command early, and the exit code that it ends with.
 
 use crate::{links, options, picture, text};
-use framewright_graph::describe::{self, Diagnostic};
-use framewright_graph::file_path::for_shell;
-use framewright_graph::format::Format;
-use framewright_graph::interface::ShaderProblem;
-use framewright_graph::root::NoFile;
-use framewright_graph::source::Sources;
+use framewright_graph::base::{self, Diagnostic, NoFile, Sources, for_shell};
+use framewright_graph::shader::ShaderProblem;
+use framewright_graph::vulkan::Format;
 use framewright_passes::scene::SceneError;
 use framewright_passes::scene::gltf::{GltfError, Problem};
 use framewright_vulkan::Blame;
@@ -91,7 +88,7 @@ pub(crate) enum Error {
         root: PathBuf,
     },
     /// The pipeline is wrong, or what the command line asks of it.
-    #[error("{}", describe::render(&wrong.sources, &wrong.diagnostics))]
+    #[error("{}", base::render(&wrong.sources, &wrong.diagnostics))]
     Wrong {
         /// Its mistakes, and the texts that they point into.
         wrong: Box<Wrong>,

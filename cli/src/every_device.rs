@@ -4,12 +4,10 @@ use crate::args::{Check, CheckFormat};
 use crate::check::{self, Verdict};
 use crate::error::{Error, Exit};
 use crate::{notes, planning, profiles, progress, text};
-use framewright_graph::describe;
+use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Estimated;
-use framewright_graph::frame::Frame;
+use framewright_graph::frame::{Frame, Stereo};
 use framewright_graph::plan::{Note, Plan};
-use framewright_graph::read_files::ReadFiles;
-use framewright_graph::view::Stereo;
 use serde::Serialize;
 use std::collections::HashSet;
 
@@ -148,7 +146,7 @@ fn json(arguments: &Check, results: Result<Vec<Checked>, Error>) -> Result<Exit,
             if answer.fine { Exit::Fine } else { Exit::Found }
         }
         Err(Error::Wrong { wrong }) => {
-            answer.diagnostics = describe::to_json(&wrong.sources, &wrong.diagnostics);
+            answer.diagnostics = base::to_json(&wrong.sources, &wrong.diagnostics);
             Error::Wrong { wrong }.exit()
         }
         Err(other) => return Err(other),

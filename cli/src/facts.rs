@@ -3,8 +3,8 @@
 use crate::args::Facts;
 use crate::error::{Error, Exit};
 use crate::{files, text};
-use framewright_graph::facts::FactValue;
-use framewright_graph::read_files::ReadFiles;
+use framewright_graph::base::ReadFiles;
+use framewright_graph::language::FactValue;
 use framewright_passes::scene::Found;
 use serde::Serialize;
 

@@ -2,13 +2,11 @@
 
 use crate::error::Error;
 use crate::{args, shipped, text};
-use framewright_graph::describe::{Found, LARGEST_FILE, PipelineFiles, Shipped};
-use framewright_graph::file_path::FilePath;
-use framewright_graph::read_files::ReadFiles;
-use framewright_graph::root::Root;
-use framewright_graph::source::Sources;
+use framewright_graph::base::{FilePath, ReadFiles, Root, Sources};
+use framewright_graph::language::{Found, LARGEST_FILE, PipelineFiles, Shipped};
 use framewright_passes::scene::{self, Scene, SceneError};
-use std::io::{self, Read};
+use std::io;
+use std::io::Read;
 use std::path::Path;
 
 /// What a file is that the command line names.

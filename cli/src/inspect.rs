@@ -5,9 +5,9 @@ use crate::error::{Error, Exit};
 use crate::files::{self, What};
 use crate::planning::{self, View};
 use crate::{output, profiles, text};
+use framewright_graph::base::ReadFiles;
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::DrawList;
-use framewright_graph::read_files::ReadFiles;
 use framewright_passes::scene::Scene;
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! What no file says, by the option of the command line that chooses it: libraries name no options.
 
-use framewright_graph::describe::{Diagnostic, OutsideChoice};
+use framewright_graph::base::{Diagnostic, OutsideChoice};
 
 /// What to do about a choice, by an option.
 pub(crate) fn option(choice: OutsideChoice) -> &'static str {

@@ -2,10 +2,10 @@
 
 use crate::error::Error;
 use crate::stream;
-use framewright_graph::read_files::ReadFiles;
-use std::fs;
-use std::io::{self, Write};
+use framewright_graph::base::ReadFiles;
+use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// Makes sure, before any work is done, that each of `written` can be written, and that none of them is a file that was read,
 /// or another of them by a different name, or a shader.

@@ -1,9 +1,8 @@
 //! Mistakes that only a run finds, with their places in the pipeline's files.
 
 use crate::error::{Error, Exit};
-use framewright_graph::describe::Diagnostic;
+use framewright_graph::base::{Diagnostic, Sources};
 use framewright_graph::frame::Frame;
-use framewright_graph::source::Sources;
 use framewright_passes::scene::Scene;
 
 /// Makes sure that the scene has the cameras that views name.

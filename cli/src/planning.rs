@@ -4,21 +4,15 @@ use crate::error::{Error, Exit};
 use crate::files::{self, PipelineFile, What};
 use crate::values::{Modes, Size};
 use crate::{args, helper, shipped};
-use framewright_graph::compile::{self, Options};
-use framewright_graph::describe::{self, Diagnostic, Document, Files, Found, PipelineFiles, Unread};
+use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, Root, Sources};
+use framewright_graph::compile::{self, Options, heap_size};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Facts, Inputs};
-use framewright_graph::file_path::FilePath;
-use framewright_graph::frame::Frame;
-use framewright_graph::heap_size;
+use framewright_graph::frame::{Frame, Stereo, TextureFile, TextureInfo, TextureProblem, Textures};
+use framewright_graph::language::{self, Document, Files, Found, PipelineFiles, Unread};
 use framewright_graph::plan::Plan;
-use framewright_graph::read_files::ReadFiles;
-use framewright_graph::root::Root;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Sources;
-use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem, Textures};
 use framewright_graph::verify;
-use framewright_graph::view::Stereo;
+use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::texture_files::TextureFiles;
@@ -104,7 +98,7 @@ pub(crate) fn load(arguments: &args::Pipeline, read: &ReadFiles) -> Result<Loade
     let textures = recorded("the texture itself").unwrap_or_else(|| Root::new(PathBuf::default()));
     let mut named = Named { files, textures: TextureFiles::new(textures), denied: false };
     let own = Found { shown, relative: path, bytes };
-    let mut pipeline = describe::read_extended(&mut sources, &mut named, own, extensions).map_err(|diagnostics| {
+    let mut pipeline = language::read_extended(&mut sources, &mut named, own, extensions).map_err(|diagnostics| {
         let exit = if named.denied { Exit::Environment } else { Exit::Found };
         Error::wrong(sources.clone(), diagnostics, exit)
     })?;
@@ -132,7 +126,7 @@ fn choose(
     let mut files = Vec::with_capacity(arguments.settings.len());
     let mut mistakes = Vec::new();
     for path in &arguments.settings {
-        let text = files::text(What::SETTINGS, path, describe::LARGEST_FILE, read)?;
+        let text = files::text(What::SETTINGS, path, language::LARGEST_FILE, read)?;
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         match pipeline.read_settings(sources, &path.to_string_lossy(), &name, text) {
             Ok(file) => files.push(file),

@@ -2,8 +2,8 @@
 
 use crate::error::Error;
 use crate::files::{self, What};
+use framewright_graph::base::ReadFiles;
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
-use framewright_graph::read_files::ReadFiles;
 use std::ffi::OsStr;
 use std::path::Path;
 

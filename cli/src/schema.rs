@@ -3,11 +3,9 @@
 use crate::args::Schema;
 use crate::error::{Error, Exit};
 use crate::{files, text};
-use framewright_graph::describe::LARGEST_FILE;
-use framewright_graph::describe::forms;
-use framewright_graph::describe::text::Tree;
-use framewright_graph::read_files::ReadFiles;
-use framewright_graph::source::Sources;
+use framewright_graph::base::{ReadFiles, Sources};
+use framewright_graph::language::{self, LARGEST_FILE};
+use framewright_graph::ron::{self, Tree};
 
 /// Prints the schema, or a file as JSON.
 ///
@@ -15,7 +13,7 @@ use framewright_graph::source::Sources;
 /// If the file can't be read, is no RON, or holds what JSON can't.
 pub(crate) fn schema(arguments: &Schema) -> Result<Exit, Error> {
     let shown = match &arguments.file {
-        None => forms::schema(),
+        None => language::schema(),
         Some(path) => {
             let text = files::text(files::What::ANY, path, LARGEST_FILE, &ReadFiles::default())?;
             let shown = path.to_string_lossy();
@@ -24,7 +22,7 @@ pub(crate) fn schema(arguments: &Schema) -> Result<Exit, Error> {
             let mut diagnostics = Vec::new();
             let tree = Tree::read(number, text.into(), &mut diagnostics).filter(|_| diagnostics.is_empty());
             let wrong = |diagnostics| Error::wrong(sources, diagnostics, Exit::Found);
-            match tree.map(|tree| forms::convert(tree.root())) {
+            match tree.map(|tree| ron::convert(tree.root())) {
                 Some(Ok(value)) => value,
                 Some(Err(diagnostics)) => return Err(wrong(diagnostics)),
                 None => return Err(wrong(diagnostics)),

@@ -1,6 +1,6 @@
 //! The example pipelines and scenes that the binary carries.
 
-use framewright_graph::describe::Shipped;
+use framewright_graph::language::Shipped;
 use std::path::Path;
 
 macro_rules! carried {

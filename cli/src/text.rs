@@ -1,7 +1,7 @@
 //! Text for people: nothing that came from a file, an argument or a driver reaches a terminal raw.
 
-pub(crate) use framewright_graph::amount::bytes;
-pub(crate) use framewright_graph::describe::escape;
+pub(crate) use framewright_graph::base::amount::bytes;
+pub(crate) use framewright_graph::base::escape;
 
 use std::io::Write;
 use std::path::Path;

@@ -4,8 +4,8 @@ use crate::error::Error;
 use crate::picture::File;
 use framewright_graph::compile::Order;
 use framewright_graph::device::Profile;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::view::Stereo;
+use framewright_graph::frame::Stereo;
+use framewright_graph::vulkan::Rotation;
 use std::path::PathBuf;
 
 /// Width and height of the output where the command line says none, in pixels.

@@ -10,15 +10,14 @@ mod support;
 #[allow(dead_code, reason = "the command asks more of it")]
 mod picture;
 
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::encoding::Encoding;
-use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{
     Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work,
 };
-use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Filter, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::Format::{self, *};
+use framewright_graph::vulkan::{Encoding, Filter, Sampler, Stages, Subresources};
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::twin::hdr10::{PQ_PEAK, decode_pq, encode_hdr10};

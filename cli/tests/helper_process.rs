@@ -3,8 +3,9 @@
 mod support;
 
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::interface::Variant;
-use framewright_passes::{draw::interface, shipped::SHADERS};
+use framewright_graph::shader::Variant;
+use framewright_passes::draw::interface;
+use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::helper::Limits;
 use framewright_vulkan::{Device, DeviceOptions, Helper, ShaderLibrary};
 use std::path::Path;

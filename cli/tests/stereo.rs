@@ -3,7 +3,7 @@
 mod support;
 
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
-use framewright_graph::view::Stereo;
+use framewright_graph::frame::Stereo;
 use image::{DynamicImage, GenericImageView};
 use std::path::Path;
 use support::{Place, Vulkan, live_profile, shipped_pipelines};

@@ -4,18 +4,16 @@
 #[allow(dead_code, reason = "each test binary uses its part of this")]
 mod raster;
 
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Compiler, Options, Reuse, compile};
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{
-    Blend, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled, Shape, Storage, TransferUse, Work,
+    Blend, Eye, EyeForm, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled, Stereo, Storage, TransferUse, Work,
 };
 use framewright_graph::plan::{self, ImageId, Plan, RenderScope, Role};
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::view::{Eye, EyeForm, Stereo};
-use framewright_graph::vocabulary::{Filter, Stages, Subresources};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::vulkan::{Filter, Rotation, Shape, Stages, Subresources};
 use raster::Raster;
 use std::sync::Arc;
 

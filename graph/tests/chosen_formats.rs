@@ -7,9 +7,9 @@ mod table;
 use framewright_graph::compile::{Compiler, Options, compile};
 use framewright_graph::device::{Estimated, FormatSupport, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::Inputs;
-use framewright_graph::format::Format::{self, *};
 use framewright_graph::plan::{ChosenFormat, Image, Plan, Stage};
 use framewright_graph::verify::verify;
+use framewright_graph::vulkan::Format::{self, *};
 use std::sync::Arc;
 use table::{INPUTS, right};
 

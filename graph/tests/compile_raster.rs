@@ -5,11 +5,11 @@ mod raster;
 
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::{Plan, RenderScope, Resource, Role, Stage, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Filter, Layout, LoadOp, ResolveMode, StoreOp, Usage};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
+use framewright_graph::vulkan::{Filter, Layout, LoadOp, ResolveMode, StoreOp, Usage};
 use raster::{Raster, forward};
 
 fn compiled(frame: &Frame) -> Plan {

@@ -5,10 +5,10 @@ mod raster;
 
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format::R16G16B16A16_SFLOAT;
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::Plan;
 use framewright_graph::verify::verify;
+use framewright_graph::vulkan::Format::R16G16B16A16_SFLOAT;
 use raster::Raster;
 
 /// Objects in an image of 4 samples, blurred so many times: to and fro between that image and one of one sample.

@@ -3,15 +3,16 @@
 #[allow(dead_code, reason = "each test binary uses its part of this")]
 mod raster;
 
+use framewright_graph::base::Diagnostic;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_SRGB};
-use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Output, Resolve, ResolveWay, Resource};
+use framewright_graph::frame::{
+    Blend, Draw, EyeForm, Frame, ImageIndex, Output, Resolve, ResolveWay, Resource, Stereo,
+};
 use framewright_graph::plan::{Cause, Plan, RenderScope, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::view::{EyeForm, Stereo};
-use framewright_graph::vocabulary::{CompareOp, LoadOp, ResolveMode, StoreOp, Usage};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_SRGB};
+use framewright_graph::vulkan::{CompareOp, LoadOp, ResolveMode, StoreOp, Usage};
 use raster::Raster;
 use std::path::Path;
 

@@ -4,15 +4,14 @@
 #[allow(dead_code, reason = "most of what the builder can do isn't needed here")]
 mod raster;
 
+use framewright_graph::base::{Diagnostic, Span};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::encoding::Encoding::{self, *};
-use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Work};
 use framewright_graph::plan::{Output, Plan};
-use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
+use framewright_graph::vulkan::Encoding::{self, *};
+use framewright_graph::vulkan::Format::{self, *};
 use raster::Raster;
 
 /// Draws into `color`, and shows it on `screen`, which leaves the frame so encoded.

@@ -4,15 +4,14 @@
 #[allow(dead_code, reason = "most of what the builder can do isn't needed here")]
 mod raster;
 
+use framewright_graph::base::{Diagnostic, Span};
 use framewright_graph::compile::{Compiler, Options, compile};
-use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
-use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Lifetime, Storage};
 use framewright_graph::plan::{Plan, Stage};
-use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Accesses, FillValue, Layout, Stages, State, Subresources, Usage};
+use framewright_graph::vulkan::Format::{self, *};
+use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Subresources, Usage};
 use raster::Raster;
 use std::sync::Arc;
 

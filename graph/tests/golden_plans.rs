@@ -6,15 +6,15 @@
 #[allow(dead_code, reason = "tests of the language use more of it")]
 mod table;
 
+use framewright_graph::base::{self, Root, Sources};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::{self, Document, PipelineFiles, SettingKind};
 use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::frame::Frame;
-use framewright_graph::plan::{Image, Pass, Plan, Resource, Role, Sharing, StepId, Totals, Work};
-use framewright_graph::root::Root;
-use framewright_graph::source::Sources;
+use framewright_graph::language::{self, Document, PipelineFiles, SettingKind};
+use framewright_graph::plan::{Image, Pass, Plan, Resource, Role, StepId, Totals, Work};
 use framewright_graph::verify::verify;
+use framewright_graph::vulkan::Sharing;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -68,7 +68,7 @@ fn document(file: &str) -> (Document, Sources) {
     let root = Root::new(Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/pipelines"));
     let mut sources = Sources::default();
     let mut files = PipelineFiles::beside(root, file, &[]);
-    let pipeline = describe::read_with(&mut sources, &mut files, file, file, shipped(file));
+    let pipeline = language::read_with(&mut sources, &mut files, file, file, shipped(file));
     (pipeline.expect("a shipped pipeline is right"), sources)
 }
 
@@ -76,7 +76,7 @@ fn expanded(file: &str, inputs: &Inputs<'_>) -> Frame {
     let (pipeline, sources) = document(file);
     let sources = Arc::new(sources);
     expand(&pipeline, sources.clone(), inputs, &mut Table)
-        .unwrap_or_else(|errors| panic!("{}", describe::render(&sources, &errors)))
+        .unwrap_or_else(|errors| panic!("{}", base::render(&sources, &errors)))
 }
 
 fn all() -> Vec<(String, Variant)> {

@@ -5,11 +5,11 @@ mod raster;
 
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM};
 use framewright_graph::frame::{Blend, Draw, DrawList, Frame, Lifetime, Pass, StencilState, Work};
 use framewright_graph::plan::{self, Plan, Side};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Aspects, CompareOp, FillValue, Layout, StencilOp, Subresources};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM};
+use framewright_graph::vulkan::{Aspects, CompareOp, FillValue, Layout, StencilOp, Subresources};
 use raster::Raster;
 
 fn compiled(frame: &Frame) -> Result<Plan, String> {

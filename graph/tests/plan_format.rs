@@ -8,17 +8,16 @@ mod table;
 #[path = "plan_format/json.rs"]
 mod json;
 
+use framewright_graph::base::{self, Root, Sources};
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::describe::{self, PipelineFiles};
 use framewright_graph::device::{
     BufferDescriptor, ImageDescriptor, MemoryNeeds, MemoryProvider, Profile, Queues, SHIPPED_PROFILES,
 };
 use framewright_graph::expand::expand;
 use framewright_graph::frame::Draw;
-use framewright_graph::interface::{BindingKind, Dimension, ImageShape, ShaderInterfaces, Variant};
-use framewright_graph::plan::Sharing;
-use framewright_graph::root::Root;
-use framewright_graph::source::Sources;
+use framewright_graph::language::{self, PipelineFiles};
+use framewright_graph::shader::{BindingKind, ShaderInterfaces, Variant};
+use framewright_graph::vulkan::{Dimension, ImageShape, Sharing};
 use json::{
     Cells, Named, accesses, barriers, flags, has, images, list, meet, number, passes, text, touched, transient,
 };
@@ -68,11 +67,11 @@ fn plans() -> Vec<(String, Value)> {
     for (file, said) in shipped.chain([("more.ron".to_owned(), include_str!("plan_format/more.ron").to_owned())]) {
         let mut sources = Sources::default();
         let mut files = PipelineFiles::beside(Root::new(folder.clone()), &file, &[]);
-        let pipeline = describe::read_with(&mut sources, &mut files, &file, &file, said);
+        let pipeline = language::read_with(&mut sources, &mut files, &file, &file, said);
         let sources = Arc::new(sources);
-        let pipeline = pipeline.unwrap_or_else(|errors| panic!("{}", describe::render(&sources, &errors)));
+        let pipeline = pipeline.unwrap_or_else(|errors| panic!("{}", base::render(&sources, &errors)));
         let frame = expand(&pipeline, sources.clone(), &INPUTS, &mut Table);
-        let frame = frame.unwrap_or_else(|errors| panic!("{}", describe::render(&sources, &errors)));
+        let frame = frame.unwrap_or_else(|errors| panic!("{}", base::render(&sources, &errors)));
         for ((device, profile), order) in cases.clone() {
             let plan = compile(&frame, profile, &mut Ruler, &Options { order, ..Options::default() });
             let plan = plan.unwrap_or_else(|wrong| panic!("{file}: {wrong:?}")).to_json().expect("it has a JSON form");

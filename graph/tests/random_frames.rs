@@ -4,19 +4,17 @@
 mod raster;
 mod symbolic;
 
+use framewright_graph::base::{Diagnostic, Span};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::format::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Output, Pass, Resolve,
     ResolveWay, Resource, Sampled, Storage, Work,
 };
 use framewright_graph::plan::{self, Plan};
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{CompareOp, Filter, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
+use framewright_graph::vulkan::{CompareOp, Filter, Rotation, Sampler, Stages, Subresources};
 use proptest::prelude::*;
 use std::cell::Cell;
 

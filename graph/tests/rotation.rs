@@ -3,15 +3,14 @@
 #[allow(dead_code, reason = "a few passes are enough here")]
 mod raster;
 
+use framewright_graph::base::Diagnostic;
 use framewright_graph::compile::{Compiler, Options, Reuse, compile};
-use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{Blend, Frame, Image, ImageIndex, Lifetime};
 use framewright_graph::plan::{Cause, Plan, Work};
-use framewright_graph::rotation::Rotation;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Accesses, FillValue, Layout, Stages, State};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::vulkan::{Accesses, FillValue, Layout, Rotation, Stages, State};
 use raster::Raster;
 use std::sync::Arc;
 

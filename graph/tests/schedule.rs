@@ -6,10 +6,10 @@ mod raster;
 
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format::{R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Resource};
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::verify::verify;
+use framewright_graph::vulkan::Format::{R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
 use raster::graphs::{self, Builder};
 use raster::{Raster, device};
 

@@ -3,18 +3,18 @@
 #[allow(dead_code, reason = "other tests build more with it")]
 mod raster;
 
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile, Queues};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{
-    Blend, Buffer, BufferIndex, BufferRole, BufferUse, Frame, Groups, ImageIndex, Lifetime, Pass, Resource, Sampled,
-    Shape, Storage, Work,
+    Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorSpace, Frame, Groups, ImageIndex, Lifetime, Pass, Resource,
+    Sampled, Storage, TextureFile, TextureInfo, TextureProblem, Work,
 };
-use framewright_graph::plan::{Initial, Plan, Resource as Planned, Role, Sharing};
-use framewright_graph::source::Span;
-use framewright_graph::texture::{ColorSpace, TextureFile, TextureInfo, TextureProblem};
+use framewright_graph::plan::{Initial, Plan, Resource as Planned, Role};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{AddressMode, FillValue, Filter, Layout, Sampler, Stages, Subresources, Usage};
+use framewright_graph::vulkan::{
+    AddressMode, FillValue, Filter, Format, Layout, Sampler, Shape, Sharing, Stages, Subresources, Usage,
+};
 use raster::Raster;
 use std::sync::Arc;
 

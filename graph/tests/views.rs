@@ -3,14 +3,13 @@
 #[allow(dead_code, reason = "other tests build more with it")]
 mod raster;
 
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Compiler, Options, Reuse, compile};
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Frame};
+use framewright_graph::frame::{Allowances, Blend, Frame, View, ViewIndex};
 use framewright_graph::plan::{Plan, ViewId, Work};
-use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::view::{Allowances, View, ViewIndex};
+use framewright_graph::vulkan::Format;
 use raster::Raster;
 use std::sync::Arc;
 

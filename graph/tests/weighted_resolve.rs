@@ -3,14 +3,14 @@
 #[allow(dead_code, reason = "most of what the builder can do isn't needed here")]
 mod raster;
 
+use framewright_graph::base::Diagnostic;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, ParamValue, Resolve, ResolveWay};
 use framewright_graph::plan::{Access, Cause, Pass, Plan, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::ResolveMode;
+use framewright_graph::vulkan::Format::{self, *};
+use framewright_graph::vulkan::ResolveMode;
 use raster::Raster;
 
 fn planned(frame: &Frame) -> Result<Plan, Vec<Diagnostic>> {

@@ -5,11 +5,10 @@
 //! depends on it is prepared again in every frame. Ways take turns from frame to frame, and of each the least time counts: other work
 //! on the machine only adds. `-- --short` draws every frame twice, to see that it runs.
 
-use framewright_graph::root::Root;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Sources;
-use framewright_graph::view::Stereo;
-use framewright_graph::{compile, describe, expand};
+use framewright_graph::base::{Root, Sources};
+use framewright_graph::frame::Stereo;
+use framewright_graph::vulkan::Rotation;
+use framewright_graph::{compile, expand, language};
 use framewright_passes::draw::{self, SceneDrawSource};
 use framewright_passes::scene::{Scene, text};
 use framewright_passes::shipped::SHADERS;
@@ -77,7 +76,7 @@ impl Drawn {
     fn new(device: &Device, scene: &Scene, way: Way) -> Drawn {
         let (name, pipeline) = ("forward.ron", include_str!("../../examples/pipelines/forward.ron"));
         let mut sources = Sources::default();
-        let document = describe::read(&mut sources, name, name, pipeline.to_owned()).expect("a pipeline");
+        let document = language::read(&mut sources, name, name, pipeline.to_owned()).expect("a pipeline");
         let mut shaders = ShaderLibrary::new(Vec::<Root>::new(), SHADERS, draw::interface);
         let profile = device.profile();
         let inputs = expand::Inputs {

@@ -1,6 +1,6 @@
 //! Claims about what two eyes see, held against angles.
 
-use framewright_graph::view::Eye;
+use framewright_graph::frame::Eye;
 use framewright_passes::draw::{EyeSight, Eyes};
 use framewright_passes::scene::Camera;
 use glam::{DMat3, DVec3};

@@ -1,8 +1,8 @@
 //! Claims about the facts of scenes (NU-6).
 
-use framewright_graph::facts::{FactValue, Facts};
+use framewright_graph::base::Sources;
 use framewright_graph::frame::DrawList;
-use framewright_graph::source::Sources;
+use framewright_graph::language::{FactValue, Facts};
 use framewright_passes::draw::draw_order;
 use framewright_passes::scene::{Scene, limits, text};
 use framewright_passes::twin::cross_fade::{fade_threshold, fades_out};

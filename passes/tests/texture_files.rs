@@ -1,8 +1,8 @@
 //! Pictures of files as textures: which format they get, which texels, and what is refused.
 
-use framewright_graph::format::Format;
-use framewright_graph::root::Root;
-use framewright_graph::texture::{ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures};
+use framewright_graph::base::Root;
+use framewright_graph::frame::{ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures};
+use framewright_graph::vulkan::Format;
 use framewright_passes::texture_files::{MOST_SIDE, TextureFiles};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb, Rgba};
 use std::io::Cursor;

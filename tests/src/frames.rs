@@ -1,13 +1,12 @@
 //! Small frames built in memory, and a device for them.
 
+use framewright_graph::base::Span;
 use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled,
     Storage, Work,
 };
-use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{CompareOp, Filter, ResolveMode, Sampler, Stages, Subresources, Usage};
+use framewright_graph::vulkan::{CompareOp, Filter, Format, ResolveMode, Sampler, Stages, Subresources, Usage};
 
 /// A device that has every format at 1, 2, 4 and 8 samples, adds nothing to an image's bytes, and has one queue.
 #[must_use]

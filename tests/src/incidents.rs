@@ -1,11 +1,11 @@
 //! Small frames after what users of other render graphs reported; `tests/incidents` holds each against its report.
 
 use crate::frames::{Added, Builder};
-use framewright_graph::format::Format::{
+use framewright_graph::frame::{Blend, Face, Frame, ImageIndex, Lifetime, Resolve, ResolveWay};
+use framewright_graph::vulkan::Format::{
     D32_SFLOAT, R8G8B8A8_SRGB, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, R32_UINT,
 };
-use framewright_graph::frame::{Blend, Face, Frame, ImageIndex, Lifetime, Resolve, ResolveWay};
-use framewright_graph::vocabulary::{FillValue, ResolveMode, Subresources};
+use framewright_graph::vulkan::{FillValue, ResolveMode, Subresources};
 
 /// All, with names.
 #[must_use]

@@ -1,14 +1,13 @@
 //! A pipeline file and a scene become pictures: the whole way, on a real driver under the validation layer.
 
+use framewright_graph::base::{self, Diagnostic, Root, Sources};
 use framewright_graph::compile::{self, Options};
-use framewright_graph::describe::{self, Diagnostic, PipelineFiles};
 use framewright_graph::expand::{self, Inputs};
+use framewright_graph::frame::Stereo;
+use framewright_graph::language::{self, PipelineFiles};
 use framewright_graph::plan::Plan;
-use framewright_graph::root::Root;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
-use framewright_graph::view::Stereo;
+use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw::{SceneDrawSource, interface};
 use framewright_passes::scene::Scene;
 use framewright_passes::shipped::SHADERS;
@@ -97,9 +96,9 @@ pub fn plan_for(
     let mut sources = Sources::default();
     let text = std::fs::read_to_string(in_repository(setup.pipeline))?;
     let mut named = PipelineFiles::beside(Root::new(in_repository("")), setup.pipeline, &[]);
-    let pipeline = describe::read_with(&mut sources, &mut named, setup.pipeline, setup.pipeline, text);
+    let pipeline = language::read_with(&mut sources, &mut named, setup.pipeline, setup.pipeline, text);
     let sources = Arc::new(sources);
-    let rendered = |mistakes: Vec<Diagnostic>| describe::render(&sources, &mistakes);
+    let rendered = |mistakes: Vec<Diagnostic>| base::render(&sources, &mistakes);
     let pipeline = pipeline.map_err(rendered)?;
     let set: Vec<_> = setup.set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
     let facts = setup.scene.facts();

@@ -1,13 +1,11 @@
 //! The shipped pipelines as frames, in every combination of their discrete settings, as long as those are few.
 
 use crate::render::in_repository;
-use framewright_graph::describe::{self, Document, PipelineFiles, SettingKind};
+use framewright_graph::base::{self, Root, Sources};
 use framewright_graph::expand::{Facts, Inputs, expand};
-use framewright_graph::frame::Frame;
-use framewright_graph::root::Root;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Sources;
-use framewright_graph::view::Stereo;
+use framewright_graph::frame::{Frame, Stereo};
+use framewright_graph::language::{self, Document, PipelineFiles, SettingKind};
+use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::ShaderLibrary;
@@ -36,7 +34,7 @@ fn values(kind: &SettingKind) -> Vec<String> {
 const MOST_COMBINATIONS: usize = 40;
 
 fn combinations(pipeline: &Document) -> Vec<Vec<(String, String)>> {
-    let each = |setting: &describe::Setting| {
+    let each = |setting: &language::Setting| {
         let name = setting.name.text.to_string();
         values(&setting.kind).into_iter().map(move |value| vec![(name.clone(), value)])
     };
@@ -68,7 +66,7 @@ pub fn frames(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
         let text = std::fs::read_to_string(file).expect("a shipped pipeline is text");
         let mut sources = Sources::default();
         let mut named = PipelineFiles::beside(Root::new(in_repository("examples/pipelines")), &name, &[]);
-        let pipeline = describe::read_with(&mut sources, &mut named, &name, &name, text);
+        let pipeline = language::read_with(&mut sources, &mut named, &name, &name, text);
         let pipeline = pipeline.expect("a shipped pipeline is right");
         let sources = Arc::new(sources);
         let opaque = Facts { has_alpha_clip: false, has_cross_fade: false, has_transparent: false, ..Facts::UNKNOWN };
@@ -84,7 +82,7 @@ pub fn frames(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
                 stereo: Stereo::Off,
             };
             let frame = expand(&pipeline, sources.clone(), &inputs, &mut shaders)
-                .unwrap_or_else(|wrong| panic!("{}", describe::render(&sources, &wrong)));
+                .unwrap_or_else(|wrong| panic!("{}", base::render(&sources, &wrong)));
             frames.push(ShippedFrame { how: format!("{name} {set:?} {facts:?}"), frame });
         }
     }

@@ -1,6 +1,6 @@
 //! Pictures are held against the ray-caster: object and base colour, at one and at four samples a pixel.
 
-use framewright_graph::vocabulary::Filter;
+use framewright_graph::vulkan::Filter;
 use framewright_passes::scene::{Movement, Object, Sampler, Scene, Texture, Wrap, load};
 use framewright_tests::agreement::agreement;
 use framewright_tests::raycast::texture::decode;

@@ -2,7 +2,7 @@
 //! (NU-5).
 
 use framewright_graph::compile::Options;
-use framewright_graph::vocabulary::Aspects;
+use framewright_graph::vulkan::Aspects;
 use framewright_passes::twin::exposure::{BINS, adapted, average_stop, luminance, place_of, scale};
 use framewright_passes::twin::tone_mapping::modified_reinhard;
 use framewright_tests::render::{Setup, device, draw, silent};

@@ -1,7 +1,7 @@
 //! Objects that no pass shows are left out: the pictures stay as they are, bit by bit.
 
+use framewright_graph::base::Root;
 use framewright_graph::compile::Options;
-use framewright_graph::root::Root;
 use framewright_passes::draw::{SceneDrawSource, interface};
 use framewright_passes::scene::{Camera, Scene, load};
 use framewright_passes::shipped::SHADERS;

@@ -1,7 +1,7 @@
 //! Images that change their size from frame to frame are used in part, and show what images of that size would (IQ-1).
 
+use framewright_graph::base::Root;
 use framewright_graph::compile::Options;
-use framewright_graph::root::Root;
 use framewright_passes::draw::{SceneDrawSource, interface};
 use framewright_passes::scene::{AlphaMode, Material, Scene};
 use framewright_passes::shipped::SHADERS;

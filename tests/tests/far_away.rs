@@ -1,7 +1,7 @@
 //! A scene a million metres from its origin, with fractions that 32 bits don't hold there, is drawn as near its origin: places are
 //! kept in 64 bits from the file to the difference to the camera.
 
-use framewright_graph::source::Sources;
+use framewright_graph::base::Sources;
 use framewright_passes::scene::{Scene, text};
 use framewright_tests::render::{Setup, device, render};
 use std::error::Error;

@@ -1,7 +1,7 @@
 //! Motion is held against projections of the same points by the cameras and transforms of both frames, in 64 bits (NU-5).
 
 use framewright_graph::compile::Options;
-use framewright_graph::jitter::Jitter;
+use framewright_graph::frame::Jitter;
 use framewright_passes::scene::{AlphaMode, FRAME_SECONDS, Movement, Object, Scene, Texture};
 use framewright_passes::twin::motion::{NOWHERE, direction_in_picture, motion, place_before, place_in_picture};
 use framewright_tests::render::{Setup, device, draw, floats, ready, silent};

@@ -4,8 +4,9 @@
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
 use framewright_graph::frame::Frame;
-use framewright_graph::plan::{Plan, Queue, Sharing};
+use framewright_graph::plan::{Plan, Queue};
 use framewright_graph::verify::verify;
+use framewright_graph::vulkan::Sharing;
 use framewright_tests::happens_before::judge;
 use framewright_tests::mutation::Tally;
 use framewright_tests::random_pipelines;

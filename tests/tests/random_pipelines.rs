@@ -2,14 +2,11 @@
 
 use framewright_graph::compile::{Order, compile};
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format;
-use framewright_graph::frame::Shape;
 use framewright_graph::plan;
-use framewright_graph::vocabulary::ResolveMode;
+use framewright_graph::vulkan::{Format, ResolveMode, Shape};
 use framewright_tests::drivers::Driver;
 use framewright_tests::frames::device;
 use framewright_tests::random_pipelines::allowed::{Allowed, NOT_YET};
-use framewright_tests::random_pipelines::generate;
 use framewright_tests::random_pipelines::judge::{expected, options};
 use framewright_tests::random_pipelines::legal::is_legal;
 use framewright_tests::random_pipelines::pipeline::{
@@ -17,7 +14,7 @@ use framewright_tests::random_pipelines::pipeline::{
     Work,
 };
 use framewright_tests::random_pipelines::to_frame::to_frame;
-use framewright_tests::random_pipelines::{passes, shader, shrink};
+use framewright_tests::random_pipelines::{generate, passes, shader, shrink};
 use std::collections::{BTreeSet, HashMap};
 use std::process::Command;
 

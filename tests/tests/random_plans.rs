@@ -3,11 +3,9 @@
 
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile, Queues};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Frame, ImageIndex, Lifetime, Output, Pass, Resource, StencilState, Work};
-use framewright_graph::plan::Sharing;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, Stages, State, StencilOp};
+use framewright_graph::vulkan::{Accesses, CompareOp, Format, Layout, Sharing, Stages, State, StencilOp};
 use framewright_tests::frames::device;
 use framewright_tests::happens_before::judge;
 use framewright_tests::random_pipelines::allowed::Allowed;

@@ -1,6 +1,6 @@
 //! Claims about the ray-caster itself, held against shapes with closed formulas.
 
-use framewright_graph::vocabulary::Filter;
+use framewright_graph::vulkan::Filter;
 use framewright_passes::scene::{AlphaMode, Sampler, Scene, Texture, Wrap};
 use framewright_tests::raycast::{Hit, RayCaster, texture};
 use framewright_tests::shapes::{material, scene, sphere, square};

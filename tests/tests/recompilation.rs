@@ -4,7 +4,7 @@ use framewright_graph::compile::{Compiler, Options, Order, Reuse, compile};
 use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
 use framewright_graph::frame::{Frame, Groups, ParamValue, Work};
 use framewright_graph::plan::Plan;
-use framewright_graph::vocabulary::FillValue;
+use framewright_graph::vulkan::FillValue;
 use framewright_tests::random_pipelines::{frame, passes};
 use framewright_tests::shipped;
 use std::collections::BTreeMap;

@@ -1,11 +1,10 @@
 //! A profile that was saved from a device takes the device's place: the same Plans, where the device is not.
 
+use framewright_graph::base;
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::describe;
 use framewright_graph::device::{BufferDescriptor, Estimated, ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
-use framewright_graph::frame::Shape;
-use framewright_graph::plan::{DeviceUsed, Plan, Sharing};
-use framewright_graph::vocabulary::{BufferUsage, Usage};
+use framewright_graph::plan::{DeviceUsed, Plan};
+use framewright_graph::vulkan::{BufferUsage, Shape, Sharing, Usage};
 use framewright_tests::render::device;
 use framewright_tests::shipped::frames;
 use framewright_vulkan::Device;
@@ -35,7 +34,7 @@ fn a_saved_profile_gives_the_plans_of_its_device() {
                 let options = Options { order, ..Options::default() };
                 let plan = |profile: &Profile, memory: &mut dyn MemoryProvider| -> Plan {
                     compile(&shipped.frame, profile, memory, &options)
-                        .unwrap_or_else(|wrong| panic!("{}", describe::render(&shipped.frame.sources, &wrong)))
+                        .unwrap_or_else(|wrong| panic!("{}", base::render(&shipped.frame.sources, &wrong)))
                 };
                 let there = plan(&live, &mut device.memory());
                 let here = plan(&saved, &mut Estimated(&saved));

@@ -1,7 +1,7 @@
 //! The sun's shadows (IQ-25) are held against rays from what the ray-caster sees to the sun.
 
 use framewright_graph::frame::{Cascade, DrawList};
-use framewright_graph::vocabulary::Filter;
+use framewright_graph::vulkan::Filter;
 use framewright_passes::draw::cascades::seen_by_sun;
 use framewright_passes::scene::{AlphaMode, Camera, Sampler, Scene, Sun, Texture, Wrap};
 use framewright_passes::twin::lighting::{lit_surface, reflect_light};

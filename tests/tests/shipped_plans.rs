@@ -1,7 +1,7 @@
 //! Plans of the shipped pipelines, in the combinations of their discrete settings, without any device.
 
+use framewright_graph::base;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe;
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::plan::Plan;
 use framewright_graph::verify::{Violation, verify};
@@ -18,7 +18,7 @@ fn shipped_for(name: &str, text: &str) -> Vec<Shipped> {
     let profile = Profile::from_ron(text).expect("shipped profiles are read");
     let plan = |shipped: framewright_tests::shipped::ShippedFrame| {
         let plan = compile(&shipped.frame, &profile, &mut Estimated(&profile), &Options::default())
-            .unwrap_or_else(|wrong| panic!("{}", describe::render(&shipped.frame.sources, &wrong)));
+            .unwrap_or_else(|wrong| panic!("{}", base::render(&shipped.frame.sources, &wrong)));
         Shipped { how: format!("{} on {name}", shipped.how), plan }
     };
     frames([333, 187]).into_iter().map(plan).collect()

@@ -1,9 +1,8 @@
 //! Claims about every shipped shader, as the shader library sees it. No device is needed.
 
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::interface::{
-    BindingKind, Dimension, PASS_SET, ShaderInterface, ShaderInterfaces, SuppliedKind, Variant,
-};
+use framewright_graph::shader::{BindingKind, PASS_SET, ShaderInterface, ShaderInterfaces, SuppliedKind, Variant};
+use framewright_graph::vulkan::Dimension;
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::ShaderLibrary;

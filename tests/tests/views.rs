@@ -1,14 +1,13 @@
 //! Several views of one scene in a frame: each is drawn from its own camera, in its own shape.
 
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Image, ImageIndex, Pass, Resource, Work,
+    Allowances, Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Image, ImageIndex, Pass, Resource, View,
+    ViewIndex, Work,
 };
-use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::view::{Allowances, View, ViewIndex};
-use framewright_graph::vocabulary::{CompareOp, Subresources};
+use framewright_graph::vulkan::{CompareOp, Format, Subresources};
 use framewright_passes::draw::{SceneDrawSource, interface};
 use framewright_passes::scene::{Camera, NamedCamera, Scene};
 use framewright_passes::shipped::SHADERS;

@@ -5,7 +5,7 @@ use crate::convert;
 use crate::device::Shared;
 use ash::vk;
 use framewright_graph::plan::{ImageBarrier, MemoryBarrier, Subresources};
-use framewright_graph::vocabulary::State;
+use framewright_graph::vulkan::State;
 
 impl Frame<'_> {
     /// A barrier of the Plan.

@@ -9,10 +9,9 @@ use crate::prepare_pass::{Drawn, view_mask};
 use crate::recorder::{CullMode, DrawSource, FrontFace, Kept, Recorder, Target};
 use crate::timing::{Counts, Timing};
 use ash::vk;
-use framewright_graph::frame::Draw;
+use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::plan::{self, Attachment, RenderScope};
-use framewright_graph::view::EyeForm;
-use framewright_graph::vocabulary::{Aspects, LoadOp};
+use framewright_graph::vulkan::{Aspects, LoadOp};
 
 /// Nothing was made for the frame: [`crate::prepare::Prepared::turn_to`] comes before recording.
 pub(super) fn unprepared() -> Error {

@@ -4,9 +4,9 @@ use super::Frame;
 use crate::convert::{self, Clear};
 use crate::device::Shared;
 use ash::vk;
+use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{Fill, ImageId, Resource, Side, Subresources, Transfer};
-use framewright_graph::view::EyeForm;
-use framewright_graph::vocabulary::{Aspects, Filter, Layout};
+use framewright_graph::vulkan::{Aspects, Filter, Layout};
 
 /// One side of a transfer, on the device.
 #[derive(Clone, Copy)]

@@ -2,7 +2,7 @@
 
 use super::Recorder;
 use ash::vk;
-use framewright_graph::view::{EyeForm, Stereo};
+use framewright_graph::frame::{EyeForm, Stereo};
 use std::ops::Range;
 
 /// Set in the number of an instance that is the right eye's.

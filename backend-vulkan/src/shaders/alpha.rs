@@ -5,7 +5,7 @@
 //! sampled, and helpers are functions.
 
 use super::module::{Indexed, id, number, storage_class};
-use framewright_graph::interface::AlphaUse;
+use framewright_graph::shader::AlphaUse;
 use rspirv::dr::{Function, Instruction, Operand};
 use rspirv::spirv::{GlslStd450Op, Op, StorageClass};
 use std::collections::HashMap;

@@ -3,11 +3,8 @@
 use super::compile::Stage;
 use super::module::{Indexed, id, number, storage_class};
 use super::text::Refused;
-use framewright_graph::format::Format;
-use framewright_graph::interface::{
-    Binding, BindingKind, Block, Component, Dimension, ImageShape, Member, PASS_SET, Unbindable,
-};
-use framewright_graph::vocabulary::Stages;
+use framewright_graph::shader::{Binding, BindingKind, Block, Member, PASS_SET, Unbindable};
+use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Dim, ImageFormat, Op, StorageClass};
 use std::collections::HashSet;

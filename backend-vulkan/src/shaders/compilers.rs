@@ -4,9 +4,8 @@ use super::compile::{Failure, IncludedFile, Job, LARGEST_SPIRV, compile};
 use super::files::{Found, ShaderFiles};
 use super::messages::located;
 use crate::helper::{Helper, NoAnswer};
-use framewright_graph::describe::{OutsideChoice, Quote};
-use framewright_graph::file_path::FilePath;
-use framewright_graph::interface::{ShaderMessage, ShaderProblem};
+use framewright_graph::base::{FilePath, OutsideChoice, Quote};
+use framewright_graph::shader::{ShaderMessage, ShaderProblem};
 use shaderc::Compiler;
 use std::collections::HashMap;
 

@@ -4,8 +4,8 @@
 //! afterwards. shaders/include/stereo.glsl is what the texts in between see of it.
 
 use super::compile::Stage;
-use framewright_graph::interface::EyeSource;
-use framewright_graph::view::EyeForm;
+use framewright_graph::frame::EyeForm;
+use framewright_graph::shader::EyeSource;
 use rspirv::binary::Assemble;
 use rspirv::dr::Builder;
 use rspirv::spirv::{AddressingModel, Capability, ExecutionMode, ExecutionModel, FunctionControl, MemoryModel};

@@ -1,7 +1,6 @@
 //! Where shader sources are found: folders on disk, and the texts that are shipped with the program.
 
-use framewright_graph::file_path::FilePath;
-use framewright_graph::root::{NoFile, Root};
+use framewright_graph::base::{FilePath, NoFile, Root};
 use std::fs;
 use std::path::PathBuf;
 

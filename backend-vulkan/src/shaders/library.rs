@@ -8,14 +8,12 @@ use super::layers;
 use super::reflect::{StageInterface, reflect};
 use super::text::{self, Refused};
 use crate::helper::Helper;
-use framewright_graph::file_path::FilePath;
-use framewright_graph::frame::Draw;
-use framewright_graph::interface::{
+use framewright_graph::base::{FilePath, NoFile, Root};
+use framewright_graph::frame::{Draw, Eye, EyeForm};
+use framewright_graph::shader::{
     BindingKind, DrawInterface, EyeSource, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable,
     Variant,
 };
-use framewright_graph::root::{NoFile, Root};
-use framewright_graph::view::{Eye, EyeForm};
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 

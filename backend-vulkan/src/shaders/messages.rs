@@ -1,7 +1,7 @@
 //! What the GLSL compiler says, with the lines that it speaks of.
 
-use framewright_graph::describe::Quote;
-use framewright_graph::interface::ShaderMessage;
+use framewright_graph::base::Quote;
+use framewright_graph::shader::ShaderMessage;
 
 /// More messages than this about one stage are only counted.
 const MOST: usize = 20;

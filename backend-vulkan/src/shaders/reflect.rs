@@ -1,14 +1,13 @@
 //! What one shader stage uses, read off its SPIR-V.
 
-use super::alpha;
 use super::bindings::{bindings, component_of};
 use super::capabilities::check_capabilities;
 use super::compile::Stage;
 use super::eyes::HANDED_ON;
 use super::module::{Indexed, id, number, storage_class};
-use super::rotation;
 use super::text::Refused;
-use framewright_graph::interface::{AlphaUse, FragmentOutput, PASS_SET, ShaderInterface, VertexInput};
+use super::{alpha, rotation};
+use framewright_graph::shader::{AlphaUse, FragmentOutput, PASS_SET, ShaderInterface, VertexInput};
 use rspirv::dr::Operand;
 use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;

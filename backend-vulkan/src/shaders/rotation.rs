@@ -7,7 +7,7 @@
 
 use super::compile::Stage;
 use super::module::{Indexed, id};
-use framewright_graph::interface::Unturned;
+use framewright_graph::shader::Unturned;
 use rspirv::dr::{Function, Instruction, Operand};
 use rspirv::spirv::{BuiltIn, Decoration, Op};
 use std::collections::HashSet;

@@ -3,7 +3,7 @@
 
 use super::compile::MAX_INCLUDES;
 use super::files::{Found, ShaderFiles};
-use framewright_graph::file_path::FilePath;
+use framewright_graph::base::FilePath;
 use std::collections::BTreeSet;
 
 /// Why a stage can't be used, and the words of its text that show where.

@@ -1,17 +1,15 @@
 //! Plans written by hand, with the memory needs of the device that is here.
 
 use framewright_graph::device::{ImageDescriptor, MemoryProvider};
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Draw, ParamValue, Shape};
+use framewright_graph::frame::{Blend, Draw, ParamValue, Stereo};
 use framewright_graph::plan::{
     Access, Attachment, AttachmentResolve, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap,
-    Image, ImageBarrier, ImageId, Param, Pass, Placement, Plan, Queue, RenderScope, Resource, Role, Sharing, Step,
-    StepId, Subresources, Totals, Work,
+    Image, ImageBarrier, ImageId, Param, Pass, Placement, Plan, Queue, RenderScope, Resource, Role, Step, StepId,
+    Subresources, Totals, Work,
 };
-use framewright_graph::rotation::Rotation;
-use framewright_graph::view::Stereo;
-use framewright_graph::vocabulary::{
-    Accesses, Filter, Layout, LoadOp, ResolveMode, Sampler, Stages, State, StoreOp, Usage,
+use framewright_graph::vulkan::{
+    Accesses, Filter, Format, Layout, LoadOp, ResolveMode, Rotation, Sampler, Shape, Sharing, Stages, State, StoreOp,
+    Usage,
 };
 use framewright_vulkan::Device;
 

@@ -1,10 +1,9 @@
 //! Colour attachments that are blended, each in its own way.
 
 use crate::frames::{Small, Uses, draw, everywhere, frame, texels};
-use framewright_graph::format::Format;
+use framewright_graph::base::Span;
 use framewright_graph::frame::{Blend, DepthTarget, Draw};
-use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{CompareOp, Subresources};
+use framewright_graph::vulkan::{CompareOp, Format, Subresources};
 
 const WHOLE: Subresources = Subresources::WHOLE;
 

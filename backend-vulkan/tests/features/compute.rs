@@ -1,9 +1,8 @@
 //! Compute passes: how many workgroups there are, and what shaders read and write without attachments.
 
 use crate::frames::{Small, Uses, dispatch, draw, everywhere, frame, texels, transfer, words};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{BufferRole, Draw, Groups, Pass, Resource, Work};
-use framewright_graph::vocabulary::{FillValue, Subresources};
+use framewright_graph::vulkan::{FillValue, Format, Subresources};
 
 const WHOLE: Subresources = Subresources::WHOLE;
 const ONE: Groups = Groups::Count([1, 1, 1]);

@@ -1,10 +1,9 @@
 //! Depth and stencil: planes that are tested, written and sampled, each for itself.
 
 use crate::frames::{Small, Uses, draw, everywhere, frame, plane, texels, to_words};
-use framewright_graph::format::Format;
+use framewright_graph::base::Span;
 use framewright_graph::frame::{DepthTarget, Draw, Image, ImageIndex, Lifetime, Pass, StencilState, Work};
-use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{Aspects, CompareOp, FillValue, StencilOp, Subresources};
+use framewright_graph::vulkan::{Aspects, CompareOp, FillValue, Format, StencilOp, Subresources};
 
 const WHOLE: Subresources = Subresources::WHOLE;
 const BOTH: Format = Format::D32_SFLOAT_S8_UINT;

@@ -1,17 +1,16 @@
 //! Frames in few words, and their execution on each driver.
 
 use crate::common::{find_layer, findings, skip};
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Face, Frame, Groups, Image,
     ImageIndex, Lifetime, Pass, Resource, Sampled, Storage, TransferUse, Work,
 };
-use framewright_graph::interface::DrawInterface;
 use framewright_graph::plan::Plan;
-use framewright_graph::source::Span;
+use framewright_graph::shader::DrawInterface;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Aspects, Filter, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::{Aspects, Filter, Format, Sampler, Stages, Subresources};
 use framewright_tests::drivers::Driver;
 use framewright_vulkan::{
     Blame, CustomRecorder, Device, DeviceChoice, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Recorder,

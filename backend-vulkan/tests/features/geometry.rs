@@ -1,9 +1,8 @@
 //! Draws whose vertices, indices and counts come out of the frame's own buffers.
 
 use crate::frames::{Small, Uses, dispatch, draw, everywhere, frame, texels};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{BufferIndex, BufferRole, Draw, Groups, ImageIndex};
-use framewright_graph::vocabulary::Subresources;
+use framewright_graph::vulkan::{Format, Subresources};
 
 const WHOLE: Subresources = Subresources::WHOLE;
 const ONE: Groups = Groups::Count([1, 1, 1]);

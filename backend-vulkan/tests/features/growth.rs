@@ -2,10 +2,9 @@
 
 use crate::frames::{Nothing, Small, Uses, copy, dispatch, draw, frame, library, on_each_driver, planned, words};
 use framewright_graph::compile::Options;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime, Resource};
 use framewright_graph::plan::{Plan, Role, Work};
-use framewright_graph::vocabulary::{FillValue, Subresources};
+use framewright_graph::vulkan::{FillValue, Format, Subresources};
 use framewright_vulkan::{Device, Error, Executor, ExecutorOptions, MemoryInUse};
 
 const WHOLE: Subresources = Subresources::WHOLE;

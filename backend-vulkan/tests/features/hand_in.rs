@@ -4,9 +4,8 @@ use crate::frames::{
     Small, Uses, dispatch, draw, everywhere, frame, library, on_each_driver, planned, texels, to_bytes, words,
 };
 use framewright_graph::compile::Options;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime, Output, Resource};
-use framewright_graph::vocabulary::{Accesses, Aspects, Layout, Stages, State, Subresources};
+use framewright_graph::vulkan::{Accesses, Aspects, Format, Layout, Stages, State, Subresources};
 use framewright_vulkan::ash::vk;
 use framewright_vulkan::{Device, Executor, ExecutorOptions};
 

@@ -2,10 +2,9 @@
 
 use crate::frames::{Nothing, Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels};
 use framewright_graph::compile::{Options, Order};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, Groups};
 use framewright_graph::plan::{MemoryBarrier, Plan, Role};
-use framewright_graph::vocabulary::{Stages, Subresources};
+use framewright_graph::vulkan::{Format, Stages, Subresources};
 use framewright_vulkan::{Executor, ExecutorOptions};
 
 const WHOLE: Subresources = Subresources::WHOLE;

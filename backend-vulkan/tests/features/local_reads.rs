@@ -3,11 +3,10 @@
 use crate::frames::{Small, Uses, draw, frame, library, on_each_driver, planned, texels};
 use framewright_graph::compile::Options;
 use framewright_graph::device::{ImageDescriptor, MemoryNeeds, MemoryProvider};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Draw};
 use framewright_graph::plan::{BindingKind, Image, ImageId, Plan, RenderScope, Role, StepId, Totals, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Accesses, Layout, Stages, StoreOp, Subresources, Usage};
+use framewright_graph::vulkan::{Accesses, Format, Layout, Stages, StoreOp, Subresources, Usage};
 use framewright_vulkan::{Device, Error, Executor, ExecutorOptions};
 use std::cell::Cell;
 

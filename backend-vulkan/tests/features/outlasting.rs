@@ -5,9 +5,8 @@ use crate::frames::{
     to_words, words,
 };
 use framewright_graph::compile::Options;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{BufferIndex, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Resource};
-use framewright_graph::vocabulary::{FillValue, Subresources};
+use framewright_graph::vulkan::{FillValue, Format, Subresources};
 use framewright_vulkan::{Device, Executor, ExecutorOptions};
 
 const WHOLE: Subresources = Subresources::WHOLE;
@@ -161,7 +160,7 @@ fn what_the_host_writes_the_next_frame_finds() {
         frame(executor);
         assert_eq!(words(executor, "words"), [102, 202]);
         executor.write_buffer("words", &to_bytes(&[1000, 0])).expect("between frames");
-        let color = framewright_graph::vocabulary::Aspects::COLOR;
+        let color = framewright_graph::vulkan::Aspects::COLOR;
         executor.write_image("count", color, 0, &to_bytes(&[5, 6])).expect("between frames");
         frame(executor);
         assert_eq!(words(executor, "words"), [1002, 2]);

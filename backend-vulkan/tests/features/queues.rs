@@ -3,11 +3,10 @@
 use crate::frames::{Nothing, Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels, words};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Profile, Queues};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, Frame, Groups};
-use framewright_graph::plan::{Hazard, Plan, Queue, Resource, Sharing, StepId, Totals, Wait};
+use framewright_graph::plan::{Hazard, Plan, Queue, Resource, StepId, Totals, Wait};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Stages, Subresources};
+use framewright_graph::vulkan::{Format, Sharing, Stages, Subresources};
 use framewright_vulkan::{Device, Error, Executor, ExecutorOptions};
 
 const ONE: Groups = Groups::Count([1, 1, 1]);

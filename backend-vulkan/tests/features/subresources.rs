@@ -1,9 +1,8 @@
 //! Parts of images: mip levels, layers, slices and faces, each read and written for itself.
 
 use crate::frames::{Small, Uses, dispatch, draw, everywhere, frame, layer, mip, texels};
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Draw, Groups, Image, Shape};
-use framewright_graph::vocabulary::Subresources;
+use framewright_graph::frame::{Draw, Groups, Image};
+use framewright_graph::vulkan::{Format, Shape, Subresources};
 
 const WHOLE: Subresources = Subresources::WHOLE;
 const ONE: Groups = Groups::Count([1, 1, 1]);

@@ -2,10 +2,10 @@
 
 use crate::frames::{Shaders, Small, Uses, draw, frame, library, on_each_driver, planned, texels};
 use framewright_graph::compile::Options;
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Draw, Frame, Image, Lifetime, Shape};
-use framewright_graph::texture::{ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures};
-use framewright_graph::vocabulary::{AddressMode, Filter, Sampler, Subresources};
+use framewright_graph::frame::{
+    ColorSpace, Draw, Frame, Image, Lifetime, TextureFile, TextureInfo, TextureProblem, Textures,
+};
+use framewright_graph::vulkan::{AddressMode, Filter, Format, Sampler, Shape, Subresources};
 use framewright_vulkan::{Device, Error, Executor, ExecutorOptions};
 use std::sync::Arc;
 

@@ -6,9 +6,8 @@ use crate::frames::{
     texels, to_bytes, to_words, transfer, words,
 };
 use framewright_graph::compile::Options;
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Draw, Groups, Image, ImageIndex, Pass, Resource, Shape, Work};
-use framewright_graph::vocabulary::{Aspects, FillValue, Filter, Stages, Subresources};
+use framewright_graph::frame::{Draw, Groups, Image, ImageIndex, Pass, Resource, Work};
+use framewright_graph::vulkan::{Aspects, FillValue, Filter, Format, Shape, Stages, Subresources};
 use framewright_vulkan::ash::vk;
 use framewright_vulkan::{CustomRecorder, Executor, ExecutorOptions};
 

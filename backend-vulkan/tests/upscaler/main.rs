@@ -6,7 +6,7 @@ mod program;
 
 use common::{device, findings};
 use framewright_graph::compile::Options;
-use framewright_graph::jitter::Jitter;
+use framewright_graph::frame::Jitter;
 use framewright_graph::plan::Plan;
 use framewright_passes::draw::{SceneDrawSource, interface};
 use framewright_passes::scene::{Scene, load};

@@ -3,7 +3,7 @@
 
 use super::{Picture, Problem, texel};
 use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, SmallVec, WritableImage, f16};
-use framewright_graph::format::Format;
+use framewright_graph::vulkan::Format;
 use std::io::Cursor;
 
 /// Channels by the number of components.

@@ -12,8 +12,7 @@ mod exr;
 mod png;
 mod texel;
 
-use framewright_graph::encoding::Encoding;
-use framewright_graph::format::{Format, Numeric};
+use framewright_graph::vulkan::{Encoding, Format, Numeric};
 use std::path::Path;
 
 /// What a file of pictures is.
@@ -113,7 +112,7 @@ impl File {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_graph::format::Format::*;
+    use framewright_graph::vulkan::Format::*;
 
     fn png(format: Format, encoding: Option<Encoding>, extent: [u32; 2], bytes: &[u8]) -> Result<Vec<u8>, Problem> {
         File::Png.write(&Picture { format, encoding, extent, bytes })

@@ -1,7 +1,7 @@
 //! PNG: what people look at, and signals for displays.
 
 use super::{Picture, Problem, texel};
-use framewright_graph::encoding::Encoding;
+use framewright_graph::vulkan::Encoding;
 use png::chunk::ChunkType;
 use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent};
 

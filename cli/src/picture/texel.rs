@@ -1,6 +1,6 @@
 //! What one texel of any format holds.
 
-use framewright_graph::format::{Format, Numeric};
+use framewright_graph::vulkan::{Format, Numeric};
 
 /// Bytes of one texel as it is read back: of depth-stencil formats the depth alone.
 pub(super) fn bytes(format: Format) -> usize {

@@ -4,10 +4,9 @@
 use super::facts;
 use super::mentions::Mentions;
 use super::space::Choice;
-use framewright_graph::describe::{ChosenBy, Document, Preset, SettingKind, last_step, nth_step};
+use framewright_graph::base::Sources;
 use framewright_graph::expression::Value;
-use framewright_graph::facts::{Fact, Facts};
-use framewright_graph::source::Sources;
+use framewright_graph::language::{ChosenBy, Document, Fact, Facts, Preset, SettingKind, last_step, nth_step};
 
 /// Whole numbers up to this many are all tried.
 const MOST_INTEGERS: i128 = 16;

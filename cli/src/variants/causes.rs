@@ -5,7 +5,7 @@ use super::minimise::minimise;
 use super::run::{Failure, Mistake, mistake};
 use super::space::{Choice, Space};
 use crate::interrupt;
-use framewright_graph::describe::Diagnostic;
+use framewright_graph::base::Diagnostic;
 use std::collections::HashMap;
 
 /// Mistakes whose cause is looked for; what fails in more ways is best mended one by one.

@@ -2,7 +2,7 @@
 
 use super::axes::{Axis, Varied};
 use super::mentions::Mentions;
-use framewright_graph::facts::{Fact, FactType, FactValue, Facts};
+use framewright_graph::language::{Fact, FactType, FactValue, Facts};
 
 /// Of a fact that is a number at most so many values are tried.
 const MOST: usize = 16;
@@ -76,7 +76,7 @@ fn values(fact: Fact, mentions: &Mentions<'_>) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_graph::source::Sources;
+    use framewright_graph::base::Sources;
 
     fn of(text: &str) -> Vec<(Fact, Vec<String>)> {
         let mut sources = Sources::default();

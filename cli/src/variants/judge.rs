@@ -6,16 +6,14 @@ use super::shaders::Shared;
 use super::space::Choice;
 use crate::planning::View;
 use crate::values::Modes;
-use framewright_graph::compile::{Compiler, Options};
-use framewright_graph::describe::{Diagnostic, Document};
+use framewright_graph::base::{Diagnostic, Sources};
+use framewright_graph::compile::{Compiler, Options, heap_size};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand::{self, Inputs};
-use framewright_graph::frame::Frame;
-use framewright_graph::heap_size;
+use framewright_graph::frame::{Frame, Stereo};
+use framewright_graph::language::Document;
 use framewright_graph::plan::Totals;
-use framewright_graph::source::Sources;
 use framewright_graph::verify;
-use framewright_graph::view::Stereo;
 use std::sync::Arc;
 
 /// What all variants have in common.

@@ -4,7 +4,7 @@
 //! referred to. The other way round nothing is certain, and a name that only a description has counts as mentioned: then more
 //! variants are checked than had to be, never fewer.
 
-use framewright_graph::source::Sources;
+use framewright_graph::base::Sources;
 use std::collections::HashMap;
 
 /// Pieces of names in the strings of all files, with how often they occur.

@@ -24,9 +24,8 @@ use crate::error::{Error, Exit};
 use crate::planning::{self, Loaded};
 use crate::{check, interrupt, profiles, text};
 use axes::Axes;
-use framewright_graph::describe;
+use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Profile;
-use framewright_graph::read_files::ReadFiles;
 use judge::{Judge, Subject};
 use progress::Progress;
 use report::Report;
@@ -43,10 +42,9 @@ use std::sync::{Arc, Mutex};
 /// answer. If there are too many variants.
 pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
     let report = match report(arguments) {
-        Err(Error::Wrong { wrong }) if arguments.format == CheckFormat::Json && wrong.exit != Exit::Usage => Report {
-            diagnostics: describe::to_json(&wrong.sources, &wrong.diagnostics),
-            ..Report::of_nothing(arguments)
-        },
+        Err(Error::Wrong { wrong }) if arguments.format == CheckFormat::Json && wrong.exit != Exit::Usage => {
+            Report { diagnostics: base::to_json(&wrong.sources, &wrong.diagnostics), ..Report::of_nothing(arguments) }
+        }
         report => report?,
     };
     let answer = match arguments.format {

@@ -7,9 +7,8 @@ use super::run::Found;
 use super::space::{Choice, Space};
 use crate::args::Check;
 use crate::options;
-use framewright_graph::describe::{self, Diagnostic};
+use framewright_graph::base::{self, Diagnostic, Sources};
 use framewright_graph::plan::Totals;
-use framewright_graph::source::Sources;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -201,7 +200,7 @@ fn failure_told(subject: &Subject<'_>, cause: Cause) -> FailureTold {
     let all = subject.axes.list.last().map_or(&[][..], |axis| &axis.values[..]);
     FailureTold {
         diagnostic: as_json(subject.sources, &diagnostic),
-        shown: describe::render(subject.sources, std::slice::from_ref(&diagnostic)),
+        shown: base::render(subject.sources, std::slice::from_ref(&diagnostic)),
         variants,
         devices: devices.into_iter().filter_map(|device| all.get(device).cloned()).collect(),
         breaks_with: Variant::of(&subject.axes, &choice),
@@ -210,7 +209,7 @@ fn failure_told(subject: &Subject<'_>, cause: Cause) -> FailureTold {
 }
 
 fn as_json(sources: &Sources, diagnostic: &Diagnostic) -> Value {
-    match describe::to_json(sources, std::slice::from_ref(diagnostic)) {
+    match base::to_json(sources, std::slice::from_ref(diagnostic)) {
         Value::Array(mut all) => all.pop().unwrap_or_default(),
         other => other,
     }

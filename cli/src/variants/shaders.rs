@@ -1,8 +1,8 @@
 //! Shader interfaces that several threads ask for: each shader is compiled and reflected once.
 
-use framewright_graph::file_path::FilePath;
+use framewright_graph::base::FilePath;
 use framewright_graph::frame::Draw;
-use framewright_graph::interface::{DrawInterface, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant};
+use framewright_graph::shader::{DrawInterface, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant};
 use framewright_vulkan::ShaderLibrary;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};

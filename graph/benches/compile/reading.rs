@@ -2,17 +2,14 @@
 //! interfaces.
 
 use crate::timing::{Timing, beside, microseconds};
-use framewright_graph::describe;
+use framewright_graph::base::Sources;
 use framewright_graph::expand::{Facts, Inputs, expand};
-use framewright_graph::frame::{Draw, Frame};
-use framewright_graph::interface::{
-    Binding, BindingKind, Component, Dimension, DrawInterface, FragmentOutput, ImageShape, ShaderInterface,
-    ShaderInterfaces, ShaderProblem, Variant,
+use framewright_graph::frame::{Draw, Frame, Stereo};
+use framewright_graph::language;
+use framewright_graph::shader::{
+    Binding, BindingKind, DrawInterface, FragmentOutput, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant,
 };
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Sources;
-use framewright_graph::view::Stereo;
-use framewright_graph::vocabulary::Stages;
+use framewright_graph::vulkan::{Component, Dimension, ImageShape, Rotation, Stages};
 use std::sync::Arc;
 
 pub(crate) fn run(timing: &Timing) {
@@ -76,7 +73,7 @@ fn text(passes: u32) -> String {
 
 fn frame(text: String) -> Frame {
     let mut sources = Sources::default();
-    let pipeline = describe::read(&mut sources, "many.ron", "many.ron", text).expect("the file is sound");
+    let pipeline = language::read(&mut sources, "many.ron", "many.ron", text).expect("the file is sound");
     let facts = Facts::UNKNOWN;
     let inputs = Inputs {
         set: &[],

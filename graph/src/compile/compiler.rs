@@ -7,7 +7,7 @@ use super::model::OpKind;
 use super::structure::{Settled, Settling, Structure};
 use super::synchronise::Pending;
 use super::{Options, legal, retain, rotate};
-use crate::describe::Diagnostic;
+use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Plan;

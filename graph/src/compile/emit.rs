@@ -20,6 +20,7 @@ use super::retain::Retained;
 use super::scope::{Scoped, Step as Grouped, store_name};
 use super::structure::{Settled, Structure};
 use super::synchronise::Pending;
+use crate::base::Place;
 use crate::device::Profile;
 use crate::frame::{Frame, Lifetime, Resource as Declared, Work as FrameWork};
 use crate::plan::{
@@ -27,9 +28,7 @@ use crate::plan::{
     Placement, Plan, Queue, Resource, Role, SettingUsed, Stage, Step, Subresources, Totals, View, ViewEye, ViewId,
     Work,
 };
-use crate::rotation::Rotation;
-use crate::source::Place;
-use crate::vocabulary::{FillValue, State};
+use crate::vulkan::{FillValue, Rotation, State};
 use std::sync::Arc;
 
 /// What the stages decided.
@@ -256,9 +255,9 @@ fn role(
     placement: Option<&Placement>,
 ) -> Role {
     let nothing = State {
-        stages: crate::vocabulary::Stages::empty(),
-        accesses: crate::vocabulary::Accesses::empty(),
-        layout: crate::vocabulary::Layout::Undefined,
+        stages: crate::vulkan::Stages::empty(),
+        accesses: crate::vulkan::Accesses::empty(),
+        layout: crate::vulkan::Layout::Undefined,
     };
     let States { before, after } = states.unwrap_or(States { before: nothing, after: nothing });
     match (store.home, placement) {
@@ -283,13 +282,13 @@ fn file(frame: &Frame, store: &Store) -> Initial {
 }
 
 fn views(parts: &Parts<'_>) -> Vec<View> {
-    let view = |view: &crate::view::View| View {
+    let view = |view: &crate::frame::View| View {
         name: view.name.clone(),
         extent: view.extent,
         camera: view.camera.clone(),
         allows: view.allows,
         jitter: view.jitter.clone(),
-        eye: view.eye.map(|crate::view::ViewEye { eye, of }| ViewEye { eye, of: ViewId(of.0) }),
+        eye: view.eye.map(|crate::frame::ViewEye { eye, of }| ViewEye { eye, of: ViewId(of.0) }),
     };
     parts.frame.views.iter().map(view).collect()
 }

@@ -8,11 +8,10 @@
 use super::parts::Grids;
 use super::{cull, legal, link, samples};
 use crate::device::{FormatSupport, Profile};
-use crate::encoding::Encoding;
-use crate::format::Format::{self, *};
 use crate::frame::{Blend, Frame, Lifetime, Pass, Resource, Work};
 use crate::plan::{Note, Stage};
-use crate::vocabulary::Usage;
+use crate::vulkan::Format::{self, *};
+use crate::vulkan::{Encoding, Usage};
 use petgraph::unionfind::UnionFind;
 use std::collections::BTreeMap;
 

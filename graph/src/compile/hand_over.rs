@@ -9,7 +9,7 @@ use super::batch::Batched;
 use super::model::StoreIndex;
 use super::queues::{QUEUES, Queues};
 use super::synchronise::Pending;
-use crate::vocabulary::{Accesses, Stages};
+use crate::vulkan::{Accesses, Stages};
 
 /// A write, and who takes its memory over.
 #[derive(Debug, Clone, Copy)]

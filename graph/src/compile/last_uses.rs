@@ -1,7 +1,7 @@
 //! How something was last used, over all its parts: what is the same of many parts is said once, so that an image of many
 //! parts can take over the memory of another without looking at each pair of them.
 
-use crate::vocabulary::{Accesses, Stages};
+use crate::vulkan::{Accesses, Stages};
 
 /// The last uses of some parts that have stages and writes in common.
 #[derive(Debug, Clone, Copy)]

@@ -5,15 +5,13 @@ mod lifetimes;
 mod transfers;
 
 use super::parts;
-use crate::describe::Diagnostic;
-use crate::format::Format;
+use crate::base::{Diagnostic, Span};
 use crate::frame::{
     Buffer, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Output, Pass, Resolve, ResolveWay, Resource,
-    Shape, Work,
+    Work,
 };
-use crate::source::Span;
-use crate::states::{Subject, When};
-use crate::vocabulary::{Aspects, ResolveMode, Stages, Subresources};
+use crate::vulkan::states::{Subject, When};
+use crate::vulkan::{Aspects, Format, ResolveMode, Shape, Stages, Subresources};
 
 /// Most images, buffers and passes of a frame: their numbers have room to spare in 32 bits.
 const MOST: usize = 1 << 24;

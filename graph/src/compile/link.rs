@@ -3,10 +3,9 @@
 //! Order in the frame gives meaning: a pass reads the versions that stand before itself, even of images it also writes.
 
 use super::parts::{self, Grids, outlives};
-use crate::describe::Diagnostic;
+use crate::base::{Diagnostic, Span};
 use crate::frame::{BufferRole, BufferUse, Frame, ImageIndex, Lifetime, Pass, Resource, Work};
-use crate::source::Span;
-use crate::vocabulary::{Layout, Subresources};
+use crate::vulkan::{Layout, Subresources};
 
 /// What one pass does with one part of an image, or with a buffer.
 #[derive(Debug, Clone, Copy)]

@@ -11,7 +11,7 @@
 //! those before `place` by themselves since they don't depend on sizes; where the device refuses a format, `formats` finds
 //! another one and they run again. `compiler` keeps what they found from frame to frame.
 
-use crate::describe::Diagnostic;
+use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Plan;
@@ -25,6 +25,7 @@ mod cull;
 mod emit;
 mod formats;
 mod hand_over;
+pub mod heap_size;
 mod last_uses;
 mod legal;
 mod link;

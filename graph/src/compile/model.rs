@@ -2,12 +2,9 @@
 
 use super::parts::{Grid, Grids};
 use crate::device::{BufferDescriptor, ImageDescriptor};
-use crate::format::Format;
-use crate::frame::{Frame, ImageIndex, Resource, with_room};
+use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, with_room};
 use crate::plan::{Inserted, Note, Subresources};
-use crate::rotation::Rotation;
-use crate::view::{EyeForm, ViewIndex};
-use crate::vocabulary::{Accesses, FillValue, Filter, Layout, ResolveMode, Stages, State, Usage};
+use crate::vulkan::{Accesses, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Stages, State, Usage};
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;

@@ -8,7 +8,7 @@ use super::model::{Adapted, Home, Store, StoreIndex};
 use super::parts::Grids;
 use super::queues;
 use super::synchronise::{Cell, NEVER, Walked};
-use crate::vocabulary::{Accesses, Aspects, Layout, Stages, State};
+use crate::vulkan::{Accesses, Aspects, Layout, Stages, State};
 use std::ops::Range;
 
 /// States of a store that outlives the frame.

@@ -4,7 +4,7 @@
 //! or ends, and each piece of that grid is a part.
 
 use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, Resource};
-use crate::vocabulary::{Aspects, Subresources};
+use crate::vulkan::{Aspects, Subresources};
 
 /// How one image is cut. Parts are numbered plane by plane, in each mip level by mip level, in each layer by layer.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -4,12 +4,10 @@ use super::Options;
 use super::model::{Adapted, Kind, StoreIndex};
 use super::pack::{Block, Measured, Packing};
 use super::synchronise::NEVER;
-use crate::describe::Diagnostic;
+use crate::base::{Diagnostic, Span};
 use crate::device::{ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
-use crate::format::Format;
 use crate::plan::{Heap, Placement, StepId};
-use crate::source::Span;
-use crate::vocabulary::Usage;
+use crate::vulkan::{Format, Usage};
 
 /// Where everything lies.
 #[derive(Debug)]

@@ -8,8 +8,8 @@ use super::parts::Grids;
 use super::retain::Retained;
 use super::scope::{Scoped, Step};
 use super::synchronise::Walked;
-use crate::states::usage_for;
-use crate::vocabulary::{BufferUsage, LoadOp, StoreOp, Usage};
+use crate::vulkan::states::usage_for;
+use crate::vulkan::{BufferUsage, LoadOp, StoreOp, Usage};
 
 /// Notes usages: what outlives the frame can be copied from, what has initial contents can be copied to; images that never
 /// leave their one scope become transient attachments.

@@ -12,7 +12,7 @@ use super::model::{Adapted, Home, StoreIndex};
 use super::outlive::last_of_cycle;
 use super::synchronise::{NEVER, Pending, Walked};
 use crate::plan::Hazard;
-use crate::vocabulary::{Accesses, Stages};
+use crate::vulkan::{Accesses, Stages};
 
 /// Reads of an earlier frame.
 struct Reads {

@@ -4,7 +4,7 @@ use super::model::{Adapted, Home, OpKind, Role, Start, Use};
 use super::parts::Grids;
 use super::scope::{Scope, Scoped, Step, Target};
 use crate::frame::Frame;
-use crate::vocabulary::{Accesses, LoadOp, Stages, StoreOp};
+use crate::vulkan::{Accesses, LoadOp, Stages, StoreOp};
 
 /// Load and store operations of one attachment of a scope.
 #[derive(Debug, Clone, Copy)]

@@ -9,11 +9,9 @@ mod together;
 
 use super::parts::Grids;
 use super::{cull, legal, link};
-use crate::describe::Diagnostic;
-use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Resource, Shape, Work};
-use crate::rotation::Rotation;
-use crate::source::Span;
-use crate::vocabulary::Layout;
+use crate::base::{Diagnostic, Span};
+use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Resource, Work};
+use crate::vulkan::{Layout, Rotation, Shape};
 use std::collections::BTreeSet;
 use together::{Hindrance, Together, becomes};
 

@@ -2,14 +2,12 @@
 
 use super::model::Negotiated;
 use super::parts;
-use crate::describe::Diagnostic;
+use crate::base::{Diagnostic, Span};
 use crate::device::{FormatSupport, Profile};
-use crate::format::Format;
-use crate::frame::{Blend, Frame, Image, ImageIndex, Lifetime, Pass, Resource, Shape, Work};
+use crate::frame::{Blend, Frame, Image, ImageIndex, Lifetime, Pass, Resource, Work};
 use crate::plan::{Note, Stage};
-use crate::source::Span;
-use crate::states::usage_for;
-use crate::vocabulary::{Filter, Sampler, State, Subresources, Usage};
+use crate::vulkan::states::usage_for;
+use crate::vulkan::{Filter, Format, Sampler, Shape, State, Subresources, Usage};
 use petgraph::unionfind::UnionFind;
 use std::collections::{BTreeMap, BTreeSet};
 

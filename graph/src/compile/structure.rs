@@ -13,7 +13,7 @@ use super::schedule::{self, Scheduled};
 use super::scope::{self, Scoped, Step};
 use super::synchronise::{self, Pending, Walked};
 use super::{Options, Order, adapt, formats, legal, link, purpose, queues, redundant, samples, take_over, usable};
-use crate::describe::Diagnostic;
+use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Note;

@@ -9,7 +9,7 @@ use super::queues::{Change, Queues};
 use super::retain::{AttachmentOps, Retained};
 use super::scope::{Scoped, Step, Target};
 use crate::plan::Hazard;
-use crate::vocabulary::{Accesses, BufferUsage, Layout, LoadOp, Stages, State};
+use crate::vulkan::{Accesses, BufferUsage, Layout, LoadOp, Stages, State};
 
 mod cross;
 

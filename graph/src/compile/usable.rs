@@ -3,13 +3,11 @@
 
 use super::model::{Adapted, Home, OpKind, Role, Store, StoreIndex};
 use super::scope::{Scoped, Step, store_name};
-use crate::describe::Diagnostic;
+use crate::base::{Diagnostic, Span};
 use crate::device::{ImageDescriptor, Profile};
-use crate::format::Format;
 use crate::frame::{Frame, Resource};
 use crate::plan::Inserted;
-use crate::source::Span;
-use crate::vocabulary::Usage;
+use crate::vulkan::{Format, Usage};
 
 /// Refuses images whose formats can't be used as the Plan does on this device.
 pub(super) fn check(

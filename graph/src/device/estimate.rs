@@ -1,10 +1,7 @@
 //! How much memory images and buffers take on a device that is not here.
 
 use super::{BufferDescriptor, FormatSupport, ImageDescriptor, MemoryModel, MemoryNeeds, MemoryProvider, Profile};
-use crate::format::Format;
-use crate::frame::Shape;
-use crate::plan::Sharing;
-use crate::vocabulary::{Aspects, BufferUsage, Usage};
+use crate::vulkan::{Aspects, BufferUsage, Format, Shape, Sharing, Usage};
 
 /// A profile estimates: what it has read from a device, else what its model says.
 pub struct Estimated<'p>(pub &'p Profile);

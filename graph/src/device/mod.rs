@@ -8,10 +8,7 @@ mod usual;
 pub use estimate::Estimated;
 pub use saved::{ProfileError, SHIPPED_PROFILES};
 
-use crate::format::Format;
-use crate::frame::Shape;
-use crate::plan::Sharing;
-use crate::vocabulary::{BufferUsage, ResolveMode, Usage};
+use crate::vulkan::{BufferUsage, Format, ResolveMode, Shape, Sharing, Usage};
 use serde::{Deserialize, Serialize};
 
 /// A device's capabilities, as far as a Plan depends on them.

@@ -60,7 +60,7 @@ impl Profile {
 mod tests {
     use super::*;
     use crate::device::MemoryModel;
-    use crate::format::Format;
+    use crate::vulkan::Format;
 
     /// A small profile, to be damaged.
     const SMALL: &str = r#"(
@@ -129,7 +129,7 @@ mod tests {
         assert!(some(|it| it.lazily_allocated_memory));
         assert!(some(|it| it.local_read));
         assert!(some(|it| it.queues.compute && it.queues.transfer));
-        assert!(some(|it| it.queues.sharing == crate::plan::Sharing::Concurrent));
+        assert!(some(|it| it.queues.sharing == crate::vulkan::Sharing::Concurrent));
         assert!(some(|it| it.format(Format::D24_UNORM_S8_UINT).is_some()));
         assert!(some(|it| it.format(Format::R8G8B8A8_UNORM).is_some_and(|it| it.samples.contains(&8))));
         assert!(some(|it| it.format(Format::R32_SFLOAT).is_some_and(|it| it.blend)));

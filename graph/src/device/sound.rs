@@ -1,7 +1,7 @@
 //! Figures that no device has are refused where they stand: rules for the fields of a profile that is read from text.
 
 use super::{FormatSupport, KnownNeeds};
-use crate::vocabulary::{Aspects, Usage};
+use crate::vulkan::{Aspects, Usage};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

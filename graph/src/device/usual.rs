@@ -1,9 +1,7 @@
 //! Which images a saved profile knows the memory needs of: the usual formats, sizes, sample counts and usages.
 
 use super::{FormatSupport, ImageDescriptor, KnownNeeds, MemoryNeeds, MemoryProvider};
-use crate::frame::Shape;
-use crate::plan::Sharing;
-use crate::vocabulary::Usage;
+use crate::vulkan::{Shape, Sharing, Usage};
 
 /// Sizes of screens and shadow maps, rising.
 const SIZES: [[u32; 2]; 9] = [

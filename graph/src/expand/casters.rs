@@ -2,14 +2,14 @@
 
 use super::order::State;
 use super::used_here;
-use crate::describe::{self, Diagnostic, Pipeline};
-use crate::frame::{Cascade, DepthTarget, Draw, Work};
-use crate::view::ViewIndex;
+use crate::base::Diagnostic;
+use crate::frame::{Cascade, DepthTarget, Draw, ViewIndex, Work};
+use crate::language::{self, Pipeline};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// A pass that draws casters.
 struct Casters<'f> {
-    pass: &'f describe::Pass,
+    pass: &'f language::Pass,
     cascade: Cascade,
     target: &'f DepthTarget,
 }

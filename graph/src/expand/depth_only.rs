@@ -5,10 +5,10 @@ use super::order::State;
 use super::shader::{Checked, PARAMS};
 use super::things::Things;
 use super::{Chosen, variant};
-use crate::describe;
 use crate::frame::{Draw, Face, ImageIndex, Pass, ResolveWay, Work};
-use crate::interface::{Binding, PASS_SET, ShaderInterface, ShaderProblem, Variant};
-use crate::vocabulary::Stages;
+use crate::language;
+use crate::shader::{Binding, PASS_SET, ShaderInterface, ShaderProblem, Variant};
+use crate::vulkan::Stages;
 use std::collections::HashSet;
 
 /// Notes why passes can't draw depth alone, for those that may have to. `states` are those of the pipeline's passes.
@@ -45,7 +45,7 @@ pub(super) fn note(chosen: &Chosen<'_>, things: &Things, states: &mut [State], s
 fn hindrance(
     chosen: &Chosen<'_>,
     things: &Things,
-    described: &describe::Pass,
+    described: &language::Pass,
     pass: &Pass,
     shaders: &mut Checked<'_>,
 ) -> Option<String> {

@@ -6,13 +6,12 @@
 
 mod at_once;
 
-use crate::describe::{
-    self, Diagnostic, Draw, Forward, ImagePart, ImageRef, Name, Output, Part, Pass, Pipeline, Size, Spanned, StandIn,
-    StorageAccess, View, Work,
+use crate::base::{Diagnostic, Span};
+use crate::frame::{Allowances, Eye, EyeForm, ImageIndex, Remark, Resource, Stereo, ViewEye, ViewIndex};
+use crate::language::{
+    self, Draw, Forward, ImagePart, ImageRef, Output, Part, Pass, Pipeline, Size, StandIn, StorageAccess, View, Work,
 };
-use crate::frame::{ImageIndex, Remark, Resource};
-use crate::source::Span;
-use crate::view::{Allowances, Eye, EyeForm, Stereo, ViewEye, ViewIndex};
+use crate::ron::{Name, Spanned};
 use at_once::Apart;
 use std::collections::HashSet;
 
@@ -100,7 +99,7 @@ pub(super) fn split(
 /// Images that are one for each eye where both are drawn at once, and why.
 fn images_apart(apart: &Apart, pipeline: &Pipeline) -> Vec<Remark> {
     let images = pipeline.images.iter().enumerate();
-    let remark = |(at, image): (usize, &describe::Image)| {
+    let remark = |(at, image): (usize, &language::Image)| {
         let why = apart.why(at)?;
         let text = format!("is drawn for one eye after the other: {why}");
         Some(Remark { subject: image.name.text.clone(), span: image.name.span, text, instead: false })
@@ -201,7 +200,7 @@ fn written_buffers(pass: &Pass) -> impl Iterator<Item = Span> {
 }
 
 /// Says where an eye of something is named that both share.
-fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[describe::Image], errors: &mut Vec<Diagnostic>) {
+fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[language::Image], errors: &mut Vec<Diagnostic>) {
     visit(pass, &mut |part, _| {
         let at = part.image.index.0 as usize;
         if part.eye.is_some() && !own[at] {
@@ -216,7 +215,7 @@ fn foreign_eyes(own: &[bool], pass: &mut Pass, images: &[describe::Image], error
 }
 
 /// Says where what each eye has of its own takes the place of what both share: whose it would be nobody says.
-fn handed_on_once(own: &[bool], pass: &Pass, images: &[describe::Image], errors: &mut Vec<Diagnostic>) {
+fn handed_on_once(own: &[bool], pass: &Pass, images: &[language::Image], errors: &mut Vec<Diagnostic>) {
     for stand_in in &pass.otherwise {
         let StandIn::Forward(Forward { from, to }) = stand_in else { continue };
         let [from_own, to_own] = [from, to].map(|image| own[image.index.0 as usize]);
@@ -230,7 +229,7 @@ fn handed_on_once(own: &[bool], pass: &Pass, images: &[describe::Image], errors:
 }
 
 /// For whom a pass runs. Reports what can't be so.
-fn whose(own: &[bool], pass: &mut Pass, images: &[describe::Image], errors: &mut Vec<Diagnostic>) -> For {
+fn whose(own: &[bool], pass: &mut Pass, images: &[language::Image], errors: &mut Vec<Diagnostic>) -> For {
     let name = pass.name.text.clone();
     let mut shared: Vec<(Option<Name>, Span)> = written_buffers(pass).map(|span| (None, span)).collect();
     let (mut read, mut written, mut eyes) = (None, None, Vec::new());
@@ -336,7 +335,7 @@ impl Images {
     fn output(&self, output: Output) -> Vec<Output> {
         match output.resource.resource {
             Resource::Image(image) if self.own[image.0 as usize] && !self.both[image.0 as usize] => {
-                let right = describe::ResourceRef {
+                let right = language::ResourceRef {
                     resource: Resource::Image(self.right[image.0 as usize]),
                     ..output.resource
                 };

@@ -1,8 +1,8 @@
 //! Values for all texels of an image or all words of a buffer, typed by what they fill.
 
-use crate::describe::{Fill, shown_number};
-use crate::format::Format;
-use crate::vocabulary::{Aspects, FillValue};
+use crate::base::shown_number;
+use crate::language::Fill;
+use crate::vulkan::{Aspects, FillValue, Format};
 
 /// Zero, as the format has it; `None`: a buffer.
 pub(super) fn zero(format: Option<Format>) -> FillValue {

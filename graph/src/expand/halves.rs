@@ -2,20 +2,21 @@
 
 use super::Chosen;
 use super::things::Things;
-use crate::describe::{self, Diagnostic};
-use crate::interface::{ShaderInterface, Unturned};
-use crate::view::EyeForm;
+use crate::base::Diagnostic;
+use crate::frame::EyeForm;
+use crate::language;
+use crate::shader::{ShaderInterface, Unturned};
 
 /// Reports a shader that takes where its fragments lie for their place in one eye's picture.
 pub(super) fn check(
     chosen: &Chosen<'_>,
     things: &Things,
-    pass: &describe::Pass,
+    pass: &language::Pass,
     interface: &ShaderInterface,
     errors: &mut Vec<Diagnostic>,
 ) {
     let targets = pass.color.iter().map(|target| target.part.image).chain(pass.depth.iter().map(|it| it.part.image));
-    let halves = |image: &describe::ImageRef| {
+    let halves = |image: &language::ImageRef| {
         things.image(image.index).is_some_and(|image| image.image.eyes == Some(EyeForm::Halves))
     };
     let Some(target) = targets.into_iter().find(halves) else { return };

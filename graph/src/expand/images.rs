@@ -1,10 +1,10 @@
 //! Formats, sizes and sample counts of images, each its own or that of an image that it follows.
 
 use super::{Chosen, shapes};
-use crate::describe::{self, Diagnostic, Format as Described, ImageRef, Layers, Mips, Resolves, Samples, Size};
-use crate::format::Format;
+use crate::base::Diagnostic;
 use crate::frame::{self, Image, ResolveWay};
-use crate::vocabulary::ResolveMode;
+use crate::language::{self, Format as Described, ImageRef, Layers, Mips, Resolves, Samples, Size};
+use crate::vulkan::{Format, ResolveMode};
 use std::sync::Arc;
 
 /// An image of the frame, and where its samples come from.
@@ -32,7 +32,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
             _ => None,
         },
         |image, followed| {
-            let area = describe::area(image, chosen.extent(image.view), followed);
+            let area = language::area(image, chosen.extent(image.view), followed);
             area.map_err(|wrong| errors.push(wrong)).ok().flatten()
         },
     );
@@ -67,7 +67,7 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
     let policy = chosen.pipeline.depth.as_ref();
     let all = images.iter().zip(formats).zip(areas).zip(samples).zip(layers).zip(mips);
     all.map(|(((((described, format), area), samples), layers), mips)| {
-        let (describe::Area { extent: [width, height], room }, (samples, samples_because)) = (area?, samples?);
+        let (language::Area { extent: [width, height], room }, (samples, samples_because)) = (area?, samples?);
         let plain = Image::new(&described.name.text, format?, width, height);
         let image = Image { span: described.name.span, samples, room, eyes: described.eyes, ..plain };
         let image = Image { resolve: asked(described, &image, policy, errors)?, ..image };
@@ -80,9 +80,9 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
 /// The value of each image: its own, or made from the value of the image that it follows. Walks along what is followed
 /// without recursion, since a chain may be as long as the file.
 fn follow<T: Clone>(
-    images: &[describe::Image],
-    next: impl Fn(&describe::Image) -> Option<ImageRef>,
-    mut value: impl FnMut(&describe::Image, Option<T>) -> Option<T>,
+    images: &[language::Image],
+    next: impl Fn(&language::Image) -> Option<ImageRef>,
+    mut value: impl FnMut(&language::Image, Option<T>) -> Option<T>,
 ) -> Vec<Option<T>> {
     let mut known: Vec<Option<Option<T>>> = vec![None; images.len()];
     for start in 0..images.len() {
@@ -105,7 +105,7 @@ fn follow<T: Clone>(
     known.into_iter().map(Option::flatten).collect()
 }
 
-fn format(image: &describe::Image, followed: Option<Format>) -> Option<Format> {
+fn format(image: &language::Image, followed: Option<Format>) -> Option<Format> {
     match image.format.value {
         Described::Color { hdr: true } => Some(Format::R16G16B16A16_SFLOAT),
         Described::Color { hdr: false } | Described::Output => Some(Format::R8G8B8A8_SRGB),
@@ -118,7 +118,7 @@ fn format(image: &describe::Image, followed: Option<Format>) -> Option<Format> {
 
 /// How several samples of an image become one value, if it or, for depth, the pipeline says so. `None` after a mistake.
 fn asked(
-    described: &describe::Image,
+    described: &language::Image,
     image: &Image,
     policy: Option<&Resolves>,
     errors: &mut Vec<Diagnostic>,
@@ -145,7 +145,7 @@ fn asked(
     Some(Some(frame::Resolve { way, because: said.clone() }))
 }
 
-fn samples(image: &describe::Image, followed: Option<(u32, Option<Arc<str>>)>) -> Option<(u32, Option<Arc<str>>)> {
+fn samples(image: &language::Image, followed: Option<(u32, Option<Arc<str>>)>) -> Option<(u32, Option<Arc<str>>)> {
     match image.samples.value {
         Samples::Like(_) => followed,
         Samples::Count(count) => Some((count, image.samples_because.clone())),

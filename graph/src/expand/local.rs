@@ -2,22 +2,23 @@
 
 use super::shader::Checked;
 use super::things::Things;
-use crate::describe::{self, Diagnostic};
+use crate::base::Diagnostic;
 use crate::frame::{Face, Pass};
-use crate::interface::{BindingKind, PASS_SET, ShaderInterface, Variant};
+use crate::language;
+use crate::shader::{BindingKind, PASS_SET, ShaderInterface, Variant};
 
 /// Reports what a pass reads at its own position and its shader can't, where it is compiled for local reads. `interface`: the
 /// shader as it is compiled without, as `variant`; what is wrong with that was reported.
 pub(super) fn check(
     things: &Things,
-    pass: &describe::Pass,
+    pass: &language::Pass,
     lowered: &Pass,
     (interface, variant): (&ShaderInterface, &Variant),
     shaders: &mut Checked<'_>,
     errors: &mut Vec<Diagnostic>,
 ) {
     let declared = |name: &str| interface.bindings.iter().any(|it| it.set == PASS_SET && *it.name == *name);
-    let read = |sample: &&describe::Sample| {
+    let read = |sample: &&language::Sample| {
         let name = &sample.binding.text;
         let sampled = lowered.sampled.iter().find(|sampled| sampled.binding == *name);
         // Depth and single samples are read from memory, whatever the device.
@@ -27,7 +28,7 @@ pub(super) fn check(
             sampled.own_pixel && sampled.face == Face::Resolved && color && declared(name)
         })
     };
-    let own: Vec<&describe::Sample> = pass.sample.iter().filter(read).collect();
+    let own: Vec<&language::Sample> = pass.sample.iter().filter(read).collect();
     if own.is_empty() {
         return;
     }

@@ -1,7 +1,7 @@
 //! Settings, facts, the view and the device are put in: a pipeline becomes one flat frame.
 //!
 //! ```text
-//! Document ─► settings ─► describe::lower ─► images and buffers ─► passes (parts, shaders) ─► order ─► Frame
+//! Document ─► settings ─► language::lower ─► images and buffers ─► passes (parts, shaders) ─► order ─► Frame
 //! ```
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
@@ -37,16 +37,15 @@ mod waits;
 mod work;
 mod written;
 
-pub use crate::facts::Facts;
+pub use crate::language::Facts;
 
-use crate::describe::{self, Diagnostic, Document, LARGEST_SIZE, Pipeline, Surroundings, USED_HERE, suggestion};
+use crate::base::{Diagnostic, Label, Sources, Span, suggestion};
 use crate::device::Profile;
-use crate::encoding::Encoding;
-use crate::frame::{Frame, ImageIndex, Output, Resource, SwitchedOff};
-use crate::interface::ShaderInterfaces;
-use crate::rotation::Rotation;
-use crate::source::{Sources, Span};
-use crate::view::{Allowances, Eye, Stereo, View, ViewIndex};
+use crate::frame::{Allowances, Eye, Frame, ImageIndex, Output, Resource, Stereo, SwitchedOff, View, ViewIndex};
+use crate::language::{self, Document, LARGEST_SIZE, Pipeline, Surroundings, USED_HERE};
+use crate::ron::Spanned;
+use crate::shader::ShaderInterfaces;
+use crate::vulkan::{Encoding, Rotation};
 use std::sync::Arc;
 use things::Things;
 
@@ -150,7 +149,7 @@ fn expand_so(
         Ok(pipeline) => pipeline,
         Err(mistakes) => {
             errors.extend(mistakes);
-            describe::users_first(&sources, &mut errors);
+            language::users_first(&sources, &mut errors);
             return Err(errors);
         }
     };
@@ -169,14 +168,14 @@ fn expand_so(
         let before = errors.len();
         targets::fit(&chosen, &things, pass, &mut errors);
         let left_out = pass.left_out.iter().filter(|_| pass.off.is_none());
-        switched_off.extend(left_out.map(|describe::LeftOut { binding, off, .. }| SwitchedOff {
+        switched_off.extend(left_out.map(|language::LeftOut { binding, off, .. }| SwitchedOff {
             name: pass.name.text.clone(),
             sampled: Some(binding.text.clone()),
             span: off.span,
             because: off.because.clone(),
         }));
         states.push(match &pass.off {
-            Some(describe::Off { span, because }) => {
+            Some(language::Off { span, because }) => {
                 let name = pass.name.text.clone();
                 switched_off.push(SwitchedOff { name, sampled: None, span: *span, because: because.clone() });
                 // What a pass that is off would do wrong does no harm.
@@ -187,7 +186,7 @@ fn expand_so(
             None => order::State::On(passes::lower(&chosen, &things, pass, &mut checked, &mut errors)),
         });
         said.once(&mut errors, before);
-        if errors.len() >= describe::MOST_KEPT {
+        if errors.len() >= crate::base::MOST_KEPT {
             return Err(told(document, &sources, errors));
         }
         used_here(&pipeline, pass.instance, &mut errors[before..]);
@@ -240,12 +239,12 @@ fn expand_so(
 /// Mistakes in their order, each with how its file came in.
 fn told(document: &Document, sources: &Sources, mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
     document.tell_origins(&mut errors);
-    describe::users_first(sources, &mut errors);
-    describe::in_order(errors)
+    language::users_first(sources, &mut errors);
+    language::in_order(errors)
 }
 
-fn view(described: &describe::View) -> View {
-    let describe::View { name, extent, camera, allows, jitter, eye } = described;
+fn view(described: &language::View) -> View {
+    let language::View { name, extent, camera, allows, jitter, eye } = described;
     let camera = camera.as_ref().map(|camera| camera.text.clone());
     let (allows, jitter) = (*allows, jitter.clone());
     View { name: name.text.clone(), span: name.span, extent: *extent, camera, allows, jitter, eye: *eye }
@@ -256,7 +255,7 @@ fn used_here(pipeline: &Pipeline, instance: Option<u32>, errors: &mut [Diagnosti
     let mut next = instance;
     while let Some(instance) = next.and_then(|at| pipeline.instances.get(at as usize)) {
         for error in errors.iter_mut() {
-            error.labels.push(describe::Label { span: instance.span, text: format!("{USED_HERE}`{}`", instance.name) });
+            error.labels.push(Label { span: instance.span, text: format!("{USED_HERE}`{}`", instance.name) });
         }
         next = instance.within;
     }
@@ -268,7 +267,7 @@ fn outputs(chosen: &Chosen<'_>, things: &Things, inputs: &Inputs<'_>, errors: &m
     let pipeline = chosen.pipeline;
     let mut outputs = Vec::with_capacity(pipeline.outputs.len() + dump.len());
     for output in &pipeline.outputs {
-        let describe::ResourceRef { resource, span } = output.resource;
+        let language::ResourceRef { resource, span } = output.resource;
         let after = output.after.and_then(|after| things.left(chosen, resource, after, errors));
         let encoding = output.encoding.filter(|encoding| encoded(chosen, things, resource, *encoding, errors));
         let encoding = encoding.map(|encoding| encoding.value);
@@ -296,7 +295,7 @@ fn outputs(chosen: &Chosen<'_>, things: &Things, inputs: &Inputs<'_>, errors: &m
 /// Whether an output is made to be shown on a screen.
 fn shown(chosen: &Chosen<'_>, resource: Resource, encoding: Option<Encoding>) -> bool {
     let Resource::Image(image) = resource else { return false };
-    chosen.image(image).format.value == describe::Format::Output || encoding == Some(Encoding::Hdr10)
+    chosen.image(image).format.value == language::Format::Output || encoding == Some(Encoding::Hdr10)
 }
 
 /// Whether an output's format can hold its encoding.
@@ -304,7 +303,7 @@ fn encoded(
     chosen: &Chosen<'_>,
     things: &Things,
     of: Resource,
-    encoding: describe::Spanned<Encoding>,
+    encoding: Spanned<Encoding>,
     errors: &mut Vec<Diagnostic>,
 ) -> bool {
     let Resource::Image(index) = of else { return false };
@@ -323,7 +322,7 @@ fn encoded(
 fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, errors: &mut Vec<Diagnostic>) {
     for name in dump {
         let of_eyes = Eye::BOTH.map(|eye| eye.named(name));
-        let is_it = |image: &describe::Image| *image.name.text == **name || of_eyes.contains(&image.name.text);
+        let is_it = |image: &language::Image| *image.name.text == **name || of_eyes.contains(&image.name.text);
         let found: Vec<(usize, Option<Eye>)> = (0..)
             .zip(&pipeline.images)
             .filter(|(_, image)| is_it(image))
@@ -335,7 +334,7 @@ fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, error
                 .push(Diagnostic { help, ..Diagnostic::nowhere(format!("there is no image named `{name}` to dump")) });
         }
         for (index, eye) in found {
-            if let describe::Lifetime::File(file) = &pipeline.images[index].lifetime.value {
+            if let language::Lifetime::File(file) = &pipeline.images[index].lifetime.value {
                 let why = format!("`{name}` can't be dumped: no pass makes it, it comes from `{}`", file.path);
                 errors.push(Diagnostic::nowhere(why));
                 continue;
@@ -355,7 +354,7 @@ impl<'a> Chosen<'a> {
         self.pipeline.views.get(view.0 as usize).map_or(self.extent, |view| view.extent)
     }
 
-    fn image(&self, index: ImageIndex) -> &'a describe::Image {
+    fn image(&self, index: ImageIndex) -> &'a language::Image {
         &self.pipeline.images[index.0 as usize]
     }
 }

@@ -1,8 +1,7 @@
 //! What is repeated, or comes with a fragment that is used several times, is written once: so each mistake in it is said
 //! once.
 
-use crate::describe::Diagnostic;
-use crate::source::Span;
+use crate::base::{Diagnostic, Span};
 use std::collections::HashMap;
 
 /// What was said already, by place and wording, and of which of all that come of one declaration.

@@ -6,10 +6,10 @@ use super::touches::{self, Read, Write};
 use super::waits::{self, Need};
 use super::written::{Cell, Written};
 use super::{Chosen, passes};
-use crate::describe::{Diagnostic, StandIn, keep};
+use crate::base::{Diagnostic, Span, keep};
 use crate::frame::{Lifetime, Output, Pass, Resource};
-use crate::source::Span;
-use crate::vocabulary::{Aspects, Layout};
+use crate::language::StandIn;
+use crate::vulkan::{Aspects, Layout};
 use std::iter::{once, successors};
 
 /// After so many mistakes it is no longer looked for which writer was meant: that would take long in a large file.

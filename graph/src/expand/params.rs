@@ -1,14 +1,16 @@
 //! Parameters of a pass meet the members of its shader's block.
 
 use super::shader::PARAMS;
-use crate::describe::{self, Diagnostic, Name, nearest, shown_number, suggestion};
+use crate::base::{Diagnostic, nearest, shown_number, suggestion};
 use crate::frame::ParamValue;
-use crate::interface::{BindingKind, Block, PASS_SET, ShaderInterface};
+use crate::language;
+use crate::ron::Name;
+use crate::shader::{BindingKind, Block, PASS_SET, ShaderInterface};
 use std::sync::Arc;
 
 /// Values for the members of the shader's block, in the pass's order, each of its member's type.
 pub(super) fn give(
-    pass: &describe::Pass,
+    pass: &language::Pass,
     interface: &ShaderInterface,
     whole: Option<&ShaderInterface>,
     errors: &mut Vec<Diagnostic>,
@@ -59,7 +61,7 @@ pub(super) fn give(
 }
 
 /// Values as the file has them, for what the embedding program records: no block says their types.
-pub(super) fn as_written(pass: &describe::Pass) -> Vec<(Arc<str>, ParamValue)> {
+pub(super) fn as_written(pass: &language::Pass) -> Vec<(Arc<str>, ParamValue)> {
     pass.params.iter().map(|param| (param.name.text.clone(), param.value.value)).collect()
 }
 
@@ -71,7 +73,7 @@ fn block(interface: &ShaderInterface) -> Option<&Block> {
 }
 
 /// How a parameter's value is shown: "`3` (setting `steps`)".
-fn shown(param: &describe::Param) -> String {
+fn shown(param: &language::Param) -> String {
     let value = match param.value.value {
         ParamValue::Bool(value) => value.to_string(),
         ParamValue::Integer(value) => value.to_string(),

@@ -2,10 +2,11 @@
 
 use super::Chosen;
 use super::things::Things;
-use crate::describe::{Diagnostic, ImagePart, Selection, Spanned};
-use crate::frame::{Image, Shape};
-use crate::source::Span;
-use crate::vocabulary::{Aspects, Subresources};
+use crate::base::{Diagnostic, Span};
+use crate::frame::Image;
+use crate::language::{ImagePart, Selection};
+use crate::ron::Spanned;
+use crate::vulkan::{Aspects, Shape, Subresources};
 use std::ops::Range;
 
 /// A part of an image, counted out.

@@ -1,22 +1,23 @@
 //! Passes of the frame: what each does with which parts, and what its shader is given.
 
-use super::shader::Checked;
+use super::shader::{self, Checked};
 use super::things::Things;
 use super::{
-    Chosen, fills, halves, local, params, parts, rotation, sampled, shader, storage, supplied, targets, transfers,
-    variant, work,
+    Chosen, fills, halves, local, params, parts, rotation, sampled, storage, supplied, targets, transfers, variant,
+    work,
 };
-use crate::describe::{self, Diagnostic, StandIn, Work as Described};
+use crate::base::Diagnostic;
 use crate::frame::{BufferRole, BufferUse, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
-use crate::interface::ShaderInterface;
-use crate::vocabulary::{FillValue, Stages, Subresources};
+use crate::language::{self, StandIn, Work as Described};
+use crate::shader::ShaderInterface;
+use crate::vulkan::{FillValue, Stages, Subresources};
 
 /// The pass as it runs, checked against its shader. Of a shader that can't be had nothing is known: mistakes were
 /// reported then, and what it would write counts as written.
 pub(super) fn lower(
     chosen: &Chosen<'_>,
     things: &Things,
-    pass: &describe::Pass,
+    pass: &language::Pass,
     shaders: &mut Checked<'_>,
     errors: &mut Vec<Diagnostic>,
 ) -> Pass {
@@ -56,7 +57,7 @@ pub(super) fn lower(
 pub(super) fn draft(
     chosen: &Chosen<'_>,
     things: &Things,
-    pass: &describe::Pass,
+    pass: &language::Pass,
     interface: Option<&ShaderInterface>,
     errors: &mut Vec<Diagnostic>,
 ) -> Pass {
@@ -97,16 +98,16 @@ pub(super) fn draft(
 }
 
 /// Buffers that are read as uniform blocks, vertices, indices and counts.
-fn buffers(pass: &describe::Pass, interface: Option<&ShaderInterface>, raster: bool, lowered: &mut Pass) {
+fn buffers(pass: &language::Pass, interface: Option<&ShaderInterface>, raster: bool, lowered: &mut Pass) {
     for uniform in &pass.uniform {
         let stages = storage::stages(interface, &uniform.binding.text, raster);
         let binding = Some(uniform.binding.text.clone());
         lowered.buffers.push(used(&uniform.part, binding, BufferRole::Uniform, stages));
     }
     let indirect = match &pass.work {
-        Described::Draw { draw: describe::Draw::Indirect(buffer), .. } => Some(buffer),
+        Described::Draw { draw: language::Draw::Indirect(buffer), .. } => Some(buffer),
         Described::Dispatch { groups, .. } => match &groups.value {
-            describe::Groups::Indirect { buffer, .. } => Some(buffer),
+            language::Groups::Indirect { buffer, .. } => Some(buffer),
             _ => None,
         },
         _ => None,
@@ -123,7 +124,7 @@ fn buffers(pass: &describe::Pass, interface: Option<&ShaderInterface>, raster: b
 
 /// One use of a buffer.
 pub(super) fn used(
-    part: &describe::BufferPart,
+    part: &language::BufferPart,
     binding: Option<std::sync::Arc<str>>,
     role: BufferRole,
     stages: Stages,
@@ -141,7 +142,7 @@ pub(super) fn used(
 fn transferred(
     chosen: &Chosen<'_>,
     things: &Things,
-    pass: &describe::Pass,
+    pass: &language::Pass,
     lowered: &mut Pass,
     errors: &mut Vec<Diagnostic>,
 ) {
@@ -155,10 +156,10 @@ fn transferred(
     };
     let parts = reads.iter().map(|part| (part, false)).chain(writes.iter().map(|part| (part, true)));
     for (part, write) in parts {
-        let describe::ResourceRef { resource, span } = part.resource();
+        let language::ResourceRef { resource, span } = part.resource();
         let range = match part {
-            describe::Part::Image(part) => parts::range(chosen, things, part, errors),
-            describe::Part::Buffer(_) => Subresources::WHOLE,
+            language::Part::Image(part) => parts::range(chosen, things, part, errors),
+            language::Part::Buffer(_) => Subresources::WHOLE,
         };
         let frames_ago = part.previous().map_or(0, |previous| previous.value);
         lowered.transfers.push(TransferUse { resource, range, frames_ago, span, write });
@@ -169,17 +170,17 @@ fn transferred(
 /// pass, others a number beside it.
 pub(super) fn stand_ins(
     things: &Things,
-    pass: &describe::Pass,
+    pass: &language::Pass,
     because: &str,
     errors: &mut Vec<Diagnostic>,
 ) -> Vec<Pass> {
     let stand_in = |(number, stand_in): (usize, &StandIn)| {
         let (work, transfer) = match *stand_in {
-            StandIn::Forward(describe::Forward { from, to }) => {
+            StandIn::Forward(language::Forward { from, to }) => {
                 (Work::Forward { from: from.index, to: to.index, because: because.to_owned() }, None)
             }
             StandIn::Clear { to, value } => {
-                let part = describe::Part::Image(describe::ImagePart::whole(to));
+                let part = language::Part::Image(language::ImagePart::whole(to));
                 transfers::fill(things, &part, value, errors);
                 let format = things.image(to.index).map(|image| image.image.format);
                 let filled = fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4]));
@@ -197,7 +198,7 @@ pub(super) fn stand_ins(
 }
 
 /// Images and buffers whose contents `pass` would make, were it on.
-pub(super) fn would_write(pass: &Pass) -> impl Iterator<Item = (Resource, crate::source::Span)> {
+pub(super) fn would_write(pass: &Pass) -> impl Iterator<Item = (Resource, crate::base::Span)> {
     let color = pass.color.iter().map(|target| (Resource::Image(target.image), target.span));
     let depth = pass.depth.iter().map(|target| (Resource::Image(target.image), target.span));
     let storage = pass.storage.iter().filter(|storage| storage.write);

@@ -8,11 +8,11 @@ use super::order::State;
 use super::shader::Checked;
 use super::things::Things;
 use super::{Chosen, variant};
-use crate::describe::{self, Format as Described, Precision, Precisions};
-use crate::format::Format;
+use crate::base::Span;
 use crate::frame::{Blend, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
-use crate::interface::AlphaUse;
-use crate::source::Span;
+use crate::language::{self, Format as Described, Precision, Precisions};
+use crate::shader::AlphaUse;
+use crate::vulkan::Format;
 use petgraph::unionfind::UnionFind;
 
 /// What a pipeline's words make of an image of the format `usual`, if another one. `range`: how far the scene reaches that is
@@ -69,7 +69,7 @@ fn reach(format: Format) -> f64 {
 
 /// Gives images the formats that the pipeline's words make of them. `states` are those of the pipeline's passes. Says of
 /// images whose colour must stay as it is, why, and of depth that takes more bits than it was asked to. `depth_range` is that of
-/// the scene's [`Facts`](crate::facts::Facts).
+/// the scene's [`Facts`](crate::language::Facts).
 pub(super) fn choose(
     chosen: &Chosen<'_>,
     depth_range: Option<f64>,
@@ -304,7 +304,7 @@ impl Uses {
 fn alpha_of(
     chosen: &Chosen<'_>,
     things: &Things,
-    described: &describe::Pass,
+    described: &language::Pass,
     pass: &Pass,
     shaders: &mut Checked<'_>,
 ) -> Option<Vec<(String, AlphaUse)>> {

@@ -1,7 +1,7 @@
 //! Whether what draws can draw turned pictures, as far as its shader tells.
 
 use crate::frame::Work;
-use crate::interface::{ShaderInterface, Unturned};
+use crate::shader::{ShaderInterface, Unturned};
 use std::sync::Arc;
 
 /// Why the shader of a pass can't draw into an image that is turned, behind the name of the pass.

@@ -2,14 +2,14 @@
 
 use super::images::Resolved;
 use super::parts::{self, Cells};
-use super::shader::{component_words, shape_words};
+use super::shader::{self, component_words, shape_words};
 use super::things::Things;
-use super::{Chosen, shader, storage, variant};
-use crate::describe::{self, Diagnostic, Face, nearest, suggestion};
-use crate::frame::{self, Pass, Sampled, Shape};
-use crate::interface::{BindingKind, Component, Dimension, ImageShape, MOST_PARTS, PASS_SET, ShaderInterface};
-use crate::view::EyeForm;
-use crate::vocabulary::{AddressMode, Aspects, Filter, Sampler, Subresources};
+use super::{Chosen, storage, variant};
+use crate::base::{Diagnostic, nearest, suggestion};
+use crate::frame::{self, EyeForm, Pass, Sampled};
+use crate::language::{self, Face};
+use crate::shader::{BindingKind, MOST_PARTS, PASS_SET, ShaderInterface};
+use crate::vulkan::{AddressMode, Aspects, Component, Dimension, Filter, ImageShape, Sampler, Shape, Subresources};
 
 /// A sampled image as its shader declares it.
 #[derive(Clone, Copy)]
@@ -46,7 +46,7 @@ fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
 /// A sampled image of the frame. `None` if the image or the shader's name isn't known; mistakes are reported elsewhere.
 pub(super) fn lower(
     things: &Things,
-    sample: &describe::Sample,
+    sample: &language::Sample,
     mut range: Subresources,
     interface: Option<&ShaderInterface>,
     raster: bool,
@@ -89,7 +89,7 @@ pub(super) fn lower(
 }
 
 /// What the file chooses, else a sampler that ends at the image's edges and takes the nearest mip level.
-fn sampler(sample: &describe::Sample, texture: Option<ImageShape>, filter: Filter) -> Sampler {
+fn sampler(sample: &language::Sample, texture: Option<ImageShape>, filter: Filter) -> Sampler {
     // Where a shader that adapts reads single samples there is nothing between them.
     if texture.is_some_and(|texture| texture.multisampled) {
         return Sampler::new(Filter::Nearest);
@@ -106,7 +106,7 @@ fn sampler(sample: &describe::Sample, texture: Option<ImageShape>, filter: Filte
 pub(super) fn check<'i>(
     chosen: &Chosen<'_>,
     things: &Things,
-    pass: &describe::Pass,
+    pass: &language::Pass,
     lowered: &Pass,
     interface: &'i ShaderInterface,
     errors: &mut Vec<Diagnostic>,
@@ -155,9 +155,9 @@ pub(super) fn check<'i>(
 }
 
 /// Reports what conditions leave out and the shader wouldn't sample anyway. `whole` is what it is with all of them.
-pub(super) fn check_left_out(pass: &describe::Pass, whole: Option<&ShaderInterface>, errors: &mut Vec<Diagnostic>) {
+pub(super) fn check_left_out(pass: &language::Pass, whole: Option<&ShaderInterface>, errors: &mut Vec<Diagnostic>) {
     let (Some(whole), Some(shader)) = (whole, pass.shader()) else { return };
-    for describe::LeftOut { binding, .. } in &pass.left_out {
+    for language::LeftOut { binding, .. } in &pass.left_out {
         if declared(whole, &binding.text).is_none() {
             let unknown = format!("shader `{}` samples no image named `{}`", shader.text, binding.text);
             let help = suggestion(&binding.text, names(whole));
@@ -168,8 +168,8 @@ pub(super) fn check_left_out(pass: &describe::Pass, whole: Option<&ShaderInterfa
 
 struct Check<'a> {
     chosen: &'a Chosen<'a>,
-    pass: &'a describe::Pass,
-    sample: &'a describe::Sample,
+    pass: &'a language::Pass,
+    sample: &'a language::Sample,
     shader: &'a str,
     image: &'a Resolved,
     /// The part that is given.
@@ -381,7 +381,7 @@ impl Check<'_> {
 }
 
 /// A shader can be told of some parts only.
-fn too_many_parts(things: &Things, pass: &describe::Pass, errors: &mut Vec<Diagnostic>) {
+fn too_many_parts(things: &Things, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
     if let Some(surplus) = variant::in_part(things, pass).nth(MOST_PARTS) {
         let message = format!("pass `{}` samples more than {MOST_PARTS} images that are used in part", pass.name.text);
         errors.push(Diagnostic::new(surplus.part.image.span, message).help("give some of them a fixed size"));
@@ -394,8 +394,8 @@ pub(super) fn dimension(
     name: &str,
     shape: ImageShape,
     image: &crate::frame::Image,
-    span: crate::source::Span,
-    declared: crate::source::Span,
+    span: crate::base::Span,
+    declared: crate::base::Span,
     errors: &mut Vec<Diagnostic>,
 ) -> bool {
     let is = match image.shape {

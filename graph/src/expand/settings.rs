@@ -1,7 +1,8 @@
 //! Values of settings: the user's choice where it is allowed, else what a file or a preset chose, else the default.
 
-use crate::describe::{ChosenBy, Diagnostic, Document, InForce, Setting, SettingKind, shown_number, suggestion};
+use crate::base::{Diagnostic, shown_number, suggestion};
 use crate::expression::Value;
+use crate::language::{ChosenBy, Document, InForce, Setting, SettingKind};
 use std::collections::HashMap;
 use std::sync::Arc;
 

@@ -1,13 +1,15 @@
 //! A pass and its shader meet: shaders are found, and what they need is given.
 
 use super::work;
-use crate::describe::{self, Diagnostic, Name, Work, suggestion};
+use crate::base::{Diagnostic, Sources, suggestion};
 use crate::frame::Draw;
-use crate::interface::{
-    Binding, BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterface, ShaderInterfaces,
-    ShaderProblem, Unbindable, Variant,
+use crate::language::{self, Work};
+use crate::ron::Name;
+use crate::shader::{
+    Binding, BindingKind, DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable,
+    Variant,
 };
-use crate::source::Sources;
+use crate::vulkan::{Component, Dimension, ImageShape};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -30,7 +32,7 @@ impl<'s> Checked<'s> {
     }
 
     /// Which shader a pass has, if it has one and it is found. One that isn't is reported where it is first named.
-    pub(super) fn find(&mut self, pass: &describe::Pass, errors: &mut Vec<Diagnostic>) -> Option<Arc<str>> {
+    pub(super) fn find(&mut self, pass: &language::Pass, errors: &mut Vec<Diagnostic>) -> Option<Arc<str>> {
         let (shader, draw) = named(pass)?;
         let from = shader.span.file().and_then(|file| self.sources.file(file)).map(|file| &file.path);
         let found = self.shaders.find(from.unwrap_or(&"".into()), &shader.text, draw);
@@ -41,7 +43,7 @@ impl<'s> Checked<'s> {
     /// where it is first named.
     pub(super) fn interface(
         &mut self,
-        pass: &describe::Pass,
+        pass: &language::Pass,
         variant: &Variant,
         errors: &mut Vec<Diagnostic>,
     ) -> Option<ShaderInterface> {
@@ -87,7 +89,7 @@ impl<'s> Checked<'s> {
 
     /// What whoever draws brings along (nothing, for a dispatch), the first time that a shader draws this; then it is
     /// known to fit or not.
-    pub(super) fn brought_along_first(&mut self, pass: &describe::Pass) -> Option<DrawInterface> {
+    pub(super) fn brought_along_first(&mut self, pass: &language::Pass) -> Option<DrawInterface> {
         let (_, draw) = named(pass)?;
         let path = self.find(pass, &mut Vec::new())?;
         let first = self.seen.insert((path, draw));
@@ -96,7 +98,7 @@ impl<'s> Checked<'s> {
 }
 
 /// The shader that a pass names, and what it draws with it; `None`: it is a compute shader.
-fn named(pass: &describe::Pass) -> Option<(&Name, Option<Draw>)> {
+fn named(pass: &language::Pass) -> Option<(&Name, Option<Draw>)> {
     match &pass.work {
         Work::Draw { shader, draw } => Some((shader, Some(work::draw(draw)))),
         Work::Dispatch { shader, .. } => Some((shader, None)),
@@ -131,7 +133,7 @@ fn report(shader: &Name, problem: &ShaderProblem) -> Diagnostic {
 
 /// Reports what set 0 of the shader holds and the pass doesn't give, or only under a misspelt name.
 pub(super) fn missing(
-    pass: &describe::Pass,
+    pass: &language::Pass,
     interface: &ShaderInterface,
     misspelt: &[&str],
     errors: &mut Vec<Diagnostic>,

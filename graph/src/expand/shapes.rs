@@ -1,7 +1,9 @@
 //! Shape, layers and mip levels of an image, and what can't go together.
 
-use crate::describe::{self, Diagnostic, ImageShape as Described, Layers, Lifetime};
-use crate::frame::{Image, Shape};
+use crate::base::Diagnostic;
+use crate::frame::Image;
+use crate::language::{self, ImageShape as Described, Layers, Lifetime};
+use crate::vulkan::Shape;
 
 /// How many mip levels are asked for.
 #[derive(Clone, Copy)]
@@ -12,7 +14,7 @@ pub(super) enum Levels {
 }
 
 /// Array layers of an image that follows `followed`, or none.
-pub(super) fn layers(image: &describe::Image, followed: Option<u32>) -> Option<u32> {
+pub(super) fn layers(image: &language::Image, followed: Option<u32>) -> Option<u32> {
     match image.layers.value {
         Layers::Default if image.shape.value == Described::Cube => Some(6),
         Layers::Default => Some(1),
@@ -29,7 +31,7 @@ const fn full(extent: [u32; 3]) -> u32 {
 
 /// The image with its shape, layers and mip levels. `None` if they contradict each other.
 pub(super) fn shaped(
-    described: &describe::Image,
+    described: &language::Image,
     mut image: Image,
     layers: u32,
     levels: Levels,

@@ -1,9 +1,10 @@
 //! States in which images and buffers come in and go out: what the words mean.
 
-use crate::describe::{Diagnostic, Spanned, State as Described, StateWord};
-use crate::format::Format;
-use crate::states::{SHADERS, Subject, TESTS, TRANSFERS, When, contradiction};
-use crate::vocabulary::{Accesses, Layout, Stages, State};
+use crate::base::Diagnostic;
+use crate::language::{State as Described, StateWord};
+use crate::ron::Spanned;
+use crate::vulkan::states::{SHADERS, Subject, TESTS, TRANSFERS, When, contradiction};
+use crate::vulkan::{Accesses, Format, Layout, Stages, State};
 
 /// The state that the file asks for, or `None` after a mistake was reported.
 pub(super) fn lower(

@@ -1,13 +1,14 @@
 //! Images and buffers that a shader reads and writes by itself, against what it declares.
 
-use super::shader::{PARAMS, component_words, shape_words};
+use super::shader::{self, PARAMS, component_words, shape_words};
 use super::things::Things;
-use super::{Chosen, parts, passes, sampled, shader, transfers, work};
-use crate::describe::{self, Diagnostic, Part, StorageAccess, nearest, suggestion};
-use crate::format::{Format, Numeric};
+use super::{Chosen, parts, passes, sampled, transfers, work};
+use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{BufferRole, Image, Pass, Storage};
-use crate::interface::{Binding, BindingKind, Component, ImageShape, PASS_SET, ShaderInterface};
-use crate::vocabulary::{Stages, Subresources};
+use crate::language::{self, Part, StorageAccess};
+use crate::ron::Name;
+use crate::shader::{Binding, BindingKind, PASS_SET, ShaderInterface};
+use crate::vulkan::{Component, Format, ImageShape, Numeric, Stages, Subresources};
 
 /// The stages that use the shader's resource `name`; of what the embedding program records, those that may.
 pub(super) fn stages(interface: Option<&ShaderInterface>, name: &str, raster: bool) -> Stages {
@@ -34,7 +35,7 @@ fn allowed(kind: &BindingKind) -> Option<(bool, bool)> {
 
 /// What is done with a storage image or buffer: what the file says, else what the shader's declaration allows. Without
 /// either, it is written. What an earlier frame left is only read.
-fn access(storage: &describe::Storage, interface: Option<&ShaderInterface>) -> (bool, bool) {
+fn access(storage: &language::Storage, interface: Option<&ShaderInterface>) -> (bool, bool) {
     if storage.part.previous().is_some() {
         return (true, false);
     }
@@ -53,7 +54,7 @@ fn access(storage: &describe::Storage, interface: Option<&ShaderInterface>) -> (
 pub(super) fn lower(
     chosen: &Chosen<'_>,
     things: &Things,
-    storage: &describe::Storage,
+    storage: &language::Storage,
     interface: Option<&ShaderInterface>,
     raster: bool,
     lowered: &mut Pass,
@@ -86,14 +87,14 @@ fn names(interface: &ShaderInterface) -> impl Iterator<Item = &str> + Clone {
 pub(super) fn check<'i>(
     chosen: &Chosen<'_>,
     things: &Things,
-    pass: &describe::Pass,
+    pass: &language::Pass,
     lowered: &Pass,
     interface: &'i ShaderInterface,
     errors: &mut Vec<Diagnostic>,
 ) -> Vec<&'i str> {
     let shader = pass.shader().map_or("", |shader| &*shader.text);
     let mut misspelt = Vec::new();
-    let mut unknown = |name: &describe::Name, what: &str, errors: &mut Vec<Diagnostic>| {
+    let mut unknown = |name: &Name, what: &str, errors: &mut Vec<Diagnostic>| {
         let message = format!("shader `{shader}` has {what} named `{}`", name.text);
         if let Some(otherwise) = shader::declared_otherwise(interface, &name.text) {
             misspelt.extend(of_pass(interface, &name.text).map(|binding| &*binding.name));
@@ -152,7 +153,7 @@ pub(super) fn check<'i>(
 
 fn access_fits(
     shader: &str,
-    storage: &describe::Storage,
+    storage: &language::Storage,
     readable: bool,
     writable: bool,
     errors: &mut Vec<Diagnostic>,
@@ -187,7 +188,7 @@ struct ImageCheck<'a> {
     shader: &'a str,
     name: &'a str,
     image: &'a Image,
-    part: &'a describe::ImagePart,
+    part: &'a language::ImagePart,
 }
 
 impl ImageCheck<'_> {

@@ -1,16 +1,16 @@
 //! A shader meets whoever draws: vertex attributes, and the resources of sets from 1 on.
 
 use super::shader::Checked;
-use crate::describe::{self, Diagnostic, Draw, Name, Work, suggestion};
-use crate::interface::{
-    Binding, BindingKind, Component, Dimension, DrawInterface, ImageShape, PASS_SET, ShaderInterface, Supplied,
-    SuppliedKind,
-};
+use crate::base::{Diagnostic, suggestion};
+use crate::language::{self, Draw, Work};
+use crate::ron::Name;
+use crate::shader::{Binding, BindingKind, DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind};
+use crate::vulkan::{Component, Dimension, ImageShape};
 
 /// Reports what the shader wants and whoever draws doesn't bring along.
 pub(super) fn check(
     shaders: &mut Checked<'_>,
-    pass: &describe::Pass,
+    pass: &language::Pass,
     interface: &ShaderInterface,
     errors: &mut Vec<Diagnostic>,
 ) {
@@ -29,7 +29,7 @@ pub(super) fn check(
 }
 
 /// A pass that brings its own vertices names their buffer, if and only if its shader reads attributes.
-fn own_attributes(pass: &describe::Pass, shader: &Name, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
+fn own_attributes(pass: &language::Pass, shader: &Name, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
     match (interface.vertex_inputs.first(), &pass.vertex) {
         (Some(input), None) => {
             let message = format!(

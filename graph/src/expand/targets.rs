@@ -4,13 +4,14 @@ use super::images::Resolved;
 use super::shader::component_words;
 use super::things::Things;
 use super::{Chosen, parts, transfers};
-use crate::describe::{self, Diagnostic, ImagePart, ImageRef};
-use crate::frame::{Blend, Shape};
-use crate::interface::{Component, ShaderInterface};
-use crate::vocabulary::Aspects;
+use crate::base::Diagnostic;
+use crate::frame::Blend;
+use crate::language::{self, ImagePart, ImageRef};
+use crate::shader::ShaderInterface;
+use crate::vulkan::{Aspects, Component, Shape};
 
 /// Targets have formats that fit their use, and agree in size and sample count; a stand-in keeps to one kind of image.
-pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass, errors: &mut Vec<Diagnostic>) {
+pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
     let resolved = |image: ImageRef| things.image(image.index);
     let declared = |image: ImageRef| chosen.image(image.index).format.span;
     for target in &pass.color {
@@ -46,7 +47,7 @@ pub(super) fn fit(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass, e
     let parts: Vec<Part<'_>> = parts.filter_map(|part| drawn(chosen, things, part, errors)).collect();
     agree(pass, &parts, errors);
     for stand_in in &pass.otherwise {
-        let describe::StandIn::Forward(forward) = stand_in else { continue };
+        let language::StandIn::Forward(forward) = stand_in else { continue };
         if let (Some(from), Some(to)) = (resolved(forward.from), resolved(forward.to))
             && kind(from) != kind(to)
         {
@@ -115,7 +116,7 @@ fn drawn<'a>(
 }
 
 /// All targets of a pass have one size, one sample count and as many layers.
-fn agree(pass: &describe::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>) {
+fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>) {
     let Some((first, others)) = parts.split_first() else { return };
     for other in others {
         let (one, another) = (&first.image.image, &other.image.image);
@@ -160,7 +161,7 @@ fn agree(pass: &describe::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
 }
 
 /// Every colour target is fed by an output of the same type.
-pub(super) fn fed(things: &Things, pass: &describe::Pass, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
+pub(super) fn fed(things: &Things, pass: &language::Pass, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
     let shader = pass.shader().map_or("", |shader| &*shader.text);
     if let Some(span) = pass.alpha_to_coverage {
         let first = interface.outputs.iter().find(|output| output.location == 0);

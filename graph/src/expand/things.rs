@@ -1,13 +1,12 @@
 //! Images and buffers of the frame, each from what the file says and what it follows.
 
-use super::fills;
-use super::states;
-use super::{Chosen, images};
-use crate::describe::{self, Bytes, Diagnostic, LARGEST_BUFFER, Lifetime as Described, Name, Spanned};
+use super::{Chosen, fills, images, states};
+use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
-use crate::source::Span;
-use crate::states::{Subject, When};
-use crate::vocabulary::State;
+use crate::language::{self, Bytes, LARGEST_BUFFER, Lifetime as Described};
+use crate::ron::{Name, Spanned};
+use crate::vulkan::State;
+use crate::vulkan::states::{Subject, When};
 use std::sync::Arc;
 
 /// Everything that passes name; `None` where a mistake was reported.
@@ -62,7 +61,7 @@ impl Things {
         &self,
         chosen: &Chosen<'_>,
         of: Resource,
-        after: Spanned<describe::State>,
+        after: Spanned<language::State>,
         errors: &mut Vec<Diagnostic>,
     ) -> Option<State> {
         let image = match of {
@@ -129,7 +128,7 @@ fn followed(
 }
 
 /// The size of a buffer that follows no other.
-fn own(images: &[Option<images::Resolved>], buffer: &describe::Buffer, errors: &mut Vec<Diagnostic>) -> Option<u64> {
+fn own(images: &[Option<images::Resolved>], buffer: &language::Buffer, errors: &mut Vec<Diagnostic>) -> Option<u64> {
     let (bytes, because) = match buffer.bytes.value {
         Bytes::Count(bytes) => (bytes.checked_next_multiple_of(4), format!("{bytes} bytes")),
         Bytes::Times(each, count) => {
@@ -170,7 +169,7 @@ fn lifetime(
     }
     // What is wrong with a followed lifetime is shown at the one that follows, too: there it may mean something else.
     let here = |span: Span| if value.span == described.span { span } else { described.span };
-    let initial = |fill: Option<Spanned<describe::Fill>>, errors: &mut Vec<Diagnostic>| {
+    let initial = |fill: Option<Spanned<language::Fill>>, errors: &mut Vec<Diagnostic>| {
         let Some(fill) = fill else { return Some(fills::zero(of.format)) };
         match fills::typed(fill.value, of.format) {
             Ok(value) => Some(value),
@@ -188,7 +187,7 @@ fn lifetime(
             Lifetime::History { frames: *frames, initial: initial(*fill, errors)? }
         }
         Described::Imported { before, after } => {
-            let state = |state: Spanned<describe::State>, when, errors: &mut Vec<Diagnostic>| {
+            let state = |state: Spanned<language::State>, when, errors: &mut Vec<Diagnostic>| {
                 states::lower(Spanned { span: here(state.span), ..state }, of, when, errors)
             };
             let before = state(*before, When::Before, errors);

@@ -3,9 +3,9 @@
 use super::order::State;
 use super::parts::{self, Cells};
 use super::things::Things;
+use crate::base::Span;
 use crate::frame::{BufferRole, Pass, Resource, Work};
-use crate::source::Span;
-use crate::vocabulary::{Aspects, Subresources};
+use crate::vulkan::{Aspects, Subresources};
 
 /// A read.
 pub(super) struct Read {

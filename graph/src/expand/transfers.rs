@@ -1,13 +1,13 @@
 //! Copies, blits and fills: what goes from where to where must fit.
 
-use super::Chosen;
-use super::fills;
 use super::parts::{self, Cells};
 use super::things::Things;
-use crate::describe::{self, Diagnostic, Fill, ImagePart, Part, Spanned};
-use crate::format::Format;
+use super::{Chosen, fills};
+use crate::base::Diagnostic;
 use crate::frame::{Image, Pass, TransferUse};
-use crate::vocabulary::{Aspects, Filter};
+use crate::language::{self, Fill, ImagePart, Part};
+use crate::ron::Spanned;
+use crate::vulkan::{Aspects, Filter, Format};
 
 /// One side of a transfer that is an image.
 struct Side<'a> {
@@ -185,7 +185,7 @@ fn images_fit(from: &Side<'_>, to: &Side<'_>, same_frame: bool, errors: &mut Vec
 fn rows_fit(
     things: &Things,
     image: &Side<'_>,
-    buffer: &describe::BufferRef,
+    buffer: &language::BufferRef,
     filled: bool,
     errors: &mut Vec<Diagnostic>,
 ) {

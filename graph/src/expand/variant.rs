@@ -4,14 +4,15 @@ use super::Chosen;
 use super::parts::{self, Cells};
 use super::shader::Checked;
 use super::things::Things;
-use crate::describe::{self, Diagnostic, Face};
+use crate::base::Diagnostic;
 use crate::frame::{Image, Pass};
-use crate::interface::{Component, ImageShape, Variant};
-use crate::vocabulary::Aspects;
+use crate::language::{self, Face};
+use crate::shader::Variant;
+use crate::vulkan::{Aspects, Component, ImageShape};
 
 /// The variant of its shader that a pass needs. What isn't known is left out: mistakes are reported elsewhere.
-pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) -> Variant {
-    let texture = |sample: &describe::Sample| {
+pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass) -> Variant {
+    let texture = |sample: &language::Sample| {
         let image = &things.image(sample.part.image.index)?.image;
         let range = parts::range(chosen, things, &sample.part, &mut Vec::new());
         Some((sample.binding.text.clone(), texture(image, &parts::cells(image, &range), sample.face)))
@@ -35,24 +36,24 @@ pub(super) fn of(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) ->
 }
 
 /// What a pass samples of which only a part is in use.
-pub(super) fn in_part<'p>(things: &'p Things, pass: &'p describe::Pass) -> impl Iterator<Item = &'p describe::Sample> {
-    let room = |sample: &&describe::Sample| things.image(sample.part.image.index).and_then(|image| image.image.room);
+pub(super) fn in_part<'p>(things: &'p Things, pass: &'p language::Pass) -> impl Iterator<Item = &'p language::Sample> {
+    let room = |sample: &&language::Sample| things.image(sample.part.image.index).and_then(|image| image.image.room);
     pass.sample.iter().filter(move |sample| room(sample).is_some())
 }
 
 /// Whether the alpha that a pass draws says how many samples are covered: its targets have several.
-fn covers_samples(things: &Things, pass: &describe::Pass) -> bool {
+fn covers_samples(things: &Things, pass: &language::Pass) -> bool {
     let several =
-        |color: &describe::Color| things.image(color.part.image.index).is_some_and(|target| target.image.samples > 1);
+        |color: &language::Color| things.image(color.part.image.index).is_some_and(|target| target.image.samples > 1);
     pass.alpha_to_coverage.is_some() && pass.color.iter().any(several)
 }
 
 /// The variant that its shader would have if no condition left anything out; `None` where what is left out has no value
 /// that could tell.
-pub(super) fn with_all(chosen: &Chosen<'_>, things: &Things, pass: &describe::Pass) -> Option<Variant> {
+pub(super) fn with_all(chosen: &Chosen<'_>, things: &Things, pass: &language::Pass) -> Option<Variant> {
     let left_out = pass.left_out.iter().map(|left_out| left_out.sample.clone());
-    let left_out: Vec<describe::Sample> = left_out.collect::<Option<_>>()?;
-    let whole = describe::Pass { sample: [&pass.sample[..], &left_out].concat(), ..pass.clone() };
+    let left_out: Vec<language::Sample> = left_out.collect::<Option<_>>()?;
+    let whole = language::Pass { sample: [&pass.sample[..], &left_out].concat(), ..pass.clone() };
     Some(of(chosen, things, &whole))
 }
 
@@ -71,7 +72,7 @@ fn texture(image: &Image, cells: &Cells, face: Face) -> ImageShape {
 
 /// Reports a shader that adapts to several samples, and is wrong where the device leaves its images one sample.
 pub(super) fn check_single_sampled(
-    pass: &describe::Pass,
+    pass: &language::Pass,
     lowered: &Pass,
     variant: &Variant,
     shaders: &mut Checked<'_>,

@@ -1,9 +1,8 @@
 //! Passes that draw a view into images that are for another.
 
 use super::Chosen;
-use crate::describe::{Draw, Pass, Work};
-use crate::frame::Remark;
-use crate::view::ViewIndex;
+use crate::frame::{Remark, ViewIndex};
+use crate::language::{Draw, Pass, Work};
 use std::sync::Arc;
 
 /// Passes that draw the scene for one view into an image for another view, of another size: what the camera sees is stretched

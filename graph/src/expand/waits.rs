@@ -1,12 +1,10 @@
 //! Passes that wait for each other: moving one up doesn't help where the other needs it.
 
-use super::order::Writers;
+use super::order::{self, Writers};
 use super::things::Things;
-use super::touches;
-use super::{Chosen, order};
-use crate::describe::Diagnostic;
+use super::{Chosen, touches};
+use crate::base::{Diagnostic, Span};
 use crate::frame::Resource;
-use crate::source::Span;
 use std::collections::{HashMap, VecDeque};
 
 /// A longer circle is not shown whole.

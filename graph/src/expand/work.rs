@@ -2,21 +2,22 @@
 
 use super::things::Things;
 use super::{Chosen, fills, parts, transfers};
-use crate::describe::{self, Diagnostic, Groups as Described, MOST_GROUPS};
+use crate::base::{Diagnostic, Span};
 use crate::frame::{Draw, Groups, Pass, Work};
-use crate::interface::ShaderInterface;
-use crate::source::Span;
-use crate::vocabulary::{FillValue, Filter};
+use crate::language::{self, Groups as Described, MOST_GROUPS};
+use crate::ron::{Name, Spanned};
+use crate::shader::ShaderInterface;
+use crate::vulkan::{FillValue, Filter};
 
 /// What `draw` comes to in the frame.
-pub(super) fn draw(draw: &describe::Draw) -> Draw {
+pub(super) fn draw(draw: &language::Draw) -> Draw {
     match draw {
-        describe::Draw::Objects(list) => Draw::Objects(*list),
-        describe::Draw::Casters(cascade) => Draw::Casters(*cascade),
-        describe::Draw::Sky => Draw::Sky,
-        describe::Draw::FullScreen => Draw::FullScreen,
-        describe::Draw::Vertices { count, instances } => Draw::Vertices { count: *count, instances: *instances },
-        describe::Draw::Indirect(_) => Draw::Indirect,
+        language::Draw::Objects(list) => Draw::Objects(*list),
+        language::Draw::Casters(cascade) => Draw::Casters(*cascade),
+        language::Draw::Sky => Draw::Sky,
+        language::Draw::FullScreen => Draw::FullScreen,
+        language::Draw::Vertices { count, instances } => Draw::Vertices { count: *count, instances: *instances },
+        language::Draw::Indirect(_) => Draw::Indirect,
     }
 }
 
@@ -24,10 +25,10 @@ pub(super) fn draw(draw: &describe::Draw) -> Draw {
 pub(super) fn lower(
     chosen: &Chosen<'_>,
     things: &Things,
-    pass: &describe::Pass,
+    pass: &language::Pass,
     interface: Option<&ShaderInterface>,
 ) -> Work {
-    let drawn = |draw, shader: &describe::Name| Work::Draw {
+    let drawn = |draw, shader: &Name| Work::Draw {
         draw,
         shader: shader.text.clone(),
         // What isn't covered stays as it is.
@@ -35,31 +36,31 @@ pub(super) fn lower(
         per_sample: interface.is_some_and(|interface| interface.per_sample),
     };
     match &pass.work {
-        describe::Work::Draw { draw: what, shader } => drawn(draw(what), shader),
-        describe::Work::Dispatch { shader, groups } => {
+        language::Work::Draw { draw: what, shader } => drawn(draw(what), shader),
+        language::Work::Dispatch { shader, groups } => {
             Work::Dispatch { shader: shader.text.clone(), groups: self::groups(chosen, things, &groups.value) }
         }
-        describe::Work::Copy { .. } => Work::Copy,
-        describe::Work::Blit { from, filter, .. } => {
+        language::Work::Copy { .. } => Work::Copy,
+        language::Work::Blit { from, filter, .. } => {
             let format = match from {
-                describe::Part::Image(part) => things.image(part.image.index).map(|image| image.image.format),
-                describe::Part::Buffer(_) => None,
+                language::Part::Image(part) => things.image(part.image.index).map(|image| image.image.format),
+                language::Part::Buffer(_) => None,
             };
             let filtered = format.is_none_or(|format| !format.is_depth() && !format.is_integer());
             let default = if filtered { Filter::Linear } else { Filter::Nearest };
             Work::Blit { filter: filter.map_or(default, |filter| filter.value) }
         }
-        describe::Work::Fill { to, value } => {
+        language::Work::Fill { to, value } => {
             let format = match to {
-                describe::Part::Image(part) => things.image(part.image.index).map(|image| image.image.format),
-                describe::Part::Buffer(_) => None,
+                language::Part::Image(part) => things.image(part.image.index).map(|image| image.image.format),
+                language::Part::Buffer(_) => None,
             };
             Work::Fill { value: fills::typed(value.value, format).unwrap_or(FillValue::Bits([0; 4])) }
         }
-        describe::Work::Custom { callback, .. } if !pass.color.is_empty() || pass.depth.is_some() => {
+        language::Work::Custom { callback, .. } if !pass.color.is_empty() || pass.depth.is_some() => {
             drawn(Draw::Custom, callback)
         }
-        describe::Work::Custom { callback, .. } => Work::Custom { callback: callback.text.clone() },
+        language::Work::Custom { callback, .. } => Work::Custom { callback: callback.text.clone() },
     }
 }
 
@@ -73,7 +74,7 @@ fn groups(chosen: &Chosen<'_>, things: &Things, groups: &Described) -> Groups {
 }
 
 /// Width, height, and depth or layers of a part of an image.
-fn texels(chosen: &Chosen<'_>, things: &Things, part: &describe::ImagePart) -> [u32; 3] {
+fn texels(chosen: &Chosen<'_>, things: &Things, part: &language::ImagePart) -> [u32; 3] {
     let Some(image) = things.image(part.image.index).map(|image| &image.image) else { return [1; 3] };
     let cells = parts::cells(image, &parts::range(chosen, things, part, &mut Vec::new()));
     let [width, height, depth] = parts::extent(image, cells.mips.start);
@@ -84,35 +85,35 @@ fn texels(chosen: &Chosen<'_>, things: &Things, part: &describe::ImagePart) -> [
 pub(super) fn check(
     chosen: &Chosen<'_>,
     things: &Things,
-    pass: &describe::Pass,
+    pass: &language::Pass,
     lowered: &Pass,
     interface: Option<&ShaderInterface>,
     errors: &mut Vec<Diagnostic>,
 ) {
     match &pass.work {
-        describe::Work::Draw { draw, .. } => counts_fit(things, pass, draw, lowered, errors),
-        describe::Work::Dispatch { groups, .. } => {
+        language::Work::Draw { draw, .. } => counts_fit(things, pass, draw, lowered, errors),
+        language::Work::Dispatch { groups, .. } => {
             dispatch_fits(chosen, things, pass, groups, lowered, interface, errors);
         }
-        describe::Work::Copy { from, to } => transfers::copy(chosen, things, [from, to], lowered, errors),
-        describe::Work::Blit { from, to, filter } => {
+        language::Work::Copy { from, to } => transfers::copy(chosen, things, [from, to], lowered, errors),
+        language::Work::Blit { from, to, filter } => {
             transfers::blit(chosen, things, [from, to], *filter, lowered, errors);
         }
-        describe::Work::Fill { to, value } => transfers::fill(things, to, *value, errors),
-        describe::Work::Custom { .. } => {}
+        language::Work::Fill { to, value } => transfers::fill(things, to, *value, errors),
+        language::Work::Custom { .. } => {}
     }
 }
 
 /// Indices and counts lie within their buffers.
 fn counts_fit(
     things: &Things,
-    pass: &describe::Pass,
-    draw: &describe::Draw,
+    pass: &language::Pass,
+    draw: &language::Draw,
     lowered: &Pass,
     errors: &mut Vec<Diagnostic>,
 ) {
     let indexed = pass.index.is_some();
-    if let describe::Draw::Indirect(part) = draw {
+    if let language::Draw::Indirect(part) = draw {
         // VkDrawIndexedIndirectCommand and VkDrawIndirectCommand.
         let (bytes, what) = if indexed { (20, "VkDrawIndexedIndirectCommand") } else { (16, "VkDrawIndirectCommand") };
         holds(things, &part.buffer, bytes, &format!("the counts of a draw ({what})"), part.buffer.span, errors);
@@ -126,7 +127,7 @@ fn counts_fit(
 /// Reports a buffer that is too small for what is read there.
 pub(super) fn holds(
     things: &Things,
-    buffer: &describe::BufferRef,
+    buffer: &language::BufferRef,
     bytes: u64,
     what: &str,
     span: Span,
@@ -142,8 +143,8 @@ pub(super) fn holds(
 fn dispatch_fits(
     chosen: &Chosen<'_>,
     things: &Things,
-    pass: &describe::Pass,
-    groups: &describe::Spanned<Described>,
+    pass: &language::Pass,
+    groups: &Spanned<Described>,
     lowered: &Pass,
     interface: Option<&ShaderInterface>,
     errors: &mut Vec<Diagnostic>,

@@ -1,7 +1,7 @@
 //! Which parts of images and buffers hold something.
 
 use super::parts::Cells;
-use crate::vocabulary::Aspects;
+use crate::vulkan::Aspects;
 use std::collections::BTreeMap;
 use std::ops::Range;
 

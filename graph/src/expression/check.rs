@@ -5,9 +5,8 @@ use super::environment::{Bound, Declarations, Found, Origin, Symbol};
 use super::functions::{Callee, Function};
 use super::program::{Binary, Operation, Program, shown};
 use super::types::{Type, Value, Wanted};
-use crate::describe::{Diagnostic, nearest, suggestion, vulkans_name, without_quotes};
-use crate::format::Format;
-use crate::source::Span;
+use crate::base::{Diagnostic, Span, nearest, suggestion, without_quotes};
+use crate::vulkan::{Format, vulkans_name};
 
 /// Binds the names of a program, and checks its types and its value's.
 pub(super) fn check(

@@ -1,9 +1,9 @@
 //! What an expression's names stand for: declared while a file is read, given values when a frame is put together.
 
 use super::types::{Type, Value};
-use crate::format::Format;
+use crate::base::Span;
 use crate::frame::ImageIndex;
-use crate::source::Span;
+use crate::vulkan::Format;
 use std::fmt;
 use std::sync::Arc;
 

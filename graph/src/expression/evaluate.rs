@@ -6,9 +6,8 @@ use super::environment::{Bound, Decision, Missing, Property, Symbol, Values};
 use super::functions::Function;
 use super::program::{Binary, Operation, shown};
 use super::types::{Type, Value};
-use crate::describe::{Diagnostic, shown_number};
+use crate::base::{Diagnostic, Span, shown_number};
 use crate::frame::ImageIndex;
-use crate::source::Span;
 
 /// The value of an expression, and why it is that.
 #[derive(Debug, Clone, PartialEq)]

@@ -20,7 +20,7 @@
 //! ```
 //! from the loosest to the tightest, those of one line from left to right. The rest is parentheses, `true`, `false`,
 //! numbers (`12`, `0.5`, `1e-3`), texts in single quotes (`'high'`, without escapes), names (`levels`, `view.width`;
-//! also [formats](crate::format::Format) by Vulkan's names, unless something declared has that name) and calls of [`functions`].
+//! also [formats](crate::vulkan::Format) by Vulkan's names, unless something declared has that name) and calls of [`functions`].
 //!
 //! # Types
 //! [`Type`] lists them. A whole number becomes a number where one is needed, never the other way round. `/` always gives
@@ -50,8 +50,7 @@ pub use evaluate::{Failed, Outcome};
 pub use functions::functions;
 pub use types::{Type, Value, Wanted};
 
-use crate::describe::Diagnostic;
-use crate::source::Span;
+use crate::base::{Diagnostic, Span};
 use environment::Bound;
 use program::Program;
 

@@ -5,8 +5,7 @@ use super::program::{Binary, Node, Operation, Program, Text, shown};
 use super::tokens::{self, Mistake, Placed, Token};
 use super::types::Value;
 use super::{LONGEST_TEXT, MOST_NESTED};
-use crate::describe::{Diagnostic, nearest, suggestion};
-use crate::source::Span;
+use crate::base::{Diagnostic, Span, nearest, suggestion};
 use std::ops::Range;
 
 /// Parses `text`, which stands at `span`.

@@ -2,8 +2,7 @@
 
 use super::functions::Function;
 use super::types::Value;
-use crate::describe::Diagnostic;
-use crate::source::Span;
+use crate::base::{Diagnostic, Span};
 use std::ops::Range;
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
 //! Types of expressions, their values, and what a place in a file wants.
 
-use crate::describe::shown_number;
-use crate::format::Format;
+use crate::base::shown_number;
 use crate::frame::{BufferIndex, ImageIndex};
+use crate::vulkan::Format;
 use std::fmt;
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Which draws cover: they replace every texel of a target, so that nothing has to be there before.
 
 use super::{Blend, ColorTarget, DepthTarget, Draw, Image, Pass, StencilState, Work};
-use crate::vocabulary::{Aspects, CompareOp, StencilOp, Subresources};
+use crate::vulkan::{Aspects, CompareOp, StencilOp, Subresources};
 
 impl Pass {
     /// Whether what it draws into `target`, a part of `image`, replaces every texel.

@@ -3,41 +3,32 @@
 //! This is what [`crate::compile`] reads. It still says only *what*: no barrier, layout, load or store operation, resolve
 //! or alias. It is plain data, so an embedding program may also build it without any file.
 
-use crate::change::Change;
-use crate::source::{Sources, Span};
-use crate::view::{Stereo, View};
-use std::sync::Arc;
-
+pub mod change;
 mod covers;
+mod index;
+mod jitter;
 mod output;
 mod pass;
 mod resource;
+mod texture;
 mod touch;
+mod view;
 
+pub use index::{BufferIndex, ImageIndex, Resource};
+pub use jitter::*;
 pub use output::Output;
 pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Work};
 pub(crate) use resource::with_room;
-pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, Shape};
+pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay};
+pub use texture::*;
 pub use touch::{
     Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,
 };
+pub use view::*;
 
-/// Index of an image in [`Frame::images`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ImageIndex(pub u32);
-
-/// Index of a buffer in [`Frame::buffers`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct BufferIndex(pub u32);
-
-/// An image or a buffer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Resource {
-    /// An image.
-    Image(ImageIndex),
-    /// A buffer.
-    Buffer(BufferIndex),
-}
+use crate::base::{Sources, Span};
+use change::Change;
+use std::sync::Arc;
 
 /// A frame: images, buffers, passes in the order that gives them meaning, outputs.
 #[derive(Debug, Clone, Default)]

@@ -1,11 +1,8 @@
 //! What leaves the frame.
 
-use super::Resource;
-use crate::encoding::Encoding;
-use crate::rotation::Rotation;
-use crate::source::Span;
-use crate::view::Eye;
-use crate::vocabulary::State;
+use super::{Eye, Resource};
+use crate::base::Span;
+use crate::vulkan::{Encoding, Rotation, State};
 
 /// An image or buffer that leaves the frame.
 #[derive(Debug, Clone, PartialEq)]

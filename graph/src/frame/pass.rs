@@ -1,9 +1,8 @@
 //! Passes of a frame, and what they do.
 
-use super::{BufferUse, ColorTarget, DepthTarget, ImageIndex, Sampled, Storage, TransferUse};
-use crate::source::Span;
-use crate::view::ViewIndex;
-use crate::vocabulary::{FillValue, Filter};
+use super::{BufferUse, ColorTarget, DepthTarget, ImageIndex, Sampled, Storage, TransferUse, ViewIndex};
+use crate::base::Span;
+use crate::vulkan::{FillValue, Filter};
 use serde::{Deserialize, Serialize};
 use std::num::NonZero;
 use std::sync::Arc;

@@ -1,12 +1,8 @@
 //! Images and buffers of a frame.
 
-use crate::format::Format;
-use crate::rotation::Rotation;
-use crate::source::Span;
-use crate::texture::TextureFile;
-use crate::view::EyeForm;
-use crate::vocabulary::{FillValue, ResolveMode, State};
-use serde::{Deserialize, Serialize};
+use super::{EyeForm, TextureFile};
+use crate::base::Span;
+use crate::vulkan::{FillValue, Format, ResolveMode, Rotation, Shape, State};
 use std::sync::Arc;
 
 /// An image of a frame.
@@ -117,18 +113,6 @@ pub enum ResolveWay {
     /// Of floating-point and normalised colour: the mean of tone-mapped samples, taken back to light, so that one bright
     /// sample doesn't drown the others. By a draw.
     Weighted,
-}
-
-/// The shape of an image.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
-pub enum Shape {
-    /// Two-dimensional, or an array of such layers.
-    #[default]
-    D2,
-    /// Three-dimensional.
-    D3,
-    /// Six square layers that may be sampled as a cube, or several times six.
-    Cube,
 }
 
 /// A buffer of a frame.

@@ -1,11 +1,8 @@
 //! What a pass does with an image or a buffer.
 
-use super::{BufferIndex, ImageIndex, Resource};
-use crate::format::Format;
-use crate::interface::ImageShape;
-use crate::source::Span;
-use crate::view::Eye;
-use crate::vocabulary::{Aspects, CompareOp, Sampler, Stages, StencilOp, Subresources};
+use super::{BufferIndex, Eye, ImageIndex, Resource};
+use crate::base::Span;
+use crate::vulkan::{Aspects, CompareOp, Format, ImageShape, Sampler, Stages, StencilOp, Subresources};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

@@ -2,7 +2,7 @@
 
 use super::Change;
 use super::names::Shown;
-use crate::change::{Action, Where};
+use crate::frame::change::{Action, Where};
 use std::sync::Arc;
 
 /// What was done, and where it is said.

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::frame::ParamValue;
 use crate::plan::names::Shown;
-use crate::vocabulary::FillValue;
+use crate::vulkan::FillValue;
 use serde::Deserialize;
 
 /// Why a text is not a Plan, or a Plan has no text. Whether a Plan is *right* is for [`crate::verify`] to say.

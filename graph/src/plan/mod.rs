@@ -26,15 +26,11 @@
 //! one that stands for one frame further back, and the oldest becomes the newest again. What the host writes or reads itself
 //! (parameters, object data, outputs) is not the Plan's: whoever executes it keeps one copy for each frame in flight.
 
-use crate::change::Action;
-use crate::format::Format;
-use crate::frame::{DrawList, Shape};
-use crate::rotation::Rotation;
-use crate::source::Place;
-use crate::texture::TextureFile;
-use crate::view::{EyeForm, Stereo};
-pub use crate::vocabulary::Subresources;
-use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
+use crate::base::Place;
+use crate::frame::change::Action;
+use crate::frame::{DrawList, EyeForm, Stereo, TextureFile};
+pub use crate::vulkan::Subresources;
+use crate::vulkan::{Accesses, BufferUsage, FillValue, Format, Layout, Rotation, Shape, Sharing, Stages, State, Usage};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -230,17 +226,6 @@ pub struct Buffer {
     pub sharing: Sharing,
     /// Where its memory comes from. The layout in its states is `UNDEFINED`.
     pub role: Role,
-}
-
-/// Which queues may use an image or buffer (`VkSharingMode`).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
-#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
-pub enum Sharing {
-    /// One at a time: barriers hand it over.
-    #[default]
-    Exclusive,
-    /// All that use it, at any time.
-    Concurrent,
 }
 
 /// Where the memory of an image or a buffer comes from, and in what state frames find it.

@@ -1,8 +1,9 @@
 //! How people read a Plan's parts: steps, parts of images, Vulkan's words. Text that came from files is escaped.
 
 use super::{BufferId, ImageId, Plan, Resource, Side, StepId, Subresources, Transfer, Work};
-use serde::Serialize;
-use std::fmt::{self, Display, Formatter, Write};
+use crate::vulkan::name_of;
+use std::fmt;
+use std::fmt::{Display, Formatter, Write};
 
 /// Text from a file, without raw control characters.
 pub(crate) struct Shown<'t>(pub(crate) &'t str);
@@ -19,21 +20,13 @@ impl Display for Shown<'_> {
     }
 }
 
-/// Vulkan's own name of an enumerant or set of flags, as the JSON form writes it.
-pub(crate) fn vulkan(value: &impl Serialize) -> String {
-    match serde_json::to_value(value) {
-        Ok(serde_json::Value::String(name)) if !name.is_empty() => name,
-        _ => "NONE".to_owned(),
-    }
-}
-
 impl Display for Subresources {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let part = |f: &mut Formatter<'_>, name: &str, base: u32, count: u32| match count {
             1 => write!(f, ", {name} {base}"),
             _ => write!(f, ", {name}s {base}–{}", u64::from(base) + u64::from(count.max(1)) - 1),
         };
-        f.write_str(&vulkan(&self.aspects))?;
+        f.write_str(&name_of(&self.aspects))?;
         part(f, "mip", self.base_mip, self.mips)?;
         part(f, "layer", self.base_layer, self.layers)
     }

@@ -1,7 +1,6 @@
 //! What the stages of the compiler have to say that no step shows.
 
-use crate::file_path::FilePath;
-use crate::source::Place;
+use crate::base::{FilePath, Place};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

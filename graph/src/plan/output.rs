@@ -1,8 +1,8 @@
 //! What leaves the frame, as the Plan says it.
 
 use super::Resource;
-use crate::encoding::Encoding;
-use crate::view::Eye;
+use crate::frame::Eye;
+use crate::vulkan::Encoding;
 use serde::{Deserialize, Serialize};
 
 /// An image or a buffer that leaves the frame.

@@ -1,8 +1,7 @@
 //! Which part of an image a frame uses.
 
 use super::{BindingKind, Image, Pass, Plan};
-use crate::frame::with_room;
-use crate::view::EyeForm;
+use crate::frame::{EyeForm, with_room};
 use std::sync::Arc;
 
 impl Image {

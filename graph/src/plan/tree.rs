@@ -3,15 +3,14 @@
 mod lists;
 mod words;
 
-use super::changes;
-use super::names::{Shown, vulkan};
+use super::names::Shown;
 use super::outline::Node;
 use super::{
     Access, Attachment, BindingKind, BufferAccess, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
-    RenderScope, Resource, Side, Step, StepId, Subresources, Transfer, Wait, Work,
+    RenderScope, Resource, Side, Step, StepId, Subresources, Transfer, Wait, Work, changes,
 };
-use crate::frame::{Blend, BufferRole, Draw, DrawList, Groups, ParamValue, StencilState};
-use crate::view::{EyeForm, Stereo};
+use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, ParamValue, StencilState, Stereo};
+use crate::vulkan::name_of;
 use lists::{buffer, image, note, output, totals, view};
 use words::{bytes, cause, fill_value, hazard, samples, size, words_of, words_of_cascade, words_of_list};
 
@@ -115,7 +114,7 @@ impl Tree<'_> {
             ago => format!(" of {ago} frames ago"),
         };
         let who = self.plan.step_name(wait.step);
-        Node::leaf(format!("waits in {} for step {}{frame}: {who}", vulkan(&wait.stages), wait.step.0))
+        Node::leaf(format!("waits in {} for step {}{frame}: {who}", name_of(&wait.stages), wait.step.0))
     }
 
     fn scope(self, scope: &RenderScope, parts: &mut Vec<Node>) {
@@ -130,7 +129,7 @@ impl Tree<'_> {
             if let Some(resolve) = &attachment.resolve {
                 let [from, to] = [(attachment.image, attachment.range), (resolve.image, resolve.range)];
                 let [from, to] = [from, to].map(|(image, range)| self.part(image, range));
-                let mode = vulkan(&resolve.mode);
+                let mode = name_of(&resolve.mode);
                 parts.push(Node::leaf(format!("resolve {from} → {to}, {mode}, folded{}", cause(&resolve.cause))));
             }
         }
@@ -143,7 +142,7 @@ impl Tree<'_> {
             None => String::new(),
         };
         let part = self.part(attachment.image, attachment.range);
-        let [load, store] = [vulkan(&attachment.load), vulkan(&attachment.store)];
+        let [load, store] = [name_of(&attachment.load), name_of(&attachment.store)];
         Node::leaf(format!("{place}: {part}, load {load}{clear}, store {store}: {}", Shown(&attachment.because)))
     }
 
@@ -183,10 +182,10 @@ impl Tree<'_> {
             text += &format!(", blends color {color} {words}");
         }
         if let Some(depth) = &pass.depth {
-            text += &format!(", depth {}{}", vulkan(&depth.test), if depth.write { " and written" } else { "" });
+            text += &format!(", depth {}{}", name_of(&depth.test), if depth.write { " and written" } else { "" });
         }
         if let Some(StencilState { test, reference, pass, .. }) = &pass.stencil {
-            text += &format!(", stencil {} {reference} then {}", vulkan(test), vulkan(pass));
+            text += &format!(", stencil {} {reference} then {}", name_of(test), name_of(pass));
         }
         if let Some(view) = pass.view.and_then(|view| self.plan.views.get(view.0 as usize)) {
             text += &format!(", for view `{}`", Shown(&view.name));
@@ -246,7 +245,7 @@ impl Tree<'_> {
 
     fn transfer(self, word: &str, transfer: &Transfer) -> String {
         let name = transfer.name.as_ref().map_or_else(String::new, |name| format!("`{}`: ", Shown(name)));
-        let filter = transfer.filter.map_or_else(String::new, |filter| format!(", {}", vulkan(&filter)));
+        let filter = transfer.filter.map_or_else(String::new, |filter| format!(", {}", name_of(&filter)));
         let [from, to] = [self.side(&transfer.source), self.side(&transfer.target)];
         format!("{name}{word} {from} → {to}{filter}{}", cause(&transfer.cause))
     }
@@ -278,11 +277,11 @@ impl Tree<'_> {
     }
 
     fn image_barrier(self, barrier: &ImageBarrier) -> Node {
-        let [old, new] = [vulkan(&barrier.old_layout), vulkan(&barrier.new_layout)];
+        let [old, new] = [name_of(&barrier.old_layout), name_of(&barrier.new_layout)];
         let layouts = if old == new { format!("stays {new}") } else { format!("{old} → {new}") };
         let part = self.part(barrier.image, barrier.range);
         let hands = match barrier.ownership {
-            Some([from, to]) => format!(", from the {} queue to the {} queue", vulkan(&from), vulkan(&to)),
+            Some([from, to]) => format!(", from the {} queue to the {} queue", name_of(&from), name_of(&to)),
             None => String::new(),
         };
         let who = self.who(barrier.needed_by, |pass| pass.accesses.iter().any(|access| access.image == barrier.image));

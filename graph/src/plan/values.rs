@@ -2,7 +2,7 @@
 
 use super::{Attachment, Cause, Fill, Pass, Plan, RenderScope, Side, Transfer, Work};
 use crate::frame::{Groups, ParamValue};
-use crate::vocabulary::FillValue;
+use crate::vulkan::FillValue;
 
 impl Plan {
     /// What tells `other` from this Plan beside values, in words; `None`: whoever executes this one can go on with the other one,

@@ -1,8 +1,7 @@
 //! Views.
 
 use super::ViewId;
-use crate::jitter::Jitter;
-use crate::view::{Allowances, Eye};
+use crate::frame::{Allowances, Eye, Jitter};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

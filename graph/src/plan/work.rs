@@ -1,11 +1,9 @@
 //! What the steps of a Plan do: rendering scopes, passes, dispatches, resolves, copies, fills.
 
 use super::{BufferId, Cause, ImageId, Resource, Subresources, ViewId};
-use crate::frame::{Blend, BufferRole, Draw, Groups, ParamValue, StencilState};
-use crate::interface::ImageShape;
-use crate::view::Eye;
-use crate::vocabulary::{
-    Accesses, CompareOp, FillValue, Filter, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
+use crate::frame::{Blend, BufferRole, Draw, Eye, Groups, ParamValue, StencilState};
+use crate::vulkan::{
+    Accesses, CompareOp, FillValue, Filter, ImageShape, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
 };
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;

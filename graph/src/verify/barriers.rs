@@ -3,9 +3,8 @@
 use super::Findings;
 use super::parts::overlap;
 use super::scopes::impossible;
-use crate::plan::names::vulkan;
-use crate::plan::{ImageBarrier, Plan, Queue, Sharing, Step, StepId};
-use crate::vocabulary::{Accesses, Aspects, Layout, Stages, Usage};
+use crate::plan::{ImageBarrier, Plan, Queue, Step, StepId};
+use crate::vulkan::{Accesses, Aspects, Layout, Sharing, Stages, Usage, name_of};
 
 /// Reports what is malformed before and after the work of a step.
 pub(super) fn check(plan: &Plan, id: StepId, step: &Step, found: &mut Findings) {
@@ -57,7 +56,7 @@ pub(super) const fn possible(queue: Queue) -> Stages {
 fn check_queue(id: StepId, image: Option<u32>, queue: Queue, stages: Stages, found: &mut Findings) {
     let impossible = stages.difference(possible(queue));
     if !impossible.is_empty() {
-        let what = format!("names {}, which {} doesn't have", vulkan(&impossible), vulkan(&queue));
+        let what = format!("names {}, which {} doesn't have", name_of(&impossible), name_of(&queue));
         found.structure(Some(id), image, what);
     }
 }
@@ -81,8 +80,8 @@ fn check_ownership(plan: &Plan, id: StepId, queue: Queue, barrier: &ImageBarrier
         return;
     };
     if queues[0] == queues[1] || queues[own] != queue {
-        let [from, to] = queues.map(|queue| vulkan(&queue));
-        found.structure(Some(id), image, format!("a barrier on {} can't hand it from {from} to {to}", vulkan(&queue)));
+        let [from, to] = queues.map(|queue| name_of(&queue));
+        found.structure(Some(id), image, format!("a barrier on {} can't hand it from {from} to {to}", name_of(&queue)));
     }
     if barrier.old_layout == Layout::Undefined {
         found.structure(Some(id), image, "a barrier hands over contents that it forgets");
@@ -102,12 +101,12 @@ fn check_image_barrier(plan: &Plan, id: StepId, barrier: &ImageBarrier, found: &
         // What lies outside of the frame may name both planes at once.
         let both = of_both && image.format.is_depth();
         if !both && !planes(layout, image.format.aspects()).contains(barrier.range.aspects) {
-            let what = format!("a barrier names {}, which not all of its planes can be in", vulkan(&layout));
+            let what = format!("a barrier names {}, which not all of its planes can be in", name_of(&layout));
             found.structure(Some(id), Some(barrier.image.0), what);
         }
     }
     if !image.usage.intersects(usage_for(barrier.new_layout)) {
-        let what = format!("a barrier brings it to {}, for which it has no usage", vulkan(&barrier.new_layout));
+        let what = format!("a barrier brings it to {}, for which it has no usage", name_of(&barrier.new_layout));
         found.structure(Some(id), Some(barrier.image.0), what);
     }
 }
@@ -189,7 +188,7 @@ pub(super) fn check_scope(id: StepId, resource: Option<u32>, stages: Stages, acc
     }
     let impossible = impossible(stages, accesses);
     if !impossible.is_empty() {
-        let what = format!("{} doesn't happen in {}", vulkan(&impossible), vulkan(&stages));
+        let what = format!("{} doesn't happen in {}", name_of(&impossible), name_of(&stages));
         found.structure(Some(id), resource, what);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::clocks::{Availability, Time};
 use super::scopes::{PairSet, STAGES, StageSet};
-use crate::vocabulary::Layout;
+use crate::vulkan::Layout;
 
 /// Accesses, layout, owner and contents of one part of an image, or of a buffer.
 #[derive(Debug, Clone)]

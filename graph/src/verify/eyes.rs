@@ -2,10 +2,9 @@
 
 use super::Findings;
 use super::touches::attachments;
-use crate::frame::Shape;
+use crate::frame::{EyeForm, Stereo};
 use crate::plan::{Access, ImageId, Plan, RenderScope, Side, StepId, Transfer, Work};
-use crate::view::{EyeForm, Stereo};
-use crate::vocabulary::Accesses;
+use crate::vulkan::{Accesses, Shape};
 
 pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
     if !plan.images.iter().any(|image| image.eyes.is_some()) {

@@ -13,7 +13,7 @@ use super::scopes::{PairSet, StageSet, stage_of};
 use super::violation::Touched;
 use super::walk::Walk;
 use crate::plan::{Buffer, Image, Plan, Resource, Role, StepId};
-use crate::vocabulary::{Layout, State};
+use crate::vulkan::{Layout, State};
 
 /// How many frames are walked, and what becomes what between them.
 #[derive(Debug)]

@@ -144,7 +144,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         let mut part = self.parts.whole(owner);
         while let Some(index) = self.parts.next(&mut part) {
             let cell = &mut self.cells[index];
-            cell.layout = crate::vocabulary::Layout::Undefined;
+            cell.layout = crate::vulkan::Layout::Undefined;
             cell.contents = match cell.contents {
                 Contents::Defined if cell.filled > frame_start => Contents::Lost(Lost::Taken(to), now),
                 Contents::Defined => Contents::Unwritten,

@@ -10,7 +10,7 @@ use super::program::Barrier;
 use super::violation::{OwnershipFault, Rule};
 use super::walk::Walk;
 use crate::plan::{Queue, StepId};
-use crate::vocabulary::Layout;
+use crate::vulkan::Layout;
 
 impl<const Q: usize> Walk<'_, '_, Q> {
     /// A step on `queue` uses a part.

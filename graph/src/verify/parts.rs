@@ -5,7 +5,7 @@
 //! number of subresources. Images and buffers are numbered in one row, buffers after images; a buffer is one cell.
 
 use crate::plan::{Image, Plan, Role, Subresources};
-use crate::vocabulary::Aspects;
+use crate::vulkan::Aspects;
 use std::collections::BTreeMap;
 
 /// A range of an image that steps name; the whole of an image or buffer is the range 0.

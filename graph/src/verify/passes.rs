@@ -4,11 +4,14 @@ use super::barriers::{check_scope, planes, possible};
 use super::structure::is_of_file;
 use super::touches::{ATTACHMENT, attachments};
 use super::work::{Check, is_read_only, is_written};
-use crate::frame::{Blend, BufferRole, Draw, Groups, Shape};
-use crate::interface::{Component, Dimension, ImageShape, MOST_PARTS};
-use crate::plan::names::{Shown, vulkan};
+use crate::frame::{Blend, BufferRole, Draw, Groups};
+use crate::plan::names::Shown;
 use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Image, Pass, RenderScope};
-use crate::vocabulary::{Accesses, AddressMode, Aspects, CompareOp, Layout, Stages, StencilOp};
+use crate::shader::MOST_PARTS;
+use crate::vulkan::{
+    Accesses, AddressMode, Aspects, CompareOp, Component, Dimension, ImageShape, Layout, Shape, Stages, StencilOp,
+    name_of,
+};
 
 const STORAGE: Accesses = Accesses::SHADER_STORAGE_READ.union(Accesses::SHADER_STORAGE_WRITE);
 const SHADER: Accesses = STORAGE.union(Accesses::SHADER_SAMPLED_READ).union(Accesses::INPUT_ATTACHMENT_READ);
@@ -103,7 +106,7 @@ impl<'p> Check<'_, 'p> {
     fn attached(&mut self, pass: &Pass, attachment: &Attachment, wanted: Accesses) {
         let listed = listed(pass, attachment);
         if !listed.contains(wanted) {
-            let what = format!("pass `{}` doesn't list its {}", Shown(&pass.name), vulkan(&(wanted - listed)));
+            let what = format!("pass `{}` doesn't list its {}", Shown(&pass.name), name_of(&(wanted - listed)));
             self.wrong(attachment.image, what);
         }
     }
@@ -153,7 +156,7 @@ impl<'p> Check<'_, 'p> {
     fn access(&mut self, access: &Access, stages: Stages, accesses: Accesses) {
         check_scope(self.id, Some(access.image.0), access.stages, access.accesses, self.found);
         if access.stages.is_empty() || access.accesses.is_empty() || !stages.contains(access.stages) {
-            self.wrong(access.image, format!("is accessed in {}", vulkan(&access.stages)));
+            self.wrong(access.image, format!("is accessed in {}", name_of(&access.stages)));
         }
         self.demand(accesses.contains(access.accesses), access.image, "is accessed as a pass can't");
         let read_only = access.accesses.writes().is_empty();
@@ -252,11 +255,11 @@ impl<'p> Check<'_, 'p> {
             None => (Stages::all(), access.accesses & TRANSFER),
         };
         if access.stages.is_empty() || !(stages & possible).contains(access.stages) {
-            let what = format!("is accessed in {}", vulkan(&access.stages));
+            let what = format!("is accessed in {}", name_of(&access.stages));
             self.found.structure(Some(self.id), resource, what);
         }
         if access.accesses.is_empty() || access.accesses != accesses {
-            let what = format!("is accessed by {}, which isn't what it is for", vulkan(&access.accesses));
+            let what = format!("is accessed by {}, which isn't what it is for", name_of(&access.accesses));
             self.found.structure(Some(self.id), resource, what);
         }
         let named = matches!(access.role, Some(BufferRole::Uniform | BufferRole::Storage { .. }));

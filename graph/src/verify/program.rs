@@ -9,9 +9,8 @@ use super::scopes::{PairSet, StageSet};
 use super::touches::{self, BufferTouch, ImageTouch, Kind};
 use super::violation::{Rule, StepName};
 use super::{Finding, Findings, role};
-use crate::plan::names::vulkan;
-use crate::plan::{ImageBarrier, ImageId, Plan, Queue, Role, Sharing, Step, StepId, Subresources};
-use crate::vocabulary::Layout;
+use crate::plan::{ImageBarrier, ImageId, Plan, Queue, Role, Step, StepId, Subresources};
+use crate::vulkan::{Layout, Sharing, name_of};
 
 /// The steps of a Plan.
 #[derive(Debug, Default)]
@@ -241,7 +240,7 @@ impl<'b, 'p> Builder<'b, 'p> {
         self.touch(image.0, Some(range), false);
         let missing = usage.difference(self.plan.image(image).usage);
         if !missing.is_empty() {
-            let what = format!("is used as {}, which its usage leaves out", vulkan(&missing));
+            let what = format!("is used as {}, which its usage leaves out", name_of(&missing));
             self.found.structure(Some(self.step), Some(image.0), what);
         }
         self.program.touches.push(Touch { resource: image.0, range: number, pairs, stages, layout, kind, contents });
@@ -254,7 +253,7 @@ impl<'b, 'p> Builder<'b, 'p> {
         self.touch(resource, None, false);
         let missing = usage.difference(self.plan.buffers[buffer.0 as usize].usage);
         if !missing.is_empty() {
-            let what = format!("is used as {}, which its usage leaves out", vulkan(&missing));
+            let what = format!("is used as {}, which its usage leaves out", name_of(&missing));
             self.found.structure(Some(self.step), Some(resource), what);
         }
         let (range, layout, kind) = (RangeId::WHOLE, Layout::Undefined, Kind::Plain);

@@ -3,10 +3,8 @@
 
 use super::Findings;
 use super::touches::attachments;
-use crate::frame::Shape;
 use crate::plan::{Access, ImageId, Plan, RenderScope, Side, StepId, Transfer, Work};
-use crate::rotation::Rotation;
-use crate::vocabulary::Accesses;
+use crate::vulkan::{Accesses, Rotation, Shape};
 
 pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
     if !plan.images.iter().any(|image| image.rotation.turns()) {

@@ -3,7 +3,7 @@
 //! Only what can happen to an image or a buffer has a pair. The order of the graphics pipeline's stages and which access belongs to
 //! which stage are those of the Vulkan specification, chapter "Synchronization and Cache Control".
 
-use crate::vocabulary::{Accesses, Stages};
+use crate::vulkan::{Accesses, Stages};
 
 /// Number of stages.
 pub(super) const STAGES: usize = 13;

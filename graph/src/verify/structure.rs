@@ -3,11 +3,10 @@
 use super::Findings;
 use super::frames::{self, Frames};
 use super::violation::{Rule, Violation};
-use crate::frame::Shape;
+use crate::frame::format_problem;
 use crate::plan::names::Shown;
 use crate::plan::{Buffer, ChosenFormat, Image, Initial, Placement, Plan, Resource, Role};
-use crate::texture::format_problem;
-use crate::vocabulary::{Accesses, BufferUsage, FillValue, Layout, Stages, State, Usage};
+use crate::vulkan::{Accesses, BufferUsage, FillValue, Layout, Shape, Stages, State, Usage};
 use std::collections::HashSet;
 
 /// Most steps that all frames together can be numbered with.

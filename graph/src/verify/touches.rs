@@ -15,7 +15,7 @@ use crate::frame::{Blend, Draw};
 use crate::plan::{
     Access, Attachment, BufferAccess, BufferId, ImageId, Pass, RenderScope, Side, Subresources, Transfer, Work,
 };
-use crate::vocabulary::{Accesses, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Usage};
+use crate::vulkan::{Accesses, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Usage};
 
 /// How an access is kept apart from others of its step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,9 +4,8 @@ use super::barriers::planes;
 use super::parts::overlap;
 use super::structure::{fill_fits, is_of_file};
 use super::work::{Check, mip_extent};
-use crate::format::Format;
 use crate::plan::{BufferId, Fill, Image, ImageId, Queue, Side, Subresources, Transfer};
-use crate::vocabulary::{Aspects, FillValue, Filter, Layout};
+use crate::vulkan::{Aspects, FillValue, Filter, Format, Layout};
 
 /// The side of a transfer that is an image.
 #[derive(Debug, Clone, Copy)]

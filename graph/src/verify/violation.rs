@@ -1,9 +1,10 @@
 //! What the checker reports: data first, a sentence where it is shown.
 
-use crate::plan::names::{Shown, vulkan};
+use crate::plan::names::Shown;
 use crate::plan::{Plan, Queue, StepId, Subresources};
-use crate::vocabulary::{Accesses, Layout, Stages};
-use std::fmt::{self, Display, Formatter};
+use crate::vulkan::{Accesses, Layout, Stages, name_of};
+use std::fmt;
+use std::fmt::{Display, Formatter};
 use std::sync::Arc;
 
 /// One mistake in a Plan.
@@ -200,10 +201,10 @@ impl Display for StepName {
 impl Display for Touched {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Touched::By(stages, accesses) => write!(f, "{} in {}", vulkan(accesses), vulkan(stages)),
-            Touched::Read(stages) => write!(f, "the read in {}", vulkan(stages)),
+            Touched::By(stages, accesses) => write!(f, "{} in {}", name_of(accesses), name_of(stages)),
+            Touched::Read(stages) => write!(f, "the read in {}", name_of(stages)),
             Touched::LayoutChange => f.write_str("the layout change"),
-            Touched::Wait(stages) => vulkan(stages).fmt(f),
+            Touched::Wait(stages) => name_of(stages).fmt(f),
             Touched::AfterFrame => f.write_str("what relies on the state after the frame"),
         }
     }
@@ -232,10 +233,10 @@ impl Display for Violation {
                 None => f.write_str(what),
             },
             Rule::Layout { found: Layout::Undefined, needed } => {
-                write!(f, "named in layout {}, but no barrier brings it there after {other}", vulkan(needed))
+                write!(f, "named in layout {}, but no barrier brings it there after {other}", name_of(needed))
             }
             Rule::Layout { found, needed } => {
-                write!(f, "named in layout {}, but it is in {} since {other}", vulkan(needed), vulkan(found))
+                write!(f, "named in layout {}, but it is in {} since {other}", name_of(needed), name_of(found))
             }
             Rule::Execution { earlier, later } => {
                 write!(f, "{later} doesn't wait for {earlier} by {other}")
@@ -270,10 +271,10 @@ impl Display for Violation {
                 write!(f, "used outside its stated lifetime, steps {} to {} (nearest: {other})", first.0, last.0)
             }
             Rule::Ownership { fault } => {
-                let queues = |[from, to]: &[Queue; 2]| format!("{} to {}", vulkan(from), vulkan(to));
+                let queues = |[from, to]: &[Queue; 2]| format!("{} to {}", name_of(from), name_of(to));
                 match fault {
                     OwnershipFault::Elsewhere { owner, user } => {
-                        let (owner, user) = (vulkan(owner), vulkan(user));
+                        let (owner, user) = (name_of(owner), name_of(user));
                         write!(f, "used on {user}, but it belongs to {owner} since {other} and isn't handed over")
                     }
                     OwnershipFault::NotAcquired { released } => {

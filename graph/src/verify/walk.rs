@@ -12,7 +12,7 @@ use super::touches::Kind;
 use super::violation::{Rule, StepName};
 use super::{Finding, Findings};
 use crate::plan::{Plan, Role, StepId, Subresources};
-use crate::vocabulary::Layout;
+use crate::vulkan::Layout;
 
 /// All that is known between two steps.
 pub(super) struct Walk<'w, 'p, const Q: usize> {

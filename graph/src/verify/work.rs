@@ -9,12 +9,12 @@ use super::touches::{ATTACHMENT, attachments};
 use super::violation::{Rule, StepName, Touched};
 use super::{Finding, Findings, barriers};
 use crate::frame::Draw;
-use crate::plan::names::{Shown, vulkan};
+use crate::plan::names::Shown;
 use crate::plan::{
     Access, Attachment, AttachmentResolve, Image, ImageId, Pass, Plan, Queue, RenderScope, Step, StepId, Subresources,
     Work,
 };
-use crate::vocabulary::{Accesses, Aspects, Layout, LoadOp, ResolveMode, Stages, StoreOp};
+use crate::vulkan::{Accesses, Aspects, Layout, LoadOp, ResolveMode, Stages, StoreOp, name_of};
 use std::collections::HashSet;
 
 /// Reports what is malformed in the steps; the steps in dense form, if they can be followed.
@@ -62,7 +62,7 @@ impl<'p> Check<'_, 'p> {
         let graphics = matches!(step.work, Work::Render(_) | Work::Resolve(_) | Work::Blit(_));
         let compute = matches!(step.work, Work::Dispatch(_));
         if graphics && step.queue != Queue::Graphics || compute && step.queue == Queue::Transfer {
-            self.wrong_step(format!("does what {} can't", vulkan(&step.queue)));
+            self.wrong_step(format!("does what {} can't", name_of(&step.queue)));
         }
         match &step.work {
             Work::Render(scope) => self.scope(scope),

@@ -1,8 +1,8 @@
 //! Bounds on length and depth, and that nothing recurses beyond them.
 
 use crate::world::{ANY, World};
+use framewright_graph::base::Span;
 use framewright_graph::expression::{Expression, LONGEST_TEXT, MOST_NESTED, Value};
-use framewright_graph::source::Span;
 
 /// Reads and evaluates on a stack of 256 KiB, which recursion along the text would overflow.
 fn on_a_small_stack(text: String) -> Result<Value, String> {

@@ -1,9 +1,8 @@
 //! Mistakes, each with its whole answer.
 
 use crate::world::{ANY, World};
-use framewright_graph::describe::render;
+use framewright_graph::base::{Sources, Span, render};
 use framewright_graph::expression::{Expression, Parsed, Wanted};
-use framewright_graph::source::{Sources, Span};
 
 /// Pins the answers to several expressions as one text.
 fn pinned(name: &str, mistakes: &[(&str, Wanted<'_>)]) {

@@ -1,8 +1,8 @@
 //! What decided, and which part of a condition failed.
 
 use crate::world::{ANY, World};
+use framewright_graph::base::Span;
 use framewright_graph::expression::{Decision, Expression, Parsed, Type, Value, Wanted};
-use framewright_graph::source::Span;
 
 fn decided(text: &str) -> String {
     let outcome = World::new().outcome(text);

@@ -1,9 +1,8 @@
 //! Random expressions against values that are calculated on their trees, and random texts.
 
 use crate::world::{ANY, World};
-use framewright_graph::describe::render;
+use framewright_graph::base::{Sources, Span, render};
 use framewright_graph::expression::{Expression, Parsed, Type, Value};
-use framewright_graph::source::{Sources, Span};
 use proptest::prelude::*;
 
 /// An expression as a tree.

@@ -1,8 +1,8 @@
 //! What a place wants, and what the whole expression is, whatever the values.
 
 use crate::world::{ANY, World};
+use framewright_graph::base::Span;
 use framewright_graph::expression::{Expression, Type, Value, Wanted};
-use framewright_graph::source::Span;
 
 fn ty(text: &str, wanted: Wanted<'_>) -> Option<Type> {
     Expression::new(text, Span::NONE, &World::new(), wanted).ok().map(|expression| expression.ty())

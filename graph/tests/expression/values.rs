@@ -2,8 +2,8 @@
 
 use crate::world::World;
 use framewright_graph::expression::{Origin, Value};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{BufferIndex, ImageIndex};
+use framewright_graph::vulkan::Format;
 
 fn value(text: &str) -> Value {
     World::new().outcome(text).value

@@ -1,11 +1,10 @@
 //! A small pipeline's worth of names, with values that a test may change.
 
-use framewright_graph::describe;
+use framewright_graph::base::{self, Sources, Span};
 use framewright_graph::expression::{
     Decision, Declarations, Expression, Found, Missing, Origin, Outcome, Property, Symbol, Type, Value, Values, Wanted,
 };
 use framewright_graph::frame::{BufferIndex, ImageIndex};
-use framewright_graph::source::{Sources, Span};
 
 /// Any type does.
 pub(crate) const ANY: Wanted<'static> = Wanted {
@@ -78,7 +77,7 @@ impl World {
     pub(crate) fn outcome(&self, text: &str) -> Outcome {
         let place = Placed::new(text, self);
         let evaluated = place.read(text, self, ANY).and_then(|expression| expression.evaluate(self));
-        evaluated.unwrap_or_else(|errors| panic!("{}", describe::render(&place.sources, &errors)))
+        evaluated.unwrap_or_else(|errors| panic!("{}", base::render(&place.sources, &errors)))
     }
 
     /// The answer to `text`, which is wrong or has no value.
@@ -86,7 +85,7 @@ impl World {
         let place = Placed::new(text, self);
         match place.read(text, self, wanted).and_then(|expression| expression.evaluate(self)) {
             Ok(outcome) => panic!("{text} is {}", outcome.value),
-            Err(errors) => describe::render(&place.sources, &errors),
+            Err(errors) => base::render(&place.sources, &errors),
         }
     }
 
@@ -130,7 +129,7 @@ impl Placed {
         Placed { sources, span: Span::new(0, start, end) }
     }
 
-    fn read(&self, text: &str, world: &World, wanted: Wanted<'_>) -> Result<Expression, Vec<describe::Diagnostic>> {
+    fn read(&self, text: &str, world: &World, wanted: Wanted<'_>) -> Result<Expression, Vec<base::Diagnostic>> {
         Expression::new(text, self.span, world, wanted)
     }
 }

@@ -1,10 +1,9 @@
 //! The graphs that the compiler is measured on, built in memory, and a device that has everything.
 
+use framewright_graph::base::Span;
 use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Face, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled, Storage, Work};
-use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{Filter, ResolveMode, Sampler, Stages, Subresources, Usage};
+use framewright_graph::vulkan::{Filter, Format, ResolveMode, Sampler, Stages, Subresources, Usage};
 use std::sync::Arc;
 
 /// A device that has every format at 1, 4 and 8 samples and adds nothing to an image's bytes.

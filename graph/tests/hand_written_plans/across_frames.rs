@@ -2,9 +2,8 @@
 //! shows it on the graphics queue, which hands it to the next frame.
 
 use super::build::*;
-use framewright_graph::format::Format;
 use framewright_graph::plan::*;
-use framewright_graph::vocabulary::{self, Accesses, FillValue, Layout, Stages, Usage};
+use framewright_graph::vulkan::{self, Accesses, FillValue, Format, Layout, Stages, Usage};
 
 const CS: Stages = Stages::COMPUTE_SHADER;
 const TO_COMPUTE: [Queue; 2] = [Queue::Graphics, Queue::Compute];
@@ -13,7 +12,7 @@ const TO_GRAPHICS: [Queue; 2] = [Queue::Compute, Queue::Graphics];
 pub(crate) fn plan() -> Plan {
     let usage = Usage::STORAGE | Usage::SAMPLED | Usage::TRANSFER_SRC | Usage::TRANSFER_DST;
     let shown: State = (Stages::FRAGMENT_SHADER, Accesses::SHADER_SAMPLED_READ, Layout::General);
-    let state = vocabulary::State { stages: shown.0, accesses: shown.1, layout: shown.2 };
+    let state = vulkan::State { stages: shown.0, accesses: shown.1, layout: shown.2 };
     let initial = Initial::Value(FillValue::Color([0.0; 4]));
     let field = Image {
         role: Role::Persistent { becomes: 0, initial, before: state, after: state },

@@ -2,10 +2,11 @@
 //! `simulate` makes vertices; `weave` makes indices in the memory of what `simulate` read.
 
 use super::build::*;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, BufferRole, Draw, Groups};
 use framewright_graph::plan::*;
-use framewright_graph::vocabulary::{self, Accesses, BufferUsage, FillValue, Layout, LoadOp, Stages, StoreOp, Usage};
+use framewright_graph::vulkan::{
+    self, Accesses, BufferUsage, FillValue, Format, Layout, LoadOp, Stages, StoreOp, Usage,
+};
 
 const CS: Stages = Stages::COMPUTE_SHADER;
 const READ: Accesses = Accesses::SHADER_STORAGE_READ;
@@ -18,7 +19,7 @@ pub(crate) fn plan() -> Plan {
     let seeds = buffer(1, "seeds", 4096, storage, place([256, 4096], [1, 2]));
     let vertices = buffer(2, "vertices", 4096, storage | BufferUsage::VERTEX_BUFFER, place([4352, 4096], [2, 4]));
     let indices = buffer(3, "indices", 2048, storage | BufferUsage::INDEX_BUFFER, place([256, 2048], [3, 4]));
-    let state = |accesses| vocabulary::State { stages: Stages::COPY, accesses, layout: Layout::Undefined };
+    let state = |accesses| vulkan::State { stages: Stages::COPY, accesses, layout: Layout::Undefined };
     let [before, after] = [state(Accesses::TRANSFER_READ), state(Accesses::TRANSFER_WRITE)];
     let log = buffer(4, "log", 256, copied, Role::External { before, after });
     let screen = output(0, "screen", Format::R8G8B8A8_SRGB, Usage::COLOR_ATTACHMENT | Usage::TRANSFER_SRC);

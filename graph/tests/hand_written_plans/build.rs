@@ -1,14 +1,12 @@
 //! Short forms for what the Plans have in common.
 
 use super::lifetime;
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, BufferRole, Draw, Groups, Shape};
+use framewright_graph::base::Place;
+use framewright_graph::frame::{Blend, BufferRole, Draw, Groups, Stereo};
 use framewright_graph::plan::*;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Place;
-use framewright_graph::view::Stereo;
-use framewright_graph::vocabulary::{
-    self, Accesses, BufferUsage, Filter, Layout, LoadOp, Sampler, Stages, StoreOp, Usage,
+use framewright_graph::vulkan::{
+    self, Accesses, BufferUsage, Filter, Format, Layout, LoadOp, Rotation, Sampler, Shape, Sharing, Stages, StoreOp,
+    Usage,
 };
 
 /// A stage, an access and a layout.
@@ -63,8 +61,8 @@ pub(crate) fn output(id: u32, name: &str, format: Format, usage: Usage) -> Image
         usage,
         sharing: Sharing::Exclusive,
         role: Role::External {
-            before: vocabulary::State { stages: Stages::COPY, accesses: Accesses::empty(), layout: UNDEFINED },
-            after: vocabulary::State { stages, accesses, layout },
+            before: vulkan::State { stages: Stages::COPY, accesses: Accesses::empty(), layout: UNDEFINED },
+            after: vulkan::State { stages, accesses, layout },
         },
     }
 }

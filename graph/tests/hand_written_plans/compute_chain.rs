@@ -1,9 +1,8 @@
 //! Three dispatches; the last one's image takes the memory of the first one's, through a memory barrier.
 
 use super::build::*;
-use framewright_graph::format::Format;
 use framewright_graph::plan::*;
-use framewright_graph::vocabulary::{Accesses, Layout, Stages, Usage};
+use framewright_graph::vulkan::{Accesses, Format, Layout, Stages, Usage};
 
 const CS: Stages = Stages::COMPUTE_SHADER;
 const READ: Accesses = Accesses::SHADER_STORAGE_READ;

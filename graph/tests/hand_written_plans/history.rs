@@ -1,15 +1,14 @@
 //! History of depth 2: each frame writes `trail` from what the two frames before left, and shows it.
 
 use super::build::*;
-use framewright_graph::format::Format;
 use framewright_graph::plan::*;
-use framewright_graph::vocabulary::{self, Accesses, FillValue, Layout, Stages, Usage};
+use framewright_graph::vulkan::{self, Accesses, FillValue, Format, Layout, Stages, Usage};
 
 const CS: Stages = Stages::COMPUTE_SHADER;
 
 fn history(id: u32, name: &str, becomes: u32, before: State, after: State) -> Image {
     let usage = Usage::STORAGE | Usage::SAMPLED | Usage::TRANSFER_SRC | Usage::TRANSFER_DST;
-    let state = |(stages, accesses, layout): State| vocabulary::State { stages, accesses, layout };
+    let state = |(stages, accesses, layout): State| vulkan::State { stages, accesses, layout };
     let initial = Initial::Value(FillValue::Color([0.0; 4]));
     let role = Role::Persistent { becomes, initial, before: state(before), after: state(after) };
     Image { role, ..output(id, name, Format::R16G16B16A16_SFLOAT, usage) }

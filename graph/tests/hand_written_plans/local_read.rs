@@ -2,10 +2,9 @@
 //! drawn over it, and nothing of it ever leaves the scope.
 
 use super::build::*;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Draw, DrawList};
 use framewright_graph::plan::*;
-use framewright_graph::vocabulary::{Accesses, Layout, LoadOp, Stages, StoreOp, Usage};
+use framewright_graph::vulkan::{Accesses, Format, Layout, LoadOp, Stages, StoreOp, Usage};
 
 const LOCAL: Layout = Layout::RenderingLocalReadKhr;
 

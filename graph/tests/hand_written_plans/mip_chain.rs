@@ -1,10 +1,9 @@
 //! A mip chain: level 0 is drawn, level 1 is drawn from it, level 2 is blitted from level 1; then all are sampled.
 
 use super::build::*;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Draw, DrawList};
 use framewright_graph::plan::*;
-use framewright_graph::vocabulary::{Accesses, Filter, Layout, LoadOp, Stages, StoreOp, Usage};
+use framewright_graph::vulkan::{Accesses, Filter, Format, Layout, LoadOp, Stages, StoreOp, Usage};
 
 const FORMAT: Format = Format::R16G16B16A16_SFLOAT;
 

@@ -1,11 +1,10 @@
 //! Objects and sky at 4 samples; the resolve is folded into their scope; tone mapping into the output.
 
 use super::build::*;
-use framewright_graph::format::Format;
+use framewright_graph::base::Place;
 use framewright_graph::frame::{Blend, Draw, DrawList};
 use framewright_graph::plan::*;
-use framewright_graph::source::Place;
-use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage};
+use framewright_graph::vulkan::{Accesses, CompareOp, Format, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage};
 
 pub(crate) fn plan() -> Plan {
     let hdr = Format::R16G16B16A16_SFLOAT;

@@ -1,10 +1,9 @@
 //! A depth prepass; then objects that test its depth and sample it at once; then glass on top, in a scope of its own.
 
 use super::build::*;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Draw, DrawList};
 use framewright_graph::plan::*;
-use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, LoadOp, Stages, StoreOp, Usage};
+use framewright_graph::vulkan::{Accesses, CompareOp, Format, Layout, LoadOp, Stages, StoreOp, Usage};
 
 const READ: Accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_READ;
 const WRITE: Accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE;

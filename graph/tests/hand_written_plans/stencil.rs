@@ -2,10 +2,11 @@
 //! layout to layout by itself.
 
 use super::build::*;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Draw, DrawList, StencilState};
 use framewright_graph::plan::*;
-use framewright_graph::vocabulary::{Accesses, Aspects, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Usage};
+use framewright_graph::vulkan::{
+    Accesses, Aspects, CompareOp, Format, Layout, LoadOp, Stages, StencilOp, StoreOp, Usage,
+};
 
 const READ: Accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_READ;
 const WRITE: Accesses = Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE;

@@ -2,10 +2,9 @@
 //! the result back. Buffers are for both queues: semaphores alone serve them.
 
 use super::build::*;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Draw, DrawList};
 use framewright_graph::plan::*;
-use framewright_graph::vocabulary::{Accesses, BufferUsage, Layout, LoadOp, Stages, StoreOp, Usage};
+use framewright_graph::vulkan::{Accesses, BufferUsage, Format, Layout, LoadOp, Sharing, Stages, StoreOp, Usage};
 
 const CS: Stages = Stages::COMPUTE_SHADER;
 const FS: Stages = Stages::FRAGMENT_SHADER;

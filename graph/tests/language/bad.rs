@@ -1,15 +1,13 @@
 //! Every file under `bad/` is wrong, its name says how, and the whole answer stands beside it.
 
 use crate::table::{INPUTS, Pictures, Table};
+use framewright_graph::base::{self, Diagnostic, FilePath, Sources};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::{self, Diagnostic, Files, Found, Unread};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::{Inputs, expand};
-use framewright_graph::file_path::FilePath;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Sources;
-use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
-use framewright_graph::view::Stereo;
+use framewright_graph::frame::{Stereo, TextureFile, TextureInfo, TextureProblem};
+use framewright_graph::language::{self, Files, Found, Unread};
+use framewright_graph::vulkan::Rotation;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -77,7 +75,7 @@ pub(crate) fn mistakes_if_any(name: &str, text: String) -> (Arc<Sources>, Vec<Di
     let rotation = if text.contains("//! rotate 90\n") { Rotation::Rotate90 } else { Rotation::Identity };
     let inputs = Inputs { set: &set, dump: &dump, output_extent, device: device.as_ref(), rotation, stereo, ..INPUTS };
     let mut sources = Sources::default();
-    let pipeline = describe::read_with(&mut sources, &mut Folder, name, name, text);
+    let pipeline = language::read_with(&mut sources, &mut Folder, name, name, text);
     let sources = Arc::new(sources);
     let frame = pipeline.and_then(|pipeline| expand(&pipeline, sources.clone(), &inputs, &mut Table));
     let plan = frame.and_then(|frame| match device {
@@ -91,8 +89,8 @@ pub(crate) fn mistakes_if_any(name: &str, text: String) -> (Arc<Sources>, Vec<Di
 fn answer(name: &str, text: String) -> (String, serde_json::Value) {
     let (sources, errors) = mistakes(name, text);
     // All are pinned, so none is left to be counted.
-    let shown: Vec<String> = errors.chunks(MOST_SHOWN).map(|some| describe::render(&sources, some)).collect();
-    (shown.join("\n"), describe::to_json(&sources, &errors))
+    let shown: Vec<String> = errors.chunks(MOST_SHOWN).map(|some| base::render(&sources, some)).collect();
+    (shown.join("\n"), base::to_json(&sources, &errors))
 }
 
 pub(crate) fn folder() -> PathBuf {

@@ -1,10 +1,9 @@
 //! Small files that would make a great deal: each ends at a limit that its answer names, soon and in bounded memory.
 
 use crate::table::{INPUTS, frame};
-use framewright_graph::describe::{self, Files, Found, Unread};
+use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::expand::Inputs;
-use framewright_graph::file_path::FilePath;
-use framewright_graph::source::Sources;
+use framewright_graph::language::{self, Files, Found, Unread};
 use std::fmt::Write as _;
 
 /// The first lines of what is said about a file, and how much memory reading it took at most, in bytes.
@@ -12,15 +11,15 @@ fn answer(files: &mut dyn Files, text: &str) -> (String, u64) {
     let mut shown = String::new();
     let measured = allocation_counter::measure(|| {
         let mut sources = Sources::default();
-        let errors = describe::read_with(&mut sources, files, "bomb.ron", "bomb.ron", text.to_owned());
-        shown = describe::render(&sources, &errors.expect_err("a bad file"));
+        let errors = language::read_with(&mut sources, files, "bomb.ron", "bomb.ron", text.to_owned());
+        shown = base::render(&sources, &errors.expect_err("a bad file"));
     });
     (shown, measured.bytes_max)
 }
 
 /// What is said about a file that names no other.
 fn alone(text: &str) -> (String, u64) {
-    answer(&mut describe::NoFiles, text)
+    answer(&mut language::NoFiles, text)
 }
 
 /// A pipeline with these fragments, which uses the one called `f0`, or doesn't.
@@ -205,11 +204,11 @@ fn thirty_thousand_files_that_are_not_there_are_answered_briefly_in_json_too() {
     let text =
         with_field(&format!("include: [{}]", &all[..all.len().min(4_000_000)].rsplit_once(',').expect("several").0));
     let mut sources = Sources::default();
-    let errors = describe::read_with(&mut sources, &mut describe::NoFiles, "bomb.ron", "bomb.ron", text);
+    let errors = language::read_with(&mut sources, &mut language::NoFiles, "bomb.ron", "bomb.ron", text);
     let errors = errors.expect_err("files that are not there");
-    let json = describe::to_json(&sources, &errors).to_string();
+    let json = base::to_json(&sources, &errors).to_string();
     assert!(json.len() < 600_000, "{} bytes of JSON", json.len());
-    let shown = describe::render(&sources, &errors);
+    let shown = base::render(&sources, &errors);
     assert!(shown.len() < 20_000, "{} bytes", shown.len());
 }
 
@@ -229,8 +228,8 @@ fn a_million_unknown_fields_are_answered_soon() {
     let mut shown = String::new();
     let measured = allocation_counter::measure(|| {
         let mut sources = Sources::default();
-        let errors = describe::read(&mut sources, "bomb.ron", "bomb.ron", text).expect_err("a bad file");
-        shown = describe::render(&sources, &errors);
+        let errors = language::read(&mut sources, "bomb.ron", "bomb.ron", text).expect_err("a bad file");
+        shown = base::render(&sources, &errors);
     });
     assert!(shown.contains("the pipeline has no field `f0`") && shown.contains("… and at least "), "{shown}");
     assert!(measured.bytes_max < 300 << 20, "reading took {} bytes", measured.bytes_max);

@@ -4,8 +4,7 @@
 use crate::table::{INPUTS, frame, right, wrong};
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::Inputs;
-use framewright_graph::frame::{Frame, Pass, Resource};
-use framewright_graph::view::{Eye, EyeForm, Stereo};
+use framewright_graph::frame::{Eye, EyeForm, Frame, Pass, Resource, Stereo};
 
 /// Modes that draw both eyes at once, and how they hold both eyes' parts on a device that can do what Vulkan 1.3 demands.
 const AT_ONCE: [(Stereo, EyeForm); 3] =

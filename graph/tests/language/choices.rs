@@ -2,10 +2,10 @@
 //! is wrong, its name says how, and the whole answer stands beside it.
 
 use crate::table::{INPUTS, Table, set};
-use framewright_graph::describe::{self, ChosenBy, Diagnostic, Document, SettingsFile};
+use framewright_graph::base::{self, Diagnostic, Sources};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::expression::Value;
-use framewright_graph::source::Sources;
+use framewright_graph::language::{self, ChosenBy, Document, SettingsFile};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -30,15 +30,15 @@ const PIPELINE: &str = r#"Pipeline(
 
 fn document() -> (Sources, Document) {
     let mut sources = Sources::default();
-    let document = describe::read(&mut sources, "test.ron", "test.ron", PIPELINE.to_owned());
-    let document = document.unwrap_or_else(|errors| panic!("{}", describe::render(&sources, &errors)));
+    let document = language::read(&mut sources, "test.ron", "test.ron", PIPELINE.to_owned());
+    let document = document.unwrap_or_else(|errors| panic!("{}", base::render(&sources, &errors)));
     (sources, document)
 }
 
 /// A settings file that is right.
 fn file(sources: &mut Sources, document: &Document, text: &str) -> SettingsFile {
     let file = document.read_settings(sources, "my/quality.ron", "quality.ron", text.to_owned());
-    file.unwrap_or_else(|errors| panic!("{}", describe::render(sources, &errors)))
+    file.unwrap_or_else(|errors| panic!("{}", base::render(sources, &errors)))
 }
 
 /// Values of `msaa`, `bloom`, `scale`, `quality` and `levels`.
@@ -165,7 +165,7 @@ fn every_bad_settings_file_is_answered_as_it_stands_beside_it() {
     let files = bad_files();
     assert!(files.len() >= 9);
     for (name, sources, errors) in files {
-        let shown = describe::render(&sources, &errors);
+        let shown = base::render(&sources, &errors);
         insta::with_settings!({
             snapshot_path => folder(), prepend_module_to_snapshot => false, omit_expression => true,
         }, { insta::assert_snapshot!(name.trim_end_matches(".ron"), shown) });

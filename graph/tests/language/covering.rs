@@ -6,7 +6,7 @@ use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::LoadOp;
+use framewright_graph::vulkan::LoadOp;
 
 /// A full-screen pass that is the first to write colour, depth and stencil, and a pass that shows the colour.
 fn first_with(depth: &str) -> String {

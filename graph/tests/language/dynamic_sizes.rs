@@ -1,8 +1,8 @@
 //! Sizes that change from frame to frame, and the Plans that come of them.
 
 use crate::table::{INPUTS, right, set};
+use framewright_graph::base::render;
 use framewright_graph::compile::{Compiler, Options, Reuse, compile};
-use framewright_graph::describe::render;
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::Frame;

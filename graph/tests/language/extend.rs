@@ -1,15 +1,14 @@
 //! Pipelines that begin with what others say: what is set, removed and inserted, and in which order.
 
 use crate::table::{INPUTS, Table, right, unnamed};
-use framewright_graph::change::{Action, Kind, Where};
+use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::{self, Document, Files, Found, Unread};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::{Inputs, expand};
-use framewright_graph::file_path::FilePath;
 use framewright_graph::frame::Frame;
+use framewright_graph::frame::change::{Action, Kind, Where};
+use framewright_graph::language::{self, Document, Files, Found, Unread};
 use framewright_graph::plan::Plan;
-use framewright_graph::source::Sources;
 use std::sync::Arc;
 
 const BASE: &str = r#"Pipeline(
@@ -56,15 +55,15 @@ fn document(text: &str, files: &[(&'static str, &str)], applied: &[&str]) -> (Do
     let further = applied.iter().zip(0..).map(|(text, at)| found(&format!("further{at}.ron"), text)).collect();
     let mut sources = Sources::default();
     let own = found("test.ron", text);
-    let document = describe::read_extended(&mut sources, &mut Shelf(shelf.collect()), own, further)
-        .unwrap_or_else(|errors| panic!("{}", describe::render(&sources, &errors)));
+    let document = language::read_extended(&mut sources, &mut Shelf(shelf.collect()), own, further)
+        .unwrap_or_else(|errors| panic!("{}", base::render(&sources, &errors)));
     (document, Arc::new(sources))
 }
 
 fn frame_of(text: &str, files: &[(&'static str, &str)], applied: &[&str]) -> Frame {
     let (document, sources) = document(text, files, applied);
     expand(&document, sources.clone(), &INPUTS, &mut Table)
-        .unwrap_or_else(|errors| panic!("{}", describe::render(&sources, &errors)))
+        .unwrap_or_else(|errors| panic!("{}", base::render(&sources, &errors)))
 }
 
 fn plan(frame: &Frame) -> Plan {
@@ -97,7 +96,7 @@ fn what_extends_and_says_nothing_else_is_the_same_but_for_its_places() {
 
 /// What the preset of [`BASE`] chooses, by the settings' names.
 fn preset(document: &Document) -> Vec<(&str, String)> {
-    let chosen = |choice: &describe::Choice| (&*document.settings[choice.setting].name.text, choice.value.to_string());
+    let chosen = |choice: &language::Choice| (&*document.settings[choice.setting].name.text, choice.value.to_string());
     document.presets[0].set.iter().map(chosen).collect()
 }
 
@@ -167,8 +166,8 @@ fn a_word_that_is_wrong_in_the_base_stays_wrong_where_the_entry_is_changed() {
         let own = Found { shown: "test.ron".to_owned(), relative: "test.ron".into(), bytes: text.into_bytes() };
         let mut sources = Sources::default();
         let mut shelf = Shelf(vec![("base.ron", base.clone())]);
-        let errors = describe::read_extended(&mut sources, &mut shelf, own, Vec::new());
-        let said = describe::render(&sources, &errors.expect_err("a pass is no layer"));
+        let errors = language::read_extended(&mut sources, &mut shelf, own, Vec::new());
+        let said = base::render(&sources, &errors.expect_err("a pass is no layer"));
         assert!(said.contains("expected `Pass(…)`, found `Layer`"), "{said}");
         assert!(said.contains("base.ron:11:9"), "{said}");
     }
@@ -326,8 +325,8 @@ fn only_the_removal_of_a_thing_of_the_kind_that_is_missed_is_shown() {
     let removed = |text: &str| {
         let mut sources = Sources::default();
         let mut shelf = Shelf(vec![("base.ron", BASE.to_owned())]);
-        let errors = describe::read_with(&mut sources, &mut shelf, "test.ron", "test.ron", text.to_owned());
-        describe::render(&sources, &errors.expect_err("wrong")).matches("is removed here").count()
+        let errors = language::read_with(&mut sources, &mut shelf, "test.ron", "test.ron", text.to_owned());
+        base::render(&sources, &errors.expect_err("wrong")).matches("is removed here").count()
     };
     // A pass and an image of one name: the image is missed, and the pass was removed.
     let named = |changes: &str| extending(&format!("changes: [{changes}]"));

@@ -2,8 +2,7 @@
 
 use crate::table::{INPUTS, right, wrong};
 use framewright_graph::expand::Inputs;
-use framewright_graph::frame::{Frame, Resource};
-use framewright_graph::view::{Eye, Stereo, ViewEye, ViewIndex};
+use framewright_graph::frame::{Eye, Frame, Resource, Stereo, ViewEye, ViewIndex};
 
 const TWO: Inputs<'static> = Inputs { stereo: Stereo::MultiPass, ..INPUTS };
 

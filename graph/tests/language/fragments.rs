@@ -1,12 +1,11 @@
 //! Fragments: images, buffers and passes that are put in under a name of their own, with arguments.
 
 use crate::table::{INPUTS, Table, right, unnamed, wrong};
-use framewright_graph::describe::{self, Files, Found, Unread};
+use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::expand::{Inputs, expand};
-use framewright_graph::file_path::FilePath;
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Frame, ImageIndex, ParamValue, Work};
-use framewright_graph::source::Sources;
+use framewright_graph::language::{self, Files, Found, Unread};
+use framewright_graph::vulkan::Format;
 use std::sync::Arc;
 
 /// A pipeline that blooms by a fragment.
@@ -211,8 +210,8 @@ fn a_fragment_from_a_file_is_the_same_as_one_that_stands_in_the_pipeline() {
     let more = "Fragments(version: 1, fragments: [])".to_owned();
     let mut shelf = Shelf { files: vec![("bloom.ron", library), ("more.ron", more)], read: Vec::new() };
     let mut sources = Sources::default();
-    let document = describe::read_with(&mut sources, &mut shelf, "test.ron", "test.ron", text)
-        .unwrap_or_else(|errors| panic!("{}", describe::render(&sources, &errors)));
+    let document = language::read_with(&mut sources, &mut shelf, "test.ron", "test.ron", text)
+        .unwrap_or_else(|errors| panic!("{}", base::render(&sources, &errors)));
     let frame = expand(&document, Arc::new(sources), &INPUTS, &mut Table).expect("it is right");
     assert_eq!(unnamed(&frame), unnamed(&right(BLOOM, &INPUTS)));
     assert_eq!(shelf.read, ["test.ron -> bloom.ron", "bloom.ron -> more.ron", "test.ron -> more.ron"]);

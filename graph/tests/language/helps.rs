@@ -10,7 +10,7 @@ mod offers;
 use crate::{bad, choices};
 use apply::applied;
 use edits::difference;
-use framewright_graph::describe::Diagnostic;
+use framewright_graph::base::Diagnostic;
 use offers::{Offer, offers};
 use std::collections::BTreeSet;
 use std::ops::Range;

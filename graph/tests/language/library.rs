@@ -1,13 +1,12 @@
 //! The shipped library of fragments: what its fragments come to for images of any size.
 
 use crate::table::{INPUTS, Table};
+use framewright_graph::base::{self, Root, Sources};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::{self, PipelineFiles};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Frame, ParamValue};
-use framewright_graph::root::Root;
-use framewright_graph::source::Sources;
+use framewright_graph::language::{self, PipelineFiles};
 use framewright_graph::verify::verify;
 use std::path::Path;
 use std::sync::Arc;
@@ -22,11 +21,11 @@ fn frame(extent: [u32; 2], include: &str, uses: &str) -> Frame {
     let root = Root::new(Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/pipelines"));
     let mut sources = Sources::default();
     let mut files = PipelineFiles::beside(root, "test.ron", &[]);
-    let document = describe::read_with(&mut sources, &mut files, "test.ron", "test.ron", text);
+    let document = language::read_with(&mut sources, &mut files, "test.ron", "test.ron", text);
     let sources = Arc::new(sources);
     let inputs = Inputs { output_extent: extent, ..INPUTS };
     let frame = document.and_then(|document| expand(&document, sources.clone(), &inputs, &mut Table));
-    let frame = frame.unwrap_or_else(|wrong| panic!("{}", describe::render(&sources, &wrong)));
+    let frame = frame.unwrap_or_else(|wrong| panic!("{}", base::render(&sources, &wrong)));
     for (name, text) in SHIPPED_PROFILES {
         let device = Profile::from_ron(text).expect("shipped profiles are read");
         let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default());

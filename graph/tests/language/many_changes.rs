@@ -1,9 +1,8 @@
 //! Large files of changes. Each of these is read in a second or two; were its time to grow with the square of the number of
 //! changes, it would take many minutes.
 
-use framewright_graph::describe::{self, Diagnostic, Files, Found, Unread};
-use framewright_graph::file_path::FilePath;
-use framewright_graph::source::Sources;
+use framewright_graph::base::{Diagnostic, FilePath, Sources};
+use framewright_graph::language::{self, Files, Found, Unread};
 
 /// So many of a thing are many.
 const MANY: usize = 100_000;
@@ -30,7 +29,7 @@ fn mistakes(passes: &str, images: &str, outputs: &str, changes: &str) -> Vec<Dia
         outputs: ["screen", {outputs}])"#
     );
     let text = format!("Pipeline(version: 1, extends: \"base.ron\", changes: [{changes}])");
-    describe::read_with(&mut Sources::default(), &mut Base(base), "test.ron", "test.ron", text)
+    language::read_with(&mut Sources::default(), &mut Base(base), "test.ron", "test.ron", text)
         .err()
         .unwrap_or_default()
 }

@@ -2,9 +2,9 @@
 
 use crate::table::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
-use framewright_graph::facts::Facts;
-use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{ChosenFormat, Frame};
+use framewright_graph::language::Facts;
+use framewright_graph::vulkan::Format::{self, *};
 
 /// Colour drawn with depth, both blurred or copied into others; `policies` are the pipeline's.
 fn pipeline(policies: &str, hdr: &str, more: &str) -> String {

@@ -1,22 +1,22 @@
 //! Whatever a file holds, reading it ends in a pipeline or in mistakes that can be shown.
 
 use crate::table::{INPUTS, Table, shipped};
-use framewright_graph::describe;
+use framewright_graph::base::{self, Sources};
 use framewright_graph::expand::expand;
-use framewright_graph::source::Sources;
+use framewright_graph::language;
 use proptest::prelude::*;
 use std::sync::Arc;
 
 /// Reads bytes, expands what they say, shows what is wrong; panics if any of these does, or if nothing is shown.
 fn goes_through(bytes: Vec<u8>) {
     let mut sources = Sources::default();
-    let pipeline = describe::read_bytes(&mut sources, "random.ron", "random.ron", bytes);
+    let pipeline = language::read_bytes(&mut sources, "random.ron", "random.ron", bytes);
     let sources = Arc::new(sources);
     if let Err(errors) = pipeline.and_then(|pipeline| expand(&pipeline, sources.clone(), &INPUTS, &mut Table)) {
-        let shown = describe::render(&sources, &errors);
+        let shown = base::render(&sources, &errors);
         assert!(shown.starts_with("error: "));
         assert!(shown.chars().all(|c| c == '\n' || !c.is_control()), "{shown:?}");
-        assert_eq!(describe::to_json(&sources, &errors).as_array().map(Vec::len), Some(errors.len()));
+        assert_eq!(base::to_json(&sources, &errors).as_array().map(Vec::len), Some(errors.len()));
     }
 }
 

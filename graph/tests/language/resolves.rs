@@ -3,7 +3,7 @@
 use crate::table::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Face, Frame, Resolve, ResolveWay};
-use framewright_graph::vocabulary::ResolveMode;
+use framewright_graph::vulkan::ResolveMode;
 
 /// Objects drawn with a shader into depth of 4 samples, of which a pass samples one value.
 fn pipeline(policy: &str, own: &str, shader: &str, source: &str) -> String {

@@ -2,9 +2,8 @@
 
 use crate::table::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Buffer, Image, Lifetime, Resource, Shape};
-use framewright_graph::vocabulary::{Accesses, FillValue, Layout, Stages, State};
+use framewright_graph::frame::{Buffer, Image, Lifetime, Resource};
+use framewright_graph::vulkan::{Accesses, FillValue, Format, Layout, Shape, Stages, State};
 
 /// A pipeline that shows one full-screen draw, with more images and buffers beside it.
 fn pipeline(settings: &str, images: &str, buffers: &str, outputs: &str) -> String {

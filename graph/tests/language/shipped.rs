@@ -2,8 +2,8 @@
 
 use crate::table::{INPUTS, frame, set, shipped};
 use framewright_graph::expand::{Facts, Inputs};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Face, Frame, Image, ParamValue, Work};
+use framewright_graph::vulkan::Format;
 
 fn names(frame: &Frame) -> Vec<&str> {
     frame.passes.iter().map(|pass| &*pass.name).collect()

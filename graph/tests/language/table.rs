@@ -1,21 +1,14 @@
 //! What the tests of the language share: shader interfaces out of a table, and the way from a file to a frame.
 
-use framewright_graph::describe::Quote;
-use framewright_graph::describe::{self, Diagnostic, Files, Found, NoFiles, Unread};
+use framewright_graph::base::{self, Diagnostic, FilePath, Quote, Sources};
 use framewright_graph::expand::{Facts, Inputs, expand};
-use framewright_graph::file_path::FilePath;
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Draw, Frame};
-use framewright_graph::interface::{
-    AlphaUse, Attribute, Binding, BindingKind, Block, Component, Dimension, DrawInterface, FragmentOutput, ImageShape,
-    Member, ShaderInterface, ShaderInterfaces, ShaderMessage, ShaderProblem, Supplied, SuppliedKind, Unbindable,
-    Variant, VertexInput,
+use framewright_graph::frame::{Draw, Frame, Stereo, TextureFile, TextureInfo, TextureProblem};
+use framewright_graph::language::{self, Files, Found, NoFiles, Unread};
+use framewright_graph::shader::{
+    AlphaUse, Attribute, Binding, BindingKind, Block, DrawInterface, FragmentOutput, Member, ShaderInterface,
+    ShaderInterfaces, ShaderMessage, ShaderProblem, Supplied, SuppliedKind, Unbindable, Variant, VertexInput,
 };
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Sources;
-use framewright_graph::texture::{TextureFile, TextureInfo, TextureProblem};
-use framewright_graph::view::Stereo;
-use framewright_graph::vocabulary::Stages;
+use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Rotation, Stages};
 use std::sync::Arc;
 
 /// Shader interfaces out of a table.
@@ -460,10 +453,10 @@ pub(crate) fn shipped(name: &str) -> String {
 /// Expands a pipeline's text; if it fails, with the mistakes as they are shown.
 pub(crate) fn frame(text: &str, inputs: &Inputs<'_>) -> Result<Frame, String> {
     let mut sources = Sources::default();
-    let pipeline = describe::read_with(&mut sources, &mut Pictures, "test.ron", "test.ron", text.to_owned());
+    let pipeline = language::read_with(&mut sources, &mut Pictures, "test.ron", "test.ron", text.to_owned());
     let sources = Arc::new(sources);
     let expanded = pipeline.and_then(|pipeline| expand(&pipeline, sources.clone(), inputs, &mut Table));
-    expanded.map_err(|errors: Vec<Diagnostic>| describe::render(&sources, &errors))
+    expanded.map_err(|errors: Vec<Diagnostic>| base::render(&sources, &errors))
 }
 
 /// Pictures out of a table.

@@ -1,13 +1,11 @@
 //! Textures: images whose texels come from files.
 
 use crate::table::{INPUTS, Pictures, Table, right};
-use framewright_graph::describe::{self, Files, Found, Unread};
+use framewright_graph::base::{FilePath, Sources};
 use framewright_graph::expand::expand;
-use framewright_graph::file_path::FilePath;
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Frame, Image, Lifetime, Shape};
-use framewright_graph::source::Sources;
-use framewright_graph::texture::{ColorSpace, TextureFile, TextureInfo, TextureProblem};
+use framewright_graph::frame::{ColorSpace, Frame, Image, Lifetime, TextureFile, TextureInfo, TextureProblem};
+use framewright_graph::language::{self, Files, Found, Unread};
+use framewright_graph::vulkan::{Format, Shape};
 use std::sync::Arc;
 
 /// The frame of a pipeline with these textures and images, and these passes before the one that shows.
@@ -97,7 +95,7 @@ fn a_fragment_brings_its_textures_which_lie_beside_the_file_that_it_stands_in() 
         images: [(name: "screen", format: Output, size: Output)],
         passes: [(use: "film", name: "film", with: {"target": "screen"})], outputs: ["screen"])"#;
     let mut sources = Sources::default();
-    let document = describe::read_with(&mut sources, &mut Shelf, "test.ron", "test.ron", text.to_owned());
+    let document = language::read_with(&mut sources, &mut Shelf, "test.ron", "test.ron", text.to_owned());
     let frame = expand(&document.expect("it is read"), Arc::new(sources), &INPUTS, &mut Table).expect("a frame");
     assert_eq!((&*frame.images[1].name, file(&frame.images[1]).0), ("film.grain", "looks/grain.png"));
 }
@@ -124,7 +122,7 @@ fn a_picture_that_many_textures_name_is_looked_at_once() {
             passes: [(name: "show", draw: FullScreen("plain"), color: ["screen"])], outputs: ["screen"])"#
     );
     let mut files = Counted(0);
-    let document = describe::read_with(&mut Sources::default(), &mut files, "test.ron", "test.ron", text);
+    let document = language::read_with(&mut Sources::default(), &mut files, "test.ron", "test.ron", text);
     assert!(document.is_ok());
     assert_eq!(files.0, 1);
 }

@@ -4,9 +4,7 @@ use crate::table::{INPUTS, right, set, wrong};
 use framewright_graph::compile::{Compiler, Options, compile};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::Inputs;
-use framewright_graph::frame::{Frame, Image, Pass};
-use framewright_graph::jitter::Jitter;
-use framewright_graph::view::{Allowances, ViewIndex};
+use framewright_graph::frame::{Allowances, Frame, Image, Jitter, Pass, ViewIndex};
 use std::sync::Arc;
 
 /// A pipeline with two views, these images and these passes after those that fill `screen` and `small`.

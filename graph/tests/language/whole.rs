@@ -1,15 +1,15 @@
 //! Files that are wrong as a whole, and such as are made to hurt: each is answered, shortly and soon.
 
-use framewright_graph::describe::{self, LARGEST_FILE};
-use framewright_graph::source::Sources;
+use framewright_graph::base::{self, Sources};
+use framewright_graph::language::{self, LARGEST_FILE};
 use std::time::{Duration, Instant};
 
 /// What is said about some bytes. An answer is short and comes soon, whatever the bytes are.
 fn answer(bytes: impl Into<Vec<u8>>) -> String {
     let mut sources = Sources::default();
     let begin = Instant::now();
-    let errors = describe::read_bytes(&mut sources, "test.ron", "test.ron", bytes.into()).expect_err("a bad file");
-    let shown = describe::render(&sources, &errors);
+    let errors = language::read_bytes(&mut sources, "test.ron", "test.ron", bytes.into()).expect_err("a bad file");
+    let shown = base::render(&sources, &errors);
     assert!(begin.elapsed() < Duration::from_secs(20), "the answer took {:?}", begin.elapsed());
     assert!(shown.len() < 200_000, "the answer has {} bytes", shown.len());
     assert!(shown.chars().all(|c| c == '\n' || !c.is_control()), "control characters are shown");
@@ -35,8 +35,8 @@ fn with_images(images: &str) -> String {
 fn other_programs_read_mistakes_as_json() {
     let mut sources = Sources::default();
     let text = "Pipeline(version: 1, images: [\n  (name: \"a\", format: Dept, size: Output),\n                  (name: \"a\", format: Depth, size: Output),\n], passes: [], outputs: [\"a\"])";
-    let errors = describe::read(&mut sources, "some/test.ron", "test.ron", text.to_owned()).expect_err("a bad file");
-    let json = serde_json::to_string_pretty(&describe::to_json(&sources, &errors)).expect("JSON");
+    let errors = language::read(&mut sources, "some/test.ron", "test.ron", text.to_owned()).expect_err("a bad file");
+    let json = serde_json::to_string_pretty(&base::to_json(&sources, &errors)).expect("JSON");
     pinned("json", &json);
 }
 

@@ -2,9 +2,8 @@
 
 use crate::table::{INPUTS, right, set};
 use framewright_graph::expand::{Facts, Inputs};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Face, Image, ImageIndex, ParamValue, Resource, Work};
-use framewright_graph::vocabulary::{CompareOp, Filter};
+use framewright_graph::vulkan::{CompareOp, Filter, Format};
 
 /// A pipeline that shows one full-screen draw, with more settings, images and passes before it.
 fn pipeline(settings: &str, images: &str, passes: &str) -> String {

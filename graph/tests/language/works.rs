@@ -6,7 +6,7 @@ use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{
     BufferIndex, BufferRole, Draw, Frame, Groups, ImageIndex, ParamValue, Pass, Resource, StencilState, Work,
 };
-use framewright_graph::vocabulary::{Aspects, CompareOp, FillValue, Filter, Stages, StencilOp, Subresources};
+use framewright_graph::vulkan::{Aspects, CompareOp, FillValue, Filter, Stages, StencilOp, Subresources};
 
 const SETTINGS: &str = r#"(name: "count", value: Integer(default: 1000, min: 1, max: 60000)),
                           (name: "on", value: Bool(default: true))"#;

@@ -4,13 +4,12 @@
 #[allow(dead_code, reason = "the measured graphs are used elsewhere")]
 pub(crate) mod graphs;
 
-use framewright_graph::format::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::base::Span;
 use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Image, ImageIndex, Pass, Resource, Sampled, Work,
 };
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{CompareOp, Filter, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::vulkan::{CompareOp, Filter, Rotation, Sampler, Stages, Subresources};
 pub(crate) use graphs::device;
 
 /// Builds a frame of raster passes, all images 64×64.

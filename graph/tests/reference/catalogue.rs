@@ -1,6 +1,7 @@
 //! Everything that the readers' tables name, found from the three kinds of files on.
 
-use framewright_graph::describe::forms::{FILES, Form, Table, Takes, Words};
+use framewright_graph::language::FILES;
+use framewright_graph::ron::{Form, Table, Takes, Words};
 use std::collections::BTreeMap;
 
 /// Tables, words and choices by name.

@@ -2,9 +2,8 @@
 
 use crate::catalogue;
 use crate::table::Pictures;
-use framewright_graph::describe;
-use framewright_graph::file_path::FilePath;
-use framewright_graph::source::Sources;
+use framewright_graph::base::{self, FilePath, Sources};
+use framewright_graph::language;
 
 /// A pipeline in which everything that examples name is declared. Places for more are marked by `{…}`.
 const HOST: &str = r#"Pipeline(
@@ -151,34 +150,34 @@ fn right(what: &str, text: &str) {
             let msaa = "(name: \"msaa\", value: OneOf(default: 4, of: [1, 2, 4, 8])),";
             let host = with("presets", "(name: \"low\", set: {\"msaa\": 1})")
                 .replace("settings: [", &format!("settings: [{msaa}"));
-            let document = describe::read(&mut sources, "host.ron", "host.ron", host).expect("the host is right");
+            let document = language::read(&mut sources, "host.ron", "host.ron", host).expect("the host is right");
             document.read_settings(&mut sources, "a.ron", "a.ron", text.to_owned()).map(|_| ())
         }
         library if library.starts_with("Fragments") => {
             let host = with("fragments", "").replace("presets:", "include: [\"a.ron\"], presets:");
             let mut one = One(text.as_bytes().to_vec());
-            describe::read_with(&mut sources, &mut one, "host.ron", "host.ron", host).map(|_| ())
+            language::read_with(&mut sources, &mut one, "host.ron", "host.ron", host).map(|_| ())
         }
         extension if extension.starts_with("Extension") => {
             let extending = "Pipeline(version: 1, extends: \"forward.ron\", extensions: [\"a.ron\"])";
             let mut two = Based(text.as_bytes().to_vec());
-            describe::read_with(&mut sources, &mut two, "host.ron", "host.ron", extending.to_owned()).map(|_| ())
+            language::read_with(&mut sources, &mut two, "host.ron", "host.ron", extending.to_owned()).map(|_| ())
         }
         _ if text.contains("extends:") => {
-            describe::read_with(&mut sources, &mut Based(Vec::new()), "a.ron", "a.ron", text.to_owned()).map(|_| ())
+            language::read_with(&mut sources, &mut Based(Vec::new()), "a.ron", "a.ron", text.to_owned()).map(|_| ())
         }
-        _ => describe::read_with(&mut sources, &mut Pictures, "a.ron", "a.ron", text.to_owned()).map(|_| ()),
+        _ => language::read_with(&mut sources, &mut Pictures, "a.ron", "a.ron", text.to_owned()).map(|_| ()),
     };
     if let Err(errors) = read {
-        panic!("{what}\n{}", describe::render(&sources, &errors));
+        panic!("{what}\n{}", base::render(&sources, &errors));
     }
 }
 
 /// `base.ron` and the shipped `forward.ron`, which others extend, and another file.
 struct Based(Vec<u8>);
 
-impl describe::Files for Based {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<describe::Found, describe::Unread> {
+impl language::Files for Based {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<language::Found, language::Unread> {
         let second = "(name: \"second\", draw: FullScreen(\"plain\"), color: [\"screen\"])";
         let base = with("passes", second).into_bytes();
         let bytes = match path {
@@ -186,16 +185,16 @@ impl describe::Files for Based {
             "forward.ron" => include_bytes!("../../../examples/pipelines/forward.ron").to_vec(),
             _ => self.0.clone(),
         };
-        Ok(describe::Found { shown: path.to_owned(), relative: path.into(), bytes })
+        Ok(language::Found { shown: path.to_owned(), relative: path.into(), bytes })
     }
 }
 
 /// One file, whatever its name.
 struct One(Vec<u8>);
 
-impl describe::Files for One {
-    fn read(&mut self, _: &FilePath, path: &str) -> Result<describe::Found, describe::Unread> {
-        Ok(describe::Found { shown: path.to_owned(), relative: path.into(), bytes: self.0.clone() })
+impl language::Files for One {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<language::Found, language::Unread> {
+        Ok(language::Found { shown: path.to_owned(), relative: path.into(), bytes: self.0.clone() })
     }
 }
 

@@ -43,7 +43,7 @@ fn every_field_says_what_it_means_and_what_it_takes() {
         for row in table.rows {
             let said = row.about.iter().any(|line| line.trim().ends_with('.') || line.trim().ends_with('`'));
             assert!(said, "`{}` of {} has no documentation", row.name, table.name);
-            let taken = !matches!(row.form, framewright_graph::describe::forms::Form::Anything);
+            let taken = !matches!(row.form, framewright_graph::ron::Form::Anything);
             assert!(taken, "`{}` of {} doesn't say what it takes: `=> Form::…`", row.name, table.name);
         }
     }

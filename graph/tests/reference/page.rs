@@ -2,9 +2,9 @@
 
 use crate::catalogue::{self, Catalogue, called};
 use crate::takes::{MOST_INLINE, Places, besides, takes};
-use framewright_graph::describe::forms::{Row, Table, Takes, Words, goes_with};
-use framewright_graph::describe::names_of;
 use framewright_graph::expression::functions;
+use framewright_graph::language::{goes_with, names_of};
+use framewright_graph::ron::{Row, Table, Takes, Words};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 

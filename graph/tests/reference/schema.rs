@@ -4,10 +4,9 @@ use crate::catalogue;
 use crate::examples::{whole, whole_word};
 use crate::table::Pictures;
 use boon::{Compiler, SchemaIndex, Schemas};
-use framewright_graph::describe;
-use framewright_graph::describe::forms::{convert, schema};
-use framewright_graph::describe::text::{Leaf, Tree};
-use framewright_graph::source::Sources;
+use framewright_graph::base::Sources;
+use framewright_graph::language::{self, schema};
+use framewright_graph::ron::{Leaf, Tree, convert};
 use serde_json::Value;
 use std::collections::HashSet;
 use std::path::Path;
@@ -131,7 +130,7 @@ fn places(leaf: Leaf<'_>, found: &mut Vec<std::ops::Range<usize>>) {
     for (_, value) in leaf.entries().into_iter().flatten() {
         places(value, found);
     }
-    if let describe::text::Shape::Word(_, Some(inside)) = leaf.shape() {
+    if let framewright_graph::ron::Shape::Word(_, Some(inside)) = leaf.shape() {
         places(inside, found);
     }
 }
@@ -159,7 +158,7 @@ fn what_the_schema_refuses_is_wrong() {
                 refused += 1;
                 if changed.trim_start().starts_with("Pipeline") && !changed.contains("extends:") {
                     let mut sources = Sources::default();
-                    let read = describe::read_with(&mut sources, &mut Pictures, "a.ron", "a.ron", changed.clone());
+                    let read = language::read_with(&mut sources, &mut Pictures, "a.ron", "a.ron", changed.clone());
                     wrong += 1;
                     let why = || judge.refuses(&value).unwrap_or_default();
                     assert!(read.is_err(), "{name}: it is read, and refused by the schema\n{changed}\n{}", why());

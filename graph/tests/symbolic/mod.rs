@@ -5,7 +5,7 @@
 
 use framewright_graph::frame::{Blend, Draw, Face, Frame, Image, ImageIndex, Pass, ResolveWay, Resource, Work};
 use framewright_graph::plan::{self, Plan};
-use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, LoadOp, StoreOp};
+use framewright_graph::vulkan::{Accesses, CompareOp, Layout, LoadOp, StoreOp};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// Nothing is known of what is there, and nothing needs to be.

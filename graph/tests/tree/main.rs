@@ -10,9 +10,8 @@
 mod generated;
 mod judge;
 
-use framewright_graph::describe::text::Tree;
-use framewright_graph::describe::{Diagnostic, render};
-use framewright_graph::source::Sources;
+use framewright_graph::base::{Diagnostic, Sources, render};
+use framewright_graph::ron::Tree;
 use judge::judge;
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 use crate::hand_written_plans;
 use framewright_graph::plan::{ImageBarrier, MemoryBarrier, Plan};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Accesses, Layout, Stages};
+use framewright_graph::vulkan::{Accesses, Layout, Stages};
 use std::path::Path;
 
 pub(crate) fn accept(name: &str, plan: &Plan) {

@@ -5,11 +5,11 @@ use crate::mutations::{names_all, without_a_barrier};
 use crate::raster::{self, Raster, forward, graphs};
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::format::Format::{D24_UNORM_S8_UINT, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::verify::{Loss, Rule, Violation, verify};
-use framewright_graph::vocabulary::{Aspects, Layout, LoadOp, Stages};
+use framewright_graph::vulkan::Format::{D24_UNORM_S8_UINT, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
+use framewright_graph::vulkan::{Aspects, Layout, LoadOp, Stages};
 
 fn options() -> [Options; 5] {
     let with = |alias, poison| Options { alias, poison, ..Options::default() };
@@ -35,7 +35,7 @@ fn resolved_twice(samples: u32) -> Frame {
 }
 
 /// Depth that is written, sampled, then tested and sampled at once.
-fn depth_sampled(samples: u32, format: framewright_graph::format::Format) -> Frame {
+fn depth_sampled(samples: u32, format: framewright_graph::vulkan::Format) -> Frame {
     let mut raster = Raster::default();
     let color = raster.image("color", R8G8B8A8_SRGB, samples);
     let depth = raster.image("depth", format, samples);

@@ -1,11 +1,11 @@
 //! What is sure to set all of an image, and what isn't.
 
-use crate::hand_written_plans::{build::*, recount};
-use framewright_graph::format::Format;
+use crate::hand_written_plans::build::*;
+use crate::hand_written_plans::recount;
 use framewright_graph::frame::{Blend, Draw, DrawList};
 use framewright_graph::plan::{DepthState, Hazard, Plan, Work};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, LoadOp, StoreOp, Usage};
+use framewright_graph::vulkan::{Accesses, CompareOp, Format, Layout, LoadOp, StoreOp, Usage};
 
 const TESTED: State = (
     TESTS,

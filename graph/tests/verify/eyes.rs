@@ -1,15 +1,16 @@
 //! What holds both eyes' parts and isn't used for both eyes is found, whoever made the Plan.
 
 use crate::raster::{self, Raster};
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format::{R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
-use framewright_graph::frame::{Blend, Image, ImageIndex, Pass, Resource, Shape, TransferUse, Work as Described};
+use framewright_graph::frame::{
+    Blend, Eye, EyeForm, Image, ImageIndex, Pass, Resource, Stereo, TransferUse, Work as Described,
+};
 use framewright_graph::plan::{Plan, RenderScope, Side, Transfer, Work};
-use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::view::{Eye, EyeForm, Stereo};
-use framewright_graph::vocabulary::{Accesses, Filter, Subresources};
+use framewright_graph::vulkan::Format::{R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::vulkan::{Accesses, Filter, Shape, Subresources};
 
 /// `color`, multisampled, and `screen` hold both eyes' parts, as does `kept`, a copy of `screen`; `mirror` shows the right eye's.
 fn plan(stereo: Stereo, form: EyeForm) -> Plan {

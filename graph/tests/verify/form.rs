@@ -1,15 +1,13 @@
 //! Malformed Plans: each mistake is said, none makes the checker panic.
 
 use crate::hand_written_plans;
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Shape};
-use framewright_graph::interface::{Component, Dimension, ImageShape};
-use framewright_graph::jitter::Jitter;
+use framewright_graph::frame::{Allowances, Blend, Jitter};
 use framewright_graph::plan::{BindingKind, FORMAT_VERSION, Plan, PlanError, RenderScope, Resource, Role, View, Work};
-use framewright_graph::rotation::Rotation;
 use framewright_graph::verify::verify;
-use framewright_graph::view::Allowances;
-use framewright_graph::vocabulary::{Accesses, AddressMode, Layout, LoadOp, ResolveMode, Stages, StoreOp, Usage};
+use framewright_graph::vulkan::{
+    Accesses, AddressMode, Component, Dimension, Format, ImageShape, Layout, LoadOp, ResolveMode, Rotation, Shape,
+    Stages, StoreOp, Usage,
+};
 use serde_json::Value;
 
 /// Images: 0 `color` at 4 samples, 1 `depth` at 4 samples, 2 `color.resolved`, 3 `screen`.

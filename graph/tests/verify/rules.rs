@@ -1,10 +1,9 @@
 //! The rules of synchronisation, one by one, on dispatches that share two images.
 
 use crate::hand_written_plans::build::{self, State, UNDEFINED, barrier, between, dispatch, step, storage, transient};
-use framewright_graph::format::Format;
 use framewright_graph::plan::{Hazard, Image, ImageBarrier, MemoryBarrier, Plan, Role, Step, Subresources, Work};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vocabulary::{Accesses, Layout, Stages, Usage};
+use framewright_graph::vulkan::{Accesses, Format, Layout, Stages, Usage};
 
 const CS: Stages = Stages::COMPUTE_SHADER;
 const NONE: Accesses = Accesses::empty();

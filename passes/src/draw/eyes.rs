@@ -1,7 +1,7 @@
 //! Two eyes: where each is, and what it sees.
 
 use crate::scene::Camera;
-use framewright_graph::view::Eye;
+use framewright_graph::frame::Eye;
 use glam::{DMat3, DMat4, DVec3};
 
 /// The eyes of a viewer.

@@ -2,7 +2,7 @@
 //! `shaders/include/motion.glsl` and `shaders/include/material.glsl`.
 
 use framewright_graph::frame::Draw;
-use framewright_graph::interface::{Attribute, DrawInterface, Supplied, SuppliedKind};
+use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
 
 /// The set of what stays the same for a whole frame.
 pub const FRAME_SET: u32 = 1;

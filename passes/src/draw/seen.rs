@@ -11,9 +11,7 @@ use super::interface::{
 };
 use super::lists::draw_order_from;
 use crate::scene::{Camera, Scene};
-use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::jitter::Jitter;
-use framewright_graph::view::Eye;
+use framewright_graph::frame::{Draw, DrawList, Eye, Jitter};
 use framewright_vulkan::{BindGroup, Buffer, BufferUsage, CullMode, Device, Error, FrontFace, Resource};
 use glam::{DMat4, DVec3};
 

@@ -7,9 +7,8 @@ use super::interface::{FRAME_SET, MATERIAL_SET, interface};
 use super::seen::{ObjectDraw, Seen, SeenBySun, Viewpoint, draws};
 use super::textures::Textures;
 use crate::scene::{Scene, limits};
-use framewright_graph::frame::{Draw, DrawList};
+use framewright_graph::frame::{Draw, DrawList, Eye};
 use framewright_graph::plan::{Plan, View, ViewId, Work};
-use framewright_graph::view::Eye;
 use framewright_vulkan::{BindGroup, Device, DrawSource, Error, Recorder};
 use std::collections::BTreeMap;
 

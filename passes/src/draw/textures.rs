@@ -2,9 +2,8 @@
 
 use super::interface::{BASE_COLOR_TEXTURE_BINDING, MATERIAL_SET};
 use crate::scene::{Sampler, Texture, Wrap};
-use framewright_graph::format::Format;
-use framewright_graph::interface::DrawInterface;
-use framewright_graph::vocabulary::Filter;
+use framewright_graph::shader::DrawInterface;
+use framewright_graph::vulkan::{Filter, Format};
 use framewright_vulkan::{
     AddressMode, BindGroup, Device, Error, Resource, SamplerDescriptor, TexelFilter, Texture as Uploaded,
 };

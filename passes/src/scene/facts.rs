@@ -2,8 +2,8 @@
 
 use super::peak::{Peak, peak};
 use super::{AlphaMode, Bounds, Object, Scene};
-use framewright_graph::facts::{Fact, FactValue, Facts};
 use framewright_graph::frame::DrawList;
+use framewright_graph::language::{Fact, FactValue, Facts};
 
 /// A fact with its cause.
 #[derive(Debug, Clone, PartialEq)]

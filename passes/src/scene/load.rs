@@ -1,10 +1,7 @@
 //! Scenes from files.
 
 use super::{Scene, gltf, limits, text};
-use framewright_graph::describe::{Diagnostic, render};
-use framewright_graph::read_files::ReadFiles;
-use framewright_graph::root::Root;
-use framewright_graph::source::Sources;
+use framewright_graph::base::{Diagnostic, ReadFiles, Root, Sources, render};
 use std::path::{Path, PathBuf};
 
 /// Why a file is no scene. The sentences name the file as it was given, escaped.

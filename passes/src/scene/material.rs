@@ -1,6 +1,6 @@
 //! What surfaces are made of.
 
-use framewright_graph::vocabulary::Filter;
+use framewright_graph::vulkan::Filter;
 use std::sync::Arc;
 
 /// How a surface looks.

@@ -1,7 +1,6 @@
 //! Mistakes in scene files: each is told with its place, and all of them at once.
 
-use framewright_graph::describe::render;
-use framewright_graph::source::Sources;
+use framewright_graph::base::{Sources, render};
 use framewright_passes::scene::{AlphaMode, Scene, text};
 use glam::DVec3;
 

@@ -2,7 +2,7 @@
 
 use crate::comments;
 use framewright_graph::frame::{Cascade, Draw, DrawList};
-use framewright_graph::interface::{Binding, BindingKind, PASS_SET, ShaderInterface, Variant};
+use framewright_graph::shader::{Binding, BindingKind, PASS_SET, ShaderInterface, Variant};
 use framewright_passes::draw;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::shaders::ShaderLibrary;

@@ -3,10 +3,8 @@
 use super::uses::{self, Kind, Use};
 use super::world::{World, role};
 use framewright_graph::frame::{Blend, Draw};
-use framewright_graph::plan::{
-    Attachment, ImageBarrier, Pass, Queue, RenderScope, Resource, Role, Sharing, Side, Work,
-};
-use framewright_graph::vocabulary::{Accesses, CompareOp, Layout, LoadOp, Stages, StoreOp};
+use framewright_graph::plan::{Attachment, ImageBarrier, Pass, Queue, RenderScope, Resource, Role, Side, Work};
+use framewright_graph::vulkan::{Accesses, CompareOp, Layout, LoadOp, Sharing, Stages, StoreOp};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// What a part holds; `None`: nothing that is defined.

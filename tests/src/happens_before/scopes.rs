@@ -1,6 +1,6 @@
 //! What masks of stages and accesses take in.
 
-use framewright_graph::vocabulary::{Accesses, Stages};
+use framewright_graph::vulkan::{Accesses, Stages};
 
 /// Stages of graphics work, each logically earlier than the next.
 const GRAPHICS: [Stages; 7] = [

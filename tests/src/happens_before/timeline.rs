@@ -15,7 +15,7 @@ use super::touch::{MemoryOperation, Nodes, Touch, What};
 use super::uses::{self, Kind};
 use super::world::{World, role};
 use framewright_graph::plan::{ImageBarrier, Queue, Resource, Role, Step};
-use framewright_graph::vocabulary::{Accesses, Layout, Stages, State};
+use framewright_graph::vulkan::{Accesses, Layout, Stages, State};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Second scopes that stand open on a queue.

@@ -3,7 +3,7 @@
 
 use super::uses::Use;
 use framewright_graph::plan::Queue;
-use framewright_graph::vocabulary::{Accesses, Stages};
+use framewright_graph::vulkan::{Accesses, Stages};
 
 /// A set of nodes.
 #[derive(Debug, Clone, Default)]

@@ -2,7 +2,7 @@
 
 use framewright_graph::frame::Draw;
 use framewright_graph::plan::{Attachment, BindingKind, Pass, RenderScope, Resource, Side, Work};
-use framewright_graph::vocabulary::{Accesses, Layout, LoadOp, Stages, StoreOp, Subresources};
+use framewright_graph::vulkan::{Accesses, Layout, LoadOp, Stages, StoreOp, Subresources};
 
 /// One use.
 #[derive(Debug, Clone, Copy)]

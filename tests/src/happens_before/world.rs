@@ -1,7 +1,7 @@
 //! The images and buffers that really exist, and which of them a Plan's entries stand for in each frame.
 
 use framewright_graph::plan::{BufferId, ImageId, Plan, Resource, Role};
-use framewright_graph::vocabulary::{Aspects, State, Subresources};
+use framewright_graph::vulkan::{Aspects, State, Subresources};
 
 /// An image or buffer with memory.
 #[derive(Debug)]

@@ -2,8 +2,8 @@
 
 use super::orders::touched;
 use crate::frames::Builder;
-use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_UNORM};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Resource};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, R8G8B8A8_UNORM};
 use std::collections::BTreeSet;
 
 /// Numbers that look random (a 64-bit linear congruential generator).

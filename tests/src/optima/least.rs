@@ -14,7 +14,7 @@
 use super::orders::touched;
 use super::packing::{Piece, least};
 use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Pass, Resource, Work};
-use framewright_graph::vocabulary::CompareOp;
+use framewright_graph::vulkan::CompareOp;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What an order costs.

@@ -3,7 +3,7 @@
 use super::meaning::{Filled, State};
 use super::pipeline::{Extent, Pipeline, Plane, Thing};
 use super::texels;
-use framewright_graph::format::Format;
+use framewright_graph::vulkan::Format;
 
 /// The first place at which an output holds something else.
 #[derive(Debug, Clone, PartialEq)]

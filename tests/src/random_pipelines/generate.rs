@@ -10,8 +10,8 @@ use super::pipeline::{
 };
 use super::rng::Rng;
 use super::texels;
-use framewright_graph::frame::{Blend, Shape, StencilState};
-use framewright_graph::vocabulary::{Aspects, CompareOp, StencilOp};
+use framewright_graph::frame::{Blend, StencilState};
+use framewright_graph::vulkan::{Aspects, CompareOp, Shape, StencilOp};
 
 /// How often a pass of one kind is proposed before another kind has its turn.
 const PROPOSALS: u32 = 60;

@@ -6,17 +6,15 @@ use super::meaning::{self, State, imported_buffer, imported_image};
 use super::pipeline::{Count, Draw, Geometry, Life, Pass, Pipeline, Work};
 use super::spoil::Spoil;
 use super::{shader, texels, to_frame, to_ron};
+use framewright_graph::base::{self, Diagnostic, Root, Sources};
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::device::Profile;
 use framewright_graph::expand::{self, Facts, Inputs};
-use framewright_graph::frame::{self, Frame};
+use framewright_graph::frame::{self, Frame, Stereo};
+use framewright_graph::language;
 use framewright_graph::plan::{Plan, Resource};
-use framewright_graph::root::Root;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
-use framewright_graph::view::Stereo;
+use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::{
@@ -175,9 +173,9 @@ impl Judge {
     pub fn frame(&mut self, pipeline: &Pipeline) -> Result<Frame, Fault> {
         self.write_shaders(pipeline).map_err(|error| Fault::NotExecuted(error.to_string()))?;
         let mut sources = Sources::default();
-        let read = describe::read(&mut sources, "random.ron", "random.ron", to_ron::to_ron(pipeline));
+        let read = language::read(&mut sources, "random.ron", "random.ron", to_ron::to_ron(pipeline));
         let sources = Arc::new(sources);
-        let refused = |mistakes: Vec<Diagnostic>| Fault::Refused(vec![describe::render(&sources, &mistakes)]);
+        let refused = |mistakes: Vec<Diagnostic>| Fault::Refused(vec![base::render(&sources, &mistakes)]);
         let described = read.map_err(refused)?;
         let inputs = Inputs {
             set: &[],

@@ -1,8 +1,7 @@
 //! What a random pipeline says: less than a pipeline file can, in a form that is easy to make, to evaluate and to shrink.
 
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Shape, StencilState};
-use framewright_graph::vocabulary::{Aspects, CompareOp, ResolveMode};
+use framewright_graph::frame::{Blend, StencilState};
+use framewright_graph::vulkan::{Aspects, CompareOp, Format, ResolveMode, Shape};
 
 /// Texels in x, y and z.
 pub type Extent = [u32; 3];

@@ -5,8 +5,8 @@ use super::pipeline::{
     Compute, Draw, Geometry, Image, Pass, Pipeline, Plane, Read, Region, SAMPLES, Store, StoreAccess, WORKGROUP, Work,
 };
 use super::{legal, texels};
-use framewright_graph::format::{Format, Numeric};
-use framewright_graph::frame::{Blend, ParamValue, Shape};
+use framewright_graph::frame::{Blend, ParamValue};
+use framewright_graph::vulkan::{Format, Numeric, Shape};
 use std::fmt::Write;
 
 /// A pass's shader and the values of its parameters.

@@ -2,7 +2,8 @@
 
 use super::legal;
 use super::pipeline::{Count, Draw, Geometry, Groups, Life, Pass, Pipeline, Work};
-use framewright_graph::frame::{Blend, Shape};
+use framewright_graph::frame::Blend;
+use framewright_graph::vulkan::Shape;
 
 /// How often a smaller pipeline is tried.
 const MOST_TRIES: u32 = 3000;

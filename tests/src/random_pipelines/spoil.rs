@@ -2,7 +2,7 @@
 
 use framewright_graph::frame::Blend;
 use framewright_graph::plan::{Initial, Pass, Plan, RenderScope, Role, Work};
-use framewright_graph::vocabulary::{CompareOp, FillValue, LoadOp, StencilOp};
+use framewright_graph::vulkan::{CompareOp, FillValue, LoadOp, StencilOp};
 
 /// What is spoiled, in the first place where it can be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

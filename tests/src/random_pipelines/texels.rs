@@ -4,9 +4,8 @@
 //! 32-bit float. All that is ever written can be represented exactly, averages of four samples included.
 
 use super::pipeline::{Image, Plane};
-use framewright_graph::format::{Format, Numeric};
 use framewright_graph::frame::Blend;
-use framewright_graph::vocabulary::{Aspects, FillValue, ResolveMode};
+use framewright_graph::vulkan::{Aspects, FillValue, Format, Numeric, ResolveMode};
 
 /// A texel's components.
 pub type Words = [u32; 4];

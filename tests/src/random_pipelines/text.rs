@@ -4,7 +4,8 @@ use super::legal;
 use super::pipeline::{
     Count, DepthTarget, Geometry, Groups, Life, Part, Pass, Pipeline, Plane, Read, Region, StoreAccess, Thing, Work,
 };
-use framewright_graph::frame::{Blend, Shape, StencilState};
+use framewright_graph::frame::{Blend, StencilState};
+use framewright_graph::vulkan::Shape;
 use std::fmt;
 
 impl fmt::Display for Pipeline {

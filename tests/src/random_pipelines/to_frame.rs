@@ -1,15 +1,13 @@
 //! A random pipeline as the frame that a pipeline file would have become.
 
-use super::legal;
 use super::pipeline::{
     self, Compute, Count, Draw, Geometry, Groups, Life, Part, Pass, Pipeline, Plane, Read, Region, StoreAccess, Thing,
     Work,
 };
-use super::{shader, texels};
-use framewright_graph::format::Format;
+use super::{legal, shader, texels};
+use framewright_graph::base::Span;
 use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Face, Frame, ImageIndex, Lifetime, Resource};
-use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Sampler, Stages, State, Subresources};
+use framewright_graph::vulkan::{Accesses, FillValue, Filter, Format, Layout, Sampler, Stages, State, Subresources};
 
 /// The frame that `pipeline` says.
 #[must_use]

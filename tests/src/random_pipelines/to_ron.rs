@@ -1,14 +1,12 @@
 //! A random pipeline as the text of a pipeline file.
 
-use super::legal;
 use super::pipeline::{
     Compute, Count, Draw, Geometry, Groups, Image, Life, Part, Pass, Pipeline, Plane, Read, Region, Store, StoreAccess,
     Thing, Work,
 };
-use super::{shader, texels, to_frame};
-use framewright_graph::format::Format;
-use framewright_graph::frame::{ParamValue, Shape, StencilState};
-use framewright_graph::vocabulary::{Aspects, FillValue, Layout, ResolveMode, Stages};
+use super::{legal, shader, texels, to_frame};
+use framewright_graph::frame::{ParamValue, StencilState};
+use framewright_graph::vulkan::{Aspects, FillValue, Format, Layout, ResolveMode, Shape, Stages};
 
 /// The pipeline file that says what `pipeline` says. Its shaders are those of [`shader::shader`].
 #[must_use]

@@ -1,6 +1,6 @@
 //! Texels, in 64 bits.
 
-use framewright_graph::vocabulary::Filter;
+use framewright_graph::vulkan::Filter;
 use framewright_passes::scene::{Texture, Wrap};
 use glam::DVec2;
 

@@ -1,15 +1,14 @@
 //! Plans built by hand, step by step.
 
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Groups, Shape};
+use framewright_graph::frame::{Groups, Stereo};
 use framewright_graph::plan::{
     Access, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap, Image, ImageBarrier, ImageId,
-    Initial, MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Sharing, Step, StepId, Subresources, Totals,
-    Wait, Work,
+    Initial, MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Step, StepId, Subresources, Totals, Wait,
+    Work,
 };
-use framewright_graph::rotation::Rotation;
-use framewright_graph::view::Stereo;
-use framewright_graph::vocabulary::{Accesses, FillValue, Filter, Layout, Sampler, Stages, State, Usage};
+use framewright_graph::vulkan::{
+    Accesses, FillValue, Filter, Format, Layout, Rotation, Sampler, Shape, Sharing, Stages, State, Usage,
+};
 
 pub(crate) const R: Accesses = Accesses::SHADER_SAMPLED_READ;
 pub(crate) const W: Accesses = Accesses::SHADER_STORAGE_WRITE;

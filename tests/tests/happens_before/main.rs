@@ -9,7 +9,7 @@ mod hand_written_plans;
 use Layout::{General, ShaderReadOnlyOptimal, TransferDstOptimal, Undefined};
 use build::{CS, NONE, R, W, access, barrier, dispatch, empty, memory, output, persistent, transient, wait};
 use framewright_graph::plan::{Plan, Queue, Step, Work};
-use framewright_graph::vocabulary::{Accesses, Layout, Stages};
+use framewright_graph::vulkan::{Accesses, Layout, Stages};
 use framewright_tests::happens_before::{Harm, Missing, judge};
 
 fn harms(plan: &Plan) -> Vec<Harm> {

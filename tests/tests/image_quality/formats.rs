@@ -1,8 +1,8 @@
 //! What the precision of colour and depth does to the picture, and to memory.
 
 use crate::{Set, picture, plan, shining_behind_glass};
-use framewright_graph::format::Format::{self, *};
 use framewright_graph::plan::Plan;
+use framewright_graph::vulkan::Format::{self, *};
 use std::error::Error;
 
 /// As the twin of nothing but the arithmetic: what a store of 5 or 6 bits of mantissa loses of a value, at most, over three

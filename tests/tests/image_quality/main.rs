@@ -61,9 +61,9 @@ mod pictures;
 mod plans;
 mod samples;
 
+use framewright_graph::base::Root;
 use framewright_graph::compile::Options;
 use framewright_graph::plan::{Image, Plan, Work};
-use framewright_graph::root::Root;
 use framewright_passes::draw::interface;
 use framewright_passes::scene::{AlphaMode, Material, Scene};
 use framewright_passes::shipped::SHADERS;

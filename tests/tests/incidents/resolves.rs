@@ -3,7 +3,7 @@
 use super::{attachments, bound, resolves, right, scopes};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{ImageIndex, Resource};
-use framewright_graph::vocabulary::{Aspects, ResolveMode, StoreOp};
+use framewright_graph::vulkan::{Aspects, ResolveMode, StoreOp};
 use framewright_tests::incidents::{depth_sampled, forward, prepass, scaled, two_versions, weighted};
 
 /// The pass that carried the resolve was skipped, and the screen was black.

@@ -1,13 +1,13 @@
 //! Orders that nobody looked at, graphs that were none, errors without a place, scenes too large.
 
 use super::right;
+use framewright_graph::base::{self, Sources};
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::describe;
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format::R8G8B8A8_UNORM;
 use framewright_graph::frame::ImageIndex;
+use framewright_graph::language;
 use framewright_graph::plan::{Plan, Work};
-use framewright_graph::source::Sources;
+use framewright_graph::vulkan::Format::R8G8B8A8_UNORM;
 use framewright_tests::frames::{Builder, device};
 use framewright_tests::happens_before::judge;
 use framewright_tests::incidents::diamond;
@@ -61,8 +61,8 @@ fn o3de_10413_each_mistake_is_said_once_and_with_its_place() {
                 outputs: [\"screen\"])";
     let mut sources = Sources::default();
     let mistakes =
-        describe::read(&mut sources, "bad.ron", "bad.ron", text.to_owned()).expect_err("`colour` is no image");
-    let shown = describe::render(&sources, &mistakes);
+        language::read(&mut sources, "bad.ron", "bad.ron", text.to_owned()).expect_err("`colour` is no image");
+    let shown = base::render(&sources, &mistakes);
     assert_eq!(mistakes.len(), 2, "{shown}");
     assert!(shown.contains("bad.ron:4:") && shown.contains("bad.ron:5:"), "{shown}");
 }
@@ -72,7 +72,7 @@ fn o3de_10413_each_mistake_is_said_once_and_with_its_place() {
 fn o3de_16359_a_bad_file_is_an_error_and_no_crash() {
     for text in ["", "Pipeline(", "Pipeline(version: 9)", "\u{0}", "Pipeline(version: 1, images: 7)"] {
         let mut sources = Sources::default();
-        assert!(describe::read(&mut sources, "bad.ron", "bad.ron", text.to_owned()).is_err(), "{text:?}");
+        assert!(language::read(&mut sources, "bad.ron", "bad.ron", text.to_owned()).is_err(), "{text:?}");
     }
 }
 

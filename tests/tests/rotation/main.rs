@@ -20,15 +20,14 @@ mod pictures;
 mod recorded;
 mod shaders;
 
+use framewright_graph::base::{self, Diagnostic, Sources};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::expand::{Facts, Inputs, expand};
-use framewright_graph::frame::Frame;
+use framewright_graph::frame::{Frame, Stereo};
+use framewright_graph::language;
 use framewright_graph::plan::Plan;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Sources;
 use framewright_graph::verify::verify;
-use framewright_graph::view::Stereo;
+use framewright_graph::vulkan::Rotation;
 use framewright_tests::render::{library, silent};
 use framewright_vulkan::{Device, DrawSource, Executor, ExecutorOptions, Texels};
 use std::error::Error;
@@ -43,9 +42,9 @@ const EXTENT: [u32; 2] = [97, 61];
 /// What is wrong with it, as people read it.
 fn planned(device: &Device, text: &str, rotation: Rotation) -> Result<Plan, String> {
     let mut sources = Sources::default();
-    let read = describe::read(&mut sources, "test.ron", "test.ron", text.to_owned());
+    let read = language::read(&mut sources, "test.ron", "test.ron", text.to_owned());
     let sources = Arc::new(sources);
-    let shown = |mistakes: Vec<Diagnostic>| describe::render(&sources, &mistakes);
+    let shown = |mistakes: Vec<Diagnostic>| base::render(&sources, &mistakes);
     let (set, facts) = (&[], Facts::UNKNOWN);
     let inputs = Inputs {
         set,

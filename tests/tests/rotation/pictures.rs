@@ -3,7 +3,7 @@
 use super::EXTENT;
 use framewright_graph::compile::Options;
 use framewright_graph::plan::{Plan, Resource};
-use framewright_graph::rotation::Rotation;
+use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::load;
 use framewright_tests::render::{Setup, device, draw_rotated, in_repository, silent};
 use framewright_vulkan::{Device, Texels};

@@ -2,8 +2,7 @@
 
 use super::{EXTENT, drawn, planned};
 use framewright_graph::frame::Draw;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::vocabulary::FillValue;
+use framewright_graph::vulkan::{FillValue, Rotation};
 use framewright_passes::draw::SceneDrawSource;
 use framewright_tests::render::device;
 use framewright_tests::shapes::{material, scene, square};

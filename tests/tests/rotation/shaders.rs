@@ -2,8 +2,8 @@
 
 use super::{EXTENT, drawn, floats, planned};
 use framewright_graph::frame::Draw;
-use framewright_graph::interface::{ShaderInterfaces, ShaderProblem, Unturned, Variant};
-use framewright_graph::rotation::Rotation;
+use framewright_graph::shader::{ShaderInterfaces, ShaderProblem, Unturned, Variant};
+use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::shipped::SHADERS;
 use framewright_tests::render::{device, library};

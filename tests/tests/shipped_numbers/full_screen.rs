@@ -3,7 +3,7 @@
 use super::pipeline::{Pipeline, own, params};
 use super::{demand_storable, draws_color, names, outputs};
 use framewright_graph::frame::Draw;
-use framewright_graph::interface::{BindingKind, ShaderInterface, ShaderInterfaces, Variant};
+use framewright_graph::shader::{BindingKind, ShaderInterface, ShaderInterfaces, Variant};
 use framewright_passes::shipped::SHADERS;
 use framewright_tests::render::library;
 use framewright_tests::shapes::empty_scene;

@@ -7,7 +7,7 @@ mod pipeline;
 mod scales;
 mod scenes;
 
-use framewright_graph::interface::ShaderInterface;
+use framewright_graph::shader::ShaderInterface;
 use framewright_passes::scene::Scene;
 use framewright_tests::render::{Setup, device, floats, in_repository, render};
 use std::error::Error;

@@ -1,6 +1,6 @@
 //! Pipelines for shaders of which nothing is known but their interface.
 
-use framewright_graph::interface::{Binding, BindingKind, FragmentOutput, PASS_SET, ShaderInterface};
+use framewright_graph::shader::{Binding, BindingKind, FragmentOutput, PASS_SET, ShaderInterface};
 use std::fmt::Write;
 
 /// Width and height of everything that is drawn: that of the image of `extremes.frag`.

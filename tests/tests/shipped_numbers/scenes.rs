@@ -5,7 +5,7 @@ use super::full_screen::full_screen;
 use super::pipeline::{Pipeline, own, params};
 use super::{demand_storable, draws_color, names, outputs};
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::interface::{BindingKind, ShaderInterface, ShaderInterfaces, Variant};
+use framewright_graph::shader::{BindingKind, ShaderInterface, ShaderInterfaces, Variant};
 use framewright_passes::scene::{AlphaMode, Scene, Sky, Sun};
 use framewright_tests::render::library;
 use framewright_tests::shapes::{material, scene, square};

@@ -1,7 +1,7 @@
 //! What is drawn for both eyes at once, pixel by pixel against one eye after the other.
 
 use super::{Case, EVEN, EXTENT, Pair, apart_within, at_once, drawn, form, shipped, upright};
-use framewright_graph::view::{EyeForm, Stereo};
+use framewright_graph::frame::{EyeForm, Stereo};
 use framewright_passes::draw::Eyes;
 use framewright_passes::scene::load;
 use framewright_tests::render::{device, in_repository};

@@ -1,9 +1,9 @@
 //! What two eyes see, held against what one sees that stands where they are.
 
 use super::{Case, EXTENT, apart, casters, drawn, shipped};
+use framewright_graph::frame::Stereo;
 use framewright_graph::plan::Plan;
-use framewright_graph::rotation::Rotation;
-use framewright_graph::view::Stereo;
+use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw::Eyes;
 use framewright_passes::scene::{Camera, PointLight, Scene, load};
 use framewright_tests::render::{Ways, device, in_repository};

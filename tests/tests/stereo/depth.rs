@@ -1,7 +1,7 @@
 //! Multisampled depth that is resolved with a layer for each eye.
 
 use super::{Case, EXTENT, apart, at_once, drawn, form, shipped, upright};
-use framewright_graph::view::{EyeForm, Stereo};
+use framewright_graph::frame::{EyeForm, Stereo};
 use framewright_passes::draw::Eyes;
 use framewright_passes::scene::load;
 use framewright_tests::render::{device, in_repository};

@@ -2,9 +2,8 @@
 
 use super::{Case, Drawn, EVEN, EXTENT, at_once, drawn, floats, form, read, rendered, upright};
 use framewright_graph::compile::Options;
-use framewright_graph::frame::Draw;
-use framewright_graph::view::{Eye, EyeForm, Stereo};
-use framewright_graph::vocabulary::FillValue;
+use framewright_graph::frame::{Draw, Eye, EyeForm, Stereo};
+use framewright_graph::vulkan::FillValue;
 use framewright_passes::draw::{Eyes, SceneDrawSource};
 use framewright_passes::scene::load;
 use framewright_tests::render::{Setup, device, in_repository, library, plan_for, silent};

@@ -47,10 +47,9 @@ mod packed;
 mod rotated;
 
 use framewright_graph::compile::Options;
-use framewright_graph::frame::Draw;
+use framewright_graph::frame::{Draw, Eye, EyeForm, Stereo};
 use framewright_graph::plan::{Pass, Plan, Resource, Work};
-use framewright_graph::rotation::Rotation;
-use framewright_graph::view::{Eye, EyeForm, Stereo};
+use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw::{Eyes, SceneDrawSource};
 use framewright_passes::scene::Scene;
 use framewright_tests::render::{Setup, Ways, library, plan_for, silent};

@@ -2,10 +2,9 @@
 
 use super::{Case, Drawn, EXTENT, apart_within, at_once, casters, drawn, form, read, rendered, shipped, upright};
 use framewright_graph::compile::Options;
+use framewright_graph::frame::{EyeForm, Stereo};
 use framewright_graph::plan::{Image, Plan};
-use framewright_graph::rotation::Rotation;
-use framewright_graph::view::{EyeForm, Stereo};
-use framewright_graph::vocabulary::Aspects;
+use framewright_graph::vulkan::{Aspects, Rotation};
 use framewright_passes::draw::{Eyes, SceneDrawSource};
 use framewright_passes::scene::{Scene, load};
 use framewright_tests::render::{Setup, Ways, device, in_repository, library, plan_for, silent};

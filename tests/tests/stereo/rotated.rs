@@ -1,8 +1,8 @@
 //! Both eyes' pictures on a rotated screen.
 
 use super::{Case, EVEN, EXTENT, apart, apart_within, at_once, cameras, drawn, form, shipped};
-use framewright_graph::rotation::Rotation;
-use framewright_graph::view::{EyeForm, Stereo};
+use framewright_graph::frame::{EyeForm, Stereo};
+use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw::Eyes;
 use framewright_passes::scene::load;
 use framewright_tests::render::{Ways, device, in_repository};

@@ -3,9 +3,8 @@
 use super::TRANSFER;
 use crate::compile::link::buffer_access;
 use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
-use crate::format::Format;
 use crate::frame::{Blend, BufferRole, BufferUse, ColorTarget, Resource, Sampled, Storage, TransferUse, Work};
-use crate::vocabulary::{Accesses, Aspects, Layout, Stages};
+use crate::vulkan::{Accesses, Aspects, Format, Layout, Stages};
 
 const DEPTH_TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
 

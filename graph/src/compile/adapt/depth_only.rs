@@ -2,12 +2,10 @@
 //! depth. It neither reads nor touches the multisampled depth.
 
 use super::{Adapter, access};
+use crate::base::{Diagnostic, Span};
 use crate::compile::model::{OpKind, Role, Start, StoreIndex, Use};
-use crate::describe::Diagnostic;
-use crate::frame::{Draw, ImageIndex, Work};
-use crate::source::Span;
-use crate::view::ViewIndex;
-use crate::vocabulary::{Aspects, Subresources};
+use crate::frame::{Draw, ImageIndex, ViewIndex, Work};
+use crate::vulkan::{Aspects, Subresources};
 use std::sync::Arc;
 
 /// Why depth can't be drawn again.

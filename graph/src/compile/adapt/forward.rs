@@ -1,14 +1,13 @@
 //! Passes that are off: their target takes what another image holds.
 
 use super::{Adapter, access};
+use crate::base::Diagnostic;
 use crate::compile::cull::Live;
 use crate::compile::model::{OpKind, StoreIndex, Use};
 use crate::compile::parts::outlives;
-use crate::describe::Diagnostic;
 use crate::device::ImageDescriptor;
 use crate::frame::{Frame, Image, ImageIndex, Pass, Resource, Work};
-use crate::rotation::Rotation;
-use crate::vocabulary::Filter;
+use crate::vulkan::{Filter, Rotation};
 
 /// For each image of the frame the last pass that stays and touches it, and the last that writes it.
 #[derive(Debug, Default)]

@@ -4,17 +4,14 @@
 //! `depth_only`), or it is resolved, by the scope that drew it where the device has the mode, else by a draw.
 
 use super::{Adapter, access};
+use crate::base::{Diagnostic, Span};
 use crate::compile::model::{OpKind, ResolveShader, StoreIndex, Use};
 use crate::compile::samples::drawn_together;
 use crate::compile::{link, parts};
-use crate::describe::Diagnostic;
 use crate::device::Profile;
-use crate::frame::{Face, Frame, ImageIndex, Resolve, ResolveWay, Resource, Work};
+use crate::frame::{EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource, Work};
 use crate::plan::Inserted;
-use crate::plan::names::vulkan;
-use crate::source::Span;
-use crate::view::EyeForm;
-use crate::vocabulary::{Aspects, ResolveMode, Subresources};
+use crate::vulkan::{Aspects, ResolveMode, Subresources, name_of};
 
 impl Adapter<'_> {
     /// The single-sample copy of an image's current version, for a pass that samples it.
@@ -220,7 +217,7 @@ impl Adapter<'_> {
 /// Why a device doesn't resolve depth so, if it doesn't: of one layer, or of several at once.
 fn lacks(device: &Profile, mode: ResolveMode, layered: bool) -> Option<String> {
     let claims = |of: &str, tested: &str| {
-        let mode = vulkan(&mode);
+        let mode = name_of(&mode);
         Some(format!("`{}` claims to resolve depth{of} by {mode}, and {tested}", device.name))
     };
     let refuted = "a test showed that it doesn't";
@@ -236,7 +233,7 @@ fn lacks(device: &Profile, mode: ResolveMode, layered: bool) -> Option<String> {
     if device.depth_resolve.contains(&mode) {
         return None;
     }
-    let has: Vec<String> = device.depth_resolve.iter().map(vulkan).collect();
+    let has: Vec<String> = device.depth_resolve.iter().map(name_of).collect();
     let has = if has.is_empty() { "not at all".to_owned() } else { format!("by {} only", has.join(", ")) };
     Some(format!("`{}` resolves depth {has}", device.name))
 }

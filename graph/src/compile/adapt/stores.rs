@@ -4,9 +4,8 @@ use super::{Adapter, copies_samples};
 use crate::compile::model::{Home, Kind, Store, StoreIndex, Use};
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
-use crate::plan::{Inserted, Sharing};
-use crate::rotation::Rotation;
-use crate::vocabulary::{BufferUsage, FillValue, Usage};
+use crate::plan::Inserted;
+use crate::vulkan::{BufferUsage, FillValue, Rotation, Sharing, Usage};
 use std::collections::HashMap;
 use std::sync::Arc;
 

@@ -2,10 +2,9 @@
 
 use crate::frame::{
     Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, ParamValue, Pass, Sampled, StencilState, Storage,
-    Work,
+    View, Work,
 };
-use crate::view::View;
-use crate::vocabulary::FillValue;
+use crate::vulkan::FillValue;
 use std::sync::Arc;
 
 /// How much two frames differ.

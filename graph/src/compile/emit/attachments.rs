@@ -5,7 +5,7 @@ use crate::compile::model::{OpKind, Role};
 use crate::compile::retain::{AttachmentOps, Next};
 use crate::compile::scope::{Scope, Target, op_name};
 use crate::plan::{Attachment, AttachmentResolve, ImageId, Pass, RenderScope};
-use crate::vocabulary::{Layout, LoadOp, StoreOp};
+use crate::vulkan::{Layout, LoadOp, StoreOp};
 
 pub(super) fn scope(parts: &Parts<'_>, scope: &Scope, step: u32) -> RenderScope {
     let (extent, layers, samples) = shape(parts, scope);

@@ -5,7 +5,7 @@ use crate::compile::batch::Batched;
 use crate::compile::parts::join;
 use crate::compile::synchronise::{NEVER, Pending};
 use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId, Subresources};
-use crate::vocabulary::Accesses;
+use crate::vulkan::Accesses;
 
 /// Hands out the barriers step by step.
 pub(super) struct Barriers<'p, 'a> {

@@ -1,10 +1,9 @@
 //! What leaves the frame, and where it gets its encoding.
 
 use super::{Parts, resource};
-use crate::encoding::Encoding;
-use crate::format::{Format, Numeric};
 use crate::frame::{Frame, ImageIndex, Pass, Resource as Declared, Work};
 use crate::plan::Output;
+use crate::vulkan::{Encoding, Format, Numeric};
 
 /// The outputs in the frame's order.
 pub(super) fn outputs(parts: &Parts<'_>) -> Vec<Output> {

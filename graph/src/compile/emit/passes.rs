@@ -3,14 +3,12 @@
 use super::{Parts, cause, frame_work};
 use crate::compile::adapt::has_samples;
 use crate::compile::model::{Kind, Op, OpKind, ResolveShader, Role, Use};
-use crate::frame::{Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, Work as FrameWork};
-use crate::interface::{Component, Dimension, ImageShape};
+use crate::frame::{Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, ViewIndex, Work as FrameWork};
 use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
     Transfer, ViewId, Work,
 };
-use crate::view::ViewIndex;
-use crate::vocabulary::{CompareOp, Filter, ResolveMode, Sampler};
+use crate::vulkan::{CompareOp, Component, Dimension, Filter, ImageShape, ResolveMode, Sampler};
 use std::sync::Arc;
 
 /// The shader that draws one image into another. What the compiler inserts is drawn by shipped shaders, whatever files of

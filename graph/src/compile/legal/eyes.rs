@@ -1,9 +1,8 @@
 //! What holds both eyes' parts is used for both eyes at once.
 
-use crate::describe::Diagnostic;
-use crate::frame::{Frame, Image, ImageIndex, Pass, Resource, Shape, Work};
-use crate::source::Span;
-use crate::view::{EyeForm, Stereo};
+use crate::base::{Diagnostic, Span};
+use crate::frame::{EyeForm, Frame, Image, ImageIndex, Pass, Resource, Stereo, Work};
+use crate::vulkan::Shape;
 use std::collections::HashSet;
 
 /// Why an image can't hold both eyes' parts as it says.

@@ -1,12 +1,9 @@
 //! How long contents live: from which values they start, how far back they are kept, in which states they come and go.
 
-use crate::describe::Diagnostic;
-use crate::format::Format;
-use crate::frame::{Frame, Lifetime, Pass, Resource, Work};
-use crate::source::Span;
-use crate::states::{Subject, When, contradiction};
-use crate::texture::{TextureFile, format_problem};
-use crate::vocabulary::{FillValue, Layout, State};
+use crate::base::{Diagnostic, Span};
+use crate::frame::{Frame, Lifetime, Pass, Resource, TextureFile, Work, format_problem};
+use crate::vulkan::states::{Subject, When, contradiction};
+use crate::vulkan::{FillValue, Format, Layout, State};
 
 /// Most frames that history goes back: what a checker of the Plan can follow around.
 const MOST_HISTORY: u32 = 32;

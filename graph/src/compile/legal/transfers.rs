@@ -3,9 +3,8 @@
 use super::Check;
 use super::lifetimes::value_problem;
 use crate::compile::parts;
-use crate::format::Format;
 use crate::frame::{Image, Resource, TransferUse, Work};
-use crate::vocabulary::{Aspects, Subresources};
+use crate::vulkan::{Aspects, Format, Subresources};
 
 impl Check<'_> {
     pub(super) fn transfers(&mut self) {

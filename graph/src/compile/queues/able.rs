@@ -10,7 +10,7 @@ use crate::compile::scope::Step;
 use crate::device::Profile;
 use crate::frame::{Frame, Work};
 use crate::plan::Queue;
-use crate::vocabulary::Stages;
+use crate::vulkan::Stages;
 
 /// Why a step stays on graphics, whatever would run beside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

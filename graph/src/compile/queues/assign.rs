@@ -15,8 +15,8 @@ use crate::compile::parts::Grids;
 use crate::compile::scope::{Scoped, Step, op_name, store_name};
 use crate::device::Profile;
 use crate::frame::{Frame, Work};
-use crate::plan::{Note, Queue, Sharing, Stage};
-use crate::vocabulary::Layout;
+use crate::plan::{Note, Queue, Stage};
+use crate::vulkan::{Layout, Sharing};
 
 /// How often all windows are looked at: no frame that passes are written for takes more than a few rounds.
 const MOST_ROUNDS: u32 = 32;

@@ -9,7 +9,7 @@ use crate::compile::model::{Adapted, CellIndex, StoreIndex};
 use crate::compile::parts::Grids;
 use crate::compile::scope::{Scoped, Step};
 use crate::plan::Queue;
-use crate::vocabulary::Layout;
+use crate::vulkan::Layout;
 
 /// What was done to a cell last: a write, or reads in one layout.
 #[derive(Debug, Clone, Copy)]

@@ -6,7 +6,7 @@
 
 use super::{QUEUES, Steps};
 use crate::plan::{StepId, Wait};
-use crate::vocabulary::Stages;
+use crate::vulkan::Stages;
 
 /// What queues know, step by step. Steps of several frames are numbered in one row.
 #[derive(Debug, Clone)]

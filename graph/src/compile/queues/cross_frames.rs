@@ -7,7 +7,7 @@ use crate::compile::model::{Adapted, CellIndex, Kind, StoreIndex};
 use crate::compile::outlive::{States, cells, last_of_cycle, of_all_planes};
 use crate::compile::parts::Grids;
 use crate::compile::synchronise::{NEVER, Pending, Walked};
-use crate::vocabulary::{Accesses, Layout, Stages, State};
+use crate::vulkan::{Accesses, Layout, Stages, State};
 
 /// A step that comes after a step of another queue, in this frame or so many frames ago.
 #[derive(Debug, Clone, Copy)]

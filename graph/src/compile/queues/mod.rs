@@ -24,7 +24,7 @@ pub(super) use release::{HandOff, Release, releases};
 
 use super::model::{CellIndex, StoreIndex};
 use crate::plan::{Queue, Wait};
-use crate::vocabulary::{Accesses, Layout, Stages};
+use crate::vulkan::{Accesses, Layout, Stages};
 use clocks::Clocks;
 use cross_frames::Edge;
 

@@ -4,8 +4,8 @@ use super::assign::uses_of;
 use crate::compile::model::{Adapted, Use};
 use crate::compile::parts::Grids;
 use crate::compile::scope::Step;
-use crate::plan::{Queue, Sharing};
-use crate::vocabulary::Layout;
+use crate::plan::Queue;
+use crate::vulkan::{Layout, Sharing};
 
 /// What a walk in one direction knows of a cell: one more than the rank of the graphics step furthest along that what was
 /// done to it comes behind.

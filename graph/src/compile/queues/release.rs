@@ -5,7 +5,7 @@ use crate::compile::model::{Adapted, CellIndex, StoreIndex};
 use crate::compile::parts::{Grids, join};
 use crate::compile::synchronise::Pending;
 use crate::plan::{Hazard, ImageBarrier, ImageId, StepId};
-use crate::vocabulary::{Accesses, Stages};
+use crate::vulkan::{Accesses, Stages};
 
 /// A cell that one queue takes over from another one with its contents.
 #[derive(Debug, Clone, Copy)]

@@ -1,7 +1,7 @@
 //! An output that passes read becomes two images: one that stays upright and is read, and one that leaves the frame turned.
 
+use crate::base::Span;
 use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, Resource, Work};
-use crate::source::Span;
 use std::sync::Arc;
 
 /// The frame with an upright image in place of `image` up to where it is drawn anew, and not read after that; `None`: there is

@@ -1,9 +1,8 @@
 //! Which images are turned together, since they are drawn in the same passes.
 
-use crate::describe::Diagnostic;
-use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource, Shape, Work};
-use crate::rotation::Rotation;
-use crate::source::Span;
+use crate::base::{Diagnostic, Span};
+use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource, Work};
+use crate::vulkan::{Rotation, Shape};
 use std::collections::BTreeSet;
 
 /// Why an image can't be turned.

@@ -5,7 +5,7 @@ use super::runs::Runs;
 use super::touches::{Touch, Touches};
 use super::weighed::{Sums, Weighed, Weight};
 use crate::compile::model::Adapted;
-use crate::vocabulary::Layout;
+use crate::vulkan::Layout;
 
 /// The runs level by level; `None` if there is no level with more than one. What bytes decide goes into `weighed`, if that is
 /// to be kept.

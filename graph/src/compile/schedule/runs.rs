@@ -3,7 +3,7 @@
 use super::touches::{Touch, Touches};
 use crate::compile::model::{Adapted, Role, Start, Use};
 use crate::compile::parts::Grids;
-use crate::vocabulary::Layout;
+use crate::vulkan::Layout;
 
 /// No run.
 const NONE: u32 = u32::MAX;

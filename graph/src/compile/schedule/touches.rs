@@ -2,7 +2,7 @@
 
 use crate::compile::model::{Adapted, CellIndex};
 use crate::compile::parts::Grids;
-use crate::vocabulary::Layout;
+use crate::vulkan::Layout;
 
 /// What an operation does to a cell.
 #[derive(Debug, Clone, Copy)]

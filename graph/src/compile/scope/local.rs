@@ -6,7 +6,7 @@ use super::{Builder, Scope, Target, op_name};
 use crate::compile::model::{Adapted, OpKind, Role, Use};
 use crate::frame::{Frame, Sampled};
 use crate::plan::{Note, Stage};
-use crate::vocabulary::{Accesses, Layout, Stages};
+use crate::vulkan::{Accesses, Layout, Stages};
 
 /// What a use of a draw samples at each fragment's own position alone.
 fn own_pixel<'f>(frame: &'f Frame, adapted: &Adapted, op: u32, used: &Use) -> Option<&'f Sampled> {

@@ -3,7 +3,7 @@
 use super::{Scope, Target, colors_of, plane_of};
 use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
 use crate::device::Profile;
-use crate::view::EyeForm;
+use crate::frame::EyeForm;
 
 /// What comes of a scope and the pass after it.
 pub(super) enum Meeting {

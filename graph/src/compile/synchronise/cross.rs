@@ -7,7 +7,7 @@
 use super::{Cell, NEVER, Need, Pending, Walked, apply};
 use crate::compile::queues::{HandOff, QUEUES, Queues, Seen, Shared, Steps, Track};
 use crate::plan::Hazard;
-use crate::vocabulary::{Accesses, Layout, Stages};
+use crate::vulkan::{Accesses, Layout, Stages};
 
 /// Puts waits and barriers before what one step needs. `lasts`: it is one of the frame's own, not what is promised.
 pub(super) fn step(walked: &mut Walked, needs: &[Need], step: u32, lasts: bool) {

@@ -4,13 +4,12 @@
 //! otherwise than by sampling, is an image for each eye; so is all that is drawn from such an image, and beside it.
 
 use super::For;
-use crate::describe::{
+use crate::frame::{EyeForm, ImageIndex, Stereo};
+use crate::language::{
     Draw, Image, ImagePart, ImageShape, Layers, Lifetime, Mips, Part, Pass, Pipeline, Sample, StandIn, Storage,
     StorageAccess, Work,
 };
-use crate::frame::ImageIndex;
-use crate::view::{EyeForm, Stereo};
-use crate::vocabulary::AddressMode;
+use crate::vulkan::AddressMode;
 
 /// By image that each eye has of its own why it isn't one for both; `None`: it is, or both eyes share it.
 pub(super) struct Apart {

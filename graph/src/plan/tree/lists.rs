@@ -1,13 +1,11 @@
 //! What a Plan lists beside its steps: views, images, buffers, outputs, notes and totals.
 
 use super::words::{bytes, cause, count, fill_value, place, samples, size};
-use crate::encoding::Encoding;
-use crate::jitter::Jitter;
-use crate::plan::names::{Shown, vulkan};
+use crate::frame::{Allowances, ColorSpace, EyeForm, Jitter};
+use crate::plan::names::Shown;
 use crate::plan::outline::Node;
 use crate::plan::{Buffer, ChosenFormat, Image, Initial, Note, Output, Plan, Resource, Role, Totals, View, ViewEye};
-use crate::texture::ColorSpace;
-use crate::view::{Allowances, EyeForm};
+use crate::vulkan::{Encoding, name_of};
 
 pub(super) fn view(view: &View) -> Node {
     let [width, height] = view.extent;
@@ -100,7 +98,7 @@ pub(super) fn output(plan: &Plan, output: &Output) -> Option<Node> {
     };
     let (Role::External { after, .. } | Role::Persistent { after, .. }) = role else { return None };
     let name = Shown(plan.resource_name(resource));
-    let [layout, stages, accesses] = [vulkan(&after.layout), vulkan(&after.stages), vulkan(&after.accesses)];
+    let [layout, stages, accesses] = [name_of(&after.layout), name_of(&after.stages), name_of(&after.accesses)];
     let encoded = output.encoding.map_or_else(String::new, |encoding| {
         let by = output.encoded.as_deref().unwrap_or("");
         match encoding {
@@ -117,7 +115,7 @@ pub(super) fn output(plan: &Plan, output: &Output) -> Option<Node> {
 }
 
 pub(super) fn note(note: &Note) -> Node {
-    let text = format!("{} `{}`: {}{}", vulkan(&note.stage), Shown(&note.subject), Shown(&note.text), place(&note.at));
+    let text = format!("{} `{}`: {}{}", name_of(&note.stage), Shown(&note.subject), Shown(&note.text), place(&note.at));
     Node::leaf(text)
 }
 

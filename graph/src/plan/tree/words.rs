@@ -1,12 +1,12 @@
 //! Single things in words.
 
-pub(super) use crate::amount::bytes;
+pub(super) use crate::base::amount::bytes;
 
+use crate::base::Place;
 use crate::frame::{Cascade, DrawList};
-use crate::plan::names::{Shown, vulkan};
+use crate::plan::names::Shown;
 use crate::plan::{Cause, Hazard, StepId};
-use crate::source::Place;
-use crate::vocabulary::{AddressMode, FillValue, Filter, Sampler};
+use crate::vulkan::{AddressMode, FillValue, Filter, Sampler, name_of};
 
 /// Who does what, after what.
 pub(super) fn hazard(who: &str, hazard: Hazard, after: Option<StepId>) -> String {
@@ -37,12 +37,12 @@ pub(super) fn words_of_cascade(cascade: Cascade) -> String {
 
 /// A sampler, without what is usual.
 pub(super) fn words_of(sampler: &Sampler) -> String {
-    let mut words = vulkan(&sampler.filter);
+    let mut words = name_of(&sampler.filter);
     if sampler.mips == Filter::Linear {
         words += ", between mip levels too";
     }
     if sampler.address != AddressMode::default() {
-        words += &format!(", {}", vulkan(&sampler.address));
+        words += &format!(", {}", name_of(&sampler.address));
     }
     words
 }

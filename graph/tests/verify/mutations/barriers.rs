@@ -2,7 +2,7 @@
 
 use super::{Mutant, UNCHANGED, catch_all, mutants, nth};
 use framewright_graph::plan::{Plan, Step, Work};
-use framewright_graph::vocabulary::{Accesses, Layout, Stages};
+use framewright_graph::vulkan::{Accesses, Layout, Stages};
 
 const LAYOUTS: [Layout; 14] = [
     Layout::Undefined,

@@ -3,7 +3,7 @@
 use super::{Mutant, UNCHANGED, catch_all, mutants};
 use crate::hand_written_plans::placed;
 use framewright_graph::plan::{Attachment, Placement, Plan, Role, Work};
-use framewright_graph::vocabulary::{LoadOp, StoreOp};
+use framewright_graph::vulkan::{LoadOp, StoreOp};
 use std::sync::Arc;
 
 /// The roles of all images, then those of all buffers.

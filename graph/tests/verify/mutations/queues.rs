@@ -4,7 +4,7 @@ use super::{Mutant, UNCHANGED, catch_all, mutants, nth};
 use crate::hand_written_plans::{self, recount};
 use framewright_graph::plan::{Plan, Queue, Role, StepId, Subresources};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Accesses, Layout, Stages, State};
+use framewright_graph::vulkan::{Accesses, Layout, Stages, State};
 
 fn without_a_wait(plan: &Plan) -> Vec<Mutant> {
     mutants(plan, |plan, place| {
@@ -191,7 +191,7 @@ fn waits_that_lead_nowhere_are_said() {
 #[test]
 fn an_exclusive_buffer_on_two_queues_is_caught() {
     let mut plan = plan("two queues");
-    plan.buffers[1].sharing = framewright_graph::plan::Sharing::Exclusive;
+    plan.buffers[1].sharing = framewright_graph::vulkan::Sharing::Exclusive;
     let said = said(&mut plan);
     let expected = "step 2 `blur`: `lights` (bytes 0–512): used on COMPUTE, but it belongs to GRAPHICS since step 1 \
                     `scene` and isn't handed over";

@@ -4,7 +4,7 @@ use super::document::{Document, SparsePart, follow};
 use super::external::External;
 use super::problem::{GltfError, Problem};
 use crate::scene::limits;
-use framewright_graph::root::Root;
+use framewright_graph::base::Root;
 use std::cell::OnceCell;
 
 /// The document with its data.

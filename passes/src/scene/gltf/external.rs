@@ -5,8 +5,7 @@ use crate::scene::limits;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
-use framewright_graph::file_path::FilePath;
-use framewright_graph::root::{NoFile, Root};
+use framewright_graph::base::{FilePath, NoFile, Root};
 use percent_encoding::percent_decode_str;
 use std::cell::Cell;
 

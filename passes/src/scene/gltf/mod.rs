@@ -35,7 +35,7 @@ pub use problem::{GltfError, Problem};
 use super::{Bounds, Camera, Material, Mesh, Movement, NamedCamera, Notes, Object, Scene, defaults, limits};
 use accessor::Data;
 use document::{Document, follow};
-use framewright_graph::root::Root;
+use framewright_graph::base::Root;
 use glam::{DMat4, DVec3};
 use nodes::Placed;
 use picture::Textures;

@@ -4,7 +4,7 @@ use super::accessor::Data;
 use super::document::{self, follow};
 use super::problem::{GltfError, Problem};
 use crate::scene::{Sampler, Texture, Wrap, limits};
-use framewright_graph::vocabulary::Filter;
+use framewright_graph::vulkan::Filter;
 use image::{DynamicImage, ImageFormat, ImageReader};
 use std::borrow::Cow;
 use std::collections::HashMap;

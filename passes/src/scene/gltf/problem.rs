@@ -1,6 +1,6 @@
 //! What can be wrong with a glTF file.
 
-use framewright_graph::root::NoFile;
+use framewright_graph::base::NoFile;
 use std::fmt;
 
 /// A mistake in a glTF file. Written `accessor 3: …`.

@@ -3,8 +3,8 @@
 use super::values::{color, counts, number, web_color};
 use crate::scene::pattern::{MOST_CELLS, Pattern, PatternKind};
 use crate::scene::{AlphaMode, Material, Texture, limits};
-use framewright_graph::describe::text::{Leaf, Reader};
 use framewright_graph::fields;
+use framewright_graph::ron::{Leaf, Reader};
 
 fields! {
     pub(super) struct MaterialFields<'s> {

@@ -42,10 +42,9 @@ mod objects;
 mod values;
 
 use super::{Camera, NamedCamera, PointLight, Scene, Sky, Sun, defaults, limits};
-use framewright_graph::describe::text::{Leaf, Names, Reader, Tree};
-use framewright_graph::describe::{Diagnostic, Name};
+use framewright_graph::base::{Diagnostic, Sources, Span};
 use framewright_graph::fields;
-use framewright_graph::source::{Sources, Span};
+use framewright_graph::ron::{Leaf, Name, Names, Reader, Tree};
 use glam::DVec3;
 use materials::{MaterialFields, Patterns};
 use objects::Objects;

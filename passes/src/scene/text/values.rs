@@ -2,7 +2,7 @@
 
 use crate::scene::material::decode_srgb;
 use crate::scene::{Movement, limits};
-use framewright_graph::describe::text::{Leaf, Reader, Shape};
+use framewright_graph::ron::{Leaf, Reader, Shape};
 use glam::DVec3;
 
 /// A number from `least` to `most`, both included.

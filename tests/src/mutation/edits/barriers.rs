@@ -3,7 +3,7 @@
 use super::Edit;
 use crate::mutation::Kind;
 use framewright_graph::plan::{ImageBarrier, Plan, Step, Subresources};
-use framewright_graph::vocabulary::{Aspects, Layout};
+use framewright_graph::vulkan::{Aspects, Layout};
 
 /// Everything around the work of a step.
 pub(super) fn of_step(plan: &Plan, number: usize, step: &Step, edits: &mut Vec<Edit>) {

@@ -6,7 +6,7 @@ use crate::mutation::Kind;
 use framewright_graph::plan::{
     Access, Attachment, Cause, ImageId, Pass, Placement, Plan, Queue, Role, Side, Step, StepId, Transfer, Work,
 };
-use framewright_graph::vocabulary::{Layout, LoadOp, StoreOp};
+use framewright_graph::vulkan::{Layout, LoadOp, StoreOp};
 
 /// Everything about the work of a step.
 pub(super) fn of_step(plan: &Plan, number: usize, step: &Step, edits: &mut Vec<Edit>) {

@@ -5,12 +5,11 @@ use crate::random_pipelines::allowed::{Allowed, Kind};
 use crate::random_pipelines::legal::size;
 use crate::random_pipelines::pipeline::{Buffer, Contents, Image, Life, SAMPLES};
 use crate::random_pipelines::rng::Rng;
-use framewright_graph::format::Format::{
+use framewright_graph::vulkan::Format::{
     D32_SFLOAT, D32_SFLOAT_S8_UINT, R8_UINT, R8G8B8A8_UINT, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT, R32_SFLOAT, R32_UINT,
     R32G32B32A32_UINT,
 };
-use framewright_graph::frame::Shape;
-use framewright_graph::vocabulary::ResolveMode;
+use framewright_graph::vulkan::{ResolveMode, Shape};
 
 pub(super) fn images(rng: &mut Rng, passes: u32, allowed: &Allowed) -> Vec<Image> {
     let [width, height] = rng.of([[8, 8], [16, 8], [12, 20], [24, 16], [40, 24]]);

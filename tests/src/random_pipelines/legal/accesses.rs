@@ -5,7 +5,7 @@ use crate::random_pipelines::pipeline::{
     Work,
 };
 use framewright_graph::frame::Blend;
-use framewright_graph::vocabulary::{CompareOp, StencilOp};
+use framewright_graph::vulkan::{CompareOp, StencilOp};
 
 /// How a pass accesses a part of an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

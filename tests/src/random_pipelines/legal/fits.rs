@@ -7,9 +7,8 @@ use crate::random_pipelines::pipeline::{
     Store, StoreAccess, TRIANGLES, Thing, WORKGROUP, Work,
 };
 use crate::random_pipelines::texels;
-use framewright_graph::format::{Format, Numeric};
-use framewright_graph::frame::{Blend, Shape};
-use framewright_graph::vocabulary::Aspects;
+use framewright_graph::frame::Blend;
+use framewright_graph::vulkan::{Aspects, Format, Numeric, Shape};
 
 /// Whether what a pass does fits what it names, whatever stands there.
 pub(super) fn fits(written: &Written, pipeline: &Pipeline, pass: &Pass) -> bool {

@@ -4,9 +4,8 @@ use super::{Evaluator, shade};
 use crate::random_pipelines::hash::{Quarter, hash};
 use crate::random_pipelines::pipeline::{Count, DepthTarget, Draw, Geometry, Part, Plane, Target};
 use crate::random_pipelines::texels::{self, Words};
-use framewright_graph::format::Format;
 use framewright_graph::frame::Blend;
-use framewright_graph::vocabulary::{CompareOp, StencilOp};
+use framewright_graph::vulkan::{CompareOp, Format, StencilOp};
 
 /// One triangle: `None` covers all at depth 0.
 type Triangle = Option<(Quarter, u32)>;

@@ -5,8 +5,8 @@ use crate::random_pipelines::hash::{hash, hash_all, hashes};
 use crate::random_pipelines::legal::size;
 use crate::random_pipelines::pipeline::{Extent, Part, Read, SAMPLES};
 use crate::random_pipelines::texels::{self, Words};
-use framewright_graph::format::Format;
 use framewright_graph::frame::Blend;
+use framewright_graph::vulkan::Format;
 
 /// The hash at a position before anything is read.
 pub(super) fn start(pass: u32, at: Extent) -> u32 {

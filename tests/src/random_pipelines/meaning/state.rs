@@ -3,7 +3,8 @@
 use super::super::hash::hash_all;
 use super::super::pipeline::{Buffer, Extent, Image, Life, Pipeline};
 use super::super::texels::{self, Words};
-use framewright_graph::frame::{Blend, Shape};
+use framewright_graph::frame::Blend;
+use framewright_graph::vulkan::Shape;
 use std::sync::Arc;
 
 /// One sample of a texel.

@@ -1,0 +1,124 @@
+//! What is wrong with a file, where, and what to do about it.
+
+use super::Span;
+use super::shorten::bounded;
+use std::ops::Range;
+
+/// At most this many mistakes are kept of what is read or made at once; the first ones say what is wrong with most files.
+pub(crate) const MOST_KEPT: usize = 256;
+
+/// Adds a mistake, unless [`MOST_KEPT`] are kept already.
+pub(crate) fn keep(errors: &mut Vec<Diagnostic>, mistake: Diagnostic) {
+    if errors.len() < MOST_KEPT {
+        errors.push(mistake);
+    }
+}
+
+/// One mistake.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// What is wrong and what was expected, in one sentence without final stop. Not yet escaped.
+    pub message: String,
+    /// Where: the first is the primary place. May be empty when no file is involved.
+    pub labels: Vec<Label>,
+    /// Lines of other files that it is about.
+    pub quotes: Vec<Quote>,
+    /// What to do.
+    pub help: Option<String>,
+    /// What can be chosen otherwise outside of all files.
+    pub choice: Option<OutsideChoice>,
+}
+
+/// A choice that is made when a program is run, in no file, and that may mend a mistake. Messages don't name a program's option
+/// for it: a program that has one adds its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OutsideChoice {
+    /// The folder from which files may be read.
+    Root,
+    /// Extensions that are applied to a pipeline which doesn't name them.
+    Extensions,
+    /// The size of the output.
+    OutputSize,
+    /// How long compiling a stage of a shader may take.
+    ShaderTime,
+    /// How much memory that may take.
+    ShaderMemory,
+    /// How much stack that may take.
+    ShaderStack,
+}
+
+/// A place with a remark.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Label {
+    /// Where.
+    pub span: Span,
+    /// The remark; may be empty.
+    pub text: String,
+}
+
+/// A line of a file that is no part of the pipeline's own text, with a remark: what a shader's compiler complains of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Quote {
+    /// The file's name, as it is shown.
+    pub file: String,
+    /// The line's number, from 1.
+    pub line: u32,
+    /// The line.
+    pub text: String,
+    /// The bytes of it that the remark is about.
+    pub underlined: Range<usize>,
+    /// The remark; may be empty.
+    pub remark: String,
+}
+
+impl Diagnostic {
+    /// A mistake that stands in no file.
+    #[must_use]
+    pub fn nowhere(message: impl Into<String>) -> Diagnostic {
+        Diagnostic { message: short(message.into()), ..Diagnostic::default() }
+    }
+
+    /// A mistake at `span`.
+    #[must_use]
+    pub fn new(span: Span, message: impl Into<String>) -> Diagnostic {
+        Diagnostic { labels: vec![Label { span, text: String::new() }], ..Diagnostic::nowhere(message) }
+    }
+
+    /// With a remark at the primary place.
+    #[must_use]
+    pub fn remark(mut self, text: impl Into<String>) -> Diagnostic {
+        if let Some(label) = self.labels.first_mut() {
+            label.text = short(text.into());
+        }
+        self
+    }
+
+    /// With another place.
+    #[must_use]
+    pub fn label(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
+        self.labels.push(Label { span, text: short(text.into()) });
+        self
+    }
+
+    /// With what can be chosen otherwise outside of all files.
+    #[must_use]
+    pub fn choice(mut self, choice: OutsideChoice) -> Diagnostic {
+        self.choice = Some(choice);
+        self
+    }
+
+    /// With what to do.
+    #[must_use]
+    pub fn help(mut self, text: impl Into<String>) -> Diagnostic {
+        self.help = Some(short(text.into()));
+        self
+    }
+}
+
+/// A text as it is kept: what it repeats of a file is bounded.
+fn short(text: String) -> String {
+    match bounded(&text) {
+        std::borrow::Cow::Borrowed(_) => text,
+        std::borrow::Cow::Owned(shorter) => shorter,
+    }
+}

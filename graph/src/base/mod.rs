@@ -1,0 +1,26 @@
+//! What everything else is written with: places in source text, mistakes and how they are shown, near names, numbers, paths.
+
+pub mod amount;
+mod diagnostic;
+mod file_path;
+mod json;
+mod near_names;
+mod number;
+mod read_files;
+mod render;
+mod root;
+mod shorten;
+mod source;
+
+pub use diagnostic::{Diagnostic, Label, OutsideChoice, Quote};
+pub(crate) use diagnostic::{MOST_KEPT, keep};
+pub use file_path::*;
+pub use json::to_json;
+pub(crate) use near_names::without_quotes;
+pub use near_names::{nearest, suggestion};
+pub(crate) use number::shown_number;
+pub use read_files::ReadFiles;
+pub use render::{escape, render};
+pub use root::{NoFile, Root};
+pub(crate) use shorten::enumerated;
+pub use source::{Place, SourceFile, Sources, Span};

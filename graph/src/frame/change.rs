@@ -1,0 +1,148 @@
+//! What files did to the pipeline that they extend.
+
+use crate::base::Span;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Something that a file did to a pipeline.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Action {
+    /// It begins with what another pipeline says.
+    Extends {
+        /// The path of that one's file, from the folder of the pipeline on.
+        file: Arc<str>,
+    },
+    /// It takes what an extension says.
+    Extension {
+        /// The path of the extension's file, from the folder of the pipeline on.
+        file: Arc<str>,
+    },
+    /// It adds to a list.
+    Add {
+        /// What kind of thing.
+        of: Kind,
+        /// Their names.
+        names: Vec<Arc<str>>,
+    },
+    /// It gives fields other values, or takes fields away.
+    Set {
+        /// What kind of thing.
+        of: Kind,
+        /// Its name.
+        name: Arc<str>,
+        /// Fields that it gives values.
+        fields: Vec<Arc<str>>,
+        /// Fields that it takes away.
+        without: Vec<Arc<str>>,
+    },
+    /// It removes something.
+    Remove {
+        /// What kind of thing.
+        of: Kind,
+        /// Its name.
+        name: Arc<str>,
+    },
+    /// It puts passes, uses of fragments and anchors between those that are there.
+    Insert {
+        /// Where.
+        place: Where,
+        /// Their names.
+        names: Vec<Arc<str>>,
+    },
+    /// It names other outputs in place of all that there were.
+    Outputs {
+        /// Their names.
+        names: Vec<Arc<str>>,
+    },
+}
+
+/// What a pipeline's lists hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// A setting.
+    Setting,
+    /// A preset.
+    Preset,
+    /// A view.
+    View,
+    /// A fragment.
+    Fragment,
+    /// A texture.
+    Texture,
+    /// An image.
+    Image,
+    /// A buffer.
+    Buffer,
+    /// A pass, or a use of a fragment.
+    Pass,
+    /// An output.
+    Output,
+}
+
+impl Kind {
+    /// What it is called.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Kind::Setting => "setting",
+            Kind::Preset => "preset",
+            Kind::View => "view",
+            Kind::Fragment => "fragment",
+            Kind::Texture => "texture",
+            Kind::Image => "image",
+            Kind::Buffer => "buffer",
+            Kind::Pass => "pass",
+            Kind::Output => "output",
+        }
+    }
+
+    /// What several are called.
+    #[must_use]
+    pub const fn plural(self) -> &'static str {
+        match self {
+            Kind::Setting => "settings",
+            Kind::Preset => "presets",
+            Kind::View => "views",
+            Kind::Fragment => "fragments",
+            Kind::Texture => "textures",
+            Kind::Image => "images",
+            Kind::Buffer => "buffers",
+            Kind::Pass => "passes",
+            Kind::Output => "outputs",
+        }
+    }
+}
+
+/// Where passes are inserted.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Where {
+    /// Before all others.
+    Start,
+    /// Before the pass of that name.
+    Before(Arc<str>),
+    /// After the pass of that name.
+    After(Arc<str>),
+    /// At the anchor of that name.
+    At(Arc<str>),
+    /// After all others.
+    End,
+}
+
+/// Something that a file did to a pipeline, and where it says so.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Change {
+    /// Where.
+    pub span: Span,
+    /// What.
+    pub action: Action,
+}
+
+impl Change {
+    /// Whether it removes something of this kind.
+    pub(crate) fn removes(&self, kind: Kind) -> bool {
+        matches!(self.action, Action::Remove { of, .. } if of == kind)
+    }
+}

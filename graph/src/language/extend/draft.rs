@@ -1,0 +1,147 @@
+//! What a pipeline says while files add to it and change it: lists of entries, each still where it was written.
+
+use super::account::Account;
+use super::entry::{Called, Entry};
+use super::layers::{Role, Said};
+use super::order::Order;
+use crate::base::Diagnostic;
+use crate::frame::change::{Action, Kind, Where};
+use crate::ron::{Leaf, Name, Reader, Shape};
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+/// All lists of a pipeline.
+#[derive(Default)]
+pub(super) struct Draft<'t> {
+    lists: HashMap<Kind, List<'t>>,
+    pub(super) passes: Order<'t>,
+    pub(super) passes_written: Option<Leaf<'t>>,
+    pub(super) outputs: List<'t>,
+    pub(super) outputs_written: Option<Leaf<'t>>,
+    pub(super) depth: Option<Leaf<'t>>,
+    pub(super) color: Option<Leaf<'t>>,
+    pub(super) depth_format: Option<Leaf<'t>>,
+    /// Names of settings that were removed, whether or not others of the name were added since.
+    pub(super) removed_settings: HashSet<Arc<str>>,
+}
+
+/// Entries whose order has no meaning.
+#[derive(Default)]
+pub(super) struct List<'t> {
+    /// The list that was written first.
+    pub(super) written: Option<Leaf<'t>>,
+    /// `None`: it was removed.
+    pub(super) entries: Vec<Option<Entry<'t>>>,
+    index: HashMap<&'t str, usize>,
+}
+
+impl<'t> List<'t> {
+    /// The entry of that name.
+    pub(super) fn find(&mut self, name: &str) -> Option<&mut Entry<'t>> {
+        self.entries.get_mut(*self.index.get(name)?)?.as_mut()
+    }
+
+    /// Removes the entry of that name.
+    pub(super) fn remove(&mut self, name: &str) -> Option<Entry<'t>> {
+        self.entries.get_mut(self.index.remove(name)?)?.take()
+    }
+
+    /// Names of entries.
+    pub(super) fn names(&self) -> Vec<&'t str> {
+        self.entries.iter().flatten().filter_map(|entry| Some(entry.name?.text)).collect()
+    }
+
+    /// Adds an entry; of those of one name the first is found.
+    pub(super) fn add(&mut self, entry: Entry<'t>) {
+        if let Some(name) = entry.name {
+            self.index.entry(name.text).or_insert(self.entries.len());
+        }
+        self.entries.push(Some(entry));
+    }
+}
+
+impl<'t> Draft<'t> {
+    pub(super) fn list(&self, kind: Kind) -> Option<&List<'t>> {
+        self.lists.get(&kind)
+    }
+
+    pub(super) fn list_mut(&mut self, kind: Kind) -> &mut List<'t> {
+        self.lists.entry(kind).or_default()
+    }
+
+    /// Adds what a file says.
+    pub(super) fn add(&mut self, reader: &mut Reader, said: &Said<'t>, role: Role, account: &mut Account) {
+        let lists = [
+            (Kind::Setting, said.settings, "`settings`"),
+            (Kind::Preset, said.presets, "`presets`"),
+            (Kind::View, said.views, "`views`"),
+            (Kind::Fragment, said.fragments, "`fragments`"),
+            (Kind::Texture, said.textures, "`textures`"),
+            (Kind::Image, said.images, "`images`"),
+            (Kind::Buffer, said.buffers, "`buffers`"),
+        ];
+        for (kind, leaf, field) in lists {
+            let Some(leaf) = leaf else { continue };
+            let Some(entries) = reader.list(leaf, field) else { continue };
+            let list = self.list_mut(kind);
+            list.written.get_or_insert(leaf);
+            let mut names = Vec::new();
+            for entry in entries.into_iter().map(Entry::of) {
+                if let Some(name) = entry.name.filter(|_| role != Role::Whole) {
+                    if let Some(first) = list.find(name.text).and_then(|first| first.name) {
+                        reader.report(again(kind, name, first));
+                        continue;
+                    }
+                    names.push(Arc::from(name.text));
+                }
+                list.add(entry);
+            }
+            if !names.is_empty() {
+                account.did(leaf.start(), Action::Add { of: kind, names });
+            }
+        }
+        self.depth = said.depth.or(self.depth);
+        self.color = said.color.or(self.color);
+        self.depth_format = said.depth_format.or(self.depth_format);
+        if let Some(leaf) = said.passes
+            && let Some(entries) = reader.list(leaf, "`passes`")
+        {
+            self.passes_written.get_or_insert(leaf);
+            for entry in entries {
+                self.passes.insert(&Where::End, Entry::of(entry));
+            }
+        }
+        if let Some(leaf) = said.outputs
+            && let Some(entries) = reader.list(leaf, "`outputs`")
+        {
+            self.outputs_written = Some(leaf);
+            self.outputs = List::default();
+            entries.into_iter().map(output).for_each(|output| self.outputs.add(output));
+            if role != Role::Whole {
+                let names = self.outputs.names().into_iter().map(Arc::from).collect();
+                account.did(leaf.start(), Action::Outputs { names });
+            }
+        }
+    }
+}
+
+/// An output, by the name of what leaves the frame.
+pub(super) fn output(leaf: Leaf<'_>) -> Entry<'_> {
+    let named = match leaf.shape() {
+        Shape::Text => Some(leaf),
+        _ => leaf.field("image").or_else(|| leaf.field("buffer")),
+    };
+    Entry { leaf, name: named.and_then(Called::of), fields: None }
+}
+
+/// That a file adds what there is already.
+fn again(kind: Kind, name: Called<'_>, first: Called<'_>) -> Diagnostic {
+    let Name { text, span } = name.name();
+    let what = kind.word();
+    let wrong = Diagnostic::new(span, format!("`{text}` is the name of more than one {what}"));
+    let wrong = wrong.remark("again here").label(first.span, "first here");
+    match kind {
+        Kind::Fragment => wrong.help("give it another name"),
+        _ => wrong.help(format!("give it another name, or change the first: `Set({what}: \"{text}\", to: (…))`")),
+    }
+}

@@ -1,0 +1,18 @@
+//! Mistakes of a whole pipeline: in the order of its files, and never none.
+
+use crate::base::Diagnostic;
+
+/// The first mistakes first: file by file as they were read, in each from top to bottom.
+pub(crate) fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    errors.sort_by_key(|error| error.labels.first().map_or((None, 0), |label| (label.span.file(), label.span.start)));
+    errors
+}
+
+/// What is to be said if something went wrong and nothing says what.
+pub(super) fn never_none(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    if errors.is_empty() {
+        let message = "this pipeline can't be put together, and why was not found out: a mistake of framewright itself";
+        errors.push(Diagnostic::nowhere(message));
+    }
+    errors
+}

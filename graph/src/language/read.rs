@@ -1,0 +1,123 @@
+//! A pipeline file's bytes become a [`Document`], with the files that it names.
+
+use super::document::Document;
+use super::extend::{self, Layer};
+use super::includes::{Files, Found, NoFiles};
+use super::loader::{self, LARGEST_FILE, Loader, no_pipeline, odd_byte};
+use super::mistakes::{in_order, never_none};
+use crate::base::{Diagnostic, FilePath, Sources, Span};
+use crate::ron::{Reader, Tree};
+use std::sync::Arc;
+
+/// Reads a pipeline file's bytes; `shown` and `relative` are as in [`read`].
+///
+/// # Errors
+/// What [`read`] reports, and bytes that are no text.
+pub fn read_bytes(
+    sources: &mut Sources,
+    shown: &str,
+    relative: &str,
+    bytes: Vec<u8>,
+) -> Result<Document, Vec<Diagnostic>> {
+    read_bytes_with(sources, &mut NoFiles, shown, relative, bytes)
+}
+
+/// Reads a pipeline file's bytes and the files that it names, as [`read_bytes`] does.
+///
+/// # Errors
+/// What [`read_with`] reports, and bytes that are no text.
+pub fn read_bytes_with(
+    sources: &mut Sources,
+    files: &mut dyn Files,
+    shown: &str,
+    relative: &str,
+    bytes: Vec<u8>,
+) -> Result<Document, Vec<Diagnostic>> {
+    let pipeline = Found { shown: shown.to_owned(), relative: relative.into(), bytes };
+    read_extended(sources, files, pipeline, Vec::new())
+}
+
+/// Reads a pipeline file's bytes and the files that it names, as [`read_bytes_with`] does, and applies extensions to it,
+/// one after the other.
+///
+/// # Errors
+/// What [`read_bytes_with`] reports, and what is wrong with the extensions by themselves, and with them for this pipeline.
+pub fn read_extended(
+    sources: &mut Sources,
+    files: &mut dyn Files,
+    pipeline: Found,
+    extensions: Vec<Found>,
+) -> Result<Document, Vec<Diagnostic>> {
+    let Found { shown, relative, bytes } = pipeline;
+    if bytes.len() > LARGEST_FILE {
+        return Err(vec![too_large(&shown, bytes.len())]);
+    }
+    match String::from_utf8(bytes) {
+        Ok(text) => read_all(sources, files, (&shown, &relative, text), extensions),
+        Err(error) => {
+            let message = format!("this is not a text file: {}", odd_byte(&error));
+            let valid = error.utf8_error().valid_up_to();
+            let mut bytes = error.into_bytes();
+            bytes.truncate(valid);
+            let file = sources.add(shown, &relative, String::from_utf8_lossy(&bytes).into_owned());
+            let at = u32::try_from(valid).unwrap_or(u32::MAX);
+            Err(vec![Diagnostic::new(Span::new(file, at, at), message).help("a pipeline is RON text in UTF-8")])
+        }
+    }
+}
+
+/// Reads a pipeline file's text, which is added to `sources`, and which includes no other file. `shown` is the path as the
+/// user named it; `relative` is the path from the pipeline's own folder, usually the file's name, which stands in Plans.
+///
+/// # Errors
+/// Everything that is wrong with the file whatever it is made for, in the order of the file.
+pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) -> Result<Document, Vec<Diagnostic>> {
+    read_with(sources, &mut NoFiles, shown, relative, text)
+}
+
+/// Reads a pipeline file's text and the files that it includes, as [`read`] does.
+///
+/// # Errors
+/// What [`read`] reports, and what is wrong with included files, file by file.
+pub fn read_with(
+    sources: &mut Sources,
+    files: &mut dyn Files,
+    shown: &str,
+    relative: &str,
+    text: String,
+) -> Result<Document, Vec<Diagnostic>> {
+    if text.len() > LARGEST_FILE {
+        return Err(vec![too_large(shown, text.len())]);
+    }
+    read_all(sources, files, (shown, &relative.into(), text), Vec::new())
+}
+
+fn read_all(
+    sources: &mut Sources,
+    files: &mut dyn Files,
+    (shown, relative, text): (&str, &FilePath, String),
+    extensions: Vec<Found>,
+) -> Result<Document, Vec<Diagnostic>> {
+    let text: Arc<str> = text.into();
+    let file = sources.add(shown, relative, text.clone());
+    if let Some(error) = no_pipeline(file, &text) {
+        return Err(vec![error]);
+    }
+    let mut reader = Reader::default();
+    let Some(tree) = Tree::read(file, text, &mut reader.errors) else { return Err(in_order(reader.errors)) };
+    if !loader::version(&mut reader, tree.root()) {
+        // Of a later version's words nothing is known.
+        return Err(reader.errors.pop().into_iter().collect());
+    }
+    let mut loader = Loader::new(sources, files);
+    let composed = extend::read(&mut reader, &mut loader, Layer::pipeline(tree, relative), extensions);
+    let Some(composed) = composed else {
+        loader.origins.tell(&mut reader.errors);
+        return Err(in_order(never_none(reader.errors)));
+    };
+    Document::read(reader, &mut loader, relative, composed).map_err(in_order)
+}
+
+fn too_large(shown: &str, bytes: usize) -> Diagnostic {
+    Diagnostic::nowhere(format!("`{shown}` has {bytes} bytes; a pipeline file has at most {LARGEST_FILE}"))
+}

@@ -1,0 +1,225 @@
+//! What may stand where in a pipeline's files, as data: the readers' own tables of fields and words.
+//!
+//! ```text
+//! fields!, Words, Form ─┬─► schema: a JSON Schema, of files as `convert` makes JSON of them
+//! (beside each reader)  └─► docs/language.md, which a test renews
+//! ```
+//! Readers take the names of fields and words from these tables, so neither can tell of one that isn't read, or
+//! leave one out.
+
+/// What may stand in a place of a file.
+#[derive(Debug, Clone, Copy)]
+pub enum Form {
+    /// Whatever its reader takes: nobody has said it.
+    Anything,
+    /// A value by itself, never an expression.
+    Plain(Plain),
+    /// `true` or `false`, or an expression.
+    Truth,
+    /// A whole number from the one to the other, or an expression.
+    Whole(i64, i64),
+    /// One of these whole numbers.
+    Listed(&'static [i64]),
+    /// A number, or an expression.
+    Number,
+    /// An expression in quotes that says what the words name: "a condition".
+    Expression(&'static str),
+    /// A name, or an expression, for an image or buffer: "an image".
+    Reference(&'static str),
+    /// `(name: value, …)`
+    Fields(fn() -> Table),
+    /// One of several words, most with something in parentheses.
+    Words(&'static Words),
+    /// One of several words that stand alone; what they are together, and the words.
+    Choice(&'static str, fn() -> Vec<&'static str>),
+    /// Fields that something else says; what they are: "fields of the thing".
+    Open(&'static str),
+    /// `(value, …)`
+    Tuple(&'static [Form]),
+    /// `[value, …]`
+    List(&'static Form),
+    /// `{"name": value, …}`; what the names are: "setting".
+    Map(&'static str, &'static Form),
+    /// One or the other.
+    Either(&'static [Form]),
+}
+
+/// What stands by itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Plain {
+    /// `true` or `false`.
+    Truth,
+    /// A whole number.
+    Whole,
+    /// A number.
+    Number,
+    /// A text in quotes.
+    Text,
+    /// A name that the file gives to something, in quotes.
+    Name,
+    /// The name of a shader, or of what a program records, in quotes.
+    Outside,
+}
+
+/// The fields of a form, as [`fields!`](crate::fields) makes them.
+#[derive(Debug, Clone, Copy)]
+pub struct Table {
+    /// What it is called in the schema: "ImageFields".
+    pub name: &'static str,
+    /// The word that may stand before its parentheses, if any.
+    pub word: Option<&'static str>,
+    /// Lines that tell what it is: first what one of them is called, up to a colon or full stop.
+    pub about: &'static [&'static str],
+    /// Its fields.
+    pub rows: &'static [Row],
+}
+
+/// A field.
+#[derive(Debug, Clone, Copy)]
+pub struct Row {
+    /// Its name.
+    pub name: &'static str,
+    /// Whether it has to be there.
+    pub needed: bool,
+    /// Lines that tell what it means.
+    pub about: &'static [&'static str],
+    /// What may stand there.
+    pub form: Form,
+}
+
+/// Words of which one stands in a place.
+#[derive(Debug)]
+pub struct Words {
+    /// What it is called in the schema: "Size".
+    pub name: &'static str,
+    /// What it is called in messages: "a size".
+    pub what: &'static str,
+    /// What may stand there besides words, if anything.
+    pub or: &'static [Form],
+    /// The words.
+    pub all: &'static [Word],
+}
+
+/// A word and what stands in its parentheses.
+#[derive(Debug)]
+pub struct Word {
+    /// The word.
+    pub word: &'static str,
+    /// What may stand behind it.
+    pub takes: &'static [Takes],
+    /// How it is written, in every way that there is; empty if it stands alone.
+    pub examples: &'static [&'static str],
+    /// What it means.
+    pub about: &'static str,
+}
+
+impl Word {
+    /// A word with something in parentheses.
+    pub(crate) const fn new(
+        word: &'static str,
+        takes: &'static [Takes],
+        examples: &'static [&'static str],
+        about: &'static str,
+    ) -> Word {
+        Word { word, takes, examples, about }
+    }
+
+    /// A word that stands alone.
+    pub(crate) const fn alone(word: &'static str, about: &'static str) -> Word {
+        Word { word, takes: &[Takes::Nothing], examples: &[], about }
+    }
+
+    /// How it is written, in every way that there is.
+    pub fn written(&self) -> impl Iterator<Item = &'static str> {
+        let alone = self.examples.is_empty().then_some(self.word);
+        self.examples.iter().copied().chain(alone)
+    }
+}
+
+/// What stands behind a word.
+#[derive(Debug, Clone, Copy)]
+pub enum Takes {
+    /// No parentheses, or empty ones.
+    Nothing,
+    /// Values.
+    Values(&'static [Form]),
+    /// Fields.
+    Fields(fn() -> Table),
+}
+
+/// What has a table of its fields.
+pub trait Described {
+    /// The table.
+    const TABLE: Table;
+
+    /// The table, for tables that refer to each other.
+    #[must_use]
+    fn table() -> Table {
+        Self::TABLE
+    }
+}
+
+impl Table {
+    /// What one of them is called: "an image".
+    #[must_use]
+    pub fn noun(&self) -> String {
+        let first = self.about.first().map_or("", |line| line.trim());
+        let end = first.find([':', '.', ',']).unwrap_or(first.len());
+        let mut letters = first[..end].chars();
+        letters.next().map_or_else(String::new, |letter| letter.to_lowercase().chain(letters).collect())
+    }
+}
+
+impl Words {
+    /// The word that is written so.
+    #[must_use]
+    pub fn find(&self, word: &str) -> Option<&Word> {
+        self.all.iter().find(|known| known.word == word)
+    }
+
+    /// All words that may stand there, those of [`or`](Words::or) too.
+    pub(crate) fn known(&self) -> Vec<&'static str> {
+        let mut known: Vec<&'static str> = self.all.iter().map(|word| word.word).collect();
+        for or in self.or {
+            if let Form::Choice(_, words) = or {
+                known.extend(words());
+            }
+        }
+        known
+    }
+
+    /// How each is written, in a sentence: "a size is `Output`, … or …".
+    #[must_use]
+    pub fn forms(&self) -> String {
+        let (first, then): (Vec<&Form>, Vec<&Form>) =
+            self.or.iter().partition(|form| matches!(form, Form::Whole(..) | Form::Listed(_)));
+        let mut all: Vec<String> = first.into_iter().filter_map(Form::briefly).collect();
+        all.extend(self.all.iter().flat_map(Word::written).map(|written| format!("`{written}`")));
+        all.extend(then.into_iter().filter_map(Form::briefly));
+        let last = all.pop().unwrap_or_default();
+        match all.is_empty() {
+            true => format!("{} is {last}", self.what),
+            false => format!("{} is {} or {last}", self.what, all.join(", ")),
+        }
+    }
+}
+
+impl Form {
+    /// What it is called where words are listed, if it needs to be said there.
+    fn briefly(&self) -> Option<String> {
+        Some(match self {
+            Form::Whole(..) => "a number, an expression in quotes".to_owned(),
+            Form::Listed(numbers) => numbers.iter().map(i64::to_string).collect::<Vec<_>>().join(", "),
+            Form::Reference(what) => format!("the name of {what}"),
+            Form::Expression(_) => "an expression in quotes".to_owned(),
+            Form::Choice(what, words) => format!("{what}, such as `{}`", words().first().copied().unwrap_or_default()),
+            Form::Fields(table) => table().noun(),
+            _ => return None,
+        })
+    }
+}
+
+/// The names of choices that have values.
+pub(crate) fn names<T, const N: usize>(choices: &[(&'static str, T); N]) -> Vec<&'static str> {
+    choices.iter().map(|(name, _)| *name).collect()
+}

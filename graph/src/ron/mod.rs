@@ -1,0 +1,25 @@
+//! RON as a tree with places, and readers of the values in it: what pipelines, settings and scenes are read with.
+
+mod convert;
+mod escapes;
+mod fields;
+mod form;
+mod leaf;
+mod lexer;
+mod names;
+mod numbers;
+mod reader;
+mod spanned;
+mod syntax;
+pub(crate) mod tree;
+
+pub use convert::convert;
+pub use fields::{Field, FromLeaf, plain_name, slots};
+pub(crate) use form::names;
+pub use form::{Described, Form, Plain, Row, Table, Takes, Word, Words};
+pub use leaf::{Leaf, Number, Shape};
+pub use names::Names;
+pub(crate) use reader::MANY_MISTAKES;
+pub use reader::Reader;
+pub use spanned::{Name, Spanned};
+pub use tree::Tree;

@@ -1,0 +1,94 @@
+//! A file's text as a tree: what stands in which brackets, and where.
+//!
+//! One pass over the text makes it (`syntax`); everything else reads it through [`Leaf`]s. It keeps no copies of the
+//! text: a node is a kind and a range of bytes. Where a pipeline extends another, the trees of their files become one
+//! (`extend`), whose nodes still stand where they were written.
+
+use super::{Leaf, syntax};
+use crate::base::{Diagnostic, Span};
+use std::sync::Arc;
+
+/// The values of one file, or of several that were put together. Owns what it needs, so it outlives the reading.
+#[derive(Debug, Clone)]
+pub struct Tree {
+    /// Where the texts of nodes stand.
+    pub(crate) texts: Vec<Text>,
+    /// After each node come its children, then whatever follows it.
+    pub(crate) nodes: Vec<Node>,
+}
+
+/// A file's text.
+#[derive(Debug, Clone)]
+pub(crate) struct Text {
+    /// The file's number in [`Sources`](crate::base::Sources).
+    pub(crate) file: u32,
+    pub(crate) text: Arc<str>,
+}
+
+/// A value, a word or a broken place.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Node {
+    pub(crate) start: u32,
+    pub(crate) end: u32,
+    /// The node after this one and all that is in it.
+    pub(crate) after: u32,
+    /// The text that it stands in: an index into [`Tree::texts`].
+    pub(crate) text: u16,
+    pub(crate) kind: Kind,
+}
+
+/// What a node is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// `"text"` without escapes.
+    Text,
+    /// `"te\"xt"`
+    Escaped,
+    /// `r#"text"#`
+    Raw,
+    /// `1`, `-0.5`, `0xff`
+    Number,
+    /// `word`; also the name of a field.
+    Word,
+    /// `Word(…)`: a `Word`, then its `Fields` or `Tuple`.
+    Named,
+    /// `(name: value, …)`: names and values by turns.
+    Fields,
+    /// `(value, …)`
+    Tuple,
+    /// `[value, …]`
+    List,
+    /// `{key: value, …}`: keys and values by turns.
+    Map,
+    /// Bytes and characters.
+    Other,
+    /// What could not be read and was reported.
+    Broken,
+}
+
+impl Tree {
+    /// Reads the text of the file numbered `file`, which has less than 4 GiB. Mistakes are added to `errors`; where one
+    /// left no doubt about how the text goes on, the tree holds the rest, so that other mistakes can be found too.
+    pub fn read(file: u32, text: Arc<str>, errors: &mut Vec<Diagnostic>) -> Option<Tree> {
+        let nodes = syntax::nodes(file, &text, errors)?;
+        Some(Tree { texts: vec![Text { file, text }], nodes })
+    }
+
+    /// Whether one of its texts holds `words`.
+    pub(crate) fn mentions(&self, words: &str) -> bool {
+        self.texts.iter().any(|text| text.text.contains(words))
+    }
+
+    /// What stands there, if it is in one of its texts.
+    pub(crate) fn text_at(&self, span: Span) -> &str {
+        let here = |text: &&Text| span.file() == Some(text.file as usize);
+        let text = self.texts.iter().find(here).map_or("", |text| &text.text);
+        text.get(span.start as usize..span.end as usize).unwrap_or("")
+    }
+
+    /// The file's one value.
+    #[must_use]
+    pub const fn root(&self) -> Leaf<'_> {
+        Leaf::new(self, 0)
+    }
+}

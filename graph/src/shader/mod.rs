@@ -1,0 +1,331 @@
+//! What a shader uses, as data: read off its SPIR-V by a backend, needed by `check` without any device.
+
+use crate::base::{FilePath, OutsideChoice, Quote};
+use crate::frame::{Draw, Eye, EyeForm};
+use crate::vulkan::{Component, Format, ImageShape, Stages};
+use std::fmt;
+use std::sync::Arc;
+
+/// Everything that a shader (all its stages together) uses.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ShaderInterface {
+    /// Resources by set and binding.
+    pub bindings: Vec<Binding>,
+    /// Vertex attributes that the vertex stage reads.
+    pub vertex_inputs: Vec<VertexInput>,
+    /// Colour outputs of the fragment stage.
+    pub outputs: Vec<FragmentOutput>,
+    /// What it does with the alpha of the images that [`PASS_SET`] samples, by their names; of images that aren't there it
+    /// makes no use of alpha.
+    pub alpha: Vec<(String, AlphaUse)>,
+    /// Whether the fragment stage may discard fragments.
+    pub discards: bool,
+    /// Whether the fragment stage reads `gl_FragCoord`.
+    pub uses_frag_coord: bool,
+    /// Whether the fragment stage takes screen-space derivatives, implicit ones included.
+    pub uses_derivatives: bool,
+    /// Whether the fragment stage runs once a sample.
+    pub per_sample: bool,
+    /// Whether the fragment stage writes its own depth.
+    pub writes_depth: bool,
+    /// Invocations of a workgroup in x, y and z, each at least 1; of compute shaders only.
+    pub workgroup_size: Option<[u32; 3]>,
+    /// What of it goes wrong where the picture that it draws is turned, as far as that can be told.
+    pub unturned: Vec<Unturned>,
+    /// Names of what it samples of which it asks for the part in use: where it mentions `NAME_st`.
+    pub asks_part: Vec<String>,
+}
+
+/// A pass samples at most this many images of which only a part is in use: where they lie takes all the bytes of push
+/// constants that every device has.
+pub const MOST_PARTS: usize = 8;
+
+/// What of a shader doesn't follow where the picture that it draws is turned; shaders/include/rotation.glsl has what does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Unturned {
+    /// Where its vertex stage places vertices.
+    Vertices,
+    /// It reads where its fragments lie.
+    FragCoord,
+    /// It takes derivatives to the right or down.
+    Derivatives,
+}
+
+/// What a shader does with the fourth component of an image that it samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum AlphaUse {
+    /// It counts for nothing but the fourth component of colour outputs.
+    Passed,
+    /// It may count for anything.
+    Read,
+}
+
+/// The set whose bindings belong to the pass: its sampled and storage images, its buffers, and one block of parameters.
+/// Sets from 1 on belong to whoever draws.
+pub const PASS_SET: u32 = 0;
+
+/// One resource.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Binding {
+    /// Descriptor set.
+    pub set: u32,
+    /// Binding number in its set.
+    pub binding: u32,
+    /// Name in the shader: of the variable, or for a block without instance name, of the block.
+    pub name: String,
+    /// Kind and shape.
+    pub kind: BindingKind,
+    /// Whether the shader leaves to the pass as what it is declared: `uniform TEXTURE_NAME NAME`.
+    pub adapts: bool,
+    /// Stages that use it.
+    pub stages: Stages,
+}
+
+/// Kind and shape of a resource.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BindingKind {
+    /// A combined image sampler.
+    SampledImage(ImageShape),
+    /// A storage image.
+    StorageImage {
+        /// Dimension and component type.
+        shape: ImageShape,
+        /// The texel format that the declaration names; `None`: it names none.
+        format: Option<Format>,
+        /// Whether the shader may read it.
+        readable: bool,
+        /// Whether the shader may write it.
+        writable: bool,
+    },
+    /// A uniform block.
+    UniformBlock(Block),
+    /// A storage block.
+    StorageBlock {
+        /// Whether the shader may read it.
+        readable: bool,
+        /// Whether the shader may write it.
+        writable: bool,
+    },
+    /// An input attachment: the texel at the fragment's own position.
+    InputAttachment {
+        /// Whether single samples are read.
+        multisampled: bool,
+        /// What a component is.
+        component: Component,
+    },
+    /// Anything else (separate samplers, texel buffers, storage images of formats that no image of a pipeline has, …): not
+    /// supported.
+    Other(Unbindable),
+}
+
+/// A resource that no pass can give.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Unbindable {
+    /// What it is, in words: `a texel buffer`.
+    pub what: String,
+    /// What to declare instead.
+    pub instead: String,
+    /// File and line of its declaration, `FILE:LINE`, if they are known.
+    pub place: Option<String>,
+}
+
+/// A uniform block.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Block {
+    /// Bytes it takes (std140).
+    pub bytes: u32,
+    /// Members in order.
+    pub members: Vec<Member>,
+}
+
+/// A member of a block.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Member {
+    /// Name.
+    pub name: String,
+    /// Offset in bytes.
+    pub offset: u32,
+    /// Type, as GLSL writes it: `float`, `int`, `uint`, `bool`, `vec4`, `mat4`, …; `bool` members read as `uint`.
+    pub ty: String,
+}
+
+/// A vertex attribute.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct VertexInput {
+    /// Location.
+    pub location: u32,
+    /// Name in the shader.
+    pub name: String,
+    /// Type, as GLSL writes it.
+    pub ty: String,
+}
+
+/// A colour output.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FragmentOutput {
+    /// Location.
+    pub location: u32,
+    /// Name in the shader.
+    pub name: String,
+    /// What a component is.
+    pub component: Component,
+    /// Number of components.
+    pub components: u32,
+}
+
+/// Why a shader has no interface. Text from files inside is not yet escaped.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ShaderProblem {
+    /// No such shader.
+    Missing {
+        /// Where it was looked for.
+        looked_in: Vec<String>,
+        /// Names that exist.
+        known: Vec<String>,
+    },
+    /// It doesn't compile.
+    DoesNotCompile {
+        /// What the compiler says.
+        messages: Vec<ShaderMessage>,
+    },
+    /// It can't be read, or uses something that can't be bound or that not every device has.
+    Unsupported {
+        /// In words.
+        what: String,
+    },
+}
+
+/// What the compiler says of a shader. Text from files inside is not yet escaped.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ShaderMessage {
+    /// The compiler's words, with the shader's own file and line.
+    pub text: String,
+    /// The line that it is about, where that is known, or its file.
+    pub quote: Option<Quote>,
+    /// The limit that was exceeded, if the compiler has limits and that is the mistake.
+    pub limit: Option<OutsideChoice>,
+}
+
+impl fmt::Display for ShaderMessage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// How a shader is compiled for a pass: what the macros stand for that depend on what the pass gives it.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Hash)]
+pub struct Variant {
+    /// What the macro `TEXTURE_NAME` stands for, by the shader's names for what the pass samples: GLSL's type of such an image.
+    /// Names that are missing here are two-dimensional images of floating point, so that what is wrong with a pass can be
+    /// told from its shader.
+    pub textures: Vec<(Arc<str>, ImageShape)>,
+    /// The shader's names for what the pass samples: the macro `HAS_NAME` is defined.
+    pub sampled: Vec<Arc<str>>,
+    /// How many components the formats of these have: the macro `COMPONENTS_NAME`. Of names that are missing here it is 4.
+    pub components: Vec<(Arc<str>, u32)>,
+    /// Those of images of which only a part is in use, at most [`MOST_PARTS`]: `NAME_st` is where it lies then, and else all of
+    /// the image.
+    pub parts: Vec<Arc<str>>,
+    /// How its stages learn which eye they draw for; `None`: there is one, or both see the same.
+    pub eye: Option<EyeSource>,
+    /// How what it draws into holds both eyes' parts, if it draws for both at once.
+    pub form: Option<EyeForm>,
+    /// Those of images that hold both eyes' parts, with how and whose is sampled; `None`: that of the eye that is drawn for.
+    pub eyes: Vec<(Arc<str>, EyeForm, Option<Eye>)>,
+    /// The shader's names for what is read from the pass's own rendering scope, as devices with local reads let it: the
+    /// macro `LOCAL_READ_NAME` is defined.
+    pub local: Vec<Arc<str>>,
+    /// Whether the shader draws nothing but depth: the macro `DEPTH_ONLY` is defined in its fragment stage, which is left out
+    /// if it neither discards fragments nor writes depth of its own then.
+    pub depth_only: bool,
+    /// Whether its alpha says how many samples are covered: the macro `ALPHA_TO_COVERAGE` is defined in its fragment stage.
+    pub alpha_to_coverage: bool,
+}
+
+/// How the stages of a shader learn which eye they draw for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum EyeSource {
+    /// They draw for this one only.
+    One(Eye),
+    /// The device draws for each (`gl_ViewIndex`).
+    ViewIndex,
+    /// By the highest bit of the instance's number, which counts instances of one eye else.
+    InstanceBit,
+    /// By the lowest bit of the instance's number, which counts those of both eyes in turn.
+    InstanceParity,
+}
+
+/// Where shader interfaces come from: a compiler and reflection over files on disk, or a table in a test.
+pub trait ShaderInterfaces {
+    /// Which shader it is that the file `from` calls `name`, for a draw of `draw` (`None`: a compute shader): the name by
+    /// which the other functions know it, and which stands in Plans. Shaders of one name in different folders have
+    /// different ones.
+    ///
+    /// # Errors
+    /// [`ShaderProblem`] says why there is none.
+    fn find(&mut self, from: &FilePath, name: &Arc<str>, draw: Option<Draw>) -> Result<Arc<str>, ShaderProblem> {
+        let _ = (from, draw);
+        Ok(name.clone())
+    }
+
+    /// The interface of the shader `name` when it draws `draw`, compiled as `variant` says.
+    ///
+    /// # Errors
+    /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
+    fn draw_shader(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<ShaderInterface, ShaderProblem>;
+
+    /// The interface of the compute shader `name`, compiled as `variant` says.
+    ///
+    /// # Errors
+    /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
+    fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem>;
+
+    /// What whoever draws `draw` brings along.
+    fn brought_along(&self, draw: Draw) -> DrawInterface;
+}
+
+/// What whoever draws brings along for one kind of draw: vertex attributes, and resources in sets from 1 on.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct DrawInterface {
+    /// Bytes from vertex to vertex; 0 if there is no vertex buffer.
+    pub vertex_stride: u32,
+    /// Vertex attributes, all 32-bit floats, by the name that shaders give them.
+    pub attributes: Vec<Attribute>,
+    /// Resources that are bound.
+    pub supplied: Vec<Supplied>,
+}
+
+/// A vertex attribute that is brought along.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Attribute {
+    /// Name in shaders.
+    pub name: &'static str,
+    /// Number of 32-bit float components, 1 to 4.
+    pub components: u32,
+    /// Offset in a vertex, in bytes.
+    pub offset: u32,
+}
+
+/// A resource that is brought along.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Supplied {
+    /// Descriptor set, from 1.
+    pub set: u32,
+    /// Binding number.
+    pub binding: u32,
+    /// Name in shaders.
+    pub name: &'static str,
+    /// Kind.
+    pub kind: SuppliedKind,
+}
+
+/// Kind of a resource that is brought along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SuppliedKind {
+    /// A uniform block.
+    UniformBlock,
+    /// A storage block, read only.
+    StorageBlock,
+    /// A combined image sampler, two-dimensional, float.
+    SampledImage,
+}

@@ -1,0 +1,430 @@
+//! Vulkan's own words as plain data: pipeline stages, accesses, layouts, usages, load and store operations.
+//!
+//! Bit values and names are those of the Vulkan 1.3 specification (`VK_PIPELINE_STAGE_2_*_BIT` and so on, without prefix
+//! and suffix), so that a backend converts them without a table and a reader looks them up without a dictionary. Of the flags
+//! that have 64 bits there, those from bit 32 on stand from bit 24 on here: a graph holds very many of them.
+
+use super::Format;
+use bitflags::bitflags;
+use serde::{Deserialize, Serialize};
+
+bitflags! {
+    /// Pipeline stages (`VkPipelineStageFlagBits2`).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(transparent)]
+    pub struct Stages: u32 {
+        /// Reading of indirect draw and dispatch parameters.
+        const DRAW_INDIRECT = 0x2;
+        /// Fetch of indices and vertex attributes.
+        const VERTEX_INPUT = 0x4;
+        /// Vertex shading.
+        const VERTEX_SHADER = 0x8;
+        /// Fragment shading.
+        const FRAGMENT_SHADER = 0x80;
+        /// Depth and stencil tests before the fragment shader, and the load operations of depth attachments.
+        const EARLY_FRAGMENT_TESTS = 0x100;
+        /// Depth and stencil tests after the fragment shader, and the store operations of depth attachments.
+        const LATE_FRAGMENT_TESTS = 0x200;
+        /// Writing and blending of colour, load, store and resolve operations of colour attachments, and every
+        /// resolve at the end of a rendering scope (depth too).
+        const COLOR_ATTACHMENT_OUTPUT = 0x400;
+        /// Compute shading.
+        const COMPUTE_SHADER = 0x800;
+        /// Accesses of the host.
+        const HOST = 0x4000;
+        /// Everything a queue does.
+        const ALL_COMMANDS = 0x1_0000;
+        /// `vkCmdCopy*`.
+        const COPY = 0x100_0000;
+        /// `vkCmdResolveImage2`.
+        const RESOLVE = 0x200_0000;
+        /// `vkCmdBlitImage2`.
+        const BLIT = 0x400_0000;
+        /// `vkCmdClear*Image`.
+        const CLEAR = 0x800_0000;
+    }
+}
+
+bitflags! {
+    /// Kinds of memory access (`VkAccessFlagBits2`).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(transparent)]
+    pub struct Accesses: u32 {
+        /// Indirect parameters.
+        const INDIRECT_COMMAND_READ = 0x1;
+        /// Indices.
+        const INDEX_READ = 0x2;
+        /// Vertex attributes.
+        const VERTEX_ATTRIBUTE_READ = 0x4;
+        /// Uniform buffers.
+        const UNIFORM_READ = 0x8;
+        /// Attachments read by fragment shaders at their own position.
+        const INPUT_ATTACHMENT_READ = 0x10;
+        /// Blending, load operations.
+        const COLOR_ATTACHMENT_READ = 0x80;
+        /// Colour writes, clear and don't-care loads, stores, resolves.
+        const COLOR_ATTACHMENT_WRITE = 0x100;
+        /// Depth and stencil tests, load operations.
+        const DEPTH_STENCIL_ATTACHMENT_READ = 0x200;
+        /// Depth and stencil writes, clear and don't-care loads, stores.
+        const DEPTH_STENCIL_ATTACHMENT_WRITE = 0x400;
+        /// Source of a copy, blit or resolve.
+        const TRANSFER_READ = 0x800;
+        /// Destination of a copy, blit, resolve or clear.
+        const TRANSFER_WRITE = 0x1000;
+        /// Host reads.
+        const HOST_READ = 0x2000;
+        /// Host writes.
+        const HOST_WRITE = 0x4000;
+        /// Any read.
+        const MEMORY_READ = 0x8000;
+        /// Any write.
+        const MEMORY_WRITE = 0x1_0000;
+        /// Sampled images.
+        const SHADER_SAMPLED_READ = 0x100_0000;
+        /// Reads of storage images and buffers.
+        const SHADER_STORAGE_READ = 0x200_0000;
+        /// Writes of storage images and buffers.
+        const SHADER_STORAGE_WRITE = 0x400_0000;
+    }
+}
+
+impl Stages {
+    /// The bits of `VkPipelineStageFlags2`.
+    #[must_use]
+    pub const fn vulkan(self) -> u64 {
+        with_64_bits(self.bits())
+    }
+}
+
+impl Accesses {
+    /// The bits of `VkAccessFlags2`.
+    #[must_use]
+    pub const fn vulkan(self) -> u64 {
+        with_64_bits(self.bits())
+    }
+
+    /// Every access that changes memory.
+    pub const WRITES: Accesses = Accesses::COLOR_ATTACHMENT_WRITE
+        .union(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE)
+        .union(Accesses::TRANSFER_WRITE)
+        .union(Accesses::HOST_WRITE)
+        .union(Accesses::MEMORY_WRITE)
+        .union(Accesses::SHADER_STORAGE_WRITE);
+
+    /// The writes among these accesses.
+    #[must_use]
+    pub const fn writes(self) -> Accesses {
+        self.intersection(Accesses::WRITES)
+    }
+}
+
+/// Puts what stands from bit 24 on where Vulkan has it: from bit 32 on.
+const fn with_64_bits(bits: u32) -> u64 {
+    const LOW: u32 = 24;
+    (bits & ((1 << LOW) - 1)) as u64 | ((bits >> LOW) as u64) << 32
+}
+
+bitflags! {
+    /// What an image may be used for (`VkImageUsageFlagBits`).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(transparent)]
+    pub struct Usage: u32 {
+        /// Source of copies, blits and resolves.
+        const TRANSFER_SRC = 0x1;
+        /// Destination of copies, blits, resolves and clears.
+        const TRANSFER_DST = 0x2;
+        /// Sampled in shaders.
+        const SAMPLED = 0x4;
+        /// Read and written in shaders without sampling.
+        const STORAGE = 0x8;
+        /// Colour or resolve attachment.
+        const COLOR_ATTACHMENT = 0x10;
+        /// Depth attachment.
+        const DEPTH_STENCIL_ATTACHMENT = 0x20;
+        /// Never leaves its rendering scope: may live in lazily allocated memory.
+        const TRANSIENT_ATTACHMENT = 0x40;
+        /// Read by fragment shaders at their own position.
+        const INPUT_ATTACHMENT = 0x80;
+    }
+}
+
+bitflags! {
+    /// What a buffer may be used for (`VkBufferUsageFlagBits`).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(transparent)]
+    pub struct BufferUsage: u32 {
+        /// Source of copies.
+        const TRANSFER_SRC = 0x1;
+        /// Destination of copies and fills.
+        const TRANSFER_DST = 0x2;
+        /// Uniform blocks.
+        const UNIFORM_BUFFER = 0x10;
+        /// Storage blocks.
+        const STORAGE_BUFFER = 0x20;
+        /// Indices.
+        const INDEX_BUFFER = 0x40;
+        /// Vertex attributes.
+        const VERTEX_BUFFER = 0x80;
+        /// Counts of indirect draws and dispatches.
+        const INDIRECT_BUFFER = 0x100;
+    }
+}
+
+bitflags! {
+    /// Planes of an image (`VkImageAspectFlagBits`).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(transparent)]
+    pub struct Aspects: u32 {
+        /// Colour.
+        const COLOR = 0x1;
+        /// Depth.
+        const DEPTH = 0x2;
+        /// Stencil.
+        const STENCIL = 0x4;
+    }
+}
+
+/// How an image's texels lie in memory (`VkImageLayout`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum Layout {
+    /// Contents are not kept.
+    Undefined,
+    /// Any use; storage images need it.
+    General,
+    /// Colour attachment.
+    ColorAttachmentOptimal,
+    /// Depth attachment, written.
+    DepthStencilAttachmentOptimal,
+    /// Depth attachment only tested, and sampled at the same time if need be.
+    DepthStencilReadOnlyOptimal,
+    /// The depth plane of an image that has stencil too, as `DepthStencilAttachmentOptimal`.
+    DepthAttachmentOptimal,
+    /// The depth plane of an image that has stencil too, as `DepthStencilReadOnlyOptimal`.
+    DepthReadOnlyOptimal,
+    /// The stencil plane of an image that has depth too: attachment, written.
+    StencilAttachmentOptimal,
+    /// The stencil plane of an image that has depth too: only tested or sampled.
+    StencilReadOnlyOptimal,
+    /// Sampled.
+    ShaderReadOnlyOptimal,
+    /// Source of copies, blits and resolves.
+    TransferSrcOptimal,
+    /// Destination of copies, blits, resolves and clears.
+    TransferDstOptimal,
+    /// Presented.
+    PresentSrcKhr,
+    /// Attachment that fragment shaders read at their own position.
+    RenderingLocalReadKhr,
+}
+
+/// The last accesses of an image or buffer, and an image's layout.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct State {
+    /// Stages.
+    pub stages: Stages,
+    /// Accesses.
+    pub accesses: Accesses,
+    /// Layout; buffers have none: `UNDEFINED`.
+    pub layout: Layout,
+}
+
+/// A part of an image (`VkImageSubresourceRange`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Subresources {
+    /// Planes.
+    pub aspects: Aspects,
+    /// First mip level.
+    pub base_mip: u32,
+    /// Number of mip levels.
+    pub mips: u32,
+    /// First array layer.
+    pub base_layer: u32,
+    /// Number of array layers.
+    pub layers: u32,
+}
+
+impl Subresources {
+    /// All mip levels or layers from the first on (`VK_REMAINING_MIP_LEVELS`, `VK_REMAINING_ARRAY_LAYERS`).
+    pub const REMAINING: u32 = u32::MAX;
+
+    /// All of whatever image, every plane.
+    pub const WHOLE: Subresources = Subresources {
+        aspects: Aspects::empty(),
+        base_mip: 0,
+        mips: Subresources::REMAINING,
+        base_layer: 0,
+        layers: Subresources::REMAINING,
+    };
+
+    /// All of an image.
+    #[must_use]
+    pub const fn all(format: Format, mips: u32, layers: u32) -> Subresources {
+        Subresources { aspects: format.aspects(), base_mip: 0, mips, base_layer: 0, layers }
+    }
+}
+
+/// What every texel of an image, or every 32-bit word of a buffer, is set to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FillValue {
+    /// Red, green, blue and alpha (linear) of an image whose components are not integers.
+    Color([f32; 4]),
+    /// Red, green, blue and alpha of an image of integers; of a buffer, the word in the first.
+    Bits([u32; 4]),
+    /// Depth, and stencil where there is any.
+    Depth(f32, u8),
+}
+
+/// What happens to a stencil value (`VkStencilOp`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum StencilOp {
+    /// It stays.
+    Keep,
+    /// It becomes 0.
+    Zero,
+    /// It becomes the reference value.
+    Replace,
+    /// It grows by 1, up to 255.
+    IncrementAndClamp,
+    /// It falls by 1, down to 0.
+    DecrementAndClamp,
+    /// Its bits are turned over.
+    Invert,
+}
+
+/// What happens to an attachment's contents when a rendering scope begins (`VkAttachmentLoadOp`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum LoadOp {
+    /// Kept.
+    Load,
+    /// Set to the clear value.
+    Clear,
+    /// Undefined. Counts as a write.
+    DontCare,
+}
+
+/// What happens to an attachment's contents when a rendering scope ends (`VkAttachmentStoreOp`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum StoreOp {
+    /// Kept. Counts as a write.
+    Store,
+    /// Undefined. Counts as a write.
+    DontCare,
+    /// Left alone: contents from before the scope stay. Not a write.
+    None,
+}
+
+/// How samples become one value (`VkResolveModeFlagBits`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum ResolveMode {
+    /// Mean of all samples.
+    Average,
+    /// The first sample.
+    SampleZero,
+    /// The least.
+    Min,
+    /// The greatest.
+    Max,
+}
+
+/// How texels between samples are found (`VkFilter`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum Filter {
+    /// The nearest texel.
+    Nearest,
+    /// Weighted mean of the four around.
+    Linear,
+}
+
+/// What a sampled image holds beyond its edges (`VkSamplerAddressMode`), on every axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum AddressMode {
+    /// The texels at the edge.
+    #[default]
+    ClampToEdge,
+    /// The image again.
+    Repeat,
+    /// The image mirrored.
+    MirroredRepeat,
+}
+
+/// How a sampled image is looked up (`VkSamplerCreateInfo`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sampler {
+    /// Filter between texels, enlarged and reduced.
+    pub filter: Filter,
+    /// Filter between mip levels.
+    pub mips: Filter,
+    /// What lies beyond the edges.
+    pub address: AddressMode,
+}
+
+impl Sampler {
+    /// One that ends at the image's edges and takes the nearest mip level.
+    #[must_use]
+    pub const fn new(filter: Filter) -> Sampler {
+        Sampler { filter, mips: Filter::Nearest, address: AddressMode::ClampToEdge }
+    }
+
+    /// Whether it takes means of texels, which not every format allows.
+    #[must_use]
+    pub const fn is_linear(&self) -> bool {
+        matches!(self.filter, Filter::Linear) || matches!(self.mips, Filter::Linear)
+    }
+}
+
+/// Depth comparison (`VkCompareOp`). Depth is reversed: nearer is greater.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum CompareOp {
+    /// Never passes.
+    Never,
+    /// Passes if less.
+    Less,
+    /// Passes if equal.
+    Equal,
+    /// Passes if less or equal.
+    LessOrEqual,
+    /// Passes if greater.
+    Greater,
+    /// Passes if different.
+    NotEqual,
+    /// Passes if greater or equal.
+    GreaterOrEqual,
+    /// Always passes.
+    Always,
+}
+
+/// Which queues may use an image or buffer (`VkSharingMode`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum Sharing {
+    /// One at a time: barriers hand it over.
+    #[default]
+    Exclusive,
+    /// All that use it, at any time.
+    Concurrent,
+}
+
+/// The shape of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
+pub enum Shape {
+    /// Two-dimensional, or an array of such layers.
+    #[default]
+    D2,
+    /// Three-dimensional.
+    D3,
+    /// Six square layers that may be sampled as a cube, or several times six.
+    Cube,
+}

@@ -1,0 +1,124 @@
+//! Texel formats by Vulkan's names, and what follows from a name alone.
+
+use super::Aspects;
+use serde::{Deserialize, Serialize};
+
+/// How a component's bits are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Numeric {
+    /// Floating point.
+    Sfloat,
+    /// Unsigned floating point.
+    Ufloat,
+    /// 0…1 in equal steps.
+    Unorm,
+    /// 0…1, encoded with the sRGB curve.
+    Srgb,
+    /// Unsigned integers.
+    Uint,
+}
+
+macro_rules! formats {
+    ($($name:ident = $vulkan:literal, $bytes:literal bytes, $components:literal x $numeric:ident, $aspects:expr;)*) => {
+        /// A texel format (`VkFormat`, without its prefix).
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+        #[allow(non_camel_case_types, reason = "the names are Vulkan's")]
+        pub enum Format { $(#[doc = concat!("`VK_FORMAT_", stringify!($name), "`")] $name,)* }
+
+        impl Format {
+            /// Every format that a Plan can hold.
+            pub const ALL: &[Format] = &[$(Format::$name,)*];
+
+            /// Vulkan's name, without `VK_FORMAT_`.
+            #[must_use]
+            pub const fn name(self) -> &'static str { match self { $(Format::$name => stringify!($name),)* } }
+
+            /// The value of the `VkFormat` enumerant.
+            #[must_use]
+            pub const fn vulkan(self) -> i32 { match self { $(Format::$name => $vulkan,)* } }
+
+            /// Bytes that one texel (one sample) takes.
+            #[must_use]
+            pub const fn texel_bytes(self) -> u64 { match self { $(Format::$name => $bytes,)* } }
+
+            /// Number of components.
+            #[must_use]
+            pub const fn components(self) -> u32 { match self { $(Format::$name => $components,)* } }
+
+            /// How components are read (for depth-stencil formats: the depth).
+            #[must_use]
+            pub const fn numeric(self) -> Numeric { match self { $(Format::$name => Numeric::$numeric,)* } }
+
+            /// The planes it has.
+            #[must_use]
+            pub const fn aspects(self) -> Aspects { match self { $(Format::$name => $aspects,)* } }
+        }
+    };
+}
+
+const COLOR: Aspects = Aspects::COLOR;
+const DEPTH: Aspects = Aspects::DEPTH;
+const DEPTH_STENCIL: Aspects = Aspects::DEPTH.union(Aspects::STENCIL);
+
+formats! {
+    R8_UNORM = 9, 1 bytes, 1 x Unorm, COLOR;
+    R8_UINT = 13, 1 bytes, 1 x Uint, COLOR;
+    R8G8_UNORM = 16, 2 bytes, 2 x Unorm, COLOR;
+    R8G8B8A8_UNORM = 37, 4 bytes, 4 x Unorm, COLOR;
+    R8G8B8A8_UINT = 41, 4 bytes, 4 x Uint, COLOR;
+    R8G8B8A8_SRGB = 43, 4 bytes, 4 x Srgb, COLOR;
+    B8G8R8A8_UNORM = 44, 4 bytes, 4 x Unorm, COLOR;
+    B8G8R8A8_SRGB = 50, 4 bytes, 4 x Srgb, COLOR;
+    A2B10G10R10_UNORM_PACK32 = 64, 4 bytes, 4 x Unorm, COLOR;
+    R16_SFLOAT = 76, 2 bytes, 1 x Sfloat, COLOR;
+    R16G16_SFLOAT = 83, 4 bytes, 2 x Sfloat, COLOR;
+    R16G16B16A16_UNORM = 91, 8 bytes, 4 x Unorm, COLOR;
+    R16G16B16A16_SFLOAT = 97, 8 bytes, 4 x Sfloat, COLOR;
+    R32_UINT = 98, 4 bytes, 1 x Uint, COLOR;
+    R32_SFLOAT = 100, 4 bytes, 1 x Sfloat, COLOR;
+    R32G32_SFLOAT = 103, 8 bytes, 2 x Sfloat, COLOR;
+    R32G32B32A32_UINT = 107, 16 bytes, 4 x Uint, COLOR;
+    R32G32B32A32_SFLOAT = 109, 16 bytes, 4 x Sfloat, COLOR;
+    B10G11R11_UFLOAT_PACK32 = 122, 4 bytes, 3 x Ufloat, COLOR;
+    D16_UNORM = 124, 2 bytes, 1 x Unorm, DEPTH;
+    X8_D24_UNORM_PACK32 = 125, 4 bytes, 1 x Unorm, DEPTH;
+    D32_SFLOAT = 126, 4 bytes, 1 x Sfloat, DEPTH;
+    D24_UNORM_S8_UINT = 129, 4 bytes, 1 x Unorm, DEPTH_STENCIL;
+    D32_SFLOAT_S8_UINT = 130, 8 bytes, 1 x Sfloat, DEPTH_STENCIL;
+}
+
+impl Format {
+    /// Whether it holds depth.
+    #[must_use]
+    pub const fn is_depth(self) -> bool {
+        self.aspects().contains(Aspects::DEPTH)
+    }
+
+    /// Whether components are integers: such images can't be filtered, blended or averaged.
+    #[must_use]
+    pub const fn is_integer(self) -> bool {
+        matches!(self.numeric(), Numeric::Uint)
+    }
+
+    /// Bytes that one texel takes where each plane is stored by itself.
+    #[must_use]
+    pub const fn least_texel_bytes(self) -> u64 {
+        match self {
+            Format::D24_UNORM_S8_UINT => 4,
+            Format::D32_SFLOAT_S8_UINT => 5,
+            other => other.texel_bytes(),
+        }
+    }
+
+    /// The format with Vulkan's name `name`.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Format> {
+        Format::ALL.iter().copied().find(|format| format.name() == name)
+    }
+}
+
+impl std::fmt::Display for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
