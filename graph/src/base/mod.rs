@@ -14,7 +14,7 @@ mod source;
 
 pub use diagnostic::{Diagnostic, Label, OutsideChoice, Quote};
 pub(crate) use diagnostic::{MOST_KEPT, keep};
-pub use file_path::*;
+pub use file_path::{FilePath, for_shell};
 pub use json::to_json;
 pub(crate) use near_names::without_quotes;
 pub use near_names::{nearest, suggestion};

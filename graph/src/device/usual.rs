@@ -1,6 +1,6 @@
 //! Which images a saved profile knows the memory needs of: the usual formats, sizes, sample counts and usages.
 
-use super::{FormatSupport, ImageDescriptor, KnownNeeds, MemoryNeeds, MemoryProvider};
+use super::{FormatSupport, ImageDescriptor, KnownNeeds, MemoryNeeds, MemoryProvider, Profile};
 use crate::vulkan::{Shape, Sharing, Usage};
 
 /// Sizes of screens and shadow maps, rising.
@@ -35,7 +35,7 @@ const USAGES: [Usage; 13] = [
 ];
 
 /// What they need, as `memory` says it; what the device can't make is left out.
-pub(super) fn needs(formats: &[FormatSupport], largest: u32, memory: &mut dyn MemoryProvider) -> Vec<KnownNeeds> {
+fn needs(formats: &[FormatSupport], largest: u32, memory: &mut dyn MemoryProvider) -> Vec<KnownNeeds> {
     let mut all = Vec::new();
     for support in formats {
         let single = if support.samples.is_empty() { &[1][..] } else { &support.samples };
@@ -86,6 +86,16 @@ fn sizes(
         ([width, height], memory.image(&descriptor))
     });
     needs.filter(|(_, needs)| needs.bytes < u64::MAX).collect()
+}
+
+impl Profile {
+    /// The profile with the memory needs of the usual images added, as `memory` says them: what it takes to plan for the
+    /// device where it is not.
+    #[must_use]
+    pub fn with_usual_needs(mut self, memory: &mut dyn MemoryProvider) -> Profile {
+        self.known_needs = needs(&self.formats, self.max_attachment_extent, memory);
+        self
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What names stand for, and whether types fit: one pass over the program, with a stack of types in place of values.
 
-use super::Expression;
+use super::bound::Expression;
 use super::environment::{Bound, Declarations, Found, Origin, Symbol};
 use super::functions::{Callee, Function};
 use super::program::{Binary, Operation, Program, shown};

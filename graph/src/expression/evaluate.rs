@@ -1,7 +1,7 @@
 //! The value of an expression, what decided it, and why it may have none: a loop over the program with a stack.
 
-use super::Expression;
 use super::arithmetic::{self, Trouble};
+use super::bound::Expression;
 use super::environment::{Bound, Decision, Missing, Property, Symbol, Values};
 use super::functions::Function;
 use super::program::{Binary, Operation, shown};

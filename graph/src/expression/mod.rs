@@ -36,6 +36,7 @@
 //! find types only as they go, and tell no places.
 
 mod arithmetic;
+mod bound;
 mod check;
 mod environment;
 mod evaluate;
@@ -45,20 +46,16 @@ mod program;
 mod tokens;
 mod types;
 
+pub use bound::Expression;
 pub use environment::{Decision, Declarations, Found, Missing, Origin, Property, Symbol, Values};
 pub use evaluate::{Failed, Outcome};
 pub use functions::functions;
+pub use parse::{LONGEST_TEXT, MOST_NESTED};
 pub use types::{Type, Value, Wanted};
 
 use crate::base::{Diagnostic, Span};
 use environment::Bound;
 use program::Program;
-
-/// An expression has at most this many bytes.
-pub const LONGEST_TEXT: usize = 4096;
-
-/// Parentheses, calls, brackets, `!` and `-` stand at most this deep in each other.
-pub const MOST_NESTED: usize = 64;
 
 /// An expression that was parsed; what its names stand for is not known yet.
 #[derive(Debug, Clone)]
@@ -88,15 +85,6 @@ impl Parsed {
     pub fn check(self, declarations: &dyn Declarations, wanted: Wanted<'_>) -> Result<Expression, Vec<Diagnostic>> {
         check::check(self.program, declarations, wanted)
     }
-}
-
-/// An expression with the meaning of its names: evaluated as often as there are values.
-#[derive(Debug, Clone)]
-pub struct Expression {
-    program: Program,
-    /// What the program's names stand for.
-    bound: Vec<Bound>,
-    ty: Type,
 }
 
 impl Expression {

@@ -4,9 +4,14 @@ use super::functions::{CALLEES, Callee};
 use super::program::{Binary, Node, Operation, Program, Text, shown};
 use super::tokens::{self, Mistake, Placed, Token};
 use super::types::Value;
-use super::{LONGEST_TEXT, MOST_NESTED};
 use crate::base::{Diagnostic, Span, nearest, suggestion};
 use std::ops::Range;
+
+/// An expression has at most this many bytes.
+pub const LONGEST_TEXT: usize = 4096;
+
+/// Parentheses, calls, brackets, `!` and `-` stand at most this deep in each other.
+pub const MOST_NESTED: usize = 64;
 
 /// Parses `text`, which stands at `span`.
 pub(super) fn parse(text: &str, span: Span) -> Result<Program, Diagnostic> {

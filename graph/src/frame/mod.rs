@@ -15,16 +15,17 @@ mod touch;
 mod view;
 
 pub use index::{BufferIndex, ImageIndex, Resource};
-pub use jitter::*;
+pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use output::Output;
 pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Work};
 pub(crate) use resource::with_room;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay};
-pub use texture::*;
+pub(crate) use texture::format_problem;
+pub use texture::{ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures};
 pub use touch::{
     Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,
 };
-pub use view::*;
+pub use view::{Allowances, Eye, EyeForm, Stereo, View, ViewEye, ViewIndex};
 
 use crate::base::{Sources, Span};
 use change::Change;

@@ -60,7 +60,7 @@ mod work;
 pub(crate) use buffers::LARGEST_BUFFER;
 pub use choices::{Choice, ChosenBy, InForce, Preset, SETTINGS_VERSION, SettingsFile};
 pub use document::Document;
-pub use facts::*;
+pub use facts::{Fact, FactType, FactValue, Facts};
 pub(crate) use images::LARGEST_SIZE;
 pub use includes::{Files, Found, NoFiles, Unread};
 pub use loader::{LANGUAGE_VERSION, LARGEST_FILE};

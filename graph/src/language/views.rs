@@ -47,7 +47,7 @@ fields! {
 }
 
 /// How often a picture may be shifted otherwise.
-const JITTER: Form = Form::Whole(1, frame::LONGEST as i64);
+const JITTER: Form = Form::Whole(1, frame::LONGEST_JITTER as i64);
 
 /// The views of a pipeline.
 pub(super) const VIEWS: Form = Form::List(&Form::Fields(ViewFields::<'static>::table));
@@ -263,7 +263,7 @@ fn view<'a>(
 
 /// How what a view's camera sees is shifted. `scope` is the view's own.
 fn jitter(reader: &mut Reader, scope: &Scope<'_>, fields: &ViewFields<'_>) -> Option<Option<Jitter>> {
-    let range = 1..=i64::from(frame::LONGEST);
+    let range = 1..=i64::from(frame::LONGEST_JITTER);
     let length = |leaf| values::whole::<u16>(reader, scope, leaf, "number of shifts", range);
     let length = fields.jitter.map_or(Some(1), length);
     let extent = fields.jitter_size.map_or(Some(scope.surroundings.extent), |leaf| size(reader, scope, leaf));

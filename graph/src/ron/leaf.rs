@@ -1,6 +1,7 @@
 //! Values of a file's tree, read one by one so that one mistake doesn't hide the next.
 
-use super::tree::{Kind, Node, Text};
+use super::node::{Kind, Node, Text};
+use super::numbers::Number;
 use super::{Spanned, Tree, escapes, numbers};
 use crate::base::Span;
 use std::borrow::Cow;
@@ -47,19 +48,6 @@ impl Shape<'_> {
             Shape::Other => "something else".to_owned(),
         }
     }
-}
-
-/// What a number is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Number {
-    /// Written without point and exponent.
-    Whole(i64),
-    /// The same, and beyond 64 bits; the nearest floating-point number.
-    Huge(f64),
-    /// Written with point or exponent; finite unless it is too large.
-    Real(f64),
-    /// `-inf` and the like.
-    NotFinite,
 }
 
 impl<'t> Leaf<'t> {

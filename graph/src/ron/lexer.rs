@@ -1,6 +1,6 @@
 //! Blanks, comments, words, texts and numbers: what has no brackets.
 
-use super::tree::Kind;
+use super::node::Kind;
 use super::{escapes, numbers};
 use crate::base::{Diagnostic, Span};
 use std::ops::Range;

@@ -1,6 +1,17 @@
 //! Numbers as RON writes them: `1`, `-0.5`, `1_000`, `1e-3`, `.5`, `0xff`, `0b1010`, `0o17`.
 
-use super::Number;
+/// What a number is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Number {
+    /// Written without point and exponent.
+    Whole(i64),
+    /// The same, and beyond 64 bits; the nearest floating-point number.
+    Huge(f64),
+    /// Written with point or exponent; finite unless it is too large.
+    Real(f64),
+    /// `-inf` and the like.
+    NotFinite,
+}
 
 /// The number that a text means, if it is one. Types behind the digits (`1u8`) are not part of it.
 pub(crate) fn parse(text: &str) -> Option<Number> {

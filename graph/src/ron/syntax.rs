@@ -4,7 +4,7 @@
 //! brackets or quotes are amiss it stops: whatever follows would be guessed.
 
 use super::lexer::{Lexer, Stop};
-use super::tree::{Kind, Node};
+use super::node::{Kind, Node};
 use crate::base::{Diagnostic, MOST_KEPT};
 
 /// Brackets are nested at most so deeply.

@@ -1,6 +1,6 @@
 //! Whether the waits and barriers of each step are well formed.
 
-use super::Findings;
+use super::findings::Findings;
 use super::parts::overlap;
 use super::scopes::impossible;
 use crate::plan::{ImageBarrier, Plan, Queue, Step, StepId};

@@ -1,7 +1,7 @@
 //! Whether what is read was ever written, and not lost since.
 
-use super::Finding;
 use super::cells::{Contents, Lost};
+use super::findings::{Finding, name};
 use super::program::Touch;
 use super::touches::does;
 use super::violation::{Loss, Rule, StepName};
@@ -61,7 +61,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             Lost::Forgotten => Loss::Forgotten,
             Lost::NotLoaded => Loss::NotLoaded,
             Lost::NotStored => Loss::NotStored,
-            Lost::Taken(by) => Loss::Taken { by: super::name(self.plan, by).clone() },
+            Lost::Taken(by) => Loss::Taken { by: name(self.plan, by).clone() },
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Whether what holds both eyes' parts is used for both eyes at once, or by shaders that say whose they look up.
 
-use super::Findings;
+use super::findings::Findings;
 use super::touches::attachments;
 use crate::frame::{EyeForm, Stereo};
 use crate::plan::{Access, ImageId, Plan, RenderScope, Side, StepId, Transfer, Work};

@@ -1,26 +1,14 @@
-//! What crosses frames: the state in which they find images and buffers and leave them, and what becomes what.
-//!
-//! Something external is found in its stated state each time, whatever the frame before left. Something persistent is
-//! found in its stated state by the first frame; by later ones in that in which the frame before really left it, which
-//! must be the one that is stated too. After the last step of a frame whoever relies on the stated state puts a barrier
-//! behind it that names it as its source; where it names no stages, a semaphore, which waits for everything. Of the reads
-//! that it names, at least one can be made at once.
+//! How many frames are walked, and which history image becomes which in the next one.
 
-use super::Findings;
-use super::cells::{Cell, Contents, Owner, Write};
-use super::dependencies::{before_access, before_layout_change};
-use super::scopes::{PairSet, StageSet, stage_of};
-use super::violation::Touched;
-use super::walk::Walk;
-use crate::plan::{Buffer, Image, Plan, Resource, Role, StepId};
-use crate::vulkan::{Layout, State};
+use super::findings::Findings;
+use crate::plan::{Buffer, Image, Plan, Role};
 
 /// How many frames are walked, and what becomes what between them.
 #[derive(Debug)]
 pub(super) struct Frames {
     pub(super) count: u32,
     /// Images and buffers of which each becomes the next, and the last one the first.
-    circles: Vec<Vec<u32>>,
+    pub(super) circles: Vec<Vec<u32>>,
 }
 
 /// Most images or buffers that become each other: history is followed as deep as that, less one.
@@ -111,111 +99,4 @@ fn check_pair(found: &mut Findings, index: u32, alike: bool, roles: [&Role; 2]) 
             found.structure(None, Some(index), "is left in another state than the next frame finds what it becomes in");
         }
     }
-}
-
-impl<const Q: usize> Walk<'_, '_, Q> {
-    pub(super) fn begin_frame(&mut self) {
-        self.begin_signals();
-        let time = self.frame_start();
-        for resource in 0..self.program.used.len() as u32 {
-            let (before, persistent) = match super::role(self.plan, resource) {
-                Role::External { before, .. } => (before, false),
-                Role::Persistent { before, .. } if self.frame == 0 => (before, true),
-                _ => continue,
-            };
-            let (stages, pairs) = scopes(before);
-            let is_image = (resource as usize) < self.plan.images.len();
-            let unknown = is_image && !persistent && before.layout == Layout::Undefined;
-            let queue = self.program.used[resource as usize].queue;
-            let mut part = self.parts.whole(resource);
-            while let Some(index) = self.parts.next(&mut part) {
-                let cell = &mut self.cells[index];
-                *cell = Cell::FRESH;
-                cell.layout = before.layout;
-                cell.contents = if unknown { Contents::Unwritten } else { Contents::Defined };
-                // What is handed in was used on the queue that uses it first. What persists was prepared, and who did so
-                // waited until that was done.
-                if !persistent {
-                    cell.write = Write::before_frame(queue, pairs, time);
-                    cell.reads.insert(queue, stages, time);
-                }
-            }
-        }
-    }
-
-    /// Whoever relies on the stated state finds it so.
-    pub(super) fn end_frame(&mut self) {
-        let last = StepId(self.program.steps() - 1);
-        for resource in 0..self.program.used.len() as u32 {
-            let (after, persistent) = match super::role(self.plan, resource) {
-                Role::External { after, .. } => (*after, false),
-                Role::Persistent { after, .. } => (*after, true),
-                Role::Transient(_) => continue,
-            };
-            let mut part = self.parts.whole(resource);
-            while let Some(index) = self.parts.next(&mut part) {
-                if !persistent {
-                    self.check_acquired(last, resource, index);
-                }
-                self.check_layout(last, resource, index, after.layout);
-                self.check_state(last, resource, index, &after);
-                if persistent || matches!(self.cells[index].contents, Contents::Lost(..) | Contents::InPart(_)) {
-                    self.read(last, resource, index);
-                }
-            }
-        }
-        for output in &self.plan.outputs {
-            let resource = match output.resource {
-                Resource::Image(image) => image.0,
-                Resource::Buffer(buffer) => self.plan.images.len() as u32 + buffer.0,
-            };
-            let mut part = self.parts.whole(resource);
-            while let Some(index) = self.parts.next(&mut part) {
-                self.read(last, resource, index);
-            }
-        }
-    }
-
-    /// Whether a barrier that names the stated state as its source waits for everything, and makes it available.
-    fn check_state(&mut self, last: StepId, resource: u32, index: usize, after: &State) {
-        let cell = &self.cells[index];
-        if cell.excused || matches!(cell.owner, Owner::Released(_)) || after.stages.is_empty() {
-            return;
-        }
-        let (stages, pairs) = scopes(after);
-        let before = self.clocks.after_all_queues(stages.and_earlier(), self.now(last) + 1);
-        // Parts may have been read last in different stages, of which the state lists all.
-        let mut reads = if pairs.writes().is_empty() { pairs } else { PairSet::default() }.iter();
-        let queue = self.program.used[resource as usize].last_queue;
-        let read = |pair| before_access(cell, &self.clocks, queue, StageSet(1 << stage_of(pair)), PairSet::only(pair));
-        let unread = || {
-            let first = read(reads.next()?)?;
-            reads.all(|pair| read(pair).is_some()).then_some(first)
-        };
-        if let Some(mut gap) = before_layout_change(cell, &before, pairs).or_else(unread) {
-            gap.later = Touched::AfterFrame;
-            self.cells[index].excused = true;
-            self.report(last, resource, index, gap.rule(), gap.time);
-        }
-    }
-
-    /// At the end of a frame everything becomes what it is in the next one.
-    pub(super) fn become_next(&mut self, frames: &Frames) {
-        for circle in &frames.circles {
-            for pair in circle.windows(2).rev() {
-                self.exchange(pair[0], pair[1]);
-            }
-        }
-    }
-
-    fn exchange(&mut self, one: u32, other: u32) {
-        let (mut one, mut other) = (self.parts.whole(one), self.parts.whole(other));
-        while let (Some(one), Some(other)) = (self.parts.next(&mut one), self.parts.next(&mut other)) {
-            self.cells.swap(one, other);
-        }
-    }
-}
-
-fn scopes(state: &State) -> (StageSet, PairSet) {
-    (StageSet::of(state.stages), PairSet::of(state.stages, state.accesses))
 }

@@ -11,10 +11,10 @@
 //!    image barrier's memory scope is its own image. To the first accesses of a buffer B, which no barrier of its own
 //!    protects, it must be visible as well.
 
-use super::Finding;
 use super::cells::{Cell, Contents, Lost};
 use super::clocks::Clock;
 use super::dependencies::{Missing, before_access, before_layout_change};
+use super::findings::{Finding, name, role};
 use super::program::Touch;
 use super::scopes::PairSet;
 use super::violation::{Rule, StepName};
@@ -106,7 +106,7 @@ impl Memory {
 impl<const Q: usize> Walk<'_, '_, Q> {
     /// An image or buffer takes its bytes, unless it has them.
     pub(super) fn occupy(&mut self, step: StepId, resource: u32) {
-        let Role::Transient(placement) = super::role(self.plan, resource) else { return };
+        let Role::Transient(placement) = role(self.plan, resource) else { return };
         let now = self.now(step);
         let holder = &mut self.memory.holders[resource as usize];
         if std::mem::replace(&mut holder.held, true) {
@@ -121,7 +121,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
             let owner = self.memory.predecessors[at];
             if let Some(last) = self.needs_until(owner, step) {
                 self.found.push(Finding {
-                    rule: Rule::Overlap { with: super::name(self.plan, owner).clone() },
+                    rule: Rule::Overlap { with: name(self.plan, owner).clone() },
                     step,
                     other: Some(StepName::new(self.plan, last, 0)),
                     resource,
@@ -193,7 +193,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
                 };
             }
             if let Some(gap) = missing {
-                let name = super::name(self.plan, from).clone();
+                let name = name(self.plan, from).clone();
                 let waited = gap.missing != Missing::Execution;
                 self.found.push(Finding {
                     rule: Rule::HandOver { from: name, earlier: gap.earlier, waited },
@@ -213,7 +213,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
     }
 
     fn shared_bytes(&self, one: u32, other: u32) -> Option<[u64; 2]> {
-        match (super::role(self.plan, one), super::role(self.plan, other)) {
+        match (role(self.plan, one), role(self.plan, other)) {
             (Role::Transient(one), Role::Transient(other)) => {
                 let end = (one.offset + one.bytes).min(other.offset + other.bytes);
                 Some([one.offset.max(other.offset), end])

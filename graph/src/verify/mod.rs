@@ -11,11 +11,13 @@
 //! The work is linear in steps, barriers and accesses: see `clocks`, `parts` and `program`.
 
 mod barriers;
+mod boundaries;
 mod cells;
 mod clocks;
 mod contents;
 mod dependencies;
 mod eyes;
+mod findings;
 mod frames;
 mod memory;
 mod ownership;
@@ -35,10 +37,8 @@ mod work;
 
 pub use violation::{Loss, OwnershipFault, Rule, StepName, Touched, Violation};
 
-use crate::plan::{Plan, Role, StepId, Subresources};
-use std::collections::HashSet;
-use std::mem::Discriminant;
-use std::sync::Arc;
+use crate::plan::Plan;
+use findings::Findings;
 
 /// Checks a Plan. Nothing found means: every access is synchronised, on a queue that may make it, in the right layout,
 /// defined, and in memory of its own, in every frame that follows on frames of the same Plan.
@@ -47,7 +47,7 @@ use std::sync::Arc;
 /// A Plan that is malformed so badly that its steps can't be followed gets only that said.
 #[must_use]
 pub fn verify(plan: &Plan) -> Vec<Violation> {
-    let mut found = Findings { plan, violations: Vec::new(), seen: HashSet::new() };
+    let mut found = Findings::new(plan);
     if let Err(error) = plan.check_references() {
         found.structure(None, None, error.to_string());
     } else if let Some(frames) = structure::check(plan, &mut found)
@@ -60,63 +60,4 @@ pub fn verify(plan: &Plan) -> Vec<Violation> {
         walk::walk(plan, &program, frames, &mut found);
     }
     found.violations
-}
-
-/// What was found so far.
-struct Findings<'p> {
-    plan: &'p Plan,
-    violations: Vec<Violation>,
-    seen: HashSet<(Discriminant<Rule>, StepId, u32)>,
-}
-
-/// A mistake that concerns an image or a buffer. Those are numbered in one row, buffers after images.
-struct Finding {
-    rule: Rule,
-    step: StepId,
-    other: Option<StepName>,
-    resource: u32,
-    range: Option<Subresources>,
-    bytes: Option<[u64; 2]>,
-}
-
-impl Findings<'_> {
-    /// Adds a mistake, unless the same rule was broken by the same step on the same image or buffer before.
-    fn push(&mut self, finding: Finding) {
-        let Finding { rule, step, other, resource, range, bytes } = finding;
-        if self.seen.insert((std::mem::discriminant(&rule), step, resource)) {
-            let step = Some(StepName::new(self.plan, step, 0));
-            let resource = Some(name(self.plan, resource).clone());
-            self.violations.push(Violation { rule, step, other, resource, range, bytes });
-        }
-    }
-
-    /// Adds a mistake of form.
-    fn structure(&mut self, step: Option<StepId>, resource: Option<u32>, what: impl Into<String>) {
-        self.violations.push(Violation {
-            rule: Rule::Structure { what: what.into() },
-            step: step.map(|step| StepName::new(self.plan, step, 0)),
-            other: None,
-            resource: resource.map(|resource| name(self.plan, resource).clone()),
-            range: None,
-            bytes: None,
-        });
-    }
-}
-
-/// The name of an image or buffer.
-fn name(plan: &Plan, resource: u32) -> &Arc<str> {
-    let resource = resource as usize;
-    match plan.images.get(resource) {
-        Some(image) => &image.name,
-        None => &plan.buffers[resource - plan.images.len()].name,
-    }
-}
-
-/// Where the memory of an image or buffer comes from.
-fn role(plan: &Plan, resource: u32) -> &Role {
-    let resource = resource as usize;
-    match plan.images.get(resource) {
-        Some(image) => &image.role,
-        None => &plan.buffers[resource - plan.images.len()].role,
-    }
 }

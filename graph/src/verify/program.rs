@@ -4,11 +4,11 @@
 //! A Plan is read once to build it. On the way uses and lifetimes that the Plan doesn't state are reported, and ranges
 //! that no image has: with those, nothing can be followed.
 
+use super::findings::{Finding, Findings, role};
 use super::parts::{RangeId, Ranges, fits};
 use super::scopes::{PairSet, StageSet};
 use super::touches::{self, BufferTouch, ImageTouch, Kind};
 use super::violation::{Rule, StepName};
-use super::{Finding, Findings, role};
 use crate::plan::{ImageBarrier, ImageId, Plan, Queue, Role, Step, StepId, Subresources};
 use crate::vulkan::{Layout, Sharing, name_of};
 

@@ -1,6 +1,6 @@
 //! Whether depth-only passes draw again what they say: the same geometry, tested in the same way, with fewer samples.
 
-use super::Findings;
+use super::findings::Findings;
 use crate::plan::names::Shown;
 use crate::plan::{Image, Pass, Plan, RenderScope, StepId, Work};
 use std::collections::HashMap;

@@ -1,6 +1,6 @@
 //! Whether a Plan's lists are well formed: images, buffers, heaps, outputs.
 
-use super::Findings;
+use super::findings::{Findings, name, role};
 use super::frames::{self, Frames};
 use super::violation::{Rule, Violation};
 use crate::frame::format_problem;
@@ -205,7 +205,7 @@ fn check_placement(plan: &Plan, resource: u32, placement: &Placement, lazy: bool
             rule: Rule::Structure { what },
             step: None,
             other: None,
-            resource: Some(super::name(plan, resource).clone()),
+            resource: Some(name(plan, resource).clone()),
             range: None,
             bytes: Some([placement.offset, placement.offset.saturating_add(placement.bytes)]),
         });
@@ -258,7 +258,7 @@ fn check_outputs(plan: &Plan, found: &mut Findings) {
             Resource::Image(image) => image.0,
             Resource::Buffer(buffer) => plan.images.len() as u32 + buffer.0,
         };
-        if matches!(super::role(plan, resource), Role::Transient(_)) {
+        if matches!(role(plan, resource), Role::Transient(_)) {
             found.structure(None, Some(resource), "is listed as an output and is transient");
         }
         if !listed.insert(resource) {

@@ -1,6 +1,6 @@
 //! Whether a Plan's sums add up.
 
-use super::Findings;
+use super::findings::Findings;
 use super::violation::{Rule, Violation};
 use crate::plan::{Placement, Plan, Role, Totals};
 

@@ -3,6 +3,7 @@
 use super::cells::{Cell, Contents, Lost, Owner, Write};
 use super::clocks::{Availability, Clock, Clocks, Time};
 use super::dependencies::{before_access, before_layout_change, makes_available};
+use super::findings::{Finding, Findings, role};
 use super::frames::Frames;
 use super::memory::{Memory, Taking};
 use super::parts::Parts;
@@ -10,7 +11,6 @@ use super::program::{Barrier, Program, Span, Touch};
 use super::scopes::{PairSet, StageSet};
 use super::touches::Kind;
 use super::violation::{Rule, StepName};
-use super::{Finding, Findings};
 use crate::plan::{Plan, Role, StepId, Subresources};
 use crate::vulkan::Layout;
 
@@ -177,7 +177,7 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         }
         let occupation = self.memory.occupation(barrier.image);
         let frame_start = self.frame_start();
-        let outlives = !matches!(super::role(self.plan, barrier.image), Role::Transient(_));
+        let outlives = !matches!(role(self.plan, barrier.image), Role::Transient(_));
         let mut part = self.parts.of(barrier.image, barrier.range);
         while let Some(index) = self.parts.next(&mut part) {
             let acquired = Q > 1 && self.own_by_barrier(id, queue, barrier, number, index);

@@ -3,11 +3,12 @@
 //! The render area of a scope is all of its attachments: otherwise a clear would be partial and nothing could be said
 //! about contents. On the way the steps get their dense form: a Plan is too large to be read several times.
 
+use super::barriers;
+use super::findings::{Finding, Findings};
 use super::parts::overlap;
 use super::program::{Builder, Program};
 use super::touches::{ATTACHMENT, attachments};
 use super::violation::{Rule, StepName, Touched};
-use super::{Finding, Findings, barriers};
 use crate::frame::Draw;
 use crate::plan::names::Shown;
 use crate::plan::{

@@ -9,10 +9,13 @@ mod name;
 mod rotation;
 pub(crate) mod states;
 
-pub use encoding::*;
-pub use enums::*;
+pub use encoding::Encoding;
+pub use enums::{
+    Accesses, AddressMode, Aspects, BufferUsage, CompareOp, FillValue, Filter, Layout, LoadOp, ResolveMode, Sampler,
+    Shape, Sharing, Stages, State, StencilOp, StoreOp, Subresources, Usage,
+};
 pub(crate) use foreign_formats::vulkans_name;
-pub use format::*;
+pub use format::{Format, Numeric};
 pub use image_shape::{Component, Dimension, ImageShape};
 pub(crate) use name::name_of;
-pub use rotation::*;
+pub use rotation::Rotation;

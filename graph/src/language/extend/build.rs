@@ -3,7 +3,7 @@
 use super::draft::Draft;
 use super::entry::{Entry, Value};
 use crate::frame::change::Kind;
-use crate::ron::tree::{Kind as NodeKind, Node, Text};
+use crate::ron::node::{Kind as NodeKind, Node, Text};
 use crate::ron::{Leaf, Shape, Tree};
 use std::collections::HashMap;
 

@@ -1,24 +1,37 @@
 //! The tree form of a Plan, for people: what runs, in order, with what was inserted at its place and why.
 
-mod lists;
-mod words;
-
-use super::names::Shown;
+use super::changes;
+use super::lists::{buffer, image, note, output, totals, view};
 use super::outline::Node;
-use super::{
-    Access, Attachment, BindingKind, BufferAccess, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
-    RenderScope, Resource, Side, Step, StepId, Subresources, Transfer, Wait, Work, changes,
-};
+use super::words::{bytes, cause, fill_value, hazard, samples, size, words_of, words_of_cascade, words_of_list};
 use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, ParamValue, StencilState, Stereo};
+use crate::plan::names::Shown;
+use crate::plan::{
+    Access, Attachment, BindingKind, BufferAccess, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
+    RenderScope, Resource, Side, Step, StepId, Subresources, Transfer, Wait, Work,
+};
 use crate::vulkan::name_of;
-use lists::{buffer, image, note, output, totals, view};
-use words::{bytes, cause, fill_value, hazard, samples, size, words_of, words_of_cascade, words_of_list};
 
 /// How many objects of a scene are in a draw list.
 type Objects<'p> = &'p dyn Fn(DrawList) -> usize;
 
+impl Plan {
+    /// The tree form for people.
+    #[must_use]
+    pub fn tree(&self) -> String {
+        tree(self, None)
+    }
+
+    /// The tree form for people, of a frame of a scene that has so many objects in each draw list: passes say how many they
+    /// draw at most.
+    #[must_use]
+    pub fn tree_of(&self, objects: &dyn Fn(DrawList) -> usize) -> String {
+        tree(self, Some(objects))
+    }
+}
+
 /// The tree form, of a scene's frame if there is one.
-pub(super) fn tree(plan: &Plan, objects: Option<Objects<'_>>) -> String {
+fn tree(plan: &Plan, objects: Option<Objects<'_>>) -> String {
     let memory = if plan.device.exact_memory { "its own memory needs" } else { "estimated memory needs" };
     let mut parts = Vec::new();
     if !plan.settings.is_empty() {

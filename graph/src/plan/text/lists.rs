@@ -1,9 +1,9 @@
 //! What a Plan lists beside its steps: views, images, buffers, outputs, notes and totals.
 
+use super::outline::Node;
 use super::words::{bytes, cause, count, fill_value, place, samples, size};
 use crate::frame::{Allowances, ColorSpace, EyeForm, Jitter};
 use crate::plan::names::Shown;
-use crate::plan::outline::Node;
 use crate::plan::{Buffer, ChosenFormat, Image, Initial, Note, Output, Plan, Resource, Role, Totals, View, ViewEye};
 use crate::vulkan::{Encoding, name_of};
 

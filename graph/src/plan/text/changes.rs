@@ -1,8 +1,8 @@
 //! Changes of a pipeline in words.
 
-use super::Change;
-use super::names::Shown;
 use crate::frame::change::{Action, Where};
+use crate::plan::Change;
+use crate::plan::names::Shown;
 use std::sync::Arc;
 
 /// What was done, and where it is said.

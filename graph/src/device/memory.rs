@@ -1,0 +1,61 @@
+//! Images and buffers by their full descriptors, and the memory that they need.
+
+use super::sound;
+use crate::vulkan::{BufferUsage, Format, Shape, Sharing, Usage};
+use serde::{Deserialize, Serialize};
+
+/// The full descriptor of an image: compatibility, aliasing and caches compare all of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct ImageDescriptor {
+    /// Texel format.
+    pub format: Format,
+    /// Flat, deep, or a cube.
+    pub shape: Shape,
+    /// Width, height, depth in texels.
+    pub extent: [u32; 3],
+    /// Mip levels.
+    pub mips: u32,
+    /// Array layers.
+    pub layers: u32,
+    /// Samples a texel.
+    pub samples: u32,
+    /// What it is used for.
+    pub usage: Usage,
+    /// Which queues may use it.
+    pub sharing: Sharing,
+}
+
+/// The full descriptor of a buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct BufferDescriptor {
+    /// Bytes.
+    pub bytes: u64,
+    /// What it is used for.
+    pub usage: BufferUsage,
+    /// Which queues may use it.
+    pub sharing: Sharing,
+}
+
+/// What an image or buffer needs of memory (`VkMemoryRequirements`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MemoryNeeds {
+    /// Bytes.
+    pub bytes: u64,
+    /// Alignment of the offset, a power of two.
+    #[serde(deserialize_with = "sound::alignment")]
+    pub alignment: u64,
+    /// Which memory types will do, one bit each (`memoryTypeBits`).
+    #[serde(deserialize_with = "sound::type_bits")]
+    pub type_bits: u32,
+}
+
+/// Where memory needs come from.
+pub trait MemoryProvider {
+    /// Whether the needs are those of a real device, or estimated.
+    fn exact(&self) -> bool;
+    /// The needs of one image.
+    fn image(&mut self, descriptor: &ImageDescriptor) -> MemoryNeeds;
+    /// The needs of one buffer.
+    fn buffer(&mut self, descriptor: &BufferDescriptor) -> MemoryNeeds;
+}

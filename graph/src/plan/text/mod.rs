@@ -1,0 +1,7 @@
+//! A Plan as text for people.
+
+mod changes;
+mod lists;
+mod outline;
+mod tree;
+mod words;
