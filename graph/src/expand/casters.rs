@@ -1,7 +1,7 @@
 //! Cascades of one view are looked up together: they are cut from it in one way, and lie in the layers of one image.
 
-use super::order::State;
-use super::used_here;
+use super::chosen::used_here;
+use super::state::State;
 use crate::base::Diagnostic;
 use crate::frame::{Cascade, DepthTarget, Draw, ViewIndex, Work};
 use crate::language::{self, Pipeline};

@@ -1,10 +1,11 @@
 //! Whether what draws multisampled depth can draw it alone, where one value a texel of that depth may be wanted: then it is
 //! drawn again with one sample, by what the macro `DEPTH_ONLY` leaves of its shader.
 
-use super::order::State;
+use super::chosen::Chosen;
 use super::shader::{Checked, PARAMS};
+use super::state::State;
 use super::things::Things;
-use super::{Chosen, variant};
+use super::variant;
 use crate::frame::{Draw, Face, ImageIndex, Pass, ResolveWay, Work};
 use crate::language;
 use crate::shader::{Binding, PASS_SET, ShaderInterface, ShaderProblem, Variant};

@@ -1,6 +1,6 @@
 //! Whether what draws can draw into both eyes' pictures where they lie side by side, as far as its shader tells.
 
-use super::Chosen;
+use super::chosen::Chosen;
 use super::things::Things;
 use crate::base::Diagnostic;
 use crate::frame::EyeForm;

@@ -1,7 +1,7 @@
 //! How far back history is kept: as far as a pass that runs reads it. What no pass reads of earlier frames lives within the
 //! frame.
 
-use super::order::State;
+use super::state::State;
 use super::things::Things;
 use super::touches;
 use crate::frame::{Lifetime, Resource};

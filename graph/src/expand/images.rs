@@ -1,6 +1,7 @@
 //! Formats, sizes and sample counts of images, each its own or that of an image that it follows.
 
-use super::{Chosen, shapes};
+use super::chosen::Chosen;
+use super::shapes;
 use crate::base::Diagnostic;
 use crate::frame::{self, Image, ResolveWay};
 use crate::language::{self, Format as Described, ImageRef, Layers, Mips, Resolves, Samples, Size};

@@ -1,11 +1,13 @@
 //! The order of passes: nothing is read before it is written, and whoever writes first covers or clears.
 
+use super::chosen::Chosen;
 use super::parts::Cells;
+use super::state::State;
 use super::things::Things;
 use super::touches::{self, Read, Write};
 use super::waits::{self, Need};
+use super::writers::{Writer, Writers};
 use super::written::{Cell, Written};
-use super::{Chosen, passes};
 use crate::base::{Diagnostic, Span, keep};
 use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::language::StandIn;
@@ -14,84 +16,6 @@ use std::iter::{once, successors};
 
 /// After so many mistakes it is no longer looked for which writer was meant: that would take long in a large file.
 const MANY_MISTAKES: usize = 100;
-
-/// A pass as it runs in this frame, or doesn't.
-pub(super) enum State {
-    /// It runs.
-    On(Pass),
-    /// It is off.
-    Off {
-        /// What it would do.
-        would: Pass,
-        /// What runs instead.
-        stand_ins: Vec<Pass>,
-        /// Why it is off.
-        because: String,
-    },
-}
-
-impl State {
-    /// The passes that run.
-    pub(super) fn into_passes(self) -> Vec<Pass> {
-        match self {
-            State::On(pass) => vec![pass],
-            State::Off { stand_ins, .. } => stand_ins,
-        }
-    }
-}
-
-/// A pass that writes an image or buffer, and where it names it.
-#[derive(Clone, Copy)]
-struct Writer {
-    position: usize,
-    span: Span,
-}
-
-/// Writers of each image and buffer, in the order of passes.
-pub(super) struct Writers {
-    images: usize,
-    /// Those that run.
-    on: Vec<Vec<Writer>>,
-    /// Those that are off and have no stand-in.
-    off: Vec<Vec<Writer>>,
-}
-
-impl Writers {
-    fn find(chosen: &Chosen<'_>, things: &Things, states: &[State]) -> Writers {
-        let images = chosen.pipeline.images.len();
-        let count = images + chosen.pipeline.buffers.len();
-        let mut writers = Writers { images, on: vec![Vec::new(); count], off: vec![Vec::new(); count] };
-        for (position, state) in states.iter().enumerate() {
-            let otherwise = &chosen.pipeline.passes[position].otherwise;
-            let stood_for = |of: Resource| otherwise.iter().any(|one| of == Resource::Image(one.target().index));
-            for write in state.runs().iter().flat_map(|pass| touches::writes(things, pass)) {
-                let at = writers.index(write.resource);
-                writers.on[at].push(Writer { position, span: write.span });
-            }
-            if let State::Off { would, .. } = state {
-                for (resource, span) in passes::would_write(would).filter(|(of, _)| !stood_for(*of)) {
-                    let at = writers.index(resource);
-                    writers.off[at].push(Writer { position, span });
-                }
-            }
-        }
-        writers
-    }
-
-    fn index(&self, of: Resource) -> usize {
-        match of {
-            Resource::Image(index) => index.0 as usize,
-            Resource::Buffer(index) => self.images + index.0 as usize,
-        }
-    }
-
-    /// The last pass before `position` that writes it.
-    pub(super) fn last_before(&self, of: Resource, position: usize) -> Option<usize> {
-        let all = &self.on[self.index(of)];
-        let before = all.partition_point(|writer| writer.position < position);
-        before.checked_sub(1).map(|at| all[at].position)
-    }
-}
 
 struct Check<'a> {
     chosen: &'a Chosen<'a>,
@@ -129,7 +53,11 @@ pub(super) fn check(
                 }
             }
         }
-        super::used_here(chosen.pipeline, chosen.pipeline.passes[position].instance, &mut check.errors[before..]);
+        super::chosen::used_here(
+            chosen.pipeline,
+            chosen.pipeline.passes[position].instance,
+            &mut check.errors[before..],
+        );
     }
     for (position, state) in states.iter().enumerate() {
         for read in state.runs().iter().flat_map(|pass| touches::reads(things, pass)) {

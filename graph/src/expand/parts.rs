@@ -1,6 +1,6 @@
 //! Parts of images: the mip levels, layers and planes that a pass names, against those that there are.
 
-use super::Chosen;
+use super::chosen::Chosen;
 use super::things::Things;
 use crate::base::{Diagnostic, Span};
 use crate::frame::Image;

@@ -1,13 +1,13 @@
 //! Passes of the frame: what each does with which parts, and what its shader is given.
 
+use super::chosen::Chosen;
 use super::shader::{self, Checked};
 use super::things::Things;
 use super::{
-    Chosen, fills, halves, local, params, parts, rotation, sampled, storage, supplied, targets, transfers, variant,
-    work,
+    fills, halves, local, params, parts, rotation, sampled, storage, supplied, targets, transfers, variant, work,
 };
 use crate::base::Diagnostic;
-use crate::frame::{BufferRole, BufferUse, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
+use crate::frame::{BufferRole, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
 use crate::language::{self, StandIn, Work as Described};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{FillValue, Stages, Subresources};
@@ -102,7 +102,7 @@ fn buffers(pass: &language::Pass, interface: Option<&ShaderInterface>, raster: b
     for uniform in &pass.uniform {
         let stages = storage::stages(interface, &uniform.binding.text, raster);
         let binding = Some(uniform.binding.text.clone());
-        lowered.buffers.push(used(&uniform.part, binding, BufferRole::Uniform, stages));
+        lowered.buffers.push(storage::used(&uniform.part, binding, BufferRole::Uniform, stages));
     }
     let indirect = match &pass.work {
         Described::Draw { draw: language::Draw::Indirect(buffer), .. } => Some(buffer),
@@ -118,24 +118,7 @@ fn buffers(pass: &language::Pass, interface: Option<&ShaderInterface>, raster: b
         (indirect, BufferRole::Indirect),
     ];
     for (part, role) in roles {
-        lowered.buffers.extend(part.map(|part| used(part, None, role, Stages::empty())));
-    }
-}
-
-/// One use of a buffer.
-pub(super) fn used(
-    part: &language::BufferPart,
-    binding: Option<std::sync::Arc<str>>,
-    role: BufferRole,
-    stages: Stages,
-) -> BufferUse {
-    BufferUse {
-        binding,
-        buffer: part.buffer.index,
-        frames_ago: part.previous.map_or(0, |previous| previous.value),
-        span: part.buffer.span,
-        role,
-        stages,
+        lowered.buffers.extend(part.map(|part| storage::used(part, None, role, Stages::empty())));
     }
 }
 
@@ -195,17 +178,4 @@ pub(super) fn stand_ins(
         Pass { span, view, transfers: transfer.into_iter().collect(), ..Pass::new(&name, work) }
     };
     pass.otherwise.iter().enumerate().map(stand_in).collect()
-}
-
-/// Images and buffers whose contents `pass` would make, were it on.
-pub(super) fn would_write(pass: &Pass) -> impl Iterator<Item = (Resource, crate::base::Span)> {
-    let color = pass.color.iter().map(|target| (Resource::Image(target.image), target.span));
-    let depth = pass.depth.iter().map(|target| (Resource::Image(target.image), target.span));
-    let storage = pass.storage.iter().filter(|storage| storage.write);
-    let storage = storage.map(|storage| (Resource::Image(storage.image), storage.span));
-    let buffers = pass.buffers.iter().filter(|used| matches!(used.role, BufferRole::Storage { write: true, .. }));
-    let buffers = buffers.map(|used| (Resource::Buffer(used.buffer), used.span));
-    let transfers = pass.transfers.iter().filter(|transfer| transfer.write);
-    let transfers = transfers.map(|transfer| (transfer.resource, transfer.span));
-    color.chain(depth).chain(storage).chain(buffers).chain(transfers)
 }

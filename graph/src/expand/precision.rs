@@ -4,10 +4,11 @@
 //! from buffers or by custom passes has the usual format, which others may rely on. Images that follow each other, and
 //! those that are copied texel for texel, have one format. Colour whose alpha counts keeps it.
 
-use super::order::State;
+use super::chosen::Chosen;
 use super::shader::Checked;
+use super::state::State;
 use super::things::Things;
-use super::{Chosen, variant};
+use super::variant;
 use crate::base::Span;
 use crate::frame::{Blend, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
 use crate::language::{self, Format as Described, Precision, Precisions};

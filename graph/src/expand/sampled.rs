@@ -1,10 +1,11 @@
 //! Images that a shader samples: the parts that the pass gives, against what the shader declares.
 
+use super::chosen::Chosen;
 use super::images::Resolved;
 use super::parts::{self, Cells};
 use super::shader::{self, component_words, shape_words};
 use super::things::Things;
-use super::{Chosen, storage, variant};
+use super::{storage, variant};
 use crate::base::{Diagnostic, nearest, suggestion};
 use crate::frame::{self, EyeForm, Pass, Sampled};
 use crate::language::{self, Face};

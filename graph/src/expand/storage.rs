@@ -1,10 +1,11 @@
 //! Images and buffers that a shader reads and writes by itself, against what it declares.
 
+use super::chosen::Chosen;
 use super::shader::{self, PARAMS, component_words, shape_words};
 use super::things::Things;
-use super::{Chosen, parts, passes, sampled, transfers, work};
+use super::{parts, sampled, transfers, work};
 use crate::base::{Diagnostic, nearest, suggestion};
-use crate::frame::{BufferRole, Image, Pass, Storage};
+use crate::frame::{BufferRole, BufferUse, Image, Pass, Storage};
 use crate::language::{self, Part, StorageAccess};
 use crate::ron::Name;
 use crate::shader::{Binding, BindingKind, PASS_SET, ShaderInterface};
@@ -65,7 +66,7 @@ pub(super) fn lower(
     let stages = stages(interface, &binding, raster);
     match &storage.part {
         Part::Buffer(part) => {
-            let used = passes::used(part, Some(binding), BufferRole::Storage { read, write }, stages);
+            let used = used(part, Some(binding), BufferRole::Storage { read, write }, stages);
             lowered.buffers.push(used);
         }
         Part::Image(part) => {
@@ -236,5 +237,22 @@ impl ImageCheck<'_> {
                 format!("shader `{shader}` declares `{name}` as {format}, but `{}` is {}", image.name, image.format);
             errors.push(here(message).help("the format in the shader's `layout(…)` is the image's own"));
         }
+    }
+}
+
+/// One use of a buffer.
+pub(super) fn used(
+    part: &language::BufferPart,
+    binding: Option<std::sync::Arc<str>>,
+    role: BufferRole,
+    stages: Stages,
+) -> BufferUse {
+    BufferUse {
+        binding,
+        buffer: part.buffer.index,
+        frames_ago: part.previous.map_or(0, |previous| previous.value),
+        span: part.buffer.span,
+        role,
+        stages,
     }
 }

@@ -1,9 +1,10 @@
 //! What passes draw into: formats that fit, targets that agree, and shaders that feed them.
 
+use super::chosen::Chosen;
 use super::images::Resolved;
 use super::shader::component_words;
 use super::things::Things;
-use super::{Chosen, parts, transfers};
+use super::{parts, transfers};
 use crate::base::Diagnostic;
 use crate::frame::Blend;
 use crate::language::{self, ImagePart, ImageRef};

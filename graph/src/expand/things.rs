@@ -1,6 +1,7 @@
 //! Images and buffers of the frame, each from what the file says and what it follows.
 
-use super::{Chosen, fills, images, states};
+use super::chosen::Chosen;
+use super::{fills, images, states};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
 use crate::language::{self, Bytes, LARGEST_BUFFER, Lifetime as Described};
@@ -28,7 +29,7 @@ impl Things {
                     Some(lifetime) => resolved.image.lifetime = lifetime,
                     None => *image = None,
                 }
-                super::used_here(chosen.pipeline, described.instance, &mut errors[before..]);
+                super::chosen::used_here(chosen.pipeline, described.instance, &mut errors[before..]);
             }
         }
         let mut sizes: Vec<Option<Option<u64>>> = vec![None; chosen.pipeline.buffers.len()];
@@ -38,7 +39,7 @@ impl Things {
             let bytes = followed(chosen, &images, &mut sizes, at, errors);
             let subject = Subject { name: &buffer.name.text, format: None, samples: 1 };
             let lifetime = lifetime(chosen, &buffer.lifetime, subject, errors);
-            super::used_here(chosen.pipeline, buffer.instance, &mut errors[before..]);
+            super::chosen::used_here(chosen.pipeline, buffer.instance, &mut errors[before..]);
             let (name, span) = (buffer.name.text.clone(), buffer.name.span);
             Some(Buffer { name, span, bytes: bytes?, lifetime: lifetime? })
         });

@@ -1,6 +1,5 @@
 //! What a pass of the frame reads and writes, part by part.
 
-use super::order::State;
 use super::parts::{self, Cells};
 use super::things::Things;
 use crate::base::Span;
@@ -112,12 +111,15 @@ pub(super) fn writes(things: &Things, pass: &Pass) -> Vec<Write> {
     writes
 }
 
-impl State {
-    /// The passes that run here: itself or its stand-ins.
-    pub(super) fn runs(&self) -> &[Pass] {
-        match self {
-            State::On(pass) => std::slice::from_ref(pass),
-            State::Off { stand_ins, .. } => stand_ins,
-        }
-    }
+/// Images and buffers whose contents `pass` would make, were it on.
+pub(super) fn would_write(pass: &Pass) -> impl Iterator<Item = (Resource, Span)> {
+    let color = pass.color.iter().map(|target| (Resource::Image(target.image), target.span));
+    let depth = pass.depth.iter().map(|target| (Resource::Image(target.image), target.span));
+    let storage = pass.storage.iter().filter(|storage| storage.write);
+    let storage = storage.map(|storage| (Resource::Image(storage.image), storage.span));
+    let buffers = pass.buffers.iter().filter(|used| matches!(used.role, BufferRole::Storage { write: true, .. }));
+    let buffers = buffers.map(|used| (Resource::Buffer(used.buffer), used.span));
+    let transfers = pass.transfers.iter().filter(|transfer| transfer.write);
+    let transfers = transfers.map(|transfer| (transfer.resource, transfer.span));
+    color.chain(depth).chain(storage).chain(buffers).chain(transfers)
 }

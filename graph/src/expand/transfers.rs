@@ -1,8 +1,9 @@
 //! Copies, blits and fills: what goes from where to where must fit.
 
+use super::chosen::Chosen;
+use super::fills;
 use super::parts::{self, Cells};
 use super::things::Things;
-use super::{Chosen, fills};
 use crate::base::Diagnostic;
 use crate::frame::{Image, Pass, TransferUse};
 use crate::language::{self, Fill, ImagePart, Part};

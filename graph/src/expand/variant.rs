@@ -1,6 +1,6 @@
 //! How a pass's shader is compiled: its declarations of what it samples may follow what the pass gives.
 
-use super::Chosen;
+use super::chosen::Chosen;
 use super::parts::{self, Cells};
 use super::shader::Checked;
 use super::things::Things;

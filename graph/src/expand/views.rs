@@ -1,6 +1,6 @@
 //! Passes that draw a view into images that are for another.
 
-use super::Chosen;
+use super::chosen::Chosen;
 use crate::frame::{Remark, ViewIndex};
 use crate::language::{Draw, Pass, Work};
 use std::sync::Arc;

@@ -1,8 +1,10 @@
 //! Passes that wait for each other: moving one up doesn't help where the other needs it.
 
-use super::order::{self, Writers};
+use super::chosen::Chosen;
+use super::state::State;
 use super::things::Things;
-use super::{Chosen, touches};
+use super::touches;
+use super::writers::Writers;
 use crate::base::{Diagnostic, Span};
 use crate::frame::Resource;
 use std::collections::{HashMap, VecDeque};
@@ -23,11 +25,11 @@ pub(super) struct Need {
 
 /// The circle that `first`, a read of what a pass further below writes, is part of; `None` if that pass doesn't depend
 /// on the reader.
-pub(super) fn circle(things: &Things, states: &[order::State], writers: &Writers, first: Need) -> Option<Vec<Need>> {
+pub(super) fn circle(things: &Things, states: &[State], writers: &Writers, first: Need) -> Option<Vec<Need>> {
     let mut found: HashMap<usize, Need> = HashMap::new();
     let mut queue = VecDeque::from([first.writer]);
     while let Some(at) = queue.pop_front() {
-        let runs = states.get(at).map_or(&[][..], order::State::runs);
+        let runs = states.get(at).map_or(&[][..], State::runs);
         let read = runs.iter().flat_map(|pass| touches::reads(things, pass)).filter(|read| read.frames_ago == 0);
         let read = read.map(|read| (read.resource, read.span));
         let continued = runs.iter().flat_map(|pass| touches::writes(things, pass));

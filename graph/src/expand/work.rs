@@ -1,7 +1,8 @@
 //! What passes do: draws, dispatches and their groups, copies, blits, fills; and whether they can.
 
+use super::chosen::Chosen;
 use super::things::Things;
-use super::{Chosen, fills, parts, transfers};
+use super::{fills, parts, transfers};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Draw, Groups, Pass, Work};
 use crate::language::{self, Groups as Described, MOST_GROUPS};

@@ -1,0 +1,151 @@
+//! A pipeline becomes a frame, stage by stage.
+
+use super::chosen::{Chosen, used_here};
+use super::inputs::{Inputs, check_extent, surroundings};
+use super::outputs::outputs;
+use super::state::State;
+use super::things::Things;
+use super::{casters, depth_only, eyes, history, once, order, passes, precision, settings, shader, targets, views};
+use crate::base::{Diagnostic, MOST_KEPT, Sources};
+use crate::frame::{Frame, Stereo, SwitchedOff, View};
+use crate::language::{self, Document};
+use crate::shader::ShaderInterfaces;
+use std::sync::Arc;
+
+/// Puts settings, facts, sizes and the device into a pipeline and checks it against its shaders. `sources` are those that
+/// the document was read into.
+///
+/// # Errors
+/// Everything that is wrong with these inputs, with the file, with the order of passes, and between passes and shaders.
+pub fn expand(
+    document: &Document,
+    sources: Arc<Sources>,
+    inputs: &Inputs<'_>,
+    shaders: &mut dyn ShaderInterfaces,
+) -> Result<Frame, Vec<Diagnostic>> {
+    let expanded = expand_so(document, Arc::clone(&sources), inputs, shaders);
+    if expanded.is_ok() || inputs.stereo == Stereo::Off {
+        return expanded;
+    }
+    // What is wrong for one eye is told once.
+    let one = expand_so(document, sources, &Inputs { stereo: Stereo::Off, ..*inputs }, shaders);
+    one.and(expanded)
+}
+
+fn expand_so(
+    document: &Document,
+    sources: Arc<Sources>,
+    inputs: &Inputs<'_>,
+    shaders: &mut dyn ShaderInterfaces,
+) -> Result<Frame, Vec<Diagnostic>> {
+    let mut errors = Vec::new();
+    let values = settings::choose(document, inputs.set, &mut errors);
+    let before = errors.len();
+    check_extent(inputs.output_extent, &mut errors);
+    if errors.len() > before {
+        return Err(errors);
+    }
+    let pipeline = match document.lower(&settings::values(&values), &surroundings(inputs)) {
+        Ok(pipeline) => pipeline,
+        Err(mistakes) => {
+            errors.extend(mistakes);
+            language::users_first(&sources, &mut errors);
+            return Err(errors);
+        }
+    };
+    let stereo = inputs.stereo;
+    let (pipeline, shared) =
+        eyes::split(pipeline, (stereo, stereo.form(inputs.device)), inputs.output_extent, &mut errors);
+    let chosen = Chosen { pipeline: &pipeline, extent: inputs.output_extent };
+    let mut said = once::Said::default();
+    let mut things = Things::resolve(&chosen, &mut errors);
+    said.each_once(&mut errors, 0);
+
+    let mut checked = shader::Checked::new(shaders, &sources);
+    let mut states = Vec::with_capacity(pipeline.passes.len());
+    let mut switched_off = Vec::new();
+    for pass in &pipeline.passes {
+        let before = errors.len();
+        targets::fit(&chosen, &things, pass, &mut errors);
+        let left_out = pass.left_out.iter().filter(|_| pass.off.is_none());
+        switched_off.extend(left_out.map(|language::LeftOut { binding, off, .. }| SwitchedOff {
+            name: pass.name.text.clone(),
+            sampled: Some(binding.text.clone()),
+            span: off.span,
+            because: off.because.clone(),
+        }));
+        states.push(match &pass.off {
+            Some(language::Off { span, because }) => {
+                let name = pass.name.text.clone();
+                switched_off.push(SwitchedOff { name, sampled: None, span: *span, because: because.clone() });
+                // What a pass that is off would do wrong does no harm.
+                let would = passes::draft(&chosen, &things, pass, None, &mut Vec::new());
+                let stand_ins = passes::stand_ins(&things, pass, because, &mut errors);
+                State::Off { would, stand_ins, because: because.clone() }
+            }
+            None => State::On(passes::lower(&chosen, &things, pass, &mut checked, &mut errors)),
+        });
+        said.once(&mut errors, before);
+        if errors.len() >= MOST_KEPT {
+            return Err(told(document, &sources, errors));
+        }
+        used_here(&pipeline, pass.instance, &mut errors[before..]);
+    }
+    depth_only::note(&chosen, &things, &mut states, &mut checked);
+    casters::agree(&pipeline, &states, &mut errors);
+    let outputs = outputs(&chosen, &things, inputs, &mut errors);
+    let before = errors.len();
+    order::check(&chosen, &things, &states, &outputs, &mut errors);
+    said.each_once(&mut errors, before);
+    if errors.is_empty() {
+        history::shorten(&mut things, &states);
+    }
+    let kept = precision::choose(
+        &chosen,
+        surroundings(inputs).facts.depth_range,
+        &mut things,
+        &states,
+        &outputs,
+        &mut checked,
+    );
+
+    let Things { images, buffers } = things;
+    let images = images.into_iter().map(|image| image.map(|image| image.image)).collect::<Option<Vec<_>>>();
+    match (images, buffers.into_iter().collect::<Option<Vec<_>>>()) {
+        (Some(images), Some(buffers)) if errors.is_empty() => {
+            let settings = settings::shown(&document.settings, &values);
+            let passes = states.into_iter().flat_map(State::into_passes).collect();
+            let changes = document.changes().to_vec();
+            let views = pipeline.views.iter().map(view).collect();
+            let remarks = [shared, views::remarks(&chosen), kept].concat();
+            Ok(Frame {
+                sources,
+                settings,
+                changes,
+                stereo,
+                views,
+                images,
+                buffers,
+                passes,
+                outputs,
+                switched_off,
+                remarks,
+            })
+        }
+        _ => Err(told(document, &sources, errors)),
+    }
+}
+
+/// Mistakes in their order, each with how its file came in.
+fn told(document: &Document, sources: &Sources, mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    document.tell_origins(&mut errors);
+    language::users_first(sources, &mut errors);
+    language::in_order(errors)
+}
+
+fn view(described: &language::View) -> View {
+    let language::View { name, extent, camera, allows, jitter, eye } = described;
+    let camera = camera.as_ref().map(|camera| camera.text.clone());
+    let (allows, jitter) = (*allows, jitter.clone());
+    View { name: name.text.clone(), span: name.span, extent: *extent, camera, allows, jitter, eye: *eye }
+}

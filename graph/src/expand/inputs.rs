@@ -1,0 +1,65 @@
+//! What a pipeline is put together with.
+
+use super::outputs::dumped;
+use super::settings;
+use crate::base::Diagnostic;
+use crate::device::Profile;
+use crate::frame::{Allowances, Stereo};
+use crate::language::{Document, Facts, LARGEST_SIZE, Surroundings};
+use crate::vulkan::Rotation;
+
+/// What a pipeline is put together with.
+#[derive(Debug, Clone, Copy)]
+pub struct Inputs<'a> {
+    /// Chosen settings, name and value as the user wrote them; of several values for one setting the last counts.
+    pub set: &'a [(String, String)],
+    /// What is known about the scene.
+    pub facts: Facts,
+    /// Whether there is a scene at all; if not, [`Facts::UNKNOWN`] counts.
+    pub facts_known: bool,
+    /// Width and height of the frame, in texels, 1 to 16384 each.
+    pub output_extent: [u32; 2],
+    /// The device that the frame is for; `None`: one that can do just what Vulkan 1.3 demands. Only pipelines that ask for
+    /// properties of the device depend on it, and frames of instances for both eyes: in layers or in halves.
+    pub device: Option<&'a Profile>,
+    /// By how much what is shown on a screen is turned: outputs whose image has `format: Output`, or that leave the frame as
+    /// `Hdr10`. Sizes are those of the upright picture.
+    pub rotation: Rotation,
+    /// Names of further images that leave the frame.
+    pub dump: &'a [String],
+    /// How it is drawn for two eyes.
+    pub stereo: Stereo,
+}
+
+/// What is wrong with `inputs` themselves: settings that the pipeline doesn't have or values that they don't allow, a size
+/// that no frame has, names of no image. [`expand`] reports these too; a program that tells its user's command line from
+/// its user's files asks here first.
+#[must_use]
+pub fn check_inputs(document: &Document, inputs: &Inputs<'_>) -> Vec<Diagnostic> {
+    let mut errors = Vec::new();
+    let values = settings::choose(document, inputs.set, &mut errors);
+    check_extent(inputs.output_extent, &mut errors);
+    if errors.is_empty()
+        && !inputs.dump.is_empty()
+        && let Ok(pipeline) = document.lower(&settings::values(&values), &surroundings(inputs))
+    {
+        dumped(&pipeline, inputs.dump, &mut Vec::new(), &mut errors);
+    }
+    errors
+}
+
+pub(super) fn surroundings<'a>(inputs: &Inputs<'a>) -> Surroundings<'a> {
+    let facts = if inputs.facts_known { inputs.facts } else { Facts::UNKNOWN };
+    let eyes = if inputs.stereo == Stereo::Off { 1 } else { 2 };
+    let allows = Allowances::default();
+    Surroundings { facts, extent: inputs.output_extent, eyes, allows, device: inputs.device }
+}
+
+pub(super) fn check_extent(extent: [u32; 2], errors: &mut Vec<Diagnostic>) {
+    let [width, height] = extent;
+    if extent.iter().any(|extent| !(1..=LARGEST_SIZE).contains(extent)) {
+        errors.push(Diagnostic::nowhere(format!(
+            "the frame can't be {width}×{height}: 1 to {LARGEST_SIZE} texels are allowed"
+        )));
+    }
+}

@@ -1,0 +1,102 @@
+//! What leaves the frame: the pipeline's outputs, and images that are dumped.
+
+use super::chosen::Chosen;
+use super::inputs::Inputs;
+use super::things::Things;
+use crate::base::{Diagnostic, Span, suggestion};
+use crate::frame::{Eye, ImageIndex, Output, Resource};
+use crate::language::{self, Pipeline};
+use crate::ron::Spanned;
+use crate::vulkan::{Encoding, Rotation};
+
+/// The pipeline's outputs, then dumped images that aren't among them.
+pub(super) fn outputs(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    inputs: &Inputs<'_>,
+    errors: &mut Vec<Diagnostic>,
+) -> Vec<Output> {
+    let dump = inputs.dump;
+    let pipeline = chosen.pipeline;
+    let mut outputs = Vec::with_capacity(pipeline.outputs.len() + dump.len());
+    for output in &pipeline.outputs {
+        let language::ResourceRef { resource, span } = output.resource;
+        let after = output.after.and_then(|after| things.left(chosen, resource, after, errors));
+        let encoding = output.encoding.filter(|encoding| encoded(chosen, things, resource, *encoding, errors));
+        let encoding = encoding.map(|encoding| encoding.value);
+        let rotation = if shown(chosen, resource, encoding) { inputs.rotation } else { Rotation::Identity };
+        outputs.push(Output { resource, span, after, encoding, rotation, eye: output.eye });
+    }
+    if inputs.rotation.turns() && !outputs.iter().any(|output| output.rotation.turns()) {
+        let degrees = inputs.rotation.degrees();
+        let message = format!("nothing can be rotated by {degrees}°: no output is made to be shown on a screen");
+        let span = pipeline.outputs.first().map_or(Span::NONE, |output| output.resource.span);
+        let images = pipeline.outputs.iter().filter_map(|output| match output.resource.resource {
+            Resource::Image(image) => Some(&chosen.image(image).name.text),
+            Resource::Buffer(_) => None,
+        });
+        let wrong = Diagnostic::new(span, message);
+        errors.push(match images.into_iter().next() {
+            Some(image) => wrong.help(format!("say `format: Output` of `{image}`")),
+            None => wrong.help("let an image leave the frame"),
+        });
+    }
+    dumped(pipeline, dump, &mut outputs, errors);
+    outputs
+}
+
+/// Whether an output is made to be shown on a screen.
+fn shown(chosen: &Chosen<'_>, resource: Resource, encoding: Option<Encoding>) -> bool {
+    let Resource::Image(image) = resource else { return false };
+    chosen.image(image).format.value == language::Format::Output || encoding == Some(Encoding::Hdr10)
+}
+
+/// Whether an output's format can hold its encoding.
+fn encoded(
+    chosen: &Chosen<'_>,
+    things: &Things,
+    of: Resource,
+    encoding: Spanned<Encoding>,
+    errors: &mut Vec<Diagnostic>,
+) -> bool {
+    let Resource::Image(index) = of else { return false };
+    let Some(format) = things.image(index).map(|image| image.image.format) else { return false };
+    let fits = encoding.value.fits(format);
+    if !fits {
+        let (image, word) = (chosen.image(index), encoding.value.name());
+        let message = format!("`{}` can't leave the frame as `{word}`: it is {format}", image.name.text);
+        let wrong = Diagnostic::new(encoding.span, message).label(image.format.span, "its format");
+        errors.push(wrong.help(encoding.value.help(&image.name.text)));
+    }
+    fits
+}
+
+/// Adds images that are dumped.
+pub(super) fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Output>, errors: &mut Vec<Diagnostic>) {
+    for name in dump {
+        let of_eyes = Eye::BOTH.map(|eye| eye.named(name));
+        let is_it = |image: &language::Image| *image.name.text == **name || of_eyes.contains(&image.name.text);
+        let found: Vec<(usize, Option<Eye>)> = (0..)
+            .zip(&pipeline.images)
+            .filter(|(_, image)| is_it(image))
+            .map(|(at, image)| (at, Eye::BOTH.into_iter().find(|eye| of_eyes[*eye as usize] == image.name.text)))
+            .collect();
+        if found.is_empty() {
+            let help = suggestion(name, pipeline.images.iter().map(|image| &*image.name.text));
+            errors
+                .push(Diagnostic { help, ..Diagnostic::nowhere(format!("there is no image named `{name}` to dump")) });
+        }
+        for (index, eye) in found {
+            if let language::Lifetime::File(file) = &pipeline.images[index].lifetime.value {
+                let why = format!("`{name}` can't be dumped: no pass makes it, it comes from `{}`", file.path);
+                errors.push(Diagnostic::nowhere(why));
+                continue;
+            }
+            let Ok(index) = u32::try_from(index) else { continue };
+            let resource = Resource::Image(ImageIndex(index));
+            if outputs.iter().all(|output| output.resource != resource) {
+                outputs.push(Output { eye, ..resource.into() });
+            }
+        }
+    }
+}

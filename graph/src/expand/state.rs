@@ -1,0 +1,36 @@
+//! Passes that run in a frame, and those that are off.
+
+use crate::frame::Pass;
+
+/// A pass as it runs in this frame, or doesn't.
+pub(super) enum State {
+    /// It runs.
+    On(Pass),
+    /// It is off.
+    Off {
+        /// What it would do.
+        would: Pass,
+        /// What runs instead.
+        stand_ins: Vec<Pass>,
+        /// Why it is off.
+        because: String,
+    },
+}
+
+impl State {
+    /// The passes that run.
+    pub(super) fn into_passes(self) -> Vec<Pass> {
+        match self {
+            State::On(pass) => vec![pass],
+            State::Off { stand_ins, .. } => stand_ins,
+        }
+    }
+
+    /// The passes that run here: itself or its stand-ins.
+    pub(super) fn runs(&self) -> &[Pass] {
+        match self {
+            State::On(pass) => std::slice::from_ref(pass),
+            State::Off { stand_ins, .. } => stand_ins,
+        }
+    }
+}
