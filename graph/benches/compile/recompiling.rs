@@ -1,10 +1,11 @@
 //! Compiling again: the same frame, an equal one, other values, other sizes.
 
+use crate::changed::{with_sizes, with_values};
 use crate::graphs;
 use crate::timing::{Timing, beside, microseconds};
 use framewright_graph::compile::{Compiler, Options, Reuse};
 use framewright_graph::device::Estimated;
-use framewright_graph::frame::{Frame, Groups, Work};
+use framewright_graph::frame::Frame;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -66,20 +67,4 @@ fn alternate(timing: &Timing, frames: [&Arc<Frame>; 2], expected: Reuse, anew: b
         at = 1 - at;
     });
     least
-}
-
-fn with_values(frame: &Frame) -> Frame {
-    let mut frame = frame.clone();
-    for pass in &mut frame.passes {
-        if let Work::Dispatch { groups, .. } = &mut pass.work {
-            *groups = Groups::Invocations([128, 128, 1]);
-        }
-    }
-    frame
-}
-
-fn with_sizes(frame: &Frame) -> Frame {
-    let mut frame = with_values(frame);
-    frame.images.iter_mut().for_each(|image| image.extent = image.extent.map(|side| side.div_ceil(2)));
-    frame
 }
