@@ -9,6 +9,9 @@ use support::{Place, Vulkan, outcome, pages, repository};
 /// How a renewed page is seen and accepted.
 const UPDATE: &str = "FRAMEWRIGHT_UPDATE";
 
+/// What stands before a command and its output.
+const CONSOLE: &str = "```console\n$ ";
+
 #[test]
 fn the_readme_shows_what_new_writes() {
     let place = Place::new();
@@ -24,6 +27,9 @@ fn pages_show_what_commands_print() {
     let mut commands = 0;
     for page in pages() {
         let shown = text(&page);
+        if !shown.contains(CONSOLE) {
+            continue;
+        }
         let renewed = renewed(&shown, &mut commands);
         if std::env::var_os(UPDATE).is_some() {
             std::fs::write(&page, renewed).expect("written");
@@ -47,10 +53,10 @@ fn renewed(page: &str, commands: &mut u32) -> String {
     place.run(&["new", "first"]).exits(0);
     let mut renewed = String::new();
     let mut rest = page;
-    while let Some((before, after)) = rest.split_once("```console\n$ ") {
+    while let Some((before, after)) = rest.split_once(CONSOLE) {
         let (shown, after) = after.split_once("\n```").expect("the block ends");
         let command = shown.lines().next().expect("a command");
-        renewed += &format!("{before}```console\n$ {command}\n{}\n```", printed(&place, command));
+        renewed += &format!("{before}{CONSOLE}{command}\n{}\n```", printed(&place, command));
         rest = after;
         *commands += 1;
     }
