@@ -2,15 +2,12 @@
 
 mod support;
 
-use support::{Place, repository};
+use std::collections::BTreeSet;
+use support::{Place, pages, repository};
 
-/// Each block of RON in the pages under `docs/`.
+/// Each block of RON in the README and the pages under `docs/`.
 fn examples() -> Vec<String> {
-    let pages = std::fs::read_dir(repository("docs")).expect("the pages");
-    let mut pages: Vec<_> = pages.map(|page| page.expect("readable").path()).collect();
-    pages.retain(|page| page.extension().is_some_and(|extension| extension == "md"));
-    pages.sort();
-    let texts = pages.iter().map(|page| std::fs::read_to_string(page).expect("a text"));
+    let texts = pages().into_iter().map(|page| std::fs::read_to_string(page).expect("a text"));
     let blocks = texts.flat_map(|text| text.split("```ron\n").skip(1).map(str::to_owned).collect::<Vec<_>>());
     blocks.map(|after| after.split("```").next().unwrap_or_default().to_owned()).collect()
 }
@@ -51,18 +48,31 @@ fn every_whole_file_of_the_reference_is_fine() {
     assert!(checked >= 11, "{checked} whole files");
 }
 
+/// The commands.
+const COMMANDS: [&str; 7] = ["check", "inspect", "run", "facts", "new", "schema", "devices"];
+
 /// The options of all commands, as their helps list them.
-fn options() -> Vec<String> {
+fn options() -> BTreeSet<String> {
     let place = Place::new();
-    let helps = ["check", "inspect", "run", "facts", "new", "schema", "devices"]
-        .map(|command| place.run(&[command, "--help"]).out);
-    let words = |help: &String| {
-        help.split_whitespace().filter_map(|word| word.strip_prefix("--")).map(str::to_owned).collect::<Vec<_>>()
-    };
-    let mut options: Vec<String> = helps.iter().flat_map(words).collect();
-    options.sort();
-    options.dedup();
-    options
+    let helps = COMMANDS.map(|command| place.run(&[command, "--help"]).out);
+    helps.iter().flat_map(|help| options_in(help)).collect()
+}
+
+/// The options that a text names, without their dashes.
+fn options_in(text: &str) -> BTreeSet<String> {
+    let words = text.split(|letter: char| !letter.is_alphanumeric() && letter != '-');
+    let options = words.filter_map(|word| word.strip_prefix("--"));
+    options.filter(|word| word.starts_with(char::is_alphabetic)).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_page_of_the_command_lists_every_command_and_option() {
+    let page = std::fs::read_to_string(repository("docs/command.md")).expect("the page");
+    for command in COMMANDS {
+        assert!(page.contains(&format!("\n## {command}\n")), "docs/command.md has no section `{command}`");
+    }
+    let of_the_command = BTreeSet::from(["version".to_owned()]);
+    assert_eq!(options_in(&page), &options() | &of_the_command, "named in docs/command.md, and by --help");
 }
 
 /// The texts of all Rust files in a folder, without lines that are comments.
@@ -80,7 +90,7 @@ fn code(folder: &std::path::Path) -> String {
 #[test]
 fn no_library_names_an_option_of_the_command() {
     let options = options();
-    assert!(options.iter().any(|option| option == "shader-memory") && options.len() > 25, "{options:?}");
+    assert!(options.contains("shader-memory") && options.len() > 25, "{options:?}");
     for library in ["graph/src", "passes/src", "backend-vulkan/src"] {
         let code = code(&repository(library));
         for option in &options {

@@ -131,6 +131,15 @@ pub(crate) fn repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
 }
 
+/// The README and all pages under `docs/`, sorted.
+pub(crate) fn pages() -> Vec<PathBuf> {
+    let files = repository("docs").read_dir().expect("the folder of pages").map(|file| file.expect("an entry").path());
+    let pages = files.filter(|path| path.extension().is_some_and(|extension| extension == "md"));
+    let mut pages: Vec<PathBuf> = pages.chain([repository("README.md")]).collect();
+    pages.sort();
+    pages
+}
+
 /// A driver and a validation layer of this machine.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Vulkan {
