@@ -5,7 +5,7 @@ use crate::error::{Error, Exit};
 use crate::{files, text};
 use framewright_graph::facts::FactValue;
 use framewright_graph::read_files::ReadFiles;
-use framewright_passes::scene::Found;
+use framewright_passes::facts::ExplainedFact;
 use serde::Serialize;
 
 #[derive(Debug, Serialize)]
@@ -48,12 +48,12 @@ pub(crate) fn facts(arguments: &Facts) -> Result<Exit, Error> {
     Ok(Exit::Fine)
 }
 
-fn line(found: &Found) -> String {
+fn line(found: &ExplainedFact) -> String {
     let because = if found.because.is_empty() { String::new() } else { format!(" ({})", text::escape(&found.because)) };
     format!("{}: {}{because}\n", found.fact.name(), found.value)
 }
 
-fn entry(found: &Found) -> Entry<'_> {
+fn entry(found: &ExplainedFact) -> Entry<'_> {
     Entry {
         name: found.fact.name(),
         ty: found.fact.ty().to_string(),

@@ -1,6 +1,7 @@
 //! Scenes from files.
 
-use super::{Scene, gltf, limits, text};
+use super::model::Scene;
+use super::{gltf, limits, text};
 use framewright_graph::describe::{Diagnostic, render};
 use framewright_graph::read_files::ReadFiles;
 use framewright_graph::root::Root;

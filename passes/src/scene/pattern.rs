@@ -1,6 +1,6 @@
 //! Textures that are computed: patterns of cells.
 
-use super::{Sampler, Texture};
+use super::model::{Sampler, Texture};
 
 /// A pattern that fills a texture.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,8 @@
 use super::accessor::Data;
 use super::document::{self, follow};
 use super::problem::{GltfError, Problem};
-use crate::scene::{Sampler, Texture, Wrap, limits};
+use crate::scene::limits;
+use crate::scene::model::{Sampler, Texture, Wrap};
 use framewright_graph::vocabulary::Filter;
 use image::{DynamicImage, ImageFormat, ImageReader};
 use std::borrow::Cow;

@@ -1,8 +1,9 @@
 //! The materials of a scene file.
 
 use super::values::{color, counts, number, web_color};
+use crate::scene::limits;
+use crate::scene::model::{AlphaMode, Material, Texture};
 use crate::scene::pattern::{MOST_CELLS, Pattern, PatternKind};
-use crate::scene::{AlphaMode, Material, Texture, limits};
 use framewright_graph::describe::text::{Leaf, Reader};
 use framewright_graph::fields;
 

@@ -41,7 +41,8 @@ mod materials;
 mod objects;
 mod values;
 
-use super::{Camera, NamedCamera, PointLight, Scene, Sky, Sun, defaults, limits};
+use super::model::{Camera, NamedCamera, PointLight, Scene, Sky, Sun};
+use super::{defaults, limits};
 use framewright_graph::describe::text::{Leaf, Names, Reader, Tree};
 use framewright_graph::describe::{Diagnostic, Name};
 use framewright_graph::fields;

@@ -1,7 +1,8 @@
 //! The objects of a scene file.
 
 use super::values::{angles, count, counts, movement, number, place, size, sizes};
-use crate::scene::{Bounds, Mesh, Object, limits, shapes};
+use crate::scene::model::{Bounds, Mesh, Object};
+use crate::scene::{limits, shapes};
 use framewright_graph::describe::text::{Leaf, Names, Reader, Shape};
 use framewright_graph::fields;
 use glam::{DMat4, DQuat, DVec3};

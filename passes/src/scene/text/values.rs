@@ -1,7 +1,7 @@
 //! Values that scenes are made of: numbers in ranges, vectors, colours.
 
-use crate::scene::material::decode_srgb;
-use crate::scene::{Movement, limits};
+use crate::scene::limits;
+use crate::scene::model::{Movement, decode_srgb};
 use framewright_graph::describe::text::{Leaf, Reader, Shape};
 use glam::DVec3;
 

@@ -1,13 +1,15 @@
 //! What pipeline files may ask of a scene, and what decided it.
 
-use super::peak::{Peak, peak};
-use super::{AlphaMode, Bounds, Object, Scene};
+mod peak;
+
+use crate::scene::{AlphaMode, Bounds, Object, Scene};
 use framewright_graph::facts::{Fact, FactValue, Facts};
 use framewright_graph::frame::DrawList;
+use peak::{Peak, peak};
 
 /// A fact with its cause.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct ExplainedFact {
     /// The fact.
     pub fact: Fact,
     /// Its value.
@@ -31,21 +33,11 @@ impl Scene {
 
     /// Every fact with what decided it, in the order of [`Fact::ALL`].
     #[must_use]
-    pub fn explained(&self) -> Vec<Found> {
+    pub fn explained(&self) -> Vec<ExplainedFact> {
         let peak = peak(self);
         let facts = facts(self, peak);
-        let found = |fact| Found { fact, value: facts.value(fact), because: because(self, peak, fact) };
-        Fact::ALL.into_iter().map(found).collect()
-    }
-
-    /// The draw list that an object is in: what fades by leaving out fragments is drawn with what has holes.
-    #[must_use]
-    pub fn draw_list(&self, object: &Object) -> DrawList {
-        match self.materials[object.material].alpha {
-            AlphaMode::Blend => DrawList::Transparent,
-            AlphaMode::Opaque if !object.fades() => DrawList::Opaque,
-            AlphaMode::Opaque | AlphaMode::Mask { .. } => DrawList::Masked,
-        }
+        let explained = |fact| ExplainedFact { fact, value: facts.value(fact), because: because(self, peak, fact) };
+        Fact::ALL.into_iter().map(explained).collect()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Where a scene is seen from.
 
-use crate::scene::{Bounds, Movement};
+use super::bounds::Bounds;
+use super::movement::Movement;
 use glam::{DMat4, DVec3, DVec4, Mat4};
 
 /// A perspective camera without a far plane.
@@ -100,6 +101,12 @@ impl Camera {
             DVec4::new(0.0, 0.0, f64::from(self.near), 0.0),
         )
         .as_mat4()
+    }
+
+    /// The camera at a frame.
+    #[must_use]
+    pub fn at(&self, frame: u64) -> Camera {
+        Camera { transform: self.movement.at(frame, self.transform), ..*self }
     }
 }
 

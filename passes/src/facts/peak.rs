@@ -17,8 +17,8 @@
 //! A bound of 1 or less proves that nothing is brighter than 1; one above 1 proves nothing. Sums are taken as if each light
 //! reached a surface where it is nearest, all at once, so rooms full of lights are bounded loosely.
 
-use super::material::decode_srgb;
-use super::{AlphaMode, Object, PointLight, Scene};
+use crate::scene::decode_srgb;
+use crate::scene::{AlphaMode, Object, PointLight, Scene};
 use crate::twin::lighting::LARGEST_HIGHLIGHT;
 use crate::twin::radiance::LARGEST_HALF;
 use crate::twin::sky;

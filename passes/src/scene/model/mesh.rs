@@ -1,6 +1,6 @@
 //! Triangle meshes and what is computed about them.
 
-use super::Bounds;
+use super::bounds::Bounds;
 use glam::Vec3;
 
 /// A list of triangles. `positions`, `normals` and `uvs` have the same length, at least 3.
