@@ -1,6 +1,9 @@
-//! Everything that ends a command early, and the exit code that it ends with.
+//! Everything that ends a command early.
 
-use crate::{links, options, picture, text};
+use crate::command_line::options;
+use crate::picture::data::EncodingError;
+use crate::system::{Exit, links, text};
+
 use framewright_graph::describe::{self, Diagnostic};
 use framewright_graph::file_path::for_shell;
 use framewright_graph::format::Format;
@@ -12,28 +15,6 @@ use framewright_passes::scene::gltf::{GltfError, Problem};
 use framewright_vulkan::Blame;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
-
-/// How a command ends. The numbers are the command's contract.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Exit {
-    /// All is well.
-    Fine = 0,
-    /// The user's files are wrong or missing, or a check found something.
-    Found = 1,
-    /// The command line is wrong.
-    Usage = 2,
-    /// The environment lacks something: driver, layer, device, permission, disk.
-    Environment = 3,
-    /// Ctrl-C, as shells count it.
-    Interrupted = 130,
-}
-
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> ExitCode {
-        ExitCode::from(exit as u8)
-    }
-}
 
 /// What ends a command early.
 #[derive(Debug, thiserror::Error)]
@@ -91,10 +72,10 @@ pub(crate) enum Error {
         root: PathBuf,
     },
     /// The pipeline is wrong, or what the command line asks of it.
-    #[error("{}", describe::render(&wrong.sources, &wrong.diagnostics))]
-    Wrong {
+    #[error("{}", describe::render(&mistakes.sources, &mistakes.diagnostics))]
+    Mistakes {
         /// Its mistakes, and the texts that they point into.
-        wrong: Box<Wrong>,
+        mistakes: Box<Mistakes>,
     },
     /// The scene is wrong.
     #[error("{0}")]
@@ -153,7 +134,7 @@ pub(crate) enum Error {
         /// The image.
         image: String,
         /// The encoder's words.
-        problem: picture::Problem,
+        problem: EncodingError,
     },
     /// A picture that its kind of file can't hold.
     #[error(
@@ -252,7 +233,7 @@ pub(crate) enum Error {
     },
     /// A file that is to be new is there already.
     #[error("there is a file `{}` already: choose another name, or move it away", text::path(path))]
-    There {
+    AlreadyExists {
         /// Which file.
         path: PathBuf,
     },
@@ -272,7 +253,7 @@ pub(crate) enum Error {
 
 /// The mistakes of a pipeline.
 #[derive(Debug)]
-pub(crate) struct Wrong {
+pub(crate) struct Mistakes {
     /// The texts that the mistakes point into.
     pub(crate) sources: Sources,
     /// The mistakes.
@@ -283,15 +264,15 @@ pub(crate) struct Wrong {
 
 impl Error {
     /// Mistakes of a pipeline, or of what the command line asks of it, with the options that mend them.
-    pub(crate) fn wrong(sources: Sources, diagnostics: Vec<Diagnostic>, exit: Exit) -> Error {
-        Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics: options::named(diagnostics), exit }) }
+    pub(crate) fn mistakes(sources: Sources, diagnostics: Vec<Diagnostic>, exit: Exit) -> Error {
+        Error::Mistakes { mistakes: Box::new(Mistakes { sources, diagnostics: options::named(diagnostics), exit }) }
     }
 
     /// What is printed: every mistake has a heading of its own.
     #[must_use]
     pub(crate) fn shown(&self) -> String {
         let headed = match self {
-            Error::Wrong { .. } => true,
+            Error::Mistakes { .. } => true,
             Error::Scene(problem) => matches!(**problem, SceneError::Text { .. }),
             _ => false,
         };
@@ -300,8 +281,8 @@ impl Error {
 
     /// Whether it is about the pipeline, or what the command line asks of it.
     #[must_use]
-    pub(crate) fn is_wrong(&self) -> bool {
-        matches!(self, Error::Wrong { .. })
+    pub(crate) fn is_about_the_pipeline(&self) -> bool {
+        matches!(self, Error::Mistakes { .. })
     }
 
     /// Whether the device may still be working for this process.
@@ -327,7 +308,7 @@ impl Error {
             | Error::Unwritable(_)
             | Error::Json(_)
             | Error::Plan(_) => Exit::Found,
-            Error::Wrong { wrong } => wrong.exit,
+            Error::Mistakes { mistakes } => mistakes.exit,
             Error::Scene(problem) => match &**problem {
                 SceneError::Unreadable { source, .. } if source.kind() == io::ErrorKind::PermissionDenied => {
                     Exit::Environment
@@ -349,7 +330,7 @@ impl Error {
             | Error::ProfileIsNoDevice { .. }
             | Error::NoOutput { .. }
             | Error::ReadAndWritten { .. }
-            | Error::There { .. }
+            | Error::AlreadyExists { .. }
             | Error::NoName { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
             Error::Interrupted { .. } | Error::InterruptedWriting { .. } => Exit::Interrupted,

@@ -1,12 +1,13 @@
 //! What varies: settings, facts of the scene, devices. All that is known here of kinds of settings stands in [`values`], and of
 //! facts in [`facts`].
 
+use super::axis::{Axis, Varied};
 use super::facts;
 use super::mentions::Mentions;
 use super::space::Choice;
 use framewright_graph::describe::{ChosenBy, Document, Preset, SettingKind, last_step, nth_step};
 use framewright_graph::expression::Value;
-use framewright_graph::facts::{Fact, Facts};
+use framewright_graph::facts::Facts;
 use framewright_graph::source::Sources;
 
 /// Whole numbers up to this many are all tried.
@@ -14,34 +15,6 @@ const MOST_INTEGERS: i128 = 16;
 
 /// Numbers with up to this many steps are all tried.
 const MOST_STEPS: f64 = 16.0;
-
-/// What an axis varies.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Varied {
-    /// A setting, by name.
-    Setting(String),
-    /// A fact of the scene.
-    Fact(Fact),
-    /// The device, by the name of its profile.
-    Device,
-}
-
-/// Something that varies, and the values that it takes.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Axis {
-    /// What varies.
-    pub(crate) varied: Varied,
-    /// Its values as the command line has them, each once; what is in force without a choice comes first.
-    pub(crate) values: Vec<String>,
-    /// How many of them, from the first on, are combined with those of other axes. The rest stand in presets alone.
-    pub(crate) combined: usize,
-}
-
-impl Axis {
-    pub(super) fn new(varied: Varied, values: Vec<String>) -> Axis {
-        Axis { varied, combined: values.len(), values }
-    }
-}
 
 /// Everything that varies: settings in the file's order, then facts; the device comes last, even if there is only one.
 #[derive(Debug)]

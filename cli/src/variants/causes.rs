@@ -1,10 +1,10 @@
 //! What the variants that fail have in common: each mistake with the least that brings it about.
 
-use super::judge::Judge;
+use super::checker::VariantChecker;
 use super::minimise::minimise;
-use super::run::{Failure, Mistake, mistake};
+use super::run::{Failure, MistakeKey, mistake_key};
 use super::space::{Choice, Space};
-use crate::interrupt;
+use crate::system::interrupt;
 use framewright_graph::describe::Diagnostic;
 use std::collections::HashMap;
 
@@ -27,18 +27,22 @@ pub(crate) struct Cause {
 }
 
 /// Takes the failures, those of most variants first, and looks for the causes of the first [`MOST_CAUSES`].
-pub(crate) fn find(failures: HashMap<Mistake, Failure>, space: &Space, judge: &mut Judge<'_>) -> Vec<Cause> {
-    let mut failures: Vec<(Mistake, Failure)> = failures.into_iter().collect();
+pub(crate) fn find(
+    failures: HashMap<MistakeKey, Failure>,
+    space: &Space,
+    checker: &mut VariantChecker<'_>,
+) -> Vec<Cause> {
+    let mut failures: Vec<(MistakeKey, Failure)> = failures.into_iter().collect();
     failures.sort_by(|(key, one), (other_key, other)| {
-        let places = |key: &Mistake| key.1.map(|span| (span.file(), span.start, span.end));
+        let places = |key: &MistakeKey| key.1.map(|span| (span.file(), span.start, span.end));
         let first = other.variants.cmp(&one.variants).then(one.example.cmp(&other.example));
         first.then_with(|| places(key).cmp(&places(other_key))).then_with(|| key.0.cmp(&other_key.0))
     });
     failures.truncate(MOST_CAUSES);
-    failures.into_iter().map(|(key, failure)| cause(&key, failure, space, judge)).collect()
+    failures.into_iter().map(|(key, failure)| cause(&key, failure, space, checker)).collect()
 }
 
-fn cause(key: &Mistake, failure: Failure, space: &Space, judge: &mut Judge<'_>) -> Cause {
+fn cause(key: &MistakeKey, failure: Failure, space: &Space, checker: &mut VariantChecker<'_>) -> Cause {
     let Failure { variants, example, mut diagnostic, devices } = failure;
     let found = space.choice(example.number);
     let departures: Vec<(usize, usize)> = found.iter().copied().enumerate().filter(|(_, value)| *value != 0).collect();
@@ -53,7 +57,7 @@ fn cause(key: &Mistake, failure: Failure, space: &Space, judge: &mut Judge<'_>) 
         if interrupted {
             return false;
         }
-        let found = judge.judge(&with(some)).err().into_iter().flatten().find(|found| mistake(found) == *key);
+        let found = checker.check(&with(some)).err().into_iter().flatten().find(|found| mistake_key(found) == *key);
         interrupted |= interrupt::asked();
         let fails = found.is_some();
         // The last one that fails is the least.

@@ -1,6 +1,6 @@
 //! Facts of the scene that vary, and the values that are tried.
 
-use super::axes::{Axis, Varied};
+use super::axis::{Axis, Varied};
 use super::mentions::Mentions;
 use framewright_graph::facts::{Fact, FactType, FactValue, Facts};
 

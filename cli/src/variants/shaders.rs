@@ -8,27 +8,27 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What one thread knows of a library that it shares.
-pub(crate) struct Shared<'a> {
+pub(crate) struct SharedShaders<'a> {
     library: &'a Mutex<ShaderLibrary>,
     /// By name, then by what is drawn (`None`: a compute shader) and how it is compiled.
-    known: HashMap<String, Vec<(Option<Draw>, Variant, Found)>>,
+    known: HashMap<String, Vec<(Option<Draw>, Variant, Reflection)>>,
     /// Which shader it is, by the file that names it, its name there and what is drawn.
-    which: HashMap<Named, Result<Arc<str>, ShaderProblem>>,
+    which: HashMap<ShaderKey, Result<Arc<str>, ShaderProblem>>,
 }
 
-type Found = Result<ShaderInterface, ShaderProblem>;
+type Reflection = Result<ShaderInterface, ShaderProblem>;
 
-type Named = (FilePath, Arc<str>, Option<Draw>);
+type ShaderKey = (FilePath, Arc<str>, Option<Draw>);
 
-impl<'a> Shared<'a> {
+impl<'a> SharedShaders<'a> {
     /// One that knows nothing yet.
     #[must_use]
-    pub(crate) fn new(library: &'a Mutex<ShaderLibrary>) -> Shared<'a> {
-        Shared { library, known: HashMap::new(), which: HashMap::new() }
+    pub(crate) fn new(library: &'a Mutex<ShaderLibrary>) -> SharedShaders<'a> {
+        SharedShaders { library, known: HashMap::new(), which: HashMap::new() }
     }
 
-    fn compiled(&mut self, name: &str, draw: Option<Draw>, variant: &Variant) -> Found {
-        let same = |(other, compiled, _): &&(Option<Draw>, Variant, Found)| *other == draw && compiled == variant;
+    fn compiled(&mut self, name: &str, draw: Option<Draw>, variant: &Variant) -> Reflection {
+        let same = |(other, compiled, _): &&(Option<Draw>, Variant, Reflection)| *other == draw && compiled == variant;
         if let Some((.., found)) = self.known.get(name).and_then(|all| all.iter().find(same)) {
             return found.clone();
         }
@@ -42,7 +42,7 @@ impl<'a> Shared<'a> {
     }
 }
 
-impl ShaderInterfaces for Shared<'_> {
+impl ShaderInterfaces for SharedShaders<'_> {
     fn find(&mut self, from: &FilePath, name: &Arc<str>, draw: Option<Draw>) -> Result<Arc<str>, ShaderProblem> {
         let library = self.library;
         let find = || library.lock().unwrap_or_else(PoisonError::into_inner).find(from, name, draw);

@@ -1,0 +1,126 @@
+//! What becomes of one variant: put together, compiled, verified.
+
+use super::axes::{self, Axes};
+use super::identity::{self, Identity};
+use super::shaders::SharedShaders;
+use super::space::Choice;
+use crate::command_line::values::Modes;
+use crate::planning::View;
+use framewright_graph::compile::{Compiler, Options};
+use framewright_graph::describe::{Diagnostic, Document};
+use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::expand::{self, Inputs};
+use framewright_graph::frame::Frame;
+use framewright_graph::heap_size;
+use framewright_graph::plan::Totals;
+use framewright_graph::source::Sources;
+use framewright_graph::verify;
+use framewright_graph::view::Stereo;
+use std::sync::Arc;
+
+/// What all variants have in common.
+pub(crate) struct CheckedPipeline<'a> {
+    /// The pipeline.
+    pub(crate) pipeline: &'a Document,
+    /// The texts that it was read from.
+    pub(crate) sources: &'a Arc<Sources>,
+    /// How it is looked at.
+    pub(crate) view: View<'static>,
+    /// What varies.
+    pub(crate) axes: Axes,
+    /// The devices, in the order of their axis.
+    pub(crate) devices: Vec<Arc<Profile>>,
+    /// How Plans are made.
+    pub(crate) options: Options,
+    /// How frames are drawn for two eyes.
+    pub(crate) stereo: Modes,
+}
+
+/// What one thread judges variants with.
+pub(crate) struct VariantChecker<'a> {
+    subject: &'a CheckedPipeline<'a>,
+    shaders: SharedShaders<'a>,
+    /// By device.
+    compilers: Vec<Compiler>,
+    /// The last frame with the choice that it is made for, but for the device: it serves for all of them.
+    last: Option<(Choice, Made)>,
+}
+
+/// A frame, or everything that is wrong with it.
+type Made = Result<Arc<Frame>, Vec<Diagnostic>>;
+
+/// A variant of which nothing is wrong.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct VerifiedPlan {
+    /// What the Plan is known by.
+    pub(crate) plan: Identity,
+    /// The Plan's sums.
+    pub(crate) totals: Totals,
+}
+
+impl<'a> VariantChecker<'a> {
+    /// One that has judged nothing yet.
+    #[must_use]
+    pub(crate) fn new(subject: &'a CheckedPipeline<'a>, shaders: SharedShaders<'a>) -> VariantChecker<'a> {
+        let compilers = subject.devices.iter().map(|_| Compiler::new()).collect();
+        VariantChecker { subject, shaders, compilers, last: None }
+    }
+
+    /// Puts a variant together, compiles and verifies it.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub(crate) fn check(&mut self, choice: &Choice) -> Result<VerifiedPlan, Vec<Diagnostic>> {
+        let frame = self.frame(choice)?;
+        let device = axes::device(choice);
+        let profile = &self.subject.devices[device];
+        let plan = self.compilers[device].compile(&frame, profile, &mut Estimated(profile), &self.subject.options)?;
+        let violations = verify::verify(plan);
+        if let Some(large) = heap_size::too_large(plan, &frame, profile) {
+            return Err(vec![large]);
+        }
+        if violations.is_empty() {
+            Ok(VerifiedPlan { plan: identity::of(plan), totals: plan.totals })
+        } else {
+            Err(violations.iter().map(|violation| own_mistake(&violation.to_string())).collect())
+        }
+    }
+
+    fn frame(&mut self, choice: &Choice) -> Made {
+        // What both eyes have of their own lies in one image or another, by what the device can do.
+        let by_device =
+            self.subject.pipeline.asks_device() || self.subject.stereo.0.iter().any(|it| *it > Stereo::MultiPass);
+        let same_for_all = usize::from(!by_device);
+        let without_device = &choice[..choice.len().saturating_sub(same_for_all)];
+        match &self.last {
+            Some((last, frame)) if last == without_device => frame.clone(),
+            _ => {
+                let frame = self.expand(choice).map(Arc::new);
+                self.last = Some((without_device.to_vec(), frame.clone()));
+                frame
+            }
+        }
+    }
+
+    fn expand(&mut self, choice: &Choice) -> Result<Frame, Vec<Diagnostic>> {
+        let CheckedPipeline { pipeline, sources, view, axes, .. } = self.subject;
+        let device = self.subject.devices.get(axes::device(choice)).map(|device| &**device);
+        let stereo = device.map_or(Ok(Stereo::Off), |device| Stereo::first_fit(&self.subject.stereo.0, device));
+        let stereo = stereo.map_err(|why| vec![Diagnostic::nowhere(why)])?;
+        let inputs = Inputs {
+            set: &axes.settings(choice),
+            facts: axes.facts(choice),
+            facts_known: true,
+            output_extent: [view.size.width, view.size.height],
+            rotation: view.rotation,
+            dump: view.dump,
+            stereo,
+            device,
+        };
+        expand::expand(pipeline, Arc::clone(sources), &inputs, &mut self.shaders)
+    }
+}
+
+fn own_mistake(violation: &str) -> Diagnostic {
+    Diagnostic::nowhere(format!("the Plan breaks its own rules, which is a mistake of framewright itself: {violation}"))
+}
