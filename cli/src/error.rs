@@ -1,4 +1,4 @@
-//! Everything that ends a command early.
+//! The errors that end a command early.
 
 use crate::command_line::options;
 use crate::picture::data::EncodingError;
@@ -16,7 +16,7 @@ use framewright_vulkan::Blame;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What ends a command early.
+/// An error that ends a command early.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Error {
     /// A file is missing, and nothing shipped has its name.
@@ -170,7 +170,7 @@ pub(crate) enum Error {
     /// A Plan that breaks its own rules: the compiler is at fault, not the user.
     #[error("the Plan breaks its own rules, which is a mistake of framewright itself:\n  {}", violations.join("\n  "))]
     Violations {
-        /// What `verify` found, escaped.
+        /// The violations that `verify` found, escaped.
         violations: Vec<String>,
     },
     /// The device can't draw for two eyes as was asked.
@@ -268,7 +268,7 @@ impl Error {
         Error::Mistakes { mistakes: Box::new(Mistakes { sources, diagnostics: options::named(diagnostics), exit }) }
     }
 
-    /// What is printed: every mistake has a heading of its own.
+    /// The text to print. Mistakes of a pipeline have headings of their own.
     #[must_use]
     pub(crate) fn shown(&self) -> String {
         let headed = match self {

@@ -22,7 +22,7 @@ const MOST_DECODED: u64 = MOST_TEXELS * 16 + (64 << 20);
 
 /// Textures from files.
 ///
-/// What the bytes of a file are counts, not its name. PNG of 8 bits and JPEG become `R8G8B8A8_SRGB` or `R8G8B8A8_UNORM`, PNG
+/// The bytes of a file decide its format, not its name. PNG of 8 bits and JPEG become `R8G8B8A8_SRGB` or `R8G8B8A8_UNORM`, PNG
 /// of 16 bits `R16G16B16A16_UNORM`, HDR and EXR `R16G16B16A16_SFLOAT`; a frame may say `R32G32B32A32_SFLOAT` or any other
 /// format of colour, of which the picture fills as many components as there are.
 #[derive(Debug, Clone)]

@@ -1,8 +1,8 @@
-//! What no file says, by the option of the command line that chooses it: libraries name no options.
+//! The options that messages name. Libraries report a choice from outside; here it gets the option that makes it.
 
 use framewright_graph::describe::{Diagnostic, OutsideChoice};
 
-/// What to do about a choice, by an option.
+/// How an option makes a choice.
 pub(crate) fn option(choice: OutsideChoice) -> &'static str {
     match choice {
         OutsideChoice::Root => "`--root` names it, or `--allow-outside` allows all",

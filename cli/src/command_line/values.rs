@@ -1,4 +1,4 @@
-//! What single arguments of the command line can say.
+//! Values of single arguments, and how they are read.
 
 use crate::picture::FileFormat;
 use framewright_graph::compile::Order;

@@ -31,16 +31,16 @@ struct Entry<'a> {
     local_read: bool,
     /// Whether `run` can draw on it.
     usable: bool,
-    /// What it lacks of the minimum.
+    /// Required features that it lacks.
     missing: &'a [String],
     /// Why it can't be opened, if it lacks nothing and can't be.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_opened: Option<&'a str>,
-    /// What it says it can do and `run` doesn't use, and why.
+    /// Features that it has and `run` doesn't use, and why.
     used_without: &'a [String],
 }
 
-/// What a device is used without, or why it can't be opened.
+/// The features that a device is used without, or why it can't be opened.
 type Opened = Result<Vec<String>, String>;
 
 /// Lists the devices, or saves the profile of one.
@@ -88,7 +88,7 @@ fn save(arguments: &DevicesArguments, file: &Path) -> Result<Exit, Error> {
     Ok(Exit::Fine)
 }
 
-/// What a device says it can do and isn't used, as its self-tests found.
+/// The features that a device has and isn't used with, because its self-tests failed.
 ///
 /// # Errors
 /// In words: why it can't be opened.

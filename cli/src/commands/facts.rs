@@ -1,4 +1,4 @@
-//! `framewright facts`: what conditions of pipeline files may ask of a scene, and what decided it.
+//! `framewright facts`: the facts of a scene that conditions can use, and what decided each.
 
 use crate::command_line::args::FactsArguments;
 use crate::error::Error;

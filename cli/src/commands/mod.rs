@@ -15,7 +15,7 @@ use crate::system::Exit;
 /// Does what the command line asks for.
 ///
 /// # Errors
-/// What ends the command early.
+/// The error that ends the command early.
 pub(crate) fn execute(command: &Command) -> Result<Exit, Error> {
     match command {
         Command::Check(arguments) => check::check(arguments),

@@ -33,7 +33,7 @@ fn file(name: &Path) -> Option<PathBuf> {
     let mut letters = stem.chars();
     let first = letters.next().is_some_and(|c| c.is_alphabetic() || c == '_');
     let others = letters.all(|c| c.is_alphanumeric() || matches!(c, '_' | '-'));
-    // What ends in a slash is a folder.
+    // A name that ends in a slash is a folder's.
     let ends = name.as_os_str().to_string_lossy().ends_with(last);
     (first && others && ends && stem.len() <= LONGEST).then(|| name.with_file_name(format!("{stem}.ron")))
 }

@@ -1,4 +1,4 @@
-//! Files that are read: the user's own from disk, else those that the binary carries.
+//! Reads files: the user's own from disk, else the shipped ones that the binary carries.
 
 use crate::command_line::args;
 use crate::error::Error;
@@ -13,7 +13,7 @@ use framewright_passes::scene::{self, Scene, SceneError};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// What a file is that the command line names.
+/// The role of a file that the command line names.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FileRole {
     /// Its name in messages.

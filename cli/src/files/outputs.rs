@@ -1,4 +1,4 @@
-//! Files that are written: whole or not at all.
+//! Writes files, each whole or not at all.
 
 use crate::error::Error;
 use crate::files::stream;
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// or another of them by a different name, or a shader.
 ///
 /// # Errors
-/// [`Error::Write`] with what stands in the way, [`Error::WrittenTwice`], [`Error::ReadAndWritten`].
+/// [`Error::Write`], [`Error::WrittenTwice`], [`Error::ReadAndWritten`].
 pub(crate) fn prepare<'a>(written: impl Iterator<Item = &'a Path>, read: &ReadFiles) -> Result<(), Error> {
     let mut seen = Vec::new();
     for path in written {
@@ -53,7 +53,7 @@ fn probe(path: &Path) -> Result<Option<PathBuf>, Error> {
             let folder = fs::canonicalize(folder_of(&file)).map_err(problem)?;
             Ok(file.file_name().map(|name| folder.join(name)))
         }
-        // Whoever reads it would take the end of a first opening for the end of everything.
+        // A pipe is opened only once: closing it would end the file for its reader.
         Target::Pipe(_) => Ok(None),
         Target::Stream(file) => {
             fs::OpenOptions::new().write(true).open(file).map_err(problem)?;
@@ -82,7 +82,7 @@ fn write_one(path: &Path, contents: &[u8]) -> Result<(), Error> {
 /// Writes `contents` to a new file, whole or not at all.
 ///
 /// # Errors
-/// [`Error::AlreadyExists`] if there is anything of that name, [`Error::Write`] with what stands in the way.
+/// [`Error::AlreadyExists`], [`Error::Write`].
 pub(crate) fn write_new(path: &Path, contents: &[u8]) -> Result<(), Error> {
     let problem = |source: io::Error| match source.kind() {
         io::ErrorKind::AlreadyExists => Error::AlreadyExists { path: path.to_owned() },
@@ -98,7 +98,7 @@ pub(crate) fn write_new(path: &Path, contents: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-/// What a path leads to.
+/// The kind of thing that a path leads to.
 enum Target {
     /// A file, or nothing yet.
     File(PathBuf),
@@ -115,7 +115,7 @@ impl Target {
             Ok(data) if is_pipe(&data) => Ok(Target::Pipe(path.to_owned())),
             Ok(data) if !data.is_file() => Ok(Target::Stream(path.to_owned())),
             Ok(data) if data.permissions().readonly() => Err(io::ErrorKind::PermissionDenied.into()),
-            // A link stays; what it leads to is replaced.
+            // The link stays, and its target is replaced.
             Ok(_) if path.is_symlink() => Ok(Target::File(fs::canonicalize(path)?)),
             // Where links go in a circle the system's answer is another.
             Err(error) if error.kind() == io::ErrorKind::NotFound && path.is_symlink() => {
@@ -150,8 +150,8 @@ fn temporary(beside: &Path) -> io::Result<tempfile::NamedTempFile> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    // First whatever the folder itself has to say: `tempfile` adds the path of its own file to errors, which the user has
-    // never heard of, so of those only the kind is kept.
+    // Errors of the folder come first. `tempfile` adds the path of its own file to errors, which means nothing to the user:
+    // only the kind is kept.
     fs::metadata(folder)?;
     builder.tempfile_in(folder).map_err(|error| error.kind().into())
 }

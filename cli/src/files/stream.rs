@@ -1,4 +1,4 @@
-//! Writing to what is no regular file: pipes and devices.
+//! Writes to pipes and devices.
 //!
 //! A pipe keeps its writer waiting until a reader comes, and again whenever the reader is slow. Ctrl-C ends both waits.
 
@@ -15,7 +15,7 @@ const SLICE: Duration = Duration::from_millis(50);
 /// Writes all of `contents` to the pipe or device at `path`.
 ///
 /// # Errors
-/// [`Error::Write`] with what stands in the way, [`Error::InterruptedWriting`].
+/// [`Error::Write`], [`Error::InterruptedWriting`].
 pub(crate) fn write(path: &Path, mut contents: &[u8]) -> Result<(), Error> {
     let problem = |source| Error::Write { path: path.to_owned(), source };
     let go_on = || match interrupt::asked() {

@@ -4,7 +4,7 @@ use super::texel;
 use framewright_graph::encoding::Encoding;
 use framewright_graph::format::Format;
 
-/// What keeps a picture from being encoded.
+/// Why a picture can't be encoded.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum EncodingError {
     /// Fewer texels than the extent says.
@@ -29,7 +29,7 @@ pub(crate) enum EncodingError {
 pub(crate) struct Picture<'t> {
     /// Format of the texels.
     pub(crate) format: Format,
-    /// What its numbers mean; `None`: what the format says.
+    /// The encoding of its numbers; `None`: the format's own.
     pub(crate) encoding: Option<Encoding>,
     /// Width and height in texels.
     pub(crate) extent: [u32; 2],

@@ -132,7 +132,7 @@ mod tests {
         assert_eq!((bytes(picture), srgb, hdr10), (vec![3, 2, 1], true, None));
         let (picture, srgb, hdr10) = shown(R8G8B8A8_UNORM, Some(Encoding::Unorm), &[1, 2, 3, 4]);
         assert_eq!((bytes(picture), srgb, hdr10), (vec![1, 2, 3], false, None));
-        // Of UNORM of which nothing is said a picture shows the light.
+        // UNORM without an encoding is linear light, which the picture shows.
         let (picture, srgb, hdr10) = shown(R8G8B8A8_UNORM, None, &[128, 0, 255, 4]);
         assert_eq!((bytes(picture), srgb, hdr10), (vec![188, 0, 255], true, None));
         // ITU-T H.273: primaries 9, transfer 16, matrix 0; PNG: full range 1.

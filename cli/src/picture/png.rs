@@ -39,7 +39,7 @@ pub(super) fn write(picture: &Picture<'_>) -> Result<Vec<u8>, EncodingError> {
     Ok(file)
 }
 
-/// Numbers as they are stored: 8 bits each where the format has so many, else 16.
+/// Samples as they are stored: 8 bits each where the format has 8, else 16.
 fn stored(picture: &Picture<'_>, channels: usize) -> Result<(BitDepth, Vec<u8>), EncodingError> {
     let format = picture.format;
     let wide = picture.texels()?.map(|texel| texel::stored(format, texel).ok_or(EncodingError::NotShares));

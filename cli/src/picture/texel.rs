@@ -1,4 +1,4 @@
-//! What one texel of any format holds.
+//! Decodes one texel of any format.
 
 use framewright_graph::format::{Format, Numeric};
 use half::f16;

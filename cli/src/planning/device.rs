@@ -11,13 +11,13 @@ use std::path::Path;
 /// A profile file has at most this many bytes.
 const LARGEST: usize = 1 << 20;
 
-/// What `--device` says for every shipped profile.
+/// The value of `--device` that stands for every shipped profile.
 pub(crate) const ALL: &str = "all";
 
 /// Every shipped profile, by name.
 ///
 /// # Errors
-/// None, as long as what is shipped is right.
+/// If a shipped profile can't be read, which a test rules out.
 pub(crate) fn all() -> Result<Vec<(&'static str, Profile)>, Error> {
     SHIPPED_PROFILES.iter().map(|(name, text)| Ok((*name, shipped(name, text)?))).collect()
 }

@@ -1,4 +1,4 @@
-//! This program as its own helper process: in it shaders are compiled and drivers tested, which may end in a crash.
+//! The helper process: this program, started again, compiles shaders and tests drivers. It may crash without harm.
 
 use crate::command_line::args::ShaderLimits;
 use crate::error::Error;
@@ -31,7 +31,7 @@ pub(crate) fn usual() -> Result<Helper, Error> {
     within(Limits::default())
 }
 
-/// A helper that Ctrl-C ends, and that says what takes it long.
+/// A helper that Ctrl-C ends, and that says so when a self-test takes long.
 fn within(limits: Limits) -> Result<Helper, Error> {
     let helper = Helper::this_program(limits).map_err(Error::Helper)?;
     helper.cancel_when(interrupt::asked);

@@ -1,4 +1,4 @@
-//! From a pipeline file to its verified Plan: the part that `check`, `inspect` and `run` share.
+//! A pipeline that was read: it is expanded to a frame, and compiled to a verified Plan.
 
 use crate::command_line::args;
 use crate::command_line::values::{DEFAULT_SIZE, Modes, Size};
@@ -32,7 +32,7 @@ use std::sync::Arc;
 
 /// A pipeline that was read, and where its shaders come from.
 pub(crate) struct Loaded {
-    /// What the file says.
+    /// The pipeline.
     pub(crate) pipeline: Document,
     /// The texts that it was read from.
     pub(crate) sources: Arc<Sources>,
@@ -57,28 +57,28 @@ pub(crate) struct Planned {
     pub(crate) plan: Plan,
 }
 
-/// What a frame depends on besides its pipeline and settings.
+/// The inputs of a frame besides its pipeline and settings.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View<'a> {
     /// Facts of the scene; `None`: it may hold everything.
     pub(crate) facts: Option<Facts>,
     /// Size of the output.
     pub(crate) size: Size,
-    /// By how much what is shown on a screen is turned.
+    /// The rotation of the screen.
     pub(crate) rotation: Rotation,
     /// Names of images that are dumped.
     pub(crate) dump: &'a [String],
 }
 
-/// What a pipeline names: files of its language, and pictures.
-struct Named {
+/// The files that a pipeline names: of its language, and pictures.
+struct NamedFiles {
     files: PipelineFiles,
     textures: TextureFiles,
     /// Whether the user has no right to read one of the files.
     denied: bool,
 }
 
-impl Files for Named {
+impl Files for NamedFiles {
     fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
         let found = self.files.read(from, path);
         self.denied |= found.as_ref().is_err_and(|unread| unread.denied);
@@ -106,7 +106,7 @@ pub(crate) fn load(arguments: &args::PipelineArguments, read: &ReadFiles) -> Res
     let extensions = arguments.extend.iter().map(|path| inputs::extension(path, &mut files, read));
     let extensions = extensions.collect::<Result<Vec<Found>, Error>>()?;
     let textures = recorded("the texture itself").unwrap_or_else(|| Root::new(PathBuf::default()));
-    let mut named = Named { files, textures: TextureFiles::new(textures), denied: false };
+    let mut named = NamedFiles { files, textures: TextureFiles::new(textures), denied: false };
     let own = Found { shown, relative: path, bytes };
     let mut pipeline = describe::read_extended(&mut sources, &mut named, own, extensions).map_err(|diagnostics| {
         let exit = if named.denied { Exit::Environment } else { Exit::Found };
@@ -162,7 +162,7 @@ impl Loaded {
     /// Puts in settings, facts and sizes, compiles for a device, and has the result verified.
     ///
     /// # Errors
-    /// What is wrong with the command line, the pipeline or its shaders; or what `verify` found.
+    /// The mistakes of the command line, the pipeline or its shaders; or the violations that `verify` found.
     pub(crate) fn plan(
         &mut self,
         view: View<'_>,
@@ -175,10 +175,10 @@ impl Loaded {
         Ok(Planned { frame, plan })
     }
 
-    /// Puts in settings, facts, sizes and what the device can do.
+    /// Expands the pipeline to a frame: puts in settings, facts, sizes and the device's features.
     ///
     /// # Errors
-    /// What is wrong with the command line, the pipeline or its shaders.
+    /// The mistakes of the command line, the pipeline or its shaders.
     pub(crate) fn frame(&mut self, view: View<'_>, device: &Profile) -> Result<Frame, Error> {
         self.check_command_line(view)?;
         let stereo = Stereo::first_fit(&self.stereo.0, device).map_err(|why| Error::Stereo { why })?;
@@ -190,7 +190,7 @@ impl Loaded {
     /// Checks settings and sizes by themselves.
     ///
     /// # Errors
-    /// What is wrong with the command line.
+    /// The mistakes of the command line.
     pub(crate) fn check_command_line(&self, view: View<'_>) -> Result<(), Error> {
         let diagnostics = expand::check_inputs(&self.pipeline, &inputs(&self.set, self.stereo.0[0], view));
         if diagnostics.is_empty() {
@@ -202,7 +202,7 @@ impl Loaded {
     /// Makes sure that the device that a profile describes has the memory that a Plan takes.
     ///
     /// # Errors
-    /// How much it takes, and what takes most.
+    /// The memory that it takes, and the images that take most.
     pub(crate) fn fits(&self, plan: &Plan, frame: &Frame, device: &Profile) -> Result<(), Error> {
         heap_size::too_large(plan, frame, device).map_or(Ok(()), |large| Err(wrong(&self.sources, vec![large])))
     }
@@ -210,7 +210,7 @@ impl Loaded {
     /// Compiles a frame for a device, and has the result verified.
     ///
     /// # Errors
-    /// What is wrong with the frame, or what the device can't do; or what `verify` found.
+    /// The mistakes of the frame, features that the device lacks, or the violations that `verify` found.
     pub(crate) fn compile(
         &self,
         frame: &Frame,

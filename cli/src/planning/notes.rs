@@ -8,9 +8,9 @@ use std::collections::HashMap;
 const MANY: usize = 20;
 const FEW: usize = 3;
 
-/// Notes for whoever checks a pipeline; why scopes are separate is for those who look into the Plan, and what a shipped
-/// fragment leaves out by itself is for nobody.
-pub(crate) fn told(notes: &[Note]) -> impl Iterator<Item = &Note> {
+/// The notes that `check` shows. It leaves out why scopes are separate (`inspect` shows that), and what shipped fragments
+/// leave out by themselves.
+pub(crate) fn worth_showing(notes: &[Note]) -> impl Iterator<Item = &Note> {
     notes.iter().filter(|note| note.stage != Stage::Scope && !note.is_of_shipped_fragment())
 }
 

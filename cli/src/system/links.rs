@@ -1,12 +1,11 @@
-//! Where symbolic links lead to, even if nothing is there.
+//! Targets of symbolic links, even of dangling ones.
 
 use std::path::{Component, Path, PathBuf};
 
 /// A path has at most this many links: the limit of Linux.
 const MOST_LINKS: usize = 40;
 
-/// `path` with every link in it replaced by what it leads to, whether there is such a file or not. Where links go in a circle
-/// one of them stays.
+/// `path` with every link in it replaced by its target, even if no file is there. Of links that form a circle one stays.
 pub(crate) fn destination(path: &Path) -> PathBuf {
     let mut links = 0;
     let mut left: Vec<PathBuf> = parts(path);

@@ -1,11 +1,11 @@
-//! What takes its time is shown on a terminal, and nothing anywhere else.
+//! Progress bars, on terminals alone.
 
 use crate::system::text;
 use framewright_graph::frame::Frame;
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use std::time::Duration;
 
-/// A bar over so many frames.
+/// A progress bar over frames.
 pub(crate) fn frames(frames: u32) -> ProgressBar {
     let bar = ProgressBar::new(frames.into());
     if let Ok(style) = ProgressStyle::with_template("drawing {wide_bar} {pos}/{len} frames, {eta} left") {
@@ -14,7 +14,7 @@ pub(crate) fn frames(frames: u32) -> ProgressBar {
     bar
 }
 
-/// What is going on, and for how long; gone when it is dropped.
+/// A line that shows an activity and its duration, until it is dropped.
 pub(crate) fn busy(what: &'static str) -> ProgressBar {
     let line = ProgressBar::new_spinner().with_finish(ProgressFinish::AndClear);
     if let Ok(style) = ProgressStyle::with_template("{spinner} {wide_msg} {elapsed}") {
@@ -25,7 +25,7 @@ pub(crate) fn busy(what: &'static str) -> ProgressBar {
     line
 }
 
-/// That a frame is compiled for a device.
+/// The activity of compiling a frame for a device.
 pub(crate) fn compiling(frame: &Frame, device: &str) -> String {
     let passes = text::count(frame.passes.len(), "pass", "passes");
     format!("compiling {passes} for {}", text::escape(device))

@@ -55,7 +55,7 @@ pub(crate) fn print(text: &str) -> std::io::Result<()> {
     }
 }
 
-/// Writes a line to standard error. If that fails there is nobody left to tell.
+/// Writes a line to standard error. A failure can't be reported anywhere, and is ignored.
 pub(crate) fn say(text: &str) {
     let mut out = std::io::stderr().lock();
     drop(writeln!(out, "{text}"));

@@ -1,5 +1,4 @@
-//! What varies: settings, facts of the scene, devices. All that is known here of kinds of settings stands in [`values`], and of
-//! facts in [`facts`].
+//! The axes along which a pipeline varies: settings, facts of the scene, devices.
 
 use super::axis::{Axis, Varied};
 use super::facts;
@@ -28,7 +27,7 @@ pub(crate) struct Axes {
 }
 
 impl Axes {
-    /// What varies of a pipeline: whatever its files mention, except for what presets, settings files or `set` choose.
+    /// The axes of a pipeline: settings and facts that its files mention, unless a preset, a settings file or `set` chooses them.
     #[must_use]
     pub(crate) fn of(pipeline: &Document, sources: &Sources, set: &[(String, String)], devices: &[String]) -> Axes {
         let mentions = Mentions::of(sources);
@@ -53,7 +52,7 @@ impl Axes {
         axes
     }
 
-    /// What a preset chooses. Values that no axis has yet are added; settings that don't vary stay as they are.
+    /// The variant that a preset chooses. Values that no axis has yet are added; settings that don't vary stay as they are.
     fn preset(&mut self, pipeline: &Document, preset: &Preset) -> (String, Choice) {
         let mut choice = vec![0; self.list.len()];
         for chosen in &preset.set {
@@ -88,12 +87,12 @@ impl Axes {
         self.list.iter().map(|axis| axis.combined).collect()
     }
 
-    /// What is in force in a variant, axis by axis.
+    /// The values of a variant, axis by axis.
     pub(crate) fn chosen<'a>(&'a self, choice: &'a [usize]) -> impl Iterator<Item = (&'a Varied, &'a str)> {
         self.list.iter().zip(choice).map(|(axis, value)| (&axis.varied, &*axis.values[*value]))
     }
 
-    /// The same of those axes alone that depart from their defaults.
+    /// The values of a variant that depart from the defaults.
     pub(crate) fn departures<'a>(&'a self, choice: &'a [usize]) -> impl Iterator<Item = (&'a Varied, &'a str)> {
         self.chosen(choice).zip(choice).filter(|(_, value)| **value != 0).map(|(chosen, _)| chosen)
     }
@@ -124,7 +123,7 @@ pub(crate) fn device(choice: &Choice) -> usize {
     choice.last().copied().unwrap_or(0)
 }
 
-/// What the user chose: by preset and settings files, then by `set`, which is stronger.
+/// The settings that the user chose: by preset and settings files, then by `set`, which is stronger.
 fn fixed(pipeline: &Document, set: &[(String, String)]) -> Vec<(String, String)> {
     let chosen = pipeline.settings.iter().zip(pipeline.in_force()).filter_map(|(setting, chosen)| {
         let name = &*setting.name.text;

@@ -2,7 +2,7 @@
 
 use framewright_graph::facts::Fact;
 
-/// What an axis varies.
+/// The thing that an axis varies.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Varied {
     /// A setting, by name.
@@ -16,11 +16,11 @@ pub(crate) enum Varied {
 /// Something that varies, and the values that it takes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Axis {
-    /// What varies.
+    /// The thing that varies.
     pub(crate) varied: Varied,
-    /// Its values as the command line has them, each once; what is in force without a choice comes first.
+    /// Its values as the command line writes them, each once, the default first.
     pub(crate) values: Vec<String>,
-    /// How many of them, from the first on, are combined with those of other axes. The rest stand in presets alone.
+    /// The first of them are combined with those of other axes, this many. The rest occur in presets alone.
     pub(crate) combined: usize,
 }
 

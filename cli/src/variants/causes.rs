@@ -1,4 +1,4 @@
-//! What the variants that fail have in common: each mistake with the least that brings it about.
+//! The cause of each mistake: the fewest departures from the defaults that bring it about.
 
 use super::checker::VariantChecker;
 use super::minimise::minimise;
@@ -8,10 +8,10 @@ use crate::system::interrupt;
 use framewright_graph::describe::Diagnostic;
 use std::collections::HashMap;
 
-/// Mistakes whose cause is looked for; what fails in more ways is best mended one by one.
+/// Causes of at most this many mistakes are looked for.
 pub(crate) const MOST_CAUSES: usize = 100;
 
-/// A mistake, and what brings it about.
+/// A mistake and its cause.
 #[derive(Debug)]
 pub(crate) struct Cause {
     /// The mistake.
@@ -26,7 +26,7 @@ pub(crate) struct Cause {
     pub(crate) least: bool,
 }
 
-/// Takes the failures, those of most variants first, and looks for the causes of the first [`MOST_CAUSES`].
+/// Finds the causes of the [`MOST_CAUSES`] mistakes that most variants have.
 pub(crate) fn find(
     failures: HashMap<MistakeKey, Failure>,
     space: &Space,

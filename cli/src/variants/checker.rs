@@ -1,7 +1,7 @@
-//! What becomes of one variant: put together, compiled, verified.
+//! Checks one variant: expands, compiles and verifies it.
 
 use super::axes::{self, Axes};
-use super::identity::{self, Identity};
+use super::identity::{Identities, Identity};
 use super::shaders::SharedShaders;
 use super::space::Choice;
 use crate::command_line::values::Modes;
@@ -18,15 +18,15 @@ use framewright_graph::verify;
 use framewright_graph::view::Stereo;
 use std::sync::Arc;
 
-/// What all variants have in common.
+/// The pipeline whose variants are checked: everything that they share.
 pub(crate) struct CheckedPipeline<'a> {
     /// The pipeline.
     pub(crate) pipeline: &'a Document,
     /// The texts that it was read from.
     pub(crate) sources: &'a Arc<Sources>,
-    /// How it is looked at.
+    /// The inputs of every frame.
     pub(crate) view: View<'static>,
-    /// What varies.
+    /// The axes that vary.
     pub(crate) axes: Axes,
     /// The devices, in the order of their axis.
     pub(crate) devices: Vec<Arc<Profile>>,
@@ -36,40 +36,41 @@ pub(crate) struct CheckedPipeline<'a> {
     pub(crate) stereo: Modes,
 }
 
-/// What one thread judges variants with.
+/// Checks variants, on one thread.
 pub(crate) struct VariantChecker<'a> {
     subject: &'a CheckedPipeline<'a>,
     shaders: SharedShaders<'a>,
     /// By device.
     compilers: Vec<Compiler>,
-    /// The last frame with the choice that it is made for, but for the device: it serves for all of them.
-    last: Option<(Choice, Made)>,
+    identities: Identities,
+    /// The last frame, and its choice without the device unless frames depend on it.
+    last: Option<(Choice, ExpandedFrame)>,
 }
 
-/// A frame, or everything that is wrong with it.
-type Made = Result<Arc<Frame>, Vec<Diagnostic>>;
+/// A frame, or its mistakes.
+type ExpandedFrame = Result<Arc<Frame>, Vec<Diagnostic>>;
 
-/// A variant of which nothing is wrong.
+/// The Plan of a variant of which nothing is wrong.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct VerifiedPlan {
-    /// What the Plan is known by.
-    pub(crate) plan: Identity,
-    /// The Plan's sums.
+    /// Its identity.
+    pub(crate) identity: Identity,
+    /// Its totals.
     pub(crate) totals: Totals,
 }
 
 impl<'a> VariantChecker<'a> {
-    /// One that has judged nothing yet.
+    /// A checker with empty caches.
     #[must_use]
     pub(crate) fn new(subject: &'a CheckedPipeline<'a>, shaders: SharedShaders<'a>) -> VariantChecker<'a> {
         let compilers = subject.devices.iter().map(|_| Compiler::new()).collect();
-        VariantChecker { subject, shaders, compilers, last: None }
+        VariantChecker { subject, shaders, compilers, identities: Identities::default(), last: None }
     }
 
-    /// Puts a variant together, compiles and verifies it.
+    /// Expands, compiles and verifies a variant.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// Its mistakes.
     pub(crate) fn check(&mut self, choice: &Choice) -> Result<VerifiedPlan, Vec<Diagnostic>> {
         let frame = self.frame(choice)?;
         let device = axes::device(choice);
@@ -80,14 +81,14 @@ impl<'a> VariantChecker<'a> {
             return Err(vec![large]);
         }
         if violations.is_empty() {
-            Ok(VerifiedPlan { plan: identity::of(plan), totals: plan.totals })
+            Ok(VerifiedPlan { identity: self.identities.of(plan), totals: plan.totals })
         } else {
             Err(violations.iter().map(|violation| own_mistake(&violation.to_string())).collect())
         }
     }
 
-    fn frame(&mut self, choice: &Choice) -> Made {
-        // What both eyes have of their own lies in one image or another, by what the device can do.
+    fn frame(&mut self, choice: &Choice) -> ExpandedFrame {
+        // The device decides whether the images of both eyes are layers or halves.
         let by_device =
             self.subject.pipeline.asks_device() || self.subject.stereo.0.iter().any(|it| *it > Stereo::MultiPass);
         let same_for_all = usize::from(!by_device);

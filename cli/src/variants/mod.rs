@@ -40,8 +40,7 @@ use std::sync::{Arc, Mutex};
 /// Checks all variants of a pipeline.
 ///
 /// # Errors
-/// In the form for people what is wrong whatever the variant; in the form for programs the mistakes of the pipeline are its
-/// answer. If there are too many variants.
+/// Mistakes that every variant has; in the form for programs those are the answer. If there are too many variants.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
     let report = match report(arguments) {
         Err(Error::Mistakes { mistakes }) if arguments.format == AnswerFormat::Json && mistakes.exit != Exit::Usage => {

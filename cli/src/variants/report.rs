@@ -1,4 +1,4 @@
-//! What is told of all variants, in the form for programs.
+//! The report for programs.
 
 use super::axes::Axes;
 use super::axis::Varied;
@@ -22,11 +22,11 @@ pub(crate) struct Report {
     pub(crate) pipeline: String,
     /// Whether nothing is wrong with any variant that was checked.
     pub(crate) fine: bool,
-    /// What is wrong whatever the variant; then none was checked.
+    /// Mistakes that every variant has; then none was checked.
     pub(crate) diagnostics: Value,
     /// Settings that the command line chose, itself or by a preset or settings files.
     pub(crate) chosen: Vec<NamedValue>,
-    /// What varies.
+    /// The axes.
     pub(crate) axes: Vec<AxisEntry>,
     /// Presets that are among the variants, as they are on each device.
     pub(crate) presets: Vec<String>,
@@ -57,7 +57,7 @@ pub(crate) struct NamedValue {
     pub(crate) value: String,
 }
 
-/// What varies, with its values, the default first.
+/// An axis with its values, the default first.
 #[derive(Debug, Serialize)]
 pub(crate) struct AxisEntry {
     /// `setting`, `fact` or `device`.
@@ -90,7 +90,7 @@ pub(crate) struct FailureEntry {
     pub(crate) variants: usize,
     /// Devices on which it was found.
     pub(crate) devices: Vec<String>,
-    /// What brings it about.
+    /// The variant with the fewest departures from the defaults that has it.
     pub(crate) breaks_with: Variant,
     /// Whether without any one of these departures the mistake is another or none: each was left out to see.
     pub(crate) each_is_needed: bool,
@@ -111,7 +111,7 @@ pub(crate) struct PlanEntry {
 }
 
 impl Report {
-    /// What is told where no variant was checked.
+    /// The report when no variant was checked.
     #[must_use]
     pub(crate) fn of_nothing(arguments: &CheckArguments) -> Report {
         let set = arguments.pipeline.set.iter();
@@ -135,7 +135,7 @@ impl Report {
         }
     }
 
-    /// What is told of all that was found.
+    /// The report of all findings.
     #[must_use]
     pub(crate) fn new(
         arguments: &CheckArguments,

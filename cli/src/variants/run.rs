@@ -1,4 +1,4 @@
-//! All variants, on several threads: what is found doesn't depend on how many.
+//! Checks all variants on several threads. The findings don't depend on the number of threads.
 
 use super::axes;
 use super::checker::{CheckedPipeline, VariantChecker, VerifiedPlan};
@@ -21,7 +21,7 @@ const LARGEST_BATCH: usize = 64;
 /// Batches for each thread, if there are few variants: all threads end at about the same time.
 const BATCHES: usize = 8;
 
-/// What was found.
+/// The findings of a check.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
     /// Variants that were judged.
@@ -34,7 +34,7 @@ pub(crate) struct Findings {
     pub(crate) failures: HashMap<MistakeKey, Failure>,
 }
 
-/// A mistake, by which failures of several variants are told to be the same.
+/// Message and place of a mistake. Mistakes of several variants with the same key are one.
 pub(crate) type MistakeKey = (String, Option<Span>);
 
 /// A variant that stands for others: the one with the fewest departures from the defaults, of those the first.
@@ -76,7 +76,7 @@ pub(crate) fn mistake_key(diagnostic: &Diagnostic) -> MistakeKey {
     (diagnostic.message.clone(), diagnostic.labels.first().map(|label| label.span))
 }
 
-/// Judges all variants of `space`, or those that are judged when the user asks to stop.
+/// Checks all variants of `space`, until the user asks to stop.
 pub(crate) fn run(
     subject: &CheckedPipeline<'_>,
     space: &Space,
@@ -128,8 +128,8 @@ impl Findings {
     fn add(&mut self, example: Example, device: usize, verdict: Result<VerifiedPlan, Vec<Diagnostic>>) {
         self.checked += 1;
         match verdict {
-            Ok(VerifiedPlan { plan, totals }) => {
-                let found = self.plans.entry(plan).or_insert(DistinctPlan { variants: 0, example, totals });
+            Ok(VerifiedPlan { identity, totals }) => {
+                let found = self.plans.entry(identity).or_insert(DistinctPlan { variants: 0, example, totals });
                 found.variants += 1;
                 found.example = found.example.min(example);
             }
@@ -183,8 +183,8 @@ mod tests {
     #[test]
     fn what_stands_for_others_is_nearest_to_the_defaults_whoever_found_it() {
         let diagnostic = Diagnostic::nowhere("wrong");
-        let plan = Identity { plan: 7, shape: 1 };
-        let fine = VerifiedPlan { plan, totals: Totals::default() };
+        let identity = Identity { plan: 7, shape: 1 };
+        let fine = VerifiedPlan { identity, totals: Totals::default() };
         let numbers = [(2, 1), (1, 5), (1, 7), (3, 0)];
         for split in 0..=numbers.len() {
             for turned in 0..numbers.len() {
@@ -202,7 +202,7 @@ mod tests {
                 let failure = &found.failures[&mistake_key(&diagnostic)];
                 assert_eq!((failure.example, failure.variants), (least, 4));
                 assert_eq!(failure.devices, BTreeSet::from([0, 1]));
-                assert_eq!((found.plans[&plan].example, found.plans[&plan].variants), (least, 4));
+                assert_eq!((found.plans[&identity].example, found.plans[&identity].variants), (least, 4));
             }
         }
     }

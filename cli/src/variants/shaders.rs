@@ -1,4 +1,4 @@
-//! Shader interfaces that several threads ask for: each shader is compiled and reflected once.
+//! A shader library that threads share: each shader is compiled and reflected once.
 
 use framewright_graph::file_path::FilePath;
 use framewright_graph::frame::Draw;
@@ -7,12 +7,12 @@ use framewright_vulkan::ShaderLibrary;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What one thread knows of a library that it shares.
+/// One thread's cache of a shared library.
 pub(crate) struct SharedShaders<'a> {
     library: &'a Mutex<ShaderLibrary>,
-    /// By name, then by what is drawn (`None`: a compute shader) and how it is compiled.
+    /// By name, then by the kind of draw (`None`: a compute shader) and the variant.
     known: HashMap<String, Vec<(Option<Draw>, Variant, Reflection)>>,
-    /// Which shader it is, by the file that names it, its name there and what is drawn.
+    /// The shader's full name, by the file that names it, its name there and the kind of draw.
     which: HashMap<ShaderKey, Result<Arc<str>, ShaderProblem>>,
 }
 
@@ -21,7 +21,7 @@ type Reflection = Result<ShaderInterface, ShaderProblem>;
 type ShaderKey = (FilePath, Arc<str>, Option<Draw>);
 
 impl<'a> SharedShaders<'a> {
-    /// One that knows nothing yet.
+    /// An empty cache.
     #[must_use]
     pub(crate) fn new(library: &'a Mutex<ShaderLibrary>) -> SharedShaders<'a> {
         SharedShaders { library, known: HashMap::new(), which: HashMap::new() }

@@ -1,11 +1,11 @@
-//! What is told of all variants, for people.
+//! The report for people.
 
 use super::report::{AxisEntry, FailureEntry, PlanEntry, Report, Variant};
 use crate::planning::totals;
 use crate::system::text;
 use std::collections::HashMap;
 
-/// Mistakes and Plans that people are told of; programs are told of more.
+/// At most this many mistakes and Plans are shown to people. The JSON report has all.
 const MOST: usize = 20;
 
 /// Mistakes, then Plans, then how many variants are fine.

@@ -1,4 +1,4 @@
-//! What a draw brings along, and the draw source that draws a scene.
+//! The draw interface, and the draw source that draws a scene.
 
 mod block;
 pub mod cascades;

@@ -1,4 +1,4 @@
-//! What pipeline files may ask of a scene, and what decided it.
+//! The facts of a scene that pipeline files can use, and what decided each.
 
 mod peak;
 
@@ -25,7 +25,7 @@ const NAMES: usize = 3;
 const NAME_LENGTH: usize = 40;
 
 impl Scene {
-    /// What pipeline files may ask.
+    /// Its facts.
     #[must_use]
     pub fn facts(&self) -> Facts {
         facts(self, peak(self))
@@ -73,12 +73,12 @@ fn is_clipped(scene: &Scene, object: &Object) -> bool {
     matches!(scene.materials[object.material].alpha, AlphaMode::Mask { .. })
 }
 
-/// Whether it leaves out fragments to fade; what is transparent fades by its opacity.
+/// Whether it leaves out fragments to fade. Transparent objects fade by their opacity instead.
 fn is_dithered(scene: &Scene, object: &Object) -> bool {
     object.fades() && scene.draw_list(object) == DrawList::Masked
 }
 
-/// Light goes through what is transparent.
+/// Whether an object that isn't transparent is lit by a light with shadows.
 fn casts_shadows(scene: &Scene) -> bool {
     let caster = scene.objects.iter().any(|object| scene.draw_list(object) != DrawList::Transparent);
     caster && !shadowing_lights(scene).is_empty()

@@ -82,7 +82,7 @@ pub(super) fn peak(scene: &Scene) -> Peak {
 /// All light that can arrive anywhere on an object.
 fn arriving(scene: &Scene, object: &Object) -> DVec3 {
     let from_point = |light: &PointLight| {
-        // What moves may come as near as can be.
+        // A moving object may come as near as can be.
         let moves = !object.movement.is_none();
         let distance = if moves { 0.0 } else { distance(scene, object, DVec3::from(light.position)) };
         vector(light.color) * (f64::from(light.intensity) * light.falloff(distance))

@@ -1,4 +1,4 @@
-//! What a scene has where its file says nothing: a clear day, a white material.
+//! Defaults of a scene: a clear day, a white material.
 
 use super::model::{AlphaMode, Material, Sky, Sun};
 

@@ -100,7 +100,7 @@ pub fn load_recorded(path: &Path, read: &ReadFiles) -> Result<Scene, SceneError>
     }
 }
 
-/// The whole file, if it isn't larger than `limit`. Pipes and devices too: what counts is what comes out of them.
+/// The whole file, if it isn't larger than `limit`. Pipes and devices have no size, so the bytes read count.
 fn bytes(path: &Path, limit: u64, read: &ReadFiles) -> Result<Vec<u8>, SceneError> {
     use std::io::Read;
     let mut bytes = Vec::new();

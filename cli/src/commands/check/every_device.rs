@@ -1,4 +1,4 @@
-//! `framewright check --device all`: what becomes of a pipeline on each device that there is a profile of.
+//! `framewright check --device all`: a verdict for every shipped profile.
 
 use super::verdict::{Verdict, fine, verdict};
 use crate::command_line::args::{AnswerFormat, CheckArguments};
@@ -21,9 +21,9 @@ struct Answer {
     pipeline: String,
     /// Whether nothing is wrong on any device.
     fine: bool,
-    /// What is wrong whatever the device.
+    /// Mistakes that don't depend on the device.
     diagnostics: serde_json::Value,
-    /// What comes of it on each device; empty if something is wrong whatever the device.
+    /// A verdict for each device; empty if there are mistakes that don't depend on the device.
     devices: Vec<Entry>,
 }
 
@@ -35,7 +35,7 @@ struct Entry {
     verdict: Verdict,
 }
 
-/// What comes of the pipeline on one device.
+/// The result on one device.
 struct Checked {
     profile: &'static str,
     device: String,
@@ -45,7 +45,7 @@ struct Checked {
 /// Checks a pipeline for every shipped profile.
 ///
 /// # Errors
-/// In the form for people what is wrong whatever the device; in the form for programs that is an answer too.
+/// Mistakes that don't depend on the device; in the form for programs those are the answer.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
     let results = compile(arguments);
     match arguments.format {
@@ -57,12 +57,12 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
 /// Compiles for each profile.
 ///
 /// # Errors
-/// What is wrong whatever the device.
+/// Mistakes that don't depend on the device.
 fn compile(arguments: &CheckArguments) -> Result<Vec<Checked>, Error> {
     let busy = progress::busy("reading");
     let mut pipeline = planning::load(&arguments.pipeline, &ReadFiles::default())?;
     let options = arguments.planning.options();
-    // What both eyes have of their own lies in one image or another, by what the device can do.
+    // The device decides whether the images of both eyes are layers or halves.
     let by_device = pipeline.pipeline.asks_device() || pipeline.stereo.0.iter().any(|it| *it > Stereo::MultiPass);
     let mut same: Option<Frame> = None;
     let mut all = Vec::new();
@@ -99,14 +99,15 @@ fn compile(arguments: &CheckArguments) -> Result<Vec<Checked>, Error> {
 fn human(arguments: &CheckArguments, results: Vec<Checked>) -> Result<Exit, Error> {
     let all = results.len();
     let plans: Vec<&Plan> = results.iter().filter_map(|it| it.result.as_ref().ok()).collect();
-    let said: Vec<HashSet<(&str, &str)>> = plans.iter().map(|plan| plan.notes.iter().map(words).collect()).collect();
-    let everywhere = |note: &&Note| said.len() > 1 && said.iter().all(|notes| notes.contains(&words(note)));
+    let said: Vec<HashSet<(&str, &str)>> =
+        plans.iter().map(|plan| plan.notes.iter().map(subject_and_text).collect()).collect();
+    let everywhere = |note: &&Note| said.len() > 1 && said.iter().all(|notes| notes.contains(&subject_and_text(note)));
     let mut answer = String::new();
     for Checked { profile, result, .. } in &results {
         match result {
             Ok(plan) => {
                 answer += &format!("{}\n", fine(arguments, profile, &plan.totals));
-                for line in notes::lines(notes::told(&plan.notes).filter(|note| !everywhere(note))) {
+                for line in notes::lines(notes::worth_showing(&plan.notes).filter(|note| !everywhere(note))) {
                     answer += &format!("  {line}\n");
                 }
             }
@@ -116,7 +117,9 @@ fn human(arguments: &CheckArguments, results: Vec<Checked>) -> Result<Exit, Erro
             }
         }
     }
-    for line in notes::lines(plans.first().into_iter().flat_map(|plan| notes::told(&plan.notes)).filter(everywhere)) {
+    for line in
+        notes::lines(plans.first().into_iter().flat_map(|plan| notes::worth_showing(&plan.notes)).filter(everywhere))
+    {
         answer += &format!("{line} (on every device that takes it)\n");
     }
     answer += &format!("{}: fine on {} of {all} devices\n", text::path(&arguments.pipeline.file), plans.len());
@@ -124,8 +127,8 @@ fn human(arguments: &CheckArguments, results: Vec<Checked>) -> Result<Exit, Erro
     Ok(if plans.len() == all { Exit::Fine } else { Exit::Found })
 }
 
-/// What a note says of what.
-fn words(note: &Note) -> (&str, &str) {
+/// Subject and text of a note.
+fn subject_and_text(note: &Note) -> (&str, &str) {
     (&note.subject, &note.text)
 }
 

@@ -30,7 +30,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
         AnswerFormat::Human => {
             let plan = result?;
             let fine = fine(arguments, &plan.device.name, &plan.totals);
-            let notes = notes::lines(notes::told(&plan.notes)).into_iter().map(|line| line + "\n");
+            let notes = notes::lines(notes::worth_showing(&plan.notes)).into_iter().map(|line| line + "\n");
             text::print(&(fine + "\n" + &notes.collect::<String>())).map_err(Error::Print)?;
             Ok(Exit::Fine)
         }

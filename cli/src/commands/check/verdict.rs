@@ -8,16 +8,16 @@ use framewright_graph::describe;
 use framewright_graph::plan::{Note, Plan, Totals};
 use serde::Serialize;
 
-/// What comes of a pipeline on one device.
+/// The verdict on one device.
 #[derive(Debug, Serialize)]
 pub(crate) struct Verdict {
     /// The device's own name.
     pub(crate) device: String,
     /// Whether nothing is wrong.
     pub(crate) fine: bool,
-    /// What is wrong with the pipeline, its settings or its shaders, or what the device can't do.
+    /// Mistakes of the pipeline, its settings or its shaders, and features that the device lacks.
     pub(crate) diagnostics: serde_json::Value,
-    /// What is wrong with the Plan that was made of it.
+    /// Violations that `verify` found in the Plan.
     pub(crate) violations: Vec<String>,
     /// Decisions that a reader may want to know of.
     pub(crate) notes: Vec<Note>,
@@ -53,7 +53,7 @@ pub(crate) fn verdict(device: String, result: Result<Plan, Error>) -> Result<Ver
     Ok(verdict)
 }
 
-/// That all is well, and how much the frame takes.
+/// The sentence for a pipeline without mistakes, with its Plan's totals.
 pub(crate) fn fine(arguments: &CheckArguments, device: &str, totals: &Totals) -> String {
     let (pipeline, device) = (text::path(&arguments.pipeline.file), text::escape(device));
     format!("{pipeline}: fine on {device}: {}", totals::sentence(totals))

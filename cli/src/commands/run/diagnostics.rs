@@ -1,4 +1,4 @@
-//! Mistakes that only a run finds, with their places in the pipeline's files.
+//! Mistakes that only a run can find, with their places in the pipeline's files.
 
 use crate::error::Error;
 use crate::system::Exit;
@@ -27,7 +27,7 @@ pub(crate) fn cameras(frame: &Frame, scene: &Scene) -> Result<(), Error> {
     if diagnostics.is_empty() { Ok(()) } else { Err(wrong(frame, diagnostics)) }
 }
 
-/// A picture that turns out to be damaged, where the texture stands; any other problem as it is.
+/// A damaged texture file as a mistake of the pipeline, with its place; any other problem as it is.
 pub(crate) fn texture(frame: &Frame, problem: framewright_vulkan::Error) -> Error {
     if let framewright_vulkan::Error::Texture { image, path, problem } = &problem
         && let Some(declared) = frame.images.iter().find(|it| *it.name == **image)

@@ -63,7 +63,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
         let eyes = if stereo == Stereo::Off { "one eye" } else { "two eyes" };
         text::say(&format!("note: it is drawn for {eyes} by `--stereo {}`", stereo.name()));
     }
-    // What was asked for and isn't had changes the picture.
+    // A format or sample count that the device lacks changes the picture.
     for line in notes::lines(planned.plan.notes.iter().filter(|note| note.stage == Stage::Fit)) {
         text::say(&line);
     }
@@ -107,7 +107,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     Ok(if report.validation.is_some_and(|validation| validation.findings > 0) { Exit::Found } else { Exit::Fine })
 }
 
-/// Ctrl-C gives up waits for the device and for what compiles shaders: what comes of that is no fault of theirs.
+/// Errors of the device and of shaders after Ctrl-C are an interrupt: waiting for either was given up.
 fn interrupted(frames: u32, wanted: u32) -> impl Fn(Error) -> Error {
     move |error| match error {
         Error::Vulkan(_) | Error::Mistakes { .. } if interrupt::asked() => Error::Interrupted { frames, wanted },
@@ -146,7 +146,7 @@ fn not_handed_in(frame: &Frame) -> impl Iterator<Item = &str> {
     images.chain(buffers.map(|buffer| &*buffer.name))
 }
 
-/// What a Plan has that another hasn't, in words.
+/// How the totals of two Plans differ, in words.
 fn difference(before: &Totals, after: &Totals) -> String {
     let count = |name: &str, before: u32, after: u32| (before != after).then(|| format!("{name} {before} → {after}"));
     let bytes = |name: &str, before: u64, after: u64| {
@@ -171,7 +171,7 @@ fn difference(before: &Totals, after: &Totals) -> String {
     }
 }
 
-/// Draws all frames and reads back what is to be written.
+/// Draws all frames, and encodes the pictures to write.
 fn draw(
     arguments: &RunArguments,
     planned: &Planned,

@@ -98,7 +98,7 @@ pub(super) fn requests<'a>(
     Ok(requests)
 }
 
-/// The output of that name among some, or else those of both eyes that have it.
+/// The output with the name, or else those of both eyes.
 fn outputs_named(frame: &Frame, name: &str, among: impl Iterator<Item = usize> + Clone) -> Vec<usize> {
     let has_name = |at: &usize, name: &str| output_name(frame, *at) == name;
     let one = among.clone().find(|at| has_name(at, name));

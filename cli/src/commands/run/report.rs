@@ -1,4 +1,4 @@
-//! What a run has to tell: the table for people, the report for programs.
+//! The report of a run: a table for people, JSON for programs.
 
 use crate::commands::run::timings::{Row, WorkKind};
 use crate::system::text;
@@ -37,9 +37,9 @@ pub(crate) struct Report {
     pub(crate) passes: Vec<Row>,
     /// The compiler's remarks.
     pub(crate) notes: Vec<Note>,
-    /// What the scene's file holds that isn't drawn.
+    /// Content of the scene's file that isn't drawn.
     pub(crate) scene_notes: Vec<String>,
-    /// What the validation layer said; `null` if it wasn't asked.
+    /// Messages of the validation layer; `null` without `--validate`.
     pub(crate) validation: Option<Validation>,
     /// Files that were written, as they were named.
     pub(crate) files: Vec<String>,
@@ -76,7 +76,7 @@ pub(crate) struct Memory {
     pub(crate) placed_bytes: u64,
     /// Alive at the worst moment: no placement can need less.
     pub(crate) live_peak_bytes: u64,
-    /// Of those that outlive the frame: outputs, what is handed in, what persists.
+    /// Of those that outlive the frame: outputs, imported and persistent ones.
     pub(crate) kept_bytes: u64,
 }
 
@@ -93,13 +93,13 @@ pub(crate) struct Barriers {
     pub(crate) waits: u32,
 }
 
-/// What the validation layer said.
+/// Messages of the validation layer.
 #[derive(Debug, Serialize)]
 pub(crate) struct Validation {
     /// The layer and its version.
     pub(crate) layer: String,
-    /// Whether it sees hazards of dynamic rendering attachments, told by a mistake that was planted. Every layer that gets
-    /// this far reported a simpler planted mistake.
+    /// Whether it reported a planted hazard of dynamic rendering attachments. Every layer that gets this far reported a
+    /// simpler planted mistake.
     pub(crate) sees_attachments: bool,
     /// The rules' names in the messages about the planted mistakes.
     pub(crate) canary: Vec<String>,
@@ -158,7 +158,7 @@ impl From<&Totals> for Barriers {
 }
 
 impl Validation {
-    /// What the layer said besides its canary.
+    /// The layer's messages besides those about the canary.
     #[must_use]
     pub(crate) fn new(canary: Canary, messages: &[Message]) -> Validation {
         let messages: Vec<ValidationMessage> = messages.iter().map(ValidationMessage::from).collect();

@@ -1,19 +1,19 @@
-//! How long each part of a frame took.
+//! The GPU time of each part of a frame.
 
 use framewright_graph::plan::{ImageId, Plan, RenderScope, Resource, Transfer, Work};
 use framewright_vulkan::FrameReport;
 use serde::Serialize;
 
-/// A pass, or something between passes that the compiler inserted.
+/// A pass, or work that the compiler inserted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Row {
     /// The Plan's step that it belongs to.
     pub(crate) step: usize,
-    /// What it is.
+    /// The kind of work.
     pub(crate) kind: WorkKind,
-    /// The pass's name; of what was inserted source and target.
+    /// The pass's name; of inserted work its source and target.
     pub(crate) name: String,
-    /// What was inserted, in a word.
+    /// The word for inserted work.
     #[serde(skip)]
     pub(crate) inserted: Option<&'static str>,
     /// Draw calls.
@@ -25,7 +25,7 @@ pub(crate) struct Row {
     pub(crate) gpu_milliseconds: f64,
 }
 
-/// What a row is.
+/// The kind of work in a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum WorkKind {

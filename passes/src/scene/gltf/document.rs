@@ -99,7 +99,7 @@ fn element<T: for<'a> Deserialize<'a>>(
     json::read(value).map_err(wrong)
 }
 
-/// What says how the rest is to be read.
+/// The version, and the extensions that the file uses.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase", expecting = "a glTF object")]
 struct Head {

@@ -67,7 +67,7 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, GltfError> {
 struct Roots {
     /// Nodes without parents.
     tops: Vec<usize>,
-    /// By node, whether it and what is below it are shown.
+    /// By node, whether it and its descendants are shown.
     listed: Vec<bool>,
 }
 

@@ -7,7 +7,7 @@ use crate::scene::limits;
 use crate::scene::model::{Bounds, Mesh, flat_shaded};
 use crate::scene::notes::Notes;
 
-/// What all primitives together have taken so far.
+/// Vertices and indices of all primitives so far.
 #[derive(Debug, Default)]
 pub(super) struct Budget {
     vertices: usize,

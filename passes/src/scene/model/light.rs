@@ -7,7 +7,7 @@ pub struct Sun {
     pub direction: [f32; 3],
     /// Linear colour with the intensity multiplied in, each at least 0: what a white surface facing it gives. Black: no sun.
     pub color: [f32; 3],
-    /// Whether what stands in its light casts a shadow.
+    /// Whether objects in its light cast shadows.
     pub shadows: bool,
 }
 
@@ -30,7 +30,7 @@ pub struct PointLight {
     pub intensity: f32,
     /// Distance in metres at which the light has faded to nothing; `None`: it reaches everywhere.
     pub range: Option<f32>,
-    /// Whether what stands in its light casts a shadow.
+    /// Whether objects in its light cast shadows.
     pub shadows: bool,
 }
 
@@ -55,7 +55,7 @@ impl PointLight {
     pub const NEAREST: f64 = 0.01;
 }
 
-/// What is seen where no object is: three linear colours. Towards a unit direction `d` the sky is
+/// The background: three linear colours. Towards a unit direction `d` the sky is
 /// `mix(horizon, zenith, d.y)` above the horizon and `mix(horizon, ground, sqrt(−d.y))` below it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sky {

@@ -1,4 +1,4 @@
-//! What surfaces are made of.
+//! Materials and textures.
 
 use framewright_graph::vocabulary::Filter;
 use std::sync::Arc;
@@ -14,23 +14,23 @@ pub struct Material {
     pub base_color_texture: Option<usize>,
     /// Light that the surface gives by itself, linear, strength multiplied in; at least 0, may exceed 1.
     pub emissive: [f32; 3],
-    /// What alpha does.
+    /// How alpha is used.
     pub alpha: AlphaMode,
     /// Whether back faces are drawn too, lit with the normal turned round.
     pub double_sided: bool,
 }
 
-/// What a material's alpha does.
+/// How a material's alpha is used.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AlphaMode {
-    /// Nothing: the surface hides what is behind it.
+    /// It is ignored: the surface is opaque.
     Opaque,
-    /// Where it is below the cut-off there is a hole.
+    /// Fragments below the cut-off are discarded.
     Mask {
         /// The cut-off, at least 0. Above 1 nothing is left.
         cutoff: f32,
     },
-    /// It is the share by which the surface covers what is behind it.
+    /// It is the surface's opacity.
     Blend,
 }
 
@@ -84,7 +84,7 @@ impl Default for Sampler {
     }
 }
 
-/// What lies beyond a texture's border (`VkSamplerAddressMode`).
+/// The address mode beyond a texture's border (`VkSamplerAddressMode`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Wrap {
     /// The texture again.

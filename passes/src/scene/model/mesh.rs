@@ -1,4 +1,4 @@
-//! Triangle meshes and what is computed about them.
+//! Triangle meshes.
 
 use super::bounds::Bounds;
 use glam::Vec3;

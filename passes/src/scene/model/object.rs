@@ -1,4 +1,4 @@
-//! What is drawn.
+//! Objects: meshes with a material and a place.
 
 use super::movement::Movement;
 use glam::{DMat3, DMat4, Mat3};

@@ -17,7 +17,7 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Base colour textures.
     pub textures: Vec<Texture>,
-    /// What is drawn, in the file's order.
+    /// Objects to draw, in the file's order.
     pub objects: Vec<Object>,
     /// The one light that is infinitely far away.
     pub sun: Sun,
@@ -25,13 +25,13 @@ pub struct Scene {
     pub ambient: [f32; 3],
     /// Lights with a position.
     pub point_lights: Vec<PointLight>,
-    /// What is seen where no object is.
+    /// The background.
     pub sky: Sky,
     /// From where it is seen by views that ask for no camera.
     pub camera: Camera,
     /// Cameras that views may ask for.
     pub cameras: Vec<NamedCamera>,
-    /// What the file holds that isn't drawn, each a sentence without final stop ("mesh 2: vertex colours are ignored").
+    /// Content of the file that isn't drawn, each a sentence without final stop ("mesh 2: vertex colours are ignored").
     /// Names in it are escaped.
     pub notes: Vec<String>,
 }
@@ -55,7 +55,7 @@ impl Scene {
             .reduce(Bounds::union)
     }
 
-    /// The draw list that an object is in: what fades by leaving out fragments is drawn with what has holes.
+    /// The draw list of an object. Objects that fade by leaving out fragments are in the one with alpha-masked objects.
     #[must_use]
     pub fn draw_list(&self, object: &Object) -> DrawList {
         match self.materials[object.material].alpha {

@@ -46,7 +46,7 @@ impl Patterns {
     }
 }
 
-/// A material; `None` if mistakes were reported. Every field is read, whatever is wrong with another.
+/// A material; `None` if mistakes were reported. Every field is read, even if another one is wrong.
 pub(super) fn lower<'s>(reader: &mut Reader, fields: &MaterialFields<'s>, patterns: &mut Patterns) -> Option<Material> {
     let name = reader.reference(fields.name, "a material");
     let color = fields.color.map_or(Some([1.0; 3]), |leaf| color(reader, leaf, "the colour", 1.0));

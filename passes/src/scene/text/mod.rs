@@ -1,4 +1,4 @@
-//! Our own scene format: RON text that says what stands where.
+//! Our own scene format, in RON.
 //!
 //! ```ron
 //! Scene(
@@ -90,7 +90,7 @@ pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) ->
     }
 }
 
-/// The file's tree, unless it shows at once that this is no scene.
+/// The file's syntax tree; `None` if the file is empty or not RON.
 fn readable(reader: &mut Reader, file: u32, text: Arc<str>) -> Option<Tree> {
     if text.trim().is_empty() {
         let end = u32::try_from(text.len()).unwrap_or(u32::MAX);

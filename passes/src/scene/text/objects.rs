@@ -67,7 +67,7 @@ impl Objects {
         })
     }
 
-    /// Adds what one entry of the list says, or reports what is wrong with it.
+    /// Adds the objects of an entry of the list, or reports its mistakes.
     pub(super) fn add<'s>(
         &mut self,
         reader: &mut Reader,
