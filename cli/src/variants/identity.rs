@@ -1,86 +1,127 @@
-//! Whether two Plans are the same, or the same but for values: by hashes of their JSON.
+//! Tells whether two Plans are the same, or the same but for values, by hashes of their serialised form.
 
-use framewright_graph::plan::{DeviceUsed, Plan};
-use serde_json::Value;
+use framewright_graph::frame::ParamValue;
+use framewright_graph::plan::{Attachment, DeviceUsed, Pass, Plan, Step, Work};
+use framewright_graph::vocabulary::FillValue;
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// The hashes of a Plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Identity {
-    /// The same for the same Plan.
+    /// Equal for equal Plans.
     pub(crate) plan: u64,
-    /// The same for Plans that differ in [`VALUES`] alone.
+    /// Equal for Plans that differ in values alone: parameters, fill and clear values, counts of workgroups.
     pub(crate) shape: u64,
 }
 
-/// Fields that hold amounts: parameters, fill and clear values, counts of workgroups.
-const VALUES: [&str; 3] = ["value", "clear", "groups"];
-
-/// Finds the identities of Plans. Most Plans come many times, so each shape is hashed once.
+/// Identifies Plans. Most variants share their Plan with others, so each shape is hashed once.
 #[derive(Default)]
 pub(super) struct Identities {
-    json: Vec<u8>,
     shapes: HashMap<u64, u64>,
 }
 
 impl Identities {
     /// The identity of a Plan. Its settings and the device's name don't count.
     pub(super) fn of(&mut self, plan: &Plan) -> Identity {
-        let Plan {
-            format_version: _,
-            device,
-            settings: _,
-            changes: _,
-            stereo,
-            views,
-            images,
-            buffers,
-            heaps,
-            steps,
-            outputs,
-            notes,
-            totals,
-        } = plan;
-        let DeviceUsed { name: _, exact_memory } = device;
-        let counted = (exact_memory, stereo, views, images, buffers, heaps, steps, outputs, notes, totals);
-        self.json.clear();
-        // Neither can fail: every part of a Plan has a JSON form, in which numbers that aren't finite are null.
-        let _ = serde_json::to_writer(&mut self.json, &counted);
-        let plan = hash(&self.json);
-        let shape = || hash(without_values(serde_json::to_value(&counted).unwrap_or_default()));
-        Identity { plan, shape: *self.shapes.entry(plan).or_insert_with(shape) }
+        let identity = hash(plan, &plan.steps);
+        let shape = *self.shapes.entry(identity).or_insert_with(|| hash(plan, &without_values(&plan.steps)));
+        Identity { plan: identity, shape }
     }
 }
 
-fn hash(value: impl Hash) -> u64 {
+/// The hash of a Plan with other steps.
+fn hash(plan: &Plan, steps: &[Step]) -> u64 {
+    let Plan {
+        format_version: _,
+        device,
+        settings: _,
+        changes: _,
+        stereo,
+        views,
+        images,
+        buffers,
+        heaps,
+        steps: _,
+        outputs,
+        notes,
+        totals,
+    } = plan;
+    let DeviceUsed { name: _, exact_memory } = device;
+    let counted = (exact_memory, stereo, views, images, buffers, heaps, steps, outputs, notes, totals);
     let mut hasher = DefaultHasher::new();
-    value.hash(&mut hasher);
+    // Lists of unknown length alone can't be serialised, and a Plan has none.
+    postcard::to_stdvec(&counted).unwrap_or_default().hash(&mut hasher);
     hasher.finish()
 }
 
-fn without_values(json: Value) -> Value {
-    match json {
-        Value::Array(elements) => elements.into_iter().map(without_values).collect(),
-        Value::Object(members) => {
-            let shape = members.into_iter().filter(|(name, _)| !VALUES.contains(&&**name));
-            shape.map(|(name, member)| (name, without_values(member))).collect()
+fn without_values(steps: &[Step]) -> Vec<Step> {
+    let pass_without_values = |pass: &mut Pass| {
+        pass.groups = None;
+        pass.params.iter_mut().for_each(|param| param.value = ParamValue::Bool(false));
+    };
+    let mut steps = steps.to_vec();
+    for step in &mut steps {
+        match &mut step.work {
+            Work::Render(scope) => {
+                let attachments = scope.color.iter_mut().chain(&mut scope.depth).chain(&mut scope.stencil);
+                attachments.for_each(|attachment: &mut Attachment| attachment.clear = None);
+                scope.passes.iter_mut().for_each(pass_without_values);
+            }
+            Work::Dispatch(pass) | Work::Custom(pass) => pass_without_values(pass),
+            Work::Fill(fill) => fill.value = FillValue::Bits([0; 4]),
+            Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Export => {}
         }
-        other => other,
     }
+    steps
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
+
+    /// The identity of the documentation's example after a change.
+    fn changed(change: impl FnOnce(&mut Plan)) -> Identity {
+        let mut plan = Plan::from_json(include_str!("../../../docs/plan-example.json")).expect("a Plan");
+        change(&mut plan);
+        Identities::default().of(&plan)
+    }
+
+    fn scope(plan: &mut Plan) -> &mut framewright_graph::plan::RenderScope {
+        let scopes = plan.steps.iter_mut().filter_map(|step| match &mut step.work {
+            Work::Render(scope) => Some(scope),
+            _ => None,
+        });
+        scopes.last().expect("a rendering scope")
+    }
 
     #[test]
-    fn values_leave_the_shape_however_deep_they_stand() {
-        let param = |name, value: f32, after| json!([{ "params": { "name": name, "value": [value], "after": after } }]);
-        let shape = |json| hash(without_values(json));
-        assert_eq!(shape(param("a", 1.0, 1)), shape(param("a", 2.0, 1)));
-        assert_ne!(shape(param("a", 1.0, 1)), shape(param("b", 1.0, 1)));
-        assert_ne!(shape(param("a", 1.0, 1)), shape(param("a", 1.0, 2)));
+    fn values_change_the_plan_and_not_its_shape() {
+        let clear = |value| changed(|plan| scope(plan).color[0].clear = Some([0.0, value, 0.0, 1.0]));
+        let groups = |count| {
+            let groups = framewright_graph::frame::Groups::Count([count, 1, 1]);
+            changed(|plan| scope(plan).passes[0].groups = Some(groups))
+        };
+        let param = |value| {
+            let param = framewright_graph::plan::Param { name: "scale".into(), value: ParamValue::Number(value) };
+            changed(|plan| scope(plan).passes[0].params = vec![param])
+        };
+        for (one, other) in [(clear(0.0), clear(-0.0)), (groups(1), groups(2)), (param(1.0), param(2.0))] {
+            assert_eq!(one.shape, other.shape);
+            assert_ne!(one.plan, other.plan);
+        }
+    }
+
+    #[test]
+    fn all_else_but_names_changes_both() {
+        let same = changed(|_| {});
+        let name = changed(|plan| "another".clone_into(&mut plan.device.name));
+        assert_eq!(name, same);
+        let samples = changed(|plan| scope(plan).samples += 1);
+        let notes = changed(|plan| drop(plan.notes.pop()));
+        let images = changed(|plan| plan.images[0].name = "another".into());
+        for other in [samples, notes, images] {
+            assert!(other.plan != same.plan && other.shape != same.shape);
+        }
     }
 }
