@@ -21,40 +21,17 @@ use std::path::{Path, PathBuf};
 pub(crate) enum Error {
     /// A file is missing, and nothing shipped has its name.
     #[error("there is no {what} `{}`, and none of that name is shipped (shipped: {})", text::path(path), shipped.join(", "))]
-    Missing {
-        /// What it would be.
-        what: &'static str,
-        /// Where it was looked for.
-        path: PathBuf,
-        /// Names that are shipped.
-        shipped: Vec<&'static str>,
-    },
+    Missing { what: &'static str, path: PathBuf, shipped: Vec<&'static str> },
     /// A file can't be read.
     #[error("the {what} `{}` can't be read: {}{}", text::path(path), text::escape(&source.to_string()), allow(source, path))]
-    Read {
-        /// What it is.
-        what: &'static str,
-        /// Which file.
-        path: PathBuf,
-        /// The reason.
-        source: io::Error,
-    },
+    Read { what: &'static str, path: PathBuf, source: io::Error },
     /// A file is larger than anything that a person writes.
     #[error("the {what} `{}` is larger than {}", text::path(path), text::bytes(*limit))]
-    TooLarge {
-        /// What it is.
-        what: &'static str,
-        /// Which file.
-        path: PathBuf,
-        /// Bytes that it may have.
-        limit: u64,
-    },
+    TooLarge { what: &'static str, path: PathBuf, limit: u64 },
     /// A file isn't text.
     #[error("the {what} `{}` is not text: byte {at} is not UTF-8", text::path(path))]
     NotText {
-        /// What it is.
         what: &'static str,
-        /// Which file.
         path: PathBuf,
         /// The first byte that isn't, from 0.
         at: usize,
@@ -65,88 +42,47 @@ pub(crate) enum Error {
         text::path(pipeline),
         text::path(root)
     )]
-    OutsideRoot {
-        /// The pipeline.
-        pipeline: PathBuf,
-        /// The folder.
-        root: PathBuf,
-    },
+    OutsideRoot { pipeline: PathBuf, root: PathBuf },
     /// The pipeline is wrong, or what the command line asks of it.
     #[error("{}", describe::render(&mistakes.sources, &mistakes.diagnostics))]
-    Mistakes {
-        /// Its mistakes, and the texts that they point into.
-        mistakes: Box<Mistakes>,
-    },
+    Mistakes { mistakes: Box<Mistakes> },
     /// The scene is wrong.
     #[error("{0}")]
     Scene(Box<SceneError>),
     /// A device profile is wrong.
     #[error("{}:{}", text::path(path), text::escape(&problem.to_string()))]
-    Profile {
-        /// Its file.
-        path: PathBuf,
-        /// What is wrong.
-        problem: framewright_graph::device::ProfileError,
-    },
+    Profile { path: PathBuf, problem: framewright_graph::device::ProfileError },
     /// `--device` names no profile.
     #[error("there is no device profile `{}`: give the file of one, or one that is shipped ({})", text::escape(name), shipped.join(", "))]
-    UnknownProfile {
-        /// What was given.
-        name: String,
-        /// Names that are shipped.
-        shipped: Vec<&'static str>,
-    },
+    UnknownProfile { name: String, shipped: Vec<&'static str> },
     /// There are more variants than can be checked.
     #[error(
         "there are {variants} variants, and at most {most} are checked\nhelp: add `--pairwise`, which checks every pair of values, or choose settings by `--set`, which then don't vary"
     )]
-    TooManyVariants {
-        /// How many there are.
-        variants: u128,
-        /// How many there may be.
-        most: usize,
-    },
+    TooManyVariants { variants: u128, most: usize },
     /// There are more pairs of values than can be covered.
     #[error(
         "there are {pairs} pairs of values, and at most {most} are covered\nhelp: choose settings by `--set`: those don't vary"
     )]
-    TooManyPairs {
-        /// How many there are.
-        pairs: usize,
-        /// How many there may be.
-        most: usize,
-    },
+    TooManyPairs { pairs: usize, most: usize },
     /// A profile was given where a device is needed.
     #[error(
         "`{}` is a device profile, and a device is needed here: name one (`framewright devices` lists them)",
         text::escape(name)
     )]
-    ProfileIsNoDevice {
-        /// What was given.
-        name: String,
-    },
+    ProfileIsNoDevice { name: String },
     /// Vulkan, or what is drawn with it.
     #[error("{}{}", text::escape_lines(&.0.to_string()), remedy(.0))]
     Vulkan(#[from] framewright_vulkan::Error),
     /// A picture can't be encoded.
     #[error("the picture of `{}` can't be encoded: {problem}", text::escape(image))]
-    Picture {
-        /// The image.
-        image: String,
-        /// The encoder's words.
-        problem: EncodingError,
-    },
+    Picture { image: String, problem: EncodingError },
     /// A picture that its kind of file can't hold.
     #[error(
         "`{}` is {format}, and OpenEXR files hold floating-point numbers: write it to a .png file",
         text::escape(image)
     )]
-    NotFloats {
-        /// The image.
-        image: String,
-        /// Its format.
-        format: Format,
-    },
+    NotFloats { image: String, format: Format },
     /// The program can't start itself anew.
     #[error("framewright can't start itself anew under the current validation layer: {}\nhelp: set VK_LAYER_PATH to the layer's folder", text::escape(&.0.to_string()))]
     Restart(io::Error),
@@ -155,18 +91,10 @@ pub(crate) enum Error {
     Helper(io::Error),
     /// Ctrl-C.
     #[error("interrupted after {frames} of {wanted} frames: nothing was written")]
-    Interrupted {
-        /// Frames that were drawn.
-        frames: u32,
-        /// Frames that were asked for.
-        wanted: u32,
-    },
+    Interrupted { frames: u32, wanted: u32 },
     /// Ctrl-C while a pipe is written.
     #[error("interrupted before all of `{}` was written", text::path(path))]
-    InterruptedWriting {
-        /// The pipe.
-        path: PathBuf,
-    },
+    InterruptedWriting { path: PathBuf },
     /// A Plan that breaks its own rules: the compiler is at fault, not the user.
     #[error("the Plan breaks its own rules, which is a mistake of framewright itself:\n  {}", violations.join("\n  "))]
     Violations {
@@ -177,29 +105,16 @@ pub(crate) enum Error {
     #[error(
         "{why}\nhelp: `--stereo auto` takes the fastest way that it has; several, as `--stereo multiview,double-wide`, the first"
     )]
-    Stereo {
-        /// What it lacks, for each way.
-        why: String,
-    },
+    Stereo { why: String },
     /// A picture was asked for of something that is none.
     #[error(
         "`{}` is a buffer, and only images become pictures: leave out `-o`, or dump an image",
         text::escape(output)
     )]
-    NoPicture {
-        /// The output.
-        output: String,
-    },
+    NoPicture { output: String },
     /// A picture was asked for of something that doesn't leave the frame.
     #[error("{}", no_output(name, outputs, *image))]
-    NoOutput {
-        /// What was asked for.
-        name: String,
-        /// The pipeline's outputs.
-        outputs: Vec<String>,
-        /// Whether an image has the name.
-        image: bool,
-    },
+    NoOutput { name: String, outputs: Vec<String>, image: bool },
     /// A profile that has no text form.
     #[error("the profile has no text form: {}", text::escape(.0))]
     Unwritable(String),
@@ -211,12 +126,7 @@ pub(crate) enum Error {
     Plan(#[from] framewright_graph::plan::PlanError),
     /// A file can't be written.
     #[error("`{}` can't be written: {}{}", text::path(path), text::escape(&source.to_string()), mend(source, Some(path)))]
-    Write {
-        /// Which file.
-        path: PathBuf,
-        /// The reason.
-        source: io::Error,
-    },
+    Write { path: PathBuf, source: io::Error },
     /// A file would be written over one that is read.
     #[error("`{}` is {what}, which would be lost: name another file to write", text::path(path))]
     ReadAndWritten {
@@ -233,19 +143,13 @@ pub(crate) enum Error {
     },
     /// A file that is to be new is there already.
     #[error("there is a file `{}` already: choose another name, or move it away", text::path(path))]
-    AlreadyExists {
-        /// Which file.
-        path: PathBuf,
-    },
+    AlreadyExists { path: PathBuf },
     /// A name that no pipeline may have.
     #[error(
         "`{}` can't be the name of a pipeline: names are letters, digits, `_` and `-`, begin with a letter or `_`, and have at most 64 bytes",
         text::path(path)
     )]
-    NoName {
-        /// What was given.
-        path: PathBuf,
-    },
+    NoName { path: PathBuf },
     /// Standard output can't be written.
     #[error("standard output can't be written: {}{}", text::escape(&.0.to_string()), mend(.0, None))]
     Print(io::Error),
@@ -256,7 +160,6 @@ pub(crate) enum Error {
 pub(crate) struct Mistakes {
     /// The texts that the mistakes point into.
     pub(crate) sources: Sources,
-    /// The mistakes.
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// How the command ends: the files are wrong, the command line is, or files can't be read.
     pub(crate) exit: Exit,

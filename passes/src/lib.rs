@@ -3,6 +3,7 @@
 //! - [`scene`]: scenes as plain data, read from our own RON format or from GLB.
 //! - [`facts`]: the facts of a scene that pipeline files can use.
 //! - [`shipped`]: the shaders, carried within the binary.
+//! - [`srgb`]: the curve of sRGB.
 //! - [`texture_files`]: pictures for the textures of a frame.
 //! - [`draw`]: the draw interface, and the draw source that draws a scene.
 //! - [`twin`]: the shaders' closed formulas in 64-bit floating point.
@@ -11,5 +12,6 @@ pub mod draw;
 pub mod facts;
 pub mod scene;
 pub mod shipped;
+pub mod srgb;
 pub mod texture_files;
 pub mod twin;

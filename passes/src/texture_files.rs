@@ -1,5 +1,6 @@
 //! Textures from picture files: PNG, JPEG, Radiance HDR, OpenEXR.
 
+use crate::srgb;
 use framewright_graph::format::{Format, Numeric};
 use framewright_graph::root::{NoFile, Root};
 use framewright_graph::texture::{
@@ -130,7 +131,8 @@ impl Textures for TextureFiles {
                 for column in 0..across {
                     let at = (row * slices + slice) * across + column;
                     let [red, green, blue, alpha] = texels.at(at);
-                    let color = [red, green, blue].map(|value| if decodes { decode(value) } else { value });
+                    let color =
+                        [red, green, blue].map(|value| if decodes { srgb::decode(value.into()) as f32 } else { value });
                     pack([color[0], color[1], color[2], alpha], format, &mut bytes)?;
                 }
             }
@@ -164,15 +166,6 @@ impl Texels {
             Texels::Floats(floats) => four.map(|at| floats[at]),
         }
     }
-}
-
-/// The linear value of one that is encoded with the sRGB curve (IEC 61966-2-1).
-fn decode(encoded: f32) -> f32 {
-    let encoded = f64::from(encoded);
-    let linear = if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
-    #[allow(clippy::cast_possible_truncation, reason = "rounded to the nearest")]
-    let linear = linear as f32;
-    linear
 }
 
 /// Adds one texel; not a number becomes 0, and what is too large the largest that there is.

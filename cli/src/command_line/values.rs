@@ -15,9 +15,7 @@ pub(crate) const MAX_SIZE: u32 = 16384;
 /// Width and height in pixels, each 1…[`MAX_SIZE`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Size {
-    /// Width.
     pub(crate) width: u32,
-    /// Height.
     pub(crate) height: u32,
 }
 
@@ -35,7 +33,6 @@ pub(crate) struct Assignment {
 pub(crate) struct Dump {
     /// The image's name in the pipeline.
     pub(crate) image: String,
-    /// The file.
     pub(crate) file: PathBuf,
 }
 
@@ -44,7 +41,6 @@ pub(crate) struct Dump {
 pub(crate) struct OutputFile {
     /// The name of one of the pipeline's outputs; `None`: the first.
     pub(crate) output: Option<String>,
-    /// The file.
     pub(crate) file: PathBuf,
 }
 

@@ -2,10 +2,12 @@
 
 use crate::error::Error;
 use crate::files::stream;
+use crate::system::links;
 use framewright_graph::read_files::ReadFiles;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// Makes sure, before any work is done, that each of `written` can be written, and that none of them is a file that was read,
 /// or another of them by a different name, or a shader.
@@ -68,10 +70,7 @@ fn write_one(path: &Path, contents: &[u8]) -> Result<(), Error> {
     let problem = |source| Error::Write { path: path.to_owned(), source };
     match Target::of(path).map_err(problem)? {
         Target::File(file) => {
-            let mut beside = temporary(&file).map_err(problem)?;
-            // To the file itself: `tempfile` would add its path to errors.
-            let file_beside = beside.as_file_mut();
-            file_beside.write_all(contents).and_then(|()| file_beside.sync_data()).map_err(problem)?;
+            let beside = filled(&file, contents).map_err(problem)?;
             beside.persist(&file).map_err(|error| problem(error.error))?;
             Ok(())
         }
@@ -91,9 +90,7 @@ pub(crate) fn write_new(path: &Path, contents: &[u8]) -> Result<(), Error> {
     if fs::symlink_metadata(path).is_ok() {
         return Err(Error::AlreadyExists { path: path.to_owned() });
     }
-    let mut beside = temporary(path).map_err(problem)?;
-    let file = beside.as_file_mut();
-    file.write_all(contents).and_then(|()| file.sync_data()).map_err(problem)?;
+    let beside = filled(path, contents).map_err(problem)?;
     beside.persist_noclobber(path).map_err(|error| problem(error.error))?;
     Ok(())
 }
@@ -115,13 +112,9 @@ impl Target {
             Ok(data) if is_pipe(&data) => Ok(Target::Pipe(path.to_owned())),
             Ok(data) if !data.is_file() => Ok(Target::Stream(path.to_owned())),
             Ok(data) if data.permissions().readonly() => Err(io::ErrorKind::PermissionDenied.into()),
-            // The link stays, and its target is replaced.
-            Ok(_) if path.is_symlink() => Ok(Target::File(fs::canonicalize(path)?)),
-            // Where links go in a circle the system's answer is another.
-            Err(error) if error.kind() == io::ErrorKind::NotFound && path.is_symlink() => {
-                Target::of(&folder_of(path).join(fs::read_link(path)?))
-            }
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            // The link stays, and its target is replaced.
+            _ if path.is_symlink() => Ok(Target::File(links::destination(path))),
             _ => Ok(Target::File(path.to_owned())),
         }
     }
@@ -141,7 +134,17 @@ fn folder_of(file: &Path) -> &Path {
     }
 }
 
-fn temporary(beside: &Path) -> io::Result<tempfile::NamedTempFile> {
+/// A temporary file beside another one, with contents.
+fn filled(beside: &Path, contents: &[u8]) -> io::Result<NamedTempFile> {
+    let mut temporary = temporary(beside)?;
+    // To the file itself: `tempfile` would add its path to errors.
+    let file = temporary.as_file_mut();
+    file.write_all(contents)?;
+    file.sync_data()?;
+    Ok(temporary)
+}
+
+fn temporary(beside: &Path) -> io::Result<NamedTempFile> {
     let folder = folder_of(beside);
     let mut builder = tempfile::Builder::new();
     builder.prefix(".framewright-");

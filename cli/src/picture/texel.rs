@@ -1,6 +1,7 @@
 //! Decodes one texel of any format.
 
 use framewright_graph::format::{Format, Numeric};
+use framewright_passes::srgb;
 use half::f16;
 
 /// Bytes of one texel as it is read back: of depth-stencil formats the depth alone.
@@ -92,9 +93,8 @@ pub(super) fn stored(format: Format, texel: &[u8]) -> Option<[u16; 3]> {
 /// A linear value 0…1 through the sRGB curve (IEC 61966-2-1), as a byte; NaN as 0.
 pub(super) fn encode(linear: f32) -> u8 {
     let linear = if linear > 0.0 { f64::from(linear.min(1.0)) } else { 0.0 };
-    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0…255")]
-    let byte = (encoded * 255.0).round() as u8;
+    let byte = (srgb::encode(linear) * 255.0).round() as u8;
     byte
 }
 

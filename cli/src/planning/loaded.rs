@@ -32,7 +32,6 @@ use std::sync::Arc;
 
 /// A pipeline that was read, and where its shaders come from.
 pub(crate) struct Loaded {
-    /// The pipeline.
     pub(crate) pipeline: Document,
     /// The texts that it was read from.
     pub(crate) sources: Arc<Sources>,
@@ -51,7 +50,6 @@ pub(crate) struct Loaded {
 /// A frame and its Plan.
 #[derive(Debug)]
 pub(crate) struct Planned {
-    /// The frame.
     pub(crate) frame: Frame,
     /// Its Plan, verified.
     pub(crate) plan: Plan,

@@ -18,7 +18,6 @@ const MOST_STEPS: f64 = 16.0;
 /// Everything that varies: settings in the file's order, then facts; the device comes last, even if there is only one.
 #[derive(Debug)]
 pub(crate) struct Axes {
-    /// The axes.
     pub(crate) list: Vec<Axis>,
     /// Settings that the user chose, and that therefore don't vary.
     pub(crate) fixed: Vec<(String, String)>,

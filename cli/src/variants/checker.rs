@@ -20,7 +20,6 @@ use std::sync::Arc;
 
 /// The pipeline whose variants are checked: everything that they share.
 pub(crate) struct CheckedPipeline<'a> {
-    /// The pipeline.
     pub(crate) pipeline: &'a Document,
     /// The texts that it was read from.
     pub(crate) sources: &'a Arc<Sources>,
@@ -53,9 +52,7 @@ type ExpandedFrame = Result<Arc<Frame>, Vec<Diagnostic>>;
 /// The Plan of a variant of which nothing is wrong.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct VerifiedPlan {
-    /// Its identity.
     pub(crate) identity: Identity,
-    /// Its totals.
     pub(crate) totals: Totals,
 }
 

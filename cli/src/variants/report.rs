@@ -26,7 +26,6 @@ pub(crate) struct Report {
     pub(crate) diagnostics: Value,
     /// Settings that the command line chose, itself or by a preset or settings files.
     pub(crate) chosen: Vec<NamedValue>,
-    /// The axes.
     pub(crate) axes: Vec<AxisEntry>,
     /// Presets that are among the variants, as they are on each device.
     pub(crate) presets: Vec<String>,

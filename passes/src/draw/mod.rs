@@ -9,9 +9,9 @@ pub mod frustum;
 mod geometry;
 mod interface;
 mod lists;
-mod seen;
 mod source;
 mod textures;
+mod view_draws;
 
 pub use eyes::{EyeSight, Eyes};
 pub use interface::{

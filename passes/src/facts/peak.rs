@@ -17,8 +17,8 @@
 //! A bound of 1 or less proves that nothing is brighter than 1; one above 1 proves nothing. Sums are taken as if each light
 //! reached a surface where it is nearest, all at once, so rooms full of lights are bounded loosely.
 
-use crate::scene::decode_srgb;
 use crate::scene::{AlphaMode, Object, PointLight, Scene};
+use crate::srgb;
 use crate::twin::lighting::LARGEST_HIGHLIGHT;
 use crate::twin::radiance::LARGEST_HALF;
 use crate::twin::sky;
@@ -130,7 +130,7 @@ fn extremes(rgba8: &[u8]) -> Extremes {
     let [red, green, blue, alpha] = texels.fold([0, 0, 0, 255], |[r, g, b, a]: [u8; 4], texel| {
         [r.max(texel[0]), g.max(texel[1]), b.max(texel[2]), a.min(texel[3])]
     });
-    let brightest = DVec3::from_array([red, green, blue].map(decode_srgb));
+    let brightest = DVec3::from_array([red, green, blue].map(|byte| srgb::decode(f64::from(byte) / 255.0)));
     Extremes { brightest, least_alpha: f64::from(alpha) / 255.0 }
 }
 

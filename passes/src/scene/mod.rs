@@ -24,7 +24,6 @@ mod shapes;
 pub mod text;
 
 pub use load::{SceneError, load, load_recorded};
-pub(crate) use model::decode_srgb;
 pub use model::{
     AlphaMode, Bounds, Camera, FRAME_SECONDS, Material, Mesh, Movement, NamedCamera, Object, PointLight, Sampler,
     Scene, Sky, Sun, Texture, Wrap,

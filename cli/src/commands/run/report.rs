@@ -23,11 +23,9 @@ pub(crate) struct Report {
     pub(crate) size: [u32; 2],
     /// How many times the frame was drawn.
     pub(crate) frames: u32,
-    /// The device.
     pub(crate) device: DeviceUsed,
     /// Memory of images and buffers.
     pub(crate) memory: Memory,
-    /// Barriers.
     pub(crate) barriers: Barriers,
     /// Median of the frame's GPU times over all frames.
     pub(crate) gpu_milliseconds: f64,
@@ -48,16 +46,13 @@ pub(crate) struct Report {
 /// A setting in force.
 #[derive(Debug, Serialize)]
 pub(crate) struct Setting {
-    /// Its name.
     pub(crate) name: String,
-    /// Its value.
     pub(crate) value: String,
 }
 
 /// A device.
 #[derive(Debug, Serialize)]
 pub(crate) struct DeviceUsed {
-    /// Its name.
     pub(crate) name: String,
     /// Its driver and the driver's version.
     pub(crate) driver: String,
@@ -85,9 +80,7 @@ pub(crate) struct Memory {
 pub(crate) struct Barriers {
     /// Calls of `vkCmdPipelineBarrier2`.
     pub(crate) calls: u32,
-    /// Image barriers.
     pub(crate) image: u32,
-    /// Memory barriers.
     pub(crate) memory: u32,
     /// Waits of one queue for another.
     pub(crate) waits: u32,

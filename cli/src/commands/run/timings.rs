@@ -16,7 +16,6 @@ pub(crate) struct Row {
     /// The word for inserted work.
     #[serde(skip)]
     pub(crate) inserted: Option<&'static str>,
-    /// Draw calls.
     pub(crate) draws: u32,
     /// Objects that were left out because nothing of them can be seen.
     pub(crate) culled: u32,

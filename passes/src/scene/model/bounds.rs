@@ -28,13 +28,20 @@ impl Bounds {
     /// The smallest box that holds this one moved by an affine transform.
     #[must_use]
     pub fn transformed(self, transform: DMat4) -> Bounds {
-        let corners = (0..8).map(|corner| {
+        Bounds::around(self.corners().map(|corner| transform.transform_point3(corner)))
+    }
+
+    /// The smallest box that holds the eight corners of another one after a transform.
+    pub(crate) fn around(corners: [DVec3; 8]) -> Bounds {
+        let none = Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
+        corners.into_iter().fold(none, |all, at| all.union(Bounds { min: at, max: at }))
+    }
+
+    pub(crate) fn corners(self) -> [DVec3; 8] {
+        std::array::from_fn(|corner| {
             let pick = |axis: usize| if corner >> axis & 1 == 0 { self.min[axis] } else { self.max[axis] };
-            transform.transform_point3(DVec3::new(pick(0), pick(1), pick(2)))
-        });
-        let (min, max) =
-            corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), at| (min.min(at), max.max(at)));
-        Bounds { min, max }
+            DVec3::new(pick(0), pick(1), pick(2))
+        })
     }
 
     /// Whether every coordinate is a number and no further than `limit` from 0.

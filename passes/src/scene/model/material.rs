@@ -50,12 +50,6 @@ pub struct Texture {
     pub sampler: Sampler,
 }
 
-/// Linear light from a byte of IEC 61966-2-1.
-pub(crate) fn decode_srgb(byte: u8) -> f64 {
-    let encoded = f64::from(byte) / 255.0;
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
-}
-
 /// How a texture is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Sampler {

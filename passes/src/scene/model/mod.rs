@@ -12,7 +12,6 @@ mod scene;
 pub use bounds::Bounds;
 pub use camera::{Camera, NamedCamera};
 pub use light::{PointLight, Sky, Sun};
-pub(crate) use material::decode_srgb;
 pub use material::{AlphaMode, Material, Sampler, Texture, Wrap};
 pub use mesh::Mesh;
 pub(crate) use mesh::flat_shaded;

@@ -1,9 +1,9 @@
-//! What a view's camera sees of a scene at a frame: the bind groups and lists that its passes are drawn with.
+//! The bind groups and draw lists of a view at a frame.
 
-use super::cascades::{self, Map, cascades_block, seen_by_sun};
+use super::cascades::{self, CascadeMap, cascades_block, sun_view};
 use super::clusters::Clusters;
 use super::eyes::Eyes;
-use super::frame_data::{Sight, lights_block, motion_block, objects_block, shifted, view_block, world_to_clip};
+use super::frame_data::{ViewTransform, lights_block, motion_block, objects_block, shifted, view_block, world_to_clip};
 use super::frustum;
 use super::interface::{
     CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MOTION_BINDING, OBJECTS_BINDING, VIEW_BINDING,
@@ -17,7 +17,7 @@ use framewright_graph::view::Eye;
 use framewright_vulkan::{BindGroup, Buffer, BufferUsage, CullMode, Device, Error, FrontFace, Resource};
 use glam::{DMat4, DVec3};
 
-/// From where, and how, a view sees the scene.
+/// The camera of a view, its eyes, and how its picture is drawn.
 pub(super) struct Viewpoint {
     /// At frame 0; of two eyes the one between both.
     pub(super) camera: Camera,
@@ -31,13 +31,13 @@ pub(super) struct Viewpoint {
     /// Width and height of its picture, of which only the ratio counts.
     pub(super) extent: [u32; 2],
     /// The cascades of the sun's shadows in it, the nearest first.
-    pub(super) maps: Vec<Map>,
+    pub(super) maps: Vec<CascadeMap>,
     pub(super) jitter: Option<Jitter>,
 }
 
 impl Viewpoint {
     /// That of one eye, which doesn't shift.
-    pub(super) fn of_one(camera: Camera, extent: [u32; 2], maps: Vec<Map>) -> Viewpoint {
+    pub(super) fn of_one(camera: Camera, extent: [u32; 2], maps: Vec<CascadeMap>) -> Viewpoint {
         let (at_once, one_by_one, culls_by_eye) = (false, false, true);
         Viewpoint { camera, eyes: None, at_once, one_by_one, culls_by_eye, extent, maps, jitter: None }
     }
@@ -58,50 +58,50 @@ impl Viewpoint {
         self.jitter.as_ref().map_or([0.0; 2], |jitter| jitter.shift(frame))
     }
 
-    /// What is seen at a frame from between the eyes, not shifted.
-    fn straight(&self, frame: u64) -> Sight {
-        Sight { world_to_clip: world_to_clip(&self.camera.at(frame), self.aspect()), eye: DVec3::ZERO }
+    /// The transform at a frame from between the eyes, without jitter.
+    fn straight(&self, frame: u64) -> ViewTransform {
+        ViewTransform { world_to_clip: world_to_clip(&self.camera.at(frame), self.aspect()), eye: DVec3::ZERO }
     }
 
-    /// What each eye sees, not shifted; the same twice if there is one.
-    fn straight_by_eye(&self, frame: u64) -> [Sight; 2] {
+    /// The transform of each eye, without jitter; the same twice if there is one.
+    fn straight_by_eye(&self, frame: u64) -> [ViewTransform; 2] {
         let (straight, camera) = (self.straight(frame), self.camera.at(frame));
         Eye::BOTH.map(|eye| {
             let Some(eye) = self.eyes.map(|eyes| eyes.of(eye)) else { return straight };
             let world_to_clip = eye.world_to_clip(&camera, self.aspect(), straight.world_to_clip);
-            Sight { world_to_clip, eye: eye.offset(&camera) }
+            ViewTransform { world_to_clip, eye: eye.offset(&camera) }
         })
     }
 
-    /// The same with the shift of the frame.
-    fn shifted(&self, sight: Sight, frame: u64) -> Sight {
-        Sight { world_to_clip: shifted(sight.world_to_clip, self.shift(frame)), ..sight }
+    /// A transform with the jitter of the frame.
+    fn shifted(&self, sight: ViewTransform, frame: u64) -> ViewTransform {
+        ViewTransform { world_to_clip: shifted(sight.world_to_clip, self.shift(frame)), ..sight }
     }
 }
 
-/// What a view's camera decides, or both eyes'.
-pub(super) struct Seen {
+/// The bind groups and draw lists of a view.
+pub(super) struct ViewDraws {
     pub(super) frame: BindGroup,
     /// By object, whether it may be seen.
-    pub(super) in_sight: Vec<bool>,
-    pub(super) by_eye: Option<SeenByEyes>,
+    pub(super) visible: Vec<bool>,
+    pub(super) by_eye: Option<EyeDraws>,
     pub(super) transparent: Vec<ObjectDraw>,
     /// By cascade, the nearest first.
-    pub(super) cascades: Vec<SeenBySun>,
-    /// All that `frame` holds, but for what shifts.
+    pub(super) cascades: Vec<CascadeDraws>,
+    /// The buffers of `frame` that jitter doesn't change.
     buffers: Buffers,
 }
 
-/// What two eyes see.
-pub(super) struct SeenByEyes {
-    /// For passes that draw for both at once. What either may see is what the view's own list has.
+/// The bind groups of two eyes.
+pub(super) struct EyeDraws {
+    /// For passes that draw for both at once, with the view's own list.
     pub(super) both: Option<BindGroup>,
-    /// For those that draw for one, with the objects that this one may see; `None`: the view's own list.
+    /// For passes that draw for one eye, with the objects that this eye may see; `None`: the view's own list.
     pub(super) each: Option<[(BindGroup, Option<Vec<bool>>); 2]>,
 }
 
-/// What the sun sees of a cascade.
-pub(super) struct SeenBySun {
+/// The bind group and objects of a cascade.
+pub(super) struct CascadeDraws {
     pub(super) frame: BindGroup,
     /// By object, whether it may cast a shadow there.
     pub(super) casts: Vec<bool>,
@@ -115,7 +115,7 @@ pub(super) struct ObjectDraw {
     pub(super) raster: (CullMode, FrontFace),
 }
 
-/// What shaders read of a scene beside the view.
+/// The buffers that shaders read beside the view's.
 struct Buffers {
     lights: Buffer,
     objects: Buffer,
@@ -124,9 +124,9 @@ struct Buffers {
     motion: Buffer,
 }
 
-impl Seen {
-    /// What `view` sees at a frame of a scene, which is given as it is at frame 0.
-    pub(super) fn new(device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<Seen, Error> {
+impl ViewDraws {
+    /// Prepares `view` at a frame. `scene` is as it is at frame 0.
+    pub(super) fn new(device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<ViewDraws, Error> {
         // The first frame comes after itself: nothing has moved.
         let frame_before = frame.saturating_sub(1);
         let (camera, before) = (view.camera.at(frame), view.camera.at(frame_before));
@@ -136,9 +136,9 @@ impl Seen {
         // Both eyes look up the same maps.
         let around = view.around(frame);
         let to_around = DMat4::from_translation(camera.position() - around.position());
-        let by_sun = |map: &Map| {
-            let seen = seen_by_sun(scene, &around, view.aspect(), map.cascade, map.texels);
-            cascades::Seen { world_to_clip: seen.world_to_clip * to_around, ..seen }
+        let by_sun = |map: &CascadeMap| {
+            let sun = sun_view(scene, &around, view.aspect(), map.cascade, map.texels);
+            cascades::SunView { world_to_clip: sun.world_to_clip * to_around, ..sun }
         };
         let by_sun: Vec<_> = view.maps.iter().map(by_sun).collect();
         let clusters = Clusters::new(scene, &camera, view.aspect());
@@ -149,15 +149,15 @@ impl Seen {
             clusters: device.buffer(BufferUsage::Storage, &clusters.block())?,
             motion: device.buffer(BufferUsage::Storage, &motion)?,
         };
-        let cascade = |seen: &cascades::Seen| {
-            let casts = scene.objects.iter().map(|object| cascades::may_cast(scene, &camera, seen, object)).collect();
-            let sight = Sight { world_to_clip: seen.world_to_clip, eye: DVec3::ZERO };
-            Ok::<_, Error>(SeenBySun { frame: group(device, &camera, [sight; 2], &buffers)?, casts })
+        let cascade = |sun: &cascades::SunView| {
+            let casts = scene.objects.iter().map(|object| cascades::may_cast(scene, &camera, sun, object)).collect();
+            let transform = ViewTransform { world_to_clip: sun.world_to_clip, eye: DVec3::ZERO };
+            Ok::<_, Error>(CascadeDraws { frame: group(device, &camera, [transform; 2], &buffers)?, casts })
         };
-        let Sights { frame, in_sight, by_eye } = Sights::new(device, scene, view, frame, &buffers)?;
-        Ok(Seen {
+        let JitteredDraws { frame, visible, by_eye } = JitteredDraws::new(device, scene, view, frame, &buffers)?;
+        Ok(ViewDraws {
             frame,
-            in_sight,
+            visible,
             by_eye,
             transparent: draws(scene, &camera, DrawList::Transparent),
             cascades: by_sun.iter().map(cascade).collect::<Result<_, _>>()?,
@@ -165,9 +165,8 @@ impl Seen {
         })
     }
 
-    /// Goes over to another frame: what stays the same is kept, and nothing is overwritten, since frames on their way may
-    /// still read it.
-    pub(super) fn turn_to(
+    /// Prepares another frame. Nothing is overwritten, since frames in flight may still read it.
+    pub(super) fn advance_to(
         &mut self,
         device: &Device,
         scene: &Scene,
@@ -175,59 +174,65 @@ impl Seen {
         frame: u64,
     ) -> Result<(), Error> {
         if scene.moves() {
-            *self = Seen::new(device, scene, view, frame)?;
+            *self = ViewDraws::new(device, scene, view, frame)?;
         } else if view.jitter.is_some() {
             self.shift(device, scene, view, frame)?;
         }
         Ok(())
     }
 
-    /// Is shifted as `view` is at the frame that it is for already.
+    /// Prepares the jitter of `view` at the frame that it is for already.
     pub(super) fn shift(&mut self, device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<(), Error> {
-        let sights = Sights::new(device, &scene.at(frame), view, frame, &self.buffers)?;
-        (self.frame, self.in_sight, self.by_eye) = (sights.frame, sights.in_sight, sights.by_eye);
+        let sights = JitteredDraws::new(device, &scene.at(frame), view, frame, &self.buffers)?;
+        (self.frame, self.visible, self.by_eye) = (sights.frame, sights.visible, sights.by_eye);
         Ok(())
     }
 }
 
-/// What shifts.
-struct Sights {
+/// The parts that jitter changes.
+struct JitteredDraws {
     frame: BindGroup,
-    in_sight: Vec<bool>,
-    by_eye: Option<SeenByEyes>,
+    visible: Vec<bool>,
+    by_eye: Option<EyeDraws>,
 }
 
-impl Sights {
-    /// Of a scene that is given as it is at the frame.
-    fn new(device: &Device, scene: &Scene, view: &Viewpoint, frame: u64, buffers: &Buffers) -> Result<Sights, Error> {
+impl JitteredDraws {
+    /// Prepares them. `scene` is as it is at the frame.
+    fn new(
+        device: &Device,
+        scene: &Scene,
+        view: &Viewpoint,
+        frame: u64,
+        buffers: &Buffers,
+    ) -> Result<JitteredDraws, Error> {
         let camera = view.camera.at(frame);
         let own = view.shifted(view.straight(frame), frame);
         let group = |sights| group(device, &camera, sights, buffers);
         if view.eyes.is_none() {
-            let in_sight = frustum::within(scene, &camera, own.world_to_clip);
-            return Ok(Sights { frame: group([own; 2])?, in_sight, by_eye: None });
+            let visible = frustum::within(scene, &camera, own.world_to_clip);
+            return Ok(JitteredDraws { frame: group([own; 2])?, visible, by_eye: None });
         }
-        // A picture that is shifted shows at most so much more on each side, of all that both eyes see.
+        // Jitter moves the picture by at most this share: the frustum around both eyes is widened by it on each side.
         let around = view.around(frame);
         let share = view.shift(frame).into_iter().fold(0.0, |most: f64, side| most.max(side.abs()));
         let narrower = DVec3::new((1.0 + 2.0 * share).recip(), (1.0 + 2.0 * share).recip(), 1.0);
         let all = DMat4::from_scale(narrower) * world_to_clip(&around, view.aspect());
         let eyes = view.straight_by_eye(frame).map(|sight| view.shifted(sight, frame));
-        let each = |sight: Sight| {
+        let each = |sight: ViewTransform| {
             let own = || frustum::within(scene, &camera, sight.world_to_clip);
             Ok::<_, Error>((group([sight; 2])?, view.culls_by_eye.then(own)))
         };
-        let by_eye = SeenByEyes {
+        let by_eye = EyeDraws {
             both: view.at_once.then(|| group(eyes)).transpose()?,
             each: if view.one_by_one { Some([each(eyes[0])?, each(eyes[1])?]) } else { None },
         };
-        let in_sight = frustum::within(scene, &around, all);
-        Ok(Sights { frame: group([own; 2])?, in_sight, by_eye: Some(by_eye) })
+        let visible = frustum::within(scene, &around, all);
+        Ok(JitteredDraws { frame: group([own; 2])?, visible, by_eye: Some(by_eye) })
     }
 }
 
-/// The set of what stays the same for a whole frame.
-fn group(device: &Device, camera: &Camera, sights: [Sight; 2], buffers: &Buffers) -> Result<BindGroup, Error> {
+/// The bind group of a frame.
+fn group(device: &Device, camera: &Camera, sights: [ViewTransform; 2], buffers: &Buffers) -> Result<BindGroup, Error> {
     let view = device.buffer(BufferUsage::Uniform, &view_block(camera, sights))?;
     let Buffers { lights, objects, cascades, clusters, motion } = buffers;
     let resources = [
