@@ -1,76 +1,37 @@
-//! Everything that ends a command early, and the exit code that it ends with.
+//! The errors that end a command early.
 
-use crate::{links, options, picture, text};
-use framewright_graph::base::{self, Diagnostic, NoFile, Sources, for_shell};
-use framewright_graph::shader::ShaderProblem;
+use crate::command_line::options;
+use crate::picture::data::EncodingError;
+use crate::system::{Exit, links, text};
+
+use framewright_graph::base;
+
+use framewright_graph::language;
+use framewright_graph::base::{Diagnostic, NoFile, Sources, for_shell};
 use framewright_graph::vulkan::Format;
+use framewright_graph::shader::ShaderProblem;
 use framewright_passes::scene::SceneError;
 use framewright_passes::scene::gltf::{GltfError, Problem};
 use framewright_vulkan::Blame;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
-/// How a command ends. The numbers are the command's contract.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Exit {
-    /// All is well.
-    Fine = 0,
-    /// The user's files are wrong or missing, or a check found something.
-    Found = 1,
-    /// The command line is wrong.
-    Usage = 2,
-    /// The environment lacks something: driver, layer, device, permission, disk.
-    Environment = 3,
-    /// Ctrl-C, as shells count it.
-    Interrupted = 130,
-}
-
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> ExitCode {
-        ExitCode::from(exit as u8)
-    }
-}
-
-/// What ends a command early.
+/// An error that ends a command early.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Error {
     /// A file is missing, and nothing shipped has its name.
     #[error("there is no {what} `{}`, and none of that name is shipped (shipped: {})", text::path(path), shipped.join(", "))]
-    Missing {
-        /// What it would be.
-        what: &'static str,
-        /// Where it was looked for.
-        path: PathBuf,
-        /// Names that are shipped.
-        shipped: Vec<&'static str>,
-    },
+    Missing { what: &'static str, path: PathBuf, shipped: Vec<&'static str> },
     /// A file can't be read.
     #[error("the {what} `{}` can't be read: {}{}", text::path(path), text::escape(&source.to_string()), allow(source, path))]
-    Read {
-        /// What it is.
-        what: &'static str,
-        /// Which file.
-        path: PathBuf,
-        /// The reason.
-        source: io::Error,
-    },
+    Read { what: &'static str, path: PathBuf, source: io::Error },
     /// A file is larger than anything that a person writes.
     #[error("the {what} `{}` is larger than {}", text::path(path), text::bytes(*limit))]
-    TooLarge {
-        /// What it is.
-        what: &'static str,
-        /// Which file.
-        path: PathBuf,
-        /// Bytes that it may have.
-        limit: u64,
-    },
+    TooLarge { what: &'static str, path: PathBuf, limit: u64 },
     /// A file isn't text.
     #[error("the {what} `{}` is not text: byte {at} is not UTF-8", text::path(path))]
     NotText {
-        /// What it is.
         what: &'static str,
-        /// Which file.
         path: PathBuf,
         /// The first byte that isn't, from 0.
         at: usize,
@@ -81,88 +42,47 @@ pub(crate) enum Error {
         text::path(pipeline),
         text::path(root)
     )]
-    OutsideRoot {
-        /// The pipeline.
-        pipeline: PathBuf,
-        /// The folder.
-        root: PathBuf,
-    },
+    OutsideRoot { pipeline: PathBuf, root: PathBuf },
     /// The pipeline is wrong, or what the command line asks of it.
-    #[error("{}", base::render(&wrong.sources, &wrong.diagnostics))]
-    Wrong {
-        /// Its mistakes, and the texts that they point into.
-        wrong: Box<Wrong>,
-    },
+    #[error("{}", base::render(&mistakes.sources, &mistakes.diagnostics))]
+    Mistakes { mistakes: Box<Mistakes> },
     /// The scene is wrong.
     #[error("{0}")]
     Scene(Box<SceneError>),
     /// A device profile is wrong.
     #[error("{}:{}", text::path(path), text::escape(&problem.to_string()))]
-    Profile {
-        /// Its file.
-        path: PathBuf,
-        /// What is wrong.
-        problem: framewright_graph::device::ProfileError,
-    },
+    Profile { path: PathBuf, problem: framewright_graph::device::ProfileError },
     /// `--device` names no profile.
     #[error("there is no device profile `{}`: give the file of one, or one that is shipped ({})", text::escape(name), shipped.join(", "))]
-    UnknownProfile {
-        /// What was given.
-        name: String,
-        /// Names that are shipped.
-        shipped: Vec<&'static str>,
-    },
+    UnknownProfile { name: String, shipped: Vec<&'static str> },
     /// There are more variants than can be checked.
     #[error(
         "there are {variants} variants, and at most {most} are checked\nhelp: add `--pairwise`, which checks every pair of values, or choose settings by `--set`, which then don't vary"
     )]
-    TooManyVariants {
-        /// How many there are.
-        variants: u128,
-        /// How many there may be.
-        most: usize,
-    },
+    TooManyVariants { variants: u128, most: usize },
     /// There are more pairs of values than can be covered.
     #[error(
         "there are {pairs} pairs of values, and at most {most} are covered\nhelp: choose settings by `--set`: those don't vary"
     )]
-    TooManyPairs {
-        /// How many there are.
-        pairs: usize,
-        /// How many there may be.
-        most: usize,
-    },
+    TooManyPairs { pairs: usize, most: usize },
     /// A profile was given where a device is needed.
     #[error(
         "`{}` is a device profile, and a device is needed here: name one (`framewright devices` lists them)",
         text::escape(name)
     )]
-    ProfileIsNoDevice {
-        /// What was given.
-        name: String,
-    },
+    ProfileIsNoDevice { name: String },
     /// Vulkan, or what is drawn with it.
     #[error("{}{}", text::escape_lines(&.0.to_string()), remedy(.0))]
     Vulkan(#[from] framewright_vulkan::Error),
     /// A picture can't be encoded.
     #[error("the picture of `{}` can't be encoded: {problem}", text::escape(image))]
-    Picture {
-        /// The image.
-        image: String,
-        /// The encoder's words.
-        problem: picture::Problem,
-    },
+    Picture { image: String, problem: EncodingError },
     /// A picture that its kind of file can't hold.
     #[error(
         "`{}` is {format}, and OpenEXR files hold floating-point numbers: write it to a .png file",
         text::escape(image)
     )]
-    NotFloats {
-        /// The image.
-        image: String,
-        /// Its format.
-        format: Format,
-    },
+    NotFloats { image: String, format: Format },
     /// The program can't start itself anew.
     #[error("framewright can't start itself anew under the current validation layer: {}\nhelp: set VK_LAYER_PATH to the layer's folder", text::escape(&.0.to_string()))]
     Restart(io::Error),
@@ -171,51 +91,30 @@ pub(crate) enum Error {
     Helper(io::Error),
     /// Ctrl-C.
     #[error("interrupted after {frames} of {wanted} frames: nothing was written")]
-    Interrupted {
-        /// Frames that were drawn.
-        frames: u32,
-        /// Frames that were asked for.
-        wanted: u32,
-    },
+    Interrupted { frames: u32, wanted: u32 },
     /// Ctrl-C while a pipe is written.
     #[error("interrupted before all of `{}` was written", text::path(path))]
-    InterruptedWriting {
-        /// The pipe.
-        path: PathBuf,
-    },
+    InterruptedWriting { path: PathBuf },
     /// A Plan that breaks its own rules: the compiler is at fault, not the user.
     #[error("the Plan breaks its own rules, which is a mistake of framewright itself:\n  {}", violations.join("\n  "))]
     Violations {
-        /// What `verify` found, escaped.
+        /// The violations that `verify` found, escaped.
         violations: Vec<String>,
     },
     /// The device can't draw for two eyes as was asked.
     #[error(
         "{why}\nhelp: `--stereo auto` takes the fastest way that it has; several, as `--stereo multiview,double-wide`, the first"
     )]
-    Stereo {
-        /// What it lacks, for each way.
-        why: String,
-    },
+    Stereo { why: String },
     /// A picture was asked for of something that is none.
     #[error(
         "`{}` is a buffer, and only images become pictures: leave out `-o`, or dump an image",
         text::escape(output)
     )]
-    NoPicture {
-        /// The output.
-        output: String,
-    },
+    NoPicture { output: String },
     /// A picture was asked for of something that doesn't leave the frame.
     #[error("{}", no_output(name, outputs, *image))]
-    NoOutput {
-        /// What was asked for.
-        name: String,
-        /// The pipeline's outputs.
-        outputs: Vec<String>,
-        /// Whether an image has the name.
-        image: bool,
-    },
+    NoOutput { name: String, outputs: Vec<String>, image: bool },
     /// A profile that has no text form.
     #[error("the profile has no text form: {}", text::escape(.0))]
     Unwritable(String),
@@ -227,12 +126,7 @@ pub(crate) enum Error {
     Plan(#[from] framewright_graph::plan::PlanError),
     /// A file can't be written.
     #[error("`{}` can't be written: {}{}", text::path(path), text::escape(&source.to_string()), mend(source, Some(path)))]
-    Write {
-        /// Which file.
-        path: PathBuf,
-        /// The reason.
-        source: io::Error,
-    },
+    Write { path: PathBuf, source: io::Error },
     /// A file would be written over one that is read.
     #[error("`{}` is {what}, which would be lost: name another file to write", text::path(path))]
     ReadAndWritten {
@@ -249,19 +143,13 @@ pub(crate) enum Error {
     },
     /// A file that is to be new is there already.
     #[error("there is a file `{}` already: choose another name, or move it away", text::path(path))]
-    There {
-        /// Which file.
-        path: PathBuf,
-    },
+    AlreadyExists { path: PathBuf },
     /// A name that no pipeline may have.
     #[error(
         "`{}` can't be the name of a pipeline: names are letters, digits, `_` and `-`, begin with a letter or `_`, and have at most 64 bytes",
         text::path(path)
     )]
-    NoName {
-        /// What was given.
-        path: PathBuf,
-    },
+    NoName { path: PathBuf },
     /// Standard output can't be written.
     #[error("standard output can't be written: {}{}", text::escape(&.0.to_string()), mend(.0, None))]
     Print(io::Error),
@@ -269,10 +157,9 @@ pub(crate) enum Error {
 
 /// The mistakes of a pipeline.
 #[derive(Debug)]
-pub(crate) struct Wrong {
+pub(crate) struct Mistakes {
     /// The texts that the mistakes point into.
     pub(crate) sources: Sources,
-    /// The mistakes.
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// How the command ends: the files are wrong, the command line is, or files can't be read.
     pub(crate) exit: Exit,
@@ -280,15 +167,15 @@ pub(crate) struct Wrong {
 
 impl Error {
     /// Mistakes of a pipeline, or of what the command line asks of it, with the options that mend them.
-    pub(crate) fn wrong(sources: Sources, diagnostics: Vec<Diagnostic>, exit: Exit) -> Error {
-        Error::Wrong { wrong: Box::new(Wrong { sources, diagnostics: options::named(diagnostics), exit }) }
+    pub(crate) fn mistakes(sources: Sources, diagnostics: Vec<Diagnostic>, exit: Exit) -> Error {
+        Error::Mistakes { mistakes: Box::new(Mistakes { sources, diagnostics: options::named(diagnostics), exit }) }
     }
 
-    /// What is printed: every mistake has a heading of its own.
+    /// The text to print. Mistakes of a pipeline have headings of their own.
     #[must_use]
     pub(crate) fn shown(&self) -> String {
         let headed = match self {
-            Error::Wrong { .. } => true,
+            Error::Mistakes { .. } => true,
             Error::Scene(problem) => matches!(**problem, SceneError::Text { .. }),
             _ => false,
         };
@@ -297,8 +184,8 @@ impl Error {
 
     /// Whether it is about the pipeline, or what the command line asks of it.
     #[must_use]
-    pub(crate) fn is_wrong(&self) -> bool {
-        matches!(self, Error::Wrong { .. })
+    pub(crate) fn is_about_the_pipeline(&self) -> bool {
+        matches!(self, Error::Mistakes { .. })
     }
 
     /// Whether the device may still be working for this process.
@@ -324,7 +211,7 @@ impl Error {
             | Error::Unwritable(_)
             | Error::Json(_)
             | Error::Plan(_) => Exit::Found,
-            Error::Wrong { wrong } => wrong.exit,
+            Error::Mistakes { mistakes } => mistakes.exit,
             Error::Scene(problem) => match &**problem {
                 SceneError::Unreadable { source, .. } if source.kind() == io::ErrorKind::PermissionDenied => {
                     Exit::Environment
@@ -346,7 +233,7 @@ impl Error {
             | Error::ProfileIsNoDevice { .. }
             | Error::NoOutput { .. }
             | Error::ReadAndWritten { .. }
-            | Error::There { .. }
+            | Error::AlreadyExists { .. }
             | Error::NoName { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
             Error::Interrupted { .. } | Error::InterruptedWriting { .. } => Exit::Interrupted,

@@ -12,19 +12,15 @@ mod picture;
 
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::frame::{
-    Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work,
-};
+use framewright_graph::frame::{Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vulkan::Format::{self, *};
 use framewright_graph::vulkan::{Encoding, Filter, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::Format::{self, *};
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::twin::hdr10::{PQ_PEAK, decode_pq, encode_hdr10};
-use framewright_vulkan::{
-    Device, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary, Texels,
-};
-use picture::{File, Picture};
+use framewright_vulkan::{Device, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary, Texels};
+use picture::{FileFormat, Picture};
 use std::io::Read;
 use support::Vulkan;
 
@@ -185,7 +181,7 @@ fn an_hdr10_picture_holds_the_light_that_was_drawn() {
         assert_eq!(encoded.as_deref(), Some("by shader `encode_hdr10` of pass `encode_hdr10`"));
         let [width, height, _] = texels.extent;
         let picture = Picture { format: texels.format, encoding, extent: [width, height], bytes: &texels.bytes };
-        let file = File::Png.write(&picture).expect("a file");
+        let file = FileFormat::Png.encode(&picture).expect("a file");
         let code_points = chunks(&file).into_iter().find(|chunk| chunk.0 == *b"cICP").map(|chunk| chunk.1.to_vec());
         assert_eq!(code_points, Some(vec![9, 16, 0, 1]));
         let names: Vec<[u8; 4]> = chunks(&file).into_iter().map(|chunk| chunk.0).collect();
@@ -238,7 +234,7 @@ fn linear_light_comes_back_from_its_file_bit_for_bit() {
         assert_eq!((encoding, encoded), (Some(Encoding::Linear), None));
         let [width, height, _] = texels.extent;
         let picture = Picture { format, encoding, extent: [width, height], bytes: &texels.bytes };
-        let file = File::OpenExr.write(&picture).expect("a file");
+        let file = FileFormat::OpenExr.encode(&picture).expect("a file");
         for (number, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
             let drawn: Vec<u32> = if format == R16G16B16A16_SFLOAT {
                 let halves = texels.bytes.as_chunks::<2>().0.iter().skip(number).step_by(4);
@@ -266,11 +262,11 @@ fn every_half_comes_back_bit_for_bit() {
     let halves: Vec<u16> = (0..=u16::MAX).collect();
     let bytes: Vec<u8> = halves.iter().flat_map(|half| half.to_ne_bytes()).collect();
     let picture = Picture { format: R16_SFLOAT, encoding: None, extent: [256, 256], bytes: &bytes };
-    let file = File::OpenExr.write(&picture).expect("a file");
+    let file = FileFormat::OpenExr.encode(&picture).expect("a file");
     assert_eq!(channel(&file, "Y"), halves.into_iter().map(u32::from).collect::<Vec<_>>());
     // 11 and 10 bits are halves without a sign, cut short (Vulkan, "Unsigned 11-Bit Floating-Point Numbers").
     let word = 0x3c0_u32 | (0x3bf << 11) | (0x1df << 22);
     let small = Picture { format: B10G11R11_UFLOAT_PACK32, extent: [1, 1], bytes: &word.to_ne_bytes(), ..picture };
-    let file = File::OpenExr.write(&small).expect("a file");
+    let file = FileFormat::OpenExr.encode(&small).expect("a file");
     assert_eq!(["R", "G", "B"].map(|name| channel(&file, name)[0]), [0x3c00, 0x3bf0, 0x3be0]);
 }

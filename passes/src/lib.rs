@@ -1,13 +1,17 @@
-//! What the shipped passes draw: the scene, the sky, full-screen effects; and the twins that their shaders are held against.
+//! The shipped passes: the scene, the sky and full-screen effects that they draw, and CPU twins of their shaders.
 //!
 //! - [`scene`]: scenes as plain data, read from our own RON format or from GLB.
+//! - [`facts`]: the facts of a scene that pipeline files can use.
 //! - [`shipped`]: the shaders, carried within the binary.
+//! - [`srgb`]: the curve of sRGB.
 //! - [`texture_files`]: pictures for the textures of a frame.
-//! - [`draw`]: what a draw brings along, and the draw source that draws a scene.
+//! - [`draw`]: the draw interface, and the draw source that draws a scene.
 //! - [`twin`]: the shaders' closed formulas in 64-bit floating point.
 
 pub mod draw;
+pub mod facts;
 pub mod scene;
 pub mod shipped;
+pub mod srgb;
 pub mod texture_files;
 pub mod twin;

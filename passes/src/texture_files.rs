@@ -1,10 +1,9 @@
 //! Textures from picture files: PNG, JPEG, Radiance HDR, OpenEXR.
 
-use framewright_graph::base::{NoFile, Root};
-use framewright_graph::frame::{
-    ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
-};
+use crate::srgb;
 use framewright_graph::vulkan::{Format, Numeric};
+use framewright_graph::base::{NoFile, Root};
+use framewright_graph::frame::{ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent};
 use half::f16;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::fs;
@@ -22,7 +21,7 @@ const MOST_DECODED: u64 = MOST_TEXELS * 16 + (64 << 20);
 
 /// Textures from files.
 ///
-/// What the bytes of a file are counts, not its name. PNG of 8 bits and JPEG become `R8G8B8A8_SRGB` or `R8G8B8A8_UNORM`, PNG
+/// The bytes of a file decide its format, not its name. PNG of 8 bits and JPEG become `R8G8B8A8_SRGB` or `R8G8B8A8_UNORM`, PNG
 /// of 16 bits `R16G16B16A16_UNORM`, HDR and EXR `R16G16B16A16_SFLOAT`; a frame may say `R32G32B32A32_SFLOAT` or any other
 /// format of colour, of which the picture fills as many components as there are.
 #[derive(Debug, Clone)]
@@ -130,7 +129,8 @@ impl Textures for TextureFiles {
                 for column in 0..across {
                     let at = (row * slices + slice) * across + column;
                     let [red, green, blue, alpha] = texels.at(at);
-                    let color = [red, green, blue].map(|value| if decodes { decode(value) } else { value });
+                    let color =
+                        [red, green, blue].map(|value| if decodes { srgb::decode(value.into()) as f32 } else { value });
                     pack([color[0], color[1], color[2], alpha], format, &mut bytes)?;
                 }
             }
@@ -164,15 +164,6 @@ impl Texels {
             Texels::Floats(floats) => four.map(|at| floats[at]),
         }
     }
-}
-
-/// The linear value of one that is encoded with the sRGB curve (IEC 61966-2-1).
-fn decode(encoded: f32) -> f32 {
-    let encoded = f64::from(encoded);
-    let linear = if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
-    #[allow(clippy::cast_possible_truncation, reason = "rounded to the nearest")]
-    let linear = linear as f32;
-    linear
 }
 
 /// Adds one texel; not a number becomes 0, and what is too large the largest that there is.

@@ -1,7 +1,7 @@
 //! Claims about how the sun sees the parts of a scene (IQ-25): everything is covered, and nothing shimmers.
 
 use framewright_graph::frame::{Cascade, DrawList};
-use framewright_passes::draw::cascades::{Seen, seen_by_sun};
+use framewright_passes::draw::cascades::{SunView, sun_view};
 use framewright_passes::scene::{Camera, Scene, load};
 use glam::{DMat4, DQuat, DVec2, DVec3, Vec3};
 use std::path::Path;
@@ -18,8 +18,8 @@ fn cascade(index: u8, of: u8) -> Cascade {
     Cascade { list: DrawList::Opaque, index, of, reach: 30.0.try_into().ok() }
 }
 
-fn seen(scene: &Scene, camera: &Camera, index: u8, of: u8) -> Seen {
-    seen_by_sun(scene, camera, ASPECT, cascade(index, of), TEXELS)
+fn seen(scene: &Scene, camera: &Camera, index: u8, of: u8) -> SunView {
+    sun_view(scene, camera, ASPECT, cascade(index, of), TEXELS)
 }
 
 /// The camera, moved by metres and turned by radians.
@@ -31,7 +31,7 @@ fn moved(camera: &Camera, by: DVec3, turn: f64) -> Camera {
 }
 
 /// Where a place of the scene lies in the map, in texels, and its depth there.
-fn in_map(seen: &Seen, camera: &Camera, place: DVec3) -> (DVec2, f64) {
+fn in_map(seen: &SunView, camera: &Camera, place: DVec3) -> (DVec2, f64) {
     let clip = seen.world_to_clip * (place - camera.position()).extend(1.0);
     ((clip.truncate().truncate() * 0.5 + 0.5) * f64::from(TEXELS), clip.z)
 }
@@ -67,7 +67,7 @@ fn every_place_that_is_seen_within_the_reach_lies_in_a_map_with_room_for_the_fil
     let (right, up) = (camera.transform.x_axis.truncate(), camera.transform.y_axis.truncate());
     let tangent = (f64::from(camera.vertical_fov) * 0.5).tan();
     for of in [1, 2, 4] {
-        let maps: Vec<Seen> = (0..of).map(|index| seen(&scene, camera, index, of)).collect();
+        let maps: Vec<SunView> = (0..of).map(|index| seen(&scene, camera, index, of)).collect();
         let finest_first = maps.windows(2).all(|pair| pair[0].texel < pair[1].texel);
         assert!(finest_first, "{maps:?}");
         for number in 0..300 {
@@ -75,7 +75,7 @@ fn every_place_that_is_seen_within_the_reach_lies_in_a_map_with_room_for_the_fil
             for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (0.0, 0.0), (-1.0, 1.0), (1.0, 1.0)] {
                 let aside = right * (x * ASPECT) + up * y;
                 let place = camera.position() + (forward + aside * tangent) * ahead;
-                let room = |seen: &Seen| {
+                let room = |seen: &SunView| {
                     let (at, _) = in_map(seen, camera, place);
                     at.min_element().min((f64::from(TEXELS) - at).min_element())
                 };
@@ -104,7 +104,7 @@ fn everything_that_may_cast_lies_between_the_sun_and_the_end_of_the_map() {
 #[test]
 fn without_a_reach_shadows_go_through_the_whole_scene_and_keep_their_size_in_small_steps() {
     let scene = scene();
-    let whole = |camera: &Camera| seen_by_sun(&scene, camera, ASPECT, Cascade { reach: None, ..cascade(0, 1) }, TEXELS);
+    let whole = |camera: &Camera| sun_view(&scene, camera, ASPECT, Cascade { reach: None, ..cascade(0, 1) }, TEXELS);
     let bounds = scene.bounds().expect("there are objects");
     let reach = whole(&scene.camera).reach;
     let needed = scene.camera.position().distance(bounds.center()) + bounds.radius();

@@ -1,7 +1,8 @@
 //! OpenEXR: every number of a floating-point image, bit for bit. Colours are linear light with the primaries of Rec. 709,
 //! which is what a file means that says nothing else.
 
-use super::{Picture, Problem, texel};
+use super::data::{EncodingError, Picture};
+use super::texel;
 use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, SmallVec, WritableImage, f16};
 use framewright_graph::vulkan::Format;
 use std::io::Cursor;
@@ -15,10 +16,10 @@ pub(super) fn holds(format: Format) -> bool {
 }
 
 /// Writes the file.
-pub(super) fn write(picture: &Picture<'_>) -> Result<Vec<u8>, Problem> {
+pub(super) fn write(picture: &Picture<'_>) -> Result<Vec<u8>, EncodingError> {
     let format = picture.format;
     let bytes = picture.texels()?.flatten().copied().collect::<Vec<u8>>();
-    let samples = samples(format, &bytes).ok_or(Problem::NotFloats)?;
+    let samples = samples(format, &bytes).ok_or(EncodingError::NotFloats)?;
     let names = if format.is_depth() { &["Z"] } else { NAMES[samples.len().clamp(1, 4) - 1] };
     let channels = names.iter().zip(samples).map(|(name, samples)| AnyChannel::new(*name, samples));
     let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = channels.collect();

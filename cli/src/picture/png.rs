@@ -1,6 +1,7 @@
 //! PNG: what people look at, and signals for displays.
 
-use super::{Picture, Problem, texel};
+use super::data::{EncodingError, Picture};
+use super::texel;
 use framewright_graph::vulkan::Encoding;
 use png::chunk::ChunkType;
 use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent};
@@ -9,7 +10,7 @@ use png::{BitDepth, ColorType, Compression, Encoder, SrgbRenderingIntent};
 const HDR10: [u8; 4] = [9, 16, 0, 1];
 
 /// Writes the file.
-pub(super) fn write(picture: &Picture<'_>) -> Result<Vec<u8>, Problem> {
+pub(super) fn write(picture: &Picture<'_>) -> Result<Vec<u8>, EncodingError> {
     let format = picture.format;
     let encoding = picture.encoding.or_else(|| Encoding::of(format));
     let grey = format.is_depth() || format.components() < 3;
@@ -38,10 +39,10 @@ pub(super) fn write(picture: &Picture<'_>) -> Result<Vec<u8>, Problem> {
     Ok(file)
 }
 
-/// Numbers as they are stored: 8 bits each where the format has so many, else 16.
-fn stored(picture: &Picture<'_>, channels: usize) -> Result<(BitDepth, Vec<u8>), Problem> {
+/// Samples as they are stored: 8 bits each where the format has 8, else 16.
+fn stored(picture: &Picture<'_>, channels: usize) -> Result<(BitDepth, Vec<u8>), EncodingError> {
     let format = picture.format;
-    let wide = picture.texels()?.map(|texel| texel::stored(format, texel).ok_or(Problem::NotShares));
+    let wide = picture.texels()?.map(|texel| texel::stored(format, texel).ok_or(EncodingError::NotShares));
     let wide: Vec<[u16; 3]> = wide.collect::<Result<_, _>>()?;
     let wide = wide.iter().flat_map(|texel| &texel[..channels]);
     // 8 bits were widened by 257: either byte is the value.
@@ -53,7 +54,7 @@ fn stored(picture: &Picture<'_>, channels: usize) -> Result<(BitDepth, Vec<u8>),
 }
 
 /// Bytes as a display shows them. Depth is shown like light, as a share of the image's own largest value.
-fn shown(picture: &Picture<'_>, channels: usize) -> Result<Vec<u8>, Problem> {
+fn shown(picture: &Picture<'_>, channels: usize) -> Result<Vec<u8>, EncodingError> {
     let (format, texels) = (picture.format, picture.texels()?);
     if format.is_depth() {
         let depths: Vec<f32> = texels.map(|texel| texel::depth(format, texel)).collect();

@@ -1,6 +1,8 @@
-//! What one texel of any format holds.
+//! Decodes one texel of any format.
 
 use framewright_graph::vulkan::{Format, Numeric};
+use framewright_passes::srgb;
+use half::f16;
 
 /// Bytes of one texel as it is read back: of depth-stencil formats the depth alone.
 pub(super) fn bytes(format: Format) -> usize {
@@ -11,7 +13,7 @@ pub(super) fn bytes(format: Format) -> usize {
 /// Red, green and blue of one texel as a display shows them; a grey is in the first.
 pub(super) fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
     use Format as F;
-    let half = |at: usize| half(u16::from_ne_bytes([texel[at], texel[at + 1]]));
+    let half = |at: usize| f16::from_ne_bytes([texel[at], texel[at + 1]]).to_f32();
     let word = |at: usize| u32::from_ne_bytes([texel[at], texel[at + 1], texel[at + 2], texel[at + 3]]);
     let float = |at: usize| f32::from_bits(word(at));
     let unorm = |byte: u8| f32::from(byte) / 255.0;
@@ -32,9 +34,8 @@ pub(super) fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
         F::R16G16B16A16_SFLOAT => [half(0), half(2), half(4)].map(encode),
         F::R32_SFLOAT | F::R32G32_SFLOAT => [float(0), 0.0, 0.0].map(encode),
         F::R32G32B32A32_SFLOAT => [float(0), float(4), float(8)].map(encode),
-        F::B10G11R11_UFLOAT_PACK32 => {
-            [(0, 11), (11, 11), (22, 10)].map(|(shift, count)| encode(self::half(cut(word(0), shift, count))))
-        }
+        F::B10G11R11_UFLOAT_PACK32 => [(0, 11), (11, 11), (22, 10)]
+            .map(|(shift, count)| encode(f16::from_bits(cut(word(0), shift, count)).to_f32())),
         F::D16_UNORM | F::X8_D24_UNORM_PACK32 | F::D32_SFLOAT | F::D24_UNORM_S8_UINT | F::D32_SFLOAT_S8_UINT => {
             [encode(depth(format, texel)); 3]
         }
@@ -92,9 +93,8 @@ pub(super) fn stored(format: Format, texel: &[u8]) -> Option<[u16; 3]> {
 /// A linear value 0…1 through the sRGB curve (IEC 61966-2-1), as a byte; NaN as 0.
 pub(super) fn encode(linear: f32) -> u8 {
     let linear = if linear > 0.0 { f64::from(linear.min(1.0)) } else { 0.0 };
-    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0…255")]
-    let byte = (encoded * 255.0).round() as u8;
+    let byte = (srgb::encode(linear) * 255.0).round() as u8;
     byte
 }
 
@@ -102,37 +102,9 @@ fn integer(value: u32) -> u8 {
     u8::try_from(value).unwrap_or(u8::MAX)
 }
 
-/// A 16-bit float (IEEE 754 binary16).
-fn half(bits: u16) -> f32 {
-    let sign = if bits & 0x8000 == 0 { 1.0 } else { -1.0 };
-    let mantissa = f32::from(bits & 0x3ff);
-    sign * match (bits >> 10) & 0x1f {
-        0 => mantissa * 2.0_f32.powi(-24),
-        31 if mantissa == 0.0 => f32::INFINITY,
-        31 => f32::NAN,
-        exponent => (1024.0 + mantissa) * 2.0_f32.powi(i32::from(exponent) - 25),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn halves_mean_what_ieee_754_says() {
-        for (bits, value) in [
-            (0x0000, 0.0),
-            (0x3c00, 1.0),
-            (0xc000, -2.0),
-            (0x7bff, 65504.0),
-            (0x0001, 5.960_464_5e-8),
-            (0x3555, 0.333_251_95),
-        ] {
-            assert_eq!(half(bits), value, "{bits:#06x}");
-        }
-        assert_eq!(half(0x7c00), f32::INFINITY);
-        assert!(half(0x7e00).is_nan());
-    }
 
     #[test]
     fn light_outside_what_a_display_shows_is_clamped_and_nan_is_black() {

@@ -1,12 +1,12 @@
-//! What varies: settings, facts of the scene, devices. All that is known here of kinds of settings stands in [`values`], and of
-//! facts in [`facts`].
+//! The axes along which a pipeline varies: settings, facts of the scene, devices.
 
+use super::axis::{Axis, Varied};
 use super::facts;
 use super::mentions::Mentions;
 use super::space::Choice;
-use framewright_graph::base::Sources;
+use framewright_graph::language::{ChosenBy, Document, Facts, Preset, SettingKind, last_step, nth_step};
 use framewright_graph::expression::Value;
-use framewright_graph::language::{ChosenBy, Document, Fact, Facts, Preset, SettingKind, last_step, nth_step};
+use framewright_graph::base::Sources;
 
 /// Whole numbers up to this many are all tried.
 const MOST_INTEGERS: i128 = 16;
@@ -14,38 +14,9 @@ const MOST_INTEGERS: i128 = 16;
 /// Numbers with up to this many steps are all tried.
 const MOST_STEPS: f64 = 16.0;
 
-/// What an axis varies.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Varied {
-    /// A setting, by name.
-    Setting(String),
-    /// A fact of the scene.
-    Fact(Fact),
-    /// The device, by the name of its profile.
-    Device,
-}
-
-/// Something that varies, and the values that it takes.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Axis {
-    /// What varies.
-    pub(crate) varied: Varied,
-    /// Its values as the command line has them, each once; what is in force without a choice comes first.
-    pub(crate) values: Vec<String>,
-    /// How many of them, from the first on, are combined with those of other axes. The rest stand in presets alone.
-    pub(crate) combined: usize,
-}
-
-impl Axis {
-    pub(super) fn new(varied: Varied, values: Vec<String>) -> Axis {
-        Axis { varied, combined: values.len(), values }
-    }
-}
-
 /// Everything that varies: settings in the file's order, then facts; the device comes last, even if there is only one.
 #[derive(Debug)]
 pub(crate) struct Axes {
-    /// The axes.
     pub(crate) list: Vec<Axis>,
     /// Settings that the user chose, and that therefore don't vary.
     pub(crate) fixed: Vec<(String, String)>,
@@ -54,7 +25,7 @@ pub(crate) struct Axes {
 }
 
 impl Axes {
-    /// What varies of a pipeline: whatever its files mention, except for what presets, settings files or `set` choose.
+    /// The axes of a pipeline: settings and facts that its files mention, unless a preset, a settings file or `set` chooses them.
     #[must_use]
     pub(crate) fn of(pipeline: &Document, sources: &Sources, set: &[(String, String)], devices: &[String]) -> Axes {
         let mentions = Mentions::of(sources);
@@ -79,7 +50,7 @@ impl Axes {
         axes
     }
 
-    /// What a preset chooses. Values that no axis has yet are added; settings that don't vary stay as they are.
+    /// The variant that a preset chooses. Values that no axis has yet are added; settings that don't vary stay as they are.
     fn preset(&mut self, pipeline: &Document, preset: &Preset) -> (String, Choice) {
         let mut choice = vec![0; self.list.len()];
         for chosen in &preset.set {
@@ -114,12 +85,12 @@ impl Axes {
         self.list.iter().map(|axis| axis.combined).collect()
     }
 
-    /// What is in force in a variant, axis by axis.
+    /// The values of a variant, axis by axis.
     pub(crate) fn chosen<'a>(&'a self, choice: &'a [usize]) -> impl Iterator<Item = (&'a Varied, &'a str)> {
         self.list.iter().zip(choice).map(|(axis, value)| (&axis.varied, &*axis.values[*value]))
     }
 
-    /// The same of those axes alone that depart from their defaults.
+    /// The values of a variant that depart from the defaults.
     pub(crate) fn departures<'a>(&'a self, choice: &'a [usize]) -> impl Iterator<Item = (&'a Varied, &'a str)> {
         self.chosen(choice).zip(choice).filter(|(_, value)| **value != 0).map(|(chosen, _)| chosen)
     }
@@ -150,7 +121,7 @@ pub(crate) fn device(choice: &Choice) -> usize {
     choice.last().copied().unwrap_or(0)
 }
 
-/// What the user chose: by preset and settings files, then by `set`, which is stronger.
+/// The settings that the user chose: by preset and settings files, then by `set`, which is stronger.
 fn fixed(pipeline: &Document, set: &[(String, String)]) -> Vec<(String, String)> {
     let chosen = pipeline.settings.iter().zip(pipeline.in_force()).filter_map(|(setting, chosen)| {
         let name = &*setting.name.text;

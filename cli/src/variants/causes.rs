@@ -1,17 +1,17 @@
-//! What the variants that fail have in common: each mistake with the least that brings it about.
+//! The cause of each mistake: the fewest departures from the defaults that bring it about.
 
-use super::judge::Judge;
+use super::checker::VariantChecker;
 use super::minimise::minimise;
-use super::run::{Failure, Mistake, mistake};
+use super::run::{Failure, MistakeKey, mistake_key};
 use super::space::{Choice, Space};
-use crate::interrupt;
+use crate::system::interrupt;
 use framewright_graph::base::Diagnostic;
 use std::collections::HashMap;
 
-/// Mistakes whose cause is looked for; what fails in more ways is best mended one by one.
+/// Causes of at most this many mistakes are looked for.
 pub(crate) const MOST_CAUSES: usize = 100;
 
-/// A mistake, and what brings it about.
+/// A mistake and its cause.
 #[derive(Debug)]
 pub(crate) struct Cause {
     /// The mistake.
@@ -26,19 +26,23 @@ pub(crate) struct Cause {
     pub(crate) least: bool,
 }
 
-/// Takes the failures, those of most variants first, and looks for the causes of the first [`MOST_CAUSES`].
-pub(crate) fn find(failures: HashMap<Mistake, Failure>, space: &Space, judge: &mut Judge<'_>) -> Vec<Cause> {
-    let mut failures: Vec<(Mistake, Failure)> = failures.into_iter().collect();
+/// Finds the causes of the [`MOST_CAUSES`] mistakes that most variants have.
+pub(crate) fn find(
+    failures: HashMap<MistakeKey, Failure>,
+    space: &Space,
+    checker: &mut VariantChecker<'_>,
+) -> Vec<Cause> {
+    let mut failures: Vec<(MistakeKey, Failure)> = failures.into_iter().collect();
     failures.sort_by(|(key, one), (other_key, other)| {
-        let places = |key: &Mistake| key.1.map(|span| (span.file(), span.start, span.end));
+        let places = |key: &MistakeKey| key.1.map(|span| (span.file(), span.start, span.end));
         let first = other.variants.cmp(&one.variants).then(one.example.cmp(&other.example));
         first.then_with(|| places(key).cmp(&places(other_key))).then_with(|| key.0.cmp(&other_key.0))
     });
     failures.truncate(MOST_CAUSES);
-    failures.into_iter().map(|(key, failure)| cause(&key, failure, space, judge)).collect()
+    failures.into_iter().map(|(key, failure)| cause(&key, failure, space, checker)).collect()
 }
 
-fn cause(key: &Mistake, failure: Failure, space: &Space, judge: &mut Judge<'_>) -> Cause {
+fn cause(key: &MistakeKey, failure: Failure, space: &Space, checker: &mut VariantChecker<'_>) -> Cause {
     let Failure { variants, example, mut diagnostic, devices } = failure;
     let found = space.choice(example.number);
     let departures: Vec<(usize, usize)> = found.iter().copied().enumerate().filter(|(_, value)| *value != 0).collect();
@@ -53,7 +57,7 @@ fn cause(key: &Mistake, failure: Failure, space: &Space, judge: &mut Judge<'_>) 
         if interrupted {
             return false;
         }
-        let found = judge.judge(&with(some)).err().into_iter().flatten().find(|found| mistake(found) == *key);
+        let found = checker.check(&with(some)).err().into_iter().flatten().find(|found| mistake_key(found) == *key);
         interrupted |= interrupt::asked();
         let fails = found.is_some();
         // The last one that fails is the least.

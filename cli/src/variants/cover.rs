@@ -10,7 +10,7 @@ pub(crate) const MOST_PAIRS: usize = 20_000_000;
 /// A cell that any value may take.
 const FREE: usize = usize::MAX;
 
-/// Pairs of values of any two axes with so many values each.
+/// The number of pairs of values of any two axes. `sizes` are the axes' numbers of values.
 #[must_use]
 pub(crate) fn pairs(sizes: &[usize]) -> usize {
     let mut before = 0_usize;

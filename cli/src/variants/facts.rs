@@ -1,13 +1,13 @@
 //! Facts of the scene that vary, and the values that are tried.
 
-use super::axes::{Axis, Varied};
+use super::axis::{Axis, Varied};
 use super::mentions::Mentions;
 use framewright_graph::language::{Fact, FactType, FactValue, Facts};
 
-/// Of a fact that is a number at most so many values are tried.
+/// At most this many values of a fact are tried.
 const MOST: usize = 16;
 
-/// Facts that the files mention. The first value of each is that without a scene: all holds, and as much of it as may be.
+/// An axis for each fact that the files mention. Its first value is the one without a scene: true, or the largest.
 pub(super) fn axes(mentions: &Mentions<'_>) -> impl Iterator<Item = Axis> {
     let axis = |fact| Axis::new(Varied::Fact(fact), values(fact, mentions));
     Fact::ALL.into_iter().filter(|fact| !names(*fact).is_empty() && mentioned(*fact, mentions)).map(axis)
@@ -40,8 +40,8 @@ fn last(name: &str) -> &str {
     name.rsplit_once('.').map_or(name, |(_, last)| last)
 }
 
-/// What a number may be compared with are the numbers beside it: each is tried with its neighbours, and 0, as long as that
-/// isn't too many.
+/// The values of a fact that are tried. A number is compared with numbers in the same string: each of those is tried with its
+/// neighbours, and 0, up to [`MOST`].
 fn values(fact: Fact, mentions: &Mentions<'_>) -> Vec<String> {
     let beside = || names(fact).into_iter().flat_map(|name| mentions.numbers_beside(last(name)));
     let mut values = Vec::new();

@@ -1,8 +1,7 @@
-//! Which names a pipeline's files mention, so that what nobody asks for need not vary.
+//! The names that a pipeline's files mention, so that settings and facts that no file uses don't vary.
 //!
-//! Whatever refers to a setting or a fact stands in quotes. So a name of which no string has a trace is certainly not
-//! referred to. The other way round nothing is certain, and a name that only a description has counts as mentioned: then more
-//! variants are checked than had to be, never fewer.
+//! Every reference to a setting or a fact stands in quotes. So a name that no string contains is certainly unused. A name
+//! that only a description contains counts as used: then more variants are checked than necessary, never fewer.
 
 use framewright_graph::base::Sources;
 use std::collections::HashMap;
@@ -120,7 +119,7 @@ fn numbers(text: &str) -> impl Iterator<Item = f64> {
     })
 }
 
-/// What follows a comment, which may hold others.
+/// The text after a comment, which may hold others.
 fn after_comment(from: &str) -> &str {
     let mut depth = 0;
     let mut rest = from;
@@ -134,7 +133,7 @@ fn after_comment(from: &str) -> &str {
     }
 }
 
-/// What follows a character such as `'"'` or `'\''`; or a lone quote.
+/// The text after a character such as `'"'` or `'\''`; or a lone quote.
 fn after_character(from: &str) -> &str {
     let mut characters = from.char_indices().skip(1);
     let escaped = characters.next().is_some_and(|(_, character)| character == '\\');

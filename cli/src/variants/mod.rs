@@ -5,11 +5,12 @@
 //! ```
 
 mod axes;
+mod axis;
 mod causes;
+mod checker;
 mod cover;
 mod facts;
 mod identity;
-mod judge;
 mod mentions;
 mod minimise;
 mod progress;
@@ -17,19 +18,20 @@ mod report;
 mod run;
 mod shaders;
 mod space;
-mod words;
+mod summary;
 
-use crate::args::{Check, CheckFormat};
-use crate::error::{Error, Exit};
-use crate::planning::{self, Loaded};
-use crate::{check, interrupt, profiles, text};
+use crate::command_line::args::{AnswerFormat, CheckArguments};
+use crate::error::Error;
+use crate::planning::{self, Loaded, View, device};
+use crate::system::{Exit, interrupt, text};
 use axes::Axes;
-use framewright_graph::base::{self, ReadFiles};
+use checker::{CheckedPipeline, VariantChecker};
+use framewright_graph::language;
 use framewright_graph::device::Profile;
-use judge::{Judge, Subject};
+use framewright_graph::base::{self, ReadFiles};
 use progress::Progress;
 use report::Report;
-use shaders::Shared;
+use shaders::SharedShaders;
 use space::Space;
 use std::ffi::OsStr;
 use std::num::NonZero;
@@ -38,18 +40,20 @@ use std::sync::{Arc, Mutex};
 /// Checks all variants of a pipeline.
 ///
 /// # Errors
-/// In the form for people what is wrong whatever the variant; in the form for programs the mistakes of the pipeline are its
-/// answer. If there are too many variants.
-pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
+/// Mistakes that every variant has; in the form for programs those are the answer. If there are too many variants.
+pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
     let report = match report(arguments) {
-        Err(Error::Wrong { wrong }) if arguments.format == CheckFormat::Json && wrong.exit != Exit::Usage => {
-            Report { diagnostics: base::to_json(&wrong.sources, &wrong.diagnostics), ..Report::of_nothing(arguments) }
+        Err(Error::Mistakes { mistakes }) if arguments.format == AnswerFormat::Json && mistakes.exit != Exit::Usage => {
+            Report {
+                diagnostics: base::to_json(&mistakes.sources, &mistakes.diagnostics),
+                ..Report::of_nothing(arguments)
+            }
         }
         report => report?,
     };
     let answer = match arguments.format {
-        CheckFormat::Human => words::human(&report),
-        CheckFormat::Json => text::json(&report)?,
+        AnswerFormat::Human => summary::human(&report),
+        AnswerFormat::Json => text::json(&report)?,
     };
     text::print(&answer).map_err(Error::Print)?;
     Ok(match (report.interrupted, report.fine) {
@@ -59,10 +63,10 @@ pub(crate) fn check(arguments: &Check) -> Result<Exit, Error> {
     })
 }
 
-fn report(arguments: &Check) -> Result<Report, Error> {
+fn report(arguments: &CheckArguments) -> Result<Report, Error> {
     let devices = devices(arguments)?;
     let loaded = planning::load(&arguments.pipeline, &ReadFiles::default())?;
-    let view = check::view(arguments);
+    let view = View::without_scene(arguments.planning.rotate);
     loaded.check_command_line(view)?;
     let Loaded { pipeline, sources, shaders, set, stereo, .. } = loaded;
     let (names, devices): (Vec<String>, _) = devices.into_iter().unzip();
@@ -70,7 +74,7 @@ fn report(arguments: &Check) -> Result<Report, Error> {
     let sizes = axes.sizes();
     let presets = axes.variants_of_presets();
     let space = if arguments.pairwise { Space::pairwise(&sizes, presets)? } else { Space::all(sizes, presets)? };
-    let subject = Subject {
+    let subject = CheckedPipeline {
         pipeline: &pipeline,
         sources: &sources,
         view,
@@ -89,19 +93,19 @@ fn report(arguments: &Check) -> Result<Report, Error> {
     progress.finish();
     let failures = std::mem::take(&mut found.failures);
     let distinct = failures.len();
-    let causes = causes::find(failures, &space, &mut Judge::new(&subject, Shared::new(&library)));
+    let causes = causes::find(failures, &space, &mut VariantChecker::new(&subject, SharedShaders::new(&library)));
     let further = distinct - causes.len();
     Ok(Report { further_failures: further, ..Report::new(arguments, &subject, &space, found, causes) })
 }
 
 /// The devices that `--device` names.
-fn devices(arguments: &Check) -> Result<Vec<(String, Arc<Profile>)>, Error> {
+fn devices(arguments: &CheckArguments) -> Result<Vec<(String, Arc<Profile>)>, Error> {
     let device = arguments.device.as_deref();
-    if device == Some(OsStr::new(profiles::ALL)) {
-        let all = profiles::all()?;
+    if device == Some(OsStr::new(device::ALL)) {
+        let all = device::all()?;
         return Ok(all.into_iter().map(|(name, profile)| (name.to_owned(), Arc::new(profile))).collect());
     }
-    let profile = profiles::choose(device, &ReadFiles::default())?;
+    let profile = device::choose(device, &ReadFiles::default())?;
     let name = device.map_or_else(|| profile.name.clone(), |name| name.to_string_lossy().into_owned());
     Ok(vec![(name, Arc::new(profile))])
 }

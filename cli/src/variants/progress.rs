@@ -1,6 +1,6 @@
 //! How far a check of many variants is: a bar on a terminal, anywhere else a line every few seconds.
 
-use crate::text;
+use crate::system::text;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};

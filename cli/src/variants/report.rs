@@ -1,12 +1,14 @@
-//! What is told of all variants, in the form for programs.
+//! The report for programs.
 
-use super::axes::{Axes, Varied};
+use super::axes::Axes;
+use super::axis::Varied;
 use super::causes::Cause;
-use super::judge::Subject;
-use super::run::Found;
+use super::checker::CheckedPipeline;
+use super::run::Findings;
 use super::space::{Choice, Space};
-use crate::args::Check;
-use crate::options;
+use crate::command_line::args::CheckArguments;
+use crate::command_line::options;
+use framewright_graph::language;
 use framewright_graph::base::{self, Diagnostic, Sources};
 use framewright_graph::plan::Totals;
 use serde::Serialize;
@@ -20,12 +22,11 @@ pub(crate) struct Report {
     pub(crate) pipeline: String,
     /// Whether nothing is wrong with any variant that was checked.
     pub(crate) fine: bool,
-    /// What is wrong whatever the variant; then none was checked.
+    /// Mistakes that every variant has; then none was checked.
     pub(crate) diagnostics: Value,
     /// Settings that the command line chose, itself or by a preset or settings files.
-    pub(crate) chosen: Vec<Chosen>,
-    /// What varies.
-    pub(crate) axes: Vec<AxisTold>,
+    pub(crate) chosen: Vec<NamedValue>,
+    pub(crate) axes: Vec<AxisEntry>,
     /// Presets that are among the variants, as they are on each device.
     pub(crate) presets: Vec<String>,
     /// Whether `variants` are not all combinations, but enough for each pair of values.
@@ -39,25 +40,25 @@ pub(crate) struct Report {
     /// Variants that are wrong.
     pub(crate) failing: usize,
     /// Mistakes, those of most variants first.
-    pub(crate) failures: Vec<FailureTold>,
+    pub(crate) failures: Vec<FailureEntry>,
     /// Mistakes beyond those.
     pub(crate) further_failures: usize,
     /// Number of `plans`.
     pub(crate) distinct_plans: usize,
     /// Distinct Plans, those nearest to the defaults first.
-    pub(crate) plans: Vec<PlanTold>,
+    pub(crate) plans: Vec<PlanEntry>,
 }
 
 /// A setting or fact with a value.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(crate) struct Chosen {
+pub(crate) struct NamedValue {
     pub(crate) name: String,
     pub(crate) value: String,
 }
 
-/// What varies, with its values, the default first.
+/// An axis with its values, the default first.
 #[derive(Debug, Serialize)]
-pub(crate) struct AxisTold {
+pub(crate) struct AxisEntry {
     /// `setting`, `fact` or `device`.
     pub(crate) kind: &'static str,
     /// Of a setting or fact its name.
@@ -69,16 +70,16 @@ pub(crate) struct AxisTold {
 #[derive(Debug, Serialize)]
 pub(crate) struct Variant {
     /// Settings that don't have their defaults, but for those that the command line chose.
-    pub(crate) settings: Vec<Chosen>,
+    pub(crate) settings: Vec<NamedValue>,
     /// Facts that are not as they are without a scene.
-    pub(crate) facts: Vec<Chosen>,
+    pub(crate) facts: Vec<NamedValue>,
     /// The device, if it isn't the first.
     pub(crate) device: Option<String>,
 }
 
 /// A mistake that variants have in common.
 #[derive(Debug, Serialize)]
-pub(crate) struct FailureTold {
+pub(crate) struct FailureEntry {
     /// The mistake as in the answers of `check`, in the variant `breaks_with`.
     pub(crate) diagnostic: Value,
     /// The same for people.
@@ -88,7 +89,7 @@ pub(crate) struct FailureTold {
     pub(crate) variants: usize,
     /// Devices on which it was found.
     pub(crate) devices: Vec<String>,
-    /// What brings it about.
+    /// The variant with the fewest departures from the defaults that has it.
     pub(crate) breaks_with: Variant,
     /// Whether without any one of these departures the mistake is another or none: each was left out to see.
     pub(crate) each_is_needed: bool,
@@ -96,7 +97,7 @@ pub(crate) struct FailureTold {
 
 /// A Plan that variants have in common.
 #[derive(Debug, Serialize)]
-pub(crate) struct PlanTold {
+pub(crate) struct PlanEntry {
     /// Variants that have it.
     pub(crate) variants: usize,
     /// One of them with the fewest departures from the defaults.
@@ -109,16 +110,16 @@ pub(crate) struct PlanTold {
 }
 
 impl Report {
-    /// What is told where no variant was checked.
+    /// The report when no variant was checked.
     #[must_use]
-    pub(crate) fn of_nothing(arguments: &Check) -> Report {
+    pub(crate) fn of_nothing(arguments: &CheckArguments) -> Report {
         let set = arguments.pipeline.set.iter();
         Report {
             format_version: 1,
             pipeline: arguments.pipeline.file.to_string_lossy().into_owned(),
             fine: false,
             diagnostics: Value::Array(Vec::new()),
-            chosen: set.map(|one| Chosen { name: one.name.clone(), value: one.value.clone() }).collect(),
+            chosen: set.map(|one| NamedValue { name: one.name.clone(), value: one.value.clone() }).collect(),
             axes: Vec::new(),
             presets: Vec::new(),
             pairwise: arguments.pairwise,
@@ -133,36 +134,36 @@ impl Report {
         }
     }
 
-    /// What is told of all that was found.
+    /// The report of all findings.
     #[must_use]
     pub(crate) fn new(
-        arguments: &Check,
-        subject: &Subject<'_>,
+        arguments: &CheckArguments,
+        subject: &CheckedPipeline<'_>,
         space: &Space,
-        found: Found,
+        found: Findings,
         causes: Vec<Cause>,
     ) -> Report {
         let axes = &subject.axes;
-        let Found { checked, failing, plans, failures: _ } = found;
+        let Findings { checked, failing, plans, failures: _ } = found;
         let mut plans: Vec<_> = plans.into_iter().collect();
         plans.sort_by_key(|(_, plan)| plan.example);
-        let told = plans.into_iter().map(|(identity, plan)| PlanTold {
+        let told = plans.into_iter().map(|(identity, plan)| PlanEntry {
             variants: plan.variants,
             example: Variant::of(axes, &space.choice(plan.example.number)),
             totals: plan.totals,
             shape: identity.shape,
         });
-        let plans: Vec<PlanTold> = told.collect();
+        let plans: Vec<PlanEntry> = told.collect();
         Report {
             fine: failing == 0,
-            chosen: axes.fixed.iter().cloned().map(|(name, value)| Chosen { name, value }).collect(),
-            axes: axes.list.iter().map(|axis| axis_told(&axis.varied, &axis.values[..axis.combined])).collect(),
+            chosen: axes.fixed.iter().cloned().map(|(name, value)| NamedValue { name, value }).collect(),
+            axes: axes.list.iter().map(|axis| axis_entry(&axis.varied, &axis.values[..axis.combined])).collect(),
             presets: axes.presets.iter().map(|(name, _)| name.clone()).collect(),
             variants: space.len(),
             checked,
             interrupted: checked < space.len(),
             failing,
-            failures: causes.into_iter().map(|cause| failure_told(subject, cause)).collect(),
+            failures: causes.into_iter().map(|cause| failure_entry(subject, cause)).collect(),
             distinct_plans: plans.len(),
             plans,
             ..Report::of_nothing(arguments)
@@ -174,7 +175,7 @@ impl Variant {
     fn of(axes: &Axes, choice: &Choice) -> Variant {
         let mut variant = Variant { settings: Vec::new(), facts: Vec::new(), device: None };
         for (varied, value) in axes.departures(choice) {
-            let chosen = |name: &str| Chosen { name: name.to_owned(), value: value.to_owned() };
+            let chosen = |name: &str| NamedValue { name: name.to_owned(), value: value.to_owned() };
             match varied {
                 Varied::Setting(name) => variant.settings.push(chosen(name)),
                 Varied::Fact(fact) => variant.facts.push(chosen(fact.name())),
@@ -185,20 +186,20 @@ impl Variant {
     }
 }
 
-fn axis_told(varied: &Varied, values: &[String]) -> AxisTold {
+fn axis_entry(varied: &Varied, values: &[String]) -> AxisEntry {
     let (kind, name) = match varied {
         Varied::Setting(name) => ("setting", Some(name.clone())),
         Varied::Fact(fact) => ("fact", Some(fact.name().to_owned())),
         Varied::Device => ("device", None),
     };
-    AxisTold { kind, name, values: values.to_vec() }
+    AxisEntry { kind, name, values: values.to_vec() }
 }
 
-fn failure_told(subject: &Subject<'_>, cause: Cause) -> FailureTold {
+fn failure_entry(subject: &CheckedPipeline<'_>, cause: Cause) -> FailureEntry {
     let Cause { diagnostic, variants, devices, choice, least } = cause;
     let diagnostic = options::named_one(diagnostic);
     let all = subject.axes.list.last().map_or(&[][..], |axis| &axis.values[..]);
-    FailureTold {
+    FailureEntry {
         diagnostic: as_json(subject.sources, &diagnostic),
         shown: base::render(subject.sources, std::slice::from_ref(&diagnostic)),
         variants,

@@ -1,12 +1,12 @@
-//! All variants, on several threads: what is found doesn't depend on how many.
+//! Checks all variants on several threads. The findings don't depend on the number of threads.
 
 use super::axes;
+use super::checker::{CheckedPipeline, VariantChecker, VerifiedPlan};
 use super::identity::Identity;
-use super::judge::{Fine, Judge, Subject};
 use super::progress::Progress;
-use super::shaders::Shared;
+use super::shaders::SharedShaders;
 use super::space::Space;
-use crate::interrupt;
+use crate::system::interrupt;
 use framewright_graph::base::{Diagnostic, Span};
 use framewright_graph::plan::Totals;
 use framewright_vulkan::ShaderLibrary;
@@ -20,21 +20,21 @@ const LARGEST_BATCH: usize = 64;
 /// Batches for each thread, if there are few variants: all threads end at about the same time.
 const BATCHES: usize = 8;
 
-/// What was found.
+/// The findings of a check.
 #[derive(Debug, Default)]
-pub(crate) struct Found {
+pub(crate) struct Findings {
     /// Variants that were judged.
     pub(crate) checked: usize,
     /// Those of them that are wrong.
     pub(crate) failing: usize,
     /// Distinct Plans.
-    pub(crate) plans: HashMap<Identity, PlanFound>,
+    pub(crate) plans: HashMap<Identity, DistinctPlan>,
     /// Distinct mistakes, by message and place.
-    pub(crate) failures: HashMap<Mistake, Failure>,
+    pub(crate) failures: HashMap<MistakeKey, Failure>,
 }
 
-/// A mistake, by which failures of several variants are told to be the same.
-pub(crate) type Mistake = (String, Option<Span>);
+/// Message and place of a mistake. Mistakes of several variants with the same key are one.
+pub(crate) type MistakeKey = (String, Option<Span>);
 
 /// A variant that stands for others: the one with the fewest departures from the defaults, of those the first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -47,7 +47,7 @@ pub(crate) struct Example {
 
 /// A Plan that variants have in common.
 #[derive(Debug)]
-pub(crate) struct PlanFound {
+pub(crate) struct DistinctPlan {
     /// How many have it.
     pub(crate) variants: usize,
     /// One of them.
@@ -71,23 +71,23 @@ pub(crate) struct Failure {
 
 /// The key of a mistake.
 #[must_use]
-pub(crate) fn mistake(diagnostic: &Diagnostic) -> Mistake {
+pub(crate) fn mistake_key(diagnostic: &Diagnostic) -> MistakeKey {
     (diagnostic.message.clone(), diagnostic.labels.first().map(|label| label.span))
 }
 
-/// Judges all variants of `space`, or those that are judged when the user asks to stop.
+/// Checks all variants of `space`, until the user asks to stop.
 pub(crate) fn run(
-    subject: &Subject<'_>,
+    subject: &CheckedPipeline<'_>,
     space: &Space,
     library: &Mutex<ShaderLibrary>,
     threads: usize,
     progress: &Progress,
-) -> Found {
+) -> Findings {
     let batch = (space.len() / (threads * BATCHES)).clamp(1, LARGEST_BATCH);
     let next = AtomicUsize::new(0);
     let work = || {
-        let mut judge = Judge::new(subject, Shared::new(library));
-        let mut found = Found::default();
+        let mut checker = VariantChecker::new(subject, SharedShaders::new(library));
+        let mut found = Findings::default();
         loop {
             let from = next.fetch_add(batch, Ordering::Relaxed);
             let to = (from + batch).min(space.len());
@@ -100,7 +100,7 @@ pub(crate) fn run(
                 }
                 let choice = space.choice(number);
                 let departures = choice.iter().filter(|value| **value != 0).count();
-                let verdict = judge.judge(&choice);
+                let verdict = checker.check(&choice);
                 if interrupt::asked() {
                     // Its shaders may have been given up, which is no mistake of theirs.
                     return found;
@@ -123,12 +123,12 @@ pub(crate) fn run(
     })
 }
 
-impl Found {
-    fn add(&mut self, example: Example, device: usize, verdict: Result<Fine, Vec<Diagnostic>>) {
+impl Findings {
+    fn add(&mut self, example: Example, device: usize, verdict: Result<VerifiedPlan, Vec<Diagnostic>>) {
         self.checked += 1;
         match verdict {
-            Ok(Fine { plan, totals }) => {
-                let found = self.plans.entry(plan).or_insert(PlanFound { variants: 0, example, totals });
+            Ok(VerifiedPlan { identity, totals }) => {
+                let found = self.plans.entry(identity).or_insert(DistinctPlan { variants: 0, example, totals });
                 found.variants += 1;
                 found.example = found.example.min(example);
             }
@@ -136,7 +136,7 @@ impl Found {
                 self.failing += 1;
                 let mut seen = HashSet::new();
                 for diagnostic in diagnostics {
-                    let key = mistake(&diagnostic);
+                    let key = mistake_key(&diagnostic);
                     if seen.insert(key.clone()) {
                         let devices = BTreeSet::from([device]);
                         self.failure(key, Failure { variants: 1, example, diagnostic, devices });
@@ -146,7 +146,7 @@ impl Found {
         }
     }
 
-    fn failure(&mut self, key: Mistake, mut more: Failure) {
+    fn failure(&mut self, key: MistakeKey, mut more: Failure) {
         match self.failures.get_mut(&key) {
             Some(found) => {
                 if more.example < found.example {
@@ -161,11 +161,11 @@ impl Found {
         }
     }
 
-    fn merge(&mut self, other: Found) {
+    fn merge(&mut self, other: Findings) {
         self.checked += other.checked;
         self.failing += other.failing;
         for (plan, more) in other.plans {
-            let found = self.plans.entry(plan).or_insert(PlanFound { variants: 0, ..more });
+            let found = self.plans.entry(plan).or_insert(DistinctPlan { variants: 0, ..more });
             found.variants += more.variants;
             found.example = found.example.min(more.example);
         }
@@ -182,12 +182,12 @@ mod tests {
     #[test]
     fn what_stands_for_others_is_nearest_to_the_defaults_whoever_found_it() {
         let diagnostic = Diagnostic::nowhere("wrong");
-        let plan = Identity { plan: 7, shape: 1 };
-        let fine = Fine { plan, totals: Totals::default() };
+        let identity = Identity { plan: 7, shape: 1 };
+        let fine = VerifiedPlan { identity, totals: Totals::default() };
         let numbers = [(2, 1), (1, 5), (1, 7), (3, 0)];
         for split in 0..=numbers.len() {
             for turned in 0..numbers.len() {
-                let mut halves = [Found::default(), Found::default()];
+                let mut halves = [Findings::default(), Findings::default()];
                 for at in 0..numbers.len() {
                     let (departures, number) = numbers[(at + turned) % numbers.len()];
                     let (found, example) = (&mut halves[usize::from(at < split)], Example { departures, number });
@@ -198,10 +198,10 @@ mod tests {
                 found.merge(other);
                 assert_eq!((found.checked, found.failing), (8, 4));
                 let least = Example { departures: 1, number: 5 };
-                let failure = &found.failures[&mistake(&diagnostic)];
+                let failure = &found.failures[&mistake_key(&diagnostic)];
                 assert_eq!((failure.example, failure.variants), (least, 4));
                 assert_eq!(failure.devices, BTreeSet::from([0, 1]));
-                assert_eq!((found.plans[&plan].example, found.plans[&plan].variants), (least, 4));
+                assert_eq!((found.plans[&identity].example, found.plans[&identity].variants), (least, 4));
             }
         }
     }

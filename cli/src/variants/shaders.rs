@@ -1,4 +1,4 @@
-//! Shader interfaces that several threads ask for: each shader is compiled and reflected once.
+//! A shader library that threads share: each shader is compiled and reflected once.
 
 use framewright_graph::base::FilePath;
 use framewright_graph::frame::Draw;
@@ -7,28 +7,28 @@ use framewright_vulkan::ShaderLibrary;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What one thread knows of a library that it shares.
-pub(crate) struct Shared<'a> {
+/// One thread's cache of a shared library.
+pub(crate) struct SharedShaders<'a> {
     library: &'a Mutex<ShaderLibrary>,
-    /// By name, then by what is drawn (`None`: a compute shader) and how it is compiled.
-    known: HashMap<String, Vec<(Option<Draw>, Variant, Found)>>,
-    /// Which shader it is, by the file that names it, its name there and what is drawn.
-    which: HashMap<Named, Result<Arc<str>, ShaderProblem>>,
+    /// By name, then by the kind of draw (`None`: a compute shader) and the variant.
+    known: HashMap<String, Vec<(Option<Draw>, Variant, Reflection)>>,
+    /// The shader's full name, by the file that names it, its name there and the kind of draw.
+    which: HashMap<ShaderKey, Result<Arc<str>, ShaderProblem>>,
 }
 
-type Found = Result<ShaderInterface, ShaderProblem>;
+type Reflection = Result<ShaderInterface, ShaderProblem>;
 
-type Named = (FilePath, Arc<str>, Option<Draw>);
+type ShaderKey = (FilePath, Arc<str>, Option<Draw>);
 
-impl<'a> Shared<'a> {
-    /// One that knows nothing yet.
+impl<'a> SharedShaders<'a> {
+    /// An empty cache.
     #[must_use]
-    pub(crate) fn new(library: &'a Mutex<ShaderLibrary>) -> Shared<'a> {
-        Shared { library, known: HashMap::new(), which: HashMap::new() }
+    pub(crate) fn new(library: &'a Mutex<ShaderLibrary>) -> SharedShaders<'a> {
+        SharedShaders { library, known: HashMap::new(), which: HashMap::new() }
     }
 
-    fn compiled(&mut self, name: &str, draw: Option<Draw>, variant: &Variant) -> Found {
-        let same = |(other, compiled, _): &&(Option<Draw>, Variant, Found)| *other == draw && compiled == variant;
+    fn compiled(&mut self, name: &str, draw: Option<Draw>, variant: &Variant) -> Reflection {
+        let same = |(other, compiled, _): &&(Option<Draw>, Variant, Reflection)| *other == draw && compiled == variant;
         if let Some((.., found)) = self.known.get(name).and_then(|all| all.iter().find(same)) {
             return found.clone();
         }
@@ -42,7 +42,7 @@ impl<'a> Shared<'a> {
     }
 }
 
-impl ShaderInterfaces for Shared<'_> {
+impl ShaderInterfaces for SharedShaders<'_> {
     fn find(&mut self, from: &FilePath, name: &Arc<str>, draw: Option<Draw>) -> Result<Arc<str>, ShaderProblem> {
         let library = self.library;
         let find = || library.lock().unwrap_or_else(PoisonError::into_inner).find(from, name, draw);

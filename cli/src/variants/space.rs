@@ -17,7 +17,7 @@ pub(crate) enum Space {
     All {
         /// Numbers of values.
         sizes: Vec<usize>,
-        /// What comes after them.
+        /// Further variants.
         more: Vec<Choice>,
     },
     /// Some of them.
@@ -25,7 +25,7 @@ pub(crate) enum Space {
 }
 
 impl Space {
-    /// Every combination of so many values, then `more`, as far as those are others.
+    /// Every combination of values, then those of `more` that aren't among them.
     ///
     /// # Errors
     /// If there are too many.
@@ -39,7 +39,7 @@ impl Space {
         Ok(Space::All { sizes, more })
     }
 
-    /// Rows in which each pair of values of any two axes occurs, then `more`, as far as those are others.
+    /// Rows in which each pair of values of any two axes occurs, then those of `more` that aren't among them.
     ///
     /// # Errors
     /// If there are too many pairs.
@@ -49,7 +49,7 @@ impl Space {
             return Err(Error::TooManyPairs { pairs, most: cover::MOST_PAIRS });
         }
         let mut rows = cover::rows(sizes);
-        // What differs only on the last axes stands together; the first row, all 0, stays the first.
+        // Rows that differ only on the last axes come together; the first row, all 0, stays the first.
         rows.sort_unstable();
         more.retain(|choice| rows.binary_search(choice).is_err());
         each_once(&mut more);
@@ -96,7 +96,7 @@ fn combinations(sizes: &[usize]) -> usize {
     sizes.iter().product()
 }
 
-/// Leaves out what stands there already.
+/// Removes duplicates.
 fn each_once(choices: &mut Vec<Choice>) {
     let mut seen = HashSet::new();
     choices.retain(|choice| seen.insert(choice.clone()));

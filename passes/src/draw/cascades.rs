@@ -1,6 +1,6 @@
-//! How the sun sees the parts of a scene whose shadows are drawn: cascaded shadow maps that don't shimmer.
+//! Cascaded shadow maps of the sun that don't shimmer.
 //!
-//! What a camera sees is cut into slices by distance (F. Zhang, H. Sun, L. Xu, K. L. Lee, "Parallel-split shadow maps for
+//! The camera's frustum is cut into slices by distance (F. Zhang, H. Sun, L. Xu, K. L. Lee, "Parallel-split shadow maps for
 //! large-scale virtual environments", VRCIA 2006), and each slice put into a sphere, whose size depends on neither the
 //! camera's place nor its direction. The square around the sphere moves by whole texels (M. Valient, "Stable rendering of
 //! cascaded shadow maps", ShaderX6, 2008). So a texel covers the same place of the scene as long as it is covered at all.
@@ -12,9 +12,9 @@ use framewright_graph::plan::{Plan, ViewId, Work};
 use glam::{DMat4, DVec3, DVec4, Vec3};
 use std::collections::BTreeMap;
 
-/// How the sun sees a cascade.
+/// The sun's view of a cascade.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Seen {
+pub struct SunView {
     /// From the shaders' world space (the scene's axes, the camera as origin) to clip space, depth reversed: all casters lie
     /// between 1, towards the sun, and 0.
     pub world_to_clip: DMat4,
@@ -26,14 +26,13 @@ pub struct Seen {
 
 /// A cascade, and the width and height of its map in texels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Map {
+pub(super) struct CascadeMap {
     pub(super) cascade: Cascade,
     pub(super) texels: u32,
 }
 
-/// The cascades that a Plan draws for a view, or for an eye of it, the nearest first. The list that they hold is none's in
-/// particular.
-pub(super) fn of_plan(plan: &Plan, view: Option<ViewId>) -> Vec<Map> {
+/// The cascades that a Plan draws for a view, or for an eye of it, the nearest first. Their draw lists have no meaning.
+pub(super) fn of_plan(plan: &Plan, view: Option<ViewId>) -> Vec<CascadeMap> {
     let mut maps = BTreeMap::new();
     let between = |of: ViewId| plan.views.get(of.0 as usize).and_then(|view| view.eye).map_or(of, |eye| eye.of);
     for step in &plan.steps {
@@ -41,25 +40,20 @@ pub(super) fn of_plan(plan: &Plan, view: Option<ViewId>) -> Vec<Map> {
         for pass in scope.passes.iter().filter(|pass| pass.view.map(between) == view) {
             if let Some(Draw::Casters(cascade)) = pass.draw {
                 let texels = scope.extent[0].min(scope.extent[1]);
-                maps.entry(cascade.index).or_insert(Map { cascade, texels });
+                maps.entry(cascade.index).or_insert(CascadeMap { cascade, texels });
             }
         }
     }
     maps.into_values().collect()
 }
 
-/// Whether an object's box lies in what the sun sees of a cascade, or between it and the sun.
+/// Whether an object's box lies in the sun's view of a cascade, or between it and the sun.
 #[must_use]
-pub fn may_cast(scene: &Scene, camera: &Camera, seen: &Seen, object: &Object) -> bool {
-    let Bounds { min, max } = scene.meshes[object.mesh].bounds.transformed(object.transform);
-    let eye = camera.position();
-    let corners = (0..8).map(|corner| {
-        let pick = |axis: usize| if corner >> axis & 1 == 0 { min[axis] } else { max[axis] };
-        (seen.world_to_clip * (DVec3::new(pick(0), pick(1), pick(2)) - eye).extend(1.0)).truncate()
-    });
-    let (least, most) =
-        corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(least, most), at| (least.min(at), most.max(at)));
-    (0..2).all(|axis| least[axis] <= 1.0 && most[axis] >= -1.0)
+pub fn may_cast(scene: &Scene, camera: &Camera, sun: &SunView, object: &Object) -> bool {
+    let corners = scene.meshes[object.mesh].bounds.transformed(object.transform).corners();
+    let to_clip = |corner: DVec3| (sun.world_to_clip * (corner - camera.position()).extend(1.0)).truncate();
+    let Bounds { min, max } = Bounds::around(corners.map(to_clip));
+    (0..2).all(|axis| min[axis] <= 1.0 && max[axis] >= -1.0)
 }
 
 /// Texels at each border of a map that a filter may reach into.
@@ -72,7 +66,7 @@ const LOGARITHMIC: f64 = 0.75;
 /// How the sun sees a cascade of a camera's picture, of which `aspect` is width over height. Its map has `texels` in width
 /// and height, at least 16.
 #[must_use]
-pub fn seen_by_sun(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade, texels: u32) -> Seen {
+pub fn sun_view(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade, texels: u32) -> SunView {
     let texels = f64::from(texels.max(16));
     let eye = camera.position();
     let (middle, radius) = sphere_around(scene);
@@ -94,7 +88,7 @@ pub fn seen_by_sun(scene: &Scene, camera: &Camera, aspect: f64, cascade: Cascade
     let rows =
         [row(right, x, half.recip()), row(up, y, -half.recip()), row(to_sun, lowest, (2.0 * radius).recip()), DVec4::W];
     let world_to_clip = DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose();
-    Seen { world_to_clip, texel, reach }
+    SunView { world_to_clip, texel, reach }
 }
 
 /// A sphere around everything: middle and radius. Somewhat larger, so that nothing ends up beyond it by rounding.
@@ -120,25 +114,25 @@ fn split(camera: &Camera, reach: f64, border: f64, of: u8) -> f64 {
     LOGARITHMIC * logarithmic + (1.0 - LOGARITHMIC) * even
 }
 
-/// The least sphere around what is seen between two distances: how far ahead of the camera its middle is, and its radius.
+/// The smallest sphere around the frustum between two distances: the distance of its middle from the camera, and its radius.
 fn sphere_of_slice(camera: &Camera, aspect: f64, near: f64, far: f64) -> (f64, f64) {
     let up = (f64::from(camera.vertical_fov) * 0.5).tan();
-    // A corner at distance d lies so many d from the axis.
+    // The squared distance of a corner from the axis, at distance 1.
     let squared = up * up * (1.0 + aspect * aspect);
     let ahead = (0.5 * (near + far) * (1.0 + squared)).min(far);
     (ahead, ((far - ahead).powi(2) + squared * far * far).sqrt())
 }
 
 /// The block `cascades` of `shaders/include/scene.glsl`, the nearest cascade first.
-pub(super) fn cascades_block(cascades: &[Seen]) -> Vec<u8> {
+pub(super) fn cascades_block(cascades: &[SunView]) -> Vec<u8> {
     let mut block = Block::default();
     for number in 0..Cascade::MOST as usize {
-        let seen = cascades.get(number);
-        block.mat4(seen.map_or(DMat4::ZERO, |seen| seen.world_to_clip).as_mat4());
-        block.float(seen.map_or(0.0, |seen| seen.texel) as f32);
+        let sun = cascades.get(number);
+        block.mat4(sun.map_or(DMat4::ZERO, |sun| sun.world_to_clip).as_mat4());
+        block.float(sun.map_or(0.0, |sun| sun.texel) as f32);
         block.align();
     }
     block.uint(u32::try_from(cascades.len()).unwrap_or(u32::MAX).min(Cascade::MOST.into()));
-    block.float(cascades.first().map_or(0.0, |seen| seen.reach) as f32);
+    block.float(cascades.first().map_or(0.0, |sun| sun.reach) as f32);
     block.bytes()
 }

@@ -1,11 +1,10 @@
-//! Which point lights reach which part of what a camera sees: clustered shading (O. Olsson, M. Billeter, U. Assarsson,
+//! Clustered shading: lists of the point lights that reach each part of a camera's frustum (O. Olsson, M. Billeter, U. Assarsson,
 //! "Clustered Deferred and Forward Shading", High Performance Graphics 2012).
 //!
-//! What is seen is cut into tiles by its place in the picture and into slices by its distance, each a fixed factor longer
-//! than the one before. A fragment finds its cluster by its place in the world, whatever the size of the image that it is
-//! drawn into, and looks at the lights of that list alone. Light ends at a light's range, where the formula gives exactly 0:
-//! so the sum is that of all lights, bit by bit. Lights without a range, and those that reach a great part of all clusters,
-//! stand before the others and are looked at by all.
+//! The frustum is cut into tiles of the picture and into slices by distance, each a fixed factor longer than the one before.
+//! A fragment finds its cluster by its place in the world, so the size of the image doesn't matter, and reads the lights of
+//! that list alone. The formula gives exactly 0 at a light's range, so the sum is that of all lights, bit by bit. Lights
+//! without a range, and those that reach a great part of all clusters, come before the others and are read by all.
 //!
 //! Clusters at the borders of the picture reach on without end, as do the nearest and the farthest: every place lies in one.
 //!
@@ -19,21 +18,21 @@ use glam::{DMat3, DMat4, DVec3};
 
 /// Clusters across, down and away from the camera.
 const GRID: [usize; 3] = [16, 9, 32];
-/// Lights that reach more than this share of the clusters are looked at everywhere: their lists would only cost memory.
+/// Lights that reach more than this share of the clusters are read by all: their lists would only cost memory.
 const MOST_CLUSTERS: f64 = 0.25;
-/// The farthest slice begins at most so many times farther away than the nearest ends.
+/// The largest ratio of the distances at which the farthest slice begins and the nearest ends.
 const DEPTH_RATIO: f64 = 64.0;
-/// Shares of a tile or slice by which clusters overlap: what rounding to 32 bits may come to where a shader looks one up.
+/// Shares of a tile or slice by which clusters overlap, to cover the rounding to 32 bits in the shader's look-up.
 const OVERLAP: f64 = 1.0 / 256.0;
-/// What rounding of a range and its reciprocal may come to.
+/// The largest rounding error of a range and its reciprocal.
 const RANGE_ROUNDING: f64 = 1e-5;
 
 /// The lists of lights of a camera.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clusters {
-    /// The scene's lights by their number there, those before the others that are looked at everywhere.
+    /// The scene's lights by their number there. Those that all clusters read come first.
     pub order: Vec<u32>,
-    /// How many those are.
+    /// The number of lights that all clusters read.
     pub everywhere: u32,
     /// Of each cluster the lights that reach it, as places in `order`, rising; by tile along a row, row and slice.
     lists: Vec<Vec<u32>>,
@@ -43,14 +42,14 @@ pub struct Clusters {
     slices_per_doubling: f64,
 }
 
-/// What a camera sees, in its own space: x to the right, y down, z ahead.
-struct Sight {
+/// The camera's space: x to the right, y down, z ahead.
+struct CameraSpace {
     from_world: DMat3,
     /// Distance of the picture in whose units it is 2 wide and 2 high.
     focal: [f64; 2],
 }
 
-/// A light in the camera's space, and how far it reaches.
+/// The sphere that a light reaches, in the camera's space.
 #[derive(Debug, Clone, Copy)]
 struct Ball {
     centre: DVec3,
@@ -77,7 +76,7 @@ impl Clusters {
         let focal = 1.0 / (f64::from(camera.vertical_fov) * 0.5).tan();
         let from_world = DMat3::from_mat4(camera.transform).inverse();
         let from_world = DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0)) * from_world;
-        let sight = Sight { from_world, focal: [focal / aspect, focal] };
+        let space = CameraSpace { from_world, focal: [focal / aspect, focal] };
         let ranged = scene.point_lights.iter().any(|light| light.range.is_some());
         let grid = if ranged { GRID } else { [1; 3] };
         let farthest = farthest(scene, camera).max(f64::from(camera.near) * 2.0);
@@ -86,21 +85,21 @@ impl Clusters {
             order: Vec::with_capacity(scene.point_lights.len()),
             everywhere: 0,
             lists: vec![Vec::new(); grid.iter().product()],
-            to_cluster: sight.to_cluster(grid),
+            to_cluster: space.to_cluster(grid),
             grid,
             nearest,
             slices_per_doubling: grid[2] as f64 / (farthest / nearest).log2(),
         };
-        clusters.fill(scene, camera, &sight);
+        clusters.fill(scene, camera, &space);
         clusters
     }
 
     /// Puts each light where it belongs.
-    fn fill(&mut self, scene: &Scene, camera: &Camera, sight: &Sight) {
+    fn fill(&mut self, scene: &Scene, camera: &Camera, space: &CameraSpace) {
         let most = (self.lists.len() as f64 * MOST_CLUSTERS) as usize;
         let mut near = Vec::new();
         for (number, light) in (0..).zip(&scene.point_lights) {
-            let reached = ball(light, camera, sight).map(|ball| self.reached(ball, sight));
+            let reached = ball(light, camera, space).map(|ball| self.reached(ball, space));
             match reached {
                 Some(reached) if reached.len() <= most => near.push((number, reached)),
                 _ => self.order.push(number),
@@ -115,21 +114,21 @@ impl Clusters {
     }
 
     /// The clusters that a ball may reach into.
-    fn reached(&self, ball: Ball, sight: &Sight) -> Vec<usize> {
+    fn reached(&self, ball: Ball, space: &CameraSpace) -> Vec<usize> {
         let [across, down, slices] = self.grid;
         let mut reached = Vec::new();
         for slice in 0..slices {
             let Some(ball) = self.in_slice(ball, slice) else { continue };
             for row in 0..down {
-                let Some(ball) = sight.in_tile(ball, 1, row, down) else { continue };
-                let columns = (0..across).filter(|column| sight.in_tile(ball, 0, *column, across).is_some());
+                let Some(ball) = space.in_tile(ball, 1, row, down) else { continue };
+                let columns = (0..across).filter(|column| space.in_tile(ball, 0, *column, across).is_some());
                 reached.extend(columns.map(|column| (slice * down + row) * across + column));
             }
         }
         reached
     }
 
-    /// What of a ball lies in a slice.
+    /// The part of a ball in a slice.
     fn in_slice(&self, ball: Ball, slice: usize) -> Option<Ball> {
         let border = |number: f64| self.nearest * (number / self.slices_per_doubling).exp2();
         let ball = if slice == 0 { Some(ball) } else { ball.cut(DVec3::Z, border(slice as f64 - OVERLAP)) };
@@ -139,8 +138,8 @@ impl Clusters {
         }
     }
 
-    /// The list that a shader finds for a place, given from the camera on along the scene's axes: all that reach it, and
-    /// others, beside those that are looked at everywhere. Places in `order`.
+    /// The list that a shader finds for a place, which is given relative to the camera, along the scene's axes. It holds all
+    /// lights that reach the place, but for those that all clusters read, and may hold others. Places in `order`.
     #[must_use]
     pub fn at(&self, from_camera: DVec3) -> &[u32] {
         let place = self.to_cluster * from_camera.extend(1.0);
@@ -172,7 +171,7 @@ impl Clusters {
     }
 }
 
-impl Sight {
+impl CameraSpace {
     /// From the shaders' world space to tiles, times the distance along the camera's axis, which is w.
     fn to_cluster(&self, grid: [usize; 3]) -> DMat4 {
         let rows = self.from_world.transpose();
@@ -181,7 +180,7 @@ impl Sight {
         DMat4::from_cols(rows[0], rows[1], rows[2], rows[3]).transpose()
     }
 
-    /// What of a ball lies in a column (`axis` 0) or row (1) of tiles, of which there are `of`.
+    /// The part of a ball in a column (`axis` 0) or row (1) of tiles, of which there are `of`.
     fn in_tile(&self, ball: Ball, axis: usize, tile: usize, of: usize) -> Option<Ball> {
         // A plane through the camera and a place of the picture, from −1 to 1.
         let plane = |number: f64| {
@@ -194,12 +193,12 @@ impl Sight {
     }
 }
 
-/// Where a light reaches; `None` if that is everywhere.
-fn ball(light: &PointLight, camera: &Camera, sight: &Sight) -> Option<Ball> {
+/// The sphere that a light reaches; `None` if it reaches everywhere.
+fn ball(light: &PointLight, camera: &Camera, space: &CameraSpace) -> Option<Ball> {
     let radius = f64::from(light.range?) * (1.0 + RANGE_ROUNDING);
-    // As the shaders are given it.
+    // Rounded as the shaders receive it.
     let from_camera = (DVec3::from(light.position) - camera.position()).as_vec3().as_dvec3();
-    Some(Ball { centre: sight.from_world * from_camera, squared_radius: radius * radius })
+    Some(Ball { centre: space.from_world * from_camera, squared_radius: radius * radius })
 }
 
 /// How far from a camera the scene reaches, metres.

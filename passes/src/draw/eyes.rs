@@ -1,4 +1,4 @@
-//! Two eyes: where each is, and what it sees.
+//! Two eyes: their places and frusta.
 
 use crate::scene::Camera;
 use framewright_graph::frame::Eye;
@@ -13,12 +13,12 @@ pub struct Eyes {
     pub right: EyeSight,
 }
 
-/// Where an eye is, and how much of what is before it it sees.
+/// The place and the frustum of an eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EyeSight {
     /// How far it is from between the eyes, metres along the camera's axes: to the right, up, and back.
     pub place: DVec3,
-    /// The tangents of the angles from straight ahead to what it sees last to the left, right, up and down, as runtimes of
+    /// The tangents of the angles from straight ahead to the frustum's left, right, upper and lower side, as runtimes of
     /// headsets tell them; each pair adds up to more than 0. `None`: as the camera sees.
     pub tangents: Option<[f64; 4]>,
 }
@@ -34,7 +34,7 @@ impl Default for Eyes {
 }
 
 impl Eyes {
-    /// Eyes so many metres apart that look straight ahead as the camera does.
+    /// Eyes at a distance in metres that look straight ahead as the camera does.
     #[must_use]
     pub fn apart(separation: f64) -> Eyes {
         let at = |x| EyeSight { place: DVec3::new(x, 0.0, 0.0), tangents: None };
@@ -97,7 +97,7 @@ impl EyeSight {
         self.window(camera, aspect) * world_to_clip * DMat4::from_translation(-self.offset(camera))
     }
 
-    /// The tangents of what it sees.
+    /// The tangents of its frustum.
     fn tangents_of(&self, camera: &Camera, aspect: f64) -> [f64; 4] {
         let up = half_height(camera);
         self.tangents.unwrap_or([up * aspect, up * aspect, up, up])

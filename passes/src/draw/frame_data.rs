@@ -1,4 +1,4 @@
-//! What stays the same for a whole frame, as the blocks of `shaders/include/scene.glsl`.
+//! The blocks of `shaders/include/scene.glsl`, which hold for a whole frame.
 //!
 //! The shaders' world space has its origin at the camera. The shift is taken here in 64 bits, so that a scene far from its
 //! own origin doesn't shake.
@@ -16,26 +16,26 @@ pub(super) fn world_to_clip(camera: &Camera, aspect: f64) -> DMat4 {
     camera.projection(aspect).as_dmat4() * rotation
 }
 
-/// The same for a picture that is shifted to the right and down by shares of its width and height.
+/// The transform for a picture that is shifted to the right and down by shares of its width and height.
 pub(super) fn shifted(world_to_clip: DMat4, [right, down]: [f64; 2]) -> DMat4 {
     // Clip space is two wide and two high; before the division by w everything in it is w times as large.
     let [x, y, z, w] = [0, 1, 2, 3].map(|row| world_to_clip.row(row));
     DMat4::from_cols(x + w * (2.0 * right), y + w * (2.0 * down), z, w).transpose()
 }
 
-/// What an eye sees, or whoever else looks at a scene.
+/// The transform of an eye, a camera or the sun.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sight {
+pub(super) struct ViewTransform {
     /// Clip space from the shaders' world space, whose origin is at the camera.
     pub(super) world_to_clip: DMat4,
     /// Where in world space the eye is.
     pub(super) eye: DVec3,
 }
 
-/// The block `view`: what the left eye sees and the right one.
-pub(super) fn view_block(camera: &Camera, sights: [Sight; 2]) -> Vec<u8> {
+/// The block `view`: the transforms of the left and the right eye.
+pub(super) fn view_block(camera: &Camera, transforms: [ViewTransform; 2]) -> Vec<u8> {
     let mut block = Block::default();
-    for Sight { world_to_clip, eye } in sights {
+    for ViewTransform { world_to_clip, eye } in transforms {
         block.mat4(world_to_clip.as_mat4());
         block.mat4(world_to_clip.inverse().as_mat4());
         block.vec3(camera.position().as_vec3().to_array());
@@ -78,7 +78,7 @@ pub(super) fn objects_block(scene: &Scene, camera: &Camera) -> Vec<u8> {
         block.mat4(object_to_world(camera, object.transform));
         block.mat3(object.normal_matrix());
         let [red, green, blue, alpha] = material.base_color;
-        // What is transparent fades by its opacity.
+        // Transparent objects fade by their opacity.
         let seen = if transparent == 1 { object.shown_share() as f32 } else { 1.0 };
         block.vec4([red, green, blue, alpha * seen]);
         block.vec3(material.emissive);

@@ -1,4 +1,4 @@
-//! Which objects a camera can see: those whose boxes aren't wholly beyond a side of what it sees, nor behind its near plane.
+//! Frustum culling: an object may be visible unless its box is wholly beyond a side of the frustum or behind the near plane.
 //!
 //! The corners of an object's box are taken to clip space, where a picture's four sides and the near plane are planes: a box
 //! is beyond one if all of its corners are (U. Assarsson, T. Möller, "Optimized view frustum culling algorithms for bounding
@@ -7,10 +7,10 @@
 
 use super::frame_data::world_to_clip;
 use crate::scene::{Bounds, Camera, Scene};
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DMat4, DVec4};
 
-/// What rounding may come to where the device places vertices in 32 bits, as a share of all that is added up on the way: two
-/// products of a matrix and a vector, at most six roundings each.
+/// The largest rounding error of vertices in clip space, which the device computes in 32 bits, as a share of the sum of all
+/// terms: two products of a matrix and a vector, at most six roundings each.
 const ROUNDING: f64 = 16.0 * f32::EPSILON as f64;
 
 /// By object of the scene, whether a camera may see it in a picture of which `aspect` is width over height.
@@ -19,26 +19,23 @@ pub fn in_sight(scene: &Scene, camera: &Camera, aspect: f64) -> Vec<bool> {
     within(scene, camera, world_to_clip(camera, aspect))
 }
 
-/// The same for a picture that `world_to_clip` takes the shaders' world space to, which may be shifted.
+/// By object, whether it may be visible in a picture whose clip space `world_to_clip` leads to, jitter included.
 pub(super) fn within(scene: &Scene, camera: &Camera, world_to_clip: DMat4) -> Vec<bool> {
     let eye = camera.position();
-    let seen = |bounds: Bounds, mut to_world: DMat4| {
+    let visible = |bounds: Bounds, mut to_world: DMat4| {
         to_world.w_axis = (to_world.w_axis.truncate() - eye).extend(1.0);
-        may_be_seen(bounds, to_world, world_to_clip)
+        may_be_visible(bounds, to_world, world_to_clip)
     };
-    scene.objects.iter().map(|it| seen(scene.meshes[it.mesh].bounds, it.transform)).collect()
+    scene.objects.iter().map(|it| visible(scene.meshes[it.mesh].bounds, it.transform)).collect()
 }
 
 /// Whether a box isn't wholly beyond one of the planes.
-fn may_be_seen(bounds: Bounds, to_world: DMat4, world_to_clip: DMat4) -> bool {
+fn may_be_visible(bounds: Bounds, to_world: DMat4, world_to_clip: DMat4) -> bool {
     let (min, max) = (bounds.min, bounds.max);
     let added = absolute(world_to_clip) * (absolute(to_world) * min.abs().max(max.abs()).extend(1.0));
     let slack = added * ROUNDING;
     let to_clip = world_to_clip * to_world;
-    let corners: [DVec4; 8] = std::array::from_fn(|corner| {
-        let pick = |axis: usize| if corner >> axis & 1 == 0 { min[axis] } else { max[axis] };
-        to_clip * DVec3::new(pick(0), pick(1), pick(2)).extend(1.0)
-    });
+    let corners: [DVec4; 8] = bounds.corners().map(|corner| to_clip * corner.extend(1.0));
     let beyond =
         |axis: usize, side: f64| corners.iter().all(|corner| side * corner[axis] - corner.w > slack[axis] + slack.w);
     !(beyond(0, 1.0) || beyond(0, -1.0) || beyond(1, 1.0) || beyond(1, -1.0) || beyond(2, 1.0))

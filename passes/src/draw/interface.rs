@@ -1,12 +1,12 @@
-//! What every kind of draw brings along: vertex attributes, and the resources of `shaders/include/scene.glsl`,
+//! The interface of every kind of draw: vertex attributes, and the resources of `shaders/include/scene.glsl`,
 //! `shaders/include/motion.glsl` and `shaders/include/material.glsl`.
 
 use framewright_graph::frame::Draw;
 use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
 
-/// The set of what stays the same for a whole frame.
+/// The set with the resources of a frame.
 pub const FRAME_SET: u32 = 1;
-/// The set of what changes from material to material.
+/// The set with the resources of a material.
 pub const MATERIAL_SET: u32 = 2;
 /// Binding of the camera, in [`FRAME_SET`].
 pub const VIEW_BINDING: u32 = 0;
@@ -14,20 +14,20 @@ pub const VIEW_BINDING: u32 = 0;
 pub const LIGHTS_BINDING: u32 = 1;
 /// Binding of matrices and material factors by object, in [`FRAME_SET`].
 pub const OBJECTS_BINDING: u32 = 2;
-/// Binding of how the sun sees the scene, in [`FRAME_SET`].
+/// Binding of the cascaded shadow maps' transforms, in [`FRAME_SET`].
 pub const CASCADES_BINDING: u32 = 3;
-/// Binding of which point lights reach which part of what is seen, in [`FRAME_SET`].
+/// Binding of the light clusters, in [`FRAME_SET`].
 pub const CLUSTERS_BINDING: u32 = 4;
-/// Binding of where camera and objects were in the frame before, in [`FRAME_SET`].
+/// Binding of the transforms of the frame before, in [`FRAME_SET`].
 pub const MOTION_BINDING: u32 = 5;
 /// Binding of the base colour's texture, in [`MATERIAL_SET`].
 pub const BASE_COLOR_TEXTURE_BINDING: u32 = 0;
 
-/// What whoever draws `draw` with the shipped draw source finds bound. Known without any device, so `check` can hold
-/// shaders against it.
+/// Everything that the shipped draw source binds for a kind of draw. It is known without a device, so `check` can compare
+/// shaders with it.
 ///
 /// The sky and full-screen draws are given the same frame set as objects, so that one bind group serves all; other draws are
-/// given nothing but what is their pass's own.
+/// given only the resources of their pass.
 #[must_use]
 pub fn interface(draw: Draw) -> DrawInterface {
     let frame = |binding, name, kind| Supplied { set: FRAME_SET, binding, name, kind };

@@ -13,7 +13,7 @@ pub fn draw_order(scene: &Scene, list: DrawList) -> Vec<u32> {
     draw_order_from(scene, &scene.camera, list)
 }
 
-/// The same for another camera.
+/// [`draw_order`] for another camera.
 #[must_use]
 pub fn draw_order_from(scene: &Scene, camera: &Camera, list: DrawList) -> Vec<u32> {
     let mut order: Vec<u32> = (0..)

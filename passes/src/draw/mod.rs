@@ -1,4 +1,4 @@
-//! What a draw brings along, and the draw source that draws a scene.
+//! The draw interface, and the draw source that draws a scene.
 
 mod block;
 pub mod cascades;
@@ -9,14 +9,11 @@ pub mod frustum;
 mod geometry;
 mod interface;
 mod lists;
-mod seen;
 mod source;
 mod textures;
+mod view_draws;
 
 pub use eyes::{EyeSight, Eyes};
-pub use interface::{
-    BASE_COLOR_TEXTURE_BINDING, CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET,
-    MOTION_BINDING, OBJECTS_BINDING, VIEW_BINDING, interface,
-};
+pub use interface::{BASE_COLOR_TEXTURE_BINDING, CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MATERIAL_SET, MOTION_BINDING, OBJECTS_BINDING, VIEW_BINDING, interface};
 pub use lists::{draw_order, draw_order_from};
 pub use source::{MOST_POINT_LIGHTS, SceneDrawSource};

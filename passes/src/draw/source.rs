@@ -4,8 +4,8 @@ use super::cascades;
 use super::eyes::Eyes;
 use super::geometry::Geometry;
 use super::interface::{FRAME_SET, MATERIAL_SET, interface};
-use super::seen::{ObjectDraw, Seen, SeenBySun, Viewpoint, draws};
 use super::textures::Textures;
+use super::view_draws::{CascadeDraws, ObjectDraw, ViewDraws, Viewpoint, draws};
 use crate::scene::{Scene, limits};
 use framewright_graph::frame::{Draw, DrawList, Eye};
 use framewright_graph::plan::{Plan, View, ViewId, Work};
@@ -18,17 +18,17 @@ pub const MOST_POINT_LIGHTS: usize = limits::POINT_LIGHTS;
 
 /// A scene on a device, ready to be drawn.
 ///
-/// It supplies what [`interface`] lists. Each object is one draw call, whose first instance is the object's index in the
-/// scene. What moves is where it is at the frame that is drawn, and a view is shifted as the Plan says for it.
+/// It binds everything that [`interface`] lists. Each object is one draw call, whose first instance is the object's index in
+/// the scene. Objects and cameras move with the frames, and a view is jittered as the Plan says.
 pub struct SceneDrawSource {
     device: Device,
-    /// The scene as far as it says where things are, at frame 0.
+    /// The scene at frame 0, without vertices and texels.
     outline: Scene,
     /// The frame that `views` are for.
     frame: u64,
-    /// Views that are nobody's eye, the main one first; at least one.
-    views: Vec<(Viewpoint, Seen)>,
-    /// By view of the Plan its place in `views`, and whose eye it is.
+    /// Views without those of single eyes, the main one first; at least one.
+    views: Vec<(Viewpoint, ViewDraws)>,
+    /// For each view of the Plan its place in `views`, and its eye.
     by_view: Vec<(usize, Option<Eye>)>,
     geometry: Geometry,
     textures: Textures,
@@ -46,7 +46,7 @@ impl SceneDrawSource {
     /// More than [`MOST_POINT_LIGHTS`] point lights, a texture or scene larger than the device takes, or no memory.
     pub fn new(device: &Device, scene: &Scene, extent: [u32; 2]) -> Result<SceneDrawSource, Error> {
         let view = Viewpoint::of_one(scene.camera, extent, Vec::new());
-        SceneDrawSource::seen_from(device, scene, vec![view], Vec::new())
+        SceneDrawSource::with_views(device, scene, vec![view], Vec::new())
     }
 
     /// Uploads a scene for the views of a Plan, each with its camera, and for the sun's shadows in each; a Plan without views
@@ -59,7 +59,7 @@ impl SceneDrawSource {
         SceneDrawSource::for_eyes(device, scene, extent, plan, &Eyes::default())
     }
 
-    /// The same for eyes that are known.
+    /// Like [`SceneDrawSource::for_plan`], for given eyes.
     ///
     /// # Errors
     /// Those of [`SceneDrawSource::for_plan`].
@@ -95,10 +95,10 @@ impl SceneDrawSource {
             (places.get(&of).copied().unwrap_or(0), view.eye.map(|eye| eye.eye))
         };
         let by_view = (0..).map(ViewId).zip(&plan.views).map(of_view).collect();
-        SceneDrawSource::seen_from(device, scene, views, by_view)
+        SceneDrawSource::with_views(device, scene, views, by_view)
     }
 
-    fn seen_from(
+    fn with_views(
         device: &Device,
         scene: &Scene,
         views: Vec<Viewpoint>,
@@ -112,7 +112,7 @@ impl SceneDrawSource {
         let objects = interface(Draw::Objects(DrawList::Opaque));
         let outline = scene.outline();
         let views = views.into_iter().map(|view| {
-            let seen = Seen::new(device, &outline, &view, 0)?;
+            let seen = ViewDraws::new(device, &outline, &view, 0)?;
             Ok::<_, Error>((view, seen))
         });
         Ok(SceneDrawSource {
@@ -131,7 +131,7 @@ impl SceneDrawSource {
     }
 
     /// Goes over to a Plan that differs in values alone, together with [`framewright_vulkan::Executor::change`]: its views are
-    /// shifted as it says. Frames on their way keep what they are drawn from.
+    /// jittered as it says. Frames in flight keep what they are drawn from.
     ///
     /// # Errors
     /// [`Error::DrawSource`] if it has not as many views as the Plan before; no memory.
@@ -154,11 +154,11 @@ impl SceneDrawSource {
         Ok(())
     }
 
-    /// Sees to it that what is drawn is what a frame shows. Frames on their way keep what they are drawn from.
-    fn turn_to(&mut self, frame: u64) -> Result<(), Error> {
+    /// Prepares the views for a frame. Frames in flight keep theirs.
+    fn advance_to(&mut self, frame: u64) -> Result<(), Error> {
         if self.frame != frame {
             for (view, seen) in &mut self.views {
-                seen.turn_to(&self.device, &self.outline, view, frame)?;
+                seen.advance_to(&self.device, &self.outline, view, frame)?;
             }
             self.frame = frame;
         }
@@ -213,7 +213,7 @@ impl SceneDrawSource {
         drawn
     }
 
-    fn list<'s>(&'s self, list: DrawList, seen: &'s Seen) -> &'s [ObjectDraw] {
+    fn list<'s>(&'s self, list: DrawList, seen: &'s ViewDraws) -> &'s [ObjectDraw] {
         match list {
             DrawList::Opaque => &self.opaque,
             DrawList::Masked => &self.masked,
@@ -221,16 +221,16 @@ impl SceneDrawSource {
         }
     }
 
-    /// What the sun sees of a cascade of a pass's view.
-    fn seen_by_sun(&self, cascade: u8, recorder: &Recorder<'_>) -> Result<&SeenBySun, Error> {
-        self.seen(recorder)?.cascades.get(usize::from(cascade)).ok_or_else(|| {
+    /// The draws of a cascade of a pass's view.
+    fn cascade_draws(&self, cascade: u8, recorder: &Recorder<'_>) -> Result<&CascadeDraws, Error> {
+        self.view_draws(recorder)?.cascades.get(usize::from(cascade)).ok_or_else(|| {
             let pass = recorder.pass();
             Error::DrawSource { what: format!("pass `{pass}` draws cascade {cascade}, which wasn't prepared") }
         })
     }
 
-    /// What the view of a pass sees, and the eye for which it draws.
-    fn seen_with(&self, recorder: &Recorder<'_>) -> Result<(&Seen, Option<Eye>), Error> {
+    /// The draws of a pass's view, and the eye for which it draws.
+    fn view_draws_and_eye(&self, recorder: &Recorder<'_>) -> Result<(&ViewDraws, Option<Eye>), Error> {
         let view = recorder.view().map_or(0, |view| view.0 as usize);
         let (place, eye) = self.by_view.get(view).copied().unwrap_or((view, None));
         self.views.get(place).map(|(_, seen)| (seen, eye)).ok_or_else(|| {
@@ -239,42 +239,42 @@ impl SceneDrawSource {
         })
     }
 
-    /// What the view of a pass sees.
-    fn seen(&self, recorder: &Recorder<'_>) -> Result<&Seen, Error> {
-        self.seen_with(recorder).map(|(seen, _)| seen)
+    /// The draws of a pass's view.
+    fn view_draws(&self, recorder: &Recorder<'_>) -> Result<&ViewDraws, Error> {
+        self.view_draws_and_eye(recorder).map(|(seen, _)| seen)
     }
 
-    /// What is bound for a pass, and which objects it may see.
-    fn sight(&self, recorder: &Recorder<'_>) -> Result<(&BindGroup, &[bool]), Error> {
-        let (seen, eye) = self.seen_with(recorder)?;
+    /// The bind group of a pass, and by object whether it may be visible.
+    fn group_and_visible(&self, recorder: &Recorder<'_>) -> Result<(&BindGroup, &[bool]), Error> {
+        let (seen, eye) = self.view_draws_and_eye(recorder)?;
         let both = seen.by_eye.as_ref().and_then(|by_eye| by_eye.both.as_ref());
         let each = seen.by_eye.as_ref().and_then(|by_eye| by_eye.each.as_ref());
         Ok(match (both, each.zip(eye)) {
-            (Some(group), _) if recorder.both_eyes().is_some() => (group, &seen.in_sight),
+            (Some(group), _) if recorder.both_eyes().is_some() => (group, &seen.visible),
             (_, Some((each, eye))) => {
                 let (group, own) = &each[eye as usize];
-                (group, own.as_ref().filter(|_| !self.culls_once).unwrap_or(&seen.in_sight))
+                (group, own.as_ref().filter(|_| !self.culls_once).unwrap_or(&seen.visible))
             }
-            _ => (&seen.frame, &seen.in_sight),
+            _ => (&seen.frame, &seen.visible),
         })
     }
 }
 
 impl DrawSource for SceneDrawSource {
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
-        self.turn_to(recorder.frame())?;
+        self.advance_to(recorder.frame())?;
         match draw {
             Draw::Objects(list) => {
-                let (group, in_sight) = self.sight(recorder)?;
-                Ok(self.record_objects(self.list(list, self.seen(recorder)?), in_sight, group, recorder))
+                let (group, visible) = self.group_and_visible(recorder)?;
+                Ok(self.record_objects(self.list(list, self.view_draws(recorder)?), visible, group, recorder))
             }
             Draw::Casters(cascade) => {
-                let seen = self.seen_by_sun(cascade.index, recorder)?;
+                let seen = self.cascade_draws(cascade.index, recorder)?;
                 let list = if cascade.list == DrawList::Masked { &self.masked } else { &self.opaque };
                 Ok(self.record_objects(list, &seen.casts, &seen.frame, recorder))
             }
             Draw::Sky | Draw::FullScreen => {
-                recorder.bind_group(FRAME_SET, self.sight(recorder)?.0);
+                recorder.bind_group(FRAME_SET, self.group_and_visible(recorder)?.0);
                 recorder.draw(0..3, 0..1);
                 Ok(1)
             }

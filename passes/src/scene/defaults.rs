@@ -1,6 +1,6 @@
-//! What a scene has where its file says nothing: a clear day, a white material.
+//! Defaults of a scene: a clear day, a white material.
 
-use super::{AlphaMode, Material, Sky, Sun};
+use super::model::{AlphaMode, Material, Sky, Sun};
 
 /// From the front left, high above, warm.
 pub(crate) const SUN: Sun =

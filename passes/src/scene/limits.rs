@@ -1,4 +1,4 @@
-//! What a scene may hold. A file beyond these limits is refused with a message, before memory is spent on it.
+//! Limits of a scene. A file beyond them is refused with a message, before memory is spent on it.
 
 /// Bytes of a scene file, and of all data that a glTF file names beside itself: 512 MiB.
 pub const FILE_BYTES: u64 = 512 << 20;

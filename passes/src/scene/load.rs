@@ -1,6 +1,7 @@
 //! Scenes from files.
 
-use super::{Scene, gltf, limits, text};
+use super::model::Scene;
+use super::{gltf, limits, text};
 use framewright_graph::base::{Diagnostic, ReadFiles, Root, Sources, render};
 use std::path::{Path, PathBuf};
 
@@ -96,7 +97,7 @@ pub fn load_recorded(path: &Path, read: &ReadFiles) -> Result<Scene, SceneError>
     }
 }
 
-/// The whole file, if it isn't larger than `limit`. Pipes and devices too: what counts is what comes out of them.
+/// The whole file, if it isn't larger than `limit`. Pipes and devices have no size, so the bytes read count.
 fn bytes(path: &Path, limit: u64, read: &ReadFiles) -> Result<Vec<u8>, SceneError> {
     use std::io::Read;
     let mut bytes = Vec::new();

@@ -1,4 +1,4 @@
-//! What a file holds that isn't drawn.
+//! Notes about content that isn't drawn.
 
 use super::limits;
 

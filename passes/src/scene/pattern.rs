@@ -1,6 +1,6 @@
 //! Textures that are computed: patterns of cells.
 
-use super::{Sampler, Texture};
+use super::model::{Sampler, Texture};
 
 /// A pattern that fills a texture.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,7 +10,7 @@ pub(crate) struct Pattern {
     pub(crate) cells: [u32; 2],
 }
 
-/// What the cells show.
+/// The look of the cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum PatternKind {
     /// Two colours by turns, sRGB bytes.

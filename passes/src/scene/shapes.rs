@@ -1,6 +1,6 @@
 //! The shapes that our own scene format knows, each of size 1: objects scale them.
 
-use super::{Bounds, Mesh};
+use super::model::{Bounds, Mesh};
 use glam::{DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
 

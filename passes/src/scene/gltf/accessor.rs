@@ -12,11 +12,11 @@ pub(super) struct Data<'a> {
     pub(super) document: &'a Document,
     pub(super) external: External<'a>,
     binary: Option<&'a [u8]>,
-    /// By buffer: what its URI led to, once somebody asked.
+    /// The bytes behind the URI of each buffer, read on first use.
     read: Vec<OnceCell<Vec<u8>>>,
 }
 
-/// What one element of an accessor is.
+/// The type of an accessor's elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Element {
     component: Component,

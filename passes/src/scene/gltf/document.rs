@@ -1,8 +1,8 @@
 //! The parts of glTF's JSON that are read. Everything else is skipped.
 
 use super::json;
+use super::extensions::{self, Extensions};
 use super::problem::{GltfError, Problem};
-use super::unsupported::Extensions;
 use serde::Deserialize;
 use serde_json::Value;
 use serde_json::value::RawValue;
@@ -28,9 +28,6 @@ pub(super) struct Document {
     pub(super) extensions: Extensions,
 }
 
-/// Extensions that a file may require.
-const KNOWN_EXTENSIONS: [&str; 2] = ["KHR_lights_punctual", "KHR_materials_emissive_strength"];
-
 impl Document {
     /// Reads the JSON; each element of a list by itself, so that a mistake in it can be named.
     pub(super) fn read(json: &[u8]) -> Result<Document, GltfError> {
@@ -41,23 +38,19 @@ impl Document {
         if !head.asset.version.starts_with("2.") {
             return Err(whole(Problem::AssetVersion(head.asset.version.escape_debug().to_string())));
         }
-        if let Some(unknown) = head.extensions_required.iter().find(|name| !KNOWN_EXTENSIONS.contains(&name.as_str())) {
+        if let Some(unknown) = head.extensions_required.iter().find(|name| !extensions::READ.contains(&name.as_str())) {
             return Err(whole(Problem::Extension(unknown.escape_debug().to_string())));
         }
         let root: Root = json::text(json).map_err(|words| whole(Problem::Json(words)))?;
         let mut extensions = Extensions::default();
-        let own: RootExtensions = match root.extensions {
-            Some(own) => {
-                let own = json::value(own).map(|own| Value::from_iter([("extensions", own)]));
-                element::<ExtendedRoot>("the file", own, &mut extensions)?.extensions
-            }
-            None => RootExtensions::default(),
-        };
-        let lights = own.lights.lights.into_iter().enumerate();
+        head.extensions_used.iter().for_each(|name| extensions.add(name, None));
+        let own = root.extensions.map(|own| json::value(own).map(|own| Value::from_iter([("extensions", own)])));
+        let own = own.map(|own| element::<ExtendedRoot>("the file", own, &mut extensions)).transpose()?;
+        let lights = own.unwrap_or_default().extensions.lights.lights.into_iter().enumerate();
         let lights = lights.map(|(index, light)| element(&format!("light {index}"), Ok(light), &mut extensions));
         let lights = lights.collect::<Result<_, _>>()?;
         let scene = root.scene.map(|scene| element("scene", json::value(scene), &mut extensions)).transpose()?;
-        let mut document = Document {
+        Ok(Document {
             accessors: list("accessor", &root.accessors, &mut extensions)?,
             buffers: list("buffer", &root.buffers, &mut extensions)?,
             buffer_views: list("buffer view", &root.buffer_views, &mut extensions)?,
@@ -72,11 +65,8 @@ impl Document {
             textures: list("texture", &root.textures, &mut extensions)?,
             scene,
             animated: !root.animations.is_empty(),
-            extensions: Extensions::default(),
-        };
-        extensions.listed(head.extensions_used);
-        document.extensions = extensions;
-        Ok(document)
+            extensions,
+        })
     }
 }
 
@@ -105,11 +95,11 @@ fn element<T: for<'a> Deserialize<'a>>(
 ) -> Result<T, GltfError> {
     let wrong = |words| GltfError { at: at.to_owned(), problem: Problem::Json(words) };
     let value = value.map_err(wrong)?;
-    extensions.used(at, &value);
+    extensions.add_used(at, &value);
     json::read(value).map_err(wrong)
 }
 
-/// What says how the rest is to be read.
+/// The version, and the extensions that the file uses.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase", expecting = "a glTF object")]
 struct Head {
@@ -120,36 +110,23 @@ struct Head {
     extensions_used: Vec<String>,
 }
 
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase", expecting = "a glTF object")]
+/// The file's lists, whose elements are read one by one.
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase", expecting = "a glTF object", bound(deserialize = "'de: 'a"))]
 struct Root<'a> {
-    #[serde(borrow)]
-    scene: Option<&'a RawValue>,
-    #[serde(default, borrow)]
     accessors: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
     animations: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
     buffers: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
     buffer_views: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
     cameras: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
     images: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
     materials: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
     meshes: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
     nodes: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
     samplers: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
     scenes: Vec<&'a RawValue>,
-    #[serde(default, borrow)]
     textures: Vec<&'a RawValue>,
-    #[serde(borrow)]
+    scene: Option<&'a RawValue>,
     extensions: Option<&'a RawValue>,
 }
 
@@ -159,7 +136,7 @@ struct Asset {
 }
 
 /// The file itself, as far as it is extended.
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
 struct ExtendedRoot {
     extensions: RootExtensions,
 }

@@ -34,7 +34,7 @@ impl<'a> External<'a> {
         External { beside, taken: Cell::new(0) }
     }
 
-    /// What stands behind an URI: a data URI, or the relative path of a file, percent-encoded (RFC 3986, section 2.1).
+    /// The bytes that an URI refers to: those of a data URI, or the relative path of a file, percent-encoded (RFC 3986, section 2.1).
     pub(super) fn bytes(&self, uri: &str, at: &str) -> Result<Vec<u8>, GltfError> {
         let fail = |problem| GltfError { at: at.into(), problem };
         let shown = || uri.chars().take(SHOWN).flat_map(char::escape_debug).collect::<String>();
@@ -58,17 +58,17 @@ impl<'a> External<'a> {
         if is > limit { Err(fail(problem)) } else { Ok(bytes) }
     }
 
-    /// What a file beside this one holds.
+    /// The bytes of a file beside this one.
     fn file(&self, root: &Root, uri: &str) -> Result<Vec<u8>, NoFile> {
         let path = percent_decode_str(uri).decode_utf8().map_err(|_| NoFile::NoPath)?;
-        // What isn't written as a path is none, whatever the system would make of it.
+        // The path must have the form that this project accepts; the system may accept more.
         FilePath::from("").beside(&path)?;
         let left = limits::FILE_BYTES.saturating_sub(self.taken.get());
         root.read(&root.locate(&path)?, usize::try_from(left).unwrap_or(usize::MAX))
     }
 }
 
-/// What stands before the first colon of an absolute URI (RFC 3986, section 3.1).
+/// The scheme of an absolute URI (RFC 3986, section 3.1).
 fn scheme(uri: &str) -> Option<&str> {
     let (scheme, _) = uri.split_once(':')?;
     let begins = scheme.starts_with(|first: char| first.is_ascii_alphabetic());

@@ -1,5 +1,5 @@
-//! JSON as glTF uses it. A whole number may be written with a point (RFC 8259, section 6, knows one kind of number), and what is
-//! wrong is named by the field that it is in.
+//! JSON as glTF uses it. A whole number may be written with a point (RFC 8259, section 6, knows one kind of number), and a
+//! mistake names its field.
 
 use serde::Deserialize;
 use serde_json::value::RawValue;
@@ -11,7 +11,7 @@ const EXACT: f64 = 9_007_199_254_740_992.0;
 /// Reads a whole text.
 ///
 /// # Errors
-/// What is wrong with it, the field and the place, escaped.
+/// The mistake with its field and place, escaped.
 pub(super) fn text<'j, T: Deserialize<'j>>(json: &'j str) -> Result<T, String> {
     let mut reader = Deserializer::from_str(json);
     let read = serde_path_to_error::deserialize(&mut reader).map_err(|error| words(&error, true))?;
@@ -32,7 +32,7 @@ pub(super) fn value(raw: &RawValue) -> Result<Value, String> {
 /// Reads a value.
 ///
 /// # Errors
-/// What is wrong with it, and the field, escaped.
+/// The mistake with its field, escaped.
 pub(super) fn read<T: for<'a> Deserialize<'a>>(value: Value) -> Result<T, String> {
     serde_path_to_error::deserialize(value).map_err(|error| words(&error, false))
 }
@@ -68,7 +68,7 @@ fn words(error: &serde_path_to_error::Error<serde_json::Error>, place: bool) -> 
     escaped(&format!("{field}{said}{place}"))
 }
 
-/// What the parser calls the kinds that it expects, and what JSON calls them.
+/// The parser's names of types, and JSON's.
 const EXPECTED: [(&str, &str); 5] = [
     ("expected u64", "expected a whole number, 0 or more"),
     ("expected u32", "expected a whole number, 0 or more"),

@@ -3,7 +3,9 @@
 use super::document::{Document, follow};
 use super::nodes::Placed;
 use super::problem::{GltfError, Problem};
-use crate::scene::{Notes, PointLight, Sun, defaults, limits};
+use crate::scene::model::{PointLight, Sun};
+use crate::scene::notes::Notes;
+use crate::scene::{defaults, limits};
 use glam::DVec3;
 use std::f64::consts::PI;
 

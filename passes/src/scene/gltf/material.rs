@@ -4,7 +4,9 @@ use super::accessor::Data;
 use super::document;
 use super::picture::Textures;
 use super::problem::{GltfError, Problem};
-use crate::scene::{AlphaMode, Material, Notes, limits};
+use crate::scene::limits;
+use crate::scene::model::{AlphaMode, Material};
+use crate::scene::notes::Notes;
 
 pub(super) fn read(
     data: &Data<'_>,

@@ -20,6 +20,7 @@
 mod accessor;
 mod container;
 mod document;
+mod extensions;
 mod external;
 mod json;
 mod lights;
@@ -32,7 +33,9 @@ mod unsupported;
 
 pub use problem::{GltfError, Problem};
 
-use super::{Bounds, Camera, Material, Mesh, Movement, NamedCamera, Notes, Object, Scene, defaults, limits};
+use super::model::{Bounds, Camera, Material, Mesh, Movement, NamedCamera, Object, Scene};
+use super::notes::Notes;
+use super::{defaults, limits};
 use accessor::Data;
 use document::{Document, follow};
 use framewright_graph::base::Root;

@@ -2,7 +2,7 @@
 
 use super::document::{Document, Node, follow};
 use super::problem::{GltfError, Problem};
-use crate::scene::Notes;
+use crate::scene::notes::Notes;
 use glam::{DMat4, DQuat, DVec3};
 
 /// A node with its place in the world.
@@ -67,7 +67,7 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, GltfError> {
 struct Roots {
     /// Nodes without parents.
     tops: Vec<usize>,
-    /// By node, whether it and what is below it are shown.
+    /// By node, whether it and its descendants are shown.
     listed: Vec<bool>,
 }
 

@@ -3,7 +3,8 @@
 use super::accessor::Data;
 use super::document::{self, follow};
 use super::problem::{GltfError, Problem};
-use crate::scene::{Sampler, Texture, Wrap, limits};
+use crate::scene::limits;
+use crate::scene::model::{Sampler, Texture, Wrap};
 use framewright_graph::vulkan::Filter;
 use image::{DynamicImage, ImageFormat, ImageReader};
 use std::borrow::Cow;
@@ -17,7 +18,7 @@ pub(super) struct Textures {
     pub(super) decoded: Vec<Texture>,
     /// The place of each texture in that list, by glTF's number of its image and by its sampler.
     places: HashMap<(u64, Sampler), usize>,
-    /// What each image holds, by glTF's number.
+    /// Decoded images, by glTF's number.
     pictures: HashMap<u64, Picture>,
     bytes: u64,
 }
@@ -70,7 +71,7 @@ impl Textures {
             (None, Some(view)) => data.view(view, at)?.0.into(),
             (None, None) => return Err(fail(Problem::NoData)),
         };
-        // What the bytes are counts, not what the file says about them.
+        // The bytes decide the format; `mimeType` is ignored.
         let format = match image::guess_format(&bytes) {
             Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
             _ => return Err(fail(Problem::ImageKind)),

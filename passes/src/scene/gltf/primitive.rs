@@ -3,10 +3,11 @@
 use super::accessor::{Data, TEXTURE_COORDINATES};
 use super::document::{Document, Primitive};
 use super::problem::{GltfError, Problem};
-use crate::scene::mesh::flat_shaded;
-use crate::scene::{Bounds, Mesh, Notes, limits};
+use crate::scene::limits;
+use crate::scene::model::{Bounds, Mesh, flat_shaded};
+use crate::scene::notes::Notes;
 
-/// What all primitives together have taken so far.
+/// Vertices and indices of all primitives so far.
 #[derive(Debug, Default)]
 pub(super) struct Budget {
     vertices: usize,

@@ -1,4 +1,4 @@
-//! What can be wrong with a glTF file.
+//! Mistakes of glTF files.
 
 use framewright_graph::base::NoFile;
 use std::fmt;
@@ -6,9 +6,9 @@ use std::fmt;
 /// A mistake in a glTF file. Written `accessor 3: …`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct GltfError {
-    /// The thing in the file that is wrong: "accessor 3". Empty for the file as a whole.
+    /// The place in the file: "accessor 3". Empty for the file as a whole.
     pub at: String,
-    /// What is wrong with it.
+    /// The mistake.
     pub problem: Problem,
 }
 
@@ -20,7 +20,7 @@ impl fmt::Display for GltfError {
 
 impl std::error::Error for GltfError {}
 
-/// What is wrong with a thing in a glTF file.
+/// A mistake, without its place.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Problem {
     /// The first four bytes aren't `glTF`.

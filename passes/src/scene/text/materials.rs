@@ -1,10 +1,11 @@
 //! The materials of a scene file.
 
 use super::values::{color, counts, number, web_color};
+use crate::scene::limits;
+use crate::scene::model::{AlphaMode, Material, Texture};
 use crate::scene::pattern::{MOST_CELLS, Pattern, PatternKind};
-use crate::scene::{AlphaMode, Material, Texture, limits};
-use framewright_graph::fields;
 use framewright_graph::ron::{Leaf, Reader};
+use framewright_graph::fields;
 
 fields! {
     pub(super) struct MaterialFields<'s> {
@@ -45,7 +46,7 @@ impl Patterns {
     }
 }
 
-/// A material; `None` if mistakes were reported. Every field is read, whatever is wrong with another.
+/// A material; `None` if mistakes were reported. Every field is read, even if another one is wrong.
 pub(super) fn lower<'s>(reader: &mut Reader, fields: &MaterialFields<'s>, patterns: &mut Patterns) -> Option<Material> {
     let name = reader.reference(fields.name, "a material");
     let color = fields.color.map_or(Some([1.0; 3]), |leaf| color(reader, leaf, "the colour", 1.0));

@@ -1,4 +1,4 @@
-//! Our own scene format: RON text that says what stands where.
+//! Our own scene format, in RON.
 //!
 //! ```ron
 //! Scene(
@@ -41,10 +41,11 @@ mod materials;
 mod objects;
 mod values;
 
-use super::{Camera, NamedCamera, PointLight, Scene, Sky, Sun, defaults, limits};
+use super::model::{Camera, NamedCamera, PointLight, Scene, Sky, Sun};
+use super::{defaults, limits};
+use framewright_graph::ron::{Leaf, Name, Names, Reader, Tree};
 use framewright_graph::base::{Diagnostic, Sources, Span};
 use framewright_graph::fields;
-use framewright_graph::ron::{Leaf, Name, Names, Reader, Tree};
 use glam::DVec3;
 use materials::{MaterialFields, Patterns};
 use objects::Objects;
@@ -88,7 +89,7 @@ pub fn read(sources: &mut Sources, shown: &str, relative: &str, text: String) ->
     }
 }
 
-/// The file's tree, unless it shows at once that this is no scene.
+/// The file's syntax tree; `None` if the file is empty or not RON.
 fn readable(reader: &mut Reader, file: u32, text: Arc<str>) -> Option<Tree> {
     if text.trim().is_empty() {
         let end = u32::try_from(text.len()).unwrap_or(u32::MAX);

@@ -1,9 +1,10 @@
 //! The objects of a scene file.
 
 use super::values::{angles, count, counts, movement, number, place, size, sizes};
-use crate::scene::{Bounds, Mesh, Object, limits, shapes};
-use framewright_graph::fields;
+use crate::scene::model::{Bounds, Mesh, Object};
+use crate::scene::{limits, shapes};
 use framewright_graph::ron::{Leaf, Names, Reader, Shape};
+use framewright_graph::fields;
 use glam::{DMat4, DQuat, DVec3};
 use std::f64::consts::TAU;
 
@@ -66,7 +67,7 @@ impl Objects {
         })
     }
 
-    /// Adds what one entry of the list says, or reports what is wrong with it.
+    /// Adds the objects of an entry of the list, or reports its mistakes.
     pub(super) fn add<'s>(
         &mut self,
         reader: &mut Reader,

@@ -1,7 +1,8 @@
 //! Values that scenes are made of: numbers in ranges, vectors, colours.
 
-use crate::scene::material::decode_srgb;
-use crate::scene::{Movement, limits};
+use crate::scene::limits;
+use crate::scene::model::Movement;
+use crate::srgb;
 use framewright_graph::ron::{Leaf, Reader, Shape};
 use glam::DVec3;
 
@@ -116,7 +117,7 @@ fn all<T: Copy + Default, const N: usize>(values: [Option<T>; N]) -> Option<[T; 
 /// A colour: three linear numbers, each 0 to `most`, or an sRGB colour as the web writes it.
 pub(super) fn color<'s>(reader: &mut Reader, leaf: Leaf<'s>, what: &str, most: f64) -> Option<[f32; 3]> {
     if let Shape::Text = leaf.shape() {
-        return Some(web_color(reader, leaf, what)?.map(|byte| decode_srgb(byte) as f32));
+        return Some(web_color(reader, leaf, what)?.map(|byte| srgb::decode(f64::from(byte) / 255.0) as f32));
     }
     let color = three(reader, leaf, what, "(red, green, blue)` or `\"#rrggbb\"", 0.0, most)?;
     Some(color.as_vec3().to_array())

@@ -1,0 +1,423 @@
+//! The command line: what can be said, and what each word means.
+
+use crate::command_line::values::{Assignment, DEFAULT_SIZE, Dump, Modes, OutputFile, Size, assignment, dump, order, output_file, rotation, stereo};
+use crate::system::text;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use framewright_graph::compile::{Options, Order};
+use framewright_graph::vulkan::Rotation;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+/// A pipeline file says what a frame is made of; framewright finds out how, and draws it.
+#[derive(Debug, Parser)]
+#[command(name = "framewright", version, about, after_help = EXIT_CODES, disable_help_subcommand = true)]
+pub(crate) struct CommandLine {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes:
+  0    all is well
+  1    a file is wrong or missing, or a check found something
+  2    the command line is wrong
+  3    the environment lacks something: driver, layer, device, permission, disk
+  130  interrupted by Ctrl-C";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Read a pipeline, compile its shaders and its Plan, and verify the Plan. Needs no GPU.
+    ///
+    /// Passes that the settings turn off, and their shaders, are left out: check them with `--set`, or all variants at once
+    /// with `--all-variants`.
+    Check(CheckArguments),
+    /// Print the Plan of a pipeline: its passes, scopes, resolves, memory and barriers, each with its cause. Needs no GPU.
+    Inspect(InspectArguments),
+    /// Draw a scene through a pipeline.
+    Run(RunArguments),
+    /// Print what the conditions of a pipeline may ask of a scene, and what decided each answer. Needs no GPU.
+    Facts(FactsArguments),
+    /// Write a pipeline to begin with.
+    New(NewArguments),
+    /// Print the language of pipeline files as a JSON Schema (draft 2020-12), or a file as the JSON that the schema describes.
+    Schema(SchemaArguments),
+    /// List the Vulkan devices of this machine, or save the profile of one.
+    Devices(DevicesArguments),
+}
+
+/// `framewright check`.
+#[derive(Debug, Args)]
+pub(crate) struct CheckArguments {
+    /// Pipeline and settings.
+    #[command(flatten)]
+    pub(crate) pipeline: PipelineArguments,
+    /// Device to compile for: the name of a shipped profile, a profile file, or `all` for every shipped one.
+    #[arg(long, value_name = "NAME|PROFILE.ron|all")]
+    pub(crate) device: Option<OsString>,
+    /// Check every combination of settings, facts of the scene that the pipeline asks for, and devices. Settings that
+    /// `--set` chooses don't vary.
+    #[arg(long)]
+    pub(crate) all_variants: bool,
+    /// Of the variants check so many that every pair of values of any two settings, facts and devices occurs.
+    #[arg(long, requires = "all_variants")]
+    pub(crate) pairwise: bool,
+    /// Variants that are checked at the same time; by default as many as there are processors.
+    #[arg(long, value_name = "N", requires = "all_variants", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// How the Plan is made.
+    #[command(flatten)]
+    pub(crate) planning: PlanningArguments,
+    /// Form of the answer.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: AnswerFormat,
+}
+
+/// `framewright inspect`.
+#[derive(Debug, Args)]
+pub(crate) struct InspectArguments {
+    /// Pipeline and settings.
+    #[command(flatten)]
+    pub(crate) pipeline: PipelineArguments,
+    /// Scene whose facts conditions see; without one they see a scene that holds everything.
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: Option<PathBuf>,
+    /// Size of the output in pixels.
+    #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
+    pub(crate) size: Size,
+    /// Device to compile for: the name of a shipped profile, or a profile file.
+    #[arg(long, value_name = "NAME|PROFILE.ron")]
+    pub(crate) device: Option<OsString>,
+    /// How the Plan is made.
+    #[command(flatten)]
+    pub(crate) planning: PlanningArguments,
+    /// Form of the Plan.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: PlanFormat,
+    /// File to write instead of printing.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// `framewright run`.
+#[derive(Debug, Args)]
+pub(crate) struct RunArguments {
+    /// Pipeline and settings.
+    #[command(flatten)]
+    pub(crate) pipeline: PipelineArguments,
+    /// Scene to draw: a .glb or .gltf file, or a scene of our own in RON.
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: PathBuf,
+    /// Size of the output in pixels.
+    #[arg(long, value_name = "WxH", default_value_t = DEFAULT_SIZE)]
+    pub(crate) size: Size,
+    /// How many times the frame is drawn; GPU times are medians over them.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) frames: u32,
+    /// Picture to write: the pipeline's first output, or the one that is named, as a .png file without its alpha, or a
+    /// floating-point one bit for bit as an .exr file. Repeatable. Without this none is written.
+    #[arg(short, long, value_name = "[OUTPUT=]FILE.png", value_parser = output_file)]
+    pub(crate) output: Vec<OutputFile>,
+    /// Also write the last version of an image, resolved if it is multisampled; this may change the Plan. Repeatable.
+    #[arg(long, value_name = "IMAGE=FILE.png", value_parser = dump)]
+    pub(crate) dump: Vec<Dump>,
+    /// Run under the validation layer, first making sure that it sees mistakes. Warnings and errors are findings.
+    #[arg(long)]
+    pub(crate) validate: bool,
+    /// File for the report: device, memory, barriers, passes and every validation message, as JSON.
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
+    /// How the Plan is made.
+    #[command(flatten)]
+    pub(crate) planning: PlanningArguments,
+    /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub(crate) device: Option<OsString>,
+}
+
+impl RunArguments {
+    /// Files that are written.
+    pub(crate) fn written(&self) -> impl Iterator<Item = &Path> + Clone {
+        let outputs = self.output.iter().map(|output| &*output.file);
+        outputs.chain(self.dump.iter().map(|dump| &*dump.file)).chain(self.report.as_deref())
+    }
+}
+
+/// `framewright facts`.
+#[derive(Debug, Args)]
+pub(crate) struct FactsArguments {
+    /// Scene: a .glb or .gltf file, or a scene of our own in RON; if there is none by that name, a shipped scene's name.
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: PathBuf,
+    /// Answer for programs.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `framewright new`.
+#[derive(Debug, Args)]
+pub(crate) struct NewArguments {
+    /// Name of the pipeline, perhaps behind a folder: letters, digits, `_` and `-`. The file is NAME.ron, and there must be none
+    /// yet.
+    #[arg(value_name = "NAME")]
+    pub(crate) name: PathBuf,
+}
+
+/// `framewright schema`.
+#[derive(Debug, Args)]
+pub(crate) struct SchemaArguments {
+    /// File to print as JSON: a pipeline, a file of fragments or a settings file.
+    #[arg(value_name = "FILE")]
+    pub(crate) file: Option<PathBuf>,
+}
+
+/// `framewright devices`.
+#[derive(Debug, Args)]
+pub(crate) struct DevicesArguments {
+    /// File for the profile of a device, with the memory needs of the usual images: `--device` of `check` and `inspect`
+    /// takes it where the device is not.
+    #[arg(long, value_name = "PROFILE.ron")]
+    pub(crate) save: Option<PathBuf>,
+    /// Device whose profile is saved: its number or name in this list, or a part of its name.
+    #[arg(long, value_name = "NAME|INDEX", requires = "save")]
+    pub(crate) device: Option<OsString>,
+    /// Form of the list.
+    #[arg(long, value_enum, default_value_t, conflicts_with = "save")]
+    pub(crate) format: AnswerFormat,
+}
+
+/// A pipeline and its settings.
+#[derive(Debug, Args)]
+pub(crate) struct PipelineArguments {
+    /// Pipeline file; if there is none by that name, a shipped pipeline's name.
+    #[arg(value_name = "PIPELINE")]
+    pub(crate) file: PathBuf,
+    /// Give settings the values that a preset of the pipeline has for them.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// Give settings the values that a settings file has for them. Repeatable; of several values for one setting the last
+    /// counts. They are stronger than presets; a preset that such a file names counts if `--preset` names none.
+    #[arg(long, value_name = "SETTINGS.ron")]
+    pub(crate) settings: Vec<PathBuf>,
+    /// Give a setting a value. Repeatable; of several values for one setting the last counts. Stronger than settings files
+    /// and presets.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<Assignment>,
+    /// Apply an extension to the pipeline, after those that it names itself. Repeatable; later ones see what earlier ones did.
+    #[arg(long, value_name = "EXTENSION.ron")]
+    pub(crate) extend: Vec<PathBuf>,
+    /// Folder that holds all files which the pipeline names, and the pipeline; by default the one that the pipeline lies
+    /// in. Files outside of it are not read.
+    #[arg(long, value_name = "DIR", conflicts_with = "allow_outside")]
+    pub(crate) root: Option<PathBuf>,
+    /// Read files that the pipeline names wherever they lie. For files that you trust.
+    #[arg(long)]
+    pub(crate) allow_outside: bool,
+    /// How to draw for two eyes what each has of its own: `off`, `multi-pass`, `double-wide`, `instanced` or `multiview`; of several
+    /// with commas between them the first that the device can draw, `auto`: the fastest. Pictures of both stand side by side.
+    #[arg(long, value_name = "off|auto|MODE[,MODE]", default_value = "off", value_parser = stereo)]
+    pub(crate) stereo: Modes,
+    /// What shaders may take.
+    #[command(flatten)]
+    pub(crate) limits: ShaderLimits,
+}
+
+/// What compiling one stage of a shader may take. It happens in a process of its own, which ends where it needs more: that is a
+/// mistake of the shader.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = "Limits of shaders")]
+pub(crate) struct ShaderLimits {
+    /// Seconds that compiling one stage of a shader may take.
+    #[arg(long, value_name = "S", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=86400))]
+    pub(crate) shader_seconds: u32,
+    /// Memory that it may take, all of the compiling process counted (on Linux).
+    #[arg(long, value_name = "MIB", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(128..=1048576))]
+    pub(crate) shader_memory: u32,
+    /// Stack that it may take.
+    #[arg(long, value_name = "MIB", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub(crate) shader_stack: u32,
+}
+
+/// How a Plan is made. None of this may change a picture.
+#[derive(Debug, Clone, Copy, Args)]
+pub(crate) struct PlanningArguments {
+    /// Order of execution: the file's, the one that scores best, one that keeps little memory alive, or any.
+    #[arg(long, value_name = "file|default|low-memory|random:SEED", default_value = "default", value_parser = order)]
+    order: Order,
+    /// Do without a saving, to see what it is worth.
+    #[arg(long, value_name = "SAVING", value_enum)]
+    naive: Option<Saving>,
+    /// Use one queue, even where the device has more.
+    #[arg(long)]
+    one_queue: bool,
+    /// Fill memory that changes hands with garbage before each first use.
+    #[arg(long)]
+    pub(crate) poison: bool,
+    /// Give each image and buffer memory of its own.
+    #[arg(long)]
+    no_alias: bool,
+    /// Draw what is shown on a screen turned by so many degrees clockwise, as a screen that is mounted so wants it. Pictures
+    /// are read back upright.
+    #[arg(long, value_name = "0|90|180|270", default_value = "0", value_parser = rotation)]
+    pub(crate) rotate: Rotation,
+}
+
+impl PlanningArguments {
+    /// The same for the compiler.
+    #[must_use]
+    pub(crate) fn options(self) -> Options {
+        Options {
+            alias: !self.no_alias,
+            poison: self.poison,
+            order: self.order,
+            demote: self.naive != Some(Saving::Resolves),
+            queues: !self.one_queue,
+        }
+    }
+}
+
+/// What a Plan may do without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Saving {
+    /// Full-screen draws, which gain nothing from several samples, stay in multisampled images, so that more is resolved.
+    Resolves,
+}
+
+/// Form of an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum AnswerFormat {
+    /// For people.
+    #[default]
+    Human,
+    /// For programs.
+    Json,
+}
+
+/// Form of a Plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum PlanFormat {
+    /// For people.
+    #[default]
+    Tree,
+    /// For programs, and for replay.
+    Json,
+}
+
+/// Reads the command line.
+///
+/// # Errors
+/// What clap says, with what the user typed escaped. Help and version are such "errors" too.
+pub(crate) fn parse(arguments: impl Iterator<Item = OsString>) -> Result<CommandLine, clap::Error> {
+    let arguments: Vec<OsString> = arguments.collect();
+    let result = CommandLine::try_parse_from(&arguments).and_then(agree);
+    result.map_err(|error| {
+        // clap repeats arguments as they are. Asked again with escaped ones, it repeats those.
+        let escaped = arguments.iter().map(|argument| text::escape(&argument.to_string_lossy()));
+        CommandLine::try_parse_from(escaped).and_then(agree).err().unwrap_or(error)
+    })
+}
+
+/// What no single argument shows: images dumped twice, files written twice, a stack that memory doesn't hold.
+fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
+    let conflict = |message: String| {
+        Err(<CommandLine as clap::CommandFactory>::command().error(clap::error::ErrorKind::ArgumentConflict, message))
+    };
+    if let Command::Run(run) = &line.command {
+        if let Some(image) = twice(run.dump.iter().map(|dump| &dump.image)) {
+            return conflict(format!("the image `{}` is dumped twice", text::escape(image)));
+        }
+        if let Some(file) = twice(run.written()) {
+            return conflict(format!("`{}` would be written twice", text::path(file)));
+        }
+    }
+    let limits = match &line.command {
+        Command::Check(check) => Some(check.pipeline.limits),
+        Command::Inspect(inspect) => Some(inspect.pipeline.limits),
+        Command::Run(run) => Some(run.pipeline.limits),
+        _ => None,
+    };
+    match limits {
+        Some(ShaderLimits { shader_memory, shader_stack, .. }) if shader_stack + BESIDE_STACK > shader_memory => {
+            conflict(format!(
+                "`--shader-stack` ({shader_stack} MiB) is a part of `--shader-memory` ({shader_memory} MiB), and must leave at \
+                 least {BESIDE_STACK} MiB of it"
+            ))
+        }
+        _ => Ok(line),
+    }
+}
+
+/// MiB of memory that a process needs beside its stack to compile a usual shader.
+const BESIDE_STACK: u32 = 64;
+
+fn twice<'a, T: PartialEq + 'a + ?Sized>(items: impl Iterator<Item = &'a T> + Clone) -> Option<&'a T> {
+    let mut rest = items;
+    while let Some(item) = rest.next() {
+        if rest.clone().any(|other| other == item) {
+            return Some(item);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(arguments: &[&str]) -> Result<CommandLine, String> {
+        let all = std::iter::once("framewright").chain(arguments.iter().copied()).map(OsString::from);
+        parse(all).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn what_is_said_of_a_plan_reaches_the_compiler() {
+        let options = |words: &[&str]| {
+            let Ok(CommandLine { command: Command::Check(check) }) = read(&[&["check", "a.ron"], words].concat())
+            else {
+                panic!("{words:?} is right");
+            };
+            check.planning.options()
+        };
+        assert_eq!(options(&[]), Options::default());
+        assert_eq!(options(&["--order", "random:3"]), Options { order: Order::Random(3), ..Options::default() });
+        assert_eq!(options(&["--naive", "resolves"]), Options { demote: false, ..Options::default() });
+        assert_eq!(options(&["--one-queue"]), Options { queues: false, ..Options::default() });
+        let both = Options { poison: true, alias: false, ..Options::default() };
+        assert_eq!(options(&["--poison", "--no-alias"]), both);
+    }
+
+    #[test]
+    fn control_characters_in_arguments_are_shown_escaped() {
+        let message = read(&["check", "a.ron", "--format", "\u{1b}[31mred\n"]).expect_err("not a format");
+        assert!(message.contains("'\\u{1b}[31mred\\n'"), "{message}");
+        let run = ["run", "a.ron", "--scene", "s.ron", "--dump", "\u{7}=a.png", "--dump", "\u{7}=b.png"];
+        let message = read(&run).expect_err("twice");
+        assert!(message.contains("the image `\\u{7}` is dumped twice"), "{message}");
+        assert!(!message.contains('\u{7}'), "{message:?}");
+    }
+
+    #[test]
+    fn the_stack_of_shaders_leaves_some_of_their_memory() {
+        for words in [&["check", "a.ron"][..], &["inspect", "a.ron"], &["run", "a.ron", "--scene", "s.ron"]] {
+            let stack = |stack: &str| read(&[words, &["--shader-memory", "256", "--shader-stack", stack]].concat());
+            for large in ["193", "256", "257"] {
+                let message = stack(large).expect_err("too large");
+                let said = format!("`--shader-stack` ({large} MiB) is a part of `--shader-memory` (256 MiB)");
+                assert!(message.contains(&said), "{message}");
+            }
+            assert!(stack("192").is_ok());
+        }
+    }
+
+    #[test]
+    fn nothing_is_written_twice() {
+        let run = ["run", "a.ron", "--scene", "s.ron", "-o", "x.png", "--dump", "depth=x.png"];
+        assert!(read(&run).expect_err("twice").contains("`x.png` would be written twice"));
+    }
+
+    #[test]
+    fn pictures_are_png_or_openexr() {
+        let run = ["run", "a.ron", "--scene", "s.ron", "-o", "x.jpg"];
+        assert!(read(&run).expect_err("neither").contains("must end in .png or .exr"));
+    }
+}

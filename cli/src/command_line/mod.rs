@@ -1,0 +1,5 @@
+//! The command line: its arguments, and the options that messages name.
+
+pub(crate) mod args;
+pub(crate) mod options;
+pub(crate) mod values;

@@ -1,0 +1,216 @@
+//! Values of single arguments, and how they are read.
+
+use crate::picture::FileFormat;
+use framewright_graph::compile::Order;
+use framewright_graph::vulkan::Rotation;
+use framewright_graph::frame::Stereo;
+use std::path::PathBuf;
+
+/// Width and height of the output where the command line says none, in pixels.
+pub(crate) const DEFAULT_SIZE: Size = Size { width: 1280, height: 720 };
+
+/// Largest width or height that the command line takes, in pixels.
+pub(crate) const MAX_SIZE: u32 = 16384;
+
+/// Width and height in pixels, each 1…[`MAX_SIZE`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Size {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+}
+
+/// `NAME=VALUE`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Assignment {
+    /// The setting.
+    pub(crate) name: String,
+    /// Its value, not yet read.
+    pub(crate) value: String,
+}
+
+/// `IMAGE=FILE.png`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Dump {
+    /// The image's name in the pipeline.
+    pub(crate) image: String,
+    pub(crate) file: PathBuf,
+}
+
+/// `FILE.png` or `NAME=FILE.png`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct OutputFile {
+    /// The name of one of the pipeline's outputs; `None`: the first.
+    pub(crate) output: Option<String>,
+    pub(crate) file: PathBuf,
+}
+
+impl std::fmt::Display for Size {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}x{}", self.width, self.height)
+    }
+}
+
+impl std::str::FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Size, String> {
+        let (width, height) = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, such as 1280x720")?;
+        let side = |name: &str, digits: &str| {
+            if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
+                return Err("expected WIDTHxHEIGHT, such as 1280x720".to_owned());
+            }
+            match digits.parse::<u32>() {
+                Ok(pixels @ 1..=MAX_SIZE) => Ok(pixels),
+                _ => Err(format!("the {name} must be 1 to {MAX_SIZE} pixels")),
+            }
+        };
+        Ok(Size { width: side("width", width)?, height: side("height", height)? })
+    }
+}
+
+/// Reads `NAME=VALUE`.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn assignment(text: &str) -> Result<Assignment, String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() => Ok(Assignment { name: name.to_owned(), value: value.to_owned() }),
+        _ => Err("expected NAME=VALUE, such as msaa=4".to_owned()),
+    }
+}
+
+/// Reads an order of execution.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn order(text: &str) -> Result<Order, String> {
+    match text.strip_prefix("random:") {
+        Some(seed) if !seed.is_empty() && seed.bytes().all(|byte| byte.is_ascii_digit()) => match seed.parse() {
+            Ok(seed) => Ok(Order::Random(seed)),
+            Err(_) => Err(format!("the seed must be 0 to {}", u64::MAX)),
+        },
+        Some(_) => Err("the seed is a whole number, such as random:7".to_owned()),
+        None => match text {
+            "file" => Ok(Order::File),
+            "default" => Ok(Order::Default),
+            "low-memory" => Ok(Order::LowMemory),
+            _ => Err("expected file, default, low-memory or random:SEED, such as random:7".to_owned()),
+        },
+    }
+}
+
+/// Reads `0`, `90`, `180` or `270`.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn rotation(text: &str) -> Result<Rotation, String> {
+    let degrees = text.parse().ok().filter(|_| text.bytes().all(|byte| byte.is_ascii_digit()));
+    degrees.and_then(Rotation::from_degrees).ok_or_else(|| "expected 0, 90, 180 or 270".to_owned())
+}
+
+/// Ways of drawing for two eyes, the first one first.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Modes(pub(crate) Vec<Stereo>);
+
+/// Reads ways of drawing for two eyes.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn stereo(text: &str) -> Result<Modes, String> {
+    if text == "auto" {
+        return Ok(Modes(Stereo::FASTEST_FIRST.into()));
+    }
+    let known = |name: &str| Stereo::ALL.into_iter().find(|stereo| stereo.name() == name);
+    let modes: Option<Vec<Stereo>> = text.split(',').map(known).collect();
+    let before_last = modes.as_ref().and_then(|modes| modes.split_last()).map_or(&[][..], |(_, others)| others);
+    if before_last.contains(&Stereo::Off) {
+        return Err("`off` is for one eye, which every device can draw: nothing comes after it".to_owned());
+    }
+    let expected = || Stereo::ALL.map(Stereo::name).join(", ");
+    modes.map(Modes).ok_or_else(|| format!("expected auto, or some of {} with commas between them", expected()))
+}
+
+/// Reads `IMAGE=FILE.png`.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn dump(text: &str) -> Result<Dump, String> {
+    match text.split_once('=') {
+        Some((image, file)) if !image.is_empty() => Ok(Dump { image: image.to_owned(), file: picture(file)? }),
+        _ => Err("expected IMAGE=FILE.png, such as depth=depth.png".to_owned()),
+    }
+}
+
+/// Reads `FILE.png` or `NAME=FILE.png`. What has a `/` before its first `=` is no name: `./a=b.png` is a file.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn output_file(text: &str) -> Result<OutputFile, String> {
+    match text.split_once('=') {
+        Some((name, file)) if !name.is_empty() && !name.contains('/') => {
+            Ok(OutputFile { output: Some(name.to_owned()), file: picture(file)? })
+        }
+        _ => Ok(OutputFile { output: None, file: picture(text)? }),
+    }
+}
+
+/// Reads the name of a picture's file.
+///
+/// # Errors
+/// What was expected, in words.
+pub(crate) fn picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match FileFormat::of(&path) {
+        Some(_) => Ok(path),
+        None => Err("pictures are written as PNG or OpenEXR: the file's name must end in .png or .exr".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_is_two_numbers_within_limits() {
+        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
+        assert_eq!("16384x1".parse(), Ok(Size { width: 16384, height: 1 }));
+        for wrong in ["", "640", "640x", "x480", "-1x480", "+1x480", "6 40x480", "640x480x1"] {
+            assert_eq!(wrong.parse::<Size>(), Err("expected WIDTHxHEIGHT, such as 1280x720".to_owned()), "{wrong}");
+        }
+        assert_eq!("0x480".parse::<Size>(), Err("the width must be 1 to 16384 pixels".to_owned()));
+        assert_eq!("640x16385".parse::<Size>(), Err("the height must be 1 to 16384 pixels".to_owned()));
+        assert_eq!("1x99999999999999999999".parse::<Size>(), Err("the height must be 1 to 16384 pixels".to_owned()));
+    }
+
+    #[test]
+    fn an_order_is_one_of_four_and_a_seed_a_whole_number() {
+        assert_eq!(order("file"), Ok(Order::File));
+        assert_eq!(order("low-memory"), Ok(Order::LowMemory));
+        assert_eq!(order("random:18446744073709551615"), Ok(Order::Random(u64::MAX)));
+        for wrong in ["", "File", "random", "low", "file "] {
+            let expected = "expected file, default, low-memory or random:SEED, such as random:7";
+            assert_eq!(order(wrong), Err(expected.to_owned()), "{wrong}");
+        }
+        for wrong in ["random:", "random:x", "random:-1", "random:+1", "random:1.5"] {
+            assert_eq!(order(wrong), Err("the seed is a whole number, such as random:7".to_owned()), "{wrong}");
+        }
+        assert_eq!(order("random:18446744073709551616"), Err("the seed must be 0 to 18446744073709551615".to_owned()));
+    }
+
+    #[test]
+    fn an_output_is_named_before_its_file_and_a_path_is_no_name() {
+        let read = |text: &str| output_file(text).map(|read| (read.output, read.file));
+        assert_eq!(read("a.png"), Ok((None, "a.png".into())));
+        assert_eq!(read("depth=a.exr"), Ok((Some("depth".to_owned()), "a.exr".into())));
+        assert_eq!(read("glow.down[0]=b/a=c.png"), Ok((Some("glow.down[0]".to_owned()), "b/a=c.png".into())));
+        assert_eq!(read("./a=b.png"), Ok((None, "./a=b.png".into())));
+        assert!(read("depth=").is_err() && read("depth=a.jpg").is_err() && read("a").is_err());
+    }
+
+    #[test]
+    fn a_value_may_hold_an_equals_sign() {
+        assert_eq!(assignment("name=a=b"), Ok(Assignment { name: "name".to_owned(), value: "a=b".to_owned() }));
+        assert!(assignment("=4").is_err());
+        assert!(assignment("msaa").is_err());
+    }
+}

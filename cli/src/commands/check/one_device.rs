@@ -1,0 +1,57 @@
+//! `framewright check` on one device.
+
+use super::verdict::{Verdict, fine, verdict};
+use crate::command_line::args::{AnswerFormat, CheckArguments};
+use crate::error::Error;
+use crate::planning::{self, View, device, notes};
+use crate::system::{Exit, progress, text};
+use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::plan::Plan;
+use framewright_graph::base::ReadFiles;
+use serde::Serialize;
+
+/// The answer for programs.
+#[derive(Debug, Serialize)]
+struct Answer {
+    format_version: u32,
+    pipeline: String,
+    #[serde(flatten)]
+    verdict: Verdict,
+}
+
+/// Checks a pipeline on the device that `--device` names.
+///
+/// # Errors
+/// Those of [`super::check`].
+pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
+    let profile = device::choose(arguments.device.as_deref(), &ReadFiles::default())?;
+    let result = plan(arguments, &profile);
+    match arguments.format {
+        AnswerFormat::Human => {
+            let plan = result?;
+            let fine = fine(arguments, &plan.device.name, &plan.totals);
+            let notes = notes::lines(notes::worth_showing(&plan.notes)).into_iter().map(|line| line + "\n");
+            text::print(&(fine + "\n" + &notes.collect::<String>())).map_err(Error::Print)?;
+            Ok(Exit::Fine)
+        }
+        AnswerFormat::Json => json(arguments, &profile, result),
+    }
+}
+
+fn plan(arguments: &CheckArguments, profile: &Profile) -> Result<Plan, Error> {
+    let busy = progress::busy("reading");
+    let mut pipeline = planning::load(&arguments.pipeline, &ReadFiles::default())?;
+    let frame = pipeline.frame(View::without_scene(arguments.planning.rotate), profile)?;
+    busy.set_message(progress::compiling(&frame, &profile.name));
+    let plan = pipeline.compile(&frame, profile, &mut Estimated(profile), &arguments.planning.options())?;
+    pipeline.fits(&plan, &frame, profile)?;
+    Ok(plan)
+}
+
+fn json(arguments: &CheckArguments, profile: &Profile, result: Result<Plan, Error>) -> Result<Exit, Error> {
+    let exit = result.as_ref().map_or_else(Error::exit, |_| Exit::Fine);
+    let pipeline = arguments.pipeline.file.to_string_lossy().into_owned();
+    let answer = Answer { format_version: 1, pipeline, verdict: verdict(profile.name.clone(), result)? };
+    text::print(&text::json(&answer)?).map_err(Error::Print)?;
+    Ok(exit)
+}

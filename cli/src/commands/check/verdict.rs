@@ -1,0 +1,60 @@
+//! The verdict on a pipeline on one device.
+
+use crate::command_line::args::CheckArguments;
+use crate::error::Error;
+use crate::planning::totals;
+use crate::system::text;
+use framewright_graph::{base, language};
+use framewright_graph::plan::{Note, Plan, Totals};
+use serde::Serialize;
+
+/// The verdict on one device.
+#[derive(Debug, Serialize)]
+pub(crate) struct Verdict {
+    /// The device's own name.
+    pub(crate) device: String,
+    /// Whether nothing is wrong.
+    pub(crate) fine: bool,
+    /// Mistakes of the pipeline, its settings or its shaders, and features that the device lacks.
+    pub(crate) diagnostics: serde_json::Value,
+    /// Violations that `verify` found in the Plan.
+    pub(crate) violations: Vec<String>,
+    /// Decisions that a reader may want to know of.
+    pub(crate) notes: Vec<Note>,
+    /// The Plan's sums; `null` if there is none.
+    pub(crate) totals: Option<Totals>,
+}
+
+/// The verdict on `device`.
+///
+/// # Errors
+/// What the pipeline is not to blame for, such as files that can't be read.
+pub(crate) fn verdict(device: String, result: Result<Plan, Error>) -> Result<Verdict, Error> {
+    let mut verdict = Verdict {
+        device,
+        fine: false,
+        diagnostics: serde_json::Value::Array(Vec::new()),
+        violations: Vec::new(),
+        notes: Vec::new(),
+        totals: None,
+    };
+    match result {
+        Ok(plan) => {
+            verdict.fine = true;
+            verdict.notes = plan.notes;
+            verdict.totals = Some(plan.totals);
+        }
+        Err(Error::Mistakes { mistakes }) => {
+            verdict.diagnostics = base::to_json(&mistakes.sources, &mistakes.diagnostics)
+        }
+        Err(Error::Violations { violations }) => verdict.violations = violations,
+        Err(other) => return Err(other),
+    }
+    Ok(verdict)
+}
+
+/// The sentence for a pipeline without mistakes, with its Plan's totals.
+pub(crate) fn fine(arguments: &CheckArguments, device: &str, totals: &Totals) -> String {
+    let (pipeline, device) = (text::path(&arguments.pipeline.file), text::escape(device));
+    format!("{pipeline}: fine on {device}: {}", totals::sentence(totals))
+}

@@ -1,0 +1,69 @@
+//! `framewright facts`: the facts of a scene that conditions can use, and what decided each.
+
+use crate::command_line::args::FactsArguments;
+use crate::error::Error;
+use crate::files::inputs;
+use crate::system::{Exit, text};
+use framewright_graph::language::FactValue;
+use framewright_graph::base::ReadFiles;
+use framewright_passes::facts::ExplainedFact;
+use serde::Serialize;
+
+#[derive(Debug, Serialize)]
+struct Answer<'a> {
+    format_version: u32,
+    facts: Vec<Entry<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct Entry<'a> {
+    name: &'static str,
+    #[serde(rename = "type")]
+    ty: String,
+    value: Value,
+    about: &'static str,
+    /// What decided it; empty where nothing can be added.
+    because: &'a str,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum Value {
+    Bool(bool),
+    Integer(i64),
+    Number(f64),
+}
+
+/// Prints the facts of a scene.
+///
+/// # Errors
+/// If the scene can't be read.
+pub(crate) fn facts(arguments: &FactsArguments) -> Result<Exit, Error> {
+    let found = inputs::scene(&arguments.scene, &ReadFiles::default())?.explained();
+    let shown = if arguments.json {
+        text::json(&Answer { format_version: 1, facts: found.iter().map(entry).collect() })?
+    } else {
+        found.iter().map(line).collect()
+    };
+    text::print(&shown).map_err(Error::Print)?;
+    Ok(Exit::Fine)
+}
+
+fn line(found: &ExplainedFact) -> String {
+    let because = if found.because.is_empty() { String::new() } else { format!(" ({})", text::escape(&found.because)) };
+    format!("{}: {}{because}\n", found.fact.name(), found.value)
+}
+
+fn entry(found: &ExplainedFact) -> Entry<'_> {
+    Entry {
+        name: found.fact.name(),
+        ty: found.fact.ty().to_string(),
+        value: match found.value {
+            FactValue::Bool(value) => Value::Bool(value),
+            FactValue::Integer(value) => Value::Integer(value),
+            FactValue::Number(value) => Value::Number(value),
+        },
+        about: found.fact.about(),
+        because: &found.because,
+    }
+}

@@ -1,0 +1,29 @@
+//! The commands.
+
+mod check;
+mod devices;
+mod facts;
+mod inspect;
+mod new;
+mod run;
+mod schema;
+
+use crate::command_line::args::Command;
+use crate::error::Error;
+use crate::system::Exit;
+
+/// Does what the command line asks for.
+///
+/// # Errors
+/// The error that ends the command early.
+pub(crate) fn execute(command: &Command) -> Result<Exit, Error> {
+    match command {
+        Command::Check(arguments) => check::check(arguments),
+        Command::Inspect(arguments) => inspect::inspect(arguments),
+        Command::Run(arguments) => run::run(arguments),
+        Command::Facts(arguments) => facts::facts(arguments),
+        Command::New(arguments) => new::new(arguments),
+        Command::Schema(arguments) => schema::schema(arguments),
+        Command::Devices(arguments) => devices::devices(arguments),
+    }
+}

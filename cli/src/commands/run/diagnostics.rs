@@ -1,0 +1,41 @@
+//! Mistakes that only a run can find, with their places in the pipeline's files.
+
+use crate::error::Error;
+use crate::system::Exit;
+
+use framewright_graph::base::{Diagnostic, Sources};
+use framewright_graph::frame::Frame;
+use framewright_passes::scene::Scene;
+
+/// Makes sure that the scene has the cameras that views name.
+///
+/// # Errors
+/// The views whose cameras it doesn't have.
+pub(crate) fn cameras(frame: &Frame, scene: &Scene) -> Result<(), Error> {
+    let known: Vec<String> = scene.cameras.iter().map(|it| format!("`{}`", it.name)).collect();
+    let known = if known.is_empty() { "none by a name".to_owned() } else { known.join(", ") };
+    let missing = frame.views.iter().filter(|view| scene.camera_named(view.camera.as_deref()).is_none());
+    let diagnostics: Vec<Diagnostic> = missing
+        .map(|view| {
+            let wanted = view.camera.as_deref().unwrap_or_default();
+            let message = format!("view `{}` asks for the camera `{wanted}`; the scene has {known}", view.name);
+            Diagnostic::new(view.span, message)
+                .help("name a camera of the scene, or leave `camera` out: the scene's own")
+        })
+        .collect();
+    if diagnostics.is_empty() { Ok(()) } else { Err(wrong(frame, diagnostics)) }
+}
+
+/// A damaged texture file as a mistake of the pipeline, with its place; any other problem as it is.
+pub(crate) fn texture(frame: &Frame, problem: framewright_vulkan::Error) -> Error {
+    if let framewright_vulkan::Error::Texture { image, path, problem } = &problem
+        && let Some(declared) = frame.images.iter().find(|it| *it.name == **image)
+    {
+        return wrong(frame, vec![Diagnostic::new(declared.span, format!("`{path}` {problem}"))]);
+    }
+    Error::Vulkan(problem)
+}
+
+fn wrong(frame: &Frame, diagnostics: Vec<Diagnostic>) -> Error {
+    Error::mistakes(Sources::clone(&frame.sources), diagnostics, Exit::Found)
+}

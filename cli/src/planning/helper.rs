@@ -1,0 +1,51 @@
+//! The helper process: this program, started again, compiles shaders and tests drivers. It may crash without harm.
+
+use crate::command_line::args::ShaderLimits;
+use crate::error::Error;
+use crate::system::{interrupt, text};
+use framewright_vulkan::Helper;
+use framewright_vulkan::helper::{Limits, LongTest};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+/// A helper whose compiler of shaders keeps to these limits.
+///
+/// # Errors
+/// If the system doesn't tell where this program lies.
+pub(crate) fn with(limits: &ShaderLimits) -> Result<Helper, Error> {
+    let mebibytes = |number: u32| u64::from(number) << 20;
+    let limits = Limits {
+        time: Duration::from_secs(limits.shader_seconds.into()),
+        memory: Some(mebibytes(limits.shader_memory)),
+        stack: usize::try_from(mebibytes(limits.shader_stack)).unwrap_or(usize::MAX),
+        ..Limits::default()
+    };
+    within(limits)
+}
+
+/// A helper with the usual limits.
+///
+/// # Errors
+/// Those of [`with`].
+pub(crate) fn usual() -> Result<Helper, Error> {
+    within(Limits::default())
+}
+
+/// A helper that Ctrl-C ends, and that says so when a self-test takes long.
+fn within(limits: Limits) -> Result<Helper, Error> {
+    let helper = Helper::this_program(limits).map_err(Error::Helper)?;
+    helper.cancel_when(interrupt::asked);
+    let told = Mutex::new(String::new());
+    helper.when_a_test_takes_long(move |LongTest { device, limit, .. }| {
+        let mut told = told.lock().unwrap_or_else(PoisonError::into_inner);
+        if *told != *device {
+            text::say(&format!(
+                "note: testing what `{}` does takes long; each of two tests is given up after {} s",
+                text::escape(device),
+                limit.as_secs()
+            ));
+            told.clone_from(device);
+        }
+    });
+    Ok(helper)
+}

@@ -1,0 +1,236 @@
+//! A pipeline that was read: it is expanded to a frame, and compiled to a verified Plan.
+
+use crate::command_line::args;
+use crate::command_line::values::{DEFAULT_SIZE, Modes, Size};
+use crate::error::Error;
+use crate::files::shipped;
+use crate::files::inputs::{self, FileRole, PipelineFile};
+use crate::planning::helper;
+use crate::system::Exit;
+
+use framewright_graph::verify;
+use framewright_graph::compile::{self, Options, heap_size};
+use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, Root, Sources};
+use framewright_graph::language::{self, Document, Files, Found, PipelineFiles, Unread};
+use framewright_graph::device::{MemoryProvider, Profile};
+use framewright_graph::expand::{self, Facts, Inputs};
+use framewright_graph::frame::{Frame, Stereo, TextureFile, TextureInfo, TextureProblem, Textures};
+use framewright_graph::plan::Plan;
+use framewright_graph::vulkan::Rotation;
+use framewright_passes::draw;
+use framewright_passes::shipped::SHADERS;
+use framewright_passes::texture_files::TextureFiles;
+use framewright_vulkan::{Helper, ShaderLibrary};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// A pipeline that was read, and where its shaders come from.
+pub(crate) struct Loaded {
+    pub(crate) pipeline: Document,
+    /// The texts that it was read from.
+    pub(crate) sources: Arc<Sources>,
+    /// Shaders beside the pipeline file, then shipped ones.
+    pub(crate) shaders: ShaderLibrary,
+    /// Where they are compiled.
+    pub(crate) helper: Helper,
+    /// Pictures beside the pipeline file.
+    pub(crate) textures: TextureFiles,
+    /// Settings that the user chose, and their values, of which the last counts.
+    pub(crate) set: Vec<(String, String)>,
+    /// How it is drawn for two eyes.
+    pub(crate) stereo: Modes,
+}
+
+/// A frame and its Plan.
+#[derive(Debug)]
+pub(crate) struct Planned {
+    pub(crate) frame: Frame,
+    /// Its Plan, verified.
+    pub(crate) plan: Plan,
+}
+
+/// The inputs of a frame besides its pipeline and settings.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct View<'a> {
+    /// Facts of the scene; `None`: it may hold everything.
+    pub(crate) facts: Option<Facts>,
+    /// Size of the output.
+    pub(crate) size: Size,
+    /// The rotation of the screen.
+    pub(crate) rotation: Rotation,
+    /// Names of images that are dumped.
+    pub(crate) dump: &'a [String],
+}
+
+/// The files that a pipeline names: of its language, and pictures.
+struct NamedFiles {
+    files: PipelineFiles,
+    textures: TextureFiles,
+    /// Whether the user has no right to read one of the files.
+    denied: bool,
+}
+
+impl Files for NamedFiles {
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
+        let found = self.files.read(from, path);
+        self.denied |= found.as_ref().is_err_and(|unread| unread.denied);
+        found
+    }
+
+    fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        self.textures.info(file)
+    }
+}
+
+/// Reads a pipeline file. It and all files that it names, now or later, are recorded in `read`.
+///
+/// # Errors
+/// If it can't be read or is wrong in itself.
+pub(crate) fn load(arguments: &args::PipelineArguments, read: &ReadFiles) -> Result<Loaded, Error> {
+    let PipelineFile { shown, path, root, bytes } = inputs::pipeline(arguments, read)?;
+    let mut sources = Sources::default();
+    let recorded = |what| root.clone().map(|root| root.recorded(read, what));
+    let mut files = match (recorded("a fragment of the pipeline"), &path) {
+        (Some(root), FilePath::Own(name)) => PipelineFiles::beside(root, name, shipped::PIPELINES),
+        (Some(root), FilePath::Shipped(_)) => PipelineFiles::of_shipped(root, shipped::PIPELINES),
+        (None, _) => PipelineFiles::shipped(shipped::PIPELINES),
+    };
+    let extensions = arguments.extend.iter().map(|path| inputs::extension(path, &mut files, read));
+    let extensions = extensions.collect::<Result<Vec<Found>, Error>>()?;
+    let textures = recorded("the texture itself").unwrap_or_else(|| Root::new(PathBuf::default()));
+    let mut named = NamedFiles { files, textures: TextureFiles::new(textures), denied: false };
+    let own = Found { shown, relative: path, bytes };
+    let mut pipeline = language::read_extended(&mut sources, &mut named, own, extensions).map_err(|diagnostics| {
+        let exit = if named.denied { Exit::Environment } else { Exit::Found };
+        Error::mistakes(sources.clone(), diagnostics, exit)
+    })?;
+    choose(arguments, &mut pipeline, &mut sources, read)?;
+    let helper = helper::with(&arguments.limits)?;
+    Ok(Loaded {
+        pipeline,
+        sources: Arc::new(sources),
+        textures: named.textures,
+        shaders: ShaderLibrary::new(recorded("the shader itself").into_iter().collect(), SHADERS, draw::interface)
+            .with_helper(&helper),
+        helper,
+        set: arguments.set.iter().map(|one| (one.name.clone(), one.value.clone())).collect(),
+        stereo: arguments.stereo.clone(),
+    })
+}
+
+/// Applies settings files and a preset.
+fn choose(
+    arguments: &args::PipelineArguments,
+    pipeline: &mut Document,
+    sources: &mut Sources,
+    read: &ReadFiles,
+) -> Result<(), Error> {
+    let mut files = Vec::with_capacity(arguments.settings.len());
+    let mut mistakes = Vec::new();
+    for path in &arguments.settings {
+        let text = inputs::text(FileRole::SETTINGS, path, language::LARGEST_FILE, read)?;
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        match pipeline.read_settings(sources, &path.to_string_lossy(), &name, text) {
+            Ok(file) => files.push(file),
+            Err(diagnostics) => mistakes.extend(diagnostics),
+        }
+    }
+    if !mistakes.is_empty() {
+        return Err(wrong(sources, mistakes));
+    }
+    pipeline
+        .choose(arguments.preset.as_deref(), &files)
+        .map_err(|unknown| Error::mistakes(sources.clone(), vec![unknown], Exit::Usage))
+}
+
+impl View<'_> {
+    /// One at the default size, without a scene.
+    pub(crate) fn without_scene(rotation: Rotation) -> View<'static> {
+        View { facts: None, size: DEFAULT_SIZE, rotation, dump: &[] }
+    }
+}
+
+impl Loaded {
+    /// Puts in settings, facts and sizes, compiles for a device, and has the result verified.
+    ///
+    /// # Errors
+    /// The mistakes of the command line, the pipeline or its shaders; or the violations that `verify` found.
+    pub(crate) fn plan(
+        &mut self,
+        view: View<'_>,
+        device: &Profile,
+        memory: &mut dyn MemoryProvider,
+        options: &Options,
+    ) -> Result<Planned, Error> {
+        let frame = self.frame(view, device)?;
+        let plan = self.compile(&frame, device, memory, options)?;
+        Ok(Planned { frame, plan })
+    }
+
+    /// Expands the pipeline to a frame: puts in settings, facts, sizes and the device's features.
+    ///
+    /// # Errors
+    /// The mistakes of the command line, the pipeline or its shaders.
+    pub(crate) fn frame(&mut self, view: View<'_>, device: &Profile) -> Result<Frame, Error> {
+        self.check_command_line(view)?;
+        let stereo = Stereo::first_fit(&self.stereo.0, device).map_err(|why| Error::Stereo { why })?;
+        let inputs = Inputs { device: Some(device), ..inputs(&self.set, stereo, view) };
+        expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.shaders)
+            .map_err(|diagnostics| wrong(&self.sources, diagnostics))
+    }
+
+    /// Checks settings and sizes by themselves.
+    ///
+    /// # Errors
+    /// The mistakes of the command line.
+    pub(crate) fn check_command_line(&self, view: View<'_>) -> Result<(), Error> {
+        let diagnostics = expand::check_inputs(&self.pipeline, &inputs(&self.set, self.stereo.0[0], view));
+        if diagnostics.is_empty() {
+            return Ok(());
+        }
+        Err(Error::mistakes(Sources::clone(&self.sources), diagnostics, Exit::Usage))
+    }
+
+    /// Makes sure that the device that a profile describes has the memory that a Plan takes.
+    ///
+    /// # Errors
+    /// The memory that it takes, and the images that take most.
+    pub(crate) fn fits(&self, plan: &Plan, frame: &Frame, device: &Profile) -> Result<(), Error> {
+        heap_size::too_large(plan, frame, device).map_or(Ok(()), |large| Err(wrong(&self.sources, vec![large])))
+    }
+
+    /// Compiles a frame for a device, and has the result verified.
+    ///
+    /// # Errors
+    /// The mistakes of the frame, features that the device lacks, or the violations that `verify` found.
+    pub(crate) fn compile(
+        &self,
+        frame: &Frame,
+        device: &Profile,
+        memory: &mut dyn MemoryProvider,
+        options: &Options,
+    ) -> Result<Plan, Error> {
+        let plan = compile::compile(frame, device, memory, options)
+            .map_err(|diagnostics| wrong(&self.sources, diagnostics))?;
+        let violations: Vec<_> =
+            verify::verify(&plan).iter().map(|one| crate::system::text::escape(&one.to_string())).collect();
+        if violations.is_empty() { Ok(plan) } else { Err(Error::Violations { violations }) }
+    }
+}
+
+fn inputs<'a>(set: &'a [(String, String)], stereo: Stereo, view: View<'a>) -> Inputs<'a> {
+    Inputs {
+        set,
+        facts: view.facts.unwrap_or(Facts::UNKNOWN),
+        facts_known: view.facts.is_some(),
+        output_extent: [view.size.width, view.size.height],
+        rotation: view.rotation,
+        dump: view.dump,
+        device: None,
+        stereo,
+    }
+}
+
+fn wrong(sources: &Sources, diagnostics: Vec<Diagnostic>) -> Error {
+    Error::mistakes(sources.clone(), diagnostics, Exit::Found)
+}

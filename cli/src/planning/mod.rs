@@ -1,0 +1,9 @@
+//! From a pipeline file to its verified Plan: what `check`, `inspect` and `run` share.
+
+pub(crate) mod device;
+pub(crate) mod helper;
+mod loaded;
+pub(crate) mod notes;
+pub(crate) mod totals;
+
+pub(crate) use loaded::{Loaded, Planned, View, load};

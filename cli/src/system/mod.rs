@@ -1,0 +1,9 @@
+//! The process around a command: exit codes, signals, symbolic links, and what is printed.
+
+mod exit;
+pub(crate) mod interrupt;
+pub(crate) mod links;
+pub(crate) mod progress;
+pub(crate) mod text;
+
+pub(crate) use exit::Exit;

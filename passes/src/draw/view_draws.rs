@@ -1,0 +1,254 @@
+//! The bind groups and draw lists of a view at a frame.
+
+use super::frustum;
+use super::cascades::{self, CascadeMap, cascades_block, sun_view};
+use super::clusters::Clusters;
+use super::eyes::Eyes;
+use super::frame_data::{ViewTransform, lights_block, motion_block, objects_block, shifted, view_block, world_to_clip};
+use super::interface::{CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MOTION_BINDING, OBJECTS_BINDING, VIEW_BINDING, interface};
+use super::lists::draw_order_from;
+use crate::scene::{Camera, Scene};
+use framewright_graph::frame::{Draw, DrawList, Eye, Jitter};
+use framewright_vulkan::{BindGroup, Buffer, BufferUsage, CullMode, Device, Error, FrontFace, Resource};
+use glam::{DMat4, DVec3};
+
+/// The camera of a view, its eyes, and how its picture is drawn.
+pub(super) struct Viewpoint {
+    /// At frame 0; of two eyes the one between both.
+    pub(super) camera: Camera,
+    /// The eyes that see it, if there are two.
+    pub(super) eyes: Option<Eyes>,
+    /// Whether passes draw for both eyes at once.
+    pub(super) at_once: bool,
+    /// Whether passes draw for one eye, and then are given the objects that it may see itself.
+    pub(super) one_by_one: bool,
+    pub(super) culls_by_eye: bool,
+    /// Width and height of its picture, of which only the ratio counts.
+    pub(super) extent: [u32; 2],
+    /// The cascades of the sun's shadows in it, the nearest first.
+    pub(super) maps: Vec<CascadeMap>,
+    pub(super) jitter: Option<Jitter>,
+}
+
+impl Viewpoint {
+    /// That of one eye, which doesn't shift.
+    pub(super) fn of_one(camera: Camera, extent: [u32; 2], maps: Vec<CascadeMap>) -> Viewpoint {
+        let (at_once, one_by_one, culls_by_eye) = (false, false, true);
+        Viewpoint { camera, eyes: None, at_once, one_by_one, culls_by_eye, extent, maps, jitter: None }
+    }
+
+    fn aspect(&self) -> f64 {
+        let [width, height] = self.extent.map(|side| f64::from(side.max(1)));
+        width / height
+    }
+
+    /// The camera at a frame that sees all that both eyes see.
+    fn around(&self, frame: u64) -> Camera {
+        let camera = self.camera.at(frame);
+        self.eyes.map_or(camera, |eyes| eyes.around(&camera, self.aspect()))
+    }
+
+    /// By how much the picture is shifted at a frame, in shares of its width and height.
+    fn shift(&self, frame: u64) -> [f64; 2] {
+        self.jitter.as_ref().map_or([0.0; 2], |jitter| jitter.shift(frame))
+    }
+
+    /// The transform at a frame from between the eyes, without jitter.
+    fn straight(&self, frame: u64) -> ViewTransform {
+        ViewTransform { world_to_clip: world_to_clip(&self.camera.at(frame), self.aspect()), eye: DVec3::ZERO }
+    }
+
+    /// The transform of each eye, without jitter; the same twice if there is one.
+    fn straight_by_eye(&self, frame: u64) -> [ViewTransform; 2] {
+        let (straight, camera) = (self.straight(frame), self.camera.at(frame));
+        Eye::BOTH.map(|eye| {
+            let Some(eye) = self.eyes.map(|eyes| eyes.of(eye)) else { return straight };
+            let world_to_clip = eye.world_to_clip(&camera, self.aspect(), straight.world_to_clip);
+            ViewTransform { world_to_clip, eye: eye.offset(&camera) }
+        })
+    }
+
+    /// A transform with the jitter of the frame.
+    fn shifted(&self, sight: ViewTransform, frame: u64) -> ViewTransform {
+        ViewTransform { world_to_clip: shifted(sight.world_to_clip, self.shift(frame)), ..sight }
+    }
+}
+
+/// The bind groups and draw lists of a view.
+pub(super) struct ViewDraws {
+    pub(super) frame: BindGroup,
+    /// By object, whether it may be seen.
+    pub(super) visible: Vec<bool>,
+    pub(super) by_eye: Option<EyeDraws>,
+    pub(super) transparent: Vec<ObjectDraw>,
+    /// By cascade, the nearest first.
+    pub(super) cascades: Vec<CascadeDraws>,
+    /// The buffers of `frame` that jitter doesn't change.
+    buffers: Buffers,
+}
+
+/// The bind groups of two eyes.
+pub(super) struct EyeDraws {
+    /// For passes that draw for both at once, with the view's own list.
+    pub(super) both: Option<BindGroup>,
+    /// For passes that draw for one eye, with the objects that this eye may see; `None`: the view's own list.
+    pub(super) each: Option<[(BindGroup, Option<Vec<bool>>); 2]>,
+}
+
+/// The bind group and objects of a cascade.
+pub(super) struct CascadeDraws {
+    pub(super) frame: BindGroup,
+    /// By object, whether it may cast a shadow there.
+    pub(super) casts: Vec<bool>,
+}
+
+/// One object, with the state that it wants.
+pub(super) struct ObjectDraw {
+    pub(super) object: u32,
+    pub(super) mesh: usize,
+    pub(super) texture: Option<usize>,
+    pub(super) raster: (CullMode, FrontFace),
+}
+
+/// The buffers that shaders read beside the view's.
+struct Buffers {
+    lights: Buffer,
+    objects: Buffer,
+    cascades: Buffer,
+    clusters: Buffer,
+    motion: Buffer,
+}
+
+impl ViewDraws {
+    /// Prepares `view` at a frame. `scene` is as it is at frame 0.
+    pub(super) fn new(device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<ViewDraws, Error> {
+        // The first frame comes after itself: nothing has moved.
+        let frame_before = frame.saturating_sub(1);
+        let (camera, before) = (view.camera.at(frame), view.camera.at(frame_before));
+        let straight = |frame| view.straight_by_eye(frame).map(|sight| sight.world_to_clip);
+        let motion = motion_block(scene, straight(frame), (straight(frame_before), &before), frame_before);
+        let scene = &scene.at(frame);
+        // Both eyes look up the same maps.
+        let around = view.around(frame);
+        let to_around = DMat4::from_translation(camera.position() - around.position());
+        let by_sun = |map: &CascadeMap| {
+            let sun = sun_view(scene, &around, view.aspect(), map.cascade, map.texels);
+            cascades::SunView { world_to_clip: sun.world_to_clip * to_around, ..sun }
+        };
+        let by_sun: Vec<_> = view.maps.iter().map(by_sun).collect();
+        let clusters = Clusters::new(scene, &camera, view.aspect());
+        let buffers = Buffers {
+            lights: device.buffer(BufferUsage::Storage, &lights_block(scene, &camera, &clusters))?,
+            objects: device.buffer(BufferUsage::Storage, &objects_block(scene, &camera))?,
+            cascades: device.buffer(BufferUsage::Uniform, &cascades_block(&by_sun))?,
+            clusters: device.buffer(BufferUsage::Storage, &clusters.block())?,
+            motion: device.buffer(BufferUsage::Storage, &motion)?,
+        };
+        let cascade = |sun: &cascades::SunView| {
+            let casts = scene.objects.iter().map(|object| cascades::may_cast(scene, &camera, sun, object)).collect();
+            let transform = ViewTransform { world_to_clip: sun.world_to_clip, eye: DVec3::ZERO };
+            Ok::<_, Error>(CascadeDraws { frame: group(device, &camera, [transform; 2], &buffers)?, casts })
+        };
+        let JitteredDraws { frame, visible, by_eye } = JitteredDraws::new(device, scene, view, frame, &buffers)?;
+        Ok(ViewDraws {
+            frame,
+            visible,
+            by_eye,
+            transparent: draws(scene, &camera, DrawList::Transparent),
+            cascades: by_sun.iter().map(cascade).collect::<Result<_, _>>()?,
+            buffers,
+        })
+    }
+
+    /// Prepares another frame. Nothing is overwritten, since frames in flight may still read it.
+    pub(super) fn advance_to(
+        &mut self,
+        device: &Device,
+        scene: &Scene,
+        view: &Viewpoint,
+        frame: u64,
+    ) -> Result<(), Error> {
+        if scene.moves() {
+            *self = ViewDraws::new(device, scene, view, frame)?;
+        } else if view.jitter.is_some() {
+            self.shift(device, scene, view, frame)?;
+        }
+        Ok(())
+    }
+
+    /// Prepares the jitter of `view` at the frame that it is for already.
+    pub(super) fn shift(&mut self, device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<(), Error> {
+        let sights = JitteredDraws::new(device, &scene.at(frame), view, frame, &self.buffers)?;
+        (self.frame, self.visible, self.by_eye) = (sights.frame, sights.visible, sights.by_eye);
+        Ok(())
+    }
+}
+
+/// The parts that jitter changes.
+struct JitteredDraws {
+    frame: BindGroup,
+    visible: Vec<bool>,
+    by_eye: Option<EyeDraws>,
+}
+
+impl JitteredDraws {
+    /// Prepares them. `scene` is as it is at the frame.
+    fn new(
+        device: &Device,
+        scene: &Scene,
+        view: &Viewpoint,
+        frame: u64,
+        buffers: &Buffers,
+    ) -> Result<JitteredDraws, Error> {
+        let camera = view.camera.at(frame);
+        let own = view.shifted(view.straight(frame), frame);
+        let group = |sights| group(device, &camera, sights, buffers);
+        if view.eyes.is_none() {
+            let visible = frustum::within(scene, &camera, own.world_to_clip);
+            return Ok(JitteredDraws { frame: group([own; 2])?, visible, by_eye: None });
+        }
+        // Jitter moves the picture by at most this share: the frustum around both eyes is widened by it on each side.
+        let around = view.around(frame);
+        let share = view.shift(frame).into_iter().fold(0.0, |most: f64, side| most.max(side.abs()));
+        let narrower = DVec3::new((1.0 + 2.0 * share).recip(), (1.0 + 2.0 * share).recip(), 1.0);
+        let all = DMat4::from_scale(narrower) * world_to_clip(&around, view.aspect());
+        let eyes = view.straight_by_eye(frame).map(|sight| view.shifted(sight, frame));
+        let each = |sight: ViewTransform| {
+            let own = || frustum::within(scene, &camera, sight.world_to_clip);
+            Ok::<_, Error>((group([sight; 2])?, view.culls_by_eye.then(own)))
+        };
+        let by_eye = EyeDraws {
+            both: view.at_once.then(|| group(eyes)).transpose()?,
+            each: if view.one_by_one { Some([each(eyes[0])?, each(eyes[1])?]) } else { None },
+        };
+        let visible = frustum::within(scene, &around, all);
+        Ok(JitteredDraws { frame: group([own; 2])?, visible, by_eye: Some(by_eye) })
+    }
+}
+
+/// The bind group of a frame.
+fn group(device: &Device, camera: &Camera, sights: [ViewTransform; 2], buffers: &Buffers) -> Result<BindGroup, Error> {
+    let view = device.buffer(BufferUsage::Uniform, &view_block(camera, sights))?;
+    let Buffers { lights, objects, cascades, clusters, motion } = buffers;
+    let resources = [
+        (VIEW_BINDING, Resource::Buffer(&view)),
+        (LIGHTS_BINDING, Resource::Buffer(lights)),
+        (OBJECTS_BINDING, Resource::Buffer(objects)),
+        (CASCADES_BINDING, Resource::Buffer(cascades)),
+        (CLUSTERS_BINDING, Resource::Buffer(clusters)),
+        (MOTION_BINDING, Resource::Buffer(motion)),
+    ];
+    device.bind_group(&interface(Draw::Objects(DrawList::Opaque)), FRAME_SET, &resources)
+}
+
+/// The draws of a list, in order.
+pub(super) fn draws(scene: &Scene, camera: &Camera, list: DrawList) -> Vec<ObjectDraw> {
+    let draw = |index: u32| {
+        let object = &scene.objects[index as usize];
+        let material = &scene.materials[object.material];
+        let cull = if material.double_sided { CullMode::None } else { CullMode::Back };
+        let front = if object.mirrored() { FrontFace::Clockwise } else { FrontFace::CounterClockwise };
+        ObjectDraw { object: index, mesh: object.mesh, texture: material.base_color_texture, raster: (cull, front) }
+    };
+    draw_order_from(scene, camera, list).into_iter().map(draw).collect()
+}

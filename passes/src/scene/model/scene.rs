@@ -1,0 +1,115 @@
+//! The whole scene.
+
+use super::bounds::Bounds;
+use super::camera::{Camera, NamedCamera};
+use super::light::{PointLight, Sky, Sun};
+use super::material::{AlphaMode, Material, Texture};
+use super::mesh::Mesh;
+use super::object::Object;
+use framewright_graph::frame::DrawList;
+
+/// Everything that a frame is drawn from. Every index in it is valid and every number finite.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Triangle meshes.
+    pub meshes: Vec<Mesh>,
+    /// Materials.
+    pub materials: Vec<Material>,
+    /// Base colour textures.
+    pub textures: Vec<Texture>,
+    /// Objects to draw, in the file's order.
+    pub objects: Vec<Object>,
+    /// The one light that is infinitely far away.
+    pub sun: Sun,
+    /// Light that arrives from everywhere alike, linear.
+    pub ambient: [f32; 3],
+    /// Lights with a position.
+    pub point_lights: Vec<PointLight>,
+    /// The background.
+    pub sky: Sky,
+    /// From where it is seen by views that ask for no camera.
+    pub camera: Camera,
+    /// Cameras that views may ask for.
+    pub cameras: Vec<NamedCamera>,
+    /// Content of the file that isn't drawn, each a sentence without final stop ("mesh 2: vertex colours are ignored").
+    /// Names in it are escaped.
+    pub notes: Vec<String>,
+}
+
+impl Scene {
+    /// The camera of that name, or without a name the default one; `None` if the scene has no such camera.
+    #[must_use]
+    pub fn camera_named(&self, name: Option<&str>) -> Option<&Camera> {
+        match name {
+            None => Some(&self.camera),
+            Some(name) => self.cameras.iter().find(|camera| camera.name == name).map(|found| &found.camera),
+        }
+    }
+
+    /// The box around all objects, in the world; `None` if there are none.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.objects
+            .iter()
+            .map(|object| self.meshes[object.mesh].bounds.transformed(object.transform))
+            .reduce(Bounds::union)
+    }
+
+    /// The draw list of an object. Objects that fade by leaving out fragments are in the one with alpha-masked objects.
+    #[must_use]
+    pub fn draw_list(&self, object: &Object) -> DrawList {
+        match self.materials[object.material].alpha {
+            AlphaMode::Blend => DrawList::Transparent,
+            AlphaMode::Opaque if !object.fades() => DrawList::Opaque,
+            AlphaMode::Opaque | AlphaMode::Mask { .. } => DrawList::Masked,
+        }
+    }
+
+    /// Whether an object moves, or a camera.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        let objects = self.objects.iter().map(|object| object.movement);
+        let cameras = self.cameras.iter().map(|camera| camera.camera.movement);
+        objects.chain(cameras).chain([self.camera.movement]).any(|movement| !movement.is_none())
+    }
+
+    /// The scene as it is at a frame.
+    #[must_use]
+    pub fn at(&self, frame: u64) -> Scene {
+        let mut scene = self.clone();
+        for object in &mut scene.objects {
+            object.transform = object.transform_at(frame);
+        }
+        scene.camera = scene.camera.at(frame);
+        for camera in &mut scene.cameras {
+            camera.camera = camera.camera.at(frame);
+        }
+        scene
+    }
+
+    /// Where things are and how they look from afar: the scene without vertices, texels and names. Its materials still name
+    /// textures.
+    #[must_use]
+    pub(crate) fn outline(&self) -> Scene {
+        let empty = |mesh: &Mesh| Mesh {
+            positions: Vec::new(),
+            normals: Vec::new(),
+            uvs: Vec::new(),
+            indices: Vec::new(),
+            bounds: mesh.bounds,
+        };
+        Scene {
+            meshes: self.meshes.iter().map(empty).collect(),
+            materials: self.materials.clone(),
+            textures: Vec::new(),
+            objects: self.objects.iter().map(|object| Object { name: String::new(), ..object.clone() }).collect(),
+            sun: self.sun,
+            ambient: self.ambient,
+            point_lights: self.point_lights.clone(),
+            sky: self.sky,
+            camera: self.camera,
+            cameras: self.cameras.clone(),
+            notes: Vec::new(),
+        }
+    }
+}
