@@ -1,23 +1,18 @@
 //! Rendering scopes and their draws.
 
-use super::{Frame, Recorded};
-use crate::convert;
-use crate::error::Error;
-use crate::pipeline::{LocalRead, or_unused};
-use crate::prepare::{Scope, Views};
-use crate::prepare_pass::{Drawn, view_mask};
-use crate::recorder::{CullMode, DrawSource, FrontFace, Kept, Recorder, Target};
-use crate::timing::{Counts, Timing};
+use super::draw_source::DrawSource;
+use super::frame::{Frame, Recorded, unprepared};
+use super::recorder::{CullMode, DrawTarget, FrontFace, Kept, Recorder};
+use super::timing::{Counts, Timing};
+use crate::base::{Error, convert};
+use crate::gpu::LocalRead;
+use crate::pipeline::or_unused;
+use crate::prepare::{Drawn, Scope, Views, view_mask};
 use ash::vk;
 use framewright_graph::frame::Draw;
 use framewright_graph::plan::{self, Attachment, RenderScope};
 use framewright_graph::view::EyeForm;
 use framewright_graph::vocabulary::{Aspects, LoadOp};
-
-/// Nothing was made for the frame: [`crate::prepare::Prepared::turn_to`] comes before recording.
-pub(super) fn unprepared() -> Error {
-    Error::BadPlan { what: "nothing was prepared for this frame".to_owned() }
-}
 
 impl Frame<'_> {
     pub(super) fn render(
@@ -30,7 +25,7 @@ impl Frame<'_> {
         recorded: &mut Recorded,
     ) -> Result<(), Error> {
         let views = scope.views.at(self.number).ok_or_else(unprepared)?;
-        let device = &self.shared.raw;
+        let device = &self.gpu.raw;
         let info = |(attachment, views)| self.attachment(attachment, views);
         let color = or_unused(plan.color.iter().zip(&views.color).map(info));
         let depth = plan.depth.as_ref().zip(views.depth.as_deref()).map(info);
@@ -56,7 +51,7 @@ impl Frame<'_> {
         }
         let has_local_reads = scope.passes.iter().any(|pass| pass.local.is_some());
         for (pass, made) in plan.passes.iter().zip(&scope.passes) {
-            let drawn = self.shared.labelled(commands, &pass.name, || {
+            let drawn = self.gpu.labelled(commands, &pass.name, || {
                 if pass.local_barrier {
                     self.local_barrier(commands);
                 }
@@ -64,7 +59,7 @@ impl Frame<'_> {
                     self.see_attachments(commands, plan.color.len(), made.local.as_ref());
                 }
                 let eyes = form.map(|form| (self.plan.stereo, form));
-                let target = Target { extent: plan.extent, rotation, eyes, frame: self.number };
+                let target = DrawTarget { extent: plan.extent, rotation, eyes, frame: self.number };
                 self.draw(commands, pass, made, target, source, &mut recorded.kept)
             });
             timing.stamp(commands);
@@ -86,13 +81,13 @@ impl Frame<'_> {
         let info =
             vk::DependencyInfo::default().dependency_flags(vk::DependencyFlags::BY_REGION).memory_barriers(&barrier);
         // SAFETY: local reads are on wherever a Plan has such a barrier, which allows this one within a scope.
-        unsafe { self.shared.raw.cmd_pipeline_barrier2(commands, &info) };
+        unsafe { self.gpu.raw.cmd_pipeline_barrier2(commands, &info) };
     }
 
     /// Sets what locations and input attachments the scope's colour attachments are to the pass. It holds for the rest of
     /// the scope, so passes without local reads set it back.
     fn see_attachments(&self, commands: vk::CommandBuffer, attachments: usize, local: Option<&LocalRead>) {
-        let Some(extension) = &self.shared.local_read else { return };
+        let Some(extension) = &self.gpu.local_read else { return };
         let straight: Vec<u32> = (0..).take(attachments).collect();
         let (locations, inputs) =
             local.map_or((&straight, &straight), |LocalRead { locations, inputs }| (locations, inputs));
@@ -110,11 +105,11 @@ impl Frame<'_> {
         commands: vk::CommandBuffer,
         plan: &plan::Pass,
         pass: &Drawn,
-        target: Target,
+        target: DrawTarget,
         source: &mut dyn DrawSource,
         kept: &mut Kept,
     ) -> Result<Counts, Error> {
-        let device = &self.shared.raw;
+        let device = &self.gpu.raw;
         if let Some(pipeline) = pass.pipeline {
             let sets = [pass.sets.at(self.number).ok_or_else(unprepared)?.set.raw];
             // SAFETY: the command buffer is being recorded within a scope that the pipeline was made for, and the set has
@@ -126,7 +121,7 @@ impl Frame<'_> {
             }
             self.tell_parts(commands, plan, pass.state.layout);
         }
-        let mut recorder = Recorder::new(self.shared, commands, kept, pass, plan, target);
+        let mut recorder = Recorder::new(self.gpu, commands, kept, pass, plan, target);
         let [width, height] = recorder.extent();
         recorder.set_viewport([0.0, 0.0], [width, height].map(f64::from));
         recorder.set_scissor([0, 0], [width, height]);
@@ -165,11 +160,11 @@ impl Frame<'_> {
         // SAFETY: the command buffer is being recorded, and the Plan's usages were checked by the checker.
         unsafe {
             if !vertices.is_empty() {
-                self.shared.raw.cmd_bind_vertex_buffers(commands, 0, &vertices, &vec![0; vertices.len()]);
+                self.gpu.raw.cmd_bind_vertex_buffers(commands, 0, &vertices, &vec![0; vertices.len()]);
             }
             if let Some(indices) = pass.indices {
                 let indices = physical.buffer(indices, self.number).raw;
-                self.shared.raw.cmd_bind_index_buffer(commands, indices, 0, vk::IndexType::UINT32);
+                self.gpu.raw.cmd_bind_index_buffer(commands, indices, 0, vk::IndexType::UINT32);
             }
         }
     }

@@ -1,8 +1,8 @@
 //! The resources that a shader stage uses, read off its SPIR-V.
 
-use super::compile::Stage;
 use super::module::{Indexed, id, number, storage_class};
 use super::text::Refused;
+use crate::process::ShaderStage;
 use framewright_graph::format::Format;
 use framewright_graph::interface::{
     Binding, BindingKind, Block, Component, Dimension, ImageShape, Member, PASS_SET, Unbindable,
@@ -23,14 +23,14 @@ const PARTS: &str = "FramewrightParts";
 /// parts of images are in use.
 pub(super) fn bindings(
     module: &Indexed<'_>,
-    stage: Stage,
+    stage: ShaderStage,
     used: &HashSet<u32>,
     in_part: bool,
 ) -> Result<Vec<Binding>, Refused> {
     let stages = match stage {
-        Stage::Vertex => Stages::VERTEX_SHADER,
-        Stage::Fragment => Stages::FRAGMENT_SHADER,
-        Stage::Compute => Stages::COMPUTE_SHADER,
+        ShaderStage::Vertex => Stages::VERTEX_SHADER,
+        ShaderStage::Fragment => Stages::FRAGMENT_SHADER,
+        ShaderStage::Compute => Stages::COMPUTE_SHADER,
     };
     let mut bindings = Vec::new();
     for (variable, instruction) in module.variables() {
@@ -50,7 +50,7 @@ pub(super) fn bindings(
         }
         let Some(ty) = module.pointee(instruction) else { continue };
         let kind = kind(module, variable, instruction, ty);
-        if stage == Stage::Vertex && writes(&kind) {
+        if stage == ShaderStage::Vertex && writes(&kind) {
             let name = module.name(variable);
             let what = format!("`{name}` is written by a vertex shader: not every device can; declare it `readonly`");
             return Err(Refused::named(name, what));

@@ -1,8 +1,8 @@
 //! The capabilities of SPIR-V that stages may need, and what GLSL to write instead of what needs others.
 
-use super::compile::Stage;
 use super::module::Indexed;
 use super::text::Refused;
+use crate::process::ShaderStage;
 use rspirv::dr::Operand;
 use rspirv::spirv::Capability;
 
@@ -112,14 +112,14 @@ const UNSUPPORTED: &[Row] = &[
 ///
 /// # Errors
 /// The first capability that a stage needs and may not.
-pub(super) fn check_capabilities(module: &Indexed<'_>, stage: Stage, both_eyes: bool) -> Result<(), Refused> {
+pub(super) fn check_capabilities(module: &Indexed<'_>, stage: ShaderStage, both_eyes: bool) -> Result<(), Refused> {
     let needed = module.module.capabilities.iter().filter_map(|it| match it.operands.first() {
         Some(Operand::Capability(capability)) => Some(*capability),
         _ => None,
     });
     let allowed = |it: &Capability| {
         EVERYWHERE.contains(it)
-            || stage == Stage::Compute && COMPUTE.contains(it)
+            || stage == ShaderStage::Compute && COMPUTE.contains(it)
             || both_eyes && FOR_BOTH_EYES.contains(it)
     };
     // The most exact is said: `subgroupBallot` needs what all operations of subgroups need, too.

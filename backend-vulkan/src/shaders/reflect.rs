@@ -1,13 +1,12 @@
 //! What one shader stage uses, read off its SPIR-V.
 
-use super::alpha;
 use super::bindings::{bindings, component_of};
 use super::capabilities::check_capabilities;
-use super::compile::Stage;
 use super::eyes::HANDED_ON;
 use super::module::{Indexed, id, number, storage_class};
-use super::rotation;
 use super::text::Refused;
+use super::{alpha, rotation};
+use crate::process::ShaderStage;
 use framewright_graph::interface::{AlphaUse, FragmentOutput, PASS_SET, ShaderInterface, VertexInput};
 use rspirv::dr::Operand;
 use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, Op, StorageClass};
@@ -52,12 +51,17 @@ const SHARED_BYTES: u64 = 16 << 10;
 ///
 /// # Errors
 /// In words: what it uses that can't be bound.
-pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool, both_eyes: bool) -> Result<StageInterface, Refused> {
+pub(super) fn reflect(
+    stage: ShaderStage,
+    spirv: &[u32],
+    in_part: bool,
+    both_eyes: bool,
+) -> Result<StageInterface, Refused> {
     let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
     let module = Indexed::new(&module);
     let used: HashSet<u32> =
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
-    let fragment = stage == Stage::Fragment;
+    let fragment = stage == ShaderStage::Fragment;
     check_capabilities(&module, stage, both_eyes)?;
     check_own_memory(&module)?;
     check_shared_memory(&module)?;
@@ -69,8 +73,8 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool, both_eyes: boo
     let interface = ShaderInterface {
         bindings: bindings(&module, stage, &used, in_part)?,
         vertex_inputs: match stage {
-            Stage::Vertex => inputs.iter().cloned().map(vertex_input).collect(),
-            Stage::Fragment | Stage::Compute => Vec::new(),
+            ShaderStage::Vertex => inputs.iter().cloned().map(vertex_input).collect(),
+            ShaderStage::Fragment | ShaderStage::Compute => Vec::new(),
         },
         outputs: if fragment { fragment_outputs(&module)? } else { Vec::new() },
         alpha: alpha_uses(&module, fragment),
@@ -85,7 +89,7 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool, both_eyes: boo
             .execution_modes
             .iter()
             .any(|it| matches!(&it.operands[..], [_, Operand::ExecutionMode(ExecutionMode::DepthReplacing), ..])),
-        workgroup_size: (stage == Stage::Compute).then(|| workgroup_size(&module)),
+        workgroup_size: (stage == ShaderStage::Compute).then(|| workgroup_size(&module)),
         unturned: rotation::unturned(&module, stage),
         // The text says it, not the SPIR-V.
         asks_part: Vec::new(),

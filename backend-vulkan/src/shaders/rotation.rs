@@ -5,8 +5,8 @@
 //! stage that looks at it anywhere. What a function hands to another can't be followed, nor can positions that a vertex stage
 //! only partly turns.
 
-use super::compile::Stage;
 use super::module::{Indexed, id};
+use crate::process::ShaderStage;
 use framewright_graph::interface::Unturned;
 use rspirv::dr::{Function, Instruction, Operand};
 use rspirv::spirv::{BuiltIn, Decoration, Op};
@@ -16,17 +16,17 @@ use std::collections::HashSet;
 const ROTATION: u32 = 100;
 
 /// What goes wrong.
-pub(super) fn unturned(module: &Indexed<'_>, stage: Stage) -> Vec<Unturned> {
+pub(super) fn unturned(module: &Indexed<'_>, stage: ShaderStage) -> Vec<Unturned> {
     let rotation = known_by(module);
     let functions = module.module.functions.iter();
     let mut functions = functions.filter(|function| !code(function).any(|it| mentions(it, &rotation)));
     match stage {
-        Stage::Compute => Vec::new(),
-        Stage::Vertex => {
+        ShaderStage::Compute => Vec::new(),
+        ShaderStage::Vertex => {
             let all = module.module.functions.len();
             if functions.count() == all { vec![Unturned::Vertices] } else { Vec::new() }
         }
-        Stage::Fragment => {
+        ShaderStage::Fragment => {
             let places = places(module);
             let (mut reads, mut differentiates) = (false, false);
             for function in functions.by_ref() {

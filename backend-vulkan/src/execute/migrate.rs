@@ -1,0 +1,161 @@
+//! Going on with another Plan: what persists in both keeps its contents.
+
+use super::executor::Executor;
+use crate::base::Error;
+use crate::commands::{barriers, memory_change, state_change};
+use crate::prepare::{before_first_frame, cycle};
+use ash::vk;
+use framewright_graph::plan::{BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
+use framewright_graph::vocabulary::State;
+use std::sync::Arc;
+
+/// One image or buffer that goes on.
+struct Carried {
+    from: Resource,
+    to: Resource,
+    /// The queue that has it, in both.
+    queue: Queue,
+    left: State,
+    found: State,
+}
+
+impl Executor {
+    /// Lets what persists go on from `before`, which executed another Plan on the same device and ends here: the same
+    /// pipeline at another size or with other settings. What both Plans know by the same name and in the same form keeps
+    /// its contents, history as a whole; everything else begins with its initial value. Returns the names of what went on.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if this executor has begun already, or is of another device; [`Error::DeviceLost`],
+    /// [`Error::Timeout`].
+    pub fn carry_over(&mut self, mut before: Executor) -> Result<Vec<String>, Error> {
+        let bad = |what: &str| Err(Error::BadResource { what: format!("nothing can be carried over: {what}") });
+        if self.frames.next() > 0 || self.initialised {
+            return bad("the executor has begun already");
+        }
+        if !Arc::ptr_eq(&self.gpu, &before.gpu) {
+            return bad("the executors are of different devices");
+        }
+        before.frames.wait_for_all()?;
+        if !before.initialised {
+            return Ok(Vec::new());
+        }
+        let carried = self.carried_from(&before);
+        for queue in [Queue::Graphics, Queue::Compute, Queue::Transfer] {
+            let mut here = carried.iter().filter(|it| it.queue == queue).peekable();
+            if here.peek().is_some() {
+                self.gpu.submit_once("carrying contents over", queue, |commands| {
+                    here.for_each(|it| before.record_change(commands, it));
+                })?;
+            }
+        }
+        let next = before.frames.next();
+        for it in &carried {
+            let (from, to) = (&before.prepared.physical, &mut self.prepared.physical);
+            match (it.from, it.to) {
+                (Resource::Image(old), Resource::Image(new)) => to.carry_image(new, from.image(old, next).clone()),
+                (Resource::Buffer(old), Resource::Buffer(new)) => to.carry_buffer(new, from.buffer(old, next).clone()),
+                (Resource::Image(_), Resource::Buffer(_)) | (Resource::Buffer(_), Resource::Image(_)) => {}
+            }
+        }
+        self.prepared.forget();
+        Ok(carried.iter().map(|it| named(&self.plan, it.to).0.to_owned()).collect())
+    }
+
+    /// What goes on, cycle by cycle.
+    fn carried_from(&self, before: &Executor) -> Vec<Carried> {
+        let mut carried = Vec::new();
+        let mut seen = vec![false; self.plan.images.len() + self.plan.buffers.len()];
+        for first in persistent(&self.plan) {
+            let members: Vec<Resource> = members(&self.plan, first);
+            if !seen[number(&self.plan, first)] {
+                members.iter().for_each(|it| seen[number(&self.plan, *it)] = true);
+                let goes_on: Option<Vec<_>> = members.iter().map(|it| self.goes_on(before, *it)).collect();
+                carried.extend(goes_on.into_iter().flatten());
+            }
+        }
+        carried
+    }
+
+    /// How an image or buffer goes on; `None` if it doesn't.
+    fn goes_on(&self, before: &Executor, to: Resource) -> Option<Carried> {
+        let (name, role) = named(&self.plan, to);
+        // What comes from a file was read anew, and may have changed.
+        let Role::Persistent { before: found, initial: Initial::Value(_), .. } = role else { return None };
+        let from = persistent(&before.plan).find(|it| named(&before.plan, *it).0 == name)?;
+        let Role::Persistent { before: left, .. } = named(&before.plan, from).1 else { return None };
+        let names = |plan: &Plan, first| -> Vec<String> {
+            members(plan, first).into_iter().map(|it| named(plan, it).0.to_owned()).collect()
+        };
+        let (next, old, new) = (before.frames.next(), &before.prepared.physical, &self.prepared.physical);
+        let fits = match (from, to) {
+            (Resource::Image(from), Resource::Image(to)) => {
+                let (old, new) = (old.image(from, next).descriptor, new.image(to, 0).descriptor);
+                old.usage.contains(new.usage)
+                    && framewright_graph::device::ImageDescriptor { usage: old.usage, ..new } == old
+            }
+            (Resource::Buffer(from), Resource::Buffer(to)) => {
+                let (old, new) = (old.buffer(from, next), new.buffer(to, 0));
+                let sharing = |plan: &Plan, id: BufferId| plan.buffers[id.0 as usize].sharing;
+                old.usage.contains(new.usage)
+                    && old.bytes == new.bytes
+                    && sharing(&before.plan, from) == sharing(&self.plan, to)
+            }
+            (Resource::Image(_), Resource::Buffer(_)) | (Resource::Buffer(_), Resource::Image(_)) => false,
+        };
+        // An image or buffer that lies between two queues can't be brought into another state.
+        let queue = if next == 0 { before_first_frame(&before.plan, &before.uses, from) } else { before.owner(from) };
+        let queue = queue.filter(|queue| Some(*queue) == before_first_frame(&self.plan, &self.uses, to))?;
+        let goes_on = fits && names(&before.plan, from) == names(&self.plan, to);
+        goes_on.then_some(Carried { from, to, queue, left: *left, found: *found })
+    }
+
+    /// Brings it from the state in which its own next frame would find it to that in which the other one's first does.
+    fn record_change(&self, commands: vk::CommandBuffer, carried: &Carried) {
+        let (physical, next) = (&self.prepared.physical, self.frames.next());
+        match carried.from {
+            Resource::Image(id) => {
+                let image = physical.image(id, next);
+                let descriptor = image.descriptor;
+                let whole = Subresources::all(descriptor.format, descriptor.mips, descriptor.layers);
+                barriers(&self.gpu, commands, &[], &[state_change(image.raw, whole, carried.left, carried.found)]);
+            }
+            Resource::Buffer(_) => {
+                barriers(&self.gpu, commands, &[memory_change(carried.left, carried.found)], &[]);
+            }
+        }
+    }
+}
+
+/// All that persists.
+fn persistent(plan: &Plan) -> impl Iterator<Item = Resource> {
+    let persists = |role: &Role| matches!(role, Role::Persistent { .. });
+    let images = plan.images.iter().filter(move |it| persists(&it.role)).map(|it| Resource::Image(it.id));
+    images.chain(plan.buffers.iter().filter(move |it| persists(&it.role)).map(|it| Resource::Buffer(it.id)))
+}
+
+/// What becomes each other, from one of them on.
+fn members(plan: &Plan, first: Resource) -> Vec<Resource> {
+    match first {
+        Resource::Image(ImageId(id)) => {
+            cycle(id, |id| &plan.images[id as usize].role).map(|id| Resource::Image(ImageId(id))).collect()
+        }
+        Resource::Buffer(BufferId(id)) => {
+            cycle(id, |id| &plan.buffers[id as usize].role).map(|id| Resource::Buffer(BufferId(id))).collect()
+        }
+    }
+}
+
+fn named(plan: &Plan, resource: Resource) -> (&str, &Role) {
+    match resource {
+        Resource::Image(id) => (&plan.image(id).name, &plan.image(id).role),
+        Resource::Buffer(id) => (&plan.buffers[id.0 as usize].name, &plan.buffers[id.0 as usize].role),
+    }
+}
+
+/// Images and buffers in one row.
+fn number(plan: &Plan, resource: Resource) -> usize {
+    match resource {
+        Resource::Image(id) => id.0 as usize,
+        Resource::Buffer(id) => plan.images.len() + id.0 as usize,
+    }
+}
