@@ -2,10 +2,10 @@
 
 use super::barriers::{barriers, memory_change, state_change};
 use super::rotate_texels;
-use super::transfer::{Place, copy_between};
+use super::transfer::{TransferSide, copy_between};
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
-use crate::memory::{Image, Kind, RawBuffer};
+use crate::memory::{Image, MemoryUse, RawBuffer};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::format::Format;
@@ -60,7 +60,7 @@ impl Readback {
     }
 
     fn new(gpu: &Arc<Gpu>, bytes: u64, plane: Aspects, mip: u32) -> Result<Readback, Error> {
-        let buffer = RawBuffer::new(gpu, "readback", bytes, vk::BufferUsageFlags::TRANSFER_DST, Kind::Readback)?;
+        let buffer = RawBuffer::new(gpu, "readback", bytes, vk::BufferUsageFlags::TRANSFER_DST, MemoryUse::Readback)?;
         Ok(Readback { buffer, bytes, plane, mip })
     }
 
@@ -70,7 +70,7 @@ impl Readback {
         let whole = Subresources::all(descriptor.format, descriptor.mips, descriptor.layers);
         barriers(gpu, commands, &[], &[state_change(image.raw, whole, state, COPIED)]);
         let range = Subresources { aspects: self.plane, base_mip: self.mip, mips: 1, ..whole };
-        let source = Place::Image {
+        let source = TransferSide::Image {
             image: image.raw,
             range,
             extent: convert::extent(mip_extent(&descriptor, self.mip)),
@@ -83,12 +83,12 @@ impl Readback {
     /// Copies from `buffer`, which is in the state `state` and stays in it.
     pub(crate) fn record_buffer(&self, gpu: &Gpu, commands: vk::CommandBuffer, buffer: &RawBuffer, state: State) {
         barriers(gpu, commands, &[memory_change(state, COPIED)], &[]);
-        copy_between(gpu, commands, Place::Buffer { buffer: buffer.raw, bytes: self.bytes }, self.place());
+        copy_between(gpu, commands, TransferSide::Buffer { buffer: buffer.raw, bytes: self.bytes }, self.place());
         barriers(gpu, commands, &[to_host(), memory_change(COPIED, state)], &[]);
     }
 
-    fn place(&self) -> Place {
-        Place::Buffer { buffer: self.buffer.raw, bytes: self.bytes }
+    fn place(&self) -> TransferSide {
+        TransferSide::Buffer { buffer: self.buffer.raw, bytes: self.bytes }
     }
 
     /// The bytes. The copy must have been waited for.

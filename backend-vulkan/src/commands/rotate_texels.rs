@@ -1,4 +1,4 @@
-//! Texels of rotated images: outside of frames they are those of the upright picture.
+//! Rotation of texels: images hold rotated pictures, and what the host reads and writes is upright.
 
 use framewright_graph::rotation::Rotation;
 

@@ -8,7 +8,7 @@ use framewright_graph::vocabulary::Aspects;
 
 /// One side of a transfer, on the device.
 #[derive(Clone, Copy)]
-pub(crate) enum Place {
+pub(crate) enum TransferSide {
     /// A part of an image.
     Image { image: vk::Image, range: Subresources, extent: vk::Extent3D, layout: vk::ImageLayout },
     /// The beginning of a buffer.
@@ -16,12 +16,12 @@ pub(crate) enum Place {
 }
 
 /// Copies one place to another: texel for texel, byte for byte, or texels without gaps to or from a buffer.
-pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: Place, target: Place) {
+pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: TransferSide, target: TransferSide) {
     let device = &gpu.raw;
     match (source, target) {
         (
-            Place::Image { image, range, extent, layout },
-            Place::Image { image: to, range: to_range, layout: to_layout, .. },
+            TransferSide::Image { image, range, extent, layout },
+            TransferSide::Image { image: to, range: to_range, layout: to_layout, .. },
         ) => {
             let regions = [vk::ImageCopy2::default()
                 .src_subresource(convert::layers(range))
@@ -36,7 +36,7 @@ pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: Place
             // SAFETY: recording outside a scope; both parts exist and are in these layouts.
             unsafe { device.cmd_copy_image2(commands, &info) };
         }
-        (Place::Image { image, range, extent, layout }, Place::Buffer { buffer, .. }) => {
+        (TransferSide::Image { image, range, extent, layout }, TransferSide::Buffer { buffer, .. }) => {
             let regions = [rows(range, extent)];
             let info = vk::CopyImageToBufferInfo2::default()
                 .src_image(image)
@@ -46,7 +46,7 @@ pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: Place
             // SAFETY: recording outside a scope; the part is in this layout, and the buffer holds its texels.
             unsafe { device.cmd_copy_image_to_buffer2(commands, &info) };
         }
-        (Place::Buffer { buffer, .. }, Place::Image { image, range, extent, layout }) => {
+        (TransferSide::Buffer { buffer, .. }, TransferSide::Image { image, range, extent, layout }) => {
             let regions = [rows(range, extent)];
             let info = vk::CopyBufferToImageInfo2::default()
                 .src_buffer(buffer)
@@ -56,7 +56,7 @@ pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: Place
             // SAFETY: recording outside a scope; the part is in this layout, and the buffer holds its texels.
             unsafe { device.cmd_copy_buffer_to_image2(commands, &info) };
         }
-        (Place::Buffer { buffer, bytes }, Place::Buffer { buffer: to, bytes: to_bytes }) => {
+        (TransferSide::Buffer { buffer, bytes }, TransferSide::Buffer { buffer: to, bytes: to_bytes }) => {
             let regions = [vk::BufferCopy2::default().size(bytes.min(to_bytes))];
             let info = vk::CopyBufferInfo2::default().src_buffer(buffer).dst_buffer(to).regions(&regions);
             // SAFETY: recording outside a scope; both buffers hold as many bytes.
@@ -73,25 +73,26 @@ fn rows(range: Subresources, extent: vk::Extent3D) -> vk::BufferImageCopy2<'stat
 }
 
 /// Sets all of a place to a value.
-pub(crate) fn fill(gpu: &Gpu, commands: vk::CommandBuffer, target: Place, value: Clear) {
+pub(crate) fn fill(gpu: &Gpu, commands: vk::CommandBuffer, target: TransferSide, value: Clear) {
     let device = &gpu.raw;
     match (target, value) {
-        (Place::Image { image, range, layout, .. }, Clear::Color(color)) => {
+        (TransferSide::Image { image, range, layout, .. }, Clear::Color(color)) => {
             let ranges = [convert::range(range)];
             // SAFETY: recording outside a scope; the part of this colour image exists and is in this layout.
             unsafe { device.cmd_clear_color_image(commands, image, layout, &color, &ranges) };
         }
-        (Place::Image { image, range, layout, .. }, Clear::DepthStencil(value)) => {
+        (TransferSide::Image { image, range, layout, .. }, Clear::DepthStencil(value)) => {
             let ranges = [convert::range(range)];
             // SAFETY: recording outside a scope; the part of this depth image exists and is in this layout.
             unsafe { device.cmd_clear_depth_stencil_image(commands, image, layout, &value, &ranges) };
         }
-        (Place::Buffer { buffer, bytes }, Clear::Word(word)) => {
+        (TransferSide::Buffer { buffer, bytes }, Clear::Word(word)) => {
             let bytes = bytes.next_multiple_of(4);
             // SAFETY: recording outside a scope; buffers are made of whole words.
             unsafe { device.cmd_fill_buffer(commands, buffer, 0, bytes, word) };
         }
         // A format's clear is of its own kind.
-        (Place::Image { .. }, Clear::Word(_)) | (Place::Buffer { .. }, Clear::Color(_) | Clear::DepthStencil(_)) => {}
+        (TransferSide::Image { .. }, Clear::Word(_))
+        | (TransferSide::Buffer { .. }, Clear::Color(_) | Clear::DepthStencil(_)) => {}
     }
 }

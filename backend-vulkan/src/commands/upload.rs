@@ -2,10 +2,10 @@
 
 use super::barriers::{barriers, memory_change, state_change};
 use super::readback::mip_extent;
-use super::transfer::{Place, copy_between};
+use super::transfer::{TransferSide, copy_between};
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
-use crate::memory::{Image, Kind, RawBuffer};
+use crate::memory::{Image, MemoryUse, RawBuffer};
 use ash::vk;
 use framewright_graph::plan::Queue;
 use framewright_graph::vocabulary::{Accesses, Aspects, Layout, Stages, State, Subresources};
@@ -97,8 +97,8 @@ fn transition(
 }
 
 /// Where a fill or copy goes in an image that is in the layout for it.
-pub(crate) fn image_place(image: &Image, range: Subresources, mip: u32) -> Place {
-    Place::Image {
+pub(crate) fn image_side(image: &Image, range: Subresources, mip: u32) -> TransferSide {
+    TransferSide::Image {
         image: image.raw,
         range,
         extent: convert::extent(mip_extent(&image.descriptor, mip)),
@@ -120,8 +120,8 @@ pub(crate) fn write_image(
     gpu.submit_once("writing an image", queue, |commands| {
         barriers(gpu, commands, &[], &[state_change(image.raw, whole, state, WRITTEN)]);
         let range = Subresources { aspects: plane, base_mip: mip, mips: 1, ..whole };
-        let source = Place::Buffer { buffer: staging.raw, bytes: bytes.len() as u64 };
-        copy_between(gpu, commands, source, image_place(image, range, mip));
+        let source = TransferSide::Buffer { buffer: staging.raw, bytes: bytes.len() as u64 };
+        copy_between(gpu, commands, source, image_side(image, range, mip));
         barriers(gpu, commands, &[], &[state_change(image.raw, whole, WRITTEN, state)]);
     })
 }
@@ -138,8 +138,8 @@ pub(crate) fn write_buffer(
     gpu.submit_once("writing a buffer", queue, |commands| {
         barriers(gpu, commands, &[memory_change(state, WRITTEN)], &[]);
         let bytes = bytes.len() as u64;
-        let source = Place::Buffer { buffer: staging.raw, bytes };
-        copy_between(gpu, commands, source, Place::Buffer { buffer: buffer.raw, bytes });
+        let source = TransferSide::Buffer { buffer: staging.raw, bytes };
+        copy_between(gpu, commands, source, TransferSide::Buffer { buffer: buffer.raw, bytes });
         barriers(gpu, commands, &[memory_change(WRITTEN, state)], &[]);
     })
 }
@@ -147,7 +147,7 @@ pub(crate) fn write_buffer(
 /// `bytes` where the device can copy from.
 fn staged(gpu: &Arc<Gpu>, bytes: &[u8]) -> Result<RawBuffer, Error> {
     let usage = vk::BufferUsageFlags::TRANSFER_SRC;
-    let mut staging = RawBuffer::new(gpu, "upload", (bytes.len() as u64).max(1), usage, Kind::Upload)?;
+    let mut staging = RawBuffer::new(gpu, "upload", (bytes.len() as u64).max(1), usage, MemoryUse::Upload)?;
     staging.fill(bytes)?;
     Ok(staging)
 }

@@ -1,15 +1,15 @@
-//! Going over to a Plan with other values, with all that was made for the one before.
+//! Change of a Plan's values, with all that was made for the Plan before.
 
 use super::executor::Executor;
 use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::memory::RawBuffer;
-use crate::prepare::{PassSet, Prepared, Refuse, SetTemplate, Step as Made, Turns, WorkgroupCount, check, groups};
+use crate::prepare::{PassSet, Prepared, PreparedStep, Refuse, RingCache, SetTemplate, WorkgroupCount, check, groups};
 use framewright_graph::plan::{Pass, Plan, Work};
 use std::sync::Arc;
 
 /// What a pass gets anew.
-enum Renewed {
+enum ChangedValue {
     Params(Arc<RawBuffer>),
     Groups(WorkgroupCount),
 }
@@ -29,7 +29,7 @@ impl Executor {
         }
         check(&self.gpu, plan, Refuse::Violations, self.poisons())?;
         let renewed = renewed(&self.gpu, &self.prepared, &self.plan, plan)?;
-        if renewed.iter().any(|(_, renewed)| matches!(renewed, Renewed::Params(_))) {
+        if renewed.iter().any(|(_, renewed)| matches!(renewed, ChangedValue::Params(_))) {
             self.frames.wait_for_all()?;
         }
         for (at, renewed) in renewed {
@@ -46,29 +46,29 @@ fn renewed(
     prepared: &Prepared,
     before: &Plan,
     after: &Plan,
-) -> Result<Vec<([usize; 2], Renewed)>, Error> {
+) -> Result<Vec<([usize; 2], ChangedValue)>, Error> {
     let mut renewed = Vec::new();
     for (step, (old, new)) in before.steps.iter().zip(&after.steps).enumerate() {
         let mut params = |number: usize, old: &Pass, new: &Pass, template: &SetTemplate| {
             if old.params != new.params
                 && let Some(filled) = template.params_of(gpu, new)?
             {
-                renewed.push(([step, number], Renewed::Params(filled)));
+                renewed.push(([step, number], ChangedValue::Params(filled)));
             }
             Ok::<_, Error>(())
         };
         match (&old.work, &new.work, &prepared.steps[step]) {
-            (Work::Render(old), Work::Render(new), Made::Render(made)) => {
+            (Work::Render(old), Work::Render(new), PreparedStep::Render(made)) => {
                 for (number, ((old, new), made)) in old.passes.iter().zip(&new.passes).zip(&made.passes).enumerate() {
                     params(number, old, new, &made.template)?;
                 }
             }
-            (Work::Dispatch(old), Work::Dispatch(new), Made::Dispatch(made)) => {
+            (Work::Dispatch(old), Work::Dispatch(new), PreparedStep::Dispatch(made)) => {
                 params(0, old, new, &made.template)?;
                 if old.groups != new.groups {
                     let mismatch = |what| Error::Mismatch { pass: new.name.to_string(), what };
                     let count = groups(gpu, after, new, made.size).map_err(mismatch)?;
-                    renewed.push(([step, 0], Renewed::Groups(count)));
+                    renewed.push(([step, 0], ChangedValue::Groups(count)));
                 }
             }
             _ => {}
@@ -78,18 +78,20 @@ fn renewed(
 }
 
 /// Gives it to a pass. Nothing that was filled with other parameters may be in use.
-fn take(prepared: &mut Prepared, [step, pass]: [usize; 2], renewed: Renewed) {
-    let put_in = |template: &mut SetTemplate, sets: &mut Turns<PassSet>, params| {
+fn take(prepared: &mut Prepared, [step, pass]: [usize; 2], renewed: ChangedValue) {
+    let put_in = |template: &mut SetTemplate, sets: &mut RingCache<PassSet>, params| {
         template.take(params);
         sets.forget();
     };
     match (&mut prepared.steps[step], renewed) {
-        (Made::Render(scope), Renewed::Params(params)) => {
+        (PreparedStep::Render(scope), ChangedValue::Params(params)) => {
             let pass = &mut scope.passes[pass];
             put_in(&mut pass.template, &mut pass.sets, params);
         }
-        (Made::Dispatch(made), Renewed::Params(params)) => put_in(&mut made.template, &mut made.sets, params),
-        (Made::Dispatch(made), Renewed::Groups(count)) => made.groups = count,
+        (PreparedStep::Dispatch(made), ChangedValue::Params(params)) => {
+            put_in(&mut made.template, &mut made.sets, params)
+        }
+        (PreparedStep::Dispatch(made), ChangedValue::Groups(count)) => made.groups = count,
         _ => {}
     }
 }

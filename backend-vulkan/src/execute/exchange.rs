@@ -6,7 +6,7 @@ use crate::commands::{
     Readback, Texels, first_plane, mip_extent, plane_bytes, rotate_texels, write_buffer, write_image,
 };
 use crate::memory::{Image, RawBuffer};
-use crate::prepare::{before_first_frame, buffer_descriptor, descriptor};
+use crate::prepare::{buffer_descriptor, descriptor, initial_queue};
 use ash::vk;
 use framewright_graph::plan::{BufferId, ImageId, Queue, Resource, Role};
 use framewright_graph::vocabulary::{Aspects, Layout, State, Usage};
@@ -249,7 +249,7 @@ impl Executor {
             Role::External { after, .. } => *after,
         };
         let first = self.frames.next() == 0;
-        let queue = if first { before_first_frame(&self.plan, &self.uses, resource) } else { self.owner(resource) };
+        let queue = if first { initial_queue(&self.plan, &self.uses, resource) } else { self.owner(resource) };
         Ok((state, queue.ok_or_else(|| bad("another queue takes it over"))?))
     }
 

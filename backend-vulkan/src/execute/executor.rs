@@ -1,12 +1,12 @@
 //! Executing a Plan, frame by frame.
 
-use super::frames::{Beside, Frames};
-use super::import::HandIn;
+use super::frames::{FrameExtras, Frames};
+use super::import::Import;
 use super::initial_contents::initialise;
-use super::output_readback::Keep;
+use super::output_readback::OutputReadback;
 use crate::base::Error;
 use crate::gpu::{Device, Gpu};
-use crate::prepare::{Prepared, Refuse, Staged, Uses, check, staged};
+use crate::prepare::{Prepared, Refuse, StagedTexture, Uses, check, stage_textures};
 use crate::record::{DrawSource, Frame, FrameReport};
 use crate::shaders::ShaderLibrary;
 use framewright_graph::plan::Plan;
@@ -44,14 +44,14 @@ pub struct Executor {
     pub(crate) gpu: Arc<Gpu>,
     pub(crate) plan: Plan,
     options: ExecutorOptions,
-    hand_ins: Vec<HandIn>,
-    keep: Vec<Keep>,
+    imports: Vec<Import>,
+    readbacks: Vec<OutputReadback>,
     pub(crate) uses: Uses,
     /// Before what it uses: dropping it waits for every frame.
     pub(crate) frames: Frames,
     pub(crate) prepared: Prepared,
     /// Texels from files, until they are uploaded.
-    staged: Vec<Staged>,
+    staged: Vec<StagedTexture>,
     pub(crate) initialised: bool,
 }
 
@@ -113,17 +113,17 @@ impl Executor {
         let gpu = &device.gpu;
         check(gpu, plan, refuse, options.poison)?;
         let uses = Uses::new(plan);
-        let hand_ins = HandIn::all(plan, &uses);
+        let imports = Import::all(plan, &uses);
         Ok(Executor {
             gpu: gpu.clone(),
-            keep: if options.keep_outputs { Keep::all(plan, &uses)? } else { Vec::new() },
-            frames: Frames::new(gpu, plan, &hand_ins, options.frames_in_flight, options.timeout)?,
+            readbacks: if options.keep_outputs { OutputReadback::all(plan, &uses)? } else { Vec::new() },
+            frames: Frames::new(gpu, plan, &imports, options.frames_in_flight, options.timeout)?,
             prepared: Prepared::new(gpu, plan, shaders)?,
             plan: plan.clone(),
             options: options.clone(),
-            hand_ins,
+            imports,
             uses,
-            staged: staged(gpu, plan, textures)?,
+            staged: stage_textures(gpu, plan, textures)?,
             initialised: false,
         })
     }
@@ -147,11 +147,11 @@ impl Executor {
         self.frames.make_room()?;
         self.ready()?;
         let number = self.frames.next();
-        self.prepared.turn_to(&self.gpu, &self.plan, number)?;
+        self.prepared.prepare_frame(&self.gpu, &self.plan, number)?;
         let frame =
             Frame { gpu: &self.gpu, plan: &self.plan, prepared: &self.prepared, number, poison: self.options.poison };
-        let beside = Beside { hand_ins: &self.hand_ins, keep: &self.keep };
-        self.frames.submit(&frame, source, &beside)?;
+        let extras = FrameExtras { imports: &self.imports, readbacks: &self.readbacks };
+        self.frames.submit(&frame, source, &extras)?;
         Ok(number)
     }
 

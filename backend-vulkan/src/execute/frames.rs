@@ -1,7 +1,7 @@
 //! Frames on their way: recorded, submitted to their queues, and waited for.
 
-use super::import::HandIn;
-use super::output_readback::Keep;
+use super::import::Import;
+use super::output_readback::OutputReadback;
 use crate::base::Error;
 use crate::commands::{CommandPool, Readback, Timeline, record};
 use crate::gpu::{Gpu, Unfinished};
@@ -41,10 +41,10 @@ struct Slot {
 }
 
 /// What a frame is submitted with, beside what the Plan says.
-pub(crate) struct Beside<'b> {
-    pub(crate) hand_ins: &'b [HandIn],
+pub(crate) struct FrameExtras<'b> {
+    pub(crate) imports: &'b [Import],
     /// By output, if they are kept.
-    pub(crate) keep: &'b [Keep],
+    pub(crate) readbacks: &'b [OutputReadback],
 }
 
 impl Frames {
@@ -52,12 +52,12 @@ impl Frames {
     pub(crate) fn new(
         gpu: &Arc<Gpu>,
         plan: &Plan,
-        hand_ins: &[HandIn],
+        imports: &[Import],
         in_flight: u32,
         timeout: Duration,
     ) -> Result<Frames, Error> {
-        let beside: Vec<_> = hand_ins.iter().filter_map(|it| it.wait.map(|wait| (it.first, wait))).collect();
-        let batches = batches(plan, &beside);
+        let extras: Vec<_> = imports.iter().filter_map(|it| it.wait.map(|wait| (it.first, wait))).collect();
+        let batches = batches(plan, &extras);
         let mut timelines = Vec::new();
         for queue in batches.iter().filter(|batch| batch.last).map(|batch| batch.queue) {
             timelines.push((queue, Timeline::new(gpu)?));
@@ -93,16 +93,16 @@ impl Frames {
         &mut self,
         frame: &Frame<'_>,
         source: &mut dyn DrawSource,
-        beside: &Beside<'_>,
+        extras: &FrameExtras<'_>,
     ) -> Result<(), Error> {
         let at = self.slot_of(frame.number);
         let slot = &mut self.slots[at];
         // What the frame before the last recorded is no longer in use.
         (slot.recorded, slot.frame) = (Recorded::default(), None);
         if slot.outputs.is_empty() {
-            slot.outputs = beside.keep.iter().map(|keep| keep.make(&self.gpu, frame)).collect::<Result<_, _>>()?;
+            slot.outputs = extras.readbacks.iter().map(|it| it.make(&self.gpu, frame)).collect::<Result<_, _>>()?;
         }
-        slot.record(&self.batches, frame, source, beside)?;
+        slot.record(&self.batches, frame, source, extras)?;
         for number in 0..self.batches.len() {
             if let Err((result, submitted)) = self.submit_batch(at, number, frame.number) {
                 if number > 0 || submitted {
@@ -248,7 +248,7 @@ impl Slot {
         batches: &[Batch],
         frame: &Frame<'_>,
         source: &mut dyn DrawSource,
-        beside: &Beside<'_>,
+        extras: &FrameExtras<'_>,
     ) -> Result<(), Error> {
         let begun = Instant::now();
         for (pool, _) in &self.commands {
@@ -259,12 +259,14 @@ impl Slot {
             record(frame.gpu, *buffer, |commands| {
                 self.timing.begin_batch(commands, batch.queue);
                 for step in batch.steps.clone() {
-                    for hand_in in beside.hand_ins.iter().filter(|it| it.first.0 as usize == step) {
-                        hand_in.record(frame, commands);
+                    for import in extras.imports.iter().filter(|it| it.first.0 as usize == step) {
+                        import.record(frame, commands);
                     }
                     frame.step(commands, step, source, &mut self.timing, &mut self.recorded)?;
-                    for (keep, output) in beside.keep.iter().zip(&self.outputs).filter(|(keep, _)| keep.after == step) {
-                        keep.record(frame, commands, output);
+                    for (readback, into) in
+                        extras.readbacks.iter().zip(&self.outputs).filter(|(it, _)| it.after == step)
+                    {
+                        readback.record(frame, commands, into);
                     }
                 }
                 Ok(())

@@ -1,16 +1,16 @@
-//! What belongs to the embedding program, and the executor plays the program: before each frame it is brought from the
-//! state that the frame before left it in to the one that the Plan relies on.
+//! Imports: external images and buffers belong to the embedding program, which brings each to the state that the Plan relies
+//! on. For those that the executor made itself, it does so: before each frame, from the state that the last frame left.
 
 use crate::commands::{barriers, memory_change, state_change};
-use crate::prepare::{Physical, Uses};
+use crate::prepare::{PhysicalResources, Uses};
 use crate::record::Frame;
 use ash::vk;
 use framewright_graph::plan::{Plan, Resource, Role, StepId, Subresources, Wait};
 use framewright_graph::vocabulary::{Layout, Stages, State};
 
-/// The handing in of one image or buffer.
+/// One external image or buffer.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct HandIn {
+pub(crate) struct Import {
     resource: Resource,
     before: State,
     after: State,
@@ -20,25 +20,25 @@ pub(crate) struct HandIn {
     pub(crate) wait: Option<Wait>,
 }
 
-impl HandIn {
+impl Import {
     /// Everything external that `plan` touches.
-    pub(crate) fn all(plan: &Plan, uses: &Uses) -> Vec<HandIn> {
+    pub(crate) fn all(plan: &Plan, uses: &Uses) -> Vec<Import> {
         let images = plan.images.iter().map(|it| (Resource::Image(it.id), &it.role));
         let buffers = plan.buffers.iter().map(|it| (Resource::Buffer(it.id), &it.role));
-        let hand_in = |(resource, role): (Resource, &Role)| {
+        let import = |(resource, role): (Resource, &Role)| {
             let Role::External { before, after } = role else { return None };
             let span = uses.of(resource)?;
             let queue = |step: usize| plan.steps[step].queue;
             let stages = Stages::ALL_COMMANDS;
             let other = queue(span.first) != queue(span.last);
             let wait = other.then(|| Wait { step: span.last_id(), frames_ago: 1, stages });
-            Some(HandIn { resource, before: *before, after: *after, first: span.first_id(), wait })
+            Some(Import { resource, before: *before, after: *after, first: span.first_id(), wait })
         };
-        images.chain(buffers).filter_map(hand_in).collect()
+        images.chain(buffers).filter_map(import).collect()
     }
 
     /// Whether the executor made it itself.
-    fn is_own(&self, physical: &Physical) -> bool {
+    fn is_own(&self, physical: &PhysicalResources) -> bool {
         match self.resource {
             Resource::Image(image) => !physical.image(image, 0).is_foreign(),
             Resource::Buffer(buffer) => !physical.buffer(buffer, 0).is_foreign(),
@@ -48,7 +48,7 @@ impl HandIn {
     /// Records it before the first step that touches it. Nothing is to be done in the first frame, for what the program
     /// hands in itself, and where the Plan's own barrier waits for all that the frame before left open.
     pub(crate) fn record(&self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
-        let HandIn { before, after, .. } = *self;
+        let Import { before, after, .. } = *self;
         if frame.number == 0 || !self.is_own(&frame.prepared.physical) || before == after {
             return;
         }

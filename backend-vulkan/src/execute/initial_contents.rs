@@ -1,10 +1,10 @@
 //! Contents from outside: what persists begins with its initial value, and the host may write what outlives the frame.
 
 use crate::base::{Error, convert};
-use crate::commands::{Place, WRITTEN, barriers, fill, image_place, memory_change, record_upload, state_change};
+use crate::commands::{TransferSide, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change};
 use crate::gpu::{Family, Gpu};
 use crate::memory::Image;
-use crate::prepare::{FirstOwner, Physical, Staged, Uses, before_first_frame, first_owners};
+use crate::prepare::{InitialOwner, PhysicalResources, StagedTexture, Uses, initial_owners, initial_queue};
 use ash::vk;
 use framewright_graph::plan::{self, BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
 use framewright_graph::vocabulary::{Accesses, FillValue, Layout, Stages, State, Usage};
@@ -21,8 +21,8 @@ pub(crate) fn initialise(
     gpu: &Arc<Gpu>,
     plan: &Plan,
     uses: &Uses,
-    physical: &Physical,
-    staged: &[Staged],
+    physical: &PhysicalResources,
+    staged: &[StagedTexture],
 ) -> Result<(), Error> {
     let initial = |role: &Role, is_foreign: bool| match role {
         Role::Persistent { before, initial: Initial::Value(value), .. } => Some((*before, Some(*value))),
@@ -32,14 +32,14 @@ pub(crate) fn initialise(
     };
     let of_image = |id: ImageId| {
         let found = initial(&plan.image(id).role, physical.image(id, 0).is_foreign());
-        found.filter(|(before, _)| before.layout != Layout::Undefined && !physical.is_carried(Resource::Image(id)))
+        found.filter(|(before, _)| before.layout != Layout::Undefined && !physical.is_migrated(Resource::Image(id)))
     };
     let of_buffer = |id: BufferId| {
         let found = initial(&plan.buffers[id.0 as usize].role, physical.buffer(id, 0).is_foreign());
-        found.filter(|_| !physical.is_carried(Resource::Buffer(id)))
+        found.filter(|_| !physical.is_migrated(Resource::Buffer(id)))
     };
-    let owners = first_owners(plan, |id| of_image(id).is_some());
-    let handing = Handing { gpu, physical, owners: &owners };
+    let owners = initial_owners(plan, |id| of_image(id).is_some());
+    let transfers = OwnershipTransfers { gpu, physical, owners: &owners };
     for queue in [Queue::Graphics, Queue::Compute, Queue::Transfer] {
         let family = gpu.queues.families.family(queue);
         if queue != Queue::Graphics && family == gpu.queues.families.graphics {
@@ -58,15 +58,15 @@ pub(crate) fn initialise(
                 }
             }
             for (buffer, (before, initial)) in plan.buffers.iter().filter_map(|it| Some((it, of_buffer(it.id)?))) {
-                let first = before_first_frame(plan, uses, Resource::Buffer(buffer.id)).unwrap_or(Queue::Graphics);
+                let first = initial_queue(plan, uses, Resource::Buffer(buffer.id)).unwrap_or(Queue::Graphics);
                 if gpu.queues.families.family(first) == family {
                     let made = physical.buffer(buffer.id, 0);
-                    let target = Place::Buffer { buffer: made.raw, bytes: made.bytes };
+                    let target = TransferSide::Buffer { buffer: made.raw, bytes: made.bytes };
                     fill(gpu, commands, target, convert::clear(None, initial.unwrap_or(FillValue::Bits([0; 4]))));
                     barriers(gpu, commands, &[memory_change(WRITTEN, before)], &[]);
                 }
             }
-            handing.record(commands, family);
+            transfers.record(commands, family);
         })?;
     }
     Ok(())
@@ -85,20 +85,20 @@ fn set_image(
     let mut state = UNUSED;
     if made.descriptor.usage.contains(Usage::TRANSFER_DST) {
         barriers(gpu, commands, &[], &[state_change(made.raw, whole, UNUSED, WRITTEN)]);
-        fill(gpu, commands, image_place(made, whole, 0), convert::clear(Some(image.format), initial));
+        fill(gpu, commands, image_side(made, whole, 0), convert::clear(Some(image.format), initial));
         state = WRITTEN;
     }
     barriers(gpu, commands, &[], &[state_change(made.raw, whole, state, before)]);
 }
 
 /// The handing over of images from the graphics queue, which set them, to those that use them first.
-struct Handing<'h> {
+struct OwnershipTransfers<'h> {
     gpu: &'h Gpu,
-    physical: &'h Physical,
-    owners: &'h [FirstOwner<'h>],
+    physical: &'h PhysicalResources,
+    owners: &'h [InitialOwner<'h>],
 }
 
-impl Handing<'_> {
+impl OwnershipTransfers<'_> {
     /// Records what one family has to do, of which the graphics family comes first.
     fn record(&self, commands: vk::CommandBuffer, here: Family) {
         let families = &self.gpu.queues.families;
@@ -126,7 +126,7 @@ impl Handing<'_> {
     /// One half of an ownership transfer; without layouts the image stays in its own.
     fn transfer(
         &self,
-        part: &FirstOwner<'_>,
+        part: &InitialOwner<'_>,
         [from, to]: [Family; 2],
         layouts: [Option<Layout>; 2],
     ) -> vk::ImageMemoryBarrier2<'static> {

@@ -1,16 +1,16 @@
-//! Going on with another Plan: what persists in both keeps its contents.
+//! Migration to another Plan: images and buffers that persist in both keep their contents.
 
 use super::executor::Executor;
 use crate::base::Error;
 use crate::commands::{barriers, memory_change, state_change};
-use crate::prepare::{before_first_frame, cycle};
+use crate::prepare::{cycle, initial_queue};
 use ash::vk;
 use framewright_graph::plan::{BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
 use framewright_graph::vocabulary::State;
 use std::sync::Arc;
 
-/// One image or buffer that goes on.
-struct Carried {
+/// One image or buffer that keeps its contents.
+struct Migration {
     from: Resource,
     to: Resource,
     /// The queue that has it, in both.
@@ -39,9 +39,9 @@ impl Executor {
         if !before.initialised {
             return Ok(Vec::new());
         }
-        let carried = self.carried_from(&before);
+        let migrated = self.migrations_from(&before);
         for queue in [Queue::Graphics, Queue::Compute, Queue::Transfer] {
-            let mut here = carried.iter().filter(|it| it.queue == queue).peekable();
+            let mut here = migrated.iter().filter(|it| it.queue == queue).peekable();
             if here.peek().is_some() {
                 self.gpu.submit_once("carrying contents over", queue, |commands| {
                     here.for_each(|it| before.record_change(commands, it));
@@ -49,35 +49,37 @@ impl Executor {
             }
         }
         let next = before.frames.next();
-        for it in &carried {
+        for it in &migrated {
             let (from, to) = (&before.prepared.physical, &mut self.prepared.physical);
             match (it.from, it.to) {
-                (Resource::Image(old), Resource::Image(new)) => to.carry_image(new, from.image(old, next).clone()),
-                (Resource::Buffer(old), Resource::Buffer(new)) => to.carry_buffer(new, from.buffer(old, next).clone()),
+                (Resource::Image(old), Resource::Image(new)) => to.migrate_image(new, from.image(old, next).clone()),
+                (Resource::Buffer(old), Resource::Buffer(new)) => {
+                    to.migrate_buffer(new, from.buffer(old, next).clone())
+                }
                 (Resource::Image(_), Resource::Buffer(_)) | (Resource::Buffer(_), Resource::Image(_)) => {}
             }
         }
         self.prepared.forget();
-        Ok(carried.iter().map(|it| named(&self.plan, it.to).0.to_owned()).collect())
+        Ok(migrated.iter().map(|it| named(&self.plan, it.to).0.to_owned()).collect())
     }
 
     /// What goes on, cycle by cycle.
-    fn carried_from(&self, before: &Executor) -> Vec<Carried> {
-        let mut carried = Vec::new();
+    fn migrations_from(&self, before: &Executor) -> Vec<Migration> {
+        let mut migrated = Vec::new();
         let mut seen = vec![false; self.plan.images.len() + self.plan.buffers.len()];
         for first in persistent(&self.plan) {
             let members: Vec<Resource> = members(&self.plan, first);
             if !seen[number(&self.plan, first)] {
                 members.iter().for_each(|it| seen[number(&self.plan, *it)] = true);
                 let goes_on: Option<Vec<_>> = members.iter().map(|it| self.goes_on(before, *it)).collect();
-                carried.extend(goes_on.into_iter().flatten());
+                migrated.extend(goes_on.into_iter().flatten());
             }
         }
-        carried
+        migrated
     }
 
     /// How an image or buffer goes on; `None` if it doesn't.
-    fn goes_on(&self, before: &Executor, to: Resource) -> Option<Carried> {
+    fn goes_on(&self, before: &Executor, to: Resource) -> Option<Migration> {
         let (name, role) = named(&self.plan, to);
         // What comes from a file was read anew, and may have changed.
         let Role::Persistent { before: found, initial: Initial::Value(_), .. } = role else { return None };
@@ -103,24 +105,24 @@ impl Executor {
             (Resource::Image(_), Resource::Buffer(_)) | (Resource::Buffer(_), Resource::Image(_)) => false,
         };
         // An image or buffer that lies between two queues can't be brought into another state.
-        let queue = if next == 0 { before_first_frame(&before.plan, &before.uses, from) } else { before.owner(from) };
-        let queue = queue.filter(|queue| Some(*queue) == before_first_frame(&self.plan, &self.uses, to))?;
+        let queue = if next == 0 { initial_queue(&before.plan, &before.uses, from) } else { before.owner(from) };
+        let queue = queue.filter(|queue| Some(*queue) == initial_queue(&self.plan, &self.uses, to))?;
         let goes_on = fits && names(&before.plan, from) == names(&self.plan, to);
-        goes_on.then_some(Carried { from, to, queue, left: *left, found: *found })
+        goes_on.then_some(Migration { from, to, queue, left: *left, found: *found })
     }
 
     /// Brings it from the state in which its own next frame would find it to that in which the other one's first does.
-    fn record_change(&self, commands: vk::CommandBuffer, carried: &Carried) {
+    fn record_change(&self, commands: vk::CommandBuffer, migrated: &Migration) {
         let (physical, next) = (&self.prepared.physical, self.frames.next());
-        match carried.from {
+        match migrated.from {
             Resource::Image(id) => {
                 let image = physical.image(id, next);
                 let descriptor = image.descriptor;
                 let whole = Subresources::all(descriptor.format, descriptor.mips, descriptor.layers);
-                barriers(&self.gpu, commands, &[], &[state_change(image.raw, whole, carried.left, carried.found)]);
+                barriers(&self.gpu, commands, &[], &[state_change(image.raw, whole, migrated.left, migrated.found)]);
             }
             Resource::Buffer(_) => {
-                barriers(&self.gpu, commands, &[memory_change(carried.left, carried.found)], &[]);
+                barriers(&self.gpu, commands, &[memory_change(migrated.left, migrated.found)], &[]);
             }
         }
     }

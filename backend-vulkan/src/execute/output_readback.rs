@@ -1,4 +1,4 @@
-//! Outputs that each frame copies to the host, where no later frame changes them.
+//! Output readback: each frame copies its outputs to the host, where no later frame changes them.
 
 use crate::base::Error;
 use crate::commands::{Readback, first_plane};
@@ -10,22 +10,22 @@ use framewright_graph::plan::{Output, Plan, Resource, Role};
 use framewright_graph::vocabulary::State;
 use std::sync::Arc;
 
-/// The copying of one output.
+/// The readback of one output.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Keep {
+pub(crate) struct OutputReadback {
     resource: Resource,
     state: State,
     /// The step after which it is as the frame leaves it.
     pub(crate) after: usize,
 }
 
-impl Keep {
+impl OutputReadback {
     /// Every output of `plan`.
     ///
     /// # Errors
     /// [`Error::BadPlan`] if one of them is transient or never touched.
-    pub(crate) fn all(plan: &Plan, uses: &Uses) -> Result<Vec<Keep>, Error> {
-        let keep = |output: &Output| {
+    pub(crate) fn all(plan: &Plan, uses: &Uses) -> Result<Vec<OutputReadback>, Error> {
+        let readback = |output: &Output| {
             let resource = output.resource;
             let role = match resource {
                 Resource::Image(image) => &plan.image(image).role,
@@ -36,9 +36,9 @@ impl Keep {
                 return Err(bad());
             };
             let span = uses.of(resource).ok_or_else(bad)?;
-            Ok(Keep { resource, state: *state, after: span.last })
+            Ok(OutputReadback { resource, state: *state, after: span.last })
         };
-        plan.outputs.iter().map(keep).collect()
+        plan.outputs.iter().map(readback).collect()
     }
 
     /// Room for it.

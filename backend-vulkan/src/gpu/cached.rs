@@ -128,12 +128,12 @@ pub(crate) struct PipelineDescriptor {
     pub(crate) samples: u32,
     pub(crate) alpha_to_coverage: bool,
     pub(crate) local: Option<LocalRead>,
-    pub(crate) turned: Option<Turned>,
+    pub(crate) turned: Option<RotationConstants>,
 }
 
 /// What its shaders are told of a picture that they draw turned: shaders/include/rotation.glsl has the same numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct Turned {
+pub(crate) struct RotationConstants {
     pub(crate) rotation: Rotation,
     /// Width and height of the turned picture; 0 for shaders that don't ask, which serve for all sizes then.
     pub(crate) extent: [u32; 2],

@@ -75,15 +75,15 @@ impl Queues {
     }
 
     /// All queues, for one thread at a time.
-    pub(crate) fn lock(&self) -> Locked<'_> {
-        Locked(self.by_family.lock().unwrap_or_else(PoisonError::into_inner))
+    pub(crate) fn lock(&self) -> LockedQueues<'_> {
+        LockedQueues(self.by_family.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }
 
 /// The queues while one thread has them to itself.
-pub(crate) struct Locked<'q>(MutexGuard<'q, Vec<(u32, vk::Queue)>>);
+pub(crate) struct LockedQueues<'q>(MutexGuard<'q, Vec<(u32, vk::Queue)>>);
 
-impl Locked<'_> {
+impl LockedQueues<'_> {
     /// The queue of a family.
     pub(crate) fn of(&self, family: Family) -> Result<vk::Queue, Error> {
         let found = self.0.iter().find(|(index, _)| *index == family.index).map(|(_, queue)| *queue);

@@ -9,14 +9,14 @@ use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 use std::sync::Arc;
 
 /// A block of memory, given back when dropped.
-pub(crate) struct Memory {
+pub(crate) struct MemoryBlock {
     gpu: Arc<Gpu>,
     allocation: Option<Allocation>,
 }
 
 /// What memory is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum MemoryUse {
     /// Images.
     Images,
     /// Buffers that the device alone uses.
@@ -27,23 +27,23 @@ pub(crate) enum Kind {
     Readback,
 }
 
-impl Memory {
+impl MemoryBlock {
     /// A block for `requirements`.
     pub(crate) fn new(
         gpu: &Arc<Gpu>,
         name: &str,
         requirements: vk::MemoryRequirements,
-        kind: Kind,
-    ) -> Result<Memory, Error> {
+        kind: MemoryUse,
+    ) -> Result<MemoryBlock, Error> {
         let description = AllocationCreateDesc {
             name,
             requirements,
             location: match kind {
-                Kind::Images | Kind::Buffers => MemoryLocation::GpuOnly,
-                Kind::Upload => MemoryLocation::CpuToGpu,
-                Kind::Readback => MemoryLocation::GpuToCpu,
+                MemoryUse::Images | MemoryUse::Buffers => MemoryLocation::GpuOnly,
+                MemoryUse::Upload => MemoryLocation::CpuToGpu,
+                MemoryUse::Readback => MemoryLocation::GpuToCpu,
             },
-            linear: kind != Kind::Images,
+            linear: kind != MemoryUse::Images,
             allocation_scheme: AllocationScheme::GpuAllocatorManaged,
         };
         let failed = |reason: String| Error::OutOfMemory {
@@ -58,7 +58,7 @@ impl Memory {
             return Err(failed(format!("the device has {} of such memory", amount::bytes(largest))));
         }
         let allocation = gpu.allocator().allocate(&description).map_err(|error| failed(error.to_string()))?;
-        Ok(Memory { gpu: gpu.clone(), allocation: Some(allocation) })
+        Ok(MemoryBlock { gpu: gpu.clone(), allocation: Some(allocation) })
     }
 
     /// Vulkan's memory object and the offset in it at which this block begins.
@@ -80,7 +80,7 @@ impl Memory {
     }
 }
 
-impl Drop for Memory {
+impl Drop for MemoryBlock {
     fn drop(&mut self) {
         if let Some(allocation) = self.allocation.take()
             && !self.gpu.is_abandoned()

@@ -1,6 +1,6 @@
 //! Buffers and their memory.
 
-use super::block::{Kind, Memory};
+use super::block::{MemoryBlock, MemoryUse};
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
 use ash::vk;
@@ -12,17 +12,17 @@ use std::sync::Arc;
 pub(crate) struct RawBuffer {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::Buffer,
-    memory: Owner,
+    memory: BackingMemory,
     pub(crate) bytes: u64,
     pub(crate) usage: vk::BufferUsageFlags,
 }
 
 /// Whose a buffer's memory is.
-enum Owner {
+enum BackingMemory {
     /// The buffer's own.
-    Own(Memory),
+    Own(MemoryBlock),
     /// That of several buffers, kept by each of them.
-    Heap { _memory: Arc<Memory> },
+    Heap { _memory: Arc<MemoryBlock> },
     /// Buffer and memory belong to somebody else.
     Foreign,
 }
@@ -56,7 +56,7 @@ impl RawBuffer {
         name: &str,
         bytes: u64,
         usage: vk::BufferUsageFlags,
-        kind: Kind,
+        kind: MemoryUse,
     ) -> Result<RawBuffer, Error> {
         let info = vk::BufferCreateInfo::default().size(bytes).usage(usage);
         RawBuffer::with_own_memory(gpu, name, &info, bytes, kind)
@@ -65,7 +65,7 @@ impl RawBuffer {
     /// A buffer of a Plan, with memory of its own.
     pub(crate) fn persistent(gpu: &Arc<Gpu>, name: &str, descriptor: &BufferDescriptor) -> Result<RawBuffer, Error> {
         let info = create_info(descriptor, &gpu.queues.families.indices);
-        RawBuffer::with_own_memory(gpu, name, &info, descriptor.bytes, Kind::Buffers)
+        RawBuffer::with_own_memory(gpu, name, &info, descriptor.bytes, MemoryUse::Buffers)
     }
 
     /// A buffer of a Plan at `offset` of `memory`, which must be large enough and of a type that fits.
@@ -73,12 +73,12 @@ impl RawBuffer {
         gpu: &Arc<Gpu>,
         name: &str,
         descriptor: &BufferDescriptor,
-        memory: Arc<Memory>,
+        memory: Arc<MemoryBlock>,
         offset: u64,
     ) -> Result<RawBuffer, Error> {
         let info = create_info(descriptor, &gpu.queues.families.indices);
         let (block, begin) = memory.place();
-        let owner = Owner::Heap { _memory: memory };
+        let owner = BackingMemory::Heap { _memory: memory };
         RawBuffer::bound(gpu, name, &info, descriptor.bytes, owner, (block, begin + offset))
     }
 
@@ -88,7 +88,7 @@ impl RawBuffer {
     /// It must have been made by the same device and live as long as this.
     pub(crate) unsafe fn foreign(gpu: &Arc<Gpu>, descriptor: &BufferDescriptor, raw: vk::Buffer) -> RawBuffer {
         let usage = convert::buffer_usage(descriptor.usage);
-        RawBuffer { gpu: gpu.clone(), raw, memory: Owner::Foreign, bytes: descriptor.bytes, usage }
+        RawBuffer { gpu: gpu.clone(), raw, memory: BackingMemory::Foreign, bytes: descriptor.bytes, usage }
     }
 
     fn with_own_memory(
@@ -96,11 +96,11 @@ impl RawBuffer {
         name: &str,
         info: &vk::BufferCreateInfo<'_>,
         bytes: u64,
-        kind: Kind,
+        kind: MemoryUse,
     ) -> Result<RawBuffer, Error> {
-        let memory = Memory::new(gpu, name, needs(gpu, info), kind)?;
+        let memory = MemoryBlock::new(gpu, name, needs(gpu, info), kind)?;
         let place = memory.place();
-        RawBuffer::bound(gpu, name, info, bytes, Owner::Own(memory), place)
+        RawBuffer::bound(gpu, name, info, bytes, BackingMemory::Own(memory), place)
     }
 
     fn bound(
@@ -108,7 +108,7 @@ impl RawBuffer {
         name: &str,
         info: &vk::BufferCreateInfo<'_>,
         bytes: u64,
-        memory: Owner,
+        memory: BackingMemory,
         (block, offset): (vk::DeviceMemory, u64),
     ) -> Result<RawBuffer, Error> {
         // SAFETY: the device lives and the size isn't zero.
@@ -129,15 +129,15 @@ impl RawBuffer {
 
     /// Whether it belongs to somebody else.
     pub(crate) fn is_foreign(&self) -> bool {
-        matches!(self.memory, Owner::Foreign)
+        matches!(self.memory, BackingMemory::Foreign)
     }
 
     /// Writes the beginning of the buffer.
     pub(crate) fn fill(&mut self, contents: &[u8]) -> Result<(), Error> {
         let bytes = contents.len();
         let target = match &mut self.memory {
-            Owner::Own(memory) => memory.bytes_mut().get_mut(..bytes),
-            Owner::Heap { .. } | Owner::Foreign => None,
+            BackingMemory::Own(memory) => memory.bytes_mut().get_mut(..bytes),
+            BackingMemory::Heap { .. } | BackingMemory::Foreign => None,
         };
         target.ok_or_else(|| invisible("a buffer that the host can write", bytes))?.copy_from_slice(contents);
         Ok(())
@@ -146,8 +146,8 @@ impl RawBuffer {
     /// The first `bytes` bytes.
     pub(crate) fn contents(&self, bytes: usize) -> Result<&[u8], Error> {
         let contents = match &self.memory {
-            Owner::Own(memory) => memory.bytes().get(..bytes),
-            Owner::Heap { .. } | Owner::Foreign => None,
+            BackingMemory::Own(memory) => memory.bytes().get(..bytes),
+            BackingMemory::Heap { .. } | BackingMemory::Foreign => None,
         };
         contents.ok_or_else(|| invisible("a buffer that the host can read", bytes))
     }

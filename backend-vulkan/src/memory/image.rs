@@ -1,6 +1,6 @@
 //! Images and their views.
 
-use super::block::Memory;
+use super::block::MemoryBlock;
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
 use ash::vk;
@@ -39,7 +39,7 @@ pub(crate) struct Image {
     pub(crate) raw: vk::Image,
     pub(crate) descriptor: ImageDescriptor,
     /// `None`: it belongs to somebody else.
-    memory: Option<Arc<Memory>>,
+    memory: Option<Arc<MemoryBlock>>,
 }
 
 impl Image {
@@ -48,7 +48,7 @@ impl Image {
         gpu: &Arc<Gpu>,
         name: &str,
         descriptor: &ImageDescriptor,
-        memory: Arc<Memory>,
+        memory: Arc<MemoryBlock>,
         offset: u64,
     ) -> Result<Image, Error> {
         let info = create_info(descriptor, &gpu.queues.families.indices);
@@ -68,7 +68,7 @@ impl Image {
         let needs = gpu.memory_needs(descriptor);
         let requirements =
             vk::MemoryRequirements { size: needs.bytes, alignment: needs.alignment, memory_type_bits: needs.type_bits };
-        let memory = Memory::new(gpu, name, requirements, super::block::Kind::Images)?;
+        let memory = MemoryBlock::new(gpu, name, requirements, super::block::MemoryUse::Images)?;
         Image::new(gpu, name, descriptor, Arc::new(memory), 0)
     }
 

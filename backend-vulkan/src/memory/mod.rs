@@ -8,7 +8,7 @@ mod view;
 
 pub use needs::{LiveMemory, MemoryInUse};
 
-pub(crate) use block::{Kind, Memory};
+pub(crate) use block::{MemoryBlock, MemoryUse};
 pub(crate) use buffer::RawBuffer;
 pub(crate) use image::Image;
 pub(crate) use view::{View, ViewShape};

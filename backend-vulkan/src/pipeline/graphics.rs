@@ -1,12 +1,12 @@
 //! Pipelines, one for each description.
 
 use crate::base::{Error, convert};
-use crate::gpu::{Gpu, PipelineDescriptor, Turned, VertexAttribute};
+use crate::gpu::{Gpu, PipelineDescriptor, RotationConstants, VertexAttribute};
 use crate::shaders::Spirv;
 use ash::vk;
 use framewright_graph::frame::Blend;
 
-impl Turned {
+impl RotationConstants {
     /// The number of the first of its constants.
     const FIRST: u32 = 100;
 
@@ -16,7 +16,11 @@ impl Turned {
     }
 
     fn entries() -> [vk::SpecializationMapEntry; 3] {
-        [0, 1, 2].map(|at| vk::SpecializationMapEntry { constant_id: Turned::FIRST + at, offset: 4 * at, size: 4 })
+        [0, 1, 2].map(|at| vk::SpecializationMapEntry {
+            constant_id: RotationConstants::FIRST + at,
+            offset: 4 * at,
+            size: 4,
+        })
     }
 }
 
@@ -92,7 +96,7 @@ fn create(
     vertex: &Module<'_>,
     fragment: Option<&Module<'_>>,
 ) -> Result<vk::Pipeline, Error> {
-    let (entries, constants) = (Turned::entries(), descriptor.turned.map(Turned::constants));
+    let (entries, constants) = (RotationConstants::entries(), descriptor.turned.map(RotationConstants::constants));
     let constants = constants.as_deref();
     let specialization = constants.map(|data| vk::SpecializationInfo::default().map_entries(&entries).data(data));
     let stage = |stage, module: &Module<'_>| {

@@ -18,13 +18,14 @@ pub(crate) struct Batch {
 }
 
 /// The batches of a frame, in the order in which they are submitted. `beside` are waits that the Plan doesn't have.
-pub(crate) fn batches(plan: &Plan, beside: &[(StepId, Wait)]) -> Vec<Batch> {
+pub(crate) fn batches(plan: &Plan, extra_waits: &[(StepId, Wait)]) -> Vec<Batch> {
     let planned = plan.steps.iter().flat_map(|step| &step.waits);
-    let awaited: HashSet<StepId> = planned.chain(beside.iter().map(|(_, wait)| wait)).map(|wait| wait.step).collect();
+    let awaited: HashSet<StepId> =
+        planned.chain(extra_waits.iter().map(|(_, wait)| wait)).map(|wait| wait.step).collect();
     let mut batches: Vec<Batch> = Vec::new();
     for ((index, id), step) in (0_usize..).zip((0..).map(StepId)).zip(&plan.steps) {
         let mut waits = step.waits.clone();
-        waits.extend(beside.iter().filter(|(of, _)| *of == id).map(|(_, wait)| *wait));
+        waits.extend(extra_waits.iter().filter(|(of, _)| *of == id).map(|(_, wait)| *wait));
         match batches.last_mut() {
             Some(batch) if batch.queue == step.queue && waits.is_empty() && !batch.awaited => {
                 batch.steps.end = index + 1;

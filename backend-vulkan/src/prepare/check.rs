@@ -2,7 +2,7 @@
 
 use super::check_steps::{bad, executable};
 use super::descriptions::{buffer_descriptor, cycle, descriptor};
-use super::history::Standing;
+use super::history::HistoryRings;
 use super::textures::file_of;
 use crate::base::Error;
 use crate::gpu::Gpu;
@@ -28,7 +28,7 @@ pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refuse, poison: bool) -> Res
     if !violations.is_empty() {
         return Err(Error::Violations { violations });
     }
-    Standing::new(plan)?;
+    HistoryRings::new(plan)?;
     for image in &plan.images {
         checked_image(gpu, plan, image, poison)?;
     }

@@ -1,39 +1,40 @@
-//! Which image or buffer stands for which of the Plan's in a frame: history changes them round.
+//! History rings: images and buffers that become each other at the end of each frame, and which of them stands for which of
+//! the Plan's in a frame.
 
 use crate::base::Error;
 use framewright_graph::plan::{Plan, Resource, Role};
 
-/// The cycles in which images and buffers change round.
-pub(crate) struct Standing {
-    images: Vec<Place>,
-    buffers: Vec<Place>,
-    cycles: Vec<Vec<u32>>,
+/// The history rings of a Plan. An image or buffer without history is a ring of its own.
+pub(crate) struct HistoryRings {
+    images: Vec<RingPosition>,
+    buffers: Vec<RingPosition>,
+    rings: Vec<Vec<u32>>,
 }
 
-/// A place in a cycle.
+/// A position in a ring.
 #[derive(Clone, Copy)]
-struct Place {
-    cycle: usize,
+struct RingPosition {
+    ring: usize,
     at: usize,
 }
 
-impl Standing {
-    /// The cycles of `plan`.
-    pub(crate) fn new(plan: &Plan) -> Result<Standing, Error> {
-        let mut cycles = Vec::new();
-        let images = places(&plan.images.iter().map(|it| next(&it.role)).collect::<Vec<_>>(), &mut cycles)?;
-        let buffers = places(&plan.buffers.iter().map(|it| next(&it.role)).collect::<Vec<_>>(), &mut cycles)?;
-        Ok(Standing { images, buffers, cycles })
+impl HistoryRings {
+    /// The rings of `plan`.
+    pub(crate) fn new(plan: &Plan) -> Result<HistoryRings, Error> {
+        let mut rings = Vec::new();
+        let images = ring_positions(&plan.images.iter().map(|it| next(&it.role)).collect::<Vec<_>>(), &mut rings)?;
+        let buffers = ring_positions(&plan.buffers.iter().map(|it| next(&it.role)).collect::<Vec<_>>(), &mut rings)?;
+        Ok(HistoryRings { images, buffers, rings })
     }
 
     /// The number of the image that stands for the Plan's image `image` in frame `frame`.
     pub(crate) fn image(&self, image: u32, frame: u64) -> usize {
-        self.standing(self.images[image as usize], frame)
+        self.member(self.images[image as usize], frame)
     }
 
     /// The number of the buffer that stands for the Plan's buffer `buffer` in frame `frame`.
     pub(crate) fn buffer(&self, buffer: u32, frame: u64) -> usize {
-        self.standing(self.buffers[buffer as usize], frame)
+        self.member(self.buffers[buffer as usize], frame)
     }
 
     /// After how many frames the same images and buffers stand for all of these again.
@@ -43,13 +44,13 @@ impl Standing {
                 Resource::Image(image) => self.images[image.0 as usize],
                 Resource::Buffer(buffer) => self.buffers[buffer.0 as usize],
             };
-            least_common_multiple(period, self.cycles[place.cycle].len() as u64)
+            least_common_multiple(period, self.rings[place.ring].len() as u64)
         })
     }
 
-    /// At the end of each frame the members of a cycle move one place on.
-    fn standing(&self, Place { cycle, at }: Place, frame: u64) -> usize {
-        let members = &self.cycles[cycle];
+    /// At the end of each frame the members of a ring move one position on.
+    fn member(&self, RingPosition { ring, at }: RingPosition, frame: u64) -> usize {
+        let members = &self.rings[ring];
         let moved = usize::try_from(frame % members.len() as u64).unwrap_or(0);
         members[(at + members.len() - moved) % members.len()] as usize
     }
@@ -63,28 +64,28 @@ fn next(role: &Role) -> Option<u32> {
     }
 }
 
-/// The place of each in its cycle.
-fn places(next: &[Option<u32>], cycles: &mut Vec<Vec<u32>>) -> Result<Vec<Place>, Error> {
+/// The position of each in its ring.
+fn ring_positions(next: &[Option<u32>], rings: &mut Vec<Vec<u32>>) -> Result<Vec<RingPosition>, Error> {
     let bad = || Error::BadPlan { what: "what images or buffers become is no permutation".to_owned() };
-    let mut places: Vec<Option<Place>> = vec![None; next.len()];
+    let mut ring_positions: Vec<Option<RingPosition>> = vec![None; next.len()];
     for (first, _) in (0_u32..).zip(next) {
-        if places[first as usize].is_some() {
+        if ring_positions[first as usize].is_some() {
             continue;
         }
         let (mut members, mut member) = (Vec::new(), first);
         loop {
-            let place = places.get_mut(member as usize).ok_or_else(bad)?;
+            let place = ring_positions.get_mut(member as usize).ok_or_else(bad)?;
             if place.is_some() {
                 // Back at the beginning, or in the middle of something.
                 if member == first { break } else { return Err(bad()) }
             }
-            *place = Some(Place { cycle: cycles.len(), at: members.len() });
+            *place = Some(RingPosition { ring: rings.len(), at: members.len() });
             members.push(member);
             member = next[member as usize].unwrap_or(member);
         }
-        cycles.push(members);
+        rings.push(members);
     }
-    places.into_iter().map(|place| place.ok_or_else(bad)).collect()
+    ring_positions.into_iter().map(|place| place.ok_or_else(bad)).collect()
 }
 
 fn least_common_multiple(a: u64, b: u64) -> u64 {
@@ -96,15 +97,15 @@ fn least_common_multiple(a: u64, b: u64) -> u64 {
 }
 
 /// Objects that are made for the images and buffers of one frame, and used again whenever the same stand for the same.
-pub(crate) struct Turns<T> {
+pub(crate) struct RingCache<T> {
     period: u64,
     made: Vec<Option<T>>,
 }
 
-impl<T> Turns<T> {
+impl<T> RingCache<T> {
     /// Nothing made yet.
-    pub(crate) fn new(period: u64) -> Turns<T> {
-        Turns { period: period.max(1), made: Vec::new() }
+    pub(crate) fn new(period: u64) -> RingCache<T> {
+        RingCache { period: period.max(1), made: Vec::new() }
     }
 
     /// What was made for frame `frame`.
@@ -138,33 +139,33 @@ impl<T> Turns<T> {
 mod tests {
     use super::*;
 
-    fn standing(next: &[Option<u32>]) -> Result<Standing, Error> {
-        let mut cycles = Vec::new();
-        let images = places(next, &mut cycles)?;
-        Ok(Standing { images, buffers: Vec::new(), cycles })
+    fn rings(next: &[Option<u32>]) -> Result<HistoryRings, Error> {
+        let mut rings = Vec::new();
+        let images = ring_positions(next, &mut rings)?;
+        Ok(HistoryRings { images, buffers: Vec::new(), rings })
     }
 
     #[test]
     fn what_stood_for_an_image_stands_for_what_it_becomes_in_the_next_frame() {
         let next = [Some(2), None, Some(3), Some(0)];
-        let standing = standing(&next).expect("a permutation");
+        let rings = rings(&next).expect("a permutation");
         for frame in 0..7 {
             for (image, next) in (0_u32..).zip(next) {
-                let now = standing.image(image, frame);
-                assert_eq!(standing.image(next.unwrap_or(image), frame + 1), now, "image {image}, frame {frame}");
+                let now = rings.image(image, frame);
+                assert_eq!(rings.image(next.unwrap_or(image), frame + 1), now, "image {image}, frame {frame}");
             }
         }
-        assert_eq!([0, 1, 2, 3].map(|image| standing.image(image, 3)), [0, 1, 2, 3]);
+        assert_eq!([0, 1, 2, 3].map(|image| rings.image(image, 3)), [0, 1, 2, 3]);
     }
 
     #[test]
     fn two_that_become_the_same_are_refused() {
-        assert!(standing(&[Some(1), Some(1)]).is_err());
-        assert!(standing(&[Some(2)]).is_err());
+        assert!(rings(&[Some(1), Some(1)]).is_err());
+        assert!(rings(&[Some(2)]).is_err());
     }
 
     #[test]
-    fn periods_are_the_least_that_all_cycles_share() {
+    fn periods_are_the_least_that_all_rings_share() {
         assert_eq!(least_common_multiple(4, 6), 12);
         assert_eq!(least_common_multiple(1, 3), 3);
     }

@@ -1,4 +1,4 @@
-//! Which queue has what outlives the frame when the first frame begins.
+//! Initial queue ownership: which queue has the images and buffers that outlive the frame when the first frame begins.
 //!
 //! Contents come from the graphics queue. What another queue uses first must be handed to it; and where the frame begins by
 //! acquiring an image from the queue on which the frame before would have released it, somebody has to release it.
@@ -12,7 +12,7 @@ use std::collections::HashSet;
 
 /// A part of an image that one queue at a time may use.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct FirstOwner<'p> {
+pub(crate) struct InitialOwner<'p> {
     pub(crate) image: ImageId,
     pub(crate) range: Subresources,
     /// The layout in which the first frame finds it.
@@ -25,7 +25,7 @@ pub(crate) struct FirstOwner<'p> {
 
 /// The parts of images for which `relies` says that the first frame relies on their contents, in the order in which it
 /// touches them.
-pub(crate) fn first_owners<'p>(plan: &'p Plan, relies: impl Fn(ImageId) -> bool) -> Vec<FirstOwner<'p>> {
+pub(crate) fn initial_owners<'p>(plan: &'p Plan, relies: impl Fn(ImageId) -> bool) -> Vec<InitialOwner<'p>> {
     let exclusive = |id: ImageId| plan.image(id).sharing == Sharing::Exclusive && relies(id);
     let mut touched: HashSet<(u32, u32, u32, u32)> = HashSet::new();
     let mut owners = Vec::new();
@@ -47,7 +47,7 @@ pub(crate) fn first_owners<'p>(plan: &'p Plan, relies: impl Fn(ImageId) -> bool)
                 Role::Persistent { before, .. } | Role::External { before, .. } => before.layout,
                 Role::Transient(_) => Layout::Undefined,
             };
-            owners.push(FirstOwner { image, range, layout, owner, acquired });
+            owners.push(InitialOwner { image, range, layout, owner, acquired });
         }
     };
     for step in &plan.steps {
@@ -66,10 +66,10 @@ pub(crate) fn first_owners<'p>(plan: &'p Plan, relies: impl Fn(ImageId) -> bool)
 
 /// The queue that has an image or buffer before the first frame, in the state that the Plan relies on; `None` if not one
 /// queue has all of it, or it is on its way to another.
-pub(crate) fn before_first_frame(plan: &Plan, uses: &Uses, resource: Resource) -> Option<Queue> {
+pub(crate) fn initial_queue(plan: &Plan, uses: &Uses, resource: Resource) -> Option<Queue> {
     match resource {
         Resource::Image(id) => {
-            let owners = first_owners(plan, |it| it == id);
+            let owners = initial_owners(plan, |it| it == id);
             let queue = owners.first().map_or(Queue::Graphics, |it| it.owner);
             owners.iter().all(|it| it.owner == queue && it.acquired.is_none()).then_some(queue)
         }
@@ -222,7 +222,7 @@ mod tests {
     }
 
     fn owners(plan: &Plan) -> Vec<(u32, Queue, bool)> {
-        let owners = first_owners(plan, |_| true);
+        let owners = initial_owners(plan, |_| true);
         owners.iter().map(|it| (it.range.base_mip, it.owner, it.acquired.is_some())).collect()
     }
 
@@ -235,11 +235,7 @@ mod tests {
         ];
         let plan = plan(steps);
         assert_eq!(owners(&plan), [(1, Queue::Compute, false), (0, Queue::Graphics, false)]);
-        assert_eq!(
-            before_first_frame(&plan, &Uses::new(&plan), Resource::Image(ImageId(0))),
-            None,
-            "two queues have it"
-        );
+        assert_eq!(initial_queue(&plan, &Uses::new(&plan), Resource::Image(ImageId(0))), None, "two queues have it");
     }
 
     #[test]
@@ -247,12 +243,12 @@ mod tests {
         let steps = vec![step(Queue::Compute, 0, vec![barrier(0, LAYOUT, Some([Queue::Graphics, Queue::Compute]))])];
         let plan = plan(steps);
         assert_eq!(owners(&plan), [(0, Queue::Graphics, true)]);
-        assert_eq!(before_first_frame(&plan, &Uses::new(&plan), Resource::Image(ImageId(0))), None, "it is on its way");
+        assert_eq!(initial_queue(&plan, &Uses::new(&plan), Resource::Image(ImageId(0))), None, "it is on its way");
     }
 
     #[test]
     fn what_nothing_touches_stays_with_graphics() {
         let plan = plan(Vec::new());
-        assert_eq!(before_first_frame(&plan, &Uses::new(&plan), Resource::Image(ImageId(0))), Some(Queue::Graphics));
+        assert_eq!(initial_queue(&plan, &Uses::new(&plan), Resource::Image(ImageId(0))), Some(Queue::Graphics));
     }
 }

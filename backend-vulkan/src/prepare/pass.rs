@@ -1,11 +1,11 @@
 //! A pass's pipeline, and the template of its descriptor set.
 
-use super::history::Turns;
+use super::history::RingCache;
 use super::pass_set::{PassSet, SetTemplate};
-use super::physical::Physical;
+use super::physical::PhysicalResources;
 use super::variant::{variant, view_mask};
 use crate::base::Error;
-use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, Turned};
+use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants};
 use crate::pipeline::{
     brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
 };
@@ -20,10 +20,10 @@ use framewright_graph::vocabulary::Accesses;
 use std::sync::Arc;
 
 /// The objects of a pass of a rendering scope.
-pub(crate) struct Drawn {
+pub(crate) struct PreparedDraw {
     pub(crate) draw: Draw,
     pub(crate) template: SetTemplate,
-    pub(crate) sets: Turns<PassSet>,
+    pub(crate) sets: RingCache<PassSet>,
     /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
     pub(crate) pipeline: Option<vk::Pipeline>,
     pub(crate) local: Option<LocalRead>,
@@ -54,9 +54,9 @@ impl PassState {
 }
 
 /// A dispatch's objects.
-pub(crate) struct Compute {
+pub(crate) struct PreparedDispatch {
     pub(crate) template: SetTemplate,
-    pub(crate) sets: Turns<PassSet>,
+    pub(crate) sets: RingCache<PassSet>,
     pub(crate) pipeline: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
     pub(crate) groups: WorkgroupCount,
@@ -68,7 +68,7 @@ pub(crate) struct Compute {
 pub(crate) enum WorkgroupCount {
     /// So many.
     Direct([u32; 3]),
-    /// As many as stand there.
+    /// As many as that buffer says at that offset.
     Indirect(BufferId, u64),
 }
 
@@ -90,13 +90,13 @@ fn indirect(plan: &Plan, pass: &plan::Pass, offset: u64, bytes: u64) -> Result<B
 }
 
 /// The objects of a dispatch.
-pub(crate) fn compute(
+pub(crate) fn prepare_dispatch(
     gpu: &Arc<Gpu>,
     plan: &Plan,
-    physical: &Physical,
+    physical: &PhysicalResources,
     pass: &plan::Pass,
     shaders: &mut ShaderLibrary,
-) -> Result<Compute, Error> {
+) -> Result<PreparedDispatch, Error> {
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let shader = shaders
         .compute(&pass.shader, &variant(plan, pass, None)?)
@@ -110,8 +110,8 @@ pub(crate) fn compute(
     let template = SetTemplate::new(gpu, plan, pass, &shader.interface.bindings)?;
     let layout = gpu.pipeline_layout(vec![template.layout])?;
     let pipeline = gpu.compute_pipeline(&pass.name, shader.compute, layout)?;
-    let sets = Turns::new(physical.period(template.resources()));
-    Ok(Compute { template, sets, pipeline, layout, groups, size })
+    let sets = RingCache::new(physical.period(template.resources()));
+    Ok(PreparedDispatch { template, sets, pipeline, layout, groups, size })
 }
 
 /// How many workgroups of `size` invocations a dispatch takes.
@@ -135,14 +135,14 @@ pub(crate) fn groups(gpu: &Gpu, plan: &Plan, pass: &plan::Pass, size: [u32; 3]) 
 }
 
 /// The objects of a pass of a rendering scope.
-pub(crate) fn drawn(
+pub(crate) fn prepare_draw(
     gpu: &Arc<Gpu>,
     plan: &Plan,
-    physical: &Physical,
+    physical: &PhysicalResources,
     scope: &RenderScope,
     pass: &plan::Pass,
     shaders: &mut ShaderLibrary,
-) -> Result<Drawn, Error> {
+) -> Result<PreparedDraw, Error> {
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let draw = pass.draw.ok_or_else(|| mismatch("a rendering scope holds a dispatch".to_owned()))?;
     let (indices, wanted) = (buffers(pass, BufferRole::Index), buffers(pass, BufferRole::Vertex));
@@ -155,10 +155,10 @@ pub(crate) fn drawn(
         Draw::Indirect => Some(indirect(plan, pass, 0, if indices.is_some() { 20 } else { 16 }).map_err(mismatch)?),
         _ => None,
     };
-    let nothing = |template| Drawn {
+    let nothing = |template| PreparedDraw {
         draw,
         template,
-        sets: Turns::new(1),
+        sets: RingCache::new(1),
         pipeline: None,
         local: None,
         state: PassState::default(),
@@ -201,7 +201,7 @@ pub(crate) fn drawn(
     let rotation = plan.rotation(scope);
     let extent = if shader.interface.uses_frag_coord { scope.extent } else { [0; 2] };
     let placed = form == Some(EyeForm::Halves) && shader.interface.uses_frag_coord;
-    let turned = (rotation.turns() || placed).then_some(Turned { rotation, extent });
+    let turned = (rotation.turns() || placed).then_some(RotationConstants { rotation, extent });
     let descriptor = PipelineDescriptor {
         vertex: shader.vertex.clone(),
         fragment: shader.fragment.clone(),
@@ -224,8 +224,8 @@ pub(crate) fn drawn(
     let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
     let usual_vertices = shader.usual_vertices;
     let state = PassState { layout, supplied, vertex_stride: brought_stride, usual_vertices };
-    let sets = Turns::new(physical.period(template.resources()));
-    Ok(Drawn { sets, pipeline, local, state, vertices, ..nothing(template) })
+    let sets = RingCache::new(physical.period(template.resources()));
+    Ok(PreparedDraw { sets, pipeline, local, state, vertices, ..nothing(template) })
 }
 
 /// The colour attachments of the scope that the pass writes, by the shader's locations.

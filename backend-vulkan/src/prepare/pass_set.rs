@@ -1,10 +1,10 @@
 //! The set that belongs to a pass: its images and buffers by the shader's names, and the block `params`.
 
 use super::descriptions::part;
-use super::physical::Physical;
+use super::physical::PhysicalResources;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, LayoutBinding};
-use crate::memory::{Kind, RawBuffer, View, ViewShape};
+use crate::memory::{MemoryUse, RawBuffer, View, ViewShape};
 use crate::pipeline::parameters;
 use crate::pipeline::{DescriptorSet, DescriptorTarget, PARAMS};
 use ash::vk;
@@ -105,7 +105,7 @@ impl SetTemplate {
     }
 
     /// The set for frame `frame`.
-    pub(crate) fn fill(&self, gpu: &Arc<Gpu>, physical: &Physical, frame: u64) -> Result<PassSet, Error> {
+    pub(crate) fn fill(&self, gpu: &Arc<Gpu>, physical: &PhysicalResources, frame: u64) -> Result<PassSet, Error> {
         let (mut views, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
         for (binding, bound) in &self.bindings {
             let target = match bound {
@@ -140,7 +140,7 @@ fn filled(gpu: &Arc<Gpu>, block: &Block, pass: &plan::Pass) -> Result<Arc<RawBuf
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let bytes = parameters::fill(block, &pass.params).map_err(mismatch)?;
     let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
-    let mut buffer = RawBuffer::new(gpu, PARAMS, bytes.len() as u64, usage, Kind::Upload)?;
+    let mut buffer = RawBuffer::new(gpu, PARAMS, bytes.len() as u64, usage, MemoryUse::Upload)?;
     buffer.fill(&bytes)?;
     Ok(Arc::new(buffer))
 }

@@ -1,10 +1,10 @@
 //! A Plan's images and buffers on a device.
 
 use super::descriptions::{buffer_descriptor, cycle, descriptor};
-use super::history::Standing;
+use super::history::HistoryRings;
 use crate::base::Error;
 use crate::gpu::Gpu;
-use crate::memory::{Image, Kind, Memory, RawBuffer};
+use crate::memory::{Image, MemoryBlock, MemoryUse, RawBuffer};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::plan::{BufferId, ImageId, Placement, Plan, Resource, Role};
@@ -13,18 +13,18 @@ use std::collections::HashSet;
 use std::sync::Arc;
 
 /// The images and buffers that a Plan's images and buffers are.
-pub(crate) struct Physical {
+pub(crate) struct PhysicalResources {
     images: Vec<Arc<Image>>,
     buffers: Vec<Arc<RawBuffer>>,
-    standing: Standing,
-    /// What has its contents before the first frame already.
-    carried: HashSet<Resource>,
+    rings: HistoryRings,
+    /// What has its contents from another Plan's executor.
+    migrated: HashSet<Resource>,
 }
 
-impl Physical {
+impl PhysicalResources {
     /// Makes the heaps with what is placed in them, and all else with memory of its own.
-    pub(crate) fn new(gpu: &Arc<Gpu>, plan: &Plan) -> Result<Physical, Error> {
-        let standing = Standing::new(plan)?;
+    pub(crate) fn new(gpu: &Arc<Gpu>, plan: &Plan) -> Result<PhysicalResources, Error> {
+        let rings = HistoryRings::new(plan)?;
         let heaps = heaps(gpu, plan)?;
         let heap = |place: &Placement| heaps[place.heap as usize].clone();
         let images = plan.images.iter().map(|image| {
@@ -57,39 +57,39 @@ impl Physical {
             made.map(Arc::new)
         });
         let buffers = buffers.collect::<Result<_, _>>()?;
-        Ok(Physical { images, buffers, standing, carried: HashSet::new() })
+        Ok(PhysicalResources { images, buffers, rings, migrated: HashSet::new() })
     }
 
     /// What stands for an image in frame `frame`.
     pub(crate) fn image(&self, image: ImageId, frame: u64) -> &Arc<Image> {
-        &self.images[self.standing.image(image.0, frame)]
+        &self.images[self.rings.image(image.0, frame)]
     }
 
     /// What stands for a buffer in frame `frame`.
     pub(crate) fn buffer(&self, buffer: BufferId, frame: u64) -> &Arc<RawBuffer> {
-        &self.buffers[self.standing.buffer(buffer.0, frame)]
+        &self.buffers[self.rings.buffer(buffer.0, frame)]
     }
 
     /// After how many frames the same stand for all of these again.
     pub(crate) fn period(&self, resources: impl IntoIterator<Item = Resource>) -> u64 {
-        self.standing.period(resources)
+        self.rings.period(resources)
     }
 
     /// Takes the contents of another Plan's image for the first frame.
-    pub(crate) fn carry_image(&mut self, image: ImageId, from: Arc<Image>) {
+    pub(crate) fn migrate_image(&mut self, image: ImageId, from: Arc<Image>) {
         self.images[image.0 as usize] = from;
-        self.carried.insert(Resource::Image(image));
+        self.migrated.insert(Resource::Image(image));
     }
 
     /// Takes the contents of another Plan's buffer for the first frame.
-    pub(crate) fn carry_buffer(&mut self, buffer: BufferId, from: Arc<RawBuffer>) {
+    pub(crate) fn migrate_buffer(&mut self, buffer: BufferId, from: Arc<RawBuffer>) {
         self.buffers[buffer.0 as usize] = from;
-        self.carried.insert(Resource::Buffer(buffer));
+        self.migrated.insert(Resource::Buffer(buffer));
     }
 
     /// Whether it has its contents before the first frame already.
-    pub(crate) fn is_carried(&self, resource: Resource) -> bool {
-        self.carried.contains(&resource)
+    pub(crate) fn is_migrated(&self, resource: Resource) -> bool {
+        self.migrated.contains(&resource)
     }
 
     /// Takes another image for an external one, which never changes round.
@@ -112,7 +112,7 @@ impl Gpu {
     }
 }
 
-fn heaps(gpu: &Arc<Gpu>, plan: &Plan) -> Result<Vec<Arc<Memory>>, Error> {
+fn heaps(gpu: &Arc<Gpu>, plan: &Plan) -> Result<Vec<Arc<MemoryBlock>>, Error> {
     let placed = |heap: usize, role: &Role| matches!(role, Role::Transient(place) if place.heap as usize == heap);
     let mut heaps = Vec::new();
     for (index, heap) in plan.heaps.iter().enumerate() {
@@ -126,8 +126,8 @@ fn heaps(gpu: &Arc<Gpu>, plan: &Plan) -> Result<Vec<Arc<Memory>>, Error> {
         if of_buffers && plan.images.iter().any(|image| placed(index, &image.role)) {
             return Err(Error::BadPlan { what: format!("heap {index} holds images and buffers") });
         }
-        let kind = if of_buffers { Kind::Buffers } else { Kind::Images };
-        let memory = Memory::new(gpu, &format!("heap {index}"), requirements, kind);
+        let kind = if of_buffers { MemoryUse::Buffers } else { MemoryUse::Images };
+        let memory = MemoryBlock::new(gpu, &format!("heap {index}"), requirements, kind);
         heaps.push(Arc::new(memory.map_err(|error| with_parts(error, plan, index))?));
     }
     Ok(heaps)

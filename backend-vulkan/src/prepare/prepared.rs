@@ -1,9 +1,9 @@
 //! From a Plan to the objects that executing it needs, frame by frame: views, pipelines, descriptor sets.
 
 use super::descriptions::part;
-use super::history::Turns;
-use super::pass::{Compute, Drawn, compute, drawn};
-use super::physical::Physical;
+use super::history::RingCache;
+use super::pass::{PreparedDispatch, PreparedDraw, prepare_dispatch, prepare_draw};
+use super::physical::PhysicalResources;
 use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::memory::{View, ViewShape};
@@ -13,37 +13,37 @@ use std::sync::Arc;
 
 /// Everything that a Plan needs on a device.
 pub(crate) struct Prepared {
-    pub(crate) physical: Physical,
+    pub(crate) physical: PhysicalResources,
     /// By step.
-    pub(crate) steps: Vec<Step>,
+    pub(crate) steps: Vec<PreparedStep>,
 }
 
 /// A step's objects.
-pub(crate) enum Step {
+pub(crate) enum PreparedStep {
     /// Of a rendering scope.
-    Render(Scope),
+    Render(PreparedScope),
     /// Of a dispatch.
-    Dispatch(Compute),
+    Dispatch(PreparedDispatch),
     /// Of anything else: none.
     Plain,
 }
 
 /// A rendering scope's objects.
-pub(crate) struct Scope {
-    pub(crate) views: Turns<ScopeViews>,
-    pub(crate) passes: Vec<Drawn>,
+pub(crate) struct PreparedScope {
+    pub(crate) views: RingCache<ScopeViews>,
+    pub(crate) passes: Vec<PreparedDraw>,
 }
 
 /// A rendering scope's attachments.
 pub(crate) struct ScopeViews {
-    pub(crate) color: Vec<Views>,
-    pub(crate) depth: Option<Arc<Views>>,
+    pub(crate) color: Vec<AttachmentViews>,
+    pub(crate) depth: Option<Arc<AttachmentViews>>,
     /// Depth and stencil of one image share a view.
-    pub(crate) stencil: Option<Arc<Views>>,
+    pub(crate) stencil: Option<Arc<AttachmentViews>>,
 }
 
 /// An attachment's view and that of its resolve target.
-pub(crate) struct Views {
+pub(crate) struct AttachmentViews {
     pub(crate) attachment: View,
     pub(crate) resolve: Option<View>,
 }
@@ -51,32 +51,32 @@ pub(crate) struct Views {
 impl Prepared {
     /// Makes everything that the first frame needs. The Plan must have passed [`crate::check`].
     pub(crate) fn new(gpu: &Arc<Gpu>, plan: &Plan, shaders: &mut ShaderLibrary) -> Result<Prepared, Error> {
-        let physical = Physical::new(gpu, plan)?;
+        let physical = PhysicalResources::new(gpu, plan)?;
         let mut steps = Vec::new();
         for step in &plan.steps {
             steps.push(match &step.work {
-                Work::Render(scope) => Step::Render(self::scope(gpu, plan, &physical, scope, shaders)?),
-                Work::Dispatch(pass) => Step::Dispatch(compute(gpu, plan, &physical, pass, shaders)?),
-                _ => Step::Plain,
+                Work::Render(scope) => PreparedStep::Render(self::scope(gpu, plan, &physical, scope, shaders)?),
+                Work::Dispatch(pass) => PreparedStep::Dispatch(prepare_dispatch(gpu, plan, &physical, pass, shaders)?),
+                _ => PreparedStep::Plain,
             });
         }
         let mut prepared = Prepared { physical, steps };
-        prepared.turn_to(gpu, plan, 0)?;
+        prepared.prepare_frame(gpu, plan, 0)?;
         Ok(prepared)
     }
 
     /// Makes what frame `frame` needs and no frame before it needed.
-    pub(crate) fn turn_to(&mut self, gpu: &Arc<Gpu>, plan: &Plan, frame: u64) -> Result<(), Error> {
+    pub(crate) fn prepare_frame(&mut self, gpu: &Arc<Gpu>, plan: &Plan, frame: u64) -> Result<(), Error> {
         let physical = &self.physical;
         for (step, made) in plan.steps.iter().zip(&mut self.steps) {
             match (&step.work, made) {
-                (Work::Render(scope), Step::Render(made)) => {
+                (Work::Render(scope), PreparedStep::Render(made)) => {
                     made.views.prepare(frame, || views(plan, physical, scope, frame))?;
                     for pass in &mut made.passes {
                         pass.sets.prepare(frame, || pass.template.fill(gpu, physical, frame))?;
                     }
                 }
-                (Work::Dispatch(_), Step::Dispatch(made)) => {
+                (Work::Dispatch(_), PreparedStep::Dispatch(made)) => {
                     made.sets.prepare(frame, || made.template.fill(gpu, physical, frame))?;
                 }
                 _ => {}
@@ -89,12 +89,12 @@ impl Prepared {
     pub(crate) fn forget(&mut self) {
         for step in &mut self.steps {
             match step {
-                Step::Render(scope) => {
+                PreparedStep::Render(scope) => {
                     scope.views.forget();
                     scope.passes.iter_mut().for_each(|pass| pass.sets.forget());
                 }
-                Step::Dispatch(pass) => pass.sets.forget(),
-                Step::Plain => {}
+                PreparedStep::Dispatch(pass) => pass.sets.forget(),
+                PreparedStep::Plain => {}
             }
         }
     }
@@ -103,21 +103,21 @@ impl Prepared {
 fn scope(
     gpu: &Arc<Gpu>,
     plan: &Plan,
-    physical: &Physical,
+    physical: &PhysicalResources,
     scope: &RenderScope,
     shaders: &mut ShaderLibrary,
-) -> Result<Scope, Error> {
+) -> Result<PreparedScope, Error> {
     let mut passes = Vec::new();
     for pass in &scope.passes {
-        passes.push(drawn(gpu, plan, physical, scope, pass, shaders)?);
+        passes.push(prepare_draw(gpu, plan, physical, scope, pass, shaders)?);
     }
     let attachments = scope.color.iter().chain(&scope.depth).chain(&scope.stencil);
     let images = attachments.flat_map(|it| [Some(it.image), it.resolve.as_ref().map(|resolve| resolve.image)]);
     let period = physical.period(images.flatten().map(Resource::Image));
-    Ok(Scope { views: Turns::new(period), passes })
+    Ok(PreparedScope { views: RingCache::new(period), passes })
 }
 
-fn views(plan: &Plan, physical: &Physical, scope: &RenderScope, frame: u64) -> Result<ScopeViews, Error> {
+fn views(plan: &Plan, physical: &PhysicalResources, scope: &RenderScope, frame: u64) -> Result<ScopeViews, Error> {
     let view = |id: ImageId, range: Subresources| {
         let image = plan.image(id);
         // A view for an attachment has all planes.
@@ -127,7 +127,7 @@ fn views(plan: &Plan, physical: &Physical, scope: &RenderScope, frame: u64) -> R
     };
     let views = |attachment: &plan::Attachment| {
         let resolve = attachment.resolve.as_ref().map(|resolve| view(resolve.image, resolve.range)).transpose()?;
-        Ok::<_, Error>(Views { attachment: view(attachment.image, attachment.range)?, resolve })
+        Ok::<_, Error>(AttachmentViews { attachment: view(attachment.image, attachment.range)?, resolve })
     };
     let color = scope.color.iter().map(views).collect::<Result<_, _>>()?;
     let depth = scope.depth.as_ref().map(views).transpose()?.map(Arc::new);

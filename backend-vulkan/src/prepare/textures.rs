@@ -2,14 +2,14 @@
 
 use crate::base::Error;
 use crate::gpu::Gpu;
-use crate::memory::{Kind, RawBuffer};
+use crate::memory::{MemoryUse, RawBuffer};
 use ash::vk;
 use framewright_graph::plan::{Image, ImageId, Initial, Plan, Role};
 use framewright_graph::texture::{TextureFile, Textures};
 use std::sync::Arc;
 
 /// The texels of one image, where the device can copy from.
-pub(crate) struct Staged {
+pub(crate) struct StagedTexture {
     pub(crate) image: ImageId,
     pub(crate) buffer: RawBuffer,
 }
@@ -26,7 +26,11 @@ pub(crate) fn file_of(image: &Image) -> Option<&TextureFile> {
 ///
 /// # Errors
 /// [`Error::Texture`] if there is no such texture, [`Error::OutOfMemory`].
-pub(crate) fn staged(gpu: &Arc<Gpu>, plan: &Plan, textures: &mut dyn Textures) -> Result<Vec<Staged>, Error> {
+pub(crate) fn stage_textures(
+    gpu: &Arc<Gpu>,
+    plan: &Plan,
+    textures: &mut dyn Textures,
+) -> Result<Vec<StagedTexture>, Error> {
     let files = plan.images.iter().filter_map(|image| Some((image, file_of(image)?)));
     files
         .map(|(image, file)| {
@@ -40,9 +44,9 @@ pub(crate) fn staged(gpu: &Arc<Gpu>, plan: &Plan, textures: &mut dyn Textures) -
                 return Err(Error::BadResource { what });
             }
             let usage = vk::BufferUsageFlags::TRANSFER_SRC;
-            let mut buffer = RawBuffer::new(gpu, &image.name, expected, usage, Kind::Upload)?;
+            let mut buffer = RawBuffer::new(gpu, &image.name, expected, usage, MemoryUse::Upload)?;
             buffer.fill(&texels)?;
-            Ok(Staged { image: image.id, buffer })
+            Ok(StagedTexture { image: image.id, buffer })
         })
         .collect()
 }

@@ -34,14 +34,14 @@ pub struct Helper {
     /// What gives up waits for it.
     cancel: Arc<Cancel>,
     /// Whom it is told that a self-test takes long.
-    tell: Arc<Told>,
+    tell: Arc<LongTestListener>,
 }
 
 /// Whom something is told, if anyone.
 #[derive(Default)]
-struct Told(OnceLock<Box<Tell>>);
+struct LongTestListener(OnceLock<Box<Tell>>);
 
-impl fmt::Debug for Told {
+impl fmt::Debug for LongTestListener {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Told").field(&self.0.get().is_some()).finish()
     }

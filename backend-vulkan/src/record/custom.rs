@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use crate::base::convert;
-use crate::commands::{Place, copy_between, fill};
+use crate::commands::{TransferSide, copy_between, fill};
 use ash::vk;
 use framewright_graph::frame::ParamValue;
 use framewright_graph::plan::{self, Access, BufferAccess, Subresources};
@@ -41,7 +41,7 @@ pub struct CustomImage {
 }
 
 /// What a name stands for.
-enum Named<'f> {
+enum NamedResource<'f> {
     Image(&'f Access),
     Buffer(&'f BufferAccess),
 }
@@ -105,10 +105,10 @@ impl<'f> CustomRecorder<'f> {
     pub fn fill(&mut self, target: &str, value: FillValue) {
         let Some(named) = self.find(target, Accesses::TRANSFER_WRITE) else { return };
         let format = match named {
-            Named::Image(access) => Some(self.frame.plan.image(access.image).format),
-            Named::Buffer(_) => None,
+            NamedResource::Image(access) => Some(self.frame.plan.image(access.image).format),
+            NamedResource::Buffer(_) => None,
         };
-        fill(self.frame.gpu, self.commands, self.place(&named), convert::clear(format, value));
+        fill(self.frame.gpu, self.commands, self.side(&named), convert::clear(format, value));
         self.recorded += 1;
     }
 
@@ -124,7 +124,7 @@ impl<'f> CustomRecorder<'f> {
         if !self.agree(&from, &to) {
             return self.misused(|| format!("`{source}` and `{target}` differ in format, extent or rotation"));
         }
-        copy_between(self.frame.gpu, self.commands, self.place(&from), self.place(&to));
+        copy_between(self.frame.gpu, self.commands, self.side(&from), self.side(&to));
         self.recorded += 1;
     }
 
@@ -165,7 +165,7 @@ impl<'f> CustomRecorder<'f> {
     }
 
     /// What the pass may access so under this name; a misuse if there is nothing.
-    fn find(&mut self, name: &str, accesses: Accesses) -> Option<Named<'f>> {
+    fn find(&mut self, name: &str, accesses: Accesses) -> Option<NamedResource<'f>> {
         if self.misuse.is_some() {
             return None;
         }
@@ -173,8 +173,8 @@ impl<'f> CustomRecorder<'f> {
         let image = |it: &&Access| *plan.image(it.image).name == *name && it.accesses.contains(accesses);
         let buffer =
             |it: &&BufferAccess| *plan.buffers[it.buffer.0 as usize].name == *name && it.accesses.contains(accesses);
-        let image = pass.accesses.iter().find(image).map(Named::Image);
-        let found = image.or_else(|| pass.buffers.iter().find(buffer).map(Named::Buffer));
+        let image = pass.accesses.iter().find(image).map(NamedResource::Image);
+        let found = image.or_else(|| pass.buffers.iter().find(buffer).map(NamedResource::Buffer));
         if found.is_none() {
             let verb = if accesses == Accesses::TRANSFER_READ { "reads" } else { "writes" };
             self.misused(|| format!("the pass {verb} no `{name}` by transfer"));
@@ -188,14 +188,14 @@ impl<'f> CustomRecorder<'f> {
         extent.map(|side| side.unbounded_shr(access.range.base_mip).max(1))
     }
 
-    fn place(&self, named: &Named<'_>) -> Place {
+    fn side(&self, named: &NamedResource<'_>) -> TransferSide {
         match named {
-            Named::Image(access) => {
-                self.frame.image_place(access.image, access.range, self.extent(access), access.layout)
+            NamedResource::Image(access) => {
+                self.frame.image_side(access.image, access.range, self.extent(access), access.layout)
             }
-            Named::Buffer(access) => {
+            NamedResource::Buffer(access) => {
                 let bytes = self.frame.plan.buffers[access.buffer.0 as usize].bytes;
-                Place::Buffer {
+                TransferSide::Buffer {
                     buffer: self.frame.prepared.physical.buffer(access.buffer, self.frame.number).raw,
                     bytes,
                 }
@@ -204,7 +204,7 @@ impl<'f> CustomRecorder<'f> {
     }
 
     /// Whether one may be copied to the other.
-    fn agree(&self, from: &Named<'_>, to: &Named<'_>) -> bool {
+    fn agree(&self, from: &NamedResource<'_>, to: &NamedResource<'_>) -> bool {
         let plan = self.frame.plan;
         let texels = |access: &Access| {
             let image = plan.image(access.image);
@@ -219,11 +219,12 @@ impl<'f> CustomRecorder<'f> {
             samples == 1 && needed <= plan.buffers[buffer.buffer.0 as usize].bytes
         };
         match (from, to) {
-            (Named::Image(from), Named::Image(to)) => texels(from) == texels(to) && rotation(from) == rotation(to),
-            (Named::Image(image), Named::Buffer(buffer)) | (Named::Buffer(buffer), Named::Image(image)) => {
-                fits(image, buffer)
+            (NamedResource::Image(from), NamedResource::Image(to)) => {
+                texels(from) == texels(to) && rotation(from) == rotation(to)
             }
-            (Named::Buffer(_), Named::Buffer(_)) => true,
+            (NamedResource::Image(image), NamedResource::Buffer(buffer))
+            | (NamedResource::Buffer(buffer), NamedResource::Image(image)) => fits(image, buffer),
+            (NamedResource::Buffer(_), NamedResource::Buffer(_)) => true,
         }
     }
 

@@ -2,12 +2,17 @@
 
 use super::frame::{Frame, unprepared};
 use crate::base::Error;
-use crate::prepare::{Compute, WorkgroupCount};
+use crate::prepare::{PreparedDispatch, WorkgroupCount};
 use ash::vk;
 use framewright_graph::plan;
 
 impl Frame<'_> {
-    pub(super) fn dispatch(&self, commands: vk::CommandBuffer, plan: &plan::Pass, pass: &Compute) -> Result<(), Error> {
+    pub(super) fn dispatch(
+        &self,
+        commands: vk::CommandBuffer,
+        plan: &plan::Pass,
+        pass: &PreparedDispatch,
+    ) -> Result<(), Error> {
         self.tell_parts(commands, plan, pass.layout);
         let set = pass.sets.at(self.number).ok_or_else(unprepared)?;
         let device = &self.gpu.raw;

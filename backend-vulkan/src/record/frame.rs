@@ -1,9 +1,9 @@
 //! What a frame is recorded from, and what recording it leaves.
 
-use super::recorder::Kept;
+use super::recorder::HeldResources;
 use super::timing::Counts;
 use crate::base::{Error, convert};
-use crate::commands::Place;
+use crate::commands::TransferSide;
 use crate::gpu::Gpu;
 use crate::pipeline::PARTS_STAGES;
 use crate::prepare::{Prepared, part};
@@ -28,7 +28,7 @@ pub(crate) struct Frame<'f> {
 pub(crate) struct Recorded {
     /// By pass.
     pub(crate) counts: Vec<Counts>,
-    pub(crate) kept: Kept,
+    pub(crate) kept: HeldResources,
     /// How long that took.
     pub(crate) took: Duration,
 }
@@ -59,18 +59,24 @@ impl Frame<'_> {
     }
 
     /// Where a side of a transfer is in this frame.
-    pub(crate) fn place(&self, side: &Side) -> Place {
+    pub(crate) fn side(&self, side: &Side) -> TransferSide {
         match side {
-            Side::Image { image, range, extent, layout } => self.image_place(*image, *range, *extent, *layout),
+            Side::Image { image, range, extent, layout } => self.image_side(*image, *range, *extent, *layout),
             Side::Buffer { buffer, bytes } => {
-                Place::Buffer { buffer: self.prepared.physical.buffer(*buffer, self.number).raw, bytes: *bytes }
+                TransferSide::Buffer { buffer: self.prepared.physical.buffer(*buffer, self.number).raw, bytes: *bytes }
             }
         }
     }
 
-    pub(crate) fn image_place(&self, image: ImageId, range: Subresources, extent: [u32; 3], layout: Layout) -> Place {
+    pub(crate) fn image_side(
+        &self,
+        image: ImageId,
+        range: Subresources,
+        extent: [u32; 3],
+        layout: Layout,
+    ) -> TransferSide {
         let planned = self.plan.image(image);
-        Place::Image {
+        TransferSide::Image {
             image: self.prepared.physical.image(image, self.number).raw,
             range: part(planned, range),
             extent: convert::extent(EyeForm::extent(planned.eyes, extent, planned.rotation)),
@@ -89,7 +95,7 @@ impl Frame<'_> {
     }
 }
 
-/// Nothing was made for the frame: [`crate::prepare::Prepared::turn_to`] comes before recording.
+/// Nothing was made for the frame: [`crate::prepare::Prepared::prepare_frame`] comes before recording.
 pub(super) fn unprepared() -> Error {
     Error::BadPlan { what: "nothing was prepared for this frame".to_owned() }
 }

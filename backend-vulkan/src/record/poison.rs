@@ -10,7 +10,7 @@
 
 use super::frame::Frame;
 use crate::base::{Clear, convert};
-use crate::commands::{Place, barriers, fill, memory_barriers};
+use crate::commands::{TransferSide, barriers, fill, memory_barriers};
 use ash::vk;
 use framewright_graph::format::{Format, Numeric};
 use framewright_graph::plan::{Buffer, ImageBarrier, Resource, Role, Step, Work};
@@ -51,7 +51,7 @@ pub(crate) fn record(frame: &Frame<'_>, commands: vk::CommandBuffer, index: usiz
     barriers(frame.gpu, commands, &memory, &before.collect::<Vec<_>>());
     for barrier in &images {
         let image = frame.plan.image(barrier.image);
-        let place = Place::Image {
+        let place = TransferSide::Image {
             image: frame.prepared.physical.image(barrier.image, frame.number).raw,
             range: barrier.range,
             extent: vk::Extent3D::default(),
@@ -65,7 +65,7 @@ pub(crate) fn record(frame: &Frame<'_>, commands: vk::CommandBuffer, index: usiz
     barriers(frame.gpu, commands, &from, &[]);
     for buffer in &buffers {
         let raw = frame.prepared.physical.buffer(buffer.id, frame.number).raw;
-        fill(frame.gpu, commands, Place::Buffer { buffer: raw, bytes: buffer.bytes }, Clear::Word(WORD));
+        fill(frame.gpu, commands, TransferSide::Buffer { buffer: raw, bytes: buffer.bytes }, Clear::Word(WORD));
     }
     let until: Vec<_> = first_uses.iter().map(until_used).collect();
     barriers(frame.gpu, commands, &until, &after.collect::<Vec<_>>());
@@ -83,10 +83,10 @@ fn begins(buffer: &Buffer, step: usize) -> bool {
 }
 
 /// Stages and accesses.
-type Scope = (vk::PipelineStageFlags2, vk::AccessFlags2);
+type SyncScope = (vk::PipelineStageFlags2, vk::AccessFlags2);
 
 /// What the first step of a buffer's lifetime does with it.
-fn first_use(step: &Step, buffer: &Buffer) -> Scope {
+fn first_use(step: &Step, buffer: &Buffer) -> SyncScope {
     let passes = match &step.work {
         Work::Render(scope) => &scope.passes[..],
         Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
@@ -103,12 +103,12 @@ fn first_use(step: &Step, buffer: &Buffer) -> Scope {
 }
 
 /// The Plan's barriers lead to a buffer's first use: from there on to its poison.
-fn until_filled((stages, _): &Scope) -> vk::MemoryBarrier2<'static> {
+fn until_filled((stages, _): &SyncScope) -> vk::MemoryBarrier2<'static> {
     vk::MemoryBarrier2::default().src_stage_mask(*stages).dst_stage_mask(CLEAR_STAGE).dst_access_mask(CLEAR_ACCESS)
 }
 
 /// From a buffer's poison to its first use.
-fn until_used((stages, accesses): &Scope) -> vk::MemoryBarrier2<'static> {
+fn until_used((stages, accesses): &SyncScope) -> vk::MemoryBarrier2<'static> {
     vk::MemoryBarrier2::default()
         .src_stage_mask(CLEAR_STAGE)
         .src_access_mask(CLEAR_ACCESS)

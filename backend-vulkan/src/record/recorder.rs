@@ -3,7 +3,7 @@
 mod area;
 
 use crate::gpu::Gpu;
-use crate::prepare::{Drawn, PassState};
+use crate::prepare::{PassState, PreparedDraw};
 use crate::resources::{BindGroup, Buffer};
 use ash::vk;
 use framewright_graph::plan;
@@ -47,7 +47,7 @@ pub enum IndexType {
 pub struct Recorder<'f> {
     gpu: &'f Gpu,
     commands: vk::CommandBuffer,
-    kept: &'f mut Kept,
+    kept: &'f mut HeldResources,
     pass: &'f PassState,
     has_pipeline: bool,
     plan: &'f plan::Pass,
@@ -76,7 +76,7 @@ pub(crate) struct DrawTarget {
 
 /// What a frame's commands use: it is kept until the device is done with them, whatever the draw source drops.
 #[derive(Default)]
-pub(crate) struct Kept {
+pub(crate) struct HeldResources {
     groups: Vec<BindGroup>,
     buffers: Vec<Buffer>,
 }
@@ -85,8 +85,8 @@ impl<'f> Recorder<'f> {
     pub(crate) fn new(
         gpu: &'f Gpu,
         commands: vk::CommandBuffer,
-        kept: &'f mut Kept,
-        drawn: &'f Drawn,
+        kept: &'f mut HeldResources,
+        drawn: &'f PreparedDraw,
         plan: &'f plan::Pass,
         target: DrawTarget,
     ) -> Recorder<'f> {

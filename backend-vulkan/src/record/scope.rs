@@ -2,12 +2,12 @@
 
 use super::draw_source::DrawSource;
 use super::frame::{Frame, Recorded, unprepared};
-use super::recorder::{CullMode, DrawTarget, FrontFace, Kept, Recorder};
+use super::recorder::{CullMode, DrawTarget, FrontFace, HeldResources, Recorder};
 use super::timing::{Counts, Timing};
 use crate::base::{Error, convert};
 use crate::gpu::LocalRead;
 use crate::pipeline::or_unused;
-use crate::prepare::{Drawn, Scope, Views, view_mask};
+use crate::prepare::{AttachmentViews, PreparedDraw, PreparedScope, view_mask};
 use ash::vk;
 use framewright_graph::frame::Draw;
 use framewright_graph::plan::{self, Attachment, RenderScope};
@@ -19,7 +19,7 @@ impl Frame<'_> {
         &self,
         commands: vk::CommandBuffer,
         plan: &RenderScope,
-        scope: &Scope,
+        scope: &PreparedScope,
         source: &mut dyn DrawSource,
         timing: &mut Timing,
         recorded: &mut Recorded,
@@ -104,10 +104,10 @@ impl Frame<'_> {
         &self,
         commands: vk::CommandBuffer,
         plan: &plan::Pass,
-        pass: &Drawn,
+        pass: &PreparedDraw,
         target: DrawTarget,
         source: &mut dyn DrawSource,
-        kept: &mut Kept,
+        kept: &mut HeldResources,
     ) -> Result<Counts, Error> {
         let device = &self.gpu.raw;
         if let Some(pipeline) = pass.pipeline {
@@ -154,7 +154,7 @@ impl Frame<'_> {
     }
 
     /// Binds the vertex and index buffers that the Plan gives the pass.
-    fn bind_own_buffers(&self, commands: vk::CommandBuffer, pass: &Drawn) {
+    fn bind_own_buffers(&self, commands: vk::CommandBuffer, pass: &PreparedDraw) {
         let physical = &self.prepared.physical;
         let vertices: Vec<_> = pass.vertices.iter().map(|it| physical.buffer(*it, self.number).raw).collect();
         // SAFETY: the command buffer is being recorded, and the Plan's usages were checked by the checker.
@@ -169,7 +169,7 @@ impl Frame<'_> {
         }
     }
 
-    fn attachment<'v>(&self, plan: &Attachment, views: &'v Views) -> vk::RenderingAttachmentInfo<'v> {
+    fn attachment<'v>(&self, plan: &Attachment, views: &'v AttachmentViews) -> vk::RenderingAttachmentInfo<'v> {
         let info = vk::RenderingAttachmentInfo::default()
             .image_view(views.attachment.raw)
             .image_layout(convert::layout(plan.layout))

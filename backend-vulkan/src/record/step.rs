@@ -7,7 +7,7 @@ use super::poison;
 use super::timing::{Counts, Timing};
 use crate::base::Error;
 use crate::commands::{barriers, memory_barriers};
-use crate::prepare::Step as Made;
+use crate::prepare::PreparedStep;
 use ash::vk;
 use framewright_graph::plan::{Plan, Resource, Step, Work};
 
@@ -33,10 +33,10 @@ impl Frame<'_> {
                 barriers(self.gpu, commands, &memory_barriers(&step.memory_barriers), &images);
             }
             match (&step.work, made) {
-                (Work::Render(plan), Made::Render(scope)) => {
+                (Work::Render(plan), PreparedStep::Render(scope)) => {
                     self.render(commands, plan, scope, source, timing, recorded)?;
                 }
-                (Work::Dispatch(plan), Made::Dispatch(pass)) => {
+                (Work::Dispatch(plan), PreparedStep::Dispatch(pass)) => {
                     self.dispatch(commands, plan, pass)?;
                     recorded.counts.push(Counts { draws: 1, culled: 0 });
                     timing.stamp(commands);

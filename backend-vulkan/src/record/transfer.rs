@@ -2,17 +2,17 @@
 
 use super::frame::Frame;
 use crate::base::convert;
-use crate::commands::{Place, copy_between, fill};
+use crate::commands::{TransferSide, copy_between, fill};
 use ash::vk;
 use framewright_graph::plan::{Fill, Resource, Transfer};
 use framewright_graph::vocabulary::Filter;
 
 impl Frame<'_> {
     pub(super) fn resolve(&self, commands: vk::CommandBuffer, transfer: &Transfer) {
-        let (source, target) = (self.place(&transfer.source), self.place(&transfer.target));
+        let (source, target) = (self.side(&transfer.source), self.side(&transfer.target));
         let (
-            Place::Image { image, range, extent, layout },
-            Place::Image { image: to, range: to_range, layout: to_layout, .. },
+            TransferSide::Image { image, range, extent, layout },
+            TransferSide::Image { image: to, range: to_range, layout: to_layout, .. },
         ) = (source, target)
         else {
             return;
@@ -32,14 +32,14 @@ impl Frame<'_> {
     }
 
     pub(super) fn copy(&self, commands: vk::CommandBuffer, transfer: &Transfer) {
-        copy_between(self.gpu, commands, self.place(&transfer.source), self.place(&transfer.target));
+        copy_between(self.gpu, commands, self.side(&transfer.source), self.side(&transfer.target));
     }
 
     pub(super) fn blit(&self, commands: vk::CommandBuffer, transfer: &Transfer) {
-        let (source, target) = (self.place(&transfer.source), self.place(&transfer.target));
+        let (source, target) = (self.side(&transfer.source), self.side(&transfer.target));
         let (
-            Place::Image { image, range, extent, layout },
-            Place::Image { image: to, range: to_range, extent: to_extent, layout: to_layout },
+            TransferSide::Image { image, range, extent, layout },
+            TransferSide::Image { image: to, range: to_range, extent: to_extent, layout: to_layout },
         ) = (source, target)
         else {
             return;
@@ -65,7 +65,7 @@ impl Frame<'_> {
             Resource::Image(image) => Some(self.plan.image(image).format),
             Resource::Buffer(_) => None,
         };
-        fill(self.gpu, commands, self.place(&plan.target), convert::clear(format, plan.value));
+        fill(self.gpu, commands, self.side(&plan.target), convert::clear(format, plan.value));
     }
 }
 

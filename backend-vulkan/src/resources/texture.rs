@@ -3,7 +3,7 @@
 use crate::base::Error;
 use crate::commands::record_upload;
 use crate::gpu::{Device, Gpu, SamplerDescriptor};
-use crate::memory::{Image, Kind, RawBuffer, View, ViewShape};
+use crate::memory::{Image, MemoryUse, RawBuffer, View, ViewShape};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::format::Format;
@@ -66,7 +66,7 @@ impl Device {
             return Err(Error::BadResource { what });
         }
         let contents = if contents.is_empty() { &[0; 16] } else { contents };
-        let mut buffer = RawBuffer::new(&self.gpu, "buffer", contents.len() as u64, flags, Kind::Upload)?;
+        let mut buffer = RawBuffer::new(&self.gpu, "buffer", contents.len() as u64, flags, MemoryUse::Upload)?;
         buffer.fill(contents)?;
         Ok(Buffer(Arc::new(buffer)))
     }
@@ -136,7 +136,7 @@ impl Device {
 /// Fills the first level of `image`, makes the others, and leaves all of them ready to be sampled.
 fn upload(gpu: &Arc<Gpu>, image: &Image, texels: &[u8]) -> Result<(), Error> {
     let usage = vk::BufferUsageFlags::TRANSFER_SRC;
-    let mut staging = RawBuffer::new(gpu, "texture upload", texels.len() as u64, usage, Kind::Upload)?;
+    let mut staging = RawBuffer::new(gpu, "texture upload", texels.len() as u64, usage, MemoryUse::Upload)?;
     staging.fill(texels)?;
     gpu.submit_once("uploading a texture", Queue::Graphics, |commands| {
         record_upload(gpu, commands, image, &staging, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);

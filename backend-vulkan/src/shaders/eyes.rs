@@ -16,8 +16,9 @@ pub(super) const EYE: &str = "framewright_eye";
 /// What hands the eye from the vertex stage, which knows it by the instance, to the fragment stage.
 pub(super) const HANDED_ON: &str = "framewright_eye_of_triangle";
 
-/// Where: at the location behind those that shaders may take.
-const LOCATION: u32 = super::reflect::VARYINGS;
+/// Where. Shaders may take the locations below: Vulkan promises 15 between stages to all, of which this is the last, so that a
+/// shader fits every way to draw for both eyes.
+pub(super) const LOCATION: u32 = 14;
 
 /// How a stage draws for both eyes at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

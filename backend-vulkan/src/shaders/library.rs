@@ -68,12 +68,12 @@ pub struct ShaderLibrary {
     files: ShaderFiles,
     draws: fn(Draw) -> DrawInterface,
     compilers: Compilers,
-    sources: HashMap<String, Result<Option<Arc<Source>>, ShaderProblem>>,
+    sources: HashMap<String, Result<Option<Arc<StageSource>>, ShaderProblem>>,
     stages: HashMap<StageKey, StageResult>,
 }
 
 /// A stage's own file.
-struct Source {
+struct StageSource {
     found: SourceFile,
     /// What `NAME` stands for in the macros `TEXTURE_NAME` that it mentions, each once.
     mentioned: Mentioned,
@@ -184,7 +184,7 @@ impl ShaderLibrary {
         result
     }
 
-    fn source(&mut self, file: &str) -> Result<Option<Arc<Source>>, ShaderProblem> {
+    fn source(&mut self, file: &str) -> Result<Option<Arc<StageSource>>, ShaderProblem> {
         if let Some(known) = self.sources.get(file) {
             return known.clone();
         }
@@ -193,15 +193,15 @@ impl ShaderLibrary {
             found.map(|found| {
                 let mut mentioned = Mentioned::by(&found.text);
                 mentioned.eye |= asks_eye_in_included(&self.files, &found);
-                Arc::new(Source { found, mentioned })
+                Arc::new(StageSource { found, mentioned })
             })
         });
         self.sources.insert(file.to_owned(), source.clone());
         source
     }
 
-    fn compile_stage(&mut self, source: &Source, key: &StageKey) -> StageResult {
-        let Source { found, mentioned } = source;
+    fn compile_stage(&mut self, source: &StageSource, key: &StageKey) -> StageResult {
+        let StageSource { found, mentioned } = source;
         let (_, stage, macros, both, in_layers) = key;
         let stage = *stage;
         let text = both.map_or_else(|| found.text.clone(), |both| both.around(&found.text, stage));

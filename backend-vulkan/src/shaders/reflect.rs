@@ -2,7 +2,7 @@
 
 use super::bindings::{bindings, component_of};
 use super::capabilities::check_capabilities;
-use super::eyes::HANDED_ON;
+use super::eyes::{HANDED_ON, LOCATION};
 use super::module::{Indexed, id, number, storage_class};
 use super::text::Refused;
 use super::{alpha, rotation};
@@ -33,10 +33,8 @@ pub(super) struct Varying {
     pub(super) ty: String,
 }
 
-/// Locations between stages and of vertex attributes are below these. Vulkan promises 15 between stages to all, of which the last
-/// one hands on the eye ([`super::eyes`]), so that a shader fits every way to draw for both eyes; and 16 attributes. The compiler
-/// itself limits those of colour outputs.
-pub(super) const VARYINGS: u32 = 14;
+/// Locations of vertex attributes are below this: Vulkan promises so many to all. The compiler itself limits those of colour
+/// outputs.
 const ATTRIBUTES: u32 = 16;
 /// A fragment stage declares at most this many outputs, the elements of arrays counted: no device has as many.
 const OUTPUTS: u32 = 256;
@@ -67,7 +65,7 @@ pub(super) fn reflect(
     check_shared_memory(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
     let outputs = varyings(&module, StorageClass::Output, &used);
-    let (most_in, most_out) = if fragment { (VARYINGS, u32::MAX) } else { (ATTRIBUTES, VARYINGS) };
+    let (most_in, most_out) = if fragment { (LOCATION, u32::MAX) } else { (ATTRIBUTES, LOCATION) };
     check_locations(&module, StorageClass::Input, most_in)?;
     check_locations(&module, StorageClass::Output, most_out)?;
     let interface = ShaderInterface {
