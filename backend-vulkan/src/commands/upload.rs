@@ -10,6 +10,7 @@ use ash::vk;
 use framewright_graph::plan::Queue;
 use framewright_graph::vocabulary::{Accesses, Aspects, Layout, Stages, State, Subresources};
 use std::sync::Arc;
+
 /// While it is set to a value or copied to.
 pub(crate) const WRITTEN: State = State {
     stages: Stages::COPY.union(Stages::CLEAR),

@@ -3,7 +3,7 @@
 use super::executor::Executor;
 use crate::base::Error;
 use crate::commands::{barriers, memory_change, state_change};
-use crate::prepare::{cycle, initial_queue};
+use crate::prepare::{cycle, initial_queue, name_and_role};
 use ash::vk;
 use framewright_graph::plan::{BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
 use framewright_graph::vocabulary::State;
@@ -60,7 +60,7 @@ impl Executor {
             }
         }
         self.prepared.forget();
-        Ok(migrated.iter().map(|it| named(&self.plan, it.to).0.to_owned()).collect())
+        Ok(migrated.iter().map(|it| name_and_role(&self.plan, it.to).0.to_owned()).collect())
     }
 
     /// What goes on, cycle by cycle.
@@ -80,13 +80,13 @@ impl Executor {
 
     /// How an image or buffer goes on; `None` if it doesn't.
     fn goes_on(&self, before: &Executor, to: Resource) -> Option<Migration> {
-        let (name, role) = named(&self.plan, to);
+        let (name, role) = name_and_role(&self.plan, to);
         // What comes from a file was read anew, and may have changed.
         let Role::Persistent { before: found, initial: Initial::Value(_), .. } = role else { return None };
-        let from = persistent(&before.plan).find(|it| named(&before.plan, *it).0 == name)?;
-        let Role::Persistent { before: left, .. } = named(&before.plan, from).1 else { return None };
+        let from = persistent(&before.plan).find(|it| name_and_role(&before.plan, *it).0 == name)?;
+        let Role::Persistent { before: left, .. } = name_and_role(&before.plan, from).1 else { return None };
         let names = |plan: &Plan, first| -> Vec<String> {
-            members(plan, first).into_iter().map(|it| named(plan, it).0.to_owned()).collect()
+            members(plan, first).into_iter().map(|it| name_and_role(plan, it).0.to_owned()).collect()
         };
         let (next, old, new) = (before.frames.next(), &before.prepared.physical, &self.prepared.physical);
         let fits = match (from, to) {
@@ -144,13 +144,6 @@ fn members(plan: &Plan, first: Resource) -> Vec<Resource> {
         Resource::Buffer(BufferId(id)) => {
             cycle(id, |id| &plan.buffers[id as usize].role).map(|id| Resource::Buffer(BufferId(id))).collect()
         }
-    }
-}
-
-fn named(plan: &Plan, resource: Resource) -> (&str, &Role) {
-    match resource {
-        Resource::Image(id) => (&plan.image(id).name, &plan.image(id).role),
-        Resource::Buffer(id) => (&plan.buffers[id.0 as usize].name, &plan.buffers[id.0 as usize].role),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::base::Error;
 use crate::commands::{Readback, first_plane};
 use crate::gpu::Gpu;
-use crate::prepare::Uses;
+use crate::prepare::{Uses, name_and_role};
 use crate::record::Frame;
 use ash::vk;
 use framewright_graph::plan::{Output, Plan, Resource, Role};
@@ -27,10 +27,7 @@ impl OutputReadback {
     pub(crate) fn all(plan: &Plan, uses: &Uses) -> Result<Vec<OutputReadback>, Error> {
         let readback = |output: &Output| {
             let resource = output.resource;
-            let role = match resource {
-                Resource::Image(image) => &plan.image(image).role,
-                Resource::Buffer(buffer) => &plan.buffers[buffer.0 as usize].role,
-            };
+            let (_, role) = name_and_role(plan, resource);
             let bad = || Error::BadPlan { what: "an output is transient, or no step touches it".to_owned() };
             let (Role::Persistent { after: state, .. } | Role::External { after: state, .. }) = role else {
                 return Err(bad());

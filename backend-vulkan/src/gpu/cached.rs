@@ -17,8 +17,8 @@ pub(crate) struct Caches {
     pub(crate) samplers: Cache<SamplerDescriptor, vk::Sampler>,
     pub(crate) set_layouts: Cache<Vec<LayoutBinding>, vk::DescriptorSetLayout>,
     pub(crate) pipeline_layouts: Cache<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
-    pub(crate) pipelines: Cache<super::cached::PipelineDescriptor, vk::Pipeline>,
-    pub(crate) compute_pipelines: Cache<(crate::shaders::Spirv, vk::PipelineLayout), vk::Pipeline>,
+    pub(crate) pipelines: Cache<PipelineDescriptor, vk::Pipeline>,
+    pub(crate) compute_pipelines: Cache<(Spirv, vk::PipelineLayout), vk::Pipeline>,
 }
 
 /// One kind of object by its description.

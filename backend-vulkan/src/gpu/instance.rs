@@ -1,9 +1,10 @@
 //! The loader, and an instance with or without the validation layer.
 
+use super::layer;
 use super::minimum::MINIMUM_VERSION;
 use super::validation::{FEATURES, LAYER, Layer, Messages, SETTINGS, Setting, known_settings, layer_settings};
+use super::words;
 use crate::base::Error;
-use crate::gpu::layer;
 use ash::{ext, khr, vk};
 use std::ffi::CStr;
 
@@ -36,7 +37,7 @@ impl Instance {
         // SAFETY: the loader is loaded.
         let version = unsafe { entry.try_enumerate_instance_version() }.ok().flatten().unwrap_or(vk::API_VERSION_1_0);
         if version < MINIMUM_VERSION {
-            let found = super::words::version(version);
+            let found = words::version(version);
             return Err(Error::NoLoader { reason: format!("it has Vulkan {found}, and 1.3 is needed") });
         }
         let mut validation = if validate {

@@ -1,5 +1,6 @@
 //! What the validation layer says: messages collected as data, and the settings that make it look closely.
 
+use super::words::{text, version};
 use ash::ext::validation_features;
 use ash::{ext, vk};
 use std::borrow::Cow;
@@ -185,8 +186,8 @@ impl Layer {
         // SAFETY: the loader is loaded.
         let extensions = unsafe { entry.enumerate_instance_extension_properties(Some(LAYER)) }.unwrap_or_default();
         let current = extensions.iter().any(|it| it.extension_name_as_c_str() == Ok(ext::layer_settings::NAME));
-        let version = super::words::version(found.spec_version);
-        let description = super::words::text(found.description_as_c_str());
+        let version = version(found.spec_version);
+        let description = text(found.description_as_c_str());
         Some(Layer { shown: format!("{description} ({version})"), current })
     }
 

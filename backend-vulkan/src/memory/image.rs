@@ -1,6 +1,6 @@
 //! Images and their views.
 
-use super::block::MemoryBlock;
+use super::block::{MemoryBlock, MemoryUse};
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
 use ash::vk;
@@ -68,7 +68,7 @@ impl Image {
         let needs = gpu.memory_needs(descriptor);
         let requirements =
             vk::MemoryRequirements { size: needs.bytes, alignment: needs.alignment, memory_type_bits: needs.type_bits };
-        let memory = MemoryBlock::new(gpu, name, requirements, super::block::MemoryUse::Images)?;
+        let memory = MemoryBlock::new(gpu, name, requirements, MemoryUse::Images)?;
         Image::new(gpu, name, descriptor, Arc::new(memory), 0)
     }
 

@@ -6,6 +6,7 @@ use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::vocabulary::Subresources;
 use std::sync::Arc;
+
 /// How a view shows an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum ViewShape {

@@ -4,6 +4,7 @@ use crate::base::Error;
 use crate::gpu::{Gpu, LayoutBinding};
 use ash::vk;
 use framewright_graph::interface::MOST_PARTS;
+
 /// Every stage may ask which part of an image is in use.
 pub(crate) const PARTS_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
     vk::ShaderStageFlags::VERTEX.as_raw()

@@ -4,6 +4,7 @@ use crate::base::Error;
 use crate::gpu::{AddressMode, Gpu, SamplerDescriptor, TexelFilter};
 use ash::vk;
 use framewright_graph::vocabulary::{self, Filter, Sampler};
+
 impl Gpu {
     /// The sampler of this description.
     pub(crate) fn sampler(&self, descriptor: SamplerDescriptor) -> Result<vk::Sampler, Error> {

@@ -1,5 +1,6 @@
 //! Whether a device can do what a step does.
 
+use super::descriptions::part;
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
 use ash::vk;
@@ -153,7 +154,7 @@ fn sized(plan: &Plan, source: &Side, target: &Side) -> Result<(), Error> {
         _ => return Ok(()),
     };
     let image = plan.image(*image);
-    let layers = super::descriptions::part(image, *range).layers;
+    let layers = part(image, *range).layers;
     let texels = extent.iter().fold(u64::from(layers), |all, side| all.saturating_mul(u64::from(*side)));
     let needed = texels.saturating_mul(crate::commands::plane_bytes(image.format, range.aspects));
     if needed > *bytes {

@@ -1,7 +1,7 @@
 //! The Plan's images and buffers as they are made on a device.
 
 use framewright_graph::device::{BufferDescriptor, ImageDescriptor};
-use framewright_graph::plan::{self, Role, Subresources};
+use framewright_graph::plan::{self, BufferId, Plan, Resource, Role, Subresources};
 use framewright_graph::view::EyeForm;
 use framewright_graph::vocabulary::{BufferUsage, Usage};
 
@@ -48,4 +48,15 @@ pub(crate) fn cycle<'p>(first: u32, role: impl Fn(u32) -> &'p Role) -> impl Iter
         Role::Transient(_) | Role::External { .. } => None,
     };
     std::iter::successors(Some(first), next)
+}
+
+/// Name and role of an image or buffer.
+pub(crate) fn name_and_role(plan: &Plan, resource: Resource) -> (&str, &Role) {
+    match resource {
+        Resource::Image(image) => (&plan.image(image).name, &plan.image(image).role),
+        Resource::Buffer(BufferId(buffer)) => {
+            let buffer = &plan.buffers[buffer as usize];
+            (&buffer.name, &buffer.role)
+        }
+    }
 }

@@ -3,6 +3,7 @@
 //! Contents come from the graphics queue. What another queue uses first must be handed to it; and where the frame begins by
 //! acquiring an image from the queue on which the frame before would have released it, somebody has to release it.
 
+use super::descriptions::part;
 use super::uses::Uses;
 use framewright_graph::plan::{
     ImageBarrier, ImageId, Pass, Plan, Queue, Resource, Role, Sharing, Side, Step, Subresources, Work,
@@ -33,7 +34,7 @@ pub(crate) fn initial_owners<'p>(plan: &'p Plan, relies: impl Fn(ImageId) -> boo
         if !exclusive(image) {
             return;
         }
-        let range = super::descriptions::part(plan.image(image), range);
+        let range = part(plan.image(image), range);
         let mut first = false;
         for plane in (0..u32::BITS).filter(|bit| range.aspects.bits() >> bit & 1 != 0) {
             for mip in range.base_mip..range.base_mip + range.mips {

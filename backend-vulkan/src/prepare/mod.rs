@@ -16,7 +16,7 @@ mod variant;
 
 pub(crate) use batches::{Batch, batches};
 pub(crate) use check::{Refuse, check};
-pub(crate) use descriptions::{buffer_descriptor, cycle, descriptor, part};
+pub(crate) use descriptions::{buffer_descriptor, cycle, descriptor, name_and_role, part};
 pub(crate) use history::RingCache;
 pub(crate) use initial_ownership::{InitialOwner, initial_owners, initial_queue};
 pub(crate) use pass::{PassState, PreparedDispatch, PreparedDraw, WorkgroupCount, groups};

@@ -7,7 +7,7 @@ use super::poison;
 use super::timing::{Counts, Timing};
 use crate::base::Error;
 use crate::commands::{barriers, memory_barriers};
-use crate::prepare::PreparedStep;
+use crate::prepare::{PreparedStep, name_and_role};
 use ash::vk;
 use framewright_graph::plan::{Plan, Resource, Step, Work};
 
@@ -65,10 +65,7 @@ impl Frame<'_> {
 
 /// What a debugger shows for a step.
 fn title(plan: &Plan, step: &Step) -> String {
-    let name = |resource: Resource| match resource {
-        Resource::Image(image) => plan.image(image).name.to_string(),
-        Resource::Buffer(buffer) => plan.buffers[buffer.0 as usize].name.to_string(),
-    };
+    let name = |resource: Resource| name_and_role(plan, resource).0;
     match &step.work {
         Work::Render(scope) => scope.passes.iter().map(|pass| &*pass.name).collect::<Vec<_>>().join(", "),
         Work::Dispatch(pass) | Work::Custom(pass) => pass.name.to_string(),
