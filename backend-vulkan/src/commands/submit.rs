@@ -1,7 +1,7 @@
 //! Commands that are recorded, submitted and waited for at once, and timelines that tell when work is done.
 
 use crate::base::{Error, SLICE};
-use crate::gpu::{Gpu, Unfinished};
+use crate::gpu::{Gpu, PendingWork};
 use ash::vk;
 use framewright_graph::plan::Queue;
 use std::sync::Arc;
@@ -40,7 +40,7 @@ impl Drop for Timeline {
 impl Gpu {
     /// Waits until all semaphores have reached their values. After a wait that fails the device is given up: nothing is
     /// freed any more.
-    pub(crate) fn wait_for(&self, doing: &'static str, work: Unfinished, timeout: Duration) -> Result<(), Error> {
+    pub(crate) fn wait_for(&self, doing: &'static str, work: PendingWork, timeout: Duration) -> Result<(), Error> {
         let info = vk::SemaphoreWaitInfo::default().semaphores(&work.semaphores).values(&work.values);
         let begun = Instant::now();
         let error = loop {
@@ -106,7 +106,7 @@ impl Commands {
             return Err(Error::DeviceLost { doing });
         }
         let value = self.submitted + 1;
-        let work = Unfinished { semaphores: vec![self.timeline.raw], values: vec![value] };
+        let work = PendingWork { semaphores: vec![self.timeline.raw], values: vec![value] };
         let signal = [vk::SemaphoreSubmitInfo::default()
             .semaphore(self.timeline.raw)
             .value(value)

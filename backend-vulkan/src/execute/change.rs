@@ -4,7 +4,9 @@ use super::executor::Executor;
 use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::memory::RawBuffer;
-use crate::prepare::{PassSet, Prepared, PreparedStep, Refuse, RingCache, SetTemplate, WorkgroupCount, check, groups};
+use crate::prepare::{
+    PassSet, PreparedPlan, PreparedStep, Refuse, RingCache, SetTemplate, WorkgroupCount, check, groups,
+};
 use framewright_graph::plan::{Pass, Plan, Work};
 use std::sync::Arc;
 
@@ -43,7 +45,7 @@ impl Executor {
 /// Step and pass of what has other values now, and what it gets.
 fn renewed(
     gpu: &Arc<Gpu>,
-    prepared: &Prepared,
+    prepared: &PreparedPlan,
     before: &Plan,
     after: &Plan,
 ) -> Result<Vec<([usize; 2], ChangedValue)>, Error> {
@@ -78,7 +80,7 @@ fn renewed(
 }
 
 /// Gives it to a pass. Nothing that was filled with other parameters may be in use.
-fn take(prepared: &mut Prepared, [step, pass]: [usize; 2], renewed: ChangedValue) {
+fn take(prepared: &mut PreparedPlan, [step, pass]: [usize; 2], renewed: ChangedValue) {
     let put_in = |template: &mut SetTemplate, sets: &mut RingCache<PassSet>, params| {
         template.take(params);
         sets.forget();

@@ -6,7 +6,7 @@ use super::initial_contents::initialise;
 use super::output_readback::OutputReadback;
 use crate::base::Error;
 use crate::gpu::{Device, Gpu};
-use crate::prepare::{Prepared, Refuse, StagedTexture, Uses, check, stage_textures};
+use crate::prepare::{PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
 use crate::record::{DrawSource, Frame, FrameReport};
 use crate::shaders::ShaderLibrary;
 use framewright_graph::plan::Plan;
@@ -46,10 +46,10 @@ pub struct Executor {
     options: ExecutorOptions,
     imports: Vec<Import>,
     readbacks: Vec<OutputReadback>,
-    pub(crate) uses: Uses,
+    pub(crate) uses: ResourceUses,
     /// Before what it uses: dropping it waits for every frame.
     pub(crate) frames: Frames,
-    pub(crate) prepared: Prepared,
+    pub(crate) prepared: PreparedPlan,
     /// Texels from files, until they are uploaded.
     staged: Vec<StagedTexture>,
     pub(crate) initialised: bool,
@@ -112,13 +112,13 @@ impl Executor {
     ) -> Result<Executor, Error> {
         let gpu = &device.gpu;
         check(gpu, plan, refuse, options.poison)?;
-        let uses = Uses::new(plan);
+        let uses = ResourceUses::new(plan);
         let imports = Import::all(plan, &uses);
         Ok(Executor {
             gpu: gpu.clone(),
             readbacks: if options.keep_outputs { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options.frames_in_flight, options.timeout)?,
-            prepared: Prepared::new(gpu, plan, shaders)?,
+            prepared: PreparedPlan::new(gpu, plan, shaders)?,
             plan: plan.clone(),
             options: options.clone(),
             imports,

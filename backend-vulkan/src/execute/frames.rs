@@ -4,7 +4,7 @@ use super::import::Import;
 use super::output_readback::OutputReadback;
 use crate::base::Error;
 use crate::commands::{CommandPool, Readback, Timeline, record};
-use crate::gpu::{Gpu, Unfinished};
+use crate::gpu::{Gpu, PendingWork};
 use crate::prepare::{Batch, batches};
 use crate::record::{DrawSource, Frame, FrameReport, Recorded, Timing};
 use ash::vk;
@@ -24,12 +24,12 @@ pub(crate) struct Frames {
     timelines: Vec<(Queue, Timeline)>,
     /// A frame's steps, and its end.
     values_per_frame: u64,
-    slots: Vec<Slot>,
+    slots: Vec<FrameSlot>,
     submitted: u64,
 }
 
 /// What one frame in flight has to itself.
-struct Slot {
+struct FrameSlot {
     /// By batch.
     commands: Vec<(CommandPool, vk::CommandBuffer)>,
     timing: Timing,
@@ -62,7 +62,7 @@ impl Frames {
         for queue in batches.iter().filter(|batch| batch.last).map(|batch| batch.queue) {
             timelines.push((queue, Timeline::new(gpu)?));
         }
-        let slots = (0..in_flight.max(1)).map(|_| Slot::new(gpu, plan, &batches));
+        let slots = (0..in_flight.max(1)).map(|_| FrameSlot::new(gpu, plan, &batches));
         Ok(Frames {
             gpu: gpu.clone(),
             timeout,
@@ -168,8 +168,8 @@ impl Frames {
     }
 
     /// What the timelines reach when the first `batches` batches of `frame` are done.
-    fn reached_by(&self, batches: usize, frame: u64) -> Unfinished {
-        let mut unfinished = Unfinished::default();
+    fn reached_by(&self, batches: usize, frame: u64) -> PendingWork {
+        let mut unfinished = PendingWork::default();
         for (queue, timeline) in &self.timelines {
             let own = self.batches[..batches].iter().filter(|batch| batch.queue == *queue);
             let value = own.filter_map(|batch| self.signalled(batch, frame)).max();
@@ -225,14 +225,14 @@ impl Drop for Frames {
     }
 }
 
-impl Slot {
-    fn new(gpu: &Arc<Gpu>, plan: &Plan, batches: &[Batch]) -> Result<Slot, Error> {
+impl FrameSlot {
+    fn new(gpu: &Arc<Gpu>, plan: &Plan, batches: &[Batch]) -> Result<FrameSlot, Error> {
         let commands = batches.iter().map(|batch| {
             let pool = CommandPool::new(gpu, batch.queue)?;
             let buffer = pool.buffer()?;
             Ok::<_, Error>((pool, buffer))
         });
-        Ok(Slot {
+        Ok(FrameSlot {
             commands: commands.collect::<Result<_, _>>()?,
             timing: Timing::new(gpu, plan, batches.len())?,
             recorded: Recorded::default(),

@@ -2,7 +2,7 @@
 //! on. For those that the executor made itself, it does so: before each frame, from the state that the last frame left.
 
 use crate::commands::{barriers, memory_change, state_change};
-use crate::prepare::{PhysicalResources, Uses};
+use crate::prepare::{PhysicalResources, ResourceUses};
 use crate::record::Frame;
 use ash::vk;
 use framewright_graph::plan::{Plan, Resource, Role, StepId, Subresources, Wait};
@@ -22,7 +22,7 @@ pub(crate) struct Import {
 
 impl Import {
     /// Everything external that `plan` touches.
-    pub(crate) fn all(plan: &Plan, uses: &Uses) -> Vec<Import> {
+    pub(crate) fn all(plan: &Plan, uses: &ResourceUses) -> Vec<Import> {
         let images = plan.images.iter().map(|it| (Resource::Image(it.id), &it.role));
         let buffers = plan.buffers.iter().map(|it| (Resource::Buffer(it.id), &it.role));
         let import = |(resource, role): (Resource, &Role)| {

@@ -2,9 +2,9 @@
 
 use crate::base::{Error, convert};
 use crate::commands::{TransferSide, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change};
-use crate::gpu::{Family, Gpu};
+use crate::gpu::{Gpu, QueueFamily};
 use crate::memory::Image;
-use crate::prepare::{InitialOwner, PhysicalResources, StagedTexture, Uses, initial_owners, initial_queue};
+use crate::prepare::{InitialOwner, PhysicalResources, ResourceUses, StagedTexture, initial_owners, initial_queue};
 use ash::vk;
 use framewright_graph::plan::{self, BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
 use framewright_graph::vocabulary::{Accesses, FillValue, Layout, Stages, State, Usage};
@@ -20,7 +20,7 @@ pub(crate) const UNUSED: State =
 pub(crate) fn initialise(
     gpu: &Arc<Gpu>,
     plan: &Plan,
-    uses: &Uses,
+    uses: &ResourceUses,
     physical: &PhysicalResources,
     staged: &[StagedTexture],
 ) -> Result<(), Error> {
@@ -100,7 +100,7 @@ struct OwnershipTransfers<'h> {
 
 impl OwnershipTransfers<'_> {
     /// Records what one family has to do, of which the graphics family comes first.
-    fn record(&self, commands: vk::CommandBuffer, here: Family) {
+    fn record(&self, commands: vk::CommandBuffer, here: QueueFamily) {
         let families = &self.gpu.queues.families;
         let graphics = families.graphics;
         let mut recorded = Vec::new();
@@ -127,7 +127,7 @@ impl OwnershipTransfers<'_> {
     fn transfer(
         &self,
         part: &InitialOwner<'_>,
-        [from, to]: [Family; 2],
+        [from, to]: [QueueFamily; 2],
         layouts: [Option<Layout>; 2],
     ) -> vk::ImageMemoryBarrier2<'static> {
         let all = State { stages: Stages::ALL_COMMANDS, accesses: Accesses::empty(), layout: part.layout };

@@ -3,7 +3,7 @@
 use crate::base::Error;
 use crate::commands::{Readback, first_plane};
 use crate::gpu::Gpu;
-use crate::prepare::{Uses, name_and_role};
+use crate::prepare::{ResourceUses, name_and_role};
 use crate::record::Frame;
 use ash::vk;
 use framewright_graph::plan::{Output, Plan, Resource, Role};
@@ -24,7 +24,7 @@ impl OutputReadback {
     ///
     /// # Errors
     /// [`Error::BadPlan`] if one of them is transient or never touched.
-    pub(crate) fn all(plan: &Plan, uses: &Uses) -> Result<Vec<OutputReadback>, Error> {
+    pub(crate) fn all(plan: &Plan, uses: &ResourceUses) -> Result<Vec<OutputReadback>, Error> {
         let readback = |output: &Output| {
             let resource = output.resource;
             let (_, role) = name_and_role(plan, resource);

@@ -4,7 +4,7 @@ use super::cached::Caches;
 use super::features::Features;
 use super::instance::Instance;
 use super::minimum;
-use super::queues::{Families, Queues};
+use super::queues::{QueueFamilies, Queues};
 use super::summary::DeviceSummary;
 use crate::base::{Cancel, Error, convert};
 use ash::{ext, khr, vk};
@@ -38,7 +38,7 @@ pub(crate) struct Gpu {
     pub(crate) summary: DeviceSummary,
     pub(crate) caches: Caches,
     allocator: ManuallyDrop<Mutex<Allocator>>,
-    abandoned: OnceLock<Unfinished>,
+    abandoned: OnceLock<PendingWork>,
     /// What gives up waits for it.
     pub(crate) cancel: Cancel,
     pub(crate) instance: ManuallyDrop<Instance>,
@@ -46,7 +46,7 @@ pub(crate) struct Gpu {
 
 /// Work that the device didn't finish in time: these timeline semaphores have not reached these values.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Unfinished {
+pub(crate) struct PendingWork {
     pub(crate) semaphores: Vec<vk::Semaphore>,
     pub(crate) values: Vec<u64>,
 }
@@ -54,7 +54,7 @@ pub(crate) struct Unfinished {
 impl Gpu {
     /// Opens `physical`, a device of `instance` that lacks nothing of the minimum.
     pub(super) fn open(instance: Instance, physical: vk::PhysicalDevice, summary: DeviceSummary) -> Result<Gpu, Error> {
-        let families = Families::of(&instance.raw, physical).ok_or(Error::NoDevice)?;
+        let families = QueueFamilies::of(&instance.raw, physical).ok_or(Error::NoDevice)?;
         let has_local_read = minimum::has_local_read(&instance.raw, physical);
         let mut features = Features::used(&Features::of(&instance.raw, physical, false), has_local_read);
         let cube_arrays = features.cube_arrays();
@@ -128,7 +128,7 @@ impl Gpu {
 
     /// Notes that the device didn't finish its work in time. It may still be using anything, so nothing is freed from now
     /// on.
-    pub(crate) fn abandon(&self, unfinished: Unfinished) {
+    pub(crate) fn abandon(&self, unfinished: PendingWork) {
         self.abandoned.get_or_init(|| unfinished);
     }
 
@@ -183,7 +183,7 @@ impl Gpu {
 
 impl Drop for Gpu {
     fn drop(&mut self) {
-        if let Some(Unfinished { semaphores, values }) = self.abandoned.get() {
+        if let Some(PendingWork { semaphores, values }) = self.abandoned.get() {
             if self.is_cancelled() {
                 return;
             }

@@ -1,7 +1,7 @@
 //! The minimum that a physical device must offer, and what is used beyond it.
 
 use super::features::Features;
-use super::queues::Families;
+use super::queues::QueueFamilies;
 use super::words::version;
 use ash::vk;
 use std::ffi::CStr;
@@ -32,7 +32,7 @@ pub(crate) fn missing(instance: &ash::Instance, physical: vk::PhysicalDevice) ->
     }
     let features = Features::of(instance, physical, false).missing();
     let mut missing: Vec<String> = features.iter().map(|name| format!("the feature {name}")).collect();
-    match Families::of(instance, physical) {
+    match QueueFamilies::of(instance, physical) {
         None => missing.push("a queue for graphics and compute".to_owned()),
         Some(families) if families.graphics.timestamp_bits == 0 => {
             missing.push("timestamps on its graphics queue".to_owned());

@@ -2,7 +2,7 @@
 
 use super::instance::Instance;
 use super::minimum::{MINIMUM_VERSION, has_local_read, missing};
-use super::queues::Families;
+use super::queues::QueueFamilies;
 use super::words::{text, version};
 use crate::base::Error;
 use ash::vk;
@@ -66,7 +66,7 @@ fn summary(instance: &Instance, index: usize, physical: vk::PhysicalDevice) -> D
         // SAFETY: `physical` belongs to the instance, and the chained structures outlive the call.
         unsafe { instance.raw.get_physical_device_properties2(physical, &mut all) };
     }
-    let families = Families::of(&instance.raw, physical);
+    let families = QueueFamilies::of(&instance.raw, physical);
     let more = families.as_ref().map(|it| (it.compute.is_some(), it.transfer.is_some())).unwrap_or_default();
     let queues = [("graphics", families.is_some()), ("compute", more.0), ("transfer", more.1)];
     let (driver_name, driver_info) = (text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));

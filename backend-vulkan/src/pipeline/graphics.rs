@@ -29,8 +29,9 @@ impl Gpu {
     /// already.
     pub(crate) fn pipeline(&self, name: &str, descriptor: PipelineDescriptor) -> Result<vk::Pipeline, Error> {
         self.caches.pipelines.get(descriptor, |descriptor| {
-            let vertex = Module::new(self, &descriptor.vertex)?;
-            let fragment = descriptor.fragment.as_ref().map(|fragment| Module::new(self, fragment)).transpose()?;
+            let vertex = ShaderModule::new(self, &descriptor.vertex)?;
+            let fragment =
+                descriptor.fragment.as_ref().map(|fragment| ShaderModule::new(self, fragment)).transpose()?;
             let pipeline = create(self, descriptor, &vertex, fragment.as_ref())?;
             self.name(pipeline, name);
             Ok(pipeline)
@@ -45,7 +46,7 @@ impl Gpu {
         layout: vk::PipelineLayout,
     ) -> Result<vk::Pipeline, Error> {
         self.caches.compute_pipelines.get((shader, layout), |(shader, layout)| {
-            let module = Module::new(self, shader)?;
+            let module = ShaderModule::new(self, shader)?;
             let stage = vk::PipelineShaderStageCreateInfo::default()
                 .stage(vk::ShaderStageFlags::COMPUTE)
                 .module(module.raw)
@@ -68,22 +69,22 @@ fn only(made: Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>) -> Res
 }
 
 /// A shader module, needed only while a pipeline is created.
-struct Module<'d> {
+struct ShaderModule<'d> {
     gpu: &'d Gpu,
     raw: vk::ShaderModule,
 }
 
-impl<'d> Module<'d> {
-    fn new(gpu: &'d Gpu, spirv: &[u32]) -> Result<Module<'d>, Error> {
+impl<'d> ShaderModule<'d> {
+    fn new(gpu: &'d Gpu, spirv: &[u32]) -> Result<ShaderModule<'d>, Error> {
         let info = vk::ShaderModuleCreateInfo::default().code(spirv);
         // SAFETY: the SPIR-V comes from the shader compiler, for Vulkan 1.3.
         let raw =
             unsafe { gpu.raw.create_shader_module(&info, None) }.map_err(Error::vulkan("creating a shader module"))?;
-        Ok(Module { gpu, raw })
+        Ok(ShaderModule { gpu, raw })
     }
 }
 
-impl Drop for Module<'_> {
+impl Drop for ShaderModule<'_> {
     fn drop(&mut self) {
         // SAFETY: pipelines don't need their modules any more.
         unsafe { self.gpu.raw.destroy_shader_module(self.raw, None) };
@@ -93,13 +94,13 @@ impl Drop for Module<'_> {
 fn create(
     gpu: &Gpu,
     descriptor: &PipelineDescriptor,
-    vertex: &Module<'_>,
-    fragment: Option<&Module<'_>>,
+    vertex: &ShaderModule<'_>,
+    fragment: Option<&ShaderModule<'_>>,
 ) -> Result<vk::Pipeline, Error> {
     let (entries, constants) = (RotationConstants::entries(), descriptor.turned.map(RotationConstants::constants));
     let constants = constants.as_deref();
     let specialization = constants.map(|data| vk::SpecializationInfo::default().map_entries(&entries).data(data));
-    let stage = |stage, module: &Module<'_>| {
+    let stage = |stage, module: &ShaderModule<'_>| {
         let info = vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module.raw).name(c"main");
         specialization.as_ref().map_or(info, |specialization| info.specialization_info(specialization))
     };

@@ -4,7 +4,7 @@
 //! acquiring an image from the queue on which the frame before would have released it, somebody has to release it.
 
 use super::descriptions::part;
-use super::uses::Uses;
+use super::uses::ResourceUses;
 use framewright_graph::plan::{
     ImageBarrier, ImageId, Pass, Plan, Queue, Resource, Role, Sharing, Side, Step, Subresources, Work,
 };
@@ -67,7 +67,7 @@ pub(crate) fn initial_owners<'p>(plan: &'p Plan, relies: impl Fn(ImageId) -> boo
 
 /// The queue that has an image or buffer before the first frame, in the state that the Plan relies on; `None` if not one
 /// queue has all of it, or it is on its way to another.
-pub(crate) fn initial_queue(plan: &Plan, uses: &Uses, resource: Resource) -> Option<Queue> {
+pub(crate) fn initial_queue(plan: &Plan, uses: &ResourceUses, resource: Resource) -> Option<Queue> {
     match resource {
         Resource::Image(id) => {
             let owners = initial_owners(plan, |it| it == id);
@@ -236,7 +236,11 @@ mod tests {
         ];
         let plan = plan(steps);
         assert_eq!(owners(&plan), [(1, Queue::Compute, false), (0, Queue::Graphics, false)]);
-        assert_eq!(initial_queue(&plan, &Uses::new(&plan), Resource::Image(ImageId(0))), None, "two queues have it");
+        assert_eq!(
+            initial_queue(&plan, &ResourceUses::new(&plan), Resource::Image(ImageId(0))),
+            None,
+            "two queues have it"
+        );
     }
 
     #[test]
@@ -244,12 +248,16 @@ mod tests {
         let steps = vec![step(Queue::Compute, 0, vec![barrier(0, LAYOUT, Some([Queue::Graphics, Queue::Compute]))])];
         let plan = plan(steps);
         assert_eq!(owners(&plan), [(0, Queue::Graphics, true)]);
-        assert_eq!(initial_queue(&plan, &Uses::new(&plan), Resource::Image(ImageId(0))), None, "it is on its way");
+        assert_eq!(
+            initial_queue(&plan, &ResourceUses::new(&plan), Resource::Image(ImageId(0))),
+            None,
+            "it is on its way"
+        );
     }
 
     #[test]
     fn what_nothing_touches_stays_with_graphics() {
         let plan = plan(Vec::new());
-        assert_eq!(initial_queue(&plan, &Uses::new(&plan), Resource::Image(ImageId(0))), Some(Queue::Graphics));
+        assert_eq!(initial_queue(&plan, &ResourceUses::new(&plan), Resource::Image(ImageId(0))), Some(Queue::Graphics));
     }
 }

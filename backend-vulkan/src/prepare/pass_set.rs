@@ -17,12 +17,12 @@ use std::sync::Arc;
 /// What a pass's own set is filled with, whatever stands for its images and buffers.
 pub(crate) struct SetTemplate {
     pub(crate) layout: vk::DescriptorSetLayout,
-    bindings: Vec<(LayoutBinding, Bound)>,
+    bindings: Vec<(LayoutBinding, BoundResource)>,
     params: Option<(Block, Arc<RawBuffer>)>,
 }
 
 /// What is bound to one name.
-enum Bound {
+enum BoundResource {
     Params,
     Buffer(BufferId),
     Image { image: ImageId, range: Subresources, shape: ViewShape, layout: vk::ImageLayout, sampler: vk::Sampler },
@@ -60,7 +60,7 @@ impl SetTemplate {
                     if wanted.name == PARAMS && buffer_of(pass, PARAMS).is_none() =>
                 {
                     params = Some((block.clone(), filled(gpu, block, pass)?));
-                    (vk::DescriptorType::UNIFORM_BUFFER, Bound::Params)
+                    (vk::DescriptorType::UNIFORM_BUFFER, BoundResource::Params)
                 }
                 interface::BindingKind::UniformBlock(_) | interface::BindingKind::StorageBlock { .. } => {
                     block(plan, pass, wanted).map_err(mismatch)?
@@ -69,7 +69,7 @@ impl SetTemplate {
                     let (ty, image) = image(gpu, plan, pass, wanted).map_err(mismatch)?;
                     let sampler = image.sampler.map(|it| gpu.sampler(it.into())).transpose()?;
                     let BoundImage { image, range, shape, layout, .. } = image;
-                    (ty, Bound::Image { image, range, shape, layout, sampler: sampler.unwrap_or_default() })
+                    (ty, BoundResource::Image { image, range, shape, layout, sampler: sampler.unwrap_or_default() })
                 }
             };
             bindings.push((LayoutBinding { binding: wanted.binding, ty, stages: stages(wanted.stages) }, bound));
@@ -98,9 +98,9 @@ impl SetTemplate {
     /// What the set's contents depend on.
     pub(crate) fn resources(&self) -> impl Iterator<Item = Resource> {
         self.bindings.iter().filter_map(|(_, bound)| match bound {
-            Bound::Params => None,
-            Bound::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
-            Bound::Image { image, .. } => Some(Resource::Image(*image)),
+            BoundResource::Params => None,
+            BoundResource::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
+            BoundResource::Image { image, .. } => Some(Resource::Image(*image)),
         })
     }
 
@@ -109,19 +109,19 @@ impl SetTemplate {
         let (mut views, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
         for (binding, bound) in &self.bindings {
             let target = match bound {
-                Bound::Params => match &self.params {
+                BoundResource::Params => match &self.params {
                     Some((_, params)) => {
                         buffers.push(params.clone());
                         DescriptorTarget::Buffer(params.raw)
                     }
                     None => continue,
                 },
-                Bound::Buffer(buffer) => {
+                BoundResource::Buffer(buffer) => {
                     let buffer = physical.buffer(*buffer, frame);
                     buffers.push(buffer.clone());
                     DescriptorTarget::Buffer(buffer.raw)
                 }
-                Bound::Image { image, range, shape, layout, sampler } => {
+                BoundResource::Image { image, range, shape, layout, sampler } => {
                     let view = View::new(physical.image(*image, frame), *range, *shape)?;
                     let target = DescriptorTarget::Image(view.raw, *layout, *sampler);
                     views.push(view);
@@ -151,7 +151,11 @@ fn buffer_of<'p>(pass: &'p plan::Pass, name: &str) -> Option<&'p plan::BufferAcc
 }
 
 /// The buffer behind a block.
-fn block(plan: &Plan, pass: &plan::Pass, wanted: &interface::Binding) -> Result<(vk::DescriptorType, Bound), String> {
+fn block(
+    plan: &Plan,
+    pass: &plan::Pass,
+    wanted: &interface::Binding,
+) -> Result<(vk::DescriptorType, BoundResource), String> {
     let name = &wanted.name;
     let access = buffer_of(pass, name).ok_or_else(|| format!("nothing is bound to `{name}`"))?;
     let buffer = &plan.buffers[access.buffer.0 as usize];
@@ -161,13 +165,13 @@ fn block(plan: &Plan, pass: &plan::Pass, wanted: &interface::Binding) -> Result<
                 let held = buffer.bytes;
                 return Err(format!("the block `{name}` takes {} bytes, and its buffer holds {held}", block.bytes));
             }
-            Ok((vk::DescriptorType::UNIFORM_BUFFER, Bound::Buffer(access.buffer)))
+            Ok((vk::DescriptorType::UNIFORM_BUFFER, BoundResource::Buffer(access.buffer)))
         }
         interface::BindingKind::StorageBlock { writable, .. }
             if access.accesses.intersects(Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE) =>
         {
             only_read(name, *writable, access.accesses)?;
-            Ok((vk::DescriptorType::STORAGE_BUFFER, Bound::Buffer(access.buffer)))
+            Ok((vk::DescriptorType::STORAGE_BUFFER, BoundResource::Buffer(access.buffer)))
         }
         _ => Err(format!("`{name}` is a uniform block to only one of Plan and shader")),
     }

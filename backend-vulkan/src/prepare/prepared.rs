@@ -12,7 +12,7 @@ use framewright_graph::plan::{self, ImageId, Plan, RenderScope, Resource, Subres
 use std::sync::Arc;
 
 /// Everything that a Plan needs on a device.
-pub(crate) struct Prepared {
+pub(crate) struct PreparedPlan {
     pub(crate) physical: PhysicalResources,
     /// By step.
     pub(crate) steps: Vec<PreparedStep>,
@@ -48,9 +48,9 @@ pub(crate) struct AttachmentViews {
     pub(crate) resolve: Option<View>,
 }
 
-impl Prepared {
+impl PreparedPlan {
     /// Makes everything that the first frame needs. The Plan must have passed [`crate::prepare::check`].
-    pub(crate) fn new(gpu: &Arc<Gpu>, plan: &Plan, shaders: &mut ShaderLibrary) -> Result<Prepared, Error> {
+    pub(crate) fn new(gpu: &Arc<Gpu>, plan: &Plan, shaders: &mut ShaderLibrary) -> Result<PreparedPlan, Error> {
         let physical = PhysicalResources::new(gpu, plan)?;
         let mut steps = Vec::new();
         for step in &plan.steps {
@@ -60,7 +60,7 @@ impl Prepared {
                 _ => PreparedStep::Plain,
             });
         }
-        let mut prepared = Prepared { physical, steps };
+        let mut prepared = PreparedPlan { physical, steps };
         prepared.prepare_frame(gpu, plan, 0)?;
         Ok(prepared)
     }

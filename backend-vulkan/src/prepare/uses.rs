@@ -4,35 +4,35 @@ use framewright_graph::plan::{BufferId, ImageId, Pass, Plan, Resource, Step, Ste
 
 /// First and last step that touch an image or buffer, barriers included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Span {
+pub(crate) struct StepSpan {
     pub(crate) first: usize,
     pub(crate) last: usize,
 }
 
 /// The first and last uses of a Plan.
-pub(crate) struct Uses {
-    images: Vec<Option<Span>>,
-    buffers: Vec<Option<Span>>,
+pub(crate) struct ResourceUses {
+    images: Vec<Option<StepSpan>>,
+    buffers: Vec<Option<StepSpan>>,
 }
 
-impl Uses {
+impl ResourceUses {
     /// Those of `plan`.
-    pub(crate) fn new(plan: &Plan) -> Uses {
-        let mut uses = Uses { images: vec![None; plan.images.len()], buffers: vec![None; plan.buffers.len()] };
+    pub(crate) fn new(plan: &Plan) -> ResourceUses {
+        let mut uses = ResourceUses { images: vec![None; plan.images.len()], buffers: vec![None; plan.buffers.len()] };
         for (index, step) in plan.steps.iter().enumerate() {
             touched(step, &mut |resource| {
                 let span = match resource {
                     Resource::Image(ImageId(id)) => &mut uses.images[id as usize],
                     Resource::Buffer(BufferId(id)) => &mut uses.buffers[id as usize],
                 };
-                span.get_or_insert(Span { first: index, last: index }).last = index;
+                span.get_or_insert(StepSpan { first: index, last: index }).last = index;
             });
         }
         uses
     }
 
     /// Where an image or buffer is used; `None` if nowhere.
-    pub(crate) fn of(&self, resource: Resource) -> Option<Span> {
+    pub(crate) fn of(&self, resource: Resource) -> Option<StepSpan> {
         match resource {
             Resource::Image(image) => self.images[image.0 as usize],
             Resource::Buffer(buffer) => self.buffers[buffer.0 as usize],
@@ -40,7 +40,7 @@ impl Uses {
     }
 }
 
-impl Span {
+impl StepSpan {
     /// The last step, as the Plan counts.
     pub(crate) fn last_id(self) -> StepId {
         StepId(u32::try_from(self.last).unwrap_or(u32::MAX))

@@ -6,7 +6,7 @@ use crate::base::{Error, convert};
 use crate::commands::TransferSide;
 use crate::gpu::Gpu;
 use crate::pipeline::PARTS_STAGES;
-use crate::prepare::{Prepared, part};
+use crate::prepare::{PreparedPlan, part};
 use ash::vk;
 use framewright_graph::plan::{self, ImageBarrier, ImageId, Plan, Side, Subresources};
 use framewright_graph::view::EyeForm;
@@ -17,7 +17,7 @@ use std::time::Duration;
 pub(crate) struct Frame<'f> {
     pub(crate) gpu: &'f Gpu,
     pub(crate) plan: &'f Plan,
-    pub(crate) prepared: &'f Prepared,
+    pub(crate) prepared: &'f PreparedPlan,
     /// Which frame it is, from 0.
     pub(crate) number: u64,
     pub(crate) poison: bool,
