@@ -97,7 +97,7 @@ impl Device {
         self.gpu.instance.validation.as_ref().map(|it| it.layer.shown.as_str())
     }
 
-    /// Has every wait for this device end with [`Error::Cancelled`](crate::Error::Cancelled) soon after `asked` becomes true.
+    /// Has every wait for this device end with [`Error::Cancelled`] soon after `asked` becomes true.
     /// It is asked about 20 times a second. Only the first call for a device counts.
     ///
     /// The device is given up, as after a timeout: it may go on working, and nothing that was made from it can be used any

@@ -4,7 +4,7 @@
 //! forever. Drivers crash as well. A program that names a helper has both done in a child process, with limits on time,
 //! memory and stack; its death is an error like any other, and the next shader gets a new one.
 //!
-//! A program can be its own helper: its `main` calls [`serve`] before anything else, and it names itself by
+//! A program can be its own helper: its `main` calls [`serve()`] before anything else, and it names itself by
 //! [`Helper::this_program`]. Without a helper all of this happens in the program's own process, without limits.
 
 mod serve;

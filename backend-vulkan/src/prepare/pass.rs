@@ -42,7 +42,7 @@ pub(crate) struct PassState {
     pub(crate) supplied: Vec<(vk::DescriptorSetLayout, bool)>,
     /// Bytes from vertex to vertex of what whoever draws brings along; 0 if the pipeline reads no such vertex buffer.
     pub(crate) vertex_stride: u32,
-    /// As [`crate::CompiledShader::usual_vertices`].
+    /// As [`crate::shaders::CompiledShader::usual_vertices`].
     pub(crate) usual_vertices: bool,
 }
 

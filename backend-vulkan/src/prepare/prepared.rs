@@ -49,7 +49,7 @@ pub(crate) struct AttachmentViews {
 }
 
 impl PreparedPlan {
-    /// Makes everything that the first frame needs. The Plan must have passed [`crate::prepare::check`].
+    /// Makes everything that the first frame needs. The Plan must have passed [`crate::prepare::check()`].
     pub(crate) fn new(gpu: &Arc<Gpu>, plan: &Plan, shaders: &mut ShaderLibrary) -> Result<PreparedPlan, Error> {
         let physical = PhysicalResources::new(gpu, plan)?;
         let mut steps = Vec::new();

@@ -95,7 +95,7 @@ impl Frame<'_> {
     }
 }
 
-/// Nothing was made for the frame: [`crate::prepare::Prepared::prepare_frame`] comes before recording.
+/// Nothing was made for the frame: [`crate::prepare::PreparedPlan::prepare_frame`] comes before recording.
 pub(super) fn unprepared() -> Error {
     Error::BadPlan { what: "nothing was prepared for this frame".to_owned() }
 }

@@ -43,7 +43,7 @@ pub enum IndexType {
 /// Records the draws of one pass.
 ///
 /// No method fails at once: the first misuse is kept, what follows is ignored, and [`crate::Executor::frame`] returns it
-/// as [`Error::Recording`].
+/// as [`crate::Error::Recording`].
 pub struct Recorder<'f> {
     gpu: &'f Gpu,
     commands: vk::CommandBuffer,
