@@ -33,79 +33,35 @@
 //!
 //! This crate alone is unsafe inside. Its interface is safe, but for [`Executor::with_hazards`].
 
-mod batches;
-mod buffer;
-mod caches;
-mod canary;
-mod cancel;
-mod capabilities;
-mod carry;
-mod change;
-mod check;
-mod check_work;
-mod contents;
-mod convert;
-mod custom;
-mod depth_resolve;
-mod descriptors;
-mod device;
-mod error;
-mod exchange;
-mod executor;
-mod features;
-mod first_owner;
-mod frames;
-mod hand_in;
+mod base;
+mod commands;
+mod execute;
+mod gpu;
 pub mod helper;
-mod image;
-mod instance;
-mod keep;
-mod labels;
-pub mod layer;
 mod memory;
-mod multiview;
-mod params;
-mod pass_set;
-mod physical;
 mod pipeline;
-mod poison;
 mod prepare;
-mod prepare_pass;
-mod queues;
-mod readback;
+mod probe;
+mod process;
 mod record;
-mod recorder;
 mod resources;
-mod self_tests;
-mod shader_fit;
 pub mod shaders;
-mod standing;
-mod submit;
-mod surface;
-mod textures;
-mod timing;
-mod turn;
-mod uses;
-mod validation;
 
 /// Vulkan's own types, for programs that record commands of their own or hand in images and buffers.
 pub use ash;
-pub use caches::{AddressMode, SamplerDescriptor, TexelFilter};
-pub use canary::Canary;
-pub use cancel::end_process;
-pub use capabilities::MINIMUM_VERSION;
-pub use custom::{CustomImage, CustomRecorder};
-pub use descriptors::{BindGroup, Resource};
-pub use device::{Device, DeviceChoice, DeviceOptions, DeviceSummary};
-pub use error::{Blame, Error, INSTALL};
-pub use executor::{Executor, ExecutorOptions};
-pub use features::minimum_features;
+pub use base::{Blame, Error, INSTALL, end_process};
+pub use commands::Texels;
+pub use execute::{Executor, ExecutorOptions};
+pub use gpu::{
+    AddressMode, Device, DeviceChoice, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message, MessageKind, Messages,
+    SamplerDescriptor, Severity, TexelFilter, layer, minimum_features, rotation_of_surface,
+};
 pub use helper::Helper;
 pub use memory::{LiveMemory, MemoryInUse};
-pub use readback::Texels;
-pub use recorder::{CullMode, DrawSource, FrontFace, IndexType, Recorder};
-pub use resources::{Buffer, BufferUsage, Texture};
+pub use probe::Canary;
+pub use record::{
+    CullMode, CustomImage, CustomRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport, Recorder,
+    StepReport,
+};
+pub use resources::{BindGroup, Buffer, BufferUsage, Resource, Texture};
 pub use shaders::ShaderLibrary;
-pub use surface::rotation_of_surface;
-pub use timing::{FrameReport, PassReport, StepReport};
-pub use validation::{Message, MessageKind, Messages, Severity};

@@ -1,9 +1,11 @@
 //! Textures from picture files: PNG, JPEG, Radiance HDR, OpenEXR.
 
 use crate::srgb;
-use framewright_graph::vulkan::{Format, Numeric};
 use framewright_graph::base::{NoFile, Root};
-use framewright_graph::frame::{ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent};
+use framewright_graph::frame::{
+    ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
+};
+use framewright_graph::vulkan::{Format, Numeric};
 use half::f16;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::fs;

@@ -1,16 +1,17 @@
 //! The helper process itself: it compiles GLSL and tests drivers for the program that started it.
 
-use super::limits;
-use super::protocol::{self, ARGUMENT, Answer, LARGEST_FRAME, Request, SelfTest};
-use crate::device::Device;
-use crate::shaders::{Failure, IncludedFile, Job, compile};
-use crate::{depth_resolve, end_process, multiview};
+use crate::base::end_process;
+use crate::gpu::Device;
+use crate::probe::{depth_resolve, multiview};
+use crate::process::{
+    self, ARGUMENT, Answer, CompileFailure, CompileJob, IncludedFile, LARGEST_FRAME, Request, SelfTest,
+};
+use crate::shaders::compile;
 use shaderc::Compiler;
-use std::env;
 use std::fs::File;
-use std::io;
-use std::sync::mpsc::{self, Receiver};
-use std::thread;
+use std::sync::mpsc;
+use std::sync::mpsc::Receiver;
+use std::{env, io, thread};
 
 /// Turns this process into a helper if it was started as one, and comes back at once if not. `main` calls this before
 /// anything else; a helper ends in here.
@@ -23,7 +24,7 @@ pub fn serve() {
     let (Some(memory), Some(stack)) = (number(), number().and_then(|it| usize::try_from(it).ok())) else {
         end_process(2);
     };
-    limits::apply((memory > 0).then_some(memory));
+    process::limit_this_process((memory > 0).then_some(memory));
     // A program that ends, however it does, closes the pipe: then this process ends too, whatever its other thread does. Drivers
     // register functions for the end of a process, which may wait for that thread: they don't run.
     let ended = match output() {
@@ -43,7 +44,7 @@ fn work(output: File, stack: usize) -> io::Result<()> {
     };
     thread::Builder::new().name("helper".to_owned()).stack_size(stack).spawn(work)?;
     let mut input = io::stdin().lock();
-    while let Ok(frame) = protocol::read_frame(&mut input, LARGEST_FRAME) {
+    while let Ok(frame) = process::read_frame(&mut input, LARGEST_FRAME) {
         if hand_on.send(frame).is_err() {
             break;
         }
@@ -71,7 +72,7 @@ fn output() -> io::Result<File> {
 fn answer(requests: &Receiver<Vec<u8>>, mut output: File) -> io::Result<()> {
     let mut compiler = None;
     while let Ok(frame) = requests.recv() {
-        match protocol::parse(&frame)? {
+        match process::parse(&frame)? {
             Request::Compile(job) => {
                 let compiler = match &mut compiler {
                     Some(compiler) => compiler,
@@ -80,27 +81,32 @@ fn answer(requests: &Receiver<Vec<u8>>, mut output: File) -> io::Result<()> {
                 match compiled(compiler, &job, requests, &output) {
                     Ok(words) => {
                         let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-                        protocol::write(&mut output, &Answer::Spirv)?;
-                        protocol::write_frame(&mut output, &bytes)?;
+                        process::write(&mut output, &Answer::Spirv)?;
+                        process::write_frame(&mut output, &bytes)?;
                     }
-                    Err(failure) => protocol::write(&mut output, &Answer::Failure(failure))?,
+                    Err(failure) => process::write(&mut output, &Answer::CompileFailure(failure))?,
                 }
             }
-            Request::SelfTest { test, device } => protocol::write(&mut output, &tested(test, &device))?,
-            Request::Included(_) => return Err(protocol::invalid()),
+            Request::SelfTest { test, device } => process::write(&mut output, &tested(test, &device))?,
+            Request::Included(_) => return Err(process::invalid()),
         }
     }
     Ok(())
 }
 
 /// Compiles, and asks the program for what is included.
-fn compiled(compiler: &Compiler, job: &Job, requests: &Receiver<Vec<u8>>, output: &File) -> Result<Vec<u32>, Failure> {
+fn compiled(
+    compiler: &Compiler,
+    job: &CompileJob,
+    requests: &Receiver<Vec<u8>>,
+    output: &File,
+) -> Result<Vec<u32>, CompileFailure> {
     let ask = |from: &str, name: &str| -> io::Result<Result<IncludedFile, String>> {
         let (from, name) = (from.to_owned(), name.to_owned());
-        protocol::write(&mut &*output, &Answer::Include { from, name })?;
-        match protocol::parse(&requests.recv().map_err(io::Error::other)?)? {
+        process::write(&mut &*output, &Answer::Include { from, name })?;
+        match process::parse(&requests.recv().map_err(io::Error::other)?)? {
             Request::Included(found) => Ok(found),
-            Request::Compile(_) | Request::SelfTest { .. } => Err(protocol::invalid()),
+            Request::Compile(_) | Request::SelfTest { .. } => Err(process::invalid()),
         }
     };
     let mut includes = |from: &str, name: &str| ask(from, name).unwrap_or_else(|error| Err(error.to_string()));

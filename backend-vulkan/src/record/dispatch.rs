@@ -1,16 +1,21 @@
 //! Dispatches.
 
-use super::Frame;
-use crate::error::Error;
-use crate::prepare_pass::{Compute, WorkgroupCount};
+use super::frame::{Frame, unprepared};
+use crate::base::Error;
+use crate::prepare::{PreparedDispatch, WorkgroupCount};
 use ash::vk;
 use framewright_graph::plan;
 
 impl Frame<'_> {
-    pub(super) fn dispatch(&self, commands: vk::CommandBuffer, plan: &plan::Pass, pass: &Compute) -> Result<(), Error> {
+    pub(super) fn dispatch(
+        &self,
+        commands: vk::CommandBuffer,
+        plan: &plan::Pass,
+        pass: &PreparedDispatch,
+    ) -> Result<(), Error> {
         self.tell_parts(commands, plan, pass.layout);
-        let set = pass.sets.at(self.number).ok_or_else(super::scope::unprepared)?;
-        let device = &self.shared.raw;
+        let set = pass.sets.at(self.number).ok_or_else(unprepared)?;
+        let device = &self.gpu.raw;
         // SAFETY: the command buffer is being recorded outside a scope, the set has the layout's only set layout, and counts
         // and the buffer behind them were checked.
         unsafe {

@@ -1,35 +1,30 @@
 //! Rendering scopes and their draws.
 
-use super::{Frame, Recorded};
-use crate::convert;
-use crate::error::Error;
-use crate::pipeline::{LocalRead, or_unused};
-use crate::prepare::{Scope, Views};
-use crate::prepare_pass::{Drawn, view_mask};
-use crate::recorder::{CullMode, DrawSource, FrontFace, Kept, Recorder, Target};
-use crate::timing::{Counts, Timing};
+use super::draw_source::DrawSource;
+use super::frame::{Frame, Recorded, unprepared};
+use super::recorder::{CullMode, DrawTarget, FrontFace, HeldResources, Recorder};
+use super::timing::{Counts, Timing};
+use crate::base::{Error, convert};
+use crate::gpu::LocalRead;
+use crate::pipeline::or_unused;
+use crate::prepare::{AttachmentViews, PreparedDraw, PreparedScope, view_mask};
 use ash::vk;
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::plan::{self, Attachment, RenderScope};
 use framewright_graph::vulkan::{Aspects, LoadOp};
-
-/// Nothing was made for the frame: [`crate::prepare::Prepared::turn_to`] comes before recording.
-pub(super) fn unprepared() -> Error {
-    Error::BadPlan { what: "nothing was prepared for this frame".to_owned() }
-}
 
 impl Frame<'_> {
     pub(super) fn render(
         &self,
         commands: vk::CommandBuffer,
         plan: &RenderScope,
-        scope: &Scope,
+        scope: &PreparedScope,
         source: &mut dyn DrawSource,
         timing: &mut Timing,
         recorded: &mut Recorded,
     ) -> Result<(), Error> {
         let views = scope.views.at(self.number).ok_or_else(unprepared)?;
-        let device = &self.shared.raw;
+        let device = &self.gpu.raw;
         let info = |(attachment, views)| self.attachment(attachment, views);
         let color = or_unused(plan.color.iter().zip(&views.color).map(info));
         let depth = plan.depth.as_ref().zip(views.depth.as_deref()).map(info);
@@ -55,7 +50,7 @@ impl Frame<'_> {
         }
         let has_local_reads = scope.passes.iter().any(|pass| pass.local.is_some());
         for (pass, made) in plan.passes.iter().zip(&scope.passes) {
-            let drawn = self.shared.labelled(commands, &pass.name, || {
+            let drawn = self.gpu.labelled(commands, &pass.name, || {
                 if pass.local_barrier {
                     self.local_barrier(commands);
                 }
@@ -63,7 +58,7 @@ impl Frame<'_> {
                     self.see_attachments(commands, plan.color.len(), made.local.as_ref());
                 }
                 let eyes = form.map(|form| (self.plan.stereo, form));
-                let target = Target { extent: plan.extent, rotation, eyes, frame: self.number };
+                let target = DrawTarget { extent: plan.extent, rotation, eyes, frame: self.number };
                 self.draw(commands, pass, made, target, source, &mut recorded.kept)
             });
             timing.stamp(commands);
@@ -85,13 +80,13 @@ impl Frame<'_> {
         let info =
             vk::DependencyInfo::default().dependency_flags(vk::DependencyFlags::BY_REGION).memory_barriers(&barrier);
         // SAFETY: local reads are on wherever a Plan has such a barrier, which allows this one within a scope.
-        unsafe { self.shared.raw.cmd_pipeline_barrier2(commands, &info) };
+        unsafe { self.gpu.raw.cmd_pipeline_barrier2(commands, &info) };
     }
 
     /// Sets what locations and input attachments the scope's colour attachments are to the pass. It holds for the rest of
     /// the scope, so passes without local reads set it back.
     fn see_attachments(&self, commands: vk::CommandBuffer, attachments: usize, local: Option<&LocalRead>) {
-        let Some(extension) = &self.shared.local_read else { return };
+        let Some(extension) = &self.gpu.local_read else { return };
         let straight: Vec<u32> = (0..).take(attachments).collect();
         let (locations, inputs) =
             local.map_or((&straight, &straight), |LocalRead { locations, inputs }| (locations, inputs));
@@ -108,12 +103,12 @@ impl Frame<'_> {
         &self,
         commands: vk::CommandBuffer,
         plan: &plan::Pass,
-        pass: &Drawn,
-        target: Target,
+        pass: &PreparedDraw,
+        target: DrawTarget,
         source: &mut dyn DrawSource,
-        kept: &mut Kept,
+        kept: &mut HeldResources,
     ) -> Result<Counts, Error> {
-        let device = &self.shared.raw;
+        let device = &self.gpu.raw;
         if let Some(pipeline) = pass.pipeline {
             let sets = [pass.sets.at(self.number).ok_or_else(unprepared)?.set.raw];
             // SAFETY: the command buffer is being recorded within a scope that the pipeline was made for, and the set has
@@ -125,7 +120,7 @@ impl Frame<'_> {
             }
             self.tell_parts(commands, plan, pass.state.layout);
         }
-        let mut recorder = Recorder::new(self.shared, commands, kept, pass, plan, target);
+        let mut recorder = Recorder::new(self.gpu, commands, kept, pass, plan, target);
         let [width, height] = recorder.extent();
         recorder.set_viewport([0.0, 0.0], [width, height].map(f64::from));
         recorder.set_scissor([0, 0], [width, height]);
@@ -158,22 +153,22 @@ impl Frame<'_> {
     }
 
     /// Binds the vertex and index buffers that the Plan gives the pass.
-    fn bind_own_buffers(&self, commands: vk::CommandBuffer, pass: &Drawn) {
+    fn bind_own_buffers(&self, commands: vk::CommandBuffer, pass: &PreparedDraw) {
         let physical = &self.prepared.physical;
         let vertices: Vec<_> = pass.vertices.iter().map(|it| physical.buffer(*it, self.number).raw).collect();
         // SAFETY: the command buffer is being recorded, and the Plan's usages were checked by the checker.
         unsafe {
             if !vertices.is_empty() {
-                self.shared.raw.cmd_bind_vertex_buffers(commands, 0, &vertices, &vec![0; vertices.len()]);
+                self.gpu.raw.cmd_bind_vertex_buffers(commands, 0, &vertices, &vec![0; vertices.len()]);
             }
             if let Some(indices) = pass.indices {
                 let indices = physical.buffer(indices, self.number).raw;
-                self.shared.raw.cmd_bind_index_buffer(commands, indices, 0, vk::IndexType::UINT32);
+                self.gpu.raw.cmd_bind_index_buffer(commands, indices, 0, vk::IndexType::UINT32);
             }
         }
     }
 
-    fn attachment<'v>(&self, plan: &Attachment, views: &'v Views) -> vk::RenderingAttachmentInfo<'v> {
+    fn attachment<'v>(&self, plan: &Attachment, views: &'v AttachmentViews) -> vk::RenderingAttachmentInfo<'v> {
         let info = vk::RenderingAttachmentInfo::default()
             .image_view(views.attachment.raw)
             .image_layout(convert::layout(plan.layout))

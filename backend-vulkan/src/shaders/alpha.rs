@@ -1,10 +1,10 @@
 //! What a stage does with the fourth component of the images that it samples, read off its SPIR-V.
 //!
-//! Values are followed from the image to where they go, through variables and functions, whichever way the code takes. What is
-//! said to be read may not be; what isn't said to be isn't. The code is not optimised: swizzles stand right behind what is
+//! Values are followed from the image to where they go, through variables and functions, whichever way the code takes.
+//! Conservative: it may report a read that doesn't happen, and never misses one. The code is not optimised: swizzles stand right behind what is
 //! sampled, and helpers are functions.
 
-use super::module::{Indexed, id, number, storage_class};
+use super::module::{IndexedModule, id, number, storage_class};
 use framewright_graph::shader::AlphaUse;
 use rspirv::dr::{Function, Instruction, Operand};
 use rspirv::spirv::{GlslStd450Op, Op, StorageClass};
@@ -22,7 +22,7 @@ const BRANCHES: [Op; 7] =
 
 /// What becomes of the alpha of the image variable `image`; `None`: nothing. `colors`: whether the fourth component of the
 /// stage's outputs is alpha.
-pub(super) fn used(module: &Indexed<'_>, image: u32, colors: bool) -> Option<AlphaUse> {
+pub(super) fn used(module: &IndexedModule<'_>, image: u32, colors: bool) -> Option<AlphaUse> {
     let mut flow = Flow::new(module, image, colors);
     let main = module.module.entry_points.first().and_then(|entry| id(entry, 1))?;
     // What a function leaves in a global variable may be found by one that was followed before.
@@ -35,7 +35,7 @@ pub(super) fn used(module: &Indexed<'_>, image: u32, colors: bool) -> Option<Alp
 
 /// What an id stands for, as far as the image is concerned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-enum Of {
+enum Tracked {
     /// The image itself, or a pointer to it.
     Image,
     /// A scalar that depends on its alpha, a vector of which the fourth component and no other does, or a pointer to either.
@@ -44,25 +44,25 @@ enum Of {
 
 /// What a function makes of what it is given.
 #[derive(Debug, Clone, Default)]
-struct Made {
-    returned: Option<Of>,
+struct CallResult {
+    returned: Option<Tracked>,
     /// What it leaves behind its parameters.
-    parameters: Vec<Option<Of>>,
+    parameters: Vec<Option<Tracked>>,
 }
 
 /// A function, and what it is given.
-type Given = (u32, Vec<Option<Of>>);
+type Call = (u32, Vec<Option<Tracked>>);
 
 struct Flow<'m> {
-    module: &'m Indexed<'m>,
+    module: &'m IndexedModule<'m>,
     functions: HashMap<u32, &'m Function>,
     /// Types of results.
     types: HashMap<u32, u32>,
     /// Pointers to parts of what others point to.
     chains: HashMap<u32, &'m Instruction>,
     /// The image, and global variables.
-    globals: HashMap<u32, Of>,
-    known: HashMap<Given, Made>,
+    globals: HashMap<u32, Tracked>,
+    known: HashMap<Call, CallResult>,
     colors: bool,
     used: Option<AlphaUse>,
     /// Functions that are being followed.
@@ -72,9 +72,9 @@ struct Flow<'m> {
 }
 
 /// A function that is being followed.
-struct Frame {
-    locals: HashMap<u32, Of>,
-    returned: Option<Of>,
+struct CallFrame {
+    locals: HashMap<u32, Tracked>,
+    returned: Option<Tracked>,
     /// Whether alpha decides which way the code takes.
     decided: bool,
     is_main: bool,
@@ -82,7 +82,7 @@ struct Frame {
 }
 
 impl<'m> Flow<'m> {
-    fn new(module: &'m Indexed<'m>, image: u32, colors: bool) -> Flow<'m> {
+    fn new(module: &'m IndexedModule<'m>, image: u32, colors: bool) -> Flow<'m> {
         let all = &module.module.functions;
         let functions = all.iter().filter_map(|it| Some((it.def.as_ref()?.result_id?, it))).collect();
         let is_chain = |it: &&Instruction| matches!(it.class.opcode, Op::AccessChain | Op::InBoundsAccessChain);
@@ -90,33 +90,33 @@ impl<'m> Flow<'m> {
         let code = module.code().chain(all.iter().flat_map(|it| &it.parameters));
         let variables = module.variables().map(|(_, it)| it);
         let types = code.chain(variables).filter_map(|it| Some((it.result_id?, it.result_type?))).collect();
-        let globals = HashMap::from([(image, Of::Image)]);
+        let globals = HashMap::from([(image, Tracked::Image)]);
         let known = HashMap::new();
         Flow { module, functions, types, chains, globals, known, colors, used: None, depth: 0, found: true }
     }
 
     /// Follows a function; GLSL has no recursion.
-    fn follow(&mut self, function: u32, given: &[Option<Of>]) -> Made {
+    fn follow(&mut self, function: u32, given: &[Option<Tracked>]) -> CallResult {
         let key = (function, given.to_vec());
         if let Some(made) = self.known.get(&key) {
             return made.clone();
         }
-        let Some(code) = self.functions.get(&function).copied() else { return Made::default() };
+        let Some(code) = self.functions.get(&function).copied() else { return CallResult::default() };
         if self.depth == DEEPEST {
             self.read();
-            return Made::default();
+            return CallResult::default();
         }
         self.depth += 1;
         let parameters: Vec<u32> = code.parameters.iter().filter_map(|it| it.result_id).collect();
         let known = parameters.iter().zip(given).filter_map(|(parameter, given)| Some((*parameter, (*given)?)));
         let (is_main, locals) = (given.is_empty() && self.is_entry(function), known.collect());
-        let mut frame = Frame { locals, returned: None, decided: false, is_main, found: true };
+        let mut frame = CallFrame { locals, returned: None, decided: false, is_main, found: true };
         while std::mem::take(&mut frame.found) && self.used != Some(AlphaUse::Read) {
             code.blocks.iter().flat_map(|it| &it.instructions).for_each(|it| self.step(&mut frame, it));
         }
         let parameters = parameters.iter().map(|parameter| frame.locals.get(parameter).copied()).collect();
         self.depth -= 1;
-        let made = Made { returned: frame.returned, parameters };
+        let made = CallResult { returned: frame.returned, parameters };
         self.known.insert(key, made.clone());
         made
     }
@@ -125,21 +125,21 @@ impl<'m> Flow<'m> {
         self.module.module.entry_points.iter().any(|entry| id(entry, 1) == Some(function))
     }
 
-    fn step(&mut self, frame: &mut Frame, it: &Instruction) {
+    fn step(&mut self, frame: &mut CallFrame, it: &Instruction) {
         if it.class.opcode == Op::FunctionCall && !frame.decided {
             return self.call(frame, it);
         }
-        let of: Vec<Option<Of>> = it.operands.iter().map(|it| self.of(frame, it.id_ref_any()?)).collect();
+        let of: Vec<Option<Tracked>> = it.operands.iter().map(|it| self.of(frame, it.id_ref_any()?)).collect();
         if frame.decided && !self.stays_inside(frame, it) {
             return self.read();
         }
-        if let Some(Some(Of::Image)) = of.first() {
+        if let Some(Some(Tracked::Image)) = of.first() {
             return self.of_image(frame, it);
         }
-        if !of.contains(&Some(Of::Alpha)) {
+        if !of.contains(&Some(Tracked::Alpha)) {
             return;
         }
-        let is_alpha = |at: usize| of.get(at).copied().flatten() == Some(Of::Alpha);
+        let is_alpha = |at: usize| of.get(at).copied().flatten() == Some(Tracked::Alpha);
         let literal = |at: usize| it.operands.get(at).and_then(number);
         match it.class.opcode {
             Op::Store if is_alpha(1) => id(it, 0).into_iter().for_each(|pointer| self.left_in(frame, pointer)),
@@ -176,13 +176,13 @@ impl<'m> Flow<'m> {
         }
     }
 
-    fn of(&self, frame: &Frame, id: u32) -> Option<Of> {
+    fn of(&self, frame: &CallFrame, id: u32) -> Option<Tracked> {
         frame.locals.get(&id).or_else(|| self.globals.get(&id)).copied()
     }
 
     /// Whether an instruction in a function in which alpha decides the way has no effect but on the function's own scalars,
     /// all of which depend on alpha then.
-    fn stays_inside(&mut self, frame: &mut Frame, it: &Instruction) -> bool {
+    fn stays_inside(&mut self, frame: &mut CallFrame, it: &Instruction) -> bool {
         let to = match it.class.opcode {
             Op::Store => id(it, 0),
             Op::Phi => it.result_id,
@@ -194,19 +194,19 @@ impl<'m> Flow<'m> {
             // A constant that is returned is no less decided by alpha.
             let constant = it.class.opcode == Op::ReturnValue && to.is_some_and(|to| self.components_of(to) <= 1);
             if constant {
-                frame.returned = Some(Of::Alpha);
+                frame.returned = Some(Tracked::Alpha);
             }
             return constant;
         };
-        frame.found |= frame.locals.insert(to, Of::Alpha).is_none();
+        frame.found |= frame.locals.insert(to, Tracked::Alpha).is_none();
         true
     }
 
     /// What stands for the image is handed on, or looked up.
-    fn of_image(&mut self, frame: &mut Frame, it: &Instruction) {
+    fn of_image(&mut self, frame: &mut CallFrame, it: &Instruction) {
         match it.class.opcode {
             Op::Load | Op::Image | Op::SampledImage | Op::CopyObject => {
-                let result = it.result_id.filter(|result| frame.locals.insert(*result, Of::Image).is_none());
+                let result = it.result_id.filter(|result| frame.locals.insert(*result, Tracked::Image).is_none());
                 frame.found |= result.is_some();
             }
             Op::ImageGather if id(it, 2).is_none_or(|it| self.module.constant(it).is_none_or(|it| it == ALPHA)) => {
@@ -220,23 +220,23 @@ impl<'m> Flow<'m> {
     }
 
     /// Arguments become parameters, and what is returned the result.
-    fn call(&mut self, frame: &mut Frame, it: &Instruction) {
+    fn call(&mut self, frame: &mut CallFrame, it: &Instruction) {
         let Some(callee) = id(it, 0) else { return };
         let arguments: Vec<u32> = it.operands.iter().skip(1).filter_map(Operand::id_ref_any).collect();
-        let given: Vec<Option<Of>> = arguments.iter().map(|argument| self.of(frame, *argument)).collect();
-        let Made { returned, parameters } = self.follow(callee, &given);
+        let given: Vec<Option<Tracked>> = arguments.iter().map(|argument| self.of(frame, *argument)).collect();
+        let CallResult { returned, parameters } = self.follow(callee, &given);
         for ((argument, given), left) in arguments.into_iter().zip(given).zip(parameters) {
-            if given.is_none() && left == Some(Of::Alpha) {
+            if given.is_none() && left == Some(Tracked::Alpha) {
                 self.left_in(frame, argument);
             }
         }
-        if returned == Some(Of::Alpha) {
+        if returned == Some(Tracked::Alpha) {
             self.made(frame, it);
         }
     }
 
     /// What a pointer points to depends on alpha.
-    fn left_in(&mut self, frame: &mut Frame, pointer: u32) {
+    fn left_in(&mut self, frame: &mut CallFrame, pointer: u32) {
         if let Some(chain) = self.chains.get(&pointer) {
             let component = id(chain, 1).and_then(|index| self.module.constant(index));
             return match id(chain, 0).filter(|base| self.components_of(*base) == 4) {
@@ -251,20 +251,20 @@ impl<'m> Flow<'m> {
             Some(StorageClass::Output) if self.colors && self.components_of(pointer) == 4 => {
                 self.used = self.used.max(Some(AlphaUse::Passed));
             }
-            Some(StorageClass::Private) => self.found |= self.globals.insert(pointer, Of::Alpha).is_none(),
+            Some(StorageClass::Private) => self.found |= self.globals.insert(pointer, Tracked::Alpha).is_none(),
             Some(_) => self.read(),
-            None => frame.found |= frame.locals.insert(pointer, Of::Alpha).is_none(),
+            None => frame.found |= frame.locals.insert(pointer, Tracked::Alpha).is_none(),
         }
     }
 
-    fn returned(&mut self, frame: &mut Frame, it: &Instruction) {
-        if id(it, 0).and_then(|value| self.of(frame, value)) == Some(Of::Alpha) {
-            frame.returned = Some(Of::Alpha);
+    fn returned(&mut self, frame: &mut CallFrame, it: &Instruction) {
+        if id(it, 0).and_then(|value| self.of(frame, value)) == Some(Tracked::Alpha) {
+            frame.returned = Some(Tracked::Alpha);
         }
     }
 
     /// One component of a vector, or a pointer to it.
-    fn component(&mut self, frame: &mut Frame, it: &Instruction, component: Option<u32>) {
+    fn component(&mut self, frame: &mut CallFrame, it: &Instruction, component: Option<u32>) {
         match (component, it.operands.len()) {
             (Some(ALPHA), 2) => self.made(frame, it),
             (Some(0..ALPHA), 2) => {}
@@ -273,7 +273,7 @@ impl<'m> Flow<'m> {
     }
 
     /// Components of two vectors in another order.
-    fn shuffle(&mut self, frame: &mut Frame, it: &Instruction, alpha: [bool; 2]) {
+    fn shuffle(&mut self, frame: &mut CallFrame, it: &Instruction, alpha: [bool; 2]) {
         let first = id(it, 0).map_or(0, |first| self.components_of(first));
         let is_alpha = |component: u32| match component.checked_sub(first) {
             None => alpha[0] && component == ALPHA,
@@ -293,10 +293,10 @@ impl<'m> Flow<'m> {
     }
 
     /// The result depends on alpha.
-    fn made(&mut self, frame: &mut Frame, it: &Instruction) {
+    fn made(&mut self, frame: &mut CallFrame, it: &Instruction) {
         let Some(result) = it.result_id else { return };
         match self.components(it) {
-            1 | 4 => frame.found |= frame.locals.insert(result, Of::Alpha).is_none(),
+            1 | 4 => frame.found |= frame.locals.insert(result, Tracked::Alpha).is_none(),
             _ => self.read(),
         }
     }

@@ -1,8 +1,8 @@
 //! The resources that a shader stage uses, read off its SPIR-V.
 
-use super::compile::Stage;
-use super::module::{Indexed, id, number, storage_class};
+use super::module::{IndexedModule, id, number, storage_class};
 use super::text::Refused;
+use crate::process::ShaderStage;
 use framewright_graph::shader::{Binding, BindingKind, Block, Member, PASS_SET, Unbindable};
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
 use rspirv::dr::{Instruction, Operand};
@@ -19,15 +19,15 @@ const PARTS: &str = "FramewrightParts";
 /// others only what is used, since include libraries declare more than one shader needs. `in_part`: push constants tell which
 /// parts of images are in use.
 pub(super) fn bindings(
-    module: &Indexed<'_>,
-    stage: Stage,
+    module: &IndexedModule<'_>,
+    stage: ShaderStage,
     used: &HashSet<u32>,
     in_part: bool,
 ) -> Result<Vec<Binding>, Refused> {
     let stages = match stage {
-        Stage::Vertex => Stages::VERTEX_SHADER,
-        Stage::Fragment => Stages::FRAGMENT_SHADER,
-        Stage::Compute => Stages::COMPUTE_SHADER,
+        ShaderStage::Vertex => Stages::VERTEX_SHADER,
+        ShaderStage::Fragment => Stages::FRAGMENT_SHADER,
+        ShaderStage::Compute => Stages::COMPUTE_SHADER,
     };
     let mut bindings = Vec::new();
     for (variable, instruction) in module.variables() {
@@ -47,7 +47,7 @@ pub(super) fn bindings(
         }
         let Some(ty) = module.pointee(instruction) else { continue };
         let kind = kind(module, variable, instruction, ty);
-        if stage == Stage::Vertex && writes(&kind) {
+        if stage == ShaderStage::Vertex && writes(&kind) {
             let name = module.name(variable);
             let what = format!("`{name}` is written by a vertex shader: not every device can; declare it `readonly`");
             return Err(Refused::named(name, what));
@@ -77,7 +77,7 @@ fn writes(kind: &BindingKind) -> bool {
 }
 
 /// Kind and shape of a resource of type `ty`.
-fn kind(module: &Indexed<'_>, variable: u32, instruction: &Instruction, ty: &Instruction) -> BindingKind {
+fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty: &Instruction) -> BindingKind {
     match (ty.class.opcode, storage_class(instruction)) {
         (Op::TypeArray | Op::TypeRuntimeArray, _) => other(
             "an array of resources",
@@ -161,7 +161,7 @@ fn texel_format(operand: Option<&Operand>) -> Result<Option<Format>, String> {
 }
 
 /// Shape of an image type; `None` for input attachments.
-fn image_shape(module: &Indexed<'_>, image: &Instruction) -> Option<ImageShape> {
+fn image_shape(module: &IndexedModule<'_>, image: &Instruction) -> Option<ImageShape> {
     let [Operand::IdRef(component), Operand::Dim(dim), _, arrayed, multisampled, ..] = &image.operands[..] else {
         return None;
     };
@@ -191,7 +191,7 @@ pub(super) fn component_of(ty: &str) -> Component {
 }
 
 /// A uniform block's members, and its size rounded up to 16 bytes as std140 does.
-fn block(module: &Indexed<'_>, structure: &Instruction) -> Block {
+fn block(module: &IndexedModule<'_>, structure: &Instruction) -> Block {
     let Some(structure_id) = structure.result_id else { return Block::default() };
     let mut block = Block { bytes: module.block_bytes(structure_id), ..Block::default() };
     for (index, operand) in (0_u32..).zip(&structure.operands) {

@@ -1,8 +1,8 @@
 //! The capabilities of SPIR-V that stages may need, and what GLSL to write instead of what needs others.
 
-use super::compile::Stage;
-use super::module::Indexed;
+use super::module::IndexedModule;
 use super::text::Refused;
+use crate::process::ShaderStage;
 use rspirv::dr::Operand;
 use rspirv::spirv::Capability;
 
@@ -37,11 +37,11 @@ const FOR_BOTH_EYES: [Capability; 4] =
     [Capability::MultiView, Capability::ClipDistance, Capability::ShaderLayer, Capability::ShaderViewportIndexLayerEXT];
 
 /// What isn't supported: capabilities, how words of GLSL begin that need them, and what to write instead.
-type Row = (&'static [Capability], &'static [&'static str], &'static str);
+type UnsupportedFeature = (&'static [Capability], &'static [&'static str], &'static str);
 
 const SUBGROUPS: &[&str] = &["subgroup", "gl_Subgroup", "GL_KHR_shader_subgroup"];
 
-const UNSUPPORTED: &[Row] = &[
+const UNSUPPORTED: &[UnsupportedFeature] = &[
     (&[Capability::Float64], &["double", "dvec", "dmat"], "64-bit floating point: write `float`"),
     (
         &[Capability::Int64, Capability::Int16, Capability::Int8],
@@ -112,14 +112,18 @@ const UNSUPPORTED: &[Row] = &[
 ///
 /// # Errors
 /// The first capability that a stage needs and may not.
-pub(super) fn check_capabilities(module: &Indexed<'_>, stage: Stage, both_eyes: bool) -> Result<(), Refused> {
+pub(super) fn check_capabilities(
+    module: &IndexedModule<'_>,
+    stage: ShaderStage,
+    both_eyes: bool,
+) -> Result<(), Refused> {
     let needed = module.module.capabilities.iter().filter_map(|it| match it.operands.first() {
         Some(Operand::Capability(capability)) => Some(*capability),
         _ => None,
     });
     let allowed = |it: &Capability| {
         EVERYWHERE.contains(it)
-            || stage == Stage::Compute && COMPUTE.contains(it)
+            || stage == ShaderStage::Compute && COMPUTE.contains(it)
             || both_eyes && FOR_BOTH_EYES.contains(it)
     };
     // The most exact is said: `subgroupBallot` needs what all operations of subgroups need, too.

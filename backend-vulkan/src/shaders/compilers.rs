@@ -1,9 +1,9 @@
 //! Where GLSL is compiled: in this process, or in a helper process.
 
-use super::compile::{Failure, IncludedFile, Job, LARGEST_SPIRV, compile};
-use super::files::{Found, ShaderFiles};
+use super::compile::compile;
+use super::files::{ShaderFiles, SourceFile};
 use super::messages::located;
-use crate::helper::{Helper, NoAnswer};
+use crate::process::{CompileFailure, CompileJob, Helper, IncludedFile, LARGEST_SPIRV, NoAnswer};
 use framewright_graph::base::{FilePath, OutsideChoice, Quote};
 use framewright_graph::shader::{ShaderMessage, ShaderProblem};
 use shaderc::Compiler;
@@ -21,8 +21,8 @@ impl Compilers {
     /// Compiles a stage whose own file is `source`.
     pub(super) fn compile(
         &mut self,
-        job: &Job,
-        source: &Found,
+        job: &CompileJob,
+        source: &SourceFile,
         files: &ShaderFiles,
     ) -> Result<Vec<u32>, ShaderProblem> {
         // Which files the compiler's names stand for, and what they hold.
@@ -30,7 +30,7 @@ impl Compilers {
         let mut includes = |from: &str, name: &str| -> Result<IncludedFile, String> {
             let from = known.get(from).map_or_else(|| source.path.clone(), |(path, _)| FilePath::clone(path));
             let found = files.included(&from, name)?;
-            let Found { path, shown, text } =
+            let SourceFile { path, shown, text } =
                 found.ok_or_else(|| format!("looked for it in {}", files.places(&from).join(", ")))?;
             known.insert(shown.clone(), (path, text.clone()));
             Ok(IncludedFile { shown, text })
@@ -49,10 +49,10 @@ impl Compilers {
         };
         let text = |name: &str| known.get(name).map(|(_, text)| text.as_str());
         compiled.map_err(|failure| match failure {
-            Failure::Messages(messages) => ShaderProblem::DoesNotCompile { messages: located(messages, text) },
-            Failure::OutOfMemory => of_file(source, "ran out of memory", None),
-            Failure::Internal(words) => of_file(source, &format!("failed: {words}"), None),
-            Failure::TooLarge(bytes) => ShaderProblem::Unsupported {
+            CompileFailure::Messages(messages) => ShaderProblem::DoesNotCompile { messages: located(messages, text) },
+            CompileFailure::OutOfMemory => of_file(source, "ran out of memory", None),
+            CompileFailure::Internal(words) => of_file(source, &format!("failed: {words}"), None),
+            CompileFailure::TooLarge(bytes) => ShaderProblem::Unsupported {
                 what: format!(
                     "{}: it becomes {bytes} bytes of SPIR-V, and at most {LARGEST_SPIRV} are taken",
                     source.shown
@@ -63,7 +63,7 @@ impl Compilers {
 }
 
 /// That the helper process gave no answer about a file.
-fn no_answer(source: &Found, end: &NoAnswer) -> ShaderProblem {
+fn no_answer(source: &SourceFile, end: &NoAnswer) -> ShaderProblem {
     let limit = match end {
         NoAnswer::TooLong(_) => Some(OutsideChoice::ShaderTime),
         NoAnswer::Stack(_) => Some(OutsideChoice::ShaderStack),
@@ -78,7 +78,7 @@ fn no_answer(source: &Found, end: &NoAnswer) -> ShaderProblem {
 
 /// What the GLSL compiler met on the way through a file. It had no time to say on which line: the file's first one stands for the
 /// file.
-fn of_file(source: &Found, what: &str, limit: Option<OutsideChoice>) -> ShaderProblem {
+fn of_file(source: &SourceFile, what: &str, limit: Option<OutsideChoice>) -> ShaderProblem {
     let words = format!("the GLSL compiler {what}");
     let quote = Quote {
         file: source.shown.clone(),

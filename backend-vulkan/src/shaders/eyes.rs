@@ -3,7 +3,7 @@
 //! `main` is renamed and called from a `main` that finds out first which eye is drawn for, and puts vertices in its half or layer
 //! afterwards. shaders/include/stereo.glsl is what the texts in between see of it.
 
-use super::compile::Stage;
+use crate::process::ShaderStage;
 use framewright_graph::frame::EyeForm;
 use framewright_graph::shader::EyeSource;
 use rspirv::binary::Assemble;
@@ -16,8 +16,9 @@ pub(super) const EYE: &str = "framewright_eye";
 /// What hands the eye from the vertex stage, which knows it by the instance, to the fragment stage.
 pub(super) const HANDED_ON: &str = "framewright_eye_of_triangle";
 
-/// Where: at the location behind those that shaders may take.
-const LOCATION: u32 = super::reflect::VARYINGS;
+/// Where. Shaders may take the locations below: Vulkan promises 15 between stages to all, of which this is the last, so that a
+/// shader fits every way to draw for both eyes.
+pub(super) const LOCATION: u32 = 14;
 
 /// How a stage draws for both eyes at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -29,12 +30,12 @@ pub(super) struct BothEyes {
 
 impl BothEyes {
     /// Macros that the text and all that it includes see.
-    pub(super) fn macros(self, stage: Stage) -> Vec<(String, String)> {
+    pub(super) fn macros(self, stage: ShaderStage) -> Vec<(String, String)> {
         let mut macros = vec![("main", "framewright_main"), ("FRAMEWRIGHT_BOTH_EYES", "")];
         if self.form == EyeForm::Halves {
             macros.push(("FRAMEWRIGHT_HALVES", ""));
         }
-        if stage == Stage::Vertex && self.counts_instances() {
+        if stage == ShaderStage::Vertex && self.counts_instances() {
             macros.push(("gl_InstanceIndex", "framewright_instance"));
         }
         macros.into_iter().map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
@@ -51,41 +52,43 @@ impl BothEyes {
     }
 
     /// The text with what finds out the eye before it and behind it.
-    pub(super) fn around(self, text: &str, stage: Stage) -> String {
+    pub(super) fn around(self, text: &str, stage: ShaderStage) -> String {
         self.wrapped(text, stage, |way| format!("layout(location = {LOCATION}) flat {way} int {HANDED_ON};\n"))
     }
 
     /// The same, with the eye at no location. It compiles where the text itself takes that location, for [`super::reflect`] to refuse.
-    pub(super) fn around_without_location(self, text: &str, stage: Stage) -> String {
+    pub(super) fn around_without_location(self, text: &str, stage: ShaderStage) -> String {
         self.wrapped(text, stage, |_| format!("int {HANDED_ON};\n"))
     }
 
-    fn wrapped(self, text: &str, stage: Stage, handed_on: impl Fn(&str) -> String) -> String {
+    fn wrapped(self, text: &str, stage: ShaderStage, handed_on: impl Fn(&str) -> String) -> String {
         // Extensions come before everything else, and behind `#version`.
         let (version, rest) = text.split_at(behind_version(text));
         let line = version.lines().count() + 1;
         format!("{version}\n{}\n#line {line}\n{rest}\n{}", self.before(stage, handed_on), self.behind(stage))
     }
 
-    fn before(self, stage: Stage, handed_on: impl Fn(&str) -> String) -> String {
+    fn before(self, stage: ShaderStage, handed_on: impl Fn(&str) -> String) -> String {
         let extension = match (self.source, self.form, stage) {
             (EyeSource::ViewIndex, ..) => "#extension GL_EXT_multiview : require\n",
-            (_, EyeForm::Layers, Stage::Vertex) => "#extension GL_ARB_shader_viewport_layer_array : require\n",
+            (_, EyeForm::Layers, ShaderStage::Vertex) => "#extension GL_ARB_shader_viewport_layer_array : require\n",
             _ => "",
         };
         let instance = match stage {
-            Stage::Vertex if self.counts_instances() => format!("int framewright_instance;\n{}", handed_on("out")),
-            Stage::Fragment if self.counts_instances() => handed_on("in"),
-            Stage::Vertex | Stage::Fragment | Stage::Compute => String::new(),
+            ShaderStage::Vertex if self.counts_instances() => {
+                format!("int framewright_instance;\n{}", handed_on("out"))
+            }
+            ShaderStage::Fragment if self.counts_instances() => handed_on("in"),
+            ShaderStage::Vertex | ShaderStage::Fragment | ShaderStage::Compute => String::new(),
         };
         format!("{extension}int {EYE};\n{instance}")
     }
 
-    fn behind(self, stage: Stage) -> String {
+    fn behind(self, stage: ShaderStage) -> String {
         let eye = match (self.source, stage) {
             (EyeSource::One(eye), _) => format!("{EYE} = {};", eye as u32),
             (EyeSource::ViewIndex, _) => format!("{EYE} = int(gl_ViewIndex);"),
-            (_, Stage::Fragment) => format!("{EYE} = {HANDED_ON};"),
+            (_, ShaderStage::Fragment) => format!("{EYE} = {HANDED_ON};"),
             (EyeSource::InstanceBit, _) => format!(
                 "{EYE} = gl_InstanceIndex < 0 ? 1 : 0;\n    framewright_instance = gl_InstanceIndex & 0x7fffffff;"
             ),
@@ -93,7 +96,7 @@ impl BothEyes {
                 format!("{EYE} = gl_InstanceIndex & 1;\n    framewright_instance = int(uint(gl_InstanceIndex) >> 1);")
             }
         };
-        let place = if stage == Stage::Vertex && self.counts_instances() { self.place() } else { String::new() };
+        let place = if stage == ShaderStage::Vertex && self.counts_instances() { self.place() } else { String::new() };
         format!("#undef main\n#undef gl_InstanceIndex\nvoid main() {{\n    {eye}\n    framewright_main();\n{place}}}\n")
     }
 

@@ -20,7 +20,7 @@ pub(super) struct ShaderFiles {
 
 /// A source text.
 #[derive(Debug)]
-pub(super) struct Found {
+pub(super) struct SourceFile {
     /// Which file it is.
     pub(super) path: FilePath,
     /// The name that messages show.
@@ -34,7 +34,7 @@ impl ShaderFiles {
     ///
     /// # Errors
     /// If the name leads out of the folders, or a file of that name can't be a shader: what is wrong with it, in words.
-    pub(super) fn find(&self, name: &FilePath) -> Result<Option<Found>, String> {
+    pub(super) fn find(&self, name: &FilePath) -> Result<Option<SourceFile>, String> {
         let own = match name {
             FilePath::Own(own) => self.on_disk(own)?,
             FilePath::Shipped(_) => None,
@@ -47,7 +47,7 @@ impl ShaderFiles {
     ///
     /// # Errors
     /// Those of [`ShaderFiles::find`].
-    pub(super) fn included(&self, from: &FilePath, name: &str) -> Result<Option<Found>, String> {
+    pub(super) fn included(&self, from: &FilePath, name: &str) -> Result<Option<SourceFile>, String> {
         let whole = match from {
             FilePath::Own(_) => FilePath::Own("".into()),
             FilePath::Shipped(_) => FilePath::Shipped("".into()),
@@ -65,7 +65,7 @@ impl ShaderFiles {
     }
 
     /// The file of that path in the first folder that has one.
-    fn on_disk(&self, path: &str) -> Result<Option<Found>, String> {
+    fn on_disk(&self, path: &str) -> Result<Option<SourceFile>, String> {
         for root in &self.roots {
             let shown = root.folder().join(path).display().to_string();
             let bytes = match root.locate(path).and_then(|found| root.read(&found, MAX_SOURCE_BYTES)) {
@@ -80,15 +80,15 @@ impl ShaderFiles {
             if text.contains('\0') {
                 return Err(format!("{shown} contains a zero byte"));
             }
-            return Ok(Some(Found { path: path.into(), shown: shown.replace('\0', ""), text }));
+            return Ok(Some(SourceFile { path: path.into(), shown: shown.replace('\0', ""), text }));
         }
         Ok(None)
     }
 
-    fn shipped(&self, name: &str) -> Option<Found> {
+    fn shipped(&self, name: &str) -> Option<SourceFile> {
         let (name, text) = self.shipped.iter().find(|(shipped, _)| *shipped == name)?;
         let path = FilePath::Shipped((*name).into());
-        Some(Found { shown: path.to_string(), path, text: (*text).to_owned() })
+        Some(SourceFile { shown: path.to_string(), path, text: (*text).to_owned() })
     }
 
     /// Whether files in that folder may be read.

@@ -4,7 +4,7 @@
 //! looked up; functions that are handed such an image, and one that stays as it is elsewhere, are there twice afterwards.
 
 use super::eyes::EYE;
-use super::module::{Indexed, id, number, storage_class};
+use super::module::{IndexedModule, id, number, storage_class};
 use rspirv::binary::Assemble;
 use rspirv::dr::{Builder, Function, Instruction, Operand};
 use rspirv::spirv::{Dim, ImageFormat, Op, StorageClass};
@@ -17,7 +17,7 @@ use std::collections::HashMap;
 pub(super) fn by_eye(spirv: &[u32], names: &[&str]) -> Result<Vec<u32>, String> {
     let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
     let (mut found, mut eye) = (Vec::new(), None);
-    let indexed = Indexed::new(&module);
+    let indexed = IndexedModule::new(&module);
     for (variable, instruction) in indexed.variables() {
         let name = indexed.name(variable);
         match storage_class(instruction) {

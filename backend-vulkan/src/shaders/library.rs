@@ -1,24 +1,22 @@
 //! Shaders by name, for a kind of draw.
 
-use super::compile::{Job, Stage};
 use super::compilers::Compilers;
-use super::eyes::{self, BothEyes, EYE};
-use super::files::{Found, ShaderFiles};
+use super::eyes::{self, BothEyes};
+use super::files::{ShaderFiles, SourceFile};
 use super::layers;
-use super::reflect::{StageInterface, reflect};
+use super::macros::{Macros, PARTS, both_eyes, macros};
+use super::mentioned::{Mentioned, asks_eye_in_included};
+use super::reflect::reflect;
+use super::stages::{CompiledStage, Spirv, changes_nothing, join};
 use super::text::{self, Refused};
-use crate::helper::Helper;
+use crate::process::{CompileJob, Helper, ShaderStage};
 use framewright_graph::base::{FilePath, NoFile, Root};
-use framewright_graph::frame::{Draw, Eye, EyeForm};
+use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    BindingKind, DrawInterface, EyeSource, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable,
-    Variant,
+    BindingKind, DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem, Unbindable, Variant,
 };
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::sync::Arc;
-
-/// SPIR-V of one stage, with the entry point `main`.
-pub type Spirv = Arc<[u32]>;
 
 /// A shader, ready for a pipeline.
 #[derive(Debug, Clone)]
@@ -67,34 +65,22 @@ pub struct ShaderLibrary {
     files: ShaderFiles,
     draws: fn(Draw) -> DrawInterface,
     compilers: Compilers,
-    sources: HashMap<String, Result<Option<Arc<Source>>, ShaderProblem>>,
+    sources: HashMap<String, Result<Option<Arc<StageSource>>, ShaderProblem>>,
     stages: HashMap<StageKey, StageResult>,
 }
 
 /// A stage's own file.
-struct Source {
-    found: Found,
+struct StageSource {
+    found: SourceFile,
     /// What `NAME` stands for in the macros `TEXTURE_NAME` that it mentions, each once.
     mentioned: Mentioned,
 }
 
 /// A stage by its file, its macros, how it draws for both eyes, and what it samples in layers.
-type StageKey = (String, Stage, Macros, Option<BothEyes>, Vec<String>);
-
-/// Macros and what they stand for.
-type Macros = Vec<(String, String)>;
+type StageKey = (String, ShaderStage, Macros, Option<BothEyes>, Vec<String>);
 
 /// A stage, `None` if it has no file.
 type StageResult = Result<Option<Arc<CompiledStage>>, ShaderProblem>;
-
-/// One stage of a shader.
-struct CompiledStage {
-    file: String,
-    /// Whether it is one of those that are shipped.
-    shipped: bool,
-    spirv: Spirv,
-    reflected: StageInterface,
-}
 
 impl ShaderLibrary {
     /// A library over the folders `roots`, then `shipped` (file name, GLSL text). `draws` says what each kind of draw brings
@@ -122,13 +108,13 @@ impl ShaderLibrary {
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     pub fn compiled(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<CompiledShader, ShaderProblem> {
-        let Some(fragment) = self.stage(format!("{name}.frag"), Stage::Fragment, variant)? else {
+        let Some(fragment) = self.stage(format!("{name}.frag"), ShaderStage::Fragment, variant)? else {
             return Err(self.missing(&FilePath::of_text(name), ".frag"));
         };
         // The same vertex stage, word for word: it must meet the same depth.
         let own = Variant { local: Vec::new(), depth_only: false, alpha_to_coverage: false, ..variant.clone() };
         // A shipped vertex shader goes with the shipped fragment shader only.
-        let (vertex, usual_vertices) = match self.stage(format!("{name}.vert"), Stage::Vertex, &own)? {
+        let (vertex, usual_vertices) = match self.stage(format!("{name}.vert"), ShaderStage::Vertex, &own)? {
             Some(own) if own.shipped == fragment.shipped => (own, false),
             _ => {
                 let usual = self.usual_vertex_stage(name, draw, variant)?;
@@ -159,7 +145,7 @@ impl ShaderLibrary {
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     pub fn compute(&mut self, name: &str, variant: &Variant) -> Result<CompiledCompute, ShaderProblem> {
-        let stage = self.stage(format!("{name}.comp"), Stage::Compute, variant)?;
+        let stage = self.stage(format!("{name}.comp"), ShaderStage::Compute, variant)?;
         let stage = stage.ok_or_else(|| self.missing(&FilePath::of_text(name), ".comp"))?;
         Ok(CompiledCompute { compute: stage.spirv.clone(), interface: stage.reflected.interface.clone() })
     }
@@ -178,12 +164,12 @@ impl ShaderLibrary {
             FilePath::Shipped(_) => FilePath::Shipped(file.into()),
         };
         let bare = Variant { eye: variant.eye, form: variant.form, ..Variant::default() };
-        let stage = self.stage(usual.to_string(), Stage::Vertex, &bare)?;
+        let stage = self.stage(usual.to_string(), ShaderStage::Vertex, &bare)?;
         stage.ok_or_else(|| ShaderProblem::Unsupported { what: what() })
     }
 
     /// One stage by its file name; `None` if there is no such file.
-    fn stage(&mut self, file: String, stage: Stage, variant: &Variant) -> StageResult {
+    fn stage(&mut self, file: String, stage: ShaderStage, variant: &Variant) -> StageResult {
         let Some(source) = self.source(&file)? else { return Ok(None) };
         let both = both_eyes(variant);
         let key = (file, stage, macros(&source.mentioned, variant, stage), both, in_layers(variant, stage));
@@ -195,7 +181,7 @@ impl ShaderLibrary {
         result
     }
 
-    fn source(&mut self, file: &str) -> Result<Option<Arc<Source>>, ShaderProblem> {
+    fn source(&mut self, file: &str) -> Result<Option<Arc<StageSource>>, ShaderProblem> {
         if let Some(known) = self.sources.get(file) {
             return known.clone();
         }
@@ -204,19 +190,19 @@ impl ShaderLibrary {
             found.map(|found| {
                 let mut mentioned = Mentioned::by(&found.text);
                 mentioned.eye |= asks_eye_in_included(&self.files, &found);
-                Arc::new(Source { found, mentioned })
+                Arc::new(StageSource { found, mentioned })
             })
         });
         self.sources.insert(file.to_owned(), source.clone());
         source
     }
 
-    fn compile_stage(&mut self, source: &Source, key: &StageKey) -> StageResult {
-        let Source { found, mentioned } = source;
+    fn compile_stage(&mut self, source: &StageSource, key: &StageKey) -> StageResult {
+        let StageSource { found, mentioned } = source;
         let (_, stage, macros, both, in_layers) = key;
         let stage = *stage;
         let text = both.map_or_else(|| found.text.clone(), |both| both.around(&found.text, stage));
-        let job = Job { stage, shown: found.shown.clone(), text, macros: macros.clone() };
+        let job = CompileJob { stage, shown: found.shown.clone(), text, macros: macros.clone() };
         let parts = macros.iter().any(|(name, _)| name == PARTS);
         let (compilers, files) = (&mut self.compilers, &self.files);
         let unsupported = |refused: Refused| ShaderProblem::Unsupported { what: refused.placed(files, found) };
@@ -225,12 +211,12 @@ impl ShaderLibrary {
             let both = both.filter(|both| both.counts_instances());
             let refused = both.and_then(|both| {
                 let text = both.around_without_location(&found.text, stage);
-                let spirv = compilers.compile(&Job { text, ..job.clone() }, found, files).ok()?;
+                let spirv = compilers.compile(&CompileJob { text, ..job.clone() }, found, files).ok()?;
                 reflect(stage, &spirv, parts, true).err()
             });
             refused.map_or(problem, unsupported)
         })?;
-        if stage == Stage::Compute {
+        if stage == ShaderStage::Compute {
             sized(files, found).map_err(unsupported)?;
         }
         let mut reflected = reflect(stage, &spirv, parts, both.is_some()).map_err(unsupported)?;
@@ -296,7 +282,7 @@ impl ShaderInterfaces for ShaderLibrary {
 
 /// A compute stage says how large its workgroups are: without a word GLSL makes them one invocation each, of which hardly
 /// any shader is meant.
-fn sized(files: &ShaderFiles, stage: &Found) -> Result<(), Refused> {
+fn sized(files: &ShaderFiles, stage: &SourceFile) -> Result<(), Refused> {
     if text::place(files, stage, |word| word.starts_with("local_size_")).is_some() {
         return Ok(());
     }
@@ -305,138 +291,13 @@ fn sized(files: &ShaderFiles, stage: &Found) -> Result<(), Refused> {
     Err(Refused::named("main", what.to_owned()))
 }
 
-/// Whether a fragment stage leaves depth as it would be without one.
-fn changes_nothing(fragment: &ShaderInterface) -> bool {
-    let writes = |kind: &BindingKind| {
-        matches!(
-            kind,
-            BindingKind::StorageImage { writable: true, .. } | BindingKind::StorageBlock { writable: true, .. }
-        )
-    };
-    !fragment.discards && !fragment.writes_depth && !fragment.bindings.iter().any(|binding| writes(&binding.kind))
-}
-
-/// How a variant draws for both eyes at once, if it does.
-fn both_eyes(variant: &Variant) -> Option<BothEyes> {
-    Some(BothEyes { source: variant.eye?, form: variant.form? })
-}
-
 /// What a variant samples in the layer of the eye that is drawn for.
-fn in_layers(variant: &Variant, stage: Stage) -> Vec<String> {
-    if stage == Stage::Compute {
+fn in_layers(variant: &Variant, stage: ShaderStage) -> Vec<String> {
+    if stage == ShaderStage::Compute {
         return Vec::new();
     }
     let own = variant.eyes.iter().filter(|(_, form, eye)| *form == EyeForm::Layers && eye.is_none());
     own.map(|(name, ..)| name.to_string()).collect()
-}
-
-/// What the macros that depend on a pass stand for in a stage whose file mentions such names.
-fn macros(mentioned: &Mentioned, variant: &Variant, stage: Stage) -> Macros {
-    let textures = mentioned.adapting.iter().map(|name| {
-        let given = variant.textures.iter().find(|(given, _)| **given == **name);
-        let texture = given.map_or_else(|| "sampler2D".to_owned(), |(_, texture)| texture.to_string());
-        (format!("{TEXTURE}{name}"), texture)
-    });
-    let sampled = variant.sampled.iter().filter(|name| mentioned.optional.iter().any(|known| **known == ***name));
-    let sampled = sampled.map(|name| (format!("{HAS}{name}"), String::new()));
-    let components = mentioned.counted.iter().map(|name| {
-        let given = variant.components.iter().find(|(given, _)| **given == **name);
-        (format!("{COMPONENTS}{name}"), given.map_or(MOST_COMPONENTS, |(_, count)| *count).to_string())
-    });
-    let local = variant.local.iter().map(|name| (format!("LOCAL_READ_{name}"), String::new()));
-    let depth_only = variant.depth_only.then(|| ("DEPTH_ONLY".to_owned(), String::new()));
-    let covers = variant.alpha_to_coverage.then(|| ("ALPHA_TO_COVERAGE".to_owned(), String::new()));
-    let place = |name: &String| variant.parts.iter().position(|part| **part == **name);
-    let parts = mentioned.parts.iter().map(|name| {
-        let part = place(name).map(|at| format!("framewright_parts.st[{at}]"));
-        let halves = variant.eyes.iter().find(|(known, form, _)| **known == **name && *form == EyeForm::Halves);
-        let part = match (part, halves) {
-            (Some(part), None) => part,
-            (None, None) => WHOLE.to_owned(),
-            (part, Some((_, _, eye))) => half(&part.unwrap_or_else(|| LEFT_HALF.to_owned()), *eye),
-        };
-        (format!("{name}{PART}"), part)
-    });
-    let in_part = mentioned.parts.iter().any(|name| place(name).is_some());
-    let count = in_part.then(|| (PARTS.to_owned(), variant.parts.len().to_string()));
-    let one = match variant.eye {
-        Some(EyeSource::One(Eye::Right)) if mentioned.eye => Some(("eye_index".to_owned(), "1".to_owned())),
-        _ => None,
-    };
-    let both = both_eyes(variant).into_iter().flat_map(|both| both.macros(stage));
-    let own = textures
-        .chain(sampled)
-        .chain(components)
-        .chain(local)
-        .chain(depth_only)
-        .chain(covers)
-        .chain(parts)
-        .chain(count);
-    own.chain(one).chain(both).collect()
-}
-
-/// The part that one eye has of what is used in halves, of which the left one's is `left`.
-fn half(left: &str, eye: Option<Eye>) -> String {
-    let eye = eye.map_or_else(|| format!("float({EYE})"), |eye| format!("{}.0", eye as u32));
-    format!("({left} + vec4(0.0, 0.0, {left}.x * {eye}, 0.0))")
-}
-
-/// Macros of this beginning stand for the types of what a pass samples.
-const TEXTURE: &str = "TEXTURE_";
-
-/// Macros of this beginning are there if a pass samples what they name.
-const HAS: &str = "HAS_";
-
-/// Macros of this beginning stand for how many components the format of what a pass samples has.
-const COMPONENTS: &str = "COMPONENTS_";
-
-/// As many as a format can have.
-const MOST_COMPONENTS: u32 = 4;
-
-/// Macros of this ending stand for the part in use of what is sampled.
-const PART: &str = "_st";
-
-/// What they stand for where all of it is used.
-const WHOLE: &str = "vec4(1.0, 1.0, 0.0, 0.0)";
-
-/// And for the left eye where both eyes' parts lie side by side.
-const LEFT_HALF: &str = "vec4(0.5, 1.0, 0.0, 0.0)";
-
-/// The macro that says how many parts push constants tell of, if they tell of any.
-const PARTS: &str = "FRAMEWRIGHT_PARTS";
-
-/// The names that a GLSL text mentions behind [`TEXTURE`], [`HAS`] and [`COMPONENTS`], and of the samplers that it declares those before [`PART`],
-/// outside comments, each once, in order.
-struct Mentioned {
-    adapting: Vec<String>,
-    optional: Vec<String>,
-    counted: Vec<String>,
-    parts: Vec<String>,
-    /// Whether it asks which eye it draws for.
-    eye: bool,
-}
-
-impl Mentioned {
-    fn by(text: &str) -> Mentioned {
-        let text = text::without_comments(text);
-        let in_order: Vec<&str> = text::words(&text).collect();
-        let sampled = in_order.windows(2).filter(|pair| pair[0].contains("sampler") || pair[0].starts_with(TEXTURE));
-        let sampled: BTreeSet<&str> = sampled.map(|pair| pair[1]).collect();
-        let words: BTreeSet<&str> = in_order.into_iter().collect();
-        let behind =
-            |beginning: &str| words.iter().filter_map(|word| word.strip_prefix(beginning)).map(str::to_owned).collect();
-        let parts = words.iter().filter_map(|word| word.strip_suffix(PART));
-        let parts = parts.filter(|name| sampled.contains(name)).map(str::to_owned).collect();
-        let eye = words.contains("eye_index");
-        Mentioned { adapting: behind(TEXTURE), optional: behind(HAS), counted: behind(COMPONENTS), parts, eye }
-    }
-}
-
-/// Whether one of the user's own files that a file includes asks which eye is drawn for. Those that are shipped are given the same
-/// for both where one eye is drawn for.
-fn asks_eye_in_included(files: &ShaderFiles, from: &Found) -> bool {
-    let included = text::included(files, from);
-    included.iter().any(|file| matches!(file.path, FilePath::Own(_)) && Mentioned::by(&file.text).eye)
 }
 
 /// The vertex shader of a kind of draw, for shaders without one of their own.
@@ -446,78 +307,5 @@ fn vertex_shader_of(draw: Draw) -> &'static str {
         Draw::Sky => "sky.vert",
         Draw::FullScreen | Draw::Custom => "full_screen.vert",
         Draw::Vertices { .. } | Draw::Indirect => "vertices.vert",
-    }
-}
-
-/// The interface of both stages together.
-///
-/// # Errors
-/// In words: where the stages don't fit together.
-fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterface, String> {
-    for input in &fragment.reflected.inputs {
-        let handed = vertex.reflected.outputs.iter().find(|output| output.location == input.location);
-        if handed.is_none_or(|output| output.ty != input.ty) {
-            let found = handed.map_or("nothing".to_owned(), |output| format!("`{} {}`", output.ty, output.name));
-            return Err(format!(
-                "{} reads `{} {}` at location {}, where {} hands over {found}",
-                fragment.file, input.ty, input.name, input.location, vertex.file
-            ));
-        }
-    }
-    let mut joined = fragment.reflected.interface.clone();
-    joined.vertex_inputs.clone_from(&vertex.reflected.interface.vertex_inputs);
-    for binding in &vertex.reflected.interface.bindings {
-        match joined.bindings.iter_mut().find(|it| (it.set, it.binding) == (binding.set, binding.binding)) {
-            None => joined.bindings.push(binding.clone()),
-            Some(same) if same.name == binding.name && same.kind == binding.kind => {
-                same.stages |= binding.stages;
-                same.adapts &= binding.adapts;
-            }
-            Some(other) => {
-                return Err(format!(
-                    "{} declares `{}` at set {}, binding {}, where {} declares `{}`, or the same in another form",
-                    vertex.file, binding.name, binding.set, binding.binding, fragment.file, other.name
-                ));
-            }
-        }
-    }
-    for (name, used) in &vertex.reflected.interface.alpha {
-        match joined.alpha.iter_mut().find(|(known, _)| known == name) {
-            Some((_, known)) => *known = (*known).max(*used),
-            None => joined.alpha.push((name.clone(), *used)),
-        }
-    }
-    joined.unturned.extend(
-        vertex.reflected.interface.unturned.iter().filter(|it| !fragment.reflected.interface.unturned.contains(it)),
-    );
-    joined.unturned.sort_unstable();
-    joined.bindings.sort_by_key(|it| (it.set, it.binding));
-    // Each stage that samples an image must ask.
-    let [mut others, seen] = [&vertex, &fragment].map(|stage| stage.reflected.interface.clone());
-    let silent = |stage: &ShaderInterface, name: &String| {
-        stage.bindings.iter().any(|it| it.set == PASS_SET && it.name == *name) && !stage.asks_part.contains(name)
-    };
-    joined.asks_part.retain(|name| !silent(&others, name));
-    others.asks_part.retain(|name| !silent(&seen, name) && !joined.asks_part.contains(name));
-    joined.asks_part.append(&mut others.asks_part);
-    Ok(joined)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Mentioned;
-
-    #[test]
-    fn a_macro_that_only_a_comment_mentions_adapts_nothing() {
-        let text = "// TEXTURE_a\nuniform TEXTURE_b b; /* TEXTURE_c\nTEXTURE_d */ uniform TEXTURE_e/**/e; // TEXTURE_f";
-        assert_eq!(Mentioned::by(text).adapting, ["b", "e"]);
-        assert_eq!(Mentioned::by("uniform TEXTURE_b b; /* TEXTURE_c").adapting, ["b"]);
-    }
-
-    #[test]
-    fn only_what_is_sampled_has_a_part() {
-        let text = "uniform sampler2D a; uniform TEXTURE_b b; in vec2 c; vec2 c_st = c * a_st.xy + b_st.zw; // d_st sampler2D d";
-        assert_eq!(Mentioned::by(text).parts, ["a", "b"]);
-        assert_eq!(Mentioned::by("usampler2DArray a ; vec4 x = e_st;").parts, [""; 0]);
     }
 }

@@ -9,11 +9,16 @@ mod eyes;
 mod files;
 mod layers;
 mod library;
+mod macros;
+mod mentioned;
 mod messages;
 mod module;
 mod reflect;
 mod rotation;
+mod stages;
 mod text;
 
-pub(crate) use compile::{Failure, IncludedFile, Job, LARGEST_SPIRV, compile};
-pub use library::{CompiledCompute, CompiledShader, ShaderLibrary, Spirv};
+pub use library::{CompiledCompute, CompiledShader, ShaderLibrary};
+pub use stages::Spirv;
+
+pub(crate) use compile::compile;

@@ -5,7 +5,7 @@ use rspirv::spirv::{Decoration, Op, StorageClass};
 use std::collections::HashMap;
 
 /// A module, indexed. Types may be nested as deep and as wide as they like: nothing here calls itself for what a type is made of.
-pub(super) struct Indexed<'m> {
+pub(super) struct IndexedModule<'m> {
     /// The module itself.
     pub(super) module: &'m Module,
     globals: HashMap<u32, &'m Instruction>,
@@ -29,9 +29,9 @@ struct Sizes {
     block_bytes: u32,
 }
 
-impl<'m> Indexed<'m> {
+impl<'m> IndexedModule<'m> {
     /// Indexes `module`.
-    pub(super) fn new(module: &'m Module) -> Indexed<'m> {
+    pub(super) fn new(module: &'m Module) -> IndexedModule<'m> {
         let globals = module.types_global_values.iter().filter_map(|it| Some((it.result_id?, it))).collect();
         let mut names = HashMap::new();
         let mut member_names = HashMap::new();
@@ -62,7 +62,8 @@ impl<'m> Indexed<'m> {
             }
         }
         let sizes = HashMap::new();
-        let mut indexed = Indexed { module, globals, sizes, names, member_names, decorations, member_decorations };
+        let mut indexed =
+            IndexedModule { module, globals, sizes, names, member_names, decorations, member_decorations };
         // SPIR-V declares a type after those that it is made of, so each is measured once.
         for it in &module.types_global_values {
             if let Some(ty) = it.result_id {
@@ -340,7 +341,7 @@ mod tests {
         let table = types.made_of(Op::TypeArray, &[vector, two]);
         let rows = types.made_of(Op::TypeRuntimeArray, &[table]);
         let deep = (0..DEEP).fold(float, |ty, _| types.made_of(Op::TypeArray, &[ty, one]));
-        let module = Indexed::new(&types.0);
+        let module = IndexedModule::new(&types.0);
         assert_eq!(module.type_name(rows), "uvec2[][2]");
         assert_eq!(module.type_name(deep), format!("float{}", "[1]".repeat(DEEP)));
         assert_eq!((module.own_bytes(deep), module.sizes(deep).locations), (4, 1));
@@ -352,7 +353,7 @@ mod tests {
         let float = types.float();
         let deep = (0..DEEP).fold(float, |ty, _| types.made_of(Op::TypeStruct, &[ty]));
         let wide = (0..64).fold(float, |ty, _| types.made_of(Op::TypeStruct, &[ty, ty]));
-        let module = Indexed::new(&types.0);
+        let module = IndexedModule::new(&types.0);
         assert_eq!((module.own_bytes(deep), module.sizes(deep).locations, module.block_bytes(deep)), (4, 1, 16));
         assert_eq!((module.own_bytes(wide), module.sizes(wide).locations), (u64::MAX, u32::MAX));
     }
@@ -361,6 +362,6 @@ mod tests {
     fn an_array_that_is_made_of_itself_has_a_name_that_ends() {
         let mut types = Types(Module::new());
         types.made_of(Op::TypeRuntimeArray, &[1]);
-        assert_eq!(Indexed::new(&types.0).type_name(1), "[]");
+        assert_eq!(IndexedModule::new(&types.0).type_name(1), "[]");
     }
 }

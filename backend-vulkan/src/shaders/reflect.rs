@@ -2,11 +2,11 @@
 
 use super::bindings::{bindings, component_of};
 use super::capabilities::check_capabilities;
-use super::compile::Stage;
-use super::eyes::HANDED_ON;
-use super::module::{Indexed, id, number, storage_class};
+use super::eyes::{HANDED_ON, LOCATION};
+use super::module::{IndexedModule, id, number, storage_class};
 use super::text::Refused;
 use super::{alpha, rotation};
+use crate::process::ShaderStage;
 use framewright_graph::shader::{AlphaUse, FragmentOutput, PASS_SET, ShaderInterface, VertexInput};
 use rspirv::dr::Operand;
 use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, Op, StorageClass};
@@ -33,10 +33,8 @@ pub(super) struct Varying {
     pub(super) ty: String,
 }
 
-/// Locations between stages and of vertex attributes are below these. Vulkan promises 15 between stages to all, of which the last
-/// one hands on the eye ([`super::eyes`]), so that a shader fits every way to draw for both eyes; and 16 attributes. The compiler
-/// itself limits those of colour outputs.
-pub(super) const VARYINGS: u32 = 14;
+/// Locations of vertex attributes are below this: Vulkan promises so many to all. The compiler itself limits those of colour
+/// outputs.
 const ATTRIBUTES: u32 = 16;
 /// A fragment stage declares at most this many outputs, the elements of arrays counted: no device has as many.
 const OUTPUTS: u32 = 256;
@@ -51,25 +49,30 @@ const SHARED_BYTES: u64 = 16 << 10;
 ///
 /// # Errors
 /// In words: what it uses that can't be bound.
-pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool, both_eyes: bool) -> Result<StageInterface, Refused> {
+pub(super) fn reflect(
+    stage: ShaderStage,
+    spirv: &[u32],
+    in_part: bool,
+    both_eyes: bool,
+) -> Result<StageInterface, Refused> {
     let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
-    let module = Indexed::new(&module);
+    let module = IndexedModule::new(&module);
     let used: HashSet<u32> =
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
-    let fragment = stage == Stage::Fragment;
+    let fragment = stage == ShaderStage::Fragment;
     check_capabilities(&module, stage, both_eyes)?;
     check_own_memory(&module)?;
     check_shared_memory(&module)?;
     let inputs = varyings(&module, StorageClass::Input, &used);
     let outputs = varyings(&module, StorageClass::Output, &used);
-    let (most_in, most_out) = if fragment { (VARYINGS, u32::MAX) } else { (ATTRIBUTES, VARYINGS) };
+    let (most_in, most_out) = if fragment { (LOCATION, u32::MAX) } else { (ATTRIBUTES, LOCATION) };
     check_locations(&module, StorageClass::Input, most_in)?;
     check_locations(&module, StorageClass::Output, most_out)?;
     let interface = ShaderInterface {
         bindings: bindings(&module, stage, &used, in_part)?,
         vertex_inputs: match stage {
-            Stage::Vertex => inputs.iter().cloned().map(vertex_input).collect(),
-            Stage::Fragment | Stage::Compute => Vec::new(),
+            ShaderStage::Vertex => inputs.iter().cloned().map(vertex_input).collect(),
+            ShaderStage::Fragment | ShaderStage::Compute => Vec::new(),
         },
         outputs: if fragment { fragment_outputs(&module)? } else { Vec::new() },
         alpha: alpha_uses(&module, fragment),
@@ -84,7 +87,7 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool, both_eyes: boo
             .execution_modes
             .iter()
             .any(|it| matches!(&it.operands[..], [_, Operand::ExecutionMode(ExecutionMode::DepthReplacing), ..])),
-        workgroup_size: (stage == Stage::Compute).then(|| workgroup_size(&module)),
+        workgroup_size: (stage == ShaderStage::Compute).then(|| workgroup_size(&module)),
         unturned: rotation::unturned(&module, stage),
         // The text says it, not the SPIR-V.
         asks_part: Vec::new(),
@@ -100,7 +103,7 @@ pub(super) fn reflect(stage: Stage, spirv: &[u32], in_part: bool, both_eyes: boo
 }
 
 /// That what has a location, used or not, ends below location `most`.
-fn check_locations(module: &Indexed<'_>, class: StorageClass, most: u32) -> Result<(), Refused> {
+fn check_locations(module: &IndexedModule<'_>, class: StorageClass, most: u32) -> Result<(), Refused> {
     // The eye is the library's own.
     let own = module.variables().filter(|(id, it)| storage_class(it) == Some(class) && module.name(*id) != HANDED_ON);
     for (id, variable) in own {
@@ -117,7 +120,7 @@ fn check_locations(module: &Indexed<'_>, class: StorageClass, most: u32) -> Resu
 }
 
 /// What becomes of the alpha of the images that the pass's own set samples.
-fn alpha_uses(module: &Indexed<'_>, fragment: bool) -> Vec<(String, AlphaUse)> {
+fn alpha_uses(module: &IndexedModule<'_>, fragment: bool) -> Vec<(String, AlphaUse)> {
     let sampled = module.variables().filter(|(id_of, it)| {
         let image =
             module.pointee(it).is_some_and(|ty| matches!(ty.class.opcode, Op::TypeSampledImage | Op::TypeImage));
@@ -129,7 +132,7 @@ fn alpha_uses(module: &Indexed<'_>, fragment: bool) -> Vec<(String, AlphaUse)> {
 }
 
 /// Invocations of a workgroup, as the entry point says.
-fn workgroup_size(module: &Indexed<'_>) -> [u32; 3] {
+fn workgroup_size(module: &IndexedModule<'_>) -> [u32; 3] {
     let size = module.module.execution_modes.iter().find_map(|it| match &it.operands[..] {
         [_, Operand::ExecutionMode(ExecutionMode::LocalSize), size @ ..] => {
             Some(size.iter().filter_map(number).collect::<Vec<_>>())
@@ -144,7 +147,7 @@ fn workgroup_size(module: &Indexed<'_>) -> [u32; 3] {
 }
 
 /// No more memory than the invocations of a workgroup may share.
-fn check_shared_memory(module: &Indexed<'_>) -> Result<(), Refused> {
+fn check_shared_memory(module: &IndexedModule<'_>) -> Result<(), Refused> {
     let shared = module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Workgroup));
     let bytes = shared.filter_map(|(_, it)| module.pointee(it)?.result_id).map(|ty| module.own_bytes(ty));
     let total = bytes.fold(0, u64::saturating_add);
@@ -156,7 +159,7 @@ fn check_shared_memory(module: &Indexed<'_>) -> Result<(), Refused> {
 }
 
 /// No more memory for variables than an invocation may have.
-fn check_own_memory(module: &Indexed<'_>) -> Result<(), Refused> {
+fn check_own_memory(module: &IndexedModule<'_>) -> Result<(), Refused> {
     let local = module.code().filter(|it| it.class.opcode == Op::Variable);
     let global = module.variables().map(|(_, it)| it).filter(|it| storage_class(it) == Some(StorageClass::Private));
     let mut total: u64 = 0;
@@ -173,7 +176,7 @@ fn check_own_memory(module: &Indexed<'_>) -> Result<(), Refused> {
 }
 
 /// The variables of one storage class that have a location.
-fn varyings(module: &Indexed<'_>, class: StorageClass, used: &HashSet<u32>) -> Vec<Varying> {
+fn varyings(module: &IndexedModule<'_>, class: StorageClass, used: &HashSet<u32>) -> Vec<Varying> {
     let mut varyings: Vec<Varying> = module
         .variables()
         .filter(|(id, it)| storage_class(it) == Some(class) && used.contains(id))
@@ -192,7 +195,7 @@ fn vertex_input(Varying { location, name, ty }: Varying) -> VertexInput {
 }
 
 /// Colour outputs by location; an array takes a location for each element.
-fn fragment_outputs(module: &Indexed<'_>) -> Result<Vec<FragmentOutput>, Refused> {
+fn fragment_outputs(module: &IndexedModule<'_>) -> Result<Vec<FragmentOutput>, Refused> {
     let mut outputs = Vec::new();
     for (id_of, it) in module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Output)) {
         let Some(location) = module.decoration_number(id_of, Decoration::Location) else { continue };
@@ -222,14 +225,14 @@ fn fragment_outputs(module: &Indexed<'_>) -> Result<Vec<FragmentOutput>, Refused
 }
 
 /// Whether the code uses one of these built-in variables.
-fn built_in_used(module: &Indexed<'_>, used: &HashSet<u32>, wanted: &[BuiltIn]) -> bool {
+fn built_in_used(module: &IndexedModule<'_>, used: &HashSet<u32>, wanted: &[BuiltIn]) -> bool {
     module.variables().filter(|(id, _)| used.contains(id)).any(|(id, _)| {
         matches!(module.decoration(id, Decoration::BuiltIn), Some(Some(Operand::BuiltIn(found))) if wanted.contains(found))
     })
 }
 
 /// Vulkan runs a fragment stage once a sample if it reads the sample's number or place, or an input marked `sample`.
-fn per_sample(module: &Indexed<'_>, used: &HashSet<u32>) -> bool {
+fn per_sample(module: &IndexedModule<'_>, used: &HashSet<u32>) -> bool {
     built_in_used(module, used, &[BuiltIn::SampleId, BuiltIn::SamplePosition])
         || module.variables().any(|(id, it)| {
             storage_class(it) == Some(StorageClass::Input)

@@ -5,8 +5,8 @@
 //! stage that looks at it anywhere. What a function hands to another can't be followed, nor can positions that a vertex stage
 //! only partly turns.
 
-use super::compile::Stage;
-use super::module::{Indexed, id};
+use super::module::{IndexedModule, id};
+use crate::process::ShaderStage;
 use framewright_graph::shader::Unturned;
 use rspirv::dr::{Function, Instruction, Operand};
 use rspirv::spirv::{BuiltIn, Decoration, Op};
@@ -16,17 +16,17 @@ use std::collections::HashSet;
 const ROTATION: u32 = 100;
 
 /// What goes wrong.
-pub(super) fn unturned(module: &Indexed<'_>, stage: Stage) -> Vec<Unturned> {
+pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<Unturned> {
     let rotation = known_by(module);
     let functions = module.module.functions.iter();
     let mut functions = functions.filter(|function| !code(function).any(|it| mentions(it, &rotation)));
     match stage {
-        Stage::Compute => Vec::new(),
-        Stage::Vertex => {
+        ShaderStage::Compute => Vec::new(),
+        ShaderStage::Vertex => {
             let all = module.module.functions.len();
             if functions.count() == all { vec![Unturned::Vertices] } else { Vec::new() }
         }
-        Stage::Fragment => {
+        ShaderStage::Fragment => {
             let places = places(module);
             let (mut reads, mut differentiates) = (false, false);
             for function in functions.by_ref() {
@@ -48,7 +48,7 @@ fn mentions(instruction: &Instruction, ids: &HashSet<u32>) -> bool {
 }
 
 /// The constant and all constants that follow from it.
-fn known_by(module: &Indexed<'_>) -> HashSet<u32> {
+fn known_by(module: &IndexedModule<'_>) -> HashSet<u32> {
     let mut known = HashSet::new();
     // SPIR-V declares a constant after those that it is made of.
     for it in &module.module.types_global_values {
@@ -63,7 +63,7 @@ fn known_by(module: &Indexed<'_>) -> HashSet<u32> {
 }
 
 /// The variables that say where in the picture a fragment or sample lies.
-fn places(module: &Indexed<'_>) -> HashSet<u32> {
+fn places(module: &IndexedModule<'_>) -> HashSet<u32> {
     let is_place = |id: u32| {
         let built_in = module.decoration(id, Decoration::BuiltIn).flatten();
         matches!(built_in, Some(Operand::BuiltIn(BuiltIn::FragCoord | BuiltIn::SamplePosition)))
@@ -72,7 +72,7 @@ fn places(module: &Indexed<'_>) -> HashSet<u32> {
 }
 
 /// Whether an instruction only reaches for depth or 1/w, which no rotation changes.
-fn is_beyond_y(module: &Indexed<'_>, it: &Instruction) -> bool {
+fn is_beyond_y(module: &IndexedModule<'_>, it: &Instruction) -> bool {
     let component = || id(it, 1).and_then(|index| module.constant(index));
     it.class.opcode == Op::AccessChain && component().is_some_and(|component| component >= 2)
 }

@@ -2,7 +2,7 @@
 //! text on which line that stands.
 
 use super::compile::MAX_INCLUDES;
-use super::files::{Found, ShaderFiles};
+use super::files::{ShaderFiles, SourceFile};
 use framewright_graph::base::FilePath;
 use std::collections::BTreeSet;
 
@@ -41,7 +41,7 @@ impl Refused {
     }
 
     /// As a message with its place: `FILE:LINE: …`, or `FILE: …` where no line shows it.
-    pub(super) fn placed(&self, files: &ShaderFiles, stage: &Found) -> String {
+    pub(super) fn placed(&self, files: &ShaderFiles, stage: &SourceFile) -> String {
         let wanted = |word: &str| match &self.shown_by {
             Words::None => false,
             Words::Whole(name) => word == name,
@@ -52,8 +52,8 @@ impl Refused {
 }
 
 /// The first place, as `FILE:LINE`, where a stage's file or one that it includes has such a word outside comments.
-pub(super) fn place(files: &ShaderFiles, stage: &Found, wanted: impl Fn(&str) -> bool) -> Option<String> {
-    let line = |found: &Found| {
+pub(super) fn place(files: &ShaderFiles, stage: &SourceFile, wanted: impl Fn(&str) -> bool) -> Option<String> {
+    let line = |found: &SourceFile| {
         let text = without_comments(&found.text);
         let at = text.lines().position(|line| words(line).any(&wanted))?;
         Some(format!("{}:{}", found.shown, at + 1))
@@ -63,14 +63,14 @@ pub(super) fn place(files: &ShaderFiles, stage: &Found, wanted: impl Fn(&str) ->
 
 /// The files that a stage's file includes, and those that they include, each once. No more than [`MAX_INCLUDES`] are looked
 /// for: the compiler refuses a stage with more.
-pub(super) fn included(files: &ShaderFiles, stage: &Found) -> Vec<Found> {
+pub(super) fn included(files: &ShaderFiles, stage: &SourceFile) -> Vec<SourceFile> {
     included_by(stage, |from, name| files.included(from, name).ok().flatten())
 }
 
 /// The same with files that `read` finds. A name in a folder is read once, however often it is included.
-fn included_by(stage: &Found, mut read: impl FnMut(&FilePath, &str) -> Option<Found>) -> Vec<Found> {
+fn included_by(stage: &SourceFile, mut read: impl FnMut(&FilePath, &str) -> Option<SourceFile>) -> Vec<SourceFile> {
     let (mut looked_for, mut seen) = (BTreeSet::new(), BTreeSet::new());
-    let mut all: Vec<Found> = Vec::new();
+    let mut all: Vec<SourceFile> = Vec::new();
     let mut looked_at = 0;
     loop {
         let from = match looked_at {
@@ -134,7 +134,7 @@ mod tests {
 
     /// How often files are read for a stage with this text, whose files hold `text` each.
     fn reads(stage: String, text: impl Fn(&str) -> String) -> usize {
-        let found = |name: &str, text: String| Found { path: name.into(), shown: name.to_owned(), text };
+        let found = |name: &str, text: String| SourceFile { path: name.into(), shown: name.to_owned(), text };
         let mut reads = 0;
         included_by(&found("stage.frag", stage), |_, name| {
             reads += 1;

@@ -1,6 +1,8 @@
 //! The command line: what can be said, and what each word means.
 
-use crate::command_line::values::{Assignment, DEFAULT_SIZE, Dump, Modes, OutputFile, Size, assignment, dump, order, output_file, rotation, stereo};
+use crate::command_line::values::{
+    Assignment, DEFAULT_SIZE, Dump, Modes, OutputFile, Size, assignment, dump, order, output_file, rotation, stereo,
+};
 use crate::system::text;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use framewright_graph::compile::{Options, Order};

@@ -2,8 +2,8 @@
 
 use crate::picture::FileFormat;
 use framewright_graph::compile::Order;
-use framewright_graph::vulkan::Rotation;
 use framewright_graph::frame::Stereo;
+use framewright_graph::vulkan::Rotation;
 use std::path::PathBuf;
 
 /// Width and height of the output where the command line says none, in pixels.

@@ -4,8 +4,8 @@ use crate::command_line::args::FactsArguments;
 use crate::error::Error;
 use crate::files::inputs;
 use crate::system::{Exit, text};
-use framewright_graph::language::FactValue;
 use framewright_graph::base::ReadFiles;
+use framewright_graph::language::FactValue;
 use framewright_passes::facts::ExplainedFact;
 use serde::Serialize;
 

@@ -2,13 +2,13 @@
 
 use crate::command_line::args::{InspectArguments, PlanFormat};
 use crate::error::Error;
-use crate::files::outputs;
 use crate::files::inputs::{self, FileRole};
+use crate::files::outputs;
 use crate::planning::{self, View, device};
 use crate::system::{Exit, text};
+use framewright_graph::base::ReadFiles;
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::DrawList;
-use framewright_graph::base::ReadFiles;
 use framewright_passes::scene::Scene;
 use std::path::Path;
 

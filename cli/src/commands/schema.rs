@@ -4,9 +4,9 @@ use crate::command_line::args::SchemaArguments;
 use crate::error::Error;
 use crate::files::inputs;
 use crate::system::{Exit, text};
+use framewright_graph::base::{ReadFiles, Sources};
 use framewright_graph::language::{self, LARGEST_FILE};
 use framewright_graph::ron::Tree;
-use framewright_graph::base::{ReadFiles, Sources};
 
 /// Prints the schema, or a file as JSON.
 ///

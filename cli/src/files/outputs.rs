@@ -4,9 +4,9 @@ use crate::error::Error;
 use crate::files::stream;
 use crate::system::links;
 use framewright_graph::base::ReadFiles;
-use std::{fs, io};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 use tempfile::NamedTempFile;
 
 /// Makes sure, before any work is done, that each of `written` can be written, and that none of them is a file that was read,

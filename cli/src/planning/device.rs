@@ -2,8 +2,8 @@
 
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
-use framewright_graph::device::{Profile, SHIPPED_PROFILES};
 use framewright_graph::base::ReadFiles;
+use framewright_graph::device::{Profile, SHIPPED_PROFILES};
 use framewright_vulkan::DeviceChoice;
 use std::ffi::OsStr;
 use std::path::Path;

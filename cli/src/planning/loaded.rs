@@ -3,19 +3,19 @@
 use crate::command_line::args;
 use crate::command_line::values::{DEFAULT_SIZE, Modes, Size};
 use crate::error::Error;
-use crate::files::shipped;
 use crate::files::inputs::{self, FileRole, PipelineFile};
+use crate::files::shipped;
 use crate::planning::helper;
 use crate::system::Exit;
 
-use framewright_graph::verify;
-use framewright_graph::compile::{self, Options, heap_size};
 use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, Root, Sources};
-use framewright_graph::language::{self, Document, Files, Found, PipelineFiles, Unread};
+use framewright_graph::compile::{self, Options, heap_size};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Facts, Inputs};
 use framewright_graph::frame::{Frame, Stereo, TextureFile, TextureInfo, TextureProblem, Textures};
+use framewright_graph::language::{self, Document, Files, Found, PipelineFiles, Unread};
 use framewright_graph::plan::Plan;
+use framewright_graph::verify;
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw;
 use framewright_passes::shipped::SHADERS;

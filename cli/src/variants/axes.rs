@@ -4,9 +4,9 @@ use super::axis::{Axis, Varied};
 use super::facts;
 use super::mentions::Mentions;
 use super::space::Choice;
-use framewright_graph::language::{ChosenBy, Document, Facts, Preset, SettingKind, last_step, nth_step};
-use framewright_graph::expression::Value;
 use framewright_graph::base::Sources;
+use framewright_graph::expression::Value;
+use framewright_graph::language::{ChosenBy, Document, Facts, Preset, SettingKind, last_step, nth_step};
 
 /// Whole numbers up to this many are all tried.
 const MOST_INTEGERS: i128 = 16;

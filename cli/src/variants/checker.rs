@@ -6,14 +6,14 @@ use super::shaders::SharedShaders;
 use super::space::Choice;
 use crate::command_line::values::Modes;
 use crate::planning::View;
-use framewright_graph::compile::{Compiler, Options, heap_size};
 use framewright_graph::base::{Diagnostic, Sources};
-use framewright_graph::language::Document;
+use framewright_graph::compile::{Compiler, Options, heap_size};
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::verify;
 use framewright_graph::expand::{self, Inputs};
 use framewright_graph::frame::{Frame, Stereo};
+use framewright_graph::language::Document;
 use framewright_graph::plan::Totals;
+use framewright_graph::verify;
 use std::sync::Arc;
 
 /// The pipeline whose variants are checked: everything that they share.

@@ -1,11 +1,14 @@
 //! The bind groups and draw lists of a view at a frame.
 
-use super::frustum;
 use super::cascades::{self, CascadeMap, cascades_block, sun_view};
 use super::clusters::Clusters;
 use super::eyes::Eyes;
 use super::frame_data::{ViewTransform, lights_block, motion_block, objects_block, shifted, view_block, world_to_clip};
-use super::interface::{CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MOTION_BINDING, OBJECTS_BINDING, VIEW_BINDING, interface};
+use super::frustum;
+use super::interface::{
+    CASCADES_BINDING, CLUSTERS_BINDING, FRAME_SET, LIGHTS_BINDING, MOTION_BINDING, OBJECTS_BINDING, VIEW_BINDING,
+    interface,
+};
 use super::lists::draw_order_from;
 use crate::scene::{Camera, Scene};
 use framewright_graph::frame::{Draw, DrawList, Eye, Jitter};

@@ -3,8 +3,8 @@
 mod peak;
 
 use crate::scene::{AlphaMode, Bounds, Object, Scene};
-use framewright_graph::language::{Fact, FactValue, Facts};
 use framewright_graph::frame::DrawList;
+use framewright_graph::language::{Fact, FactValue, Facts};
 use peak::{Peak, peak};
 
 /// A fact with its cause.

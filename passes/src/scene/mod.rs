@@ -24,4 +24,7 @@ mod shapes;
 pub mod text;
 
 pub use load::{SceneError, load, load_recorded};
-pub use model::{AlphaMode, Bounds, Camera, FRAME_SECONDS, Material, Mesh, Movement, NamedCamera, Object, PointLight, Sampler, Scene, Sky, Sun, Texture, Wrap};
+pub use model::{
+    AlphaMode, Bounds, Camera, FRAME_SECONDS, Material, Mesh, Movement, NamedCamera, Object, PointLight, Sampler,
+    Scene, Sky, Sun, Texture, Wrap,
+};

@@ -8,7 +8,7 @@
 //! | ST-1 | `cameras::point_lights_reach_what_an_eye_sees_behind_the_camera_between_both` | `point_lights.glsl`: tiles as ahead |
 //! | ST-2 | `packed::one_image_for_both_is_twice_as_wide_or_has_two_layers` | `plan/part.rs`: `made` a texel wider |
 //! | ST-2 | `packed::a_pass_draws_for_both_eyes_what_two_draw_for_each` | `eyes/at_once.rs`: `at_once` is false |
-//! | ST-2 | `packed::what_is_handed_in_for_both_eyes_is_just_as_large_as_both` | `exchange.rs`: any number of bytes |
+//! | ST-2 | `packed::what_is_handed_in_for_both_eyes_is_just_as_large_as_both` | `execute/exchange.rs`: any number of bytes |
 //! | ST-3 | `packed::shared_culling_shows_the_same` | `draw/seen.rs`: both see what the left eye sees |
 //! | ST-3 | `packed::shared_culling_shows_the_same` | `draw/source.rs`: `culls_once` is ignored |
 //! | ST-3 | `passes/tests/eyes.rs`, rays at random | `draw/eyes.rs`: no step back |
@@ -24,12 +24,12 @@
 //! | ST-7 | `agreement::places_are_clamped_within_the_half_of_each_mip_level` | `part.glsl`: 1/64 of a texel less |
 //! | ST-8 | `eyes::grain_and_overlays_are_the_same_in_both_eyes` | `film_grain.frag`: the texel of both eyes' image |
 //! | ST-9 | `agreement::nothing_bleeds_from_one_eye_into_the_other` | `blur.frag`: without `uv_clamp` |
-//! | ST-9 | `agreement::texels_are_fetched_exactly` | `shaders/library.rs`: `half` doesn't know the eye that is named |
+//! | ST-9 | `agreement::texels_are_fetched_exactly` | `shaders/macros.rs`: `half` doesn't know the eye that is named |
 //! | ST-9 | `eyes::what_is_done_for_one_eye_after_the_other_shows_the_same_in_each_mode` | `eyes/at_once.rs`: one eye's target in both |
 //! | ST-9 | `eyes::a_shader_that_does_not_ask_for_its_half_is_reported_at_its_pass` | `expand/halves.rs`: `check` returns |
-//! | ST-10 | `agreement::texels_are_fetched_exactly` | `shaders/library.rs`: `half` is the left one |
+//! | ST-10 | `agreement::texels_are_fetched_exactly` | `shaders/macros.rs`: `half` is the left one |
 //! | ST-11 | `eyes::each_stage_is_told_the_eye_and_a_quad_shows_what_a_triangle_shows` | `shaders/eyes.rs`: 0.49 of the width |
-//! | ST-12 | `eyes::what_is_done_for_one_eye_after_the_other_shows_the_same_in_each_mode` | `prepare_pass.rs`: no `eyes` in a variant |
+//! | ST-12 | `eyes::what_is_done_for_one_eye_after_the_other_shows_the_same_in_each_mode` | `prepare/variant.rs`: no `eyes` in a variant |
 //! | ST-13 | `eyes::grain_and_overlays_are_the_same_in_both_eyes` | `stereo.glsl`: `non_stereo_screen_pos` of half the width |
 //! | ST-14 | `agreement` | `shaders/eyes.rs`: nothing cut at the seam |
 //! | ST-14 | `depth` | `adapt/resolve.rs`: layers are resolved as one layer is, on SwiftShader |

@@ -5,11 +5,11 @@ use crate::command_line::args::{AnswerFormat, CheckArguments};
 use crate::error::Error;
 use crate::planning::{self, View, device, notes};
 use crate::system::{Exit, progress, text};
-use framewright_graph::language;
+use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::{Frame, Stereo};
+use framewright_graph::language;
 use framewright_graph::plan::{Note, Plan};
-use framewright_graph::base::{self, ReadFiles};
 use serde::Serialize;
 use std::collections::HashSet;
 

@@ -5,9 +5,9 @@ use crate::command_line::args::{AnswerFormat, CheckArguments};
 use crate::error::Error;
 use crate::planning::{self, View, device, notes};
 use crate::system::{Exit, progress, text};
+use framewright_graph::base::ReadFiles;
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::plan::Plan;
-use framewright_graph::base::ReadFiles;
 use serde::Serialize;
 
 /// The answer for programs.

@@ -8,13 +8,13 @@ mod timings;
 
 use crate::command_line::args::RunArguments;
 use crate::error::Error;
-use crate::files::outputs;
 use crate::files::inputs::{self, FileRole};
+use crate::files::outputs;
 use crate::planning::{self, Loaded, Planned, View, device, notes};
 use crate::system::{Exit, interrupt, progress, text};
+use framewright_graph::base::ReadFiles;
 use framewright_graph::frame::{Frame, Image, Lifetime, Stereo};
 use framewright_graph::plan::{Stage, Totals};
-use framewright_graph::base::ReadFiles;
 use framewright_graph::vulkan::Layout;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;

@@ -6,9 +6,9 @@ use crate::error::Error;
 use crate::picture::{self, FileFormat};
 use crate::planning::Planned;
 use crate::system::text;
+use framewright_graph::base::Span;
 use framewright_graph::frame::{Eye, EyeForm, Frame, Resource};
 use framewright_graph::plan::{self, Plan};
-use framewright_graph::base::Span;
 use framewright_vulkan::{Executor, Texels};
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! The parts of glTF's JSON that are read. Everything else is skipped.
 
-use super::json;
 use super::extensions::{self, Extensions};
+use super::json;
 use super::problem::{GltfError, Problem};
 use serde::Deserialize;
 use serde_json::Value;

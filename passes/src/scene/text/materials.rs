@@ -4,8 +4,8 @@ use super::values::{color, counts, number, web_color};
 use crate::scene::limits;
 use crate::scene::model::{AlphaMode, Material, Texture};
 use crate::scene::pattern::{MOST_CELLS, Pattern, PatternKind};
-use framewright_graph::ron::{Leaf, Reader};
 use framewright_graph::fields;
+use framewright_graph::ron::{Leaf, Reader};
 
 fields! {
     pub(super) struct MaterialFields<'s> {

@@ -43,9 +43,9 @@ mod values;
 
 use super::model::{Camera, NamedCamera, PointLight, Scene, Sky, Sun};
 use super::{defaults, limits};
-use framewright_graph::ron::{Leaf, Name, Names, Reader, Tree};
 use framewright_graph::base::{Diagnostic, Sources, Span};
 use framewright_graph::fields;
+use framewright_graph::ron::{Leaf, Name, Names, Reader, Tree};
 use glam::DVec3;
 use materials::{MaterialFields, Patterns};
 use objects::Objects;

@@ -3,8 +3,8 @@
 use super::values::{angles, count, counts, movement, number, place, size, sizes};
 use crate::scene::model::{Bounds, Mesh, Object};
 use crate::scene::{limits, shapes};
-use framewright_graph::ron::{Leaf, Names, Reader, Shape};
 use framewright_graph::fields;
+use framewright_graph::ron::{Leaf, Names, Reader, Shape};
 use glam::{DMat4, DQuat, DVec3};
 use std::f64::consts::TAU;
 

@@ -1,0 +1,42 @@
+//! Giving up waits for the device before they are over.
+
+use std::fmt;
+use std::sync::OnceLock;
+use std::time::Duration;
+
+/// How often a wait asks whether it is to be given up.
+pub(crate) const SLICE: Duration = Duration::from_millis(50);
+
+/// What says that waits are to be given up, if anything does.
+#[derive(Default)]
+pub(crate) struct Cancel(OnceLock<Box<dyn Fn() -> bool + Send + Sync>>);
+
+impl Cancel {
+    /// Has `asked` say it. What was set first stays.
+    pub(crate) fn when(&self, asked: impl Fn() -> bool + Send + Sync + 'static) {
+        let _ = self.0.set(Box::new(asked));
+    }
+
+    /// Whether waits are to be given up.
+    pub(crate) fn is_asked(&self) -> bool {
+        self.0.get().is_some_and(|asked| asked())
+    }
+}
+
+impl fmt::Debug for Cancel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Cancel").field(&self.0.get().is_some()).finish()
+    }
+}
+
+/// Ends this process at once, without the functions that libraries have registered for its end: those of a software driver
+/// crash while its threads are still at work. What this program itself has not yet written is lost.
+pub fn end_process(code: u8) -> ! {
+    #[cfg(unix)]
+    // SAFETY: `_exit` only ends the process.
+    unsafe {
+        libc::_exit(code.into())
+    }
+    #[cfg(not(unix))]
+    std::process::exit(code.into())
+}

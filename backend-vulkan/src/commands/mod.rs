@@ -1,0 +1,16 @@
+//! Commands: their recording and submission, barriers, copies, uploads and readback.
+
+mod barriers;
+mod readback;
+pub(crate) mod rotate_texels;
+mod submit;
+mod transfer;
+mod upload;
+
+pub use readback::Texels;
+
+pub(crate) use barriers::{barriers, memory_barriers, memory_change, state_change};
+pub(crate) use readback::{Readback, first_plane, mip_extent, plane_bytes};
+pub(crate) use submit::{CommandPool, Commands, Timeline, record};
+pub(crate) use transfer::{TransferSide, copy_between, fill};
+pub(crate) use upload::{WRITTEN, image_side, record_upload, write_buffer, write_image};

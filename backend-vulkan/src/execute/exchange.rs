@@ -1,0 +1,263 @@
+//! What goes in and out between frames: reading and writing what outlives them, and handing in what is the program's own.
+
+use super::executor::Executor;
+use crate::base::Error;
+use crate::commands::{
+    Readback, Texels, first_plane, mip_extent, plane_bytes, rotate_texels, write_buffer, write_image,
+};
+use crate::memory::{Image, RawBuffer};
+use crate::prepare::{buffer_descriptor, descriptor, initial_queue, name_and_role};
+use ash::vk;
+use framewright_graph::plan::{BufferId, ImageId, Queue, Resource, Role};
+use framewright_graph::vulkan::{Aspects, Layout, State, Usage};
+
+impl Executor {
+    /// The output number `output` of the Plan, an image, as the last frame left it: colour or depth of its first mip level.
+    /// Frames in flight are waited for.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if there is no such output or no frame yet, [`Error::OutOfMemory`], [`Error::DeviceLost`].
+    pub fn read(&mut self, output: usize) -> Result<Texels, Error> {
+        let bad = |what: &str| Error::BadResource { what: format!("output {output} can't be read: {what}") };
+        match self.plan.outputs.get(output).ok_or_else(|| bad("the Plan has fewer"))?.resource {
+            Resource::Image(image) => self.read_plane(image, first_plane(self.plan.image(image).format), 0),
+            Resource::Buffer(_) => Err(bad("it is a buffer")),
+        }
+    }
+
+    /// One plane of a mip level of the image `name`, which outlives the frame, as the last frame left it. Frames in flight
+    /// are waited for.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if there is no such image, plane or level, or no frame yet; those of [`Executor::read`].
+    pub fn read_image(&mut self, name: &str, plane: Aspects, mip: u32) -> Result<Texels, Error> {
+        let image = self.image_named(name)?;
+        self.read_plane(image, plane, mip)
+    }
+
+    /// The bytes of the buffer `name`, which outlives the frame, as the last frame left it. Frames in flight are waited for.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if there is no such buffer, or no frame yet; those of [`Executor::read`].
+    pub fn read_buffer(&mut self, name: &str) -> Result<Vec<u8>, Error> {
+        let id = self.buffer_named(name)?;
+        let (frame, state, queue) = self.left(Resource::Buffer(id))?;
+        self.frames.wait_for_all()?;
+        let buffer = self.prepared.physical.buffer(id, frame);
+        let readback = Readback::of_buffer(&self.gpu, buffer.bytes)?;
+        self.gpu.submit_once("reading a buffer back", queue, |commands| {
+            readback.record_buffer(&self.gpu, commands, buffer, state);
+        })?;
+        readback.bytes()
+    }
+
+    fn read_plane(&mut self, id: ImageId, plane: Aspects, mip: u32) -> Result<Texels, Error> {
+        self.check_part(id, plane, mip)?;
+        let (frame, state, queue) = self.left(Resource::Image(id))?;
+        self.frames.wait_for_all()?;
+        let image = self.prepared.physical.image(id, frame);
+        let readback = Readback::of_image(&self.gpu, &image.descriptor, plane, mip)?;
+        self.gpu.submit_once("reading an image back", queue, |commands| {
+            readback.record_image(&self.gpu, commands, image, state);
+        })?;
+        readback.texels(&image.descriptor, self.plan.image(id).rotation)
+    }
+
+    /// What frame `frame` left in the output number `output`, an image. The frame must have been waited for, no later one
+    /// may have taken its place, and [`crate::ExecutorOptions::keep_outputs`] must be set.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if one of these isn't so.
+    pub fn kept_image(&mut self, frame: u64, output: usize) -> Result<Texels, Error> {
+        let bad = || Error::BadResource { what: format!("output {output} of frame {frame} is no image that was kept") };
+        let Some(Resource::Image(image)) = self.plan.outputs.get(output).map(|it| it.resource) else {
+            return Err(bad());
+        };
+        self.frames.wait(frame)?;
+        let descriptor = self.prepared.physical.image(image, frame).descriptor;
+        let rotation = self.plan.image(image).rotation;
+        self.frames.kept(frame, output).ok_or_else(bad)?.texels(&descriptor, rotation)
+    }
+
+    /// The same of an output that is a buffer.
+    ///
+    /// # Errors
+    /// Those of [`Executor::kept_image`].
+    pub fn kept_buffer(&mut self, frame: u64, output: usize) -> Result<Vec<u8>, Error> {
+        let bad =
+            || Error::BadResource { what: format!("output {output} of frame {frame} is no buffer that was kept") };
+        let Some(Resource::Buffer(_)) = self.plan.outputs.get(output).map(|it| it.resource) else { return Err(bad()) };
+        self.frames.wait(frame)?;
+        self.frames.kept(frame, output).ok_or_else(bad)?.bytes()
+    }
+
+    /// Sets one plane of a mip level of the image `name`, which outlives the frame, for the next frame to find: layer after
+    /// layer, rows from the top, without padding, upright. Frames in flight are waited for.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if there is no such image, plane or level, if the number of bytes doesn't fit, or the Plan
+    /// doesn't rely on its contents; [`Error::OutOfMemory`], [`Error::DeviceLost`].
+    pub fn write_image(&mut self, name: &str, plane: Aspects, mip: u32, bytes: &[u8]) -> Result<(), Error> {
+        let id = self.image_named(name)?;
+        self.check_part(id, plane, mip)?;
+        self.frames.wait_for_all()?;
+        self.ready()?;
+        let bad = |what: String| Error::BadResource { what: format!("image `{name}` can't be written: {what}") };
+        let (state, queue) = self.found(Resource::Image(id), name)?;
+        let image = self.prepared.physical.image(id, self.frames.next());
+        if !image.descriptor.usage.contains(Usage::TRANSFER_DST) {
+            return Err(bad("nothing can be copied to it".to_owned()));
+        }
+        let sides = mip_extent(&image.descriptor, mip);
+        let texels = sides.iter().fold(u64::from(image.descriptor.layers), |all, side| all * u64::from(*side));
+        let expected = texels * plane_bytes(image.descriptor.format, plane);
+        if bytes.len() as u64 != expected {
+            return Err(bad(format!("{} bytes were given, {expected} are needed", bytes.len())));
+        }
+        let rotation = self.plan.image(id).rotation;
+        if !rotation.turns() {
+            return write_image(&self.gpu, queue, image, (plane, mip), state, bytes);
+        }
+        let texel_bytes = usize::try_from(plane_bytes(image.descriptor.format, plane)).unwrap_or(1);
+        let turned = rotate_texels::turned(bytes, rotation.extent([sides[0], sides[1]]), texel_bytes, rotation);
+        write_image(&self.gpu, queue, image, (plane, mip), state, &turned)
+    }
+
+    /// Sets the buffer `name`, which outlives the frame, for the next frame to find. Frames in flight are waited for.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if there is no such buffer or it has another number of bytes; [`Error::OutOfMemory`],
+    /// [`Error::DeviceLost`].
+    pub fn write_buffer(&mut self, name: &str, bytes: &[u8]) -> Result<(), Error> {
+        let id = self.buffer_named(name)?;
+        self.frames.wait_for_all()?;
+        self.ready()?;
+        let (state, queue) = self.found(Resource::Buffer(id), name)?;
+        let buffer = self.prepared.physical.buffer(id, self.frames.next());
+        if bytes.len() as u64 != buffer.bytes {
+            let (given, held) = (bytes.len(), buffer.bytes);
+            let what = format!("buffer `{name}` can't be written: {given} bytes were given, it holds {held}");
+            return Err(Error::BadResource { what });
+        }
+        write_buffer(&self.gpu, queue, buffer, state, bytes)
+    }
+
+    /// Takes the program's own image for the external image `name`, from the next frame on. Frames in flight are waited for.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if there is no such image or the executor's own was used already; [`Error::DeviceLost`].
+    ///
+    /// # Safety
+    /// The image must have been made by this executor's device as the Plan describes it, its usage included, live as long
+    /// as the executor or until another one is handed in, and be in the Plan's state `before` whenever a frame begins:
+    /// synchronised with the queue of the first step that touches it, and after each frame brought from the state `after`.
+    pub unsafe fn hand_in_image(&mut self, name: &str, image: vk::Image) -> Result<(), Error> {
+        let id = self.image_named(name)?;
+        self.may_hand_in(&self.plan.image(id).role, name)?;
+        self.frames.wait_for_all()?;
+        // SAFETY: the caller's promise.
+        let image = unsafe { Image::foreign(&self.gpu, &descriptor(self.plan.image(id)), image) };
+        self.prepared.forget();
+        self.prepared.physical.replace_image(id, image);
+        Ok(())
+    }
+
+    /// Takes the program's own buffer for the external buffer `name`, from the next frame on. Frames in flight are waited
+    /// for.
+    ///
+    /// # Errors
+    /// Those of [`Executor::hand_in_image`].
+    ///
+    /// # Safety
+    /// That of [`Executor::hand_in_image`].
+    pub unsafe fn hand_in_buffer(&mut self, name: &str, buffer: vk::Buffer) -> Result<(), Error> {
+        let id = self.buffer_named(name)?;
+        let plan = &self.plan.buffers[id.0 as usize];
+        self.may_hand_in(&plan.role, name)?;
+        self.frames.wait_for_all()?;
+        // SAFETY: the caller's promise.
+        let buffer = unsafe { RawBuffer::foreign(&self.gpu, &buffer_descriptor(plan), buffer) };
+        self.prepared.forget();
+        self.prepared.physical.replace_buffer(id, buffer);
+        Ok(())
+    }
+
+    /// Vulkan's image that stood for the image `name` in the last frame, for commands of the program's own; `None` if there
+    /// is no such image. It may be in use until that frame was waited for, and is in the state that the Plan says.
+    #[must_use]
+    pub fn raw_image(&self, name: &str) -> Option<vk::Image> {
+        let id = self.image_named(name).ok()?;
+        Some(self.prepared.physical.image(id, self.frames.next().saturating_sub(1)).raw)
+    }
+
+    fn may_hand_in(&self, role: &Role, name: &str) -> Result<(), Error> {
+        match role {
+            Role::External { .. } => Ok(()),
+            Role::Transient(_) | Role::Persistent { .. } => {
+                Err(Error::BadResource { what: format!("`{name}` is not the program's own, and can't be handed in") })
+            }
+        }
+    }
+
+    fn image_named(&self, name: &str) -> Result<ImageId, Error> {
+        let found = self.plan.images.iter().find(|it| *it.name == *name).map(|it| it.id);
+        found.ok_or_else(|| Error::BadResource { what: format!("the Plan has no image `{name}`") })
+    }
+
+    fn buffer_named(&self, name: &str) -> Result<BufferId, Error> {
+        let found = self.plan.buffers.iter().find(|it| *it.name == *name).map(|it| it.id);
+        found.ok_or_else(|| Error::BadResource { what: format!("the Plan has no buffer `{name}`") })
+    }
+
+    /// One plane of one level of an image that can be copied to or from a buffer.
+    fn check_part(&self, id: ImageId, plane: Aspects, mip: u32) -> Result<(), Error> {
+        let image = self.plan.image(id);
+        let bad = |what: &str| Err(Error::BadResource { what: format!("image `{}` {what}", image.name) });
+        match () {
+            () if image.samples > 1 => bad("has several samples and can't be read or written"),
+            () if plane.bits().count_ones() != 1 || !image.format.aspects().contains(plane) => bad("has no such plane"),
+            () if mip >= image.mips => bad("has fewer mip levels"),
+            () => Ok(()),
+        }
+    }
+
+    /// Which frame left it last, in what state, and on which queue.
+    fn left(&self, resource: Resource) -> Result<(u64, State, Queue), Error> {
+        let (name, role) = name_and_role(&self.plan, resource);
+        let bad = |what: &str| Error::BadResource { what: format!("`{name}` can't be read: {what}") };
+        let frame = self.frames.next().checked_sub(1).ok_or_else(|| bad("no frame was drawn yet"))?;
+        match role {
+            Role::Transient(_) => Err(bad("it is transient")),
+            Role::Persistent { after, .. } | Role::External { after, .. } => {
+                Ok((frame, *after, self.owner(resource).ok_or_else(|| bad("another queue takes it over"))?))
+            }
+        }
+    }
+
+    /// In what state the next frame finds it, and on which queue.
+    fn found(&self, resource: Resource, name: &str) -> Result<(State, Queue), Error> {
+        let bad = |what: &str| Error::BadResource { what: format!("`{name}` can't be written: {what}") };
+        let (_, role) = name_and_role(&self.plan, resource);
+        let is_image = matches!(resource, Resource::Image(_));
+        let state = match role {
+            Role::Transient(_) => return Err(bad("it is transient")),
+            Role::External { before, .. } if is_image && before.layout == Layout::Undefined => {
+                return Err(bad("the Plan doesn't rely on its contents"));
+            }
+            Role::Persistent { before, .. } => *before,
+            Role::External { before, .. } if self.frames.next() == 0 => *before,
+            Role::External { after, .. } => *after,
+        };
+        let first = self.frames.next() == 0;
+        let queue = if first { initial_queue(&self.plan, &self.uses, resource) } else { self.owner(resource) };
+        Ok((state, queue.ok_or_else(|| bad("another queue takes it over"))?))
+    }
+
+    /// The queue that has it between frames; `None` while it is handed over, and if no step touches it the first.
+    pub(crate) fn owner(&self, resource: Resource) -> Option<Queue> {
+        let Some(span) = self.uses.of(resource) else { return Some(Queue::Graphics) };
+        let step = &self.plan.steps[span.last];
+        let released = step.releases.iter().any(|barrier| Resource::Image(barrier.image) == resource);
+        (!released).then_some(step.queue)
+    }
+}

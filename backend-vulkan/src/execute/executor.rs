@@ -1,0 +1,183 @@
+//! Executing a Plan, frame by frame.
+
+use super::frames::{FrameExtras, Frames};
+use super::import::Import;
+use super::initial_contents::initialise;
+use super::output_readback::OutputReadback;
+use crate::base::Error;
+use crate::gpu::{Device, Gpu};
+use crate::prepare::{PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
+use crate::record::{DrawSource, Frame, FrameReport};
+use crate::shaders::ShaderLibrary;
+use framewright_graph::frame::{NoTextures, Textures};
+use framewright_graph::plan::Plan;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// How a Plan is executed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExecutorOptions {
+    /// Whether each transient image and buffer is filled with conspicuous values when the frame takes it into use, which
+    /// must not change the picture. Needs a Plan that was compiled with poison.
+    pub poison: bool,
+    /// How long the device may take for a frame. If it takes longer the device is given up: nothing that was made from it
+    /// can be used any more.
+    pub timeout: Duration,
+    /// How many frames may be on their way before [`Executor::submit`] waits for the oldest; 0 counts as 1.
+    pub frames_in_flight: u32,
+    /// Whether each frame copies its outputs to the host (colour or depth of the first mip level), for
+    /// [`Executor::kept_image`] and [`Executor::kept_buffer`].
+    pub keep_outputs: bool,
+}
+
+impl Default for ExecutorOptions {
+    fn default() -> Self {
+        ExecutorOptions { poison: false, timeout: Duration::from_secs(120), frames_in_flight: 1, keep_outputs: false }
+    }
+}
+
+/// A Plan on a device, ready to draw frames.
+///
+/// [`Executor::frame`] draws one and waits for it. [`Executor::submit`] and [`Executor::wait`] let several be on their way;
+/// the pictures are the same.
+pub struct Executor {
+    pub(crate) gpu: Arc<Gpu>,
+    pub(crate) plan: Plan,
+    options: ExecutorOptions,
+    imports: Vec<Import>,
+    readbacks: Vec<OutputReadback>,
+    pub(crate) uses: ResourceUses,
+    /// Before what it uses: dropping it waits for every frame.
+    pub(crate) frames: Frames,
+    pub(crate) prepared: PreparedPlan,
+    /// Texels from files, until they are uploaded.
+    staged: Vec<StagedTexture>,
+    pub(crate) initialised: bool,
+}
+
+impl Executor {
+    /// Makes everything that `plan` needs on `device`: memory, images, buffers, pipelines, descriptor sets.
+    ///
+    /// # Errors
+    /// [`Error::Violations`] if the Plan is wrong in itself, [`Error::BadPlan`] or [`Error::OtherMemoryNeeds`] if this
+    /// device can't execute it as it is, [`Error::Shader`] and [`Error::Mismatch`] for shaders, [`Error::OutOfMemory`].
+    pub fn new(
+        device: &Device,
+        plan: &Plan,
+        shaders: &mut ShaderLibrary,
+        options: &ExecutorOptions,
+    ) -> Result<Executor, Error> {
+        Executor::checked(device, plan, shaders, &mut NoTextures, options, Refuse::Violations)
+    }
+
+    /// Like [`Executor::new`], for a Plan that has images from files: their texels are read here, and uploaded before the
+    /// first frame.
+    ///
+    /// # Errors
+    /// Those of [`Executor::new`], and [`Error::Texture`].
+    pub fn with_textures(
+        device: &Device,
+        plan: &Plan,
+        shaders: &mut ShaderLibrary,
+        textures: &mut dyn Textures,
+        options: &ExecutorOptions,
+    ) -> Result<Executor, Error> {
+        Executor::checked(device, plan, shaders, textures, options, Refuse::Violations)
+    }
+
+    /// Like [`Executor::new`], but hazards in the Plan pass, to see what the validation layer or the poison says of them.
+    ///
+    /// # Errors
+    /// Those of [`Executor::new`]; [`Error::Violations`] only for what is malformed.
+    ///
+    /// # Safety
+    /// Missing barriers, wrong layouts and images that lie over each other are undefined behaviour on the device: either
+    /// the Plan has none, or the device is a software driver that executes commands in order.
+    pub unsafe fn with_hazards(
+        device: &Device,
+        plan: &Plan,
+        shaders: &mut ShaderLibrary,
+        options: &ExecutorOptions,
+    ) -> Result<Executor, Error> {
+        Executor::checked(device, plan, shaders, &mut NoTextures, options, Refuse::Malformed)
+    }
+
+    fn checked(
+        device: &Device,
+        plan: &Plan,
+        shaders: &mut ShaderLibrary,
+        textures: &mut dyn Textures,
+        options: &ExecutorOptions,
+        refuse: Refuse,
+    ) -> Result<Executor, Error> {
+        let gpu = &device.gpu;
+        check(gpu, plan, refuse, options.poison)?;
+        let uses = ResourceUses::new(plan);
+        let imports = Import::all(plan, &uses);
+        Ok(Executor {
+            gpu: gpu.clone(),
+            readbacks: if options.keep_outputs { OutputReadback::all(plan, &uses)? } else { Vec::new() },
+            frames: Frames::new(gpu, plan, &imports, options.frames_in_flight, options.timeout)?,
+            prepared: PreparedPlan::new(gpu, plan, shaders)?,
+            plan: plan.clone(),
+            options: options.clone(),
+            imports,
+            uses,
+            staged: stage_textures(gpu, plan, textures)?,
+            initialised: false,
+        })
+    }
+
+    /// Draws a frame and waits until the device is done.
+    ///
+    /// # Errors
+    /// Those of [`Executor::submit`] and [`Executor::wait`].
+    pub fn frame(&mut self, source: &mut dyn DrawSource) -> Result<FrameReport, Error> {
+        let frame = self.submit(source)?;
+        self.wait(frame)
+    }
+
+    /// Records and submits a frame, and returns its number, from 0. If as many frames as may be are on their way, it waits
+    /// for the oldest first.
+    ///
+    /// # Errors
+    /// What `source` returns, [`Error::Recording`] if it misused its recorder, [`Error::OutOfMemory`],
+    /// [`Error::DeviceLost`], [`Error::Timeout`].
+    pub fn submit(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
+        self.frames.make_room()?;
+        self.ready()?;
+        let number = self.frames.next();
+        self.prepared.prepare_frame(&self.gpu, &self.plan, number)?;
+        let frame =
+            Frame { gpu: &self.gpu, plan: &self.plan, prepared: &self.prepared, number, poison: self.options.poison };
+        let extras = FrameExtras { imports: &self.imports, readbacks: &self.readbacks };
+        self.frames.submit(&frame, source, &extras)?;
+        Ok(number)
+    }
+
+    /// Waits until the device is done with a frame.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if it was never submitted, or so many were since that its report is gone;
+    /// [`Error::DeviceLost`], [`Error::Timeout`].
+    pub fn wait(&mut self, frame: u64) -> Result<FrameReport, Error> {
+        self.frames.wait(frame)?;
+        let gone = || Error::BadResource { what: format!("frame {frame} was not submitted, or its report is gone") };
+        self.frames.report(&self.plan, frame).ok_or_else(gone)?
+    }
+
+    /// Whether transient images and buffers are filled with conspicuous values.
+    pub(crate) fn poisons(&self) -> bool {
+        self.options.poison
+    }
+
+    /// Gives what outlives the frame its first contents, unless that is done.
+    pub(crate) fn ready(&mut self) -> Result<(), Error> {
+        if !self.initialised {
+            initialise(&self.gpu, &self.plan, &self.uses, &self.prepared.physical, &self.staged)?;
+            self.staged = Vec::new();
+            self.initialised = true;
+        }
+        Ok(())
+    }
+}

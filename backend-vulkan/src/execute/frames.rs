@@ -1,0 +1,278 @@
+//! Frames on their way: recorded, submitted to their queues, and waited for.
+
+use super::import::Import;
+use super::output_readback::OutputReadback;
+use crate::base::Error;
+use crate::commands::{CommandPool, Readback, Timeline, record};
+use crate::gpu::{Gpu, PendingWork};
+use crate::prepare::{Batch, batches};
+use crate::record::{DrawSource, Frame, FrameReport, Recorded, Timing};
+use ash::vk;
+use framewright_graph::plan::{Plan, Queue};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// What waiting for a frame is called in messages.
+const DRAWING: &str = "drawing a frame";
+
+/// The frames in flight of one Plan.
+pub(crate) struct Frames {
+    gpu: Arc<Gpu>,
+    timeout: Duration,
+    batches: Vec<Batch>,
+    /// One for each of the Plan's queues that it uses.
+    timelines: Vec<(Queue, Timeline)>,
+    /// A frame's steps, and its end.
+    values_per_frame: u64,
+    slots: Vec<FrameSlot>,
+    submitted: u64,
+}
+
+/// What one frame in flight has to itself.
+struct FrameSlot {
+    /// By batch.
+    commands: Vec<(CommandPool, vk::CommandBuffer)>,
+    timing: Timing,
+    recorded: Recorded,
+    /// By output, if they are kept.
+    outputs: Vec<Readback>,
+    frame: Option<u64>,
+    finished: bool,
+}
+
+/// What a frame is submitted with, beside what the Plan says.
+pub(crate) struct FrameExtras<'b> {
+    pub(crate) imports: &'b [Import],
+    /// By output, if they are kept.
+    pub(crate) readbacks: &'b [OutputReadback],
+}
+
+impl Frames {
+    /// Room for `in_flight` frames of `plan`, at least one.
+    pub(crate) fn new(
+        gpu: &Arc<Gpu>,
+        plan: &Plan,
+        imports: &[Import],
+        in_flight: u32,
+        timeout: Duration,
+    ) -> Result<Frames, Error> {
+        let extras: Vec<_> = imports.iter().filter_map(|it| it.wait.map(|wait| (it.first, wait))).collect();
+        let batches = batches(plan, &extras);
+        let mut timelines = Vec::new();
+        for queue in batches.iter().filter(|batch| batch.last).map(|batch| batch.queue) {
+            timelines.push((queue, Timeline::new(gpu)?));
+        }
+        let slots = (0..in_flight.max(1)).map(|_| FrameSlot::new(gpu, plan, &batches));
+        Ok(Frames {
+            gpu: gpu.clone(),
+            timeout,
+            timelines,
+            values_per_frame: plan.steps.len() as u64 + 1,
+            slots: slots.collect::<Result<_, _>>()?,
+            batches,
+            submitted: 0,
+        })
+    }
+
+    /// How many frames were submitted: the number of the next one.
+    pub(crate) fn next(&self) -> u64 {
+        self.submitted
+    }
+
+    /// Waits until the next frame's place is free.
+    pub(crate) fn make_room(&mut self) -> Result<(), Error> {
+        let slot = self.slot_of(self.submitted);
+        match self.slots[slot].frame {
+            Some(frame) => self.wait(frame),
+            None => Ok(()),
+        }
+    }
+
+    /// Records and submits the next frame, whose place must be free; its number must be that of [`Frames::next`].
+    pub(crate) fn submit(
+        &mut self,
+        frame: &Frame<'_>,
+        source: &mut dyn DrawSource,
+        extras: &FrameExtras<'_>,
+    ) -> Result<(), Error> {
+        let at = self.slot_of(frame.number);
+        let slot = &mut self.slots[at];
+        // What the frame before the last recorded is no longer in use.
+        (slot.recorded, slot.frame) = (Recorded::default(), None);
+        if slot.outputs.is_empty() {
+            slot.outputs = extras.readbacks.iter().map(|it| it.make(&self.gpu, frame)).collect::<Result<_, _>>()?;
+        }
+        slot.record(&self.batches, frame, source, extras)?;
+        for number in 0..self.batches.len() {
+            if let Err((result, submitted)) = self.submit_batch(at, number, frame.number) {
+                if number > 0 || submitted {
+                    // Part of the frame is on its way and the rest will never come.
+                    self.gpu.abandon(self.reached_by(number, frame.number));
+                }
+                return Err(Error::vulkan(DRAWING)(result));
+            }
+        }
+        let slot = &mut self.slots[at];
+        (slot.frame, slot.finished) = (Some(frame.number), false);
+        self.submitted += 1;
+        Ok(())
+    }
+
+    /// Submits one batch. Where that fails: whether it counts as submitted all the same.
+    fn submit_batch(&self, slot: usize, number: usize, frame: u64) -> Result<(), (vk::Result, bool)> {
+        let batch = &self.batches[number];
+        let mut waits = Vec::new();
+        for wait in &batch.waits {
+            // Before the first frame nothing is waited for.
+            let Some(of) = frame.checked_sub(u64::from(wait.frames_ago)) else { continue };
+            let awaited = self.batches.iter().find(|batch| batch.steps.contains(&(wait.step.0 as usize)));
+            let Some(awaited) = awaited else { continue };
+            let value = self.step_value(of, wait.step.0.into());
+            waits.push(self.point(awaited.queue, value).stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS));
+        }
+        let mut signals = Vec::new();
+        if let Some(value) = self.signalled(batch, frame) {
+            signals.push(self.point(batch.queue, value).stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS));
+        }
+        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(self.slots[slot].commands[number].1)];
+        let submits = [vk::SubmitInfo2::default()
+            .wait_semaphore_infos(&waits)
+            .command_buffer_infos(&buffers)
+            .signal_semaphore_infos(&signals)];
+        let queues = self.gpu.queues.lock();
+        let queue =
+            queues.of(self.gpu.queues.families.family(batch.queue)).map_err(|_| (vk::Result::ERROR_UNKNOWN, false))?;
+        // SAFETY: the commands are recorded, and what they use is kept until the frame was waited for; after a wait that
+        // fails nothing is freed any more.
+        unsafe { self.gpu.raw.queue_submit2(queue, &submits, vk::Fence::null()) }
+            .map_err(|result| (result, result == vk::Result::ERROR_DEVICE_LOST))
+    }
+
+    /// A point on a queue's timeline.
+    fn point(&self, queue: Queue, value: u64) -> vk::SemaphoreSubmitInfo<'static> {
+        let timeline = self.timelines.iter().find(|(of, _)| *of == queue).map(|(_, timeline)| timeline.raw);
+        vk::SemaphoreSubmitInfo::default().semaphore(timeline.unwrap_or_default()).value(value)
+    }
+
+    /// The value that a timeline has when a step is done.
+    fn step_value(&self, frame: u64, step: u64) -> u64 {
+        frame * self.values_per_frame + step + 1
+    }
+
+    /// The value that a batch brings its queue's timeline to. That of the last one is the frame's end, later than any step.
+    fn signalled(&self, batch: &Batch, frame: u64) -> Option<u64> {
+        if batch.last {
+            return Some((frame + 1) * self.values_per_frame);
+        }
+        batch.awaited.then(|| self.step_value(frame, batch.steps.end as u64 - 1))
+    }
+
+    /// What the timelines reach when the first `batches` batches of `frame` are done.
+    fn reached_by(&self, batches: usize, frame: u64) -> PendingWork {
+        let mut unfinished = PendingWork::default();
+        for (queue, timeline) in &self.timelines {
+            let own = self.batches[..batches].iter().filter(|batch| batch.queue == *queue);
+            let value = own.filter_map(|batch| self.signalled(batch, frame)).max();
+            unfinished.semaphores.push(timeline.raw);
+            unfinished.values.push(value.unwrap_or(frame * self.values_per_frame));
+        }
+        unfinished
+    }
+
+    /// Waits until a frame that was submitted is done.
+    pub(crate) fn wait(&mut self, frame: u64) -> Result<(), Error> {
+        let slot = self.slot_of(frame);
+        let in_place = self.slots[slot].frame == Some(frame);
+        if !in_place || self.slots[slot].finished {
+            return Ok(());
+        }
+        if self.gpu.is_abandoned() {
+            return Err(Error::DeviceLost { doing: DRAWING });
+        }
+        self.gpu.wait_for(DRAWING, self.reached_by(self.batches.len(), frame), self.timeout)?;
+        self.slots[slot].finished = true;
+        Ok(())
+    }
+
+    /// Waits for every frame that was submitted.
+    pub(crate) fn wait_for_all(&mut self) -> Result<(), Error> {
+        let frames: Vec<u64> = self.slots.iter().filter_map(|slot| slot.frame).collect();
+        frames.into_iter().try_for_each(|frame| self.wait(frame))
+    }
+
+    /// The report of a frame that was waited for; `None` if its place was taken by a later frame.
+    pub(crate) fn report(&self, plan: &Plan, frame: u64) -> Option<Result<FrameReport, Error>> {
+        let slot = &self.slots[self.slot_of(frame)];
+        (slot.frame == Some(frame))
+            .then(|| slot.timing.report(plan, &self.batches, &slot.recorded.counts, slot.recorded.took))
+    }
+
+    /// What was kept of an output of a frame that was waited for.
+    pub(crate) fn kept(&self, frame: u64, output: usize) -> Option<&Readback> {
+        let slot = &self.slots[self.slot_of(frame)];
+        if slot.frame == Some(frame) { slot.outputs.get(output) } else { None }
+    }
+
+    fn slot_of(&self, frame: u64) -> usize {
+        usize::try_from(frame % self.slots.len() as u64).unwrap_or(0)
+    }
+}
+
+impl Drop for Frames {
+    fn drop(&mut self) {
+        // A wait that fails has given the device up, and nothing is freed.
+        let _ = self.wait_for_all();
+    }
+}
+
+impl FrameSlot {
+    fn new(gpu: &Arc<Gpu>, plan: &Plan, batches: &[Batch]) -> Result<FrameSlot, Error> {
+        let commands = batches.iter().map(|batch| {
+            let pool = CommandPool::new(gpu, batch.queue)?;
+            let buffer = pool.buffer()?;
+            Ok::<_, Error>((pool, buffer))
+        });
+        Ok(FrameSlot {
+            commands: commands.collect::<Result<_, _>>()?,
+            timing: Timing::new(gpu, plan, batches.len())?,
+            recorded: Recorded::default(),
+            outputs: Vec::new(),
+            frame: None,
+            finished: false,
+        })
+    }
+
+    /// Records all batches of a frame.
+    fn record(
+        &mut self,
+        batches: &[Batch],
+        frame: &Frame<'_>,
+        source: &mut dyn DrawSource,
+        extras: &FrameExtras<'_>,
+    ) -> Result<(), Error> {
+        let begun = Instant::now();
+        for (pool, _) in &self.commands {
+            pool.reset()?;
+        }
+        self.timing.begin_frame();
+        for (batch, (_, buffer)) in batches.iter().zip(&self.commands) {
+            record(frame.gpu, *buffer, |commands| {
+                self.timing.begin_batch(commands, batch.queue);
+                for step in batch.steps.clone() {
+                    for import in extras.imports.iter().filter(|it| it.first.0 as usize == step) {
+                        import.record(frame, commands);
+                    }
+                    frame.step(commands, step, source, &mut self.timing, &mut self.recorded)?;
+                    for (readback, into) in
+                        extras.readbacks.iter().zip(&self.outputs).filter(|(it, _)| it.after == step)
+                    {
+                        readback.record(frame, commands, into);
+                    }
+                }
+                Ok(())
+            })?;
+        }
+        self.recorded.took = begun.elapsed();
+        Ok(())
+    }
+}

@@ -1,0 +1,70 @@
+//! Imports: external images and buffers belong to the embedding program, which brings each to the state that the Plan relies
+//! on. For those that the executor made itself, it does so: before each frame, from the state that the last frame left.
+
+use crate::commands::{barriers, memory_change, state_change};
+use crate::prepare::{PhysicalResources, ResourceUses};
+use crate::record::Frame;
+use ash::vk;
+use framewright_graph::plan::{Plan, Resource, Role, StepId, Subresources, Wait};
+use framewright_graph::vulkan::{Layout, Stages, State};
+
+/// One external image or buffer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Import {
+    resource: Resource,
+    before: State,
+    after: State,
+    /// The first step that touches it.
+    pub(crate) first: StepId,
+    /// Where another queue than the first one's used it last, in the frame before: what is to be waited for.
+    pub(crate) wait: Option<Wait>,
+}
+
+impl Import {
+    /// Everything external that `plan` touches.
+    pub(crate) fn all(plan: &Plan, uses: &ResourceUses) -> Vec<Import> {
+        let images = plan.images.iter().map(|it| (Resource::Image(it.id), &it.role));
+        let buffers = plan.buffers.iter().map(|it| (Resource::Buffer(it.id), &it.role));
+        let import = |(resource, role): (Resource, &Role)| {
+            let Role::External { before, after } = role else { return None };
+            let span = uses.of(resource)?;
+            let queue = |step: usize| plan.steps[step].queue;
+            let stages = Stages::ALL_COMMANDS;
+            let other = queue(span.first) != queue(span.last);
+            let wait = other.then(|| Wait { step: span.last_id(), frames_ago: 1, stages });
+            Some(Import { resource, before: *before, after: *after, first: span.first_id(), wait })
+        };
+        images.chain(buffers).filter_map(import).collect()
+    }
+
+    /// Whether the executor made it itself.
+    fn is_own(&self, physical: &PhysicalResources) -> bool {
+        match self.resource {
+            Resource::Image(image) => !physical.image(image, 0).is_foreign(),
+            Resource::Buffer(buffer) => !physical.buffer(buffer, 0).is_foreign(),
+        }
+    }
+
+    /// Records it before the first step that touches it. Nothing is to be done in the first frame, for what the program
+    /// hands in itself, and where the Plan's own barrier waits for all that the frame before left open.
+    pub(crate) fn record(&self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
+        let Import { before, after, .. } = *self;
+        if frame.number == 0 || !self.is_own(&frame.prepared.physical) || before == after {
+            return;
+        }
+        match self.resource {
+            Resource::Image(id) if before.layout != Layout::Undefined => {
+                let image = frame.plan.image(id);
+                let whole = Subresources::all(image.format, image.mips, image.made_layers());
+                let raw = frame.prepared.physical.image(id, frame.number).raw;
+                barriers(frame.gpu, commands, &[], &[state_change(raw, whole, after, before)]);
+            }
+            _ if before.stages.contains(after.stages) && after.accesses.writes().is_empty() => {}
+            _ => {
+                let next = if before.stages.is_empty() { Stages::ALL_COMMANDS } else { before.stages };
+                let next = State { stages: next, ..before };
+                barriers(frame.gpu, commands, &[memory_change(after, next)], &[]);
+            }
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! Contents from outside: what persists begins with its initial value, and the host may write what outlives the frame.
+
+use crate::base::{Error, convert};
+use crate::commands::{TransferSide, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change};
+use crate::gpu::{Gpu, QueueFamily};
+use crate::memory::Image;
+use crate::prepare::{InitialOwner, PhysicalResources, ResourceUses, StagedTexture, initial_owners, initial_queue};
+use ash::vk;
+use framewright_graph::plan::{self, BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
+use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Usage};
+use std::sync::Arc;
+
+/// Not used by anything yet.
+pub(crate) const UNUSED: State =
+    State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
+
+/// Sets everything that outlives the frame and has no contents yet to what the first frame finds: persistent things to their
+/// initial value or the texels in `staged`, others that were not handed in to zero, each in the state that the Plan relies on and with the queue that
+/// uses it first.
+pub(crate) fn initialise(
+    gpu: &Arc<Gpu>,
+    plan: &Plan,
+    uses: &ResourceUses,
+    physical: &PhysicalResources,
+    staged: &[StagedTexture],
+) -> Result<(), Error> {
+    let initial = |role: &Role, is_foreign: bool| match role {
+        Role::Persistent { before, initial: Initial::Value(value), .. } => Some((*before, Some(*value))),
+        Role::Persistent { before, initial: Initial::File(_), .. } => Some((*before, None)),
+        Role::External { before, .. } if !is_foreign => Some((*before, Some(FillValue::Bits([0; 4])))),
+        Role::Transient(_) | Role::External { .. } => None,
+    };
+    let of_image = |id: ImageId| {
+        let found = initial(&plan.image(id).role, physical.image(id, 0).is_foreign());
+        found.filter(|(before, _)| before.layout != Layout::Undefined && !physical.is_migrated(Resource::Image(id)))
+    };
+    let of_buffer = |id: BufferId| {
+        let found = initial(&plan.buffers[id.0 as usize].role, physical.buffer(id, 0).is_foreign());
+        found.filter(|_| !physical.is_migrated(Resource::Buffer(id)))
+    };
+    let owners = initial_owners(plan, |id| of_image(id).is_some());
+    let transfers = OwnershipTransfers { gpu, physical, owners: &owners };
+    for queue in [Queue::Graphics, Queue::Compute, Queue::Transfer] {
+        let family = gpu.queues.families.family(queue);
+        if queue != Queue::Graphics && family == gpu.queues.families.graphics {
+            continue;
+        }
+        gpu.submit_once("preparing the first frame", queue, |commands| {
+            let images = plan.images.iter().filter(|_| queue == Queue::Graphics);
+            for (image, (before, initial)) in images.filter_map(|it| Some((it, of_image(it.id)?))) {
+                let made = physical.image(image.id, 0);
+                match (initial, staged.iter().find(|it| it.image == image.id)) {
+                    (Some(value), _) => set_image(gpu, commands, image, made, before, value),
+                    (None, Some(staged)) => {
+                        record_upload(gpu, commands, made, &staged.buffer, convert::layout(before.layout));
+                    }
+                    (None, None) => {}
+                }
+            }
+            for (buffer, (before, initial)) in plan.buffers.iter().filter_map(|it| Some((it, of_buffer(it.id)?))) {
+                let first = initial_queue(plan, uses, Resource::Buffer(buffer.id)).unwrap_or(Queue::Graphics);
+                if gpu.queues.families.family(first) == family {
+                    let made = physical.buffer(buffer.id, 0);
+                    let target = TransferSide::Buffer { buffer: made.raw, bytes: made.bytes };
+                    fill(gpu, commands, target, convert::clear(None, initial.unwrap_or(FillValue::Bits([0; 4]))));
+                    barriers(gpu, commands, &[memory_change(WRITTEN, before)], &[]);
+                }
+            }
+            transfers.record(commands, family);
+        })?;
+    }
+    Ok(())
+}
+
+/// Fills an image and brings it into the state `before`.
+fn set_image(
+    gpu: &Gpu,
+    commands: vk::CommandBuffer,
+    image: &plan::Image,
+    made: &Image,
+    before: State,
+    initial: FillValue,
+) {
+    let whole = Subresources::all(image.format, image.mips, image.made_layers());
+    let mut state = UNUSED;
+    if made.descriptor.usage.contains(Usage::TRANSFER_DST) {
+        barriers(gpu, commands, &[], &[state_change(made.raw, whole, UNUSED, WRITTEN)]);
+        fill(gpu, commands, image_side(made, whole, 0), convert::clear(Some(image.format), initial));
+        state = WRITTEN;
+    }
+    barriers(gpu, commands, &[], &[state_change(made.raw, whole, state, before)]);
+}
+
+/// The handing over of images from the graphics queue, which set them, to those that use them first.
+struct OwnershipTransfers<'h> {
+    gpu: &'h Gpu,
+    physical: &'h PhysicalResources,
+    owners: &'h [InitialOwner<'h>],
+}
+
+impl OwnershipTransfers<'_> {
+    /// Records what one family has to do, of which the graphics family comes first.
+    fn record(&self, commands: vk::CommandBuffer, here: QueueFamily) {
+        let families = &self.gpu.queues.families;
+        let graphics = families.graphics;
+        let mut recorded = Vec::new();
+        for it in self.owners {
+            let owner = families.family(it.owner);
+            if owner != graphics && (here == graphics || here == owner) {
+                // Released by the one, acquired by the other.
+                recorded.push(self.transfer(it, [graphics, owner], [None; 2]));
+            }
+        }
+        barriers(self.gpu, commands, &[], &recorded);
+        recorded.clear();
+        for it in self.owners.iter().filter(|it| families.family(it.owner) == here) {
+            let Some((barrier, [from, to])) = it.acquired.and_then(|it| Some((it, it.ownership?))) else { continue };
+            let pair = [families.family(from), families.family(to)];
+            if pair[0] != pair[1] {
+                recorded.push(self.transfer(it, pair, [Some(barrier.old_layout), Some(barrier.new_layout)]));
+            }
+        }
+        barriers(self.gpu, commands, &[], &recorded);
+    }
+
+    /// One half of an ownership transfer; without layouts the image stays in its own.
+    fn transfer(
+        &self,
+        part: &InitialOwner<'_>,
+        [from, to]: [QueueFamily; 2],
+        layouts: [Option<Layout>; 2],
+    ) -> vk::ImageMemoryBarrier2<'static> {
+        let all = State { stages: Stages::ALL_COMMANDS, accesses: Accesses::empty(), layout: part.layout };
+        let [old, new] = layouts.map(|layout| State { layout: layout.unwrap_or(all.layout), ..all });
+        let accesses = Accesses::MEMORY_READ | Accesses::MEMORY_WRITE;
+        let (old, new) = (State { accesses, ..old }, State { accesses, ..new });
+        let image = self.physical.image(part.image, 0).raw;
+        state_change(image, part.range, old, new).src_queue_family_index(from.index).dst_queue_family_index(to.index)
+    }
+}

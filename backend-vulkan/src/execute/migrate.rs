@@ -1,0 +1,156 @@
+//! Migration to another Plan: images and buffers that persist in both keep their contents.
+
+use super::executor::Executor;
+use crate::base::Error;
+use crate::commands::{barriers, memory_change, state_change};
+use crate::prepare::{cycle, initial_queue, name_and_role};
+use ash::vk;
+use framewright_graph::plan::{BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
+use framewright_graph::vulkan::State;
+use std::sync::Arc;
+
+/// One image or buffer that keeps its contents.
+struct Migration {
+    from: Resource,
+    to: Resource,
+    /// The queue that has it, in both.
+    queue: Queue,
+    left: State,
+    found: State,
+}
+
+impl Executor {
+    /// Lets what persists go on from `before`, which executed another Plan on the same device and ends here: the same
+    /// pipeline at another size or with other settings. What both Plans know by the same name and in the same form keeps
+    /// its contents, history as a whole; everything else begins with its initial value. Returns the names of what went on.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if this executor has begun already, or is of another device; [`Error::DeviceLost`],
+    /// [`Error::Timeout`].
+    pub fn carry_over(&mut self, mut before: Executor) -> Result<Vec<String>, Error> {
+        let bad = |what: &str| Err(Error::BadResource { what: format!("nothing can be carried over: {what}") });
+        if self.frames.next() > 0 || self.initialised {
+            return bad("the executor has begun already");
+        }
+        if !Arc::ptr_eq(&self.gpu, &before.gpu) {
+            return bad("the executors are of different devices");
+        }
+        before.frames.wait_for_all()?;
+        if !before.initialised {
+            return Ok(Vec::new());
+        }
+        let migrated = self.migrations_from(&before);
+        for queue in [Queue::Graphics, Queue::Compute, Queue::Transfer] {
+            let mut here = migrated.iter().filter(|it| it.queue == queue).peekable();
+            if here.peek().is_some() {
+                self.gpu.submit_once("carrying contents over", queue, |commands| {
+                    here.for_each(|it| before.record_change(commands, it));
+                })?;
+            }
+        }
+        let next = before.frames.next();
+        for it in &migrated {
+            let (from, to) = (&before.prepared.physical, &mut self.prepared.physical);
+            match (it.from, it.to) {
+                (Resource::Image(old), Resource::Image(new)) => to.migrate_image(new, from.image(old, next).clone()),
+                (Resource::Buffer(old), Resource::Buffer(new)) => {
+                    to.migrate_buffer(new, from.buffer(old, next).clone())
+                }
+                (Resource::Image(_), Resource::Buffer(_)) | (Resource::Buffer(_), Resource::Image(_)) => {}
+            }
+        }
+        self.prepared.forget();
+        Ok(migrated.iter().map(|it| name_and_role(&self.plan, it.to).0.to_owned()).collect())
+    }
+
+    /// What goes on, cycle by cycle.
+    fn migrations_from(&self, before: &Executor) -> Vec<Migration> {
+        let mut migrated = Vec::new();
+        let mut seen = vec![false; self.plan.images.len() + self.plan.buffers.len()];
+        for first in persistent(&self.plan) {
+            let members: Vec<Resource> = members(&self.plan, first);
+            if !seen[number(&self.plan, first)] {
+                members.iter().for_each(|it| seen[number(&self.plan, *it)] = true);
+                let goes_on: Option<Vec<_>> = members.iter().map(|it| self.goes_on(before, *it)).collect();
+                migrated.extend(goes_on.into_iter().flatten());
+            }
+        }
+        migrated
+    }
+
+    /// How an image or buffer goes on; `None` if it doesn't.
+    fn goes_on(&self, before: &Executor, to: Resource) -> Option<Migration> {
+        let (name, role) = name_and_role(&self.plan, to);
+        // What comes from a file was read anew, and may have changed.
+        let Role::Persistent { before: found, initial: Initial::Value(_), .. } = role else { return None };
+        let from = persistent(&before.plan).find(|it| name_and_role(&before.plan, *it).0 == name)?;
+        let Role::Persistent { before: left, .. } = name_and_role(&before.plan, from).1 else { return None };
+        let names = |plan: &Plan, first| -> Vec<String> {
+            members(plan, first).into_iter().map(|it| name_and_role(plan, it).0.to_owned()).collect()
+        };
+        let (next, old, new) = (before.frames.next(), &before.prepared.physical, &self.prepared.physical);
+        let fits = match (from, to) {
+            (Resource::Image(from), Resource::Image(to)) => {
+                let (old, new) = (old.image(from, next).descriptor, new.image(to, 0).descriptor);
+                old.usage.contains(new.usage)
+                    && framewright_graph::device::ImageDescriptor { usage: old.usage, ..new } == old
+            }
+            (Resource::Buffer(from), Resource::Buffer(to)) => {
+                let (old, new) = (old.buffer(from, next), new.buffer(to, 0));
+                let sharing = |plan: &Plan, id: BufferId| plan.buffers[id.0 as usize].sharing;
+                old.usage.contains(new.usage)
+                    && old.bytes == new.bytes
+                    && sharing(&before.plan, from) == sharing(&self.plan, to)
+            }
+            (Resource::Image(_), Resource::Buffer(_)) | (Resource::Buffer(_), Resource::Image(_)) => false,
+        };
+        // An image or buffer that lies between two queues can't be brought into another state.
+        let queue = if next == 0 { initial_queue(&before.plan, &before.uses, from) } else { before.owner(from) };
+        let queue = queue.filter(|queue| Some(*queue) == initial_queue(&self.plan, &self.uses, to))?;
+        let goes_on = fits && names(&before.plan, from) == names(&self.plan, to);
+        goes_on.then_some(Migration { from, to, queue, left: *left, found: *found })
+    }
+
+    /// Brings it from the state in which its own next frame would find it to that in which the other one's first does.
+    fn record_change(&self, commands: vk::CommandBuffer, migrated: &Migration) {
+        let (physical, next) = (&self.prepared.physical, self.frames.next());
+        match migrated.from {
+            Resource::Image(id) => {
+                let image = physical.image(id, next);
+                let descriptor = image.descriptor;
+                let whole = Subresources::all(descriptor.format, descriptor.mips, descriptor.layers);
+                barriers(&self.gpu, commands, &[], &[state_change(image.raw, whole, migrated.left, migrated.found)]);
+            }
+            Resource::Buffer(_) => {
+                barriers(&self.gpu, commands, &[memory_change(migrated.left, migrated.found)], &[]);
+            }
+        }
+    }
+}
+
+/// All that persists.
+fn persistent(plan: &Plan) -> impl Iterator<Item = Resource> {
+    let persists = |role: &Role| matches!(role, Role::Persistent { .. });
+    let images = plan.images.iter().filter(move |it| persists(&it.role)).map(|it| Resource::Image(it.id));
+    images.chain(plan.buffers.iter().filter(move |it| persists(&it.role)).map(|it| Resource::Buffer(it.id)))
+}
+
+/// What becomes each other, from one of them on.
+fn members(plan: &Plan, first: Resource) -> Vec<Resource> {
+    match first {
+        Resource::Image(ImageId(id)) => {
+            cycle(id, |id| &plan.images[id as usize].role).map(|id| Resource::Image(ImageId(id))).collect()
+        }
+        Resource::Buffer(BufferId(id)) => {
+            cycle(id, |id| &plan.buffers[id as usize].role).map(|id| Resource::Buffer(BufferId(id))).collect()
+        }
+    }
+}
+
+/// Images and buffers in one row.
+fn number(plan: &Plan, resource: Resource) -> usize {
+    match resource {
+        Resource::Image(id) => id.0 as usize,
+        Resource::Buffer(id) => plan.images.len() + id.0 as usize,
+    }
+}

@@ -1,0 +1,65 @@
+//! Output readback: each frame copies its outputs to the host, where no later frame changes them.
+
+use crate::base::Error;
+use crate::commands::{Readback, first_plane};
+use crate::gpu::Gpu;
+use crate::prepare::{ResourceUses, name_and_role};
+use crate::record::Frame;
+use ash::vk;
+use framewright_graph::plan::{Output, Plan, Resource, Role};
+use framewright_graph::vulkan::State;
+use std::sync::Arc;
+
+/// The readback of one output.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct OutputReadback {
+    resource: Resource,
+    state: State,
+    /// The step after which it is as the frame leaves it.
+    pub(crate) after: usize,
+}
+
+impl OutputReadback {
+    /// Every output of `plan`.
+    ///
+    /// # Errors
+    /// [`Error::BadPlan`] if one of them is transient or never touched.
+    pub(crate) fn all(plan: &Plan, uses: &ResourceUses) -> Result<Vec<OutputReadback>, Error> {
+        let readback = |output: &Output| {
+            let resource = output.resource;
+            let (_, role) = name_and_role(plan, resource);
+            let bad = || Error::BadPlan { what: "an output is transient, or no step touches it".to_owned() };
+            let (Role::Persistent { after: state, .. } | Role::External { after: state, .. }) = role else {
+                return Err(bad());
+            };
+            let span = uses.of(resource).ok_or_else(bad)?;
+            Ok(OutputReadback { resource, state: *state, after: span.last })
+        };
+        plan.outputs.iter().map(readback).collect()
+    }
+
+    /// Room for it.
+    pub(crate) fn make(&self, gpu: &Arc<Gpu>, frame: &Frame<'_>) -> Result<Readback, Error> {
+        let physical = &frame.prepared.physical;
+        match self.resource {
+            Resource::Image(image) => {
+                let descriptor = physical.image(image, frame.number).descriptor;
+                Readback::of_image(gpu, &descriptor, first_plane(descriptor.format), 0)
+            }
+            Resource::Buffer(buffer) => Readback::of_buffer(gpu, physical.buffer(buffer, frame.number).bytes),
+        }
+    }
+
+    /// Records the copy.
+    pub(crate) fn record(&self, frame: &Frame<'_>, commands: vk::CommandBuffer, to: &Readback) {
+        let physical = &frame.prepared.physical;
+        match self.resource {
+            Resource::Image(image) => {
+                to.record_image(frame.gpu, commands, physical.image(image, frame.number), self.state);
+            }
+            Resource::Buffer(buffer) => {
+                to.record_buffer(frame.gpu, commands, physical.buffer(buffer, frame.number), self.state);
+            }
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Objects that are made once for each description and live as long as the device. A key is the whole description.
+
+use crate::base::Error;
+use crate::shaders::Spirv;
+use ash::vk;
+use framewright_graph::frame::{Blend, StencilState};
+use framewright_graph::plan::DepthState;
+use framewright_graph::vulkan::{Format, Rotation};
+use std::collections::HashMap;
+use std::hash::Hash;
+use std::sync::{Mutex, PoisonError};
+
+/// The caches of a device.
+#[derive(Default)]
+pub(crate) struct Caches {
+    pub(crate) samplers: Cache<SamplerDescriptor, vk::Sampler>,
+    pub(crate) set_layouts: Cache<Vec<LayoutBinding>, vk::DescriptorSetLayout>,
+    pub(crate) pipeline_layouts: Cache<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
+    pub(crate) pipelines: Cache<PipelineDescriptor, vk::Pipeline>,
+    pub(crate) compute_pipelines: Cache<(Spirv, vk::PipelineLayout), vk::Pipeline>,
+}
+
+/// One kind of object by its description.
+pub(crate) struct Cache<K, V>(Mutex<HashMap<K, V>>);
+
+impl<K, V> Default for Cache<K, V> {
+    fn default() -> Self {
+        Cache(Mutex::default())
+    }
+}
+
+impl<K: Hash + Eq, V: Copy> Cache<K, V> {
+    /// The object for `key`, made by `make` if there is none yet.
+    pub(crate) fn get(&self, key: K, make: impl FnOnce(&K) -> Result<V, Error>) -> Result<V, Error> {
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(found) = known.get(&key) {
+            return Ok(*found);
+        }
+        let made = make(&key)?;
+        known.insert(key, made);
+        Ok(made)
+    }
+
+    fn drain(&self) -> Vec<V> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).drain().map(|(_, made)| made).collect()
+    }
+}
+
+impl Caches {
+    /// Destroys everything.
+    ///
+    /// # Safety
+    /// Nothing that uses any of it may be in use, now or later.
+    pub(crate) unsafe fn destroy(&self, device: &ash::Device) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.pipelines.drain().into_iter().for_each(|it| device.destroy_pipeline(it, None));
+            self.compute_pipelines.drain().into_iter().for_each(|it| device.destroy_pipeline(it, None));
+            self.pipeline_layouts.drain().into_iter().for_each(|it| device.destroy_pipeline_layout(it, None));
+            self.set_layouts.drain().into_iter().for_each(|it| device.destroy_descriptor_set_layout(it, None));
+            self.samplers.drain().into_iter().for_each(|it| device.destroy_sampler(it, None));
+        }
+    }
+}
+
+/// How a texture is sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct SamplerDescriptor {
+    /// Filter where the texture is shown enlarged.
+    pub magnify: TexelFilter,
+    /// Filter where it is shown reduced.
+    pub minify: TexelFilter,
+    /// Filter between mip levels.
+    pub mip: TexelFilter,
+    /// What lies beyond the edges, horizontally, vertically and in depth.
+    pub address: [AddressMode; 3],
+}
+
+/// How a value between texels is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum TexelFilter {
+    /// The nearest texel.
+    Nearest,
+    /// Weighted mean of the neighbours.
+    #[default]
+    Linear,
+}
+
+/// What lies beyond a texture's edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum AddressMode {
+    /// The texture again.
+    #[default]
+    Repeat,
+    /// The texture mirrored.
+    MirroredRepeat,
+    /// The edge's texels.
+    ClampToEdge,
+}
+
+/// One binding of a set layout.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct LayoutBinding {
+    pub(crate) binding: u32,
+    pub(crate) ty: vk::DescriptorType,
+    pub(crate) stages: vk::ShaderStageFlags,
+}
+
+/// Everything that a graphics pipeline is made of. Viewport, scissor, cull mode and front face are set while recording.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) struct PipelineDescriptor {
+    pub(crate) vertex: Spirv,
+    /// `None`: nothing but depth is drawn.
+    pub(crate) fragment: Option<Spirv>,
+    pub(crate) layout: vk::PipelineLayout,
+    /// Bytes from vertex to vertex in each vertex buffer.
+    pub(crate) strides: Vec<u32>,
+    pub(crate) attributes: Vec<VertexAttribute>,
+    /// Format and blending of each colour attachment; without blending it is not written.
+    pub(crate) color: Vec<(Format, Option<Blend>)>,
+    pub(crate) depth_format: Option<Format>,
+    pub(crate) depth: Option<DepthState>,
+    pub(crate) stencil_format: Option<Format>,
+    pub(crate) stencil: Option<StencilState>,
+    /// Views that are drawn at once, a bit for each; 0 where there are none.
+    pub(crate) view_mask: u32,
+    pub(crate) samples: u32,
+    pub(crate) alpha_to_coverage: bool,
+    pub(crate) local: Option<LocalRead>,
+    pub(crate) turned: Option<RotationConstants>,
+}
+
+/// What its shaders are told of a picture that they draw turned: shaders/include/rotation.glsl has the same numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct RotationConstants {
+    pub(crate) rotation: Rotation,
+    /// Width and height of the turned picture; 0 for shaders that don't ask, which serve for all sizes then.
+    pub(crate) extent: [u32; 2],
+}
+
+/// How a pass of a rendering scope with local reads sees the scope's colour attachments.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) struct LocalRead {
+    /// The shader's output location of each.
+    pub(crate) locations: Vec<u32>,
+    /// The shader's input attachment index of each.
+    pub(crate) inputs: Vec<u32>,
+}
+
+/// A vertex attribute.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct VertexAttribute {
+    pub(crate) location: u32,
+    pub(crate) binding: u32,
+    pub(crate) format: vk::Format,
+    pub(crate) offset: u32,
+}

@@ -1,0 +1,108 @@
+//! Choosing, opening and sharing a device.
+
+use super::handle::Gpu;
+use super::instance::Instance;
+use super::summary::{DeviceChoice, DeviceSummary, choose, devices};
+use super::validation::Messages;
+use crate::base::Error;
+use crate::process::Helper;
+use ash::vk;
+use framewright_graph::device::Profile;
+use std::sync::{Arc, OnceLock};
+
+/// How to open a device.
+#[derive(Debug, Clone, Default)]
+pub struct DeviceOptions {
+    /// Which one.
+    pub choice: DeviceChoice,
+    /// Whether the validation layer watches, synchronisation included. See [`crate::layer`] for how it is found.
+    pub validation: bool,
+    /// Where it is tested; `None`: in this process. In a helper process a driver that crashes in a test ends no more than that,
+    /// and what the tests find is kept for this version of the driver.
+    pub helper: Option<Helper>,
+}
+
+/// An open device. Clones share it; it closes when the last clone and the last thing made from it are gone.
+#[derive(Clone)]
+pub struct Device {
+    pub(crate) gpu: Arc<Gpu>,
+    /// Where it is tested, if not in this process.
+    pub(crate) helper: Option<Helper>,
+    /// What it really can do, once it was tested.
+    pub(crate) tested: Arc<OnceLock<TestedDevice>>,
+}
+
+/// What a device can do, after its self-tests.
+pub(crate) struct TestedDevice {
+    /// Less what it failed.
+    pub(crate) profile: Profile,
+    /// What it says it can do and is used without, and why.
+    pub(crate) used_without: Vec<String>,
+}
+
+impl Device {
+    /// Every device that the loader finds.
+    ///
+    /// # Errors
+    /// [`Error::NoLoader`], or [`Error::NoDevice`] if there is none.
+    pub fn list() -> Result<Vec<DeviceSummary>, Error> {
+        let instance = Instance::new(false)?;
+        Ok(devices(&instance)?.into_iter().map(|(_, summary)| summary).collect())
+    }
+
+    /// Opens a device.
+    ///
+    /// # Errors
+    /// No loader, no device, none of that name, less than the minimum, no validation layer.
+    pub fn open(options: &DeviceOptions) -> Result<Device, Error> {
+        let instance = Instance::new(options.validation)?;
+        let (physical, summary) = choose(devices(&instance)?, &options.choice)?;
+        if !summary.missing.is_empty() {
+            return Err(Error::Lacking { device: summary.name, missing: summary.missing });
+        }
+        let gpu = Gpu::open(instance, physical, summary)?;
+        let helper = options.helper.clone();
+        Ok(Device { gpu: Arc::new(gpu), helper, tested: Arc::default() })
+    }
+
+    /// Which device this is.
+    #[must_use]
+    pub fn summary(&self) -> &DeviceSummary {
+        &self.gpu.summary
+    }
+
+    /// What the validation layer said so far; empty without validation. The list stays readable after the device is
+    /// gone, when it also holds what closing it brought up.
+    #[must_use]
+    pub fn messages(&self) -> Messages {
+        self.gpu.instance.validation.as_ref().map_or_else(Messages::default, |it| it.messages.clone())
+    }
+
+    /// Vulkan's own device, for programs that record commands of their own. All its functions are unsafe; it must not be
+    /// destroyed, nor used after the last clone of this device is gone.
+    #[must_use]
+    pub fn raw(&self) -> &ash::Device {
+        &self.gpu.raw
+    }
+
+    /// Vulkan's own instance and physical device, under the rules of [`Device::raw`].
+    #[must_use]
+    pub fn raw_physical(&self) -> (&ash::Instance, vk::PhysicalDevice) {
+        (&self.gpu.instance.raw, self.gpu.physical)
+    }
+
+    /// The validation layer that watches, in words.
+    #[must_use]
+    pub fn validation_layer(&self) -> Option<&str> {
+        self.gpu.instance.validation.as_ref().map(|it| it.layer.shown.as_str())
+    }
+
+    /// Has every wait for this device end with [`Error::Cancelled`] soon after `asked` becomes true.
+    /// It is asked about 20 times a second. Only the first call for a device counts.
+    ///
+    /// The device is given up, as after a timeout: it may go on working, and nothing that was made from it can be used any
+    /// more. If the program ends before the device does, let it end by [`end_process`](crate::end_process).
+    pub fn cancel_when(&self, asked: impl Fn() -> bool + Send + Sync + 'static) {
+        self.gpu.cancel.when(asked);
+    }
+}

@@ -1,0 +1,205 @@
+//! The device handle: everything that is made from a device holds on to it.
+
+use super::cached::Caches;
+use super::features::Features;
+use super::instance::Instance;
+use super::minimum;
+use super::queues::{QueueFamilies, Queues};
+use super::summary::DeviceSummary;
+use crate::base::{Cancel, Error, convert};
+use ash::{ext, khr, vk};
+use framewright_graph::vulkan::Format;
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+use std::mem::ManuallyDrop;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+
+/// How long a device that was given up is waited for when its last user lets go of it.
+const LAST_CHANCE_NANOSECONDS: u64 = 10_000_000_000;
+
+/// An open device with its instance, queues and allocator.
+pub(crate) struct Gpu {
+    pub(crate) raw: ash::Device,
+    pub(crate) physical: vk::PhysicalDevice,
+    pub(crate) limits: vk::PhysicalDeviceLimits,
+    pub(crate) labels: Option<ext::debug_utils::Device>,
+    /// The commands of `VK_KHR_dynamic_rendering_local_read`, where the device has it.
+    pub(crate) local_read: Option<khr::dynamic_rendering_local_read::Device>,
+    /// Whether shaders can see several cubes at once.
+    pub(crate) cube_arrays: bool,
+    /// How many views a rendering scope can draw at once, as it says.
+    pub(crate) max_views: u32,
+    /// Whether vertex shaders can choose their layer.
+    pub(crate) vertex_layer: bool,
+    /// Whether shaders have clip distances.
+    pub(crate) clip_distances: bool,
+    /// Whether images can be in the layout `PRESENT_SRC_KHR`.
+    pub(crate) presents: bool,
+    pub(crate) queues: Queues,
+    pub(crate) summary: DeviceSummary,
+    pub(crate) caches: Caches,
+    allocator: ManuallyDrop<Mutex<Allocator>>,
+    abandoned: OnceLock<PendingWork>,
+    /// What gives up waits for it.
+    pub(crate) cancel: Cancel,
+    pub(crate) instance: ManuallyDrop<Instance>,
+}
+
+/// Work that the device didn't finish in time: these timeline semaphores have not reached these values.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct PendingWork {
+    pub(crate) semaphores: Vec<vk::Semaphore>,
+    pub(crate) values: Vec<u64>,
+}
+
+impl Gpu {
+    /// Opens `physical`, a device of `instance` that lacks nothing of the minimum.
+    pub(super) fn open(instance: Instance, physical: vk::PhysicalDevice, summary: DeviceSummary) -> Result<Gpu, Error> {
+        let families = QueueFamilies::of(&instance.raw, physical).ok_or(Error::NoDevice)?;
+        let has_local_read = minimum::has_local_read(&instance.raw, physical);
+        let mut features = Features::used(&Features::of(&instance.raw, physical, false), has_local_read);
+        let cube_arrays = features.cube_arrays();
+        let max_views = minimum::max_views(&instance.raw, physical, &features);
+        let vertex_layer = features.vertex_layer();
+        let clip_distances = features.clip_distances();
+        let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
+        let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();
+        // Without swapchains there is no layout PRESENT_SRC_KHR.
+        let presents = instance.surfaces && minimum::has_extension(&instance.raw, physical, khr::swapchain::NAME);
+        let extensions: Vec<_> =
+            [(has_local_read, khr::dynamic_rendering_local_read::NAME), (presents, khr::swapchain::NAME)]
+                .into_iter()
+                .filter_map(|(there, name)| there.then_some(name.as_ptr()))
+                .collect();
+        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&extensions);
+        let info = features.chain(info);
+        // SAFETY: `physical` belongs to the instance and has these features, extensions and queue families.
+        let raw = unsafe { instance.raw.create_device(physical, &info, None) }
+            .map_err(Error::vulkan("opening the device"))?;
+        // SAFETY: `physical` belongs to the instance.
+        let properties = unsafe { instance.raw.get_physical_device_properties(physical) };
+        let allocator = Allocator::new(&AllocatorCreateDesc {
+            instance: instance.raw.clone(),
+            device: raw.clone(),
+            physical_device: physical,
+            debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
+            buffer_device_address: false,
+            allocation_sizes: gpu_allocator::AllocationSizes::default(),
+        });
+        let allocator = match allocator {
+            Ok(allocator) => allocator,
+            Err(error) => {
+                // SAFETY: nothing was made from the device yet.
+                unsafe { raw.destroy_device(None) };
+                return Err(Error::OutOfMemory {
+                    what: "the device".into(),
+                    bytes: 0,
+                    parts: Vec::new(),
+                    reason: error.to_string(),
+                });
+            }
+        };
+        let local_read = has_local_read.then(|| khr::dynamic_rendering_local_read::Device::new(&instance.raw, &raw));
+        let labels = instance.labels.then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
+        Ok(Gpu {
+            physical,
+            limits: properties.limits,
+            labels,
+            local_read,
+            cube_arrays,
+            max_views,
+            vertex_layer,
+            clip_distances,
+            presents,
+            queues: Queues::new(&raw, families),
+            summary,
+            caches: Caches::default(),
+            allocator: ManuallyDrop::new(Mutex::new(allocator)),
+            abandoned: OnceLock::new(),
+            cancel: Cancel::default(),
+            raw,
+            instance: ManuallyDrop::new(instance),
+        })
+    }
+
+    /// The allocator, for one thread at a time.
+    pub(crate) fn allocator(&self) -> MutexGuard<'_, Allocator> {
+        self.allocator.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Notes that the device didn't finish its work in time. It may still be using anything, so nothing is freed from now
+    /// on.
+    pub(crate) fn abandon(&self, unfinished: PendingWork) {
+        self.abandoned.get_or_init(|| unfinished);
+    }
+
+    /// Whether things may still be in use although nobody waits for them.
+    pub(crate) fn is_abandoned(&self) -> bool {
+        self.abandoned.get().is_some()
+    }
+
+    /// What images of a format can do.
+    pub(crate) fn format_features(&self, format: Format) -> vk::FormatFeatureFlags {
+        let format = convert::format(format);
+        // SAFETY: the physical device belongs to the instance.
+        unsafe { self.instance.raw.get_physical_device_format_properties(self.physical, format) }
+            .optimal_tiling_features
+    }
+
+    /// How rendering scopes can resolve depth and stencil.
+    pub(crate) fn depth_stencil_resolve(&self) -> vk::PhysicalDeviceDepthStencilResolveProperties<'static> {
+        let mut resolve = vk::PhysicalDeviceDepthStencilResolveProperties::default();
+        let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut resolve);
+        // SAFETY: the physical device belongs to the instance, and the chained structure outlives the call.
+        unsafe { self.instance.raw.get_physical_device_properties2(self.physical, &mut all) };
+        resolve.p_next = std::ptr::null_mut();
+        resolve
+    }
+
+    /// Bytes of the largest heap behind the memory types `type_bits`.
+    pub(crate) fn largest_heap(&self, type_bits: u32) -> u64 {
+        let memory = self.memory_properties();
+        let types = memory.memory_types_as_slice().iter().enumerate();
+        let accepted = types.filter(|(number, _)| type_bits & (1 << number) != 0);
+        accepted.map(|(_, ty)| memory.memory_heaps[ty.heap_index as usize].size).max().unwrap_or(0)
+    }
+
+    /// The memory types that are allocated lazily, one bit each.
+    pub(crate) fn lazy_types(&self) -> u32 {
+        let memory = self.memory_properties();
+        let lazy = |ty: &vk::MemoryType| ty.property_flags.contains(vk::MemoryPropertyFlags::LAZILY_ALLOCATED);
+        (0..).zip(memory.memory_types_as_slice()).filter(|(_, ty)| lazy(ty)).fold(0, |bits, (bit, _)| bits | 1 << bit)
+    }
+
+    fn memory_properties(&self) -> vk::PhysicalDeviceMemoryProperties {
+        // SAFETY: the physical device belongs to the instance.
+        unsafe { self.instance.raw.get_physical_device_memory_properties(self.physical) }
+    }
+
+    /// Whether waits are to be given up.
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel.is_asked()
+    }
+}
+
+impl Drop for Gpu {
+    fn drop(&mut self) {
+        if let Some(PendingWork { semaphores, values }) = self.abandoned.get() {
+            if self.is_cancelled() {
+                return;
+            }
+            // A software driver's threads crash if the process ends under them: a device that is merely slow gets a chance.
+            let wait = vk::SemaphoreWaitInfo::default().semaphores(semaphores).values(values);
+            // SAFETY: neither semaphores nor device were destroyed. Whatever comes of the wait, nothing more is done.
+            let _ = unsafe { self.raw.wait_semaphores(&wait, LAST_CHANCE_NANOSECONDS) };
+            return;
+        }
+        // SAFETY: everything made from the device held on to it and is gone. The allocator frees its blocks before the
+        // device closes, the device closes before its instance, and none of them is touched again.
+        unsafe {
+            self.caches.destroy(&self.raw);
+            ManuallyDrop::drop(&mut self.allocator);
+            self.raw.destroy_device(None);
+            ManuallyDrop::drop(&mut self.instance);
+        }
+    }
+}

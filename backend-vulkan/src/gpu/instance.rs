@@ -1,0 +1,132 @@
+//! The loader, and an instance with or without the validation layer.
+
+use super::minimum::MINIMUM_VERSION;
+use super::validation::{FEATURES, LAYER, Layer, Messages, SETTINGS, Setting, known_settings, layer_settings};
+use super::{layer, words};
+use crate::base::Error;
+use ash::{ext, khr, vk};
+use std::ffi::CStr;
+
+/// An instance.
+pub(crate) struct Instance {
+    /// Vulkan's own.
+    pub(crate) raw: ash::Instance,
+    /// Whether `VK_EXT_debug_utils` is on.
+    pub(crate) labels: bool,
+    /// Whether `VK_KHR_surface` is on, which devices that present need.
+    pub(crate) surfaces: bool,
+    /// The validation layer, if it is on.
+    pub(crate) validation: Option<Validation>,
+    messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
+    /// Keeps the loader in memory.
+    _entry: ash::Entry,
+}
+
+/// The validation layer in use.
+pub(crate) struct Validation {
+    pub(crate) layer: Layer,
+    pub(crate) messages: Messages,
+}
+
+impl Instance {
+    /// Loads the loader and creates an instance.
+    pub(crate) fn new(validate: bool) -> Result<Instance, Error> {
+        // SAFETY: the system's Vulkan loader is trusted to initialise itself soundly.
+        let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::NoLoader { reason: error.to_string() })?;
+        // SAFETY: the loader is loaded.
+        let version = unsafe { entry.try_enumerate_instance_version() }.ok().flatten().unwrap_or(vk::API_VERSION_1_0);
+        if version < MINIMUM_VERSION {
+            let found = words::version(version);
+            return Err(Error::NoLoader { reason: format!("it has Vulkan {found}, and 1.3 is needed") });
+        }
+        let mut validation = if validate {
+            let layer = Layer::find(&entry).ok_or_else(|| Error::NoValidationLayer {
+                layer_path: layer::user_layer_path().map(|path| path.display().to_string()),
+            })?;
+            Some(Validation { layer, messages: Messages::default() })
+        } else {
+            None
+        };
+        // SAFETY: the loader is loaded.
+        let available = unsafe { entry.enumerate_instance_extension_properties(None) }.unwrap_or_default();
+        let has = |name| available.iter().any(|it| it.extension_name_as_c_str() == Ok(name));
+        let (labels, surfaces) = (validate || has(ext::debug_utils::NAME), has(khr::surface::NAME));
+        let mut raw = create(&entry, labels, surfaces, validation.as_ref(), &SETTINGS)?;
+        if let Some(validation) = &mut validation {
+            let known = known_settings(&validation.messages.list());
+            if known.len() < SETTINGS.len() {
+                // SAFETY: nothing was made from the instance, and its messages live until the next line.
+                unsafe { raw.destroy_instance(None) };
+                validation.messages = Messages::default();
+                raw = create(&entry, labels, surfaces, Some(validation), &known)?;
+            }
+        }
+        let mut instance = Instance { raw, labels, surfaces, validation, messenger: None, _entry: entry };
+        if let Some(validation) = &instance.validation {
+            let functions = ext::debug_utils::Instance::new(&instance._entry, &instance.raw);
+            // SAFETY: the messages live as long as the instance, which destroys the messenger first.
+            let messenger = unsafe { functions.create_debug_utils_messenger(&validation.messages.messenger(), None) }
+                .map_err(Error::vulkan("creating a debug messenger"))?;
+            instance.messenger = Some((functions, messenger));
+        }
+        Ok(instance)
+    }
+}
+
+fn create(
+    entry: &ash::Entry,
+    labels: bool,
+    surfaces: bool,
+    validation: Option<&Validation>,
+    settings: &[Setting],
+) -> Result<ash::Instance, Error> {
+    let application = vk::ApplicationInfo::default().application_name(c"framewright").api_version(MINIMUM_VERSION);
+    let mut extensions: Vec<&CStr> = Vec::new();
+    let mut layers: Vec<&CStr> = Vec::new();
+    if labels {
+        extensions.push(ext::debug_utils::NAME);
+    }
+    if surfaces {
+        extensions.push(khr::surface::NAME);
+    }
+    let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&FEATURES);
+    let settings = layer_settings(settings);
+    let mut settings = vk::LayerSettingsCreateInfoEXT::default().settings(&settings);
+    let mut messenger = vk::DebugUtilsMessengerCreateInfoEXT::default();
+    if let Some(validation) = validation {
+        extensions.extend(validation.layer.extensions());
+        layers.push(LAYER);
+        messenger = validation.messages.messenger();
+    }
+    let extensions: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
+    let layers: Vec<_> = layers.iter().map(|name| name.as_ptr()).collect();
+    let mut info = vk::InstanceCreateInfo::default()
+        .application_info(&application)
+        .enabled_extension_names(&extensions)
+        .enabled_layer_names(&layers);
+    if let Some(validation) = validation {
+        // The first messenger exists only after the instance: this one hears what creation and destruction say.
+        info = info.push_next(&mut features).push_next(&mut messenger);
+        if validation.layer.current {
+            // Chained without its extension: the loader of Debian 12 knows no VK_EXT_layer_settings and would refuse.
+            info = info.push_next(&mut settings);
+        }
+    }
+    // SAFETY: everything that `info` points to outlives the call, and the messages outlive the instance.
+    unsafe { entry.create_instance(&info, None) }.map_err(|result| match result {
+        vk::Result::ERROR_INCOMPATIBLE_DRIVER => Error::NoDevice,
+        result => Error::NoInstance { result, validation: validation.is_some() },
+    })
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        // SAFETY: whoever made something from this instance holds it; the messenger goes before the instance.
+        unsafe {
+            if let Some((functions, messenger)) = self.messenger.take() {
+                functions.destroy_debug_utils_messenger(messenger, None);
+            }
+            self.raw.destroy_instance(None);
+        }
+    }
+}

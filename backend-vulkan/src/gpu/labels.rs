@@ -1,0 +1,35 @@
+//! Names and labels for debuggers and validation messages (`VK_EXT_debug_utils`); without the extension nothing happens.
+
+use super::handle::Gpu;
+use ash::vk;
+use std::ffi::CString;
+
+impl Gpu {
+    /// Names an object.
+    pub(crate) fn name(&self, object: impl vk::Handle, name: &str) {
+        if let Some(labels) = &self.labels {
+            let name = c_string(name);
+            let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&name);
+            // SAFETY: the object is new and belongs to this device. A name that can't be set is no loss.
+            let _ = unsafe { labels.set_debug_utils_object_name(&info) };
+        }
+    }
+
+    /// Records `work` under a label.
+    pub(crate) fn labelled<T>(&self, commands: vk::CommandBuffer, name: &str, work: impl FnOnce() -> T) -> T {
+        let Some(labels) = &self.labels else { return work() };
+        let name = c_string(name);
+        let label = vk::DebugUtilsLabelEXT::default().label_name(&name);
+        // SAFETY: the command buffer is being recorded.
+        unsafe { labels.cmd_begin_debug_utils_label(commands, &label) };
+        let result = work();
+        // SAFETY: the command buffer is still being recorded, and the label was begun.
+        unsafe { labels.cmd_end_debug_utils_label(commands) };
+        result
+    }
+}
+
+/// Names come from files: a zero byte would end them early.
+fn c_string(name: &str) -> CString {
+    CString::new(name.replace('\0', "\u{fffd}")).unwrap_or_default()
+}

@@ -1,0 +1,52 @@
+//! The minimum that a physical device must offer, and what is used beyond it.
+
+use super::features::Features;
+use super::queues::QueueFamilies;
+use super::words::version;
+use ash::vk;
+use std::ffi::CStr;
+
+/// The Vulkan version that devices and the loader must have.
+pub const MINIMUM_VERSION: u32 = vk::API_VERSION_1_3;
+
+/// Whether `physical` offers `VK_KHR_dynamic_rendering_local_read`.
+pub(crate) fn has_local_read(instance: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
+    has_extension(instance, physical, ash::khr::dynamic_rendering_local_read::NAME)
+        && Features::of(instance, physical, true).local_read()
+}
+
+/// Whether `physical` has the device extension of this name.
+pub(crate) fn has_extension(instance: &ash::Instance, physical: vk::PhysicalDevice, name: &CStr) -> bool {
+    // SAFETY: `physical` belongs to `instance`.
+    let extensions = unsafe { instance.enumerate_device_extension_properties(physical) }.unwrap_or_default();
+    extensions.iter().any(|it| it.extension_name_as_c_str() == Ok(name))
+}
+
+/// All that `physical` lacks of the minimum, by Vulkan's names.
+pub(crate) fn missing(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Vec<String> {
+    // SAFETY: `physical` belongs to `instance`.
+    let properties = unsafe { instance.get_physical_device_properties(physical) };
+    if properties.api_version < MINIMUM_VERSION {
+        // Its 1.3 features can't even be asked for.
+        return vec![format!("Vulkan {} (it has {})", version(MINIMUM_VERSION), version(properties.api_version))];
+    }
+    let features = Features::of(instance, physical, false).missing();
+    let mut missing: Vec<String> = features.iter().map(|name| format!("the feature {name}")).collect();
+    match QueueFamilies::of(instance, physical) {
+        None => missing.push("a queue for graphics and compute".to_owned()),
+        Some(families) if families.graphics.timestamp_bits == 0 => {
+            missing.push("timestamps on its graphics queue".to_owned());
+        }
+        Some(_) => {}
+    }
+    missing
+}
+
+/// How many views a rendering scope of `physical`, which has these features, can draw at once, as it says.
+pub(crate) fn max_views(instance: &ash::Instance, physical: vk::PhysicalDevice, features: &Features) -> u32 {
+    let mut views = vk::PhysicalDeviceVulkan11Properties::default();
+    let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut views);
+    // SAFETY: `physical` belongs to `instance`, and the chained structure outlives the call.
+    unsafe { instance.get_physical_device_properties2(physical, &mut all) };
+    if features.multiview() { views.max_multiview_view_count } else { 1 }
+}

@@ -1,0 +1,28 @@
+//! The device: instance, validation layer, features, queues, and the handle that everything made from it holds on to.
+
+mod cached;
+mod device;
+pub(crate) mod features;
+mod handle;
+mod instance;
+mod labels;
+pub mod layer;
+mod minimum;
+pub(crate) mod queues;
+mod summary;
+mod surface;
+mod validation;
+mod words;
+
+pub use cached::{AddressMode, SamplerDescriptor, TexelFilter};
+pub use device::{Device, DeviceOptions};
+pub use features::minimum_features;
+pub use minimum::MINIMUM_VERSION;
+pub use summary::{DeviceChoice, DeviceSummary};
+pub use surface::rotation_of_surface;
+pub use validation::{Message, MessageKind, Messages, Severity};
+
+pub(crate) use cached::{LayoutBinding, LocalRead, PipelineDescriptor, RotationConstants, VertexAttribute};
+pub(crate) use device::TestedDevice;
+pub(crate) use handle::{Gpu, PendingWork};
+pub(crate) use queues::QueueFamily;

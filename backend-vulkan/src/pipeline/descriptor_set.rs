@@ -1,0 +1,82 @@
+//! Descriptor sets.
+
+use crate::base::Error;
+use crate::gpu::{Gpu, LayoutBinding};
+use ash::vk;
+use std::sync::Arc;
+
+/// A descriptor set in a pool of its own.
+pub(crate) struct DescriptorSet {
+    gpu: Arc<Gpu>,
+    pool: vk::DescriptorPool,
+    pub(crate) raw: vk::DescriptorSet,
+    pub(crate) layout: vk::DescriptorSetLayout,
+}
+
+/// What a descriptor points to.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum DescriptorTarget {
+    /// A whole buffer.
+    Buffer(vk::Buffer),
+    /// A view, in the layout in which it will be, with a sampler or (storage images) without.
+    Image(vk::ImageView, vk::ImageLayout, vk::Sampler),
+}
+
+impl DescriptorSet {
+    /// A set of these bindings. What they point to must outlive the set's use.
+    pub(crate) fn new(gpu: &Arc<Gpu>, bindings: &[(LayoutBinding, DescriptorTarget)]) -> Result<DescriptorSet, Error> {
+        const DOING: &str = "creating a descriptor set";
+        let layout = gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
+        let sizes: Vec<_> = bindings
+            .iter()
+            .map(|(binding, _)| vk::DescriptorPoolSize { ty: binding.ty, descriptor_count: 1 })
+            .collect();
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
+        // SAFETY: the device lives.
+        let pool = unsafe { gpu.raw.create_descriptor_pool(&info, None) }.map_err(Error::vulkan(DOING))?;
+        let mut set = DescriptorSet { gpu: gpu.clone(), pool, raw: vk::DescriptorSet::null(), layout };
+        let layouts = [layout];
+        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
+        // SAFETY: the pool was made for exactly this set.
+        let sets = unsafe { gpu.raw.allocate_descriptor_sets(&info) }.map_err(Error::vulkan(DOING))?;
+        set.raw = sets.first().copied().unwrap_or_default();
+        for (binding, target) in bindings {
+            set.write(*binding, *target);
+        }
+        Ok(set)
+    }
+
+    /// Whether this device made it.
+    pub(crate) fn is_of(&self, gpu: &Gpu) -> bool {
+        std::ptr::eq(Arc::as_ptr(&self.gpu), gpu)
+    }
+
+    fn write(&self, binding: LayoutBinding, target: DescriptorTarget) {
+        let write = vk::WriteDescriptorSet::default()
+            .dst_set(self.raw)
+            .dst_binding(binding.binding)
+            .descriptor_type(binding.ty)
+            .descriptor_count(1);
+        match target {
+            DescriptorTarget::Buffer(buffer) => {
+                let info = [vk::DescriptorBufferInfo { buffer, offset: 0, range: vk::WHOLE_SIZE }];
+                // SAFETY: the set is new, has this binding, and the buffer lives.
+                unsafe { self.gpu.raw.update_descriptor_sets(&[write.buffer_info(&info)], &[]) };
+            }
+            DescriptorTarget::Image(image_view, image_layout, sampler) => {
+                let info = [vk::DescriptorImageInfo { sampler, image_view, image_layout }];
+                // SAFETY: the set is new, has this binding, and view and sampler live.
+                unsafe { self.gpu.raw.update_descriptor_sets(&[write.image_info(&info)], &[]) };
+            }
+        }
+    }
+}
+
+impl Drop for DescriptorSet {
+    fn drop(&mut self) {
+        if !self.gpu.is_abandoned() {
+            // SAFETY: every submission is waited for, so the set isn't in use.
+            unsafe { self.gpu.raw.destroy_descriptor_pool(self.pool, None) };
+        }
+    }
+}

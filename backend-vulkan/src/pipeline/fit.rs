@@ -1,0 +1,213 @@
+//! Whether a shader fits what its pass and whoever draws give it, and the device.
+
+use crate::gpu::{Gpu, VertexAttribute};
+use ash::vk;
+use framewright_graph::plan::{self, Plan};
+use framewright_graph::shader::{
+    Binding, BindingKind, DrawInterface, PASS_SET, ShaderInterface, SuppliedKind, VertexInput,
+};
+use framewright_graph::vulkan::{Component, Dimension, ImageShape};
+
+/// A stage may be given so many resources of a kind and read so large a block, and no more. What is brought along counts
+/// whether it is read or not.
+pub(crate) fn check_limits(gpu: &Gpu, shader: &ShaderInterface, brought: &DrawInterface) -> Result<(), String> {
+    let limits = &gpu.limits;
+    let bindings = &shader.bindings;
+    let count = |own: fn(&BindingKind) -> bool, supplied: Option<SuppliedKind>| {
+        bindings.iter().filter(|it| it.set == PASS_SET && own(&it.kind)).count()
+            + brought.supplied.iter().filter(|it| Some(it.kind) == supplied).count()
+    };
+    let sampled = limits.max_per_stage_descriptor_samplers.min(limits.max_per_stage_descriptor_sampled_images);
+    let counts = [
+        (
+            "sampled images",
+            count(|it| matches!(it, BindingKind::SampledImage(_)), Some(SuppliedKind::SampledImage)),
+            sampled,
+        ),
+        (
+            "storage images",
+            count(|it| matches!(it, BindingKind::StorageImage { .. }), None),
+            limits.max_per_stage_descriptor_storage_images,
+        ),
+        (
+            "uniform blocks",
+            count(|it| matches!(it, BindingKind::UniformBlock(_)), Some(SuppliedKind::UniformBlock)),
+            limits.max_per_stage_descriptor_uniform_buffers,
+        ),
+        (
+            "storage blocks",
+            count(|it| matches!(it, BindingKind::StorageBlock { .. }), Some(SuppliedKind::StorageBlock)),
+            limits.max_per_stage_descriptor_storage_buffers,
+        ),
+        (
+            "input attachments",
+            count(|it| matches!(it, BindingKind::InputAttachment { .. }), None),
+            limits.max_per_stage_descriptor_input_attachments,
+        ),
+    ];
+    if let Some((what, count, most)) = counts.into_iter().find(|(_, count, most)| *count > *most as usize) {
+        return Err(format!("{count} {what} are bound, and this device allows {most}"));
+    }
+    let block = bindings.iter().find_map(|it| match &it.kind {
+        BindingKind::UniformBlock(block) if block.bytes > limits.max_uniform_buffer_range => {
+            Some((&it.name, block.bytes))
+        }
+        _ => None,
+    });
+    block.map_or(Ok(()), |(name, bytes)| {
+        Err(format!("the block `{name}` takes {bytes} bytes, more than this device allows"))
+    })
+}
+
+/// Sets from 1 on: what the shader reads must be what the draw brings along.
+pub(crate) fn check_supplied(shader: &ShaderInterface, brought: &DrawInterface) -> Result<(), String> {
+    let same_kind = |binding: &Binding, kind| {
+        matches!(
+            (&binding.kind, kind),
+            (BindingKind::UniformBlock(_), SuppliedKind::UniformBlock)
+                | (BindingKind::StorageBlock { writable: false, .. }, SuppliedKind::StorageBlock)
+                | (BindingKind::SampledImage(PLAIN), SuppliedKind::SampledImage)
+        )
+    };
+    for read in shader.bindings.iter().filter(|it| it.set != PASS_SET) {
+        let found = brought.supplied.iter().find(|it| (it.set, it.binding) == (read.set, read.binding));
+        if found.is_none_or(|it| it.name != read.name || !same_kind(read, it.kind)) {
+            return Err(format!(
+                "the shader reads `{}` at set {}, binding {}, where this kind of draw brings along {}",
+                read.name,
+                read.set,
+                read.binding,
+                found.map_or("nothing".to_owned(), |it| format!("`{}`, a {:?}", it.name, it.kind)),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Every colour attachment of the pass, by location, must be written in its own type: what a shader leaves out has undefined
+/// colour.
+pub(crate) fn check_outputs(
+    shader: &ShaderInterface,
+    plan: &Plan,
+    attachments: &[&plan::Attachment],
+) -> Result<(), String> {
+    for (location, attachment) in (0..).zip(attachments) {
+        let output = shader.outputs.iter().find(|it| it.location == location);
+        let output = output.ok_or_else(|| format!("the shader writes no colour at location {location}"))?;
+        let image = plan.image(attachment.image);
+        if output.component != Component::of(image.format) {
+            let (name, format) = (&image.name, image.format);
+            return Err(format!("the shader writes {:?} to `{name}`, which is {format}", output.component));
+        }
+    }
+    Ok(())
+}
+
+/// What an image is that whoever draws brings along.
+const PLAIN: ImageShape =
+    ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: false, component: Component::Float };
+
+/// What whoever draws brings along must be something that Vulkan can bind.
+pub(crate) fn check_brought(gpu: &Gpu, brought: &DrawInterface) -> Result<(), String> {
+    let limits = &gpu.limits;
+    let stride = brought.vertex_stride;
+    if stride > limits.max_vertex_input_binding_stride {
+        return Err(format!("vertices of {stride} bytes are more than this device allows"));
+    }
+    for attribute in &brought.attributes {
+        let end = attribute.components.checked_mul(4).and_then(|bytes| attribute.offset.checked_add(bytes));
+        let fits = (1..=4).contains(&attribute.components)
+            && attribute.offset <= limits.max_vertex_input_attribute_offset
+            && end.is_some_and(|end| end <= stride);
+        if !fits || !attribute.offset.is_multiple_of(4) || !stride.is_multiple_of(4) {
+            return Err(format!("the vertex attribute `{}` doesn't fit vertices of {stride} bytes", attribute.name));
+        }
+    }
+    for (at, one) in brought.supplied.iter().enumerate() {
+        if one.set == PASS_SET || one.set >= limits.max_bound_descriptor_sets {
+            return Err(format!("`{}` can't be brought along in set {}", one.name, one.set));
+        }
+        if brought.supplied[..at].iter().any(|other| (other.set, other.binding) == (one.set, one.binding)) {
+            return Err(format!("`{}` is brought along where something else is", one.name));
+        }
+    }
+    Ok(())
+}
+
+/// The vertex attributes by the shader's locations, from one buffer that whoever draws brings along.
+pub(crate) fn brought_attributes(
+    shader: &ShaderInterface,
+    brought: &DrawInterface,
+) -> Result<Vec<VertexAttribute>, String> {
+    let attribute = |input: &VertexInput| {
+        let found = brought.attributes.iter().find(|it| it.name == input.name);
+        let found = found.ok_or_else(|| format!("vertices of this kind of draw have no `{}`", input.name))?;
+        if !matches!(input.ty.as_str(), "float" | "vec2" | "vec3" | "vec4") {
+            let (name, ty) = (&input.name, &input.ty);
+            return Err(format!("the vertex attribute `{name}` is a {ty}, and floats are brought along"));
+        }
+        let format = attribute_format('f', found.components);
+        Ok(VertexAttribute { location: input.location, binding: 0, format, offset: found.offset })
+    };
+    shader.vertex_inputs.iter().map(attribute).collect()
+}
+
+/// The vertex attributes from the pass's own vertex buffers, with the bytes from vertex to vertex of each: out of one
+/// buffer all attributes of a vertex, in the order of their locations and without gaps; out of several, one attribute each.
+/// Components are 32 bits wide and of the type that the shader declares.
+pub(crate) fn own_attributes(
+    shader: &ShaderInterface,
+    buffers: usize,
+) -> Result<(Vec<VertexAttribute>, Vec<u32>), String> {
+    let mut inputs: Vec<&VertexInput> = shader.vertex_inputs.iter().collect();
+    inputs.sort_by_key(|it| it.location);
+    if buffers != 1 && buffers != inputs.len() {
+        let wanted = inputs.len();
+        return Err(format!(
+            "it has {buffers} vertex buffers for {wanted} vertex attributes: one buffer, or one for each"
+        ));
+    }
+    let (mut attributes, mut strides) = (Vec::new(), vec![0; buffers]);
+    for (number, input) in (0_u32..).zip(inputs) {
+        let (kind, components) = match input.ty.as_str() {
+            "float" => ('f', 1),
+            "int" => ('i', 1),
+            "uint" => ('u', 1),
+            ty => {
+                let kind = ty.strip_prefix("vec").map(|n| ('f', n)).or(ty.strip_prefix("ivec").map(|n| ('i', n)));
+                let kind = kind.or(ty.strip_prefix("uvec").map(|n| ('u', n)));
+                let parsed = kind.and_then(|(kind, count)| Some((kind, count.parse().ok()?)));
+                parsed.ok_or_else(|| format!("the vertex attribute `{}` is a {ty}", input.name))?
+            }
+        };
+        let binding = if buffers == 1 { 0 } else { number };
+        let stride: &mut u32 = &mut strides[binding as usize];
+        let format = attribute_format(kind, components);
+        attributes.push(VertexAttribute { location: input.location, binding, format, offset: *stride });
+        *stride += 4 * components;
+    }
+    Ok((attributes, strides))
+}
+
+/// The format of an attribute of floats (`f`), signed (`i`) or unsigned integers (`u`).
+fn attribute_format(kind: char, components: u32) -> vk::Format {
+    use vk::Format as F;
+    let formats = match kind {
+        'i' => [F::R32_SINT, F::R32G32_SINT, F::R32G32B32_SINT, F::R32G32B32A32_SINT],
+        'u' => [F::R32_UINT, F::R32G32_UINT, F::R32G32B32_UINT, F::R32G32B32A32_UINT],
+        _ => [F::R32_SFLOAT, F::R32G32_SFLOAT, F::R32G32B32_SFLOAT, F::R32G32B32A32_SFLOAT],
+    };
+    formats[(components.clamp(1, 4) - 1) as usize]
+}
+
+/// A workgroup must fit the device.
+pub(crate) fn check_workgroup(gpu: &Gpu, size: [u32; 3]) -> Result<(), String> {
+    let limits = &gpu.limits;
+    let invocations = size.iter().fold(1_u64, |all, axis| all.saturating_mul(u64::from(*axis)));
+    let fits = size.iter().zip(limits.max_compute_work_group_size).all(|(axis, most)| *axis <= most)
+        && invocations <= u64::from(limits.max_compute_work_group_invocations);
+    if fits {
+        return Ok(());
+    }
+    Err(format!("workgroups of {size:?} invocations are larger than this device allows"))
+}

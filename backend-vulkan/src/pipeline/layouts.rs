@@ -1,0 +1,48 @@
+//! Descriptor set layouts and pipeline layouts, one for each description.
+
+use crate::base::Error;
+use crate::gpu::{Gpu, LayoutBinding};
+use ash::vk;
+use framewright_graph::shader::MOST_PARTS;
+
+/// Every stage may ask which part of an image is in use.
+pub(crate) const PARTS_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
+    vk::ShaderStageFlags::VERTEX.as_raw()
+        | vk::ShaderStageFlags::FRAGMENT.as_raw()
+        | vk::ShaderStageFlags::COMPUTE.as_raw(),
+);
+/// Bytes of push constants that tell it: four numbers each.
+const PARTS_BYTES: u32 = 16 * MOST_PARTS as u32;
+
+impl Gpu {
+    /// The set layout with these bindings, in any order.
+    pub(crate) fn set_layout(&self, mut bindings: Vec<LayoutBinding>) -> Result<vk::DescriptorSetLayout, Error> {
+        bindings.sort();
+        self.caches.set_layouts.get(bindings, |bindings| {
+            let bindings: Vec<_> = bindings
+                .iter()
+                .map(|it| {
+                    vk::DescriptorSetLayoutBinding::default()
+                        .binding(it.binding)
+                        .descriptor_type(it.ty)
+                        .descriptor_count(1)
+                        .stage_flags(it.stages)
+                })
+                .collect();
+            let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+            // SAFETY: the device lives.
+            unsafe { self.raw.create_descriptor_set_layout(&info, None) }
+                .map_err(Error::vulkan("creating a descriptor set layout"))
+        })
+    }
+
+    /// The pipeline layout with these set layouts, and room for the parts of images that passes use.
+    pub(crate) fn pipeline_layout(&self, sets: Vec<vk::DescriptorSetLayout>) -> Result<vk::PipelineLayout, Error> {
+        self.caches.pipeline_layouts.get(sets, |sets| {
+            let parts = [vk::PushConstantRange { stage_flags: PARTS_STAGES, offset: 0, size: PARTS_BYTES }];
+            let info = vk::PipelineLayoutCreateInfo::default().set_layouts(sets).push_constant_ranges(&parts);
+            // SAFETY: the set layouts live as long as the device.
+            unsafe { self.raw.create_pipeline_layout(&info, None) }.map_err(Error::vulkan("creating a pipeline layout"))
+        })
+    }
+}

@@ -1,0 +1,16 @@
+//! Samplers, layouts, descriptor sets and pipelines, and whether a shader fits its pass.
+
+mod descriptor_set;
+mod fit;
+mod graphics;
+mod layouts;
+pub(crate) mod parameters;
+mod samplers;
+
+pub(crate) use descriptor_set::{DescriptorSet, DescriptorTarget};
+pub(crate) use fit::{
+    brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
+};
+pub(crate) use graphics::or_unused;
+pub(crate) use layouts::PARTS_STAGES;
+pub(crate) use parameters::PARAMS;

@@ -1,0 +1,152 @@
+//! Whether a Plan can be executed on a device as it is.
+
+use super::check_steps::{bad, executable};
+use super::descriptions::{buffer_descriptor, cycle, descriptor};
+use super::history::HistoryRings;
+use super::textures::file_of;
+use crate::base::Error;
+use crate::gpu::Gpu;
+use ash::vk;
+use framewright_graph::device::{ImageDescriptor, MemoryNeeds};
+use framewright_graph::plan::{Buffer, Image, Placement, Plan, Queue, Resource, Role};
+use framewright_graph::verify::{Rule, Violation, verify};
+use framewright_graph::vulkan::{BufferUsage, Layout, Usage};
+
+/// Which of the Plan's own mistakes are refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Refuse {
+    /// All.
+    Violations,
+    /// Those of form; hazards pass.
+    Malformed,
+}
+
+/// Checks `plan` for itself and against the device; with `poison`, also that its images and buffers can be poisoned.
+pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refuse, poison: bool) -> Result<(), Error> {
+    let refused = |it: &Violation| refuse == Refuse::Violations || matches!(it.rule, Rule::Structure { .. });
+    let violations: Vec<_> = verify(plan).into_iter().filter(refused).collect();
+    if !violations.is_empty() {
+        return Err(Error::Violations { violations });
+    }
+    HistoryRings::new(plan)?;
+    for image in &plan.images {
+        checked_image(gpu, plan, image, poison)?;
+    }
+    for buffer in &plan.buffers {
+        checked_buffer(gpu, plan, buffer, poison)?;
+    }
+    queues(gpu, plan)?;
+    plan.steps.iter().try_for_each(|step| executable(gpu, plan, step))
+}
+
+fn checked_image(gpu: &Gpu, plan: &Plan, image: &Image, poison: bool) -> Result<(), Error> {
+    let (name, descriptor) = (&image.name, descriptor(image));
+    if !gpu.can_make(&descriptor) {
+        return bad(format!("{} has no images like `{name}`: {descriptor:?}", gpu.summary.name));
+    }
+    match &image.role {
+        Role::Transient(place) => {
+            memory(gpu, plan, name, place, gpu.memory_needs(&descriptor))?;
+            if poison && !image.usage.contains(Usage::TRANSFER_DST) {
+                return bad(format!("`{name}` can't be poisoned: compile the Plan with poison"));
+            }
+            Ok(())
+        }
+        Role::Persistent { .. } => {
+            let smaller = vk::FormatFeatureFlags::BLIT_SRC
+                | vk::FormatFeatureFlags::BLIT_DST
+                | vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR;
+            if file_of(image).is_some() && image.mips > 1 && !gpu.format_features(image.format).contains(smaller) {
+                return bad(format!("{} can't make the mip levels of `{name}`: {}", gpu.summary.name, image.format));
+            }
+            let plain = |image: &Image| ImageDescriptor { usage: Usage::empty(), ..self::descriptor(image) };
+            let others = cycle(image.id.0, |id| &plan.images[id as usize].role).map(|id| &plan.images[id as usize]);
+            match others.into_iter().find(|other| plain(other) != plain(image)) {
+                Some(other) => bad(format!("`{name}` and `{}` change places and differ", other.name)),
+                None => Ok(()),
+            }
+        }
+        Role::External { .. }
+            if image.samples > 1 && plan.outputs.iter().any(|it| it.resource == Resource::Image(image.id)) =>
+        {
+            bad(format!("the output `{name}` has {} samples and can't be read", image.samples))
+        }
+        Role::External { before, after } if [before, after].iter().any(|it| it.layout == Layout::PresentSrcKhr) => {
+            if gpu.presents {
+                Ok(())
+            } else {
+                bad(format!("`{name}` is to be presented, and {} has no VK_KHR_swapchain", gpu.summary.name))
+            }
+        }
+        Role::External { .. } => Ok(()),
+    }
+}
+
+fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Result<(), Error> {
+    let (name, descriptor) = (&buffer.name, buffer_descriptor(buffer));
+    let limits = &gpu.limits;
+    let too_large = |usage, most: u32| buffer.usage.contains(usage) && buffer.bytes > u64::from(most);
+    if !gpu.can_make_buffer(&descriptor)
+        || too_large(BufferUsage::UNIFORM_BUFFER, limits.max_uniform_buffer_range)
+        || too_large(BufferUsage::STORAGE_BUFFER, limits.max_storage_buffer_range)
+    {
+        return bad(format!("{} has no buffers like `{name}`: {descriptor:?}", gpu.summary.name));
+    }
+    match &buffer.role {
+        Role::Transient(place) => {
+            memory(gpu, plan, name, place, gpu.buffer_memory_needs(&descriptor))?;
+            if poison && !buffer.usage.contains(BufferUsage::TRANSFER_DST) {
+                return bad(format!("`{name}` can't be poisoned: compile the Plan with poison"));
+            }
+            Ok(())
+        }
+        Role::Persistent { .. } => {
+            let plain = |buffer: &Buffer| (buffer.bytes, buffer.sharing);
+            let others = cycle(buffer.id.0, |id| &plan.buffers[id as usize].role).map(|id| &plan.buffers[id as usize]);
+            match others.into_iter().find(|other| plain(other) != plain(buffer)) {
+                Some(other) => bad(format!("`{name}` and `{}` change places and differ", other.name)),
+                None => Ok(()),
+            }
+        }
+        Role::External { .. } => Ok(()),
+    }
+}
+
+/// Images are handed over between queue families only: where the Plan has an image change queues, the device must have
+/// both, in two families.
+fn queues(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
+    let families = &gpu.queues.families;
+    for step in &plan.steps {
+        for barrier in step.image_barriers.iter().chain(&step.releases) {
+            let Some([from, to]) = barrier.ownership else { continue };
+            if families.family(from) == families.family(to) {
+                let image = &plan.image(barrier.image).name;
+                let (device, missing) = (&gpu.summary.name, if to == Queue::Graphics { from } else { to });
+                return bad(format!(
+                    "it hands `{image}` over to another queue, and {device} has no {missing:?} queue beside the first"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether the image or buffer takes here what the Plan gives it: exactly that, or where the Plan only estimated, not more.
+fn memory(gpu: &Gpu, plan: &Plan, name: &str, place: &Placement, actual: MemoryNeeds) -> Result<(), Error> {
+    let planned = MemoryNeeds { bytes: place.bytes, alignment: place.alignment, type_bits: place.type_bits };
+    let heap = &plan.heaps[place.heap as usize];
+    let enough = actual.bytes <= planned.bytes
+        && place.offset.is_multiple_of(actual.alignment.max(1))
+        && heap.alignment >= actual.alignment
+        && heap.type_bits & !actual.type_bits == 0;
+    if actual == planned || (!plan.device.exact_memory && enough) {
+        return Ok(());
+    }
+    Err(Error::OtherMemoryNeeds {
+        resource: name.to_owned(),
+        device: gpu.summary.name.clone(),
+        planned_for: plan.device.name.clone(),
+        actual,
+        planned,
+    })
+}

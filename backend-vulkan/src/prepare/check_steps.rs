@@ -1,0 +1,168 @@
+//! Whether a device can do what a step does.
+
+use super::descriptions::part;
+use crate::base::{Error, convert};
+use crate::gpu::Gpu;
+use ash::vk;
+use framewright_graph::frame::{Blend, EyeForm, Stereo};
+use framewright_graph::plan::{
+    Attachment, BindingKind, ImageId, Pass, Plan, RenderScope, Resource, Side, Step, Transfer, Work,
+};
+use framewright_graph::vulkan::{Aspects, Filter, Layout, Shape};
+
+/// A Plan that can't be executed.
+pub(super) fn bad(what: String) -> Result<(), Error> {
+    Err(Error::BadPlan { what })
+}
+
+/// Whether the device can execute such a step, on the queue that it names.
+pub(crate) fn executable(gpu: &Gpu, plan: &Plan, step: &Step) -> Result<(), Error> {
+    use vk::QueueFlags as Does;
+    let needed = match &step.work {
+        Work::Render(_) | Work::Resolve(_) | Work::Blit(_) => Does::GRAPHICS,
+        Work::Dispatch(_) => Does::COMPUTE,
+        Work::Fill(fill) => match fill.target.resource() {
+            Resource::Image(image) if is_depth_stencil(plan.image(image).format.aspects()) => Does::GRAPHICS,
+            Resource::Image(_) => Does::COMPUTE,
+            Resource::Buffer(_) => Does::empty(),
+        },
+        Work::Copy(_) | Work::Custom(_) | Work::Export => Does::empty(),
+    };
+    let family = gpu.queues.families.family(step.queue);
+    if !family.flags.contains(needed) {
+        let what = format!("a step needs {needed:?}, and its {:?} queue on {} lacks it", step.queue, gpu.summary.name);
+        return bad(what);
+    }
+    match &step.work {
+        Work::Render(scope) => renderable(gpu, plan, scope),
+        Work::Dispatch(pass) => filtered(gpu, plan, pass),
+        Work::Blit(transfer) => blitted(gpu, plan, transfer),
+        Work::Copy(transfer) => sized(plan, &transfer.source, &transfer.target),
+        Work::Custom(_) | Work::Resolve(_) | Work::Fill(_) | Work::Export => Ok(()),
+    }
+}
+
+/// Whether the device can render such a scope, blend and resolve its attachments, and filter what its passes sample.
+fn renderable(gpu: &Gpu, plan: &Plan, scope: &RenderScope) -> Result<(), Error> {
+    let limits = &gpu.limits;
+    let [width, height, _] =
+        EyeForm::extent(plan.eyes(scope), [scope.extent[0], scope.extent[1], 1], plan.rotation(scope));
+    let fits = width <= limits.max_framebuffer_width.min(limits.max_viewport_dimensions[0])
+        && height <= limits.max_framebuffer_height.min(limits.max_viewport_dimensions[1])
+        && scope.layers <= limits.max_framebuffer_layers
+        && scope.color.len() <= limits.max_color_attachments as usize;
+    if !fits {
+        let (count, layers) = (scope.color.len(), scope.layers);
+        return bad(format!("{count} colour attachments of {width}×{height}, {layers} layers: too many or too large"));
+    }
+    let draws_so = match (plan.stereo, plan.eyes(scope)) {
+        (_, None) => true,
+        (Stereo::Multiview, Some(form)) => gpu.max_views >= 2 && form == EyeForm::Layers,
+        (Stereo::Instanced, Some(EyeForm::Layers)) => gpu.vertex_layer,
+        (Stereo::Instanced, Some(EyeForm::Halves)) => gpu.clip_distances,
+        (Stereo::DoubleWide, Some(form)) => form == EyeForm::Halves,
+        (Stereo::Off | Stereo::MultiPass, Some(_)) => false,
+    };
+    if !draws_so {
+        return bad(format!("it draws for both eyes at once ({}) as {} can't", plan.stereo.name(), gpu.summary.name));
+    }
+    for attachment in scope.color.iter().chain(&scope.depth).chain(&scope.stencil) {
+        let image = plan.image(attachment.image);
+        if image.shape == Shape::D3 {
+            return bad(format!("`{}` is three-dimensional and can't be an attachment", image.name));
+        }
+        if attachment.layout == Layout::RenderingLocalReadKhr && gpu.local_read.is_none() {
+            return bad(format!("`{}` is read locally, and {} has no local reads", image.name, gpu.summary.name));
+        }
+    }
+    for pass in &scope.passes {
+        for (attachment, _) in scope.color.iter().zip(&pass.blend).filter(|(_, blend)| **blend != Blend::Replace) {
+            lacks(gpu, plan, attachment.image, vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND, "blend into")?;
+        }
+        filtered(gpu, plan, pass)?;
+    }
+    resolvable(gpu, plan, scope)
+}
+
+/// Whether the device can filter what a pass samples so.
+fn filtered(gpu: &Gpu, plan: &Plan, pass: &Pass) -> Result<(), Error> {
+    let linear = pass.accesses.iter().filter(|access| {
+        let binding = access.binding.as_ref();
+        binding.is_some_and(|it| matches!(it.kind, BindingKind::Sampled(sampler) if sampler.is_linear()))
+    });
+    for access in linear {
+        lacks(gpu, plan, access.image, vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR, "filter")?;
+    }
+    Ok(())
+}
+
+/// Refuses a format without a feature.
+fn lacks(gpu: &Gpu, plan: &Plan, image: ImageId, feature: vk::FormatFeatureFlags, what: &str) -> Result<(), Error> {
+    let image = plan.image(image);
+    if gpu.format_features(image.format).contains(feature) {
+        return Ok(());
+    }
+    bad(format!("{} can't {what} `{}` ({})", gpu.summary.name, image.name, image.format))
+}
+
+/// Whether the device resolves depth and stencil so.
+fn resolvable(gpu: &Gpu, plan: &Plan, scope: &RenderScope) -> Result<(), Error> {
+    let modes = gpu.depth_stencil_resolve();
+    let planes = [
+        (&scope.depth, modes.supported_depth_resolve_modes, "depth"),
+        (&scope.stencil, modes.supported_stencil_resolve_modes, "stencil"),
+    ];
+    for (attachment, supported, plane) in planes {
+        let Some(resolve) = attachment.as_ref().and_then(|it| it.resolve.as_ref()) else { continue };
+        if !supported.contains(convert::resolve(resolve.mode)) {
+            let target = &plan.image(resolve.image).name;
+            return bad(format!("{} can't resolve {plane} into `{target}` by {:?}", gpu.summary.name, resolve.mode));
+        }
+    }
+    let mode =
+        |attachment: &Option<Attachment>| attachment.as_ref().and_then(|it| it.resolve.as_ref()).map(|it| it.mode);
+    let together = scope.depth.is_some() && scope.stencil.is_some();
+    let (depth, stencil) = (mode(&scope.depth), mode(&scope.stencil));
+    let independent =
+        if depth.is_none() || stencil.is_none() { modes.independent_resolve_none } else { modes.independent_resolve };
+    if together && depth != stencil && independent == vk::FALSE {
+        return bad(format!("{} resolves depth and stencil only together", gpu.summary.name));
+    }
+    Ok(())
+}
+
+/// Whether the device can scale between the formats.
+fn blitted(gpu: &Gpu, plan: &Plan, transfer: &Transfer) -> Result<(), Error> {
+    let (Side::Image { image: source, .. }, Side::Image { image: target, .. }) = (&transfer.source, &transfer.target)
+    else {
+        return bad("a blit names a buffer".to_owned());
+    };
+    lacks(gpu, plan, *source, vk::FormatFeatureFlags::BLIT_SRC, "blit from")?;
+    lacks(gpu, plan, *target, vk::FormatFeatureFlags::BLIT_DST, "blit to")?;
+    if transfer.filter == Some(Filter::Linear) {
+        lacks(gpu, plan, *source, vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR, "filter")?;
+    }
+    Ok(())
+}
+
+/// Whether a buffer beside an image holds the texels.
+fn sized(plan: &Plan, source: &Side, target: &Side) -> Result<(), Error> {
+    let (image, range, extent, bytes) = match (source, target) {
+        (Side::Image { image, range, extent, .. }, Side::Buffer { bytes, .. })
+        | (Side::Buffer { bytes, .. }, Side::Image { image, range, extent, .. }) => (image, range, extent, bytes),
+        _ => return Ok(()),
+    };
+    let image = plan.image(*image);
+    let layers = part(image, *range).layers;
+    let texels = extent.iter().fold(u64::from(layers), |all, side| all.saturating_mul(u64::from(*side)));
+    let needed = texels.saturating_mul(crate::commands::plane_bytes(image.format, range.aspects));
+    if needed > *bytes {
+        return bad(format!("the texels of `{}` take {needed} bytes, and {bytes} are copied", image.name));
+    }
+    Ok(())
+}
+
+/// Whether `aspects` hold a depth or stencil plane.
+fn is_depth_stencil(aspects: Aspects) -> bool {
+    aspects.intersects(Aspects::DEPTH | Aspects::STENCIL)
+}

@@ -1,0 +1,318 @@
+//! A pass's pipeline, and the template of its descriptor set.
+
+use super::history::RingCache;
+use super::pass_set::{PassSet, SetTemplate};
+use super::physical::PhysicalResources;
+use super::variant::{variant, view_mask};
+use crate::base::Error;
+use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants};
+use crate::pipeline::{
+    brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
+};
+use crate::resources::supplied_layouts;
+use crate::shaders::{CompiledShader, ShaderLibrary};
+use ash::vk;
+use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
+use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
+use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterfaces, ShaderProblem};
+use framewright_graph::vulkan::Accesses;
+use std::sync::Arc;
+
+/// The objects of a pass of a rendering scope.
+pub(crate) struct PreparedDraw {
+    pub(crate) draw: Draw,
+    pub(crate) template: SetTemplate,
+    pub(crate) sets: RingCache<PassSet>,
+    /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
+    pub(crate) pipeline: Option<vk::Pipeline>,
+    pub(crate) local: Option<LocalRead>,
+    pub(crate) state: PassState,
+    /// The pass's own vertex buffers.
+    pub(crate) vertices: Vec<BufferId>,
+    pub(crate) indices: Option<BufferId>,
+    pub(crate) indirect: Option<BufferId>,
+}
+
+/// What a recorder must know of the pass's pipeline.
+#[derive(Default)]
+pub(crate) struct PassState {
+    pub(crate) layout: vk::PipelineLayout,
+    /// Layouts of the sets from 1 on, and whether the shader reads them.
+    pub(crate) supplied: Vec<(vk::DescriptorSetLayout, bool)>,
+    /// Bytes from vertex to vertex of what whoever draws brings along; 0 if the pipeline reads no such vertex buffer.
+    pub(crate) vertex_stride: u32,
+    /// As [`crate::shaders::CompiledShader::usual_vertices`].
+    pub(crate) usual_vertices: bool,
+}
+
+impl PassState {
+    /// Whether the shader reads anything that whoever draws brings along.
+    pub(crate) fn reads_supplied(&self) -> bool {
+        self.supplied.iter().any(|(_, needed)| *needed)
+    }
+}
+
+/// A dispatch's objects.
+pub(crate) struct PreparedDispatch {
+    pub(crate) template: SetTemplate,
+    pub(crate) sets: RingCache<PassSet>,
+    pub(crate) pipeline: vk::Pipeline,
+    pub(crate) layout: vk::PipelineLayout,
+    pub(crate) groups: WorkgroupCount,
+    /// Invocations of a workgroup.
+    pub(crate) size: [u32; 3],
+}
+
+/// How many workgroups.
+pub(crate) enum WorkgroupCount {
+    /// So many.
+    Direct([u32; 3]),
+    /// As many as that buffer says at that offset.
+    Indirect(BufferId, u64),
+}
+
+/// The buffers of a pass that have this role.
+fn buffers(pass: &plan::Pass, role: BufferRole) -> Vec<BufferId> {
+    pass.buffers.iter().filter(|it| it.role == Some(role)).map(|it| it.buffer).collect()
+}
+
+/// The one buffer that tells counts, which must hold `bytes` bytes from `offset` on.
+fn indirect(plan: &Plan, pass: &plan::Pass, offset: u64, bytes: u64) -> Result<BufferId, String> {
+    let [buffer] = buffers(pass, BufferRole::Indirect)[..] else {
+        return Err("its counts must stand in one buffer".to_owned());
+    };
+    let held = plan.buffers[buffer.0 as usize].bytes;
+    if !offset.is_multiple_of(4) || offset.checked_add(bytes).is_none_or(|end| end > held) {
+        return Err(format!("its counts must stand at a multiple of 4, and {bytes} bytes from {offset} of {held} on"));
+    }
+    Ok(buffer)
+}
+
+/// The objects of a dispatch.
+pub(crate) fn prepare_dispatch(
+    gpu: &Arc<Gpu>,
+    plan: &Plan,
+    physical: &PhysicalResources,
+    pass: &plan::Pass,
+    shaders: &mut ShaderLibrary,
+) -> Result<PreparedDispatch, Error> {
+    let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
+    let shader = shaders
+        .compute(&pass.shader, &variant(plan, pass, None)?)
+        .map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
+    let nothing = DrawInterface::default();
+    check_limits(gpu, &shader.interface, &nothing).map_err(mismatch)?;
+    check_supplied(&shader.interface, &nothing).map_err(mismatch)?;
+    let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
+    check_workgroup(gpu, size).map_err(mismatch)?;
+    let groups = groups(gpu, plan, pass, size).map_err(mismatch)?;
+    let template = SetTemplate::new(gpu, plan, pass, &shader.interface.bindings)?;
+    let layout = gpu.pipeline_layout(vec![template.layout])?;
+    let pipeline = gpu.compute_pipeline(&pass.name, shader.compute, layout)?;
+    let sets = RingCache::new(physical.period(template.resources()));
+    Ok(PreparedDispatch { template, sets, pipeline, layout, groups, size })
+}
+
+/// How many workgroups of `size` invocations a dispatch takes.
+///
+/// # Errors
+/// In words: if they are too many, or nothing says how many they are.
+pub(crate) fn groups(gpu: &Gpu, plan: &Plan, pass: &plan::Pass, size: [u32; 3]) -> Result<WorkgroupCount, String> {
+    let count = match pass.groups {
+        None => return Err("a dispatch doesn't say how many workgroups".to_owned()),
+        Some(Groups::Count(count)) => count,
+        Some(Groups::Invocations(wanted)) => [0, 1, 2].map(|axis| wanted[axis].div_ceil(size[axis].max(1))),
+        Some(Groups::Indirect { offset }) => {
+            return Ok(WorkgroupCount::Indirect(indirect(plan, pass, offset, 12)?, offset));
+        }
+    };
+    let most = gpu.limits.max_compute_work_group_count;
+    if count.iter().zip(most).any(|(count, most)| *count > most) {
+        return Err(format!("{count:?} workgroups are more than the {most:?} of this device"));
+    }
+    Ok(WorkgroupCount::Direct(count))
+}
+
+/// The objects of a pass of a rendering scope.
+pub(crate) fn prepare_draw(
+    gpu: &Arc<Gpu>,
+    plan: &Plan,
+    physical: &PhysicalResources,
+    scope: &RenderScope,
+    pass: &plan::Pass,
+    shaders: &mut ShaderLibrary,
+) -> Result<PreparedDraw, Error> {
+    let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
+    let draw = pass.draw.ok_or_else(|| mismatch("a rendering scope holds a dispatch".to_owned()))?;
+    let (indices, wanted) = (buffers(pass, BufferRole::Index), buffers(pass, BufferRole::Vertex));
+    let indices = match indices[..] {
+        [] => None,
+        [one] => Some(one),
+        _ => return Err(mismatch("it has several index buffers".to_owned())),
+    };
+    let indirect = match draw {
+        Draw::Indirect => Some(indirect(plan, pass, 0, if indices.is_some() { 20 } else { 16 }).map_err(mismatch)?),
+        _ => None,
+    };
+    let nothing = |template| PreparedDraw {
+        draw,
+        template,
+        sets: RingCache::new(1),
+        pipeline: None,
+        local: None,
+        state: PassState::default(),
+        vertices: Vec::new(),
+        indices,
+        indirect,
+    };
+    let form = plan.eyes(scope);
+    let shader = match shaders.compiled(&pass.shader, draw, &variant(plan, pass, form)?) {
+        Err(ShaderProblem::Missing { .. }) if draw == Draw::Custom => {
+            let template = SetTemplate::empty(gpu)?;
+            return Ok(nothing(template));
+        }
+        other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
+    };
+    let brought = shaders.brought_along(draw);
+    let targets = targets(plan, scope, pass).map_err(mismatch)?;
+    let written: Vec<_> = targets.iter().map(|target| &scope.color[*target]).collect();
+    check_brought(gpu, &brought).map_err(mismatch)?;
+    check_limits(gpu, &shader.interface, &brought).map_err(mismatch)?;
+    check_supplied(&shader.interface, &brought).map_err(mismatch)?;
+    check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
+    let own_vertices = matches!(draw, Draw::Vertices { .. } | Draw::Indirect) && !wanted.is_empty();
+    let (attributes, strides) = if own_vertices {
+        own_attributes(&shader.interface, wanted.len()).map_err(mismatch)?
+    } else {
+        let attributes = brought_attributes(&shader.interface, &brought).map_err(mismatch)?;
+        let strides = if attributes.is_empty() { Vec::new() } else { vec![brought.vertex_stride] };
+        (attributes, strides)
+    };
+    let vertices = if own_vertices { wanted } else { Vec::new() };
+    check_reach(plan, draw, &vertices, &strides, indices).map_err(mismatch)?;
+    let template = SetTemplate::new(gpu, plan, pass, &shader.interface.bindings)?;
+    let supplied = supplied_layouts(gpu, &brought)?;
+    let layout = gpu.pipeline_layout([template.layout].into_iter().chain(supplied.iter().copied()).collect())?;
+    let reads = |set| shader.interface.bindings.iter().any(|it| it.set == set);
+    let local = local_read(gpu, scope, pass, &shader, &targets).map_err(mismatch)?;
+    let format = |attachment: &plan::Attachment| plan.image(attachment.image).format;
+    let blend = |number: &usize| pass.blend.get(*number).copied().filter(|_| targets.contains(number));
+    let rotation = plan.rotation(scope);
+    let extent = if shader.interface.uses_frag_coord { scope.extent } else { [0; 2] };
+    let placed = form == Some(EyeForm::Halves) && shader.interface.uses_frag_coord;
+    let turned = (rotation.turns() || placed).then_some(RotationConstants { rotation, extent });
+    let descriptor = PipelineDescriptor {
+        vertex: shader.vertex.clone(),
+        fragment: shader.fragment.clone(),
+        layout,
+        strides: strides.clone(),
+        attributes,
+        color: scope.color.iter().zip(0_usize..).map(|(it, number)| (format(it), blend(&number))).collect(),
+        depth_format: scope.depth.as_ref().map(format),
+        depth: pass.depth,
+        stencil_format: scope.stencil.as_ref().map(format),
+        stencil: pass.stencil,
+        view_mask: view_mask(plan, scope),
+        samples: scope.samples,
+        alpha_to_coverage: pass.alpha_to_coverage,
+        local: local.clone(),
+        turned,
+    };
+    let pipeline = Some(gpu.pipeline(&pass.name, descriptor)?);
+    let supplied = (PASS_SET + 1..).zip(supplied).map(|(set, layout)| (layout, reads(set))).collect();
+    let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
+    let usual_vertices = shader.usual_vertices;
+    let state = PassState { layout, supplied, vertex_stride: brought_stride, usual_vertices };
+    let sets = RingCache::new(physical.period(template.resources()));
+    Ok(PreparedDraw { sets, pipeline, local, state, vertices, ..nothing(template) })
+}
+
+/// The colour attachments of the scope that the pass writes, by the shader's locations.
+fn targets(plan: &Plan, scope: &RenderScope, pass: &plan::Pass) -> Result<Vec<usize>, String> {
+    let writes =
+        |access: &&plan::Access| access.accesses.contains(Accesses::COLOR_ATTACHMENT_WRITE) && access.binding.is_none();
+    let mut targets = Vec::new();
+    for access in pass.accesses.iter().filter(writes) {
+        let same = |it: &&plan::Attachment| {
+            it.image == access.image
+                && it.range.base_mip == access.range.base_mip
+                && it.range.base_layer == access.range.base_layer
+        };
+        let found = scope.color.iter().position(|it| same(&it));
+        let found =
+            found.ok_or_else(|| format!("it writes `{}`, which is no attachment", plan.image(access.image).name));
+        targets.push(found?);
+    }
+    targets.dedup();
+    Ok(targets)
+}
+
+/// How the pass sees the scope's colour attachments; `None` if its shader's locations are theirs, and it reads none.
+fn local_read(
+    gpu: &Gpu,
+    scope: &RenderScope,
+    pass: &plan::Pass,
+    shader: &CompiledShader,
+    targets: &[usize],
+) -> Result<Option<LocalRead>, String> {
+    let mut inputs = vec![vk::ATTACHMENT_UNUSED; scope.color.len()];
+    for access in &pass.accesses {
+        let Some(binding) = access.binding.as_ref().filter(|it| it.kind == BindingKind::InputAttachment) else {
+            continue;
+        };
+        let index = shader.input_attachments.iter().find(|(name, _)| **name == *binding.name).map(|(_, index)| *index);
+        let attachment = scope.color.iter().position(|it| it.image == access.image);
+        let (Some(index), Some(attachment)) = (index, attachment) else {
+            return Err(format!("`{}` is no input attachment of a colour attachment of its scope", binding.name));
+        };
+        inputs[attachment] = index;
+    }
+    let reads = inputs.iter().any(|index| *index != vk::ATTACHMENT_UNUSED);
+    let straight = targets.iter().enumerate().all(|(location, target)| location == *target);
+    if straight && !reads {
+        return Ok(None);
+    }
+    if gpu.local_read.is_none() {
+        return Err("it needs local reads, and this device has none".to_owned());
+    }
+    let mut locations = vec![vk::ATTACHMENT_UNUSED; scope.color.len()];
+    for (location, target) in (0..).zip(targets) {
+        locations[*target] = location;
+    }
+    fill_gaps(&mut locations);
+    fill_gaps(&mut inputs);
+    Ok(Some(LocalRead { locations, inputs }))
+}
+
+/// Gives numbers that are left over to attachments that the pass doesn't use: SwiftShader takes `VK_ATTACHMENT_UNUSED` for an
+/// index and crashes.
+fn fill_gaps(numbers: &mut [u32]) {
+    let taken = numbers.to_vec();
+    let mut free = (0..).filter(|number| !taken.contains(number));
+    for number in numbers.iter_mut().filter(|number| **number == vk::ATTACHMENT_UNUSED) {
+        *number = free.next().unwrap_or(vk::ATTACHMENT_UNUSED);
+    }
+}
+
+/// A draw's vertices and indices must lie within its buffers.
+fn check_reach(
+    plan: &Plan,
+    draw: Draw,
+    vertices: &[BufferId],
+    strides: &[u32],
+    indices: Option<BufferId>,
+) -> Result<(), String> {
+    let Draw::Vertices { count, .. } = draw else { return Ok(()) };
+    let reaches = |buffer: BufferId, each: u32| {
+        let buffer = &plan.buffers[buffer.0 as usize];
+        if u64::from(count) * u64::from(each) <= buffer.bytes {
+            return Ok(());
+        }
+        Err(format!("{count} of {each} bytes each are more than `{}` holds: {} bytes", buffer.name, buffer.bytes))
+    };
+    match indices {
+        // What indices point to is known to the device alone, which keeps within the buffers.
+        Some(indices) => reaches(indices, 4),
+        None => vertices.iter().zip(strides).try_for_each(|(buffer, stride)| reaches(*buffer, *stride)),
+    }
+}

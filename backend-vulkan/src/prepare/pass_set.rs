@@ -1,0 +1,292 @@
+//! The set that belongs to a pass: its images and buffers by the shader's names, and the block `params`.
+
+use super::descriptions::part;
+use super::physical::PhysicalResources;
+use crate::base::{Error, convert};
+use crate::gpu::{Gpu, LayoutBinding};
+use crate::memory::{MemoryUse, RawBuffer, View, ViewShape};
+use crate::pipeline::{DescriptorSet, DescriptorTarget, PARAMS, parameters};
+use ash::vk;
+use framewright_graph::frame::EyeForm;
+use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource, Subresources};
+use framewright_graph::shader::{self, Block, PASS_SET};
+use framewright_graph::vulkan::{Accesses, Aspects, Component, Dimension, ImageShape, Sampler, Stages};
+use std::sync::Arc;
+
+/// What a pass's own set is filled with, whatever stands for its images and buffers.
+pub(crate) struct SetTemplate {
+    pub(crate) layout: vk::DescriptorSetLayout,
+    bindings: Vec<(LayoutBinding, BoundResource)>,
+    params: Option<(Block, Arc<RawBuffer>)>,
+}
+
+/// What is bound to one name.
+enum BoundResource {
+    Params,
+    Buffer(BufferId),
+    Image { image: ImageId, range: Subresources, shape: ViewShape, layout: vk::ImageLayout, sampler: vk::Sampler },
+}
+
+/// A pass's own descriptor set with all that it points to. Fields are dropped in this order.
+pub(crate) struct PassSet {
+    pub(crate) set: DescriptorSet,
+    _views: Vec<View>,
+    _buffers: Vec<Arc<RawBuffer>>,
+}
+
+impl SetTemplate {
+    /// The set for `pass` and the bindings of its shader.
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] where the Plan and the shader don't name the same things.
+    pub(crate) fn new(
+        gpu: &Arc<Gpu>,
+        plan: &Plan,
+        pass: &plan::Pass,
+        shader: &[shader::Binding],
+    ) -> Result<SetTemplate, Error> {
+        let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
+        let own = || shader.iter().filter(|it| it.set == PASS_SET);
+        let images = pass.accesses.iter().filter_map(|it| it.binding.as_ref()).map(|it| &it.name);
+        let buffers = pass.buffers.iter().filter_map(|it| it.binding.as_ref());
+        if let Some(surplus) = images.chain(buffers).find(|bound| own().all(|it| *it.name != ***bound)) {
+            return Err(mismatch(format!("the shader has no `{surplus}`")));
+        }
+        let (mut bindings, mut params) = (Vec::new(), None);
+        for wanted in own() {
+            let (ty, bound) = match &wanted.kind {
+                shader::BindingKind::UniformBlock(block)
+                    if wanted.name == PARAMS && buffer_of(pass, PARAMS).is_none() =>
+                {
+                    params = Some((block.clone(), filled(gpu, block, pass)?));
+                    (vk::DescriptorType::UNIFORM_BUFFER, BoundResource::Params)
+                }
+                shader::BindingKind::UniformBlock(_) | shader::BindingKind::StorageBlock { .. } => {
+                    block(plan, pass, wanted).map_err(mismatch)?
+                }
+                _ => {
+                    let (ty, image) = image(gpu, plan, pass, wanted).map_err(mismatch)?;
+                    let sampler = image.sampler.map(|it| gpu.sampler(it.into())).transpose()?;
+                    let BoundImage { image, range, shape, layout, .. } = image;
+                    (ty, BoundResource::Image { image, range, shape, layout, sampler: sampler.unwrap_or_default() })
+                }
+            };
+            bindings.push((LayoutBinding { binding: wanted.binding, ty, stages: stages(wanted.stages) }, bound));
+        }
+        let layout = gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
+        Ok(SetTemplate { layout, bindings, params })
+    }
+
+    /// A set without bindings.
+    pub(crate) fn empty(gpu: &Gpu) -> Result<SetTemplate, Error> {
+        Ok(SetTemplate { layout: gpu.set_layout(Vec::new())?, bindings: Vec::new(), params: None })
+    }
+
+    /// The block `params` with the values that `pass` has now, for [`SetTemplate::take`]; `None`: the shader has none.
+    pub(crate) fn params_of(&self, gpu: &Arc<Gpu>, pass: &plan::Pass) -> Result<Option<Arc<RawBuffer>>, Error> {
+        self.params.as_ref().map(|(block, _)| filled(gpu, block, pass)).transpose()
+    }
+
+    /// Puts other parameters in place of those that sets were filled with so far.
+    pub(crate) fn take(&mut self, filled: Arc<RawBuffer>) {
+        if let Some((_, params)) = &mut self.params {
+            *params = filled;
+        }
+    }
+
+    /// What the set's contents depend on.
+    pub(crate) fn resources(&self) -> impl Iterator<Item = Resource> {
+        self.bindings.iter().filter_map(|(_, bound)| match bound {
+            BoundResource::Params => None,
+            BoundResource::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
+            BoundResource::Image { image, .. } => Some(Resource::Image(*image)),
+        })
+    }
+
+    /// The set for frame `frame`.
+    pub(crate) fn fill(&self, gpu: &Arc<Gpu>, physical: &PhysicalResources, frame: u64) -> Result<PassSet, Error> {
+        let (mut views, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
+        for (binding, bound) in &self.bindings {
+            let target = match bound {
+                BoundResource::Params => match &self.params {
+                    Some((_, params)) => {
+                        buffers.push(params.clone());
+                        DescriptorTarget::Buffer(params.raw)
+                    }
+                    None => continue,
+                },
+                BoundResource::Buffer(buffer) => {
+                    let buffer = physical.buffer(*buffer, frame);
+                    buffers.push(buffer.clone());
+                    DescriptorTarget::Buffer(buffer.raw)
+                }
+                BoundResource::Image { image, range, shape, layout, sampler } => {
+                    let view = View::new(physical.image(*image, frame), *range, *shape)?;
+                    let target = DescriptorTarget::Image(view.raw, *layout, *sampler);
+                    views.push(view);
+                    target
+                }
+            };
+            targets.push((*binding, target));
+        }
+        let set = DescriptorSet::new(gpu, &targets)?;
+        Ok(PassSet { set, _views: views, _buffers: buffers })
+    }
+}
+
+/// A block `params` with the values of a pass.
+fn filled(gpu: &Arc<Gpu>, block: &Block, pass: &plan::Pass) -> Result<Arc<RawBuffer>, Error> {
+    let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
+    let bytes = parameters::fill(block, &pass.params).map_err(mismatch)?;
+    let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
+    let mut buffer = RawBuffer::new(gpu, PARAMS, bytes.len() as u64, usage, MemoryUse::Upload)?;
+    buffer.fill(&bytes)?;
+    Ok(Arc::new(buffer))
+}
+
+/// The access to the buffer that is bound to `name`.
+fn buffer_of<'p>(pass: &'p plan::Pass, name: &str) -> Option<&'p plan::BufferAccess> {
+    pass.buffers.iter().find(|it| it.binding.as_deref() == Some(name))
+}
+
+/// The buffer behind a block.
+fn block(
+    plan: &Plan,
+    pass: &plan::Pass,
+    wanted: &shader::Binding,
+) -> Result<(vk::DescriptorType, BoundResource), String> {
+    let name = &wanted.name;
+    let access = buffer_of(pass, name).ok_or_else(|| format!("nothing is bound to `{name}`"))?;
+    let buffer = &plan.buffers[access.buffer.0 as usize];
+    match &wanted.kind {
+        shader::BindingKind::UniformBlock(block) if access.accesses.contains(Accesses::UNIFORM_READ) => {
+            if u64::from(block.bytes) > buffer.bytes.next_multiple_of(16) {
+                let held = buffer.bytes;
+                return Err(format!("the block `{name}` takes {} bytes, and its buffer holds {held}", block.bytes));
+            }
+            Ok((vk::DescriptorType::UNIFORM_BUFFER, BoundResource::Buffer(access.buffer)))
+        }
+        shader::BindingKind::StorageBlock { writable, .. }
+            if access.accesses.intersects(Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE) =>
+        {
+            only_read(name, *writable, access.accesses)?;
+            Ok((vk::DescriptorType::STORAGE_BUFFER, BoundResource::Buffer(access.buffer)))
+        }
+        _ => Err(format!("`{name}` is a uniform block to only one of Plan and shader")),
+    }
+}
+
+/// A shader that may write what the Plan takes to be only read would race with others.
+fn only_read(name: &str, writable: bool, accesses: Accesses) -> Result<(), String> {
+    if writable && !accesses.contains(Accesses::SHADER_STORAGE_WRITE) {
+        return Err(format!("the Plan only reads `{name}`: declare it `readonly` in the shader"));
+    }
+    Ok(())
+}
+
+/// An image as it is bound.
+struct BoundImage {
+    image: ImageId,
+    range: Subresources,
+    shape: ViewShape,
+    layout: vk::ImageLayout,
+    sampler: Option<Sampler>,
+}
+
+/// The part of an image that is bound, in the shape that the shader declares.
+fn image(
+    gpu: &Gpu,
+    plan: &Plan,
+    pass: &plan::Pass,
+    wanted: &shader::Binding,
+) -> Result<(vk::DescriptorType, BoundImage), String> {
+    let name = &wanted.name;
+    let bound = pass.accesses.iter().find_map(|it| {
+        let binding = it.binding.as_ref().filter(|binding| *binding.name == **name)?;
+        Some((it, binding.kind))
+    });
+    let (access, kind) = bound.ok_or_else(|| format!("nothing is bound to `{name}`"))?;
+    let image = plan.image(access.image);
+    let mut range = part(image, access.range);
+    if let (Some(EyeForm::Layers), Some(eye)) = (image.eyes, access.eye) {
+        range = Subresources { base_layer: eye as u32, layers: 1, ..range };
+    }
+    if image.format.aspects().contains(Aspects::DEPTH | Aspects::STENCIL) && range.aspects != Aspects::STENCIL {
+        // A shader reads one plane at a time.
+        range.aspects = Aspects::DEPTH;
+    }
+    let component = if range.aspects == Aspects::STENCIL { Component::Uint } else { Component::of(image.format) };
+    let read = |wanted: Component| {
+        if wanted == component {
+            return Ok(());
+        }
+        Err(format!("the shader reads {wanted:?} from `{name}`, which is {}", image.format))
+    };
+    let samples = |multisampled: bool| {
+        if multisampled == (image.samples > 1) {
+            return Ok(());
+        }
+        Err(format!("`{name}` has {} samples and another kind of sampler", image.samples))
+    };
+    let layout = convert::layout(access.layout);
+    let whole = |shape, sampler| BoundImage { image: access.image, range, shape, layout, sampler };
+    match (&wanted.kind, kind) {
+        (shader::BindingKind::SampledImage(shape), BindingKind::Sampled(sampler)) => {
+            samples(shape.multisampled)?;
+            read(shape.component)?;
+            let arrayed = shape.arrayed || range.layers > 1 && image.eyes.is_some();
+            let shape = view_shape(gpu, name, ImageShape { arrayed, ..*shape }, image, range)?;
+            Ok((vk::DescriptorType::COMBINED_IMAGE_SAMPLER, whole(shape, Some(sampler))))
+        }
+        (shader::BindingKind::StorageImage { shape, format, writable, .. }, BindingKind::Storage) => {
+            samples(shape.multisampled)?;
+            only_read(name, *writable, access.accesses)?;
+            if *format != Some(image.format) {
+                let declared = format.map_or("no format".to_owned(), |format| format.to_string());
+                return Err(format!("the shader declares `{name}` with {declared}, and it is {}", image.format));
+            }
+            let shape = view_shape(gpu, name, *shape, image, range)?;
+            Ok((vk::DescriptorType::STORAGE_IMAGE, whole(shape, None)))
+        }
+        (shader::BindingKind::InputAttachment { multisampled, component }, BindingKind::InputAttachment) => {
+            samples(*multisampled)?;
+            read(*component)?;
+            let shape = if range.layers > 1 { ViewShape::Layers } else { ViewShape::Flat };
+            Ok((vk::DescriptorType::INPUT_ATTACHMENT, whole(shape, None)))
+        }
+        (shader::BindingKind::Other(other), _) => Err(format!("`{name}` can't be in set 0: {}", other.what)),
+        (wanted, kind) => Err(format!("`{name}` is bound as {kind:?}, and the shader declares {wanted:?}")),
+    }
+}
+
+/// The view that a shader's declaration needs.
+fn view_shape(
+    gpu: &Gpu,
+    name: &str,
+    shape: ImageShape,
+    image: &plan::Image,
+    range: Subresources,
+) -> Result<ViewShape, String> {
+    let deep = image.shape == framewright_graph::vulkan::Shape::D3;
+    let cubic = image.shape == framewright_graph::vulkan::Shape::Cube;
+    match (shape.dimension, shape.arrayed) {
+        (Dimension::D2, false) if range.layers == 1 && !deep => Ok(ViewShape::Flat),
+        (Dimension::D2, true) if !deep => Ok(ViewShape::Layers),
+        (Dimension::D3, false) if deep => Ok(ViewShape::Volume),
+        (Dimension::Cube, false) if cubic && range.layers == 6 => Ok(ViewShape::Cube),
+        (Dimension::Cube, true) if !gpu.cube_arrays => Err(format!("`{name}`: this device has no arrays of cubes")),
+        (Dimension::Cube, true) if cubic && range.layers.is_multiple_of(6) => Ok(ViewShape::Cubes),
+        _ => Err(format!("`{name}` has another dimension than its image")),
+    }
+}
+
+/// Shader stages have other values than pipeline stages.
+fn stages(stages: Stages) -> vk::ShaderStageFlags {
+    let pairs = [
+        (Stages::VERTEX_SHADER, vk::ShaderStageFlags::VERTEX),
+        (Stages::FRAGMENT_SHADER, vk::ShaderStageFlags::FRAGMENT),
+        (Stages::COMPUTE_SHADER, vk::ShaderStageFlags::COMPUTE),
+    ];
+    let flags = pairs.iter().filter(|(stage, _)| stages.contains(*stage)).map(|(_, flag)| *flag);
+    flags.fold(vk::ShaderStageFlags::empty(), |all, flag| all | flag)
+}

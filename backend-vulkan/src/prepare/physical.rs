@@ -1,0 +1,148 @@
+//! A Plan's images and buffers on a device.
+
+use super::descriptions::{buffer_descriptor, cycle, descriptor};
+use super::history::HistoryRings;
+use crate::base::Error;
+use crate::gpu::Gpu;
+use crate::memory::{Image, MemoryBlock, MemoryUse, RawBuffer};
+use ash::vk;
+use framewright_graph::device::ImageDescriptor;
+use framewright_graph::plan::{BufferId, ImageId, Placement, Plan, Resource, Role};
+use framewright_graph::vulkan::Usage;
+use std::collections::HashSet;
+use std::sync::Arc;
+
+/// The images and buffers that a Plan's images and buffers are.
+pub(crate) struct PhysicalResources {
+    images: Vec<Arc<Image>>,
+    buffers: Vec<Arc<RawBuffer>>,
+    rings: HistoryRings,
+    /// What has its contents from another Plan's executor.
+    migrated: HashSet<Resource>,
+}
+
+impl PhysicalResources {
+    /// Makes the heaps with what is placed in them, and all else with memory of its own.
+    pub(crate) fn new(gpu: &Arc<Gpu>, plan: &Plan) -> Result<PhysicalResources, Error> {
+        let rings = HistoryRings::new(plan)?;
+        let heaps = heaps(gpu, plan)?;
+        let heap = |place: &Placement| heaps[place.heap as usize].clone();
+        let images = plan.images.iter().map(|image| {
+            let mut descriptor = descriptor(image);
+            // What changes round is used in every place of its cycle.
+            for id in cycle(image.id.0, |id| &plan.images[id as usize].role) {
+                descriptor.usage |= plan.images[id as usize].usage;
+            }
+            let made = match &image.role {
+                Role::Transient(place) => Image::new(gpu, &image.name, &descriptor, heap(place), place.offset),
+                Role::Persistent { .. } | Role::External { .. } => {
+                    let writable = gpu.writable(&descriptor);
+                    Image::with_own_memory(gpu, &image.name, &writable)
+                }
+            };
+            made.map(Arc::new)
+        });
+        let images = images.collect::<Result<_, _>>()?;
+        let buffers = plan.buffers.iter().map(|buffer| {
+            let mut descriptor = buffer_descriptor(buffer);
+            for id in cycle(buffer.id.0, |id| &plan.buffers[id as usize].role) {
+                descriptor.usage |= plan.buffers[id as usize].usage;
+            }
+            let made = match &buffer.role {
+                Role::Transient(place) => RawBuffer::placed(gpu, &buffer.name, &descriptor, heap(place), place.offset),
+                Role::Persistent { .. } | Role::External { .. } => {
+                    RawBuffer::persistent(gpu, &buffer.name, &descriptor)
+                }
+            };
+            made.map(Arc::new)
+        });
+        let buffers = buffers.collect::<Result<_, _>>()?;
+        Ok(PhysicalResources { images, buffers, rings, migrated: HashSet::new() })
+    }
+
+    /// What stands for an image in frame `frame`.
+    pub(crate) fn image(&self, image: ImageId, frame: u64) -> &Arc<Image> {
+        &self.images[self.rings.image(image.0, frame)]
+    }
+
+    /// What stands for a buffer in frame `frame`.
+    pub(crate) fn buffer(&self, buffer: BufferId, frame: u64) -> &Arc<RawBuffer> {
+        &self.buffers[self.rings.buffer(buffer.0, frame)]
+    }
+
+    /// After how many frames the same stand for all of these again.
+    pub(crate) fn period(&self, resources: impl IntoIterator<Item = Resource>) -> u64 {
+        self.rings.period(resources)
+    }
+
+    /// Takes the contents of another Plan's image for the first frame.
+    pub(crate) fn migrate_image(&mut self, image: ImageId, from: Arc<Image>) {
+        self.images[image.0 as usize] = from;
+        self.migrated.insert(Resource::Image(image));
+    }
+
+    /// Takes the contents of another Plan's buffer for the first frame.
+    pub(crate) fn migrate_buffer(&mut self, buffer: BufferId, from: Arc<RawBuffer>) {
+        self.buffers[buffer.0 as usize] = from;
+        self.migrated.insert(Resource::Buffer(buffer));
+    }
+
+    /// Whether it has its contents before the first frame already.
+    pub(crate) fn is_migrated(&self, resource: Resource) -> bool {
+        self.migrated.contains(&resource)
+    }
+
+    /// Takes another image for an external one, which never changes round.
+    pub(crate) fn replace_image(&mut self, image: ImageId, by: Image) {
+        self.images[image.0 as usize] = Arc::new(by);
+    }
+
+    /// Takes another buffer for an external one, which never changes round.
+    pub(crate) fn replace_buffer(&mut self, buffer: BufferId, by: RawBuffer) {
+        self.buffers[buffer.0 as usize] = Arc::new(by);
+    }
+}
+
+impl Gpu {
+    /// `descriptor` as something that can be written by transfers too, where the device has such images.
+    fn writable(&self, descriptor: &ImageDescriptor) -> ImageDescriptor {
+        let writable = ImageDescriptor { usage: descriptor.usage | Usage::TRANSFER_DST, ..*descriptor };
+        let transient = descriptor.usage.contains(Usage::TRANSIENT_ATTACHMENT);
+        if !transient && self.can_make(&writable) { writable } else { *descriptor }
+    }
+}
+
+fn heaps(gpu: &Arc<Gpu>, plan: &Plan) -> Result<Vec<Arc<MemoryBlock>>, Error> {
+    let placed = |heap: usize, role: &Role| matches!(role, Role::Transient(place) if place.heap as usize == heap);
+    let mut heaps = Vec::new();
+    for (index, heap) in plan.heaps.iter().enumerate() {
+        let lazy = if heap.lazily_allocated { gpu.lazy_types() } else { u32::MAX };
+        let requirements = vk::MemoryRequirements {
+            size: heap.bytes.max(1),
+            alignment: heap.alignment.max(1),
+            memory_type_bits: heap.type_bits & lazy,
+        };
+        let of_buffers = plan.buffers.iter().any(|buffer| placed(index, &buffer.role));
+        if of_buffers && plan.images.iter().any(|image| placed(index, &image.role)) {
+            return Err(Error::BadPlan { what: format!("heap {index} holds images and buffers") });
+        }
+        let kind = if of_buffers { MemoryUse::Buffers } else { MemoryUse::Images };
+        let memory = MemoryBlock::new(gpu, &format!("heap {index}"), requirements, kind);
+        heaps.push(Arc::new(memory.map_err(|error| with_parts(error, plan, index))?));
+    }
+    Ok(heaps)
+}
+
+/// The error with the names of what was to lie in a heap.
+fn with_parts(mut error: Error, plan: &Plan, heap: usize) -> Error {
+    let placed = |name: &str, role: &Role| match role {
+        Role::Transient(place) if place.heap as usize == heap => Some((name.to_owned(), place.bytes)),
+        _ => None,
+    };
+    if let Error::OutOfMemory { parts, .. } = &mut error {
+        let images = plan.images.iter().filter_map(|image| placed(&image.name, &image.role));
+        let buffers = plan.buffers.iter().filter_map(|buffer| placed(&buffer.name, &buffer.role));
+        *parts = images.chain(buffers).collect();
+    }
+    error
+}

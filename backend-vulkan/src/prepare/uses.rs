@@ -1,0 +1,86 @@
+//! Where in a frame each image and buffer is used first and last.
+
+use framewright_graph::plan::{BufferId, ImageId, Pass, Plan, Resource, Step, StepId, Work};
+
+/// First and last step that touch an image or buffer, barriers included.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct StepSpan {
+    pub(crate) first: usize,
+    pub(crate) last: usize,
+}
+
+/// The first and last uses of a Plan.
+pub(crate) struct ResourceUses {
+    images: Vec<Option<StepSpan>>,
+    buffers: Vec<Option<StepSpan>>,
+}
+
+impl ResourceUses {
+    /// Those of `plan`.
+    pub(crate) fn new(plan: &Plan) -> ResourceUses {
+        let mut uses = ResourceUses { images: vec![None; plan.images.len()], buffers: vec![None; plan.buffers.len()] };
+        for (index, step) in plan.steps.iter().enumerate() {
+            touched(step, &mut |resource| {
+                let span = match resource {
+                    Resource::Image(ImageId(id)) => &mut uses.images[id as usize],
+                    Resource::Buffer(BufferId(id)) => &mut uses.buffers[id as usize],
+                };
+                span.get_or_insert(StepSpan { first: index, last: index }).last = index;
+            });
+        }
+        uses
+    }
+
+    /// Where an image or buffer is used; `None` if nowhere.
+    pub(crate) fn of(&self, resource: Resource) -> Option<StepSpan> {
+        match resource {
+            Resource::Image(image) => self.images[image.0 as usize],
+            Resource::Buffer(buffer) => self.buffers[buffer.0 as usize],
+        }
+    }
+}
+
+impl StepSpan {
+    /// The last step, as the Plan counts.
+    pub(crate) fn last_id(self) -> StepId {
+        StepId(u32::try_from(self.last).unwrap_or(u32::MAX))
+    }
+
+    /// The first step, as the Plan counts.
+    pub(crate) fn first_id(self) -> StepId {
+        StepId(u32::try_from(self.first).unwrap_or(u32::MAX))
+    }
+}
+
+/// Calls `touch` for everything that a step touches.
+fn touched(step: &Step, touch: &mut impl FnMut(Resource)) {
+    for barrier in step.image_barriers.iter().chain(&step.releases) {
+        touch(Resource::Image(barrier.image));
+    }
+    for hazard in step.memory_barriers.iter().flat_map(|it| &it.buffers) {
+        touch(Resource::Buffer(hazard.buffer));
+    }
+    match &step.work {
+        Work::Render(scope) => {
+            for attachment in scope.color.iter().chain(&scope.depth).chain(&scope.stencil) {
+                touch(Resource::Image(attachment.image));
+                if let Some(resolve) = &attachment.resolve {
+                    touch(Resource::Image(resolve.image));
+                }
+            }
+            scope.passes.iter().for_each(|pass| accessed(pass, touch));
+        }
+        Work::Dispatch(pass) | Work::Custom(pass) => accessed(pass, touch),
+        Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
+            touch(transfer.source.resource());
+            touch(transfer.target.resource());
+        }
+        Work::Fill(fill) => touch(fill.target.resource()),
+        Work::Export => {}
+    }
+}
+
+fn accessed(pass: &Pass, touch: &mut impl FnMut(Resource)) {
+    pass.accesses.iter().for_each(|access| touch(Resource::Image(access.image)));
+    pass.buffers.iter().for_each(|access| touch(Resource::Buffer(access.buffer)));
+}

@@ -1,0 +1,269 @@
+//! Self-tests of drivers: what a device says it can do is tried before it is used, in a helper process if there is one.
+//!
+//! What a test found is kept for the device and the version of its driver. A device whose test ends the process is used
+//! without the feature.
+
+use super::claims::depth_resolve_modes;
+use crate::base::replace_file;
+use crate::gpu::Device;
+use crate::probe::{depth_resolve, multiview};
+use crate::process::{DepthResolve, DeviceName, Helper, NoAnswer};
+use framewright_graph::device::Profile;
+use framewright_graph::vulkan::ResolveMode;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+
+/// What the self-tests of a device found.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct SelfTests {
+    /// How it resolves depth.
+    pub(crate) depth_resolve: DepthResolve,
+    /// Why the test of that gave no answer.
+    depth_resolve_unknown: Option<String>,
+    /// Whether it draws several views at once, if it says so.
+    pub(crate) draws_views: bool,
+    /// Why the test of that gave no answer.
+    draws_views_unknown: Option<String>,
+    /// Whether that test couldn't be done, which says nothing of the device.
+    pub(crate) draws_views_untested: bool,
+}
+
+/// A file with what was found.
+#[derive(Debug, Serialize, Deserialize)]
+struct CachedFindings {
+    /// The device, its driver and the program that tested it.
+    key: String,
+    found: SelfTests,
+}
+
+impl SelfTests {
+    /// What the self-tests of `device` find, or found before.
+    pub(crate) fn of(device: &Device, helper: Option<&Helper>) -> SelfTests {
+        let Some(helper) = helper else { return SelfTestRuns::test(device, None).found(device, None) };
+        let (key, file) = (key(device, helper), file(device, helper));
+        if let Some(known) = file.as_deref().and_then(|file| known(file, &key)) {
+            return known;
+        }
+        let runs = SelfTestRuns::test(device, Some(helper));
+        let kept = file.filter(|_| runs.are_kept()).and_then(|file| {
+            let found = runs.found(device, Some(&file));
+            keep(&file, &CachedFindings { key, found: found.clone() }).then_some(found)
+        });
+        kept.unwrap_or_else(|| runs.found(device, None))
+    }
+
+    /// Takes from the profile of a device that does all that it says what it failed, or wasn't tested for.
+    pub(super) fn take_from(&self, profile: &mut Profile) {
+        let DepthResolve { has, refuted, refuted_layered, untested } = self.depth_resolve.clone();
+        profile.depth_resolve = has;
+        profile.refuted_depth_resolve = refuted;
+        profile.refuted_layered_depth_resolve = refuted_layered;
+        profile.untested_depth_resolve = untested;
+        if !self.draws_views {
+            let claimed = std::mem::replace(&mut profile.max_multiview_views, 1) > 1;
+            profile.untested_multiview = claimed && self.draws_views_untested;
+            profile.refuted_multiview = claimed && !self.draws_views_untested;
+        }
+    }
+
+    /// What the device says it can do and is used without, and why. `multiview`: it says that it draws several views.
+    pub(crate) fn used_without(&self, multiview: bool) -> Vec<String> {
+        let resolves = |of: &str, unused: &[ResolveMode]| {
+            let modes: Vec<String> = unused.iter().map(|mode| format!("{mode:?}")).collect();
+            (!modes.is_empty()).then(|| {
+                let why = self.depth_resolve_unknown.as_deref().unwrap_or("it resolves to other values");
+                format!("{of} by {}: {why}", modes.join(", "))
+            })
+        };
+        let DepthResolve { refuted, untested, .. } = &self.depth_resolve;
+        let depth = resolves("depth resolves", if untested.is_empty() { refuted } else { untested });
+        let layered = resolves("depth resolves of several layers at once", &self.depth_resolve.refuted_layered);
+        let views = (multiview && !self.draws_views).then(|| {
+            let why = self.draws_views_unknown.as_deref().unwrap_or("it draws other pictures");
+            format!("multiview: {why}")
+        });
+        [depth, layered, views].into_iter().flatten().collect()
+    }
+}
+
+/// What came of both self-tests.
+struct SelfTestRuns {
+    views: SelfTestRun<bool>,
+    depth: SelfTestRun<DepthResolve>,
+}
+
+impl SelfTestRuns {
+    /// Tests a device now, in helper processes if there is a helper.
+    fn test(device: &Device, helper: Option<&Helper>) -> SelfTestRuns {
+        let summary = device.summary();
+        let device_name = DeviceName { name: &summary.name, identity: &summary.identity };
+        let views = SelfTestRun::of(match helper {
+            Some(helper) => helper.draws_views(device_name),
+            None => Ok(multiview::probe(device).map_err(|error| error.to_string())),
+        });
+        let draws_views = views.found.unwrap_or(false);
+        let depth = SelfTestRun::of(match helper {
+            Some(helper) => helper.depth_resolve(device_name, draws_views),
+            None => Ok(depth_resolve::probe(device, draws_views).map_err(|error| error.to_string())),
+        });
+        SelfTestRuns { views, depth }
+    }
+
+    /// Whether what they found is kept. A test that took too long may have met a busy machine only; but what hangs would cost every
+    /// command the same time again.
+    fn are_kept(&self) -> bool {
+        [self.views.end, self.depth.end].iter().all(|end| *end != Outcome::NotDone)
+    }
+
+    /// What they found, kept in a file if there is one.
+    fn found(&self, device: &Device, kept: Option<&Path>) -> SelfTests {
+        let depth = self.depth.found.clone();
+        let fails = self.depth.end == Outcome::Finding;
+        SelfTests {
+            depth_resolve: depth.unwrap_or_else(|| without_answer(device, fails)),
+            depth_resolve_unknown: self.depth.why(kept),
+            draws_views: self.views.found.unwrap_or(false),
+            draws_views_unknown: self.views.why(kept),
+            draws_views_untested: self.views.end != Outcome::Finding,
+        }
+    }
+}
+
+/// Of a device whose self-test gave no answer nothing is used: draws resolve instead. `fails`: that is the device's doing.
+fn without_answer(device: &Device, fails: bool) -> DepthResolve {
+    let said = depth_resolve_modes(&device.gpu);
+    let (refuted, untested) = if fails { (said, Vec::new()) } else { (Vec::new(), said) };
+    DepthResolve { refuted, untested, ..DepthResolve::default() }
+}
+
+/// What the end of a self-test says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    /// Something of the device: it would end so again.
+    Finding,
+    /// That it takes too long, at least now.
+    TooLong,
+    /// Nothing: it couldn't be done.
+    NotDone,
+}
+
+/// What came of a self-test.
+struct SelfTestRun<T> {
+    /// What it found.
+    found: Option<T>,
+    /// Why it found nothing.
+    why: Option<String>,
+    /// What its end says.
+    end: Outcome,
+}
+
+impl<T> SelfTestRun<T> {
+    /// By the answer of a helper process, or the same of this process.
+    fn of(answer: Result<Result<T, String>, NoAnswer>) -> SelfTestRun<T> {
+        let (found, why, end) = match answer {
+            Ok(Ok(found)) => (Some(found), None, Outcome::Finding),
+            Ok(Err(why)) => (None, Some(format!("its self-test couldn't be done: {why}")), Outcome::NotDone),
+            Err(end) => (None, Some(format!("its self-test {end}")), outcome_of(&end)),
+        };
+        SelfTestRun { found, why, end }
+    }
+
+    /// Why it found nothing; and if only time was short, how it is tried again in spite of the file that keeps that.
+    fn why(&self, kept: Option<&Path>) -> Option<String> {
+        match (self.end, kept) {
+            (Outcome::TooLong, Some(file)) => {
+                self.why.as_ref().map(|why| format!("{why}; to have it tested again, remove {}", file.display()))
+            }
+            _ => self.why.clone(),
+        }
+    }
+}
+
+/// What it says that a helper process gave no answer. A helper that can't be started now may be there later, and these signals come
+/// from others: the user, or a system that is short of memory.
+fn outcome_of(end: &NoAnswer) -> Outcome {
+    match end {
+        NoAnswer::Died(how) if ["SIGHUP", "SIGINT", "SIGKILL", "SIGTERM"].contains(&how.as_str()) => Outcome::NotDone,
+        NoAnswer::Died(_) | NoAnswer::Stack(_) => Outcome::Finding,
+        NoAnswer::TooLong(_) => Outcome::TooLong,
+        NoAnswer::Memory(_) | NoAnswer::Cancelled | NoAnswer::Unusable(_) => Outcome::NotDone,
+    }
+}
+
+/// All that what is found depends on: the device, its driver and that one's version, and the program that tests it, which
+/// another build replaces.
+fn key(device: &Device, helper: &Helper) -> String {
+    let program = fs::metadata(helper.path()).ok();
+    let written = program.as_ref().and_then(|it| it.modified().ok());
+    let written = written.and_then(|it| it.duration_since(UNIX_EPOCH).ok()).map_or(0, |it| it.as_nanos());
+    let bytes = program.map_or(0, |it| it.len());
+    let (identity, path, version) = (&device.summary().identity, helper.path().display(), env!("CARGO_PKG_VERSION"));
+    format!("{identity}; framewright {version}; {path}, {bytes} bytes, written {written}")
+}
+
+/// Where it is kept: one file for each device and program, whatever their versions.
+fn file(device: &Device, helper: &Helper) -> Option<PathBuf> {
+    let mut hasher = DefaultHasher::new();
+    (&device.summary().name, helper.path()).hash(&mut hasher);
+    helper.cache().map(|cache| cache.join(format!("{:016x}.json", hasher.finish())))
+}
+
+/// What a file says, if it can be read and is about this.
+fn known(file: &Path, key: &str) -> Option<SelfTests> {
+    let kept: CachedFindings = serde_json::from_slice(&fs::read(file).ok()?).ok()?;
+    (kept.key == key).then_some(kept.found)
+}
+
+/// Keeps what was found, and says whether that was possible. Where it isn't it is found anew each time.
+fn keep(file: &Path, kept: &CachedFindings) -> bool {
+    match (file.parent(), serde_json::to_vec_pretty(kept)) {
+        (Some(folder), Ok(text)) => replace_file(folder, file, &text).is_ok(),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::DeviceOptions;
+    use std::time::Duration;
+
+    #[test]
+    fn a_self_test_without_an_answer_is_a_finding_only_if_the_driver_ended_it() {
+        let no_answer = |answer: Result<Result<bool, String>, NoAnswer>| {
+            let tested = SelfTestRun::of(answer);
+            assert!(tested.found.is_none() && tested.why.is_some());
+            tested.end
+        };
+        for ended in [NoAnswer::Died("SIGSEGV".to_owned()), NoAnswer::Stack(1 << 20)] {
+            assert_eq!(no_answer(Err(ended)), Outcome::Finding);
+        }
+        assert_eq!(no_answer(Err(NoAnswer::TooLong(Duration::from_secs(1)))), Outcome::TooLong);
+        let not_done = [
+            Ok(Err("no memory".to_owned())),
+            Err(NoAnswer::Cancelled),
+            Err(NoAnswer::Died("SIGKILL".to_owned())),
+            Err(NoAnswer::Unusable("it is none".to_owned())),
+        ];
+        for ended in not_done {
+            assert_eq!(no_answer(ended), Outcome::NotDone);
+        }
+    }
+
+    #[test]
+    fn of_depth_whose_self_test_gave_no_answer_no_mode_is_used() {
+        let Ok(device) = Device::open(&DeviceOptions::default()) else {
+            assert!(std::env::var_os("CI").is_none(), "CI must have a device");
+            return;
+        };
+        for fails in [true, false] {
+            let DepthResolve { has, refuted, refuted_layered, untested } = without_answer(&device, fails);
+            assert!(has.is_empty() && refuted_layered.is_empty());
+            assert!(refuted.contains(&ResolveMode::SampleZero) == fails && refuted.is_empty() != fails);
+            assert!(untested.contains(&ResolveMode::SampleZero) != fails && untested.is_empty() == fails);
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! The program that is started as a helper, and what it is asked.
+
+use super::limits::Limits;
+use super::protocol::{Answer, CompileFailure, CompileJob, DepthResolve, IncludedFile, Request, SelfTest};
+use super::running::{NoAnswer, Running, Streams};
+use crate::base::{Cancel, cache_folder};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::Duration;
+use std::{fmt, io};
+
+/// What is told of a device whose self-tests take long.
+type Tell = dyn Fn(&LongTest) + Send + Sync;
+
+/// A self-test that takes long.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct LongTest {
+    /// The device's own name.
+    pub device: String,
+    /// How long each of its two self-tests may take.
+    pub limit: Duration,
+}
+
+/// A program that is started as a helper process when it is needed. Clones share one process.
+#[derive(Debug, Clone)]
+pub struct Helper {
+    program: PathBuf,
+    limits: Limits,
+    cache: Option<PathBuf>,
+    /// The process that compiles, once one was started and as long as it lives.
+    compiler: Arc<Mutex<Option<Running>>>,
+    /// What gives up waits for it.
+    cancel: Arc<Cancel>,
+    /// Whom it is told that a self-test takes long.
+    tell: Arc<LongTestListener>,
+}
+
+/// Whom something is told, if anyone.
+#[derive(Default)]
+struct LongTestListener(OnceLock<Box<Tell>>);
+
+impl fmt::Debug for LongTestListener {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Told").field(&self.0.get().is_some()).finish()
+    }
+}
+
+/// The device that a self-test is about.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DeviceName<'d> {
+    /// Its own name.
+    pub(crate) name: &'d str,
+    /// All that tells it from other devices and its driver from other drivers and versions.
+    pub(crate) identity: &'d str,
+}
+
+impl Helper {
+    /// The program at `program`, whose `main` calls [`serve`](crate::helper::serve).
+    ///
+    /// What the self-tests of drivers find is kept in the user's cache folder (`$XDG_CACHE_HOME/framewright` or
+    /// `~/.cache/framewright`).
+    #[must_use]
+    pub fn program(program: impl Into<PathBuf>, limits: Limits) -> Helper {
+        let cache = cache_folder().map(|cache| cache.join("self-tests"));
+        Helper {
+            program: program.into(),
+            limits,
+            cache,
+            compiler: Arc::default(),
+            cancel: Arc::default(),
+            tell: Arc::default(),
+        }
+    }
+
+    /// The running program itself, whose `main` calls [`serve`](crate::helper::serve).
+    ///
+    /// # Errors
+    /// If the system doesn't tell where the program lies.
+    pub fn this_program(limits: Limits) -> io::Result<Helper> {
+        Ok(Helper::program(std::env::current_exe()?, limits))
+    }
+
+    /// With another folder for what the self-tests find; `None`: they run anew in each process.
+    #[must_use]
+    pub fn with_cache(self, cache: Option<PathBuf>) -> Helper {
+        Helper { cache, ..self }
+    }
+
+    /// Has every wait for a helper process end soon after `asked` becomes true, for all clones. It is asked about 20 times a
+    /// second, from another thread. Only the first call counts.
+    ///
+    /// The process is ended. A shader that it was compiling has an error then, which its library keeps; a device that it was
+    /// testing counts as not tested.
+    pub fn cancel_when(&self, asked: impl Fn() -> bool + Send + Sync + 'static) {
+        self.cancel.when(asked);
+    }
+
+    /// Has `tell` called when a self-test of a device has gone on for two seconds: it may take as long as
+    /// [`Limits::self_test`] says, and the program waits for it. It is called at most once for each test, from another thread, for
+    /// all clones, and mustn't block: until it comes back the test isn't given up. Only the first call counts.
+    pub fn when_a_test_takes_long(&self, tell: impl Fn(&LongTest) + Send + Sync + 'static) {
+        let _ = self.tell.0.set(Box::new(tell));
+    }
+
+    /// The program that is started.
+    pub(crate) fn path(&self) -> &Path {
+        &self.program
+    }
+
+    /// Where the findings of self-tests are kept.
+    pub(crate) fn cache(&self) -> Option<&Path> {
+        self.cache.as_deref()
+    }
+
+    /// Compiles one stage. `includes` finds the files that it includes.
+    pub(crate) fn compile(
+        &self,
+        job: &CompileJob,
+        includes: &mut dyn FnMut(&str, &str) -> Result<IncludedFile, String>,
+    ) -> Result<Result<Vec<u32>, CompileFailure>, NoAnswer> {
+        let mut compiler = self.compiler.lock().unwrap_or_else(PoisonError::into_inner);
+        let running = match compiler.take() {
+            Some(running) => running,
+            None => self.start(&self.limits)?,
+        };
+        let (compiled, running) = running.within(self.limits.time, &self.cancel, None, |streams| {
+            streams.send(&Request::Compile(job.clone()))?;
+            loop {
+                match streams.receive()? {
+                    Answer::Include { from, name } => streams.send(&Request::Included(includes(&from, &name)))?,
+                    Answer::Spirv => return Ok(Ok(streams.receive_words()?)),
+                    Answer::CompileFailure(failure) => return Ok(Err(failure)),
+                    Answer::DepthResolve(_) | Answer::DrawsViews(_) | Answer::NotTested(_) => {
+                        return Err(Streams::garbage());
+                    }
+                }
+            }
+        })?;
+        match (&compiled, self.limits.memory) {
+            (Err(CompileFailure::OutOfMemory), Some(memory)) => return Err(NoAnswer::Memory(memory)),
+            // Whether a compiler that failed can go on isn't known.
+            (Err(CompileFailure::OutOfMemory | CompileFailure::Internal(_)), _) => {}
+            (Ok(_) | Err(CompileFailure::Messages(_) | CompileFailure::TooLarge(_)), _) => *compiler = running,
+        }
+        Ok(compiled)
+    }
+
+    /// How the device resolves depth, for several views at once too if it `draws_views`; the inner error says
+    /// why that can't be tried.
+    pub(crate) fn depth_resolve(
+        &self,
+        device: DeviceName<'_>,
+        draws_views: bool,
+    ) -> Result<Result<DepthResolve, String>, NoAnswer> {
+        self.test(SelfTest::DepthResolve { draws_views }, device, |answer| match answer {
+            Answer::DepthResolve(found) => Some(found),
+            _ => None,
+        })
+    }
+
+    /// Whether the device draws several views at once; the inner error says why that can't be tried.
+    pub(crate) fn draws_views(&self, device: DeviceName<'_>) -> Result<Result<bool, String>, NoAnswer> {
+        self.test(SelfTest::Multiview, device, |answer| match answer {
+            Answer::DrawsViews(found) => Some(found),
+            _ => None,
+        })
+    }
+
+    /// Starts a process, unless waits for it would be given up.
+    fn start(&self, limits: &Limits) -> Result<Running, NoAnswer> {
+        if self.cancel.is_asked() { Err(NoAnswer::Cancelled) } else { Running::start(&self.program, limits) }
+    }
+
+    /// Tests a device in a process of its own: drivers need more memory than the GLSL compiler may have.
+    fn test<T>(
+        &self,
+        test: SelfTest,
+        device: DeviceName<'_>,
+        found: impl FnOnce(Answer) -> Option<T>,
+    ) -> Result<Result<T, String>, NoAnswer> {
+        let limits = Limits { memory: None, ..self.limits.clone() };
+        let tell = || {
+            if let Some(tell) = self.tell.0.get() {
+                tell(&LongTest { device: device.name.to_owned(), limit: limits.self_test });
+            }
+        };
+        let found = self.start(&limits)?.within(limits.self_test, &self.cancel, Some(&tell), |streams| {
+            streams.send(&Request::SelfTest { test, device: device.identity.to_owned() })?;
+            match streams.receive()? {
+                Answer::NotTested(why) => Ok(Err(why)),
+                answer => found(answer).map(Ok).ok_or_else(Streams::garbage),
+            }
+        });
+        found.map(|(answer, _)| answer)
+    }
+}

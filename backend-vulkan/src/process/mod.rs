@@ -1,0 +1,17 @@
+//! The helper process as the program sees it: how it is started, what it is asked, what bounds it.
+
+mod helper;
+mod limits;
+mod protocol;
+mod running;
+
+pub use helper::{Helper, LongTest};
+pub use limits::Limits;
+
+pub(crate) use helper::DeviceName;
+pub(crate) use limits::limit_this_process;
+pub(crate) use protocol::{
+    ARGUMENT, Answer, CompileFailure, CompileJob, DepthResolve, IncludedFile, LARGEST_FRAME, LARGEST_SPIRV, Request,
+    SelfTest, ShaderStage, invalid, parse, read_frame, write, write_frame,
+};
+pub(crate) use running::NoAnswer;

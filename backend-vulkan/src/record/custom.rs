@@ -1,0 +1,250 @@
+//! How custom passes are recorded.
+
+use super::frame::Frame;
+use crate::base::convert;
+use crate::commands::{TransferSide, copy_between, fill};
+use ash::vk;
+use framewright_graph::frame::ParamValue;
+use framewright_graph::plan::{self, Access, BufferAccess, Subresources};
+use framewright_graph::vulkan::{Accesses, FillValue, Rotation};
+
+/// Records a custom pass, outside of rendering scopes. The pass's images and buffers go by the names that the Plan gives
+/// them, and are in the state that the Plan says.
+///
+/// No method fails at once: the first misuse is kept, what follows is ignored, and [`crate::Executor::frame`] returns it
+/// as [`crate::Error::Recording`].
+pub struct CustomRecorder<'f> {
+    frame: &'f Frame<'f>,
+    commands: vk::CommandBuffer,
+    pass: &'f plan::Pass,
+    recorded: u32,
+    misuse: Option<String>,
+}
+
+/// An image of a custom pass, for commands of the program's own.
+#[derive(Debug, Clone, Copy)]
+pub struct CustomImage {
+    /// Vulkan's image.
+    pub raw: vk::Image,
+    /// The part that the pass may touch.
+    pub range: Subresources,
+    /// Width, height and depth in use, from the first texel on, of the first mip level of that part; where an image changes its
+    /// size from frame to frame it is made larger.
+    pub extent: [u32; 3],
+    /// By how much the picture is turned that it holds, or is to hold; `extent` is that of the turned picture.
+    pub rotation: Rotation,
+    /// The layout that it is in and must be left in.
+    pub layout: vk::ImageLayout,
+    /// What the pass may do with it.
+    pub accesses: Accesses,
+}
+
+/// What a name stands for.
+enum NamedResource<'f> {
+    Image(&'f Access),
+    Buffer(&'f BufferAccess),
+}
+
+impl<'f> CustomRecorder<'f> {
+    pub(crate) fn new(frame: &'f Frame<'f>, commands: vk::CommandBuffer, pass: &'f plan::Pass) -> CustomRecorder<'f> {
+        CustomRecorder { frame, commands, pass, recorded: 0, misuse: None }
+    }
+
+    /// The pass's name.
+    #[must_use]
+    pub fn pass(&self) -> &str {
+        &self.pass.name
+    }
+
+    /// The view that the pass draws for; `None` if the Plan has none.
+    #[must_use]
+    pub fn view(&self) -> Option<&plan::View> {
+        let view = self.pass.view?;
+        self.frame.plan.views.get(view.0 as usize)
+    }
+
+    /// The number of the frame, from 0.
+    #[must_use]
+    pub fn frame(&self) -> u64 {
+        self.frame.number
+    }
+
+    /// By how many texels to the right and down what the pass's view shows is shifted in this frame.
+    #[must_use]
+    pub fn jitter(&self) -> [f64; 2] {
+        let jitter = self.view().and_then(|view| view.jitter.as_ref());
+        jitter.map_or([0.0; 2], |jitter| jitter.offset(self.frame.number))
+    }
+
+    /// A parameter that the pipeline gives the pass.
+    #[must_use]
+    pub fn param(&self, name: &str) -> Option<ParamValue> {
+        self.pass.params.iter().find(|param| *param.name == *name).map(|param| param.value)
+    }
+
+    /// The images and buffers that the pass reads by transfer, in the pipeline's order.
+    pub fn sources(&self) -> impl Iterator<Item = &str> {
+        self.named(Accesses::TRANSFER_READ)
+    }
+
+    /// The images and buffers that the pass writes by transfer, in the pipeline's order.
+    pub fn targets(&self) -> impl Iterator<Item = &str> {
+        self.named(Accesses::TRANSFER_WRITE)
+    }
+
+    fn named(&self, accesses: Accesses) -> impl Iterator<Item = &str> {
+        let images = self.pass.accesses.iter().filter(move |it| it.accesses.contains(accesses));
+        let buffers = self.pass.buffers.iter().filter(move |it| it.accesses.contains(accesses));
+        let plan = self.frame.plan;
+        let images = images.map(|it| &*plan.image(it.image).name);
+        images.chain(buffers.map(|it| &*plan.buffers[it.buffer.0 as usize].name))
+    }
+
+    /// Sets all that the pass may write of an image or buffer to a value.
+    pub fn fill(&mut self, target: &str, value: FillValue) {
+        let Some(named) = self.find(target, Accesses::TRANSFER_WRITE) else { return };
+        let format = match named {
+            NamedResource::Image(access) => Some(self.frame.plan.image(access.image).format),
+            NamedResource::Buffer(_) => None,
+        };
+        fill(self.frame.gpu, self.commands, self.side(&named), convert::clear(format, value));
+        self.recorded += 1;
+    }
+
+    /// Copies the first mip level that the pass may read of one image or buffer to that of another. Between images formats,
+    /// extents and rotations must agree; between buffers the shorter says how much; beside a buffer texels follow each other
+    /// without gaps.
+    pub fn copy(&mut self, source: &str, target: &str) {
+        let (Some(from), Some(to)) =
+            (self.find(source, Accesses::TRANSFER_READ), self.find(target, Accesses::TRANSFER_WRITE))
+        else {
+            return;
+        };
+        if !self.agree(&from, &to) {
+            return self.misused(|| format!("`{source}` and `{target}` differ in format, extent or rotation"));
+        }
+        copy_between(self.frame.gpu, self.commands, self.side(&from), self.side(&to));
+        self.recorded += 1;
+    }
+
+    /// An image of the pass, by the Plan's name or the shader's, for commands of the program's own.
+    #[must_use]
+    pub fn image(&self, name: &str) -> Option<CustomImage> {
+        let plan = self.frame.plan;
+        let is_named = |it: &&Access| {
+            *plan.image(it.image).name == *name || it.binding.as_ref().is_some_and(|binding| *binding.name == *name)
+        };
+        let access = self.pass.accesses.iter().find(is_named)?;
+        Some(CustomImage {
+            raw: self.frame.prepared.physical.image(access.image, self.frame.number).raw,
+            range: crate::prepare::part(plan.image(access.image), access.range),
+            extent: self.extent(access),
+            rotation: plan.image(access.image).rotation,
+            layout: convert::layout(access.layout),
+            accesses: access.accesses,
+        })
+    }
+
+    /// A buffer of the pass, by the Plan's name or the shader's, for commands of the program's own.
+    #[must_use]
+    pub fn buffer(&self, name: &str) -> Option<vk::Buffer> {
+        let is_named = |it: &&BufferAccess| {
+            *self.frame.plan.buffers[it.buffer.0 as usize].name == *name || it.binding.as_deref() == Some(name)
+        };
+        let access = self.pass.buffers.iter().find(is_named)?;
+        Some(self.frame.prepared.physical.buffer(access.buffer, self.frame.number).raw)
+    }
+
+    /// The command buffer, recording outside of rendering scopes, for commands of the program's own. To record is unsafe:
+    /// they may touch the pass's images and buffers, as the Plan says, and the program's own resources, and nothing else.
+    #[must_use]
+    pub fn raw(&mut self) -> vk::CommandBuffer {
+        self.recorded += 1;
+        self.commands
+    }
+
+    /// What the pass may access so under this name; a misuse if there is nothing.
+    fn find(&mut self, name: &str, accesses: Accesses) -> Option<NamedResource<'f>> {
+        if self.misuse.is_some() {
+            return None;
+        }
+        let (plan, pass) = (self.frame.plan, self.pass);
+        let image = |it: &&Access| *plan.image(it.image).name == *name && it.accesses.contains(accesses);
+        let buffer =
+            |it: &&BufferAccess| *plan.buffers[it.buffer.0 as usize].name == *name && it.accesses.contains(accesses);
+        let image = pass.accesses.iter().find(image).map(NamedResource::Image);
+        let found = image.or_else(|| pass.buffers.iter().find(buffer).map(NamedResource::Buffer));
+        if found.is_none() {
+            let verb = if accesses == Accesses::TRANSFER_READ { "reads" } else { "writes" };
+            self.misused(|| format!("the pass {verb} no `{name}` by transfer"));
+        }
+        found
+    }
+
+    /// Extent of the first mip level of what is accessed.
+    fn extent(&self, access: &Access) -> [u32; 3] {
+        let extent = self.frame.plan.image(access.image).extent;
+        extent.map(|side| side.unbounded_shr(access.range.base_mip).max(1))
+    }
+
+    fn side(&self, named: &NamedResource<'_>) -> TransferSide {
+        match named {
+            NamedResource::Image(access) => {
+                self.frame.image_side(access.image, access.range, self.extent(access), access.layout)
+            }
+            NamedResource::Buffer(access) => {
+                let bytes = self.frame.plan.buffers[access.buffer.0 as usize].bytes;
+                TransferSide::Buffer {
+                    buffer: self.frame.prepared.physical.buffer(access.buffer, self.frame.number).raw,
+                    bytes,
+                }
+            }
+        }
+    }
+
+    /// Whether one may be copied to the other.
+    fn agree(&self, from: &NamedResource<'_>, to: &NamedResource<'_>) -> bool {
+        let plan = self.frame.plan;
+        let texels = |access: &Access| {
+            let image = plan.image(access.image);
+            let range = crate::prepare::part(image, access.range);
+            (image.format, image.samples, self.extent(access), range.layers, range.aspects)
+        };
+        let rotation = |access: &Access| plan.image(access.image).rotation;
+        let fits = |access: &Access, buffer: &BufferAccess| {
+            let (format, samples, extent, layers, aspects) = texels(access);
+            let sides = extent.iter().fold(u64::from(layers), |all, side| all.saturating_mul(u64::from(*side)));
+            let needed = sides.saturating_mul(crate::commands::plane_bytes(format, aspects));
+            samples == 1 && needed <= plan.buffers[buffer.buffer.0 as usize].bytes
+        };
+        match (from, to) {
+            (NamedResource::Image(from), NamedResource::Image(to)) => {
+                texels(from) == texels(to) && rotation(from) == rotation(to)
+            }
+            (NamedResource::Image(image), NamedResource::Buffer(buffer))
+            | (NamedResource::Buffer(buffer), NamedResource::Image(image)) => fits(image, buffer),
+            (NamedResource::Buffer(_), NamedResource::Buffer(_)) => true,
+        }
+    }
+
+    fn misused(&mut self, what: impl FnOnce() -> String) {
+        self.misuse.get_or_insert_with(what);
+    }
+
+    /// How many commands were recorded, or the first misuse. To record nothing is one where the pass writes: those who read
+    /// that would read what the memory held before.
+    pub(crate) fn finish(self) -> Result<u32, String> {
+        let unwritten = self.written().filter(|_| self.recorded == 0);
+        let unwritten = unwritten.map(|name| format!("nothing was recorded, and the pass writes `{name}`"));
+        self.misuse.or(unwritten).map_or(Ok(self.recorded), Err)
+    }
+
+    /// The first image or buffer that the pass writes.
+    fn written(&self) -> Option<&str> {
+        let (plan, pass) = (self.frame.plan, self.pass);
+        let image = pass.accesses.iter().find(|it| !it.accesses.writes().is_empty());
+        let buffer = pass.buffers.iter().find(|it| !it.accesses.writes().is_empty());
+        let image = image.map(|it| &*plan.image(it.image).name);
+        image.or_else(|| buffer.map(|it| &*plan.buffers[it.buffer.0 as usize].name))
+    }
+}

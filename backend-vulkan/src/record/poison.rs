@@ -1,0 +1,132 @@
+//! Filling images and buffers with values that nobody may see.
+//!
+//! Where the frame takes an image into use (a barrier from `UNDEFINED`), the image is cleared to a pattern first. The clear
+//! stands between the two scopes of the Plan's own barrier and has no other: what waits for the barrier waits for the clear,
+//! and what the barrier waits for is done before it. Buffers have no such barrier, and what hands their memory over may stand
+//! before an earlier step: a buffer is filled right before the first step of its lifetime, after whatever the Plan lets come
+//! before that step, and made visible to it. Neither makes any write available that the Plan doesn't. So a poisoned frame
+//! shows the same picture exactly if nobody reads what was not written, and if the Plan's barriers order memory that changes
+//! hands.
+
+use super::frame::Frame;
+use crate::base::{Clear, convert};
+use crate::commands::{TransferSide, barriers, fill, memory_barriers};
+use ash::vk;
+use framewright_graph::plan::{Buffer, ImageBarrier, Resource, Role, Step, Work};
+use framewright_graph::vulkan::{Aspects, Format, Layout, Numeric};
+
+const CLEAR_STAGE: vk::PipelineStageFlags2 = vk::PipelineStageFlags2::CLEAR;
+const CLEAR_ACCESS: vk::AccessFlags2 = vk::AccessFlags2::TRANSFER_WRITE;
+const CLEAR_LAYOUT: vk::ImageLayout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+
+/// What a buffer is filled with.
+const WORD: u32 = 0xDEAD_BEEF;
+
+/// Records the barriers of the step number `index` with the poison between their scopes.
+pub(crate) fn record(frame: &Frame<'_>, commands: vk::CommandBuffer, index: usize, step: &Step) {
+    let images: Vec<_> = step.image_barriers.iter().filter(|barrier| takes_into_use(frame, barrier)).collect();
+    let buffers: Vec<_> = frame.plan.buffers.iter().filter(|buffer| begins(buffer, index)).collect();
+    let mut memory = memory_barriers(&step.memory_barriers);
+    for (recorded, barrier) in memory.iter_mut().zip(&step.memory_barriers) {
+        // Memory that changes hands is poisoned right after.
+        let is_poisoned = |next: &Resource| images.iter().any(|it| Resource::Image(it.image) == *next);
+        if barrier.hand_overs.iter().any(|[_, next]| is_poisoned(next)) {
+            recorded.dst_stage_mask |= CLEAR_STAGE;
+            recorded.dst_access_mask |= CLEAR_ACCESS;
+        }
+    }
+    let before = step.image_barriers.iter().map(|barrier| {
+        let recorded = frame.image_barrier(barrier);
+        if takes_into_use(frame, barrier) {
+            recorded.dst_stage_mask(CLEAR_STAGE).dst_access_mask(CLEAR_ACCESS).new_layout(CLEAR_LAYOUT)
+        } else {
+            recorded
+        }
+    });
+    let after = images.iter().map(|barrier| {
+        let recorded = frame.image_barrier(barrier);
+        recorded.src_stage_mask(CLEAR_STAGE).src_access_mask(CLEAR_ACCESS).old_layout(CLEAR_LAYOUT)
+    });
+    barriers(frame.gpu, commands, &memory, &before.collect::<Vec<_>>());
+    for barrier in &images {
+        let image = frame.plan.image(barrier.image);
+        let place = TransferSide::Image {
+            image: frame.prepared.physical.image(barrier.image, frame.number).raw,
+            range: barrier.range,
+            extent: vk::Extent3D::default(),
+            layout: CLEAR_LAYOUT,
+        };
+        fill(frame.gpu, commands, place, pattern(image.format));
+    }
+    let first_uses: Vec<_> = buffers.iter().map(|buffer| first_use(step, buffer)).collect();
+    // A barrier of its own call, so that it goes on from where the Plan's barriers lead.
+    let from: Vec<_> = first_uses.iter().map(until_filled).collect();
+    barriers(frame.gpu, commands, &from, &[]);
+    for buffer in &buffers {
+        let raw = frame.prepared.physical.buffer(buffer.id, frame.number).raw;
+        fill(frame.gpu, commands, TransferSide::Buffer { buffer: raw, bytes: buffer.bytes }, Clear::Word(WORD));
+    }
+    let until: Vec<_> = first_uses.iter().map(until_used).collect();
+    barriers(frame.gpu, commands, &until, &after.collect::<Vec<_>>());
+}
+
+/// Whether the barrier begins an image's life in the frame.
+fn takes_into_use(frame: &Frame<'_>, barrier: &ImageBarrier) -> bool {
+    let transient = matches!(frame.plan.image(barrier.image).role, Role::Transient(_));
+    transient && barrier.old_layout == Layout::Undefined
+}
+
+/// Whether a buffer's life in the frame begins with the step.
+fn begins(buffer: &Buffer, step: usize) -> bool {
+    matches!(&buffer.role, Role::Transient(place) if place.lifetime[0].0 as usize == step)
+}
+
+/// Stages and accesses.
+type SyncScope = (vk::PipelineStageFlags2, vk::AccessFlags2);
+
+/// What the first step of a buffer's lifetime does with it.
+fn first_use(step: &Step, buffer: &Buffer) -> SyncScope {
+    let passes = match &step.work {
+        Work::Render(scope) => &scope.passes[..],
+        Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
+        Work::Fill(_) => return (CLEAR_STAGE, CLEAR_ACCESS),
+        // Nothing but copies names buffers.
+        Work::Copy(_) | Work::Blit(_) | Work::Resolve(_) | Work::Export => {
+            return (vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ | vk::AccessFlags2::TRANSFER_WRITE);
+        }
+    };
+    let uses = passes.iter().flat_map(|pass| &pass.buffers).filter(|access| access.buffer == buffer.id);
+    uses.fold((vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE), |(stages, accesses), it| {
+        (stages | convert::stages(it.stages), accesses | convert::accesses(it.accesses))
+    })
+}
+
+/// The Plan's barriers lead to a buffer's first use: from there on to its poison.
+fn until_filled((stages, _): &SyncScope) -> vk::MemoryBarrier2<'static> {
+    vk::MemoryBarrier2::default().src_stage_mask(*stages).dst_stage_mask(CLEAR_STAGE).dst_access_mask(CLEAR_ACCESS)
+}
+
+/// From a buffer's poison to its first use.
+fn until_used((stages, accesses): &SyncScope) -> vk::MemoryBarrier2<'static> {
+    vk::MemoryBarrier2::default()
+        .src_stage_mask(CLEAR_STAGE)
+        .src_access_mask(CLEAR_ACCESS)
+        .dst_stage_mask(*stages)
+        .dst_access_mask(*accesses)
+}
+
+/// A colour that is conspicuous, and spreads where the format allows.
+fn pattern(format: Format) -> Clear {
+    if !format.aspects().contains(Aspects::COLOR) {
+        return Clear::DepthStencil(vk::ClearDepthStencilValue { depth: 0.5, stencil: 0xAA });
+    }
+    Clear::Color(match format.numeric() {
+        Numeric::Sfloat | Numeric::Ufloat => vk::ClearColorValue { float32: [f32::NAN; 4] },
+        Numeric::Unorm | Numeric::Srgb => vk::ClearColorValue { float32: [1.0, 0.0, 1.0, 1.0] },
+        Numeric::Uint => {
+            let bits = format.texel_bytes() * 8 / u64::from(format.components().max(1));
+            let mask = u32::MAX.unbounded_shr(32_u32.saturating_sub(u32::try_from(bits).unwrap_or(32)));
+            vk::ClearColorValue { uint32: [WORD & mask; 4] }
+        }
+    })
+}

@@ -1,0 +1,9 @@
+//! What a draw source brings along: buffers, textures and bind groups.
+
+mod bind_group;
+mod texture;
+
+pub use bind_group::{BindGroup, Resource};
+pub use texture::{Buffer, BufferUsage, Texture};
+
+pub(crate) use bind_group::supplied_layouts;

@@ -1,0 +1,142 @@
+//! What whoever draws brings along: buffers and textures.
+
+use crate::base::Error;
+use crate::commands::record_upload;
+use crate::gpu::{Device, Gpu, SamplerDescriptor};
+use crate::memory::{Image, MemoryUse, RawBuffer, View, ViewShape};
+use ash::vk;
+use framewright_graph::device::ImageDescriptor;
+use framewright_graph::plan::{Queue, Subresources};
+use framewright_graph::vulkan::{Format, Shape, Sharing, Usage};
+use std::sync::Arc;
+
+/// What a buffer is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum BufferUsage {
+    /// Vertex attributes.
+    Vertex,
+    /// Indices.
+    Index,
+    /// A uniform block.
+    Uniform,
+    /// A storage block.
+    Storage,
+}
+
+/// A buffer that shaders read. Clones share it.
+#[derive(Clone)]
+pub struct Buffer(pub(crate) Arc<RawBuffer>);
+
+/// A texture with its sampler. Clones share it.
+#[derive(Clone)]
+pub struct Texture(pub(crate) Arc<RawTexture>);
+
+/// A texture's parts. Fields are dropped in this order.
+pub(crate) struct RawTexture {
+    pub(crate) view: Arc<View>,
+    pub(crate) sampler: vk::Sampler,
+}
+
+impl Buffer {
+    /// Bytes that it holds.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.0.bytes
+    }
+}
+
+impl Device {
+    /// A buffer with these contents. An empty one holds 16 zero bytes, since Vulkan knows no empty buffers.
+    ///
+    /// # Errors
+    /// No memory, or more than a uniform or storage block of this device can hold.
+    pub fn buffer(&self, usage: BufferUsage, contents: &[u8]) -> Result<Buffer, Error> {
+        let limits = &self.gpu.limits;
+        let (flags, most) = match usage {
+            BufferUsage::Vertex => (vk::BufferUsageFlags::VERTEX_BUFFER, u64::MAX),
+            BufferUsage::Index => (vk::BufferUsageFlags::INDEX_BUFFER, u64::MAX),
+            BufferUsage::Uniform => (vk::BufferUsageFlags::UNIFORM_BUFFER, u64::from(limits.max_uniform_buffer_range)),
+            BufferUsage::Storage => (vk::BufferUsageFlags::STORAGE_BUFFER, u64::from(limits.max_storage_buffer_range)),
+        };
+        let bytes = contents.len() as u64;
+        if bytes > most {
+            let what = format!("{usage:?} buffer of {bytes} bytes: {} takes at most {most}", self.gpu.summary.name);
+            return Err(Error::BadResource { what });
+        }
+        let contents = if contents.is_empty() { &[0; 16] } else { contents };
+        let mut buffer = RawBuffer::new(&self.gpu, "buffer", contents.len() as u64, flags, MemoryUse::Upload)?;
+        buffer.fill(contents)?;
+        Ok(Buffer(Arc::new(buffer)))
+    }
+
+    /// A texture of `width` × `height` texels of `format`, rows from the top without padding. With `mips` a whole chain of
+    /// smaller levels is made, each by averaging the one before.
+    ///
+    /// # Errors
+    /// An extent that is zero or too large, a number of bytes that doesn't fit it, a format that can't be sampled, or no
+    /// memory.
+    pub fn texture(
+        &self,
+        width: u32,
+        height: u32,
+        format: Format,
+        texels: &[u8],
+        sampler: &SamplerDescriptor,
+        mips: bool,
+    ) -> Result<Texture, Error> {
+        let bad =
+            |what: String| Error::BadResource { what: format!("texture of {width} × {height} {format}: {what}") };
+        let largest = self.gpu.limits.max_image_dimension2_d;
+        if width == 0 || height == 0 || width > largest || height > largest {
+            return Err(bad(format!("both must be from 1 to {largest} on this device")));
+        }
+        let expected = u64::from(width) * u64::from(height) * format.texel_bytes();
+        if texels.len() as u64 != expected {
+            return Err(bad(format!("{} bytes were given, {expected} are needed", texels.len())));
+        }
+        let needed = vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR
+            | vk::FormatFeatureFlags::TRANSFER_DST
+            | if mips {
+                vk::FormatFeatureFlags::BLIT_SRC | vk::FormatFeatureFlags::BLIT_DST
+            } else {
+                Default::default()
+            };
+        if format.is_depth() || !self.gpu.format_features(format).contains(needed) {
+            return Err(bad("this device can't upload and filter the format".to_owned()));
+        }
+        let levels = if mips { u32::BITS - width.max(height).leading_zeros() } else { 1 };
+        let descriptor = ImageDescriptor {
+            format,
+            shape: Shape::D2,
+            extent: [width, height, 1],
+            mips: levels,
+            layers: 1,
+            samples: 1,
+            usage: Usage::SAMPLED | Usage::TRANSFER_DST | if levels > 1 { Usage::TRANSFER_SRC } else { Usage::empty() },
+            sharing: Sharing::Exclusive,
+        };
+        let image = Arc::new(Image::with_own_memory(&self.gpu, "texture", &descriptor)?);
+        upload(&self.gpu, &image, texels)?;
+        let view = Arc::new(View::new(&image, Subresources::all(format, levels, 1), ViewShape::Flat)?);
+        Ok(Texture(Arc::new(RawTexture { view, sampler: self.gpu.sampler(*sampler)? })))
+    }
+
+    /// The texels of `texture`, which they share, sampled another way.
+    ///
+    /// # Errors
+    /// If the device has no room for another sampler.
+    pub fn sampled(&self, texture: &Texture, sampler: &SamplerDescriptor) -> Result<Texture, Error> {
+        let view = texture.0.view.clone();
+        Ok(Texture(Arc::new(RawTexture { view, sampler: self.gpu.sampler(*sampler)? })))
+    }
+}
+
+/// Fills the first level of `image`, makes the others, and leaves all of them ready to be sampled.
+fn upload(gpu: &Arc<Gpu>, image: &Image, texels: &[u8]) -> Result<(), Error> {
+    let usage = vk::BufferUsageFlags::TRANSFER_SRC;
+    let mut staging = RawBuffer::new(gpu, "texture upload", texels.len() as u64, usage, MemoryUse::Upload)?;
+    staging.fill(texels)?;
+    gpu.submit_once("uploading a texture", Queue::Graphics, |commands| {
+        record_upload(gpu, commands, image, &staging, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+    })
+}

@@ -1,0 +1,78 @@
+//! The macros with which a stage is compiled for a pass.
+
+use super::eyes::{BothEyes, EYE};
+use super::mentioned::{COMPONENTS, HAS, Mentioned, PART, TEXTURE};
+use crate::process::ShaderStage;
+use framewright_graph::frame::{Eye, EyeForm};
+use framewright_graph::shader::{EyeSource, Variant};
+
+/// Macros and what they stand for.
+pub(super) type Macros = Vec<(String, String)>;
+
+/// As many as a format can have.
+const MOST_COMPONENTS: u32 = 4;
+
+/// What they stand for where all of it is used.
+const WHOLE: &str = "vec4(1.0, 1.0, 0.0, 0.0)";
+
+/// And for the left eye where both eyes' parts lie side by side.
+const LEFT_HALF: &str = "vec4(0.5, 1.0, 0.0, 0.0)";
+
+/// The macro that says how many parts push constants tell of, if they tell of any.
+pub(super) const PARTS: &str = "FRAMEWRIGHT_PARTS";
+
+/// How a variant draws for both eyes at once, if it does.
+pub(super) fn both_eyes(variant: &Variant) -> Option<BothEyes> {
+    Some(BothEyes { source: variant.eye?, form: variant.form? })
+}
+
+/// What the macros that depend on a pass stand for in a stage whose file mentions such names.
+pub(super) fn macros(mentioned: &Mentioned, variant: &Variant, stage: ShaderStage) -> Macros {
+    let textures = mentioned.adapting.iter().map(|name| {
+        let given = variant.textures.iter().find(|(given, _)| **given == **name);
+        let texture = given.map_or_else(|| "sampler2D".to_owned(), |(_, texture)| texture.to_string());
+        (format!("{TEXTURE}{name}"), texture)
+    });
+    let sampled = variant.sampled.iter().filter(|name| mentioned.optional.iter().any(|known| **known == ***name));
+    let sampled = sampled.map(|name| (format!("{HAS}{name}"), String::new()));
+    let components = mentioned.counted.iter().map(|name| {
+        let given = variant.components.iter().find(|(given, _)| **given == **name);
+        (format!("{COMPONENTS}{name}"), given.map_or(MOST_COMPONENTS, |(_, count)| *count).to_string())
+    });
+    let local = variant.local.iter().map(|name| (format!("LOCAL_READ_{name}"), String::new()));
+    let depth_only = variant.depth_only.then(|| ("DEPTH_ONLY".to_owned(), String::new()));
+    let covers = variant.alpha_to_coverage.then(|| ("ALPHA_TO_COVERAGE".to_owned(), String::new()));
+    let place = |name: &String| variant.parts.iter().position(|part| **part == **name);
+    let parts = mentioned.parts.iter().map(|name| {
+        let part = place(name).map(|at| format!("framewright_parts.st[{at}]"));
+        let halves = variant.eyes.iter().find(|(known, form, _)| **known == **name && *form == EyeForm::Halves);
+        let part = match (part, halves) {
+            (Some(part), None) => part,
+            (None, None) => WHOLE.to_owned(),
+            (part, Some((_, _, eye))) => half(&part.unwrap_or_else(|| LEFT_HALF.to_owned()), *eye),
+        };
+        (format!("{name}{PART}"), part)
+    });
+    let in_part = mentioned.parts.iter().any(|name| place(name).is_some());
+    let count = in_part.then(|| (PARTS.to_owned(), variant.parts.len().to_string()));
+    let one = match variant.eye {
+        Some(EyeSource::One(Eye::Right)) if mentioned.eye => Some(("eye_index".to_owned(), "1".to_owned())),
+        _ => None,
+    };
+    let both = both_eyes(variant).into_iter().flat_map(|both| both.macros(stage));
+    let own = textures
+        .chain(sampled)
+        .chain(components)
+        .chain(local)
+        .chain(depth_only)
+        .chain(covers)
+        .chain(parts)
+        .chain(count);
+    own.chain(one).chain(both).collect()
+}
+
+/// The part that one eye has of what is used in halves, of which the left one's is `left`.
+fn half(left: &str, eye: Option<Eye>) -> String {
+    let eye = eye.map_or_else(|| format!("float({EYE})"), |eye| format!("{}.0", eye as u32));
+    format!("({left} + vec4(0.0, 0.0, {left}.x * {eye}, 0.0))")
+}

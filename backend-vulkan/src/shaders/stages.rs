@@ -1,0 +1,82 @@
+//! Compiled stages, and how a vertex and a fragment stage go together.
+
+use super::reflect::StageInterface;
+use framewright_graph::shader::{BindingKind, PASS_SET, ShaderInterface};
+use std::sync::Arc;
+
+/// SPIR-V of one stage, with the entry point `main`.
+pub type Spirv = Arc<[u32]>;
+
+/// One stage of a shader.
+pub(super) struct CompiledStage {
+    pub(super) file: String,
+    /// Whether it is one of those that are shipped.
+    pub(super) shipped: bool,
+    pub(super) spirv: Spirv,
+    pub(super) reflected: StageInterface,
+}
+
+/// Whether a fragment stage leaves depth as it would be without one.
+pub(super) fn changes_nothing(fragment: &ShaderInterface) -> bool {
+    let writes = |kind: &BindingKind| {
+        matches!(
+            kind,
+            BindingKind::StorageImage { writable: true, .. } | BindingKind::StorageBlock { writable: true, .. }
+        )
+    };
+    !fragment.discards && !fragment.writes_depth && !fragment.bindings.iter().any(|binding| writes(&binding.kind))
+}
+
+/// The interface of both stages together.
+///
+/// # Errors
+/// In words: where the stages don't fit together.
+pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<ShaderInterface, String> {
+    for input in &fragment.reflected.inputs {
+        let handed = vertex.reflected.outputs.iter().find(|output| output.location == input.location);
+        if handed.is_none_or(|output| output.ty != input.ty) {
+            let found = handed.map_or("nothing".to_owned(), |output| format!("`{} {}`", output.ty, output.name));
+            return Err(format!(
+                "{} reads `{} {}` at location {}, where {} hands over {found}",
+                fragment.file, input.ty, input.name, input.location, vertex.file
+            ));
+        }
+    }
+    let mut joined = fragment.reflected.interface.clone();
+    joined.vertex_inputs.clone_from(&vertex.reflected.interface.vertex_inputs);
+    for binding in &vertex.reflected.interface.bindings {
+        match joined.bindings.iter_mut().find(|it| (it.set, it.binding) == (binding.set, binding.binding)) {
+            None => joined.bindings.push(binding.clone()),
+            Some(same) if same.name == binding.name && same.kind == binding.kind => {
+                same.stages |= binding.stages;
+                same.adapts &= binding.adapts;
+            }
+            Some(other) => {
+                return Err(format!(
+                    "{} declares `{}` at set {}, binding {}, where {} declares `{}`, or the same in another form",
+                    vertex.file, binding.name, binding.set, binding.binding, fragment.file, other.name
+                ));
+            }
+        }
+    }
+    for (name, used) in &vertex.reflected.interface.alpha {
+        match joined.alpha.iter_mut().find(|(known, _)| known == name) {
+            Some((_, known)) => *known = (*known).max(*used),
+            None => joined.alpha.push((name.clone(), *used)),
+        }
+    }
+    joined.unturned.extend(
+        vertex.reflected.interface.unturned.iter().filter(|it| !fragment.reflected.interface.unturned.contains(it)),
+    );
+    joined.unturned.sort_unstable();
+    joined.bindings.sort_by_key(|it| (it.set, it.binding));
+    // Each stage that samples an image must ask.
+    let [mut others, seen] = [&vertex, &fragment].map(|stage| stage.reflected.interface.clone());
+    let silent = |stage: &ShaderInterface, name: &String| {
+        stage.bindings.iter().any(|it| it.set == PASS_SET && it.name == *name) && !stage.asks_part.contains(name)
+    };
+    joined.asks_part.retain(|name| !silent(&others, name));
+    others.asks_part.retain(|name| !silent(&seen, name) && !joined.asks_part.contains(name));
+    joined.asks_part.append(&mut others.asks_part);
+    Ok(joined)
+}
