@@ -7,7 +7,6 @@ use crate::system::{Exit, links, text};
 use framewright_graph::base;
 
 use framewright_graph::base::{Diagnostic, NoFile, Sources, for_shell};
-use framewright_graph::language;
 use framewright_graph::shader::ShaderProblem;
 use framewright_graph::vulkan::Format;
 use framewright_passes::scene::SceneError;

@@ -2,7 +2,7 @@
 
 use framewright_graph::frame::{Cascade, DrawList};
 use framewright_graph::vulkan::Filter;
-use framewright_passes::draw::cascades::seen_by_sun;
+use framewright_passes::draw::cascades::sun_view;
 use framewright_passes::scene::{AlphaMode, Camera, Sampler, Scene, Sun, Texture, Wrap};
 use framewright_passes::twin::lighting::{lit_surface, reflect_light};
 use framewright_tests::raycast::RayCaster;
@@ -72,7 +72,7 @@ fn hold_against_rays(scene: &Scene, cascades: u8, taps: u32) -> Result<[usize; 3
     // Where no blocker begins or ends within this, the coarsest map can tell.
     let coarsest = Cascade { list: DrawList::Opaque, index: cascades - 1, of: cascades, reach: 14.0.try_into().ok() };
     let aspect = f64::from(EXTENT[0]) / f64::from(EXTENT[1]);
-    let blur = seen_by_sun(scene, &scene.camera, aspect, coarsest, MAP).texel * f64::from(taps + 3);
+    let blur = sun_view(scene, &scene.camera, aspect, coarsest, MAP).texel * f64::from(taps + 3);
     let mut counts = [0; 3];
     for (index, texel) in texels.iter().enumerate() {
         let at = DVec2::new((index % EXTENT[0] as usize) as f64 + 0.5, (index / EXTENT[0] as usize) as f64 + 0.5);

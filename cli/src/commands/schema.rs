@@ -6,7 +6,7 @@ use crate::files::inputs;
 use crate::system::{Exit, text};
 use framewright_graph::base::{ReadFiles, Sources};
 use framewright_graph::language::{self, LARGEST_FILE};
-use framewright_graph::ron::Tree;
+use framewright_graph::ron::{self, Tree};
 
 /// Prints the schema, or a file as JSON.
 ///
@@ -23,7 +23,7 @@ pub(crate) fn schema(arguments: &SchemaArguments) -> Result<Exit, Error> {
             let mut diagnostics = Vec::new();
             let tree = Tree::read(number, text.into(), &mut diagnostics).filter(|_| diagnostics.is_empty());
             let wrong = |diagnostics| Error::mistakes(sources, diagnostics, Exit::Found);
-            match tree.map(|tree| language::convert(tree.root())) {
+            match tree.map(|tree| ron::convert(tree.root())) {
                 Some(Ok(value)) => value,
                 Some(Err(diagnostics)) => return Err(wrong(diagnostics)),
                 None => return Err(wrong(diagnostics)),

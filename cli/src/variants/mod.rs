@@ -28,7 +28,6 @@ use axes::Axes;
 use checker::{CheckedPipeline, VariantChecker};
 use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Profile;
-use framewright_graph::language;
 use progress::Progress;
 use report::Report;
 use shaders::SharedShaders;

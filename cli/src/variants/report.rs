@@ -9,7 +9,6 @@ use super::space::{Choice, Space};
 use crate::command_line::args::CheckArguments;
 use crate::command_line::options;
 use framewright_graph::base::{self, Diagnostic, Sources};
-use framewright_graph::language;
 use framewright_graph::plan::Totals;
 use serde::Serialize;
 use serde_json::Value;

@@ -20,8 +20,9 @@ pub use output::Output;
 pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Work};
 pub(crate) use resource::with_room;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay};
-pub(crate) use texture::format_problem;
-pub use texture::{ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures};
+pub use texture::{
+    ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
+};
 pub use touch::{
     Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,
 };

@@ -141,13 +141,13 @@ impl TextureInfo {
 
 /// Width and height of the picture for an image of this extent.
 #[must_use]
-pub(crate) const fn picture_extent([width, height, depth]: [u32; 3]) -> [u32; 2] {
+pub const fn picture_extent([width, height, depth]: [u32; 3]) -> [u32; 2] {
     [width.saturating_mul(depth), height]
 }
 
 /// Why texels of such a file can't be held in `format`.
 #[must_use]
-pub(crate) fn format_problem(file: &TextureFile, format: Format) -> Option<&'static str> {
+pub fn format_problem(file: &TextureFile, format: Format) -> Option<&'static str> {
     if format.is_depth() {
         Some("a picture holds no depth")
     } else if format.is_integer() {

@@ -8,7 +8,6 @@ use crate::system::{Exit, progress, text};
 use framewright_graph::base::{self, ReadFiles};
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::{Frame, Stereo};
-use framewright_graph::language;
 use framewright_graph::plan::{Note, Plan};
 use serde::Serialize;
 use std::collections::HashSet;

@@ -4,8 +4,8 @@ use crate::command_line::args::CheckArguments;
 use crate::error::Error;
 use crate::planning::totals;
 use crate::system::text;
+use framewright_graph::base;
 use framewright_graph::plan::{Note, Plan, Totals};
-use framewright_graph::{base, language};
 use serde::Serialize;
 
 /// The verdict on one device.
