@@ -46,13 +46,22 @@ fn collect(src: &Path, folder: &Path, sources: &mut Vec<(String, String)>) {
 /// The arrows between files that are given by path and text.
 pub(crate) fn of_sources<'s>(sources: impl IntoIterator<Item = (&'s str, &'s str)>) -> Arrows {
     let mut modules: HashMap<Names, Module> = HashMap::new();
+    let mut macros: Vec<(String, Names)> = Vec::new();
     for (file, text) in sources {
         let parsed = syn::parse_file(text).unwrap_or_else(|error| panic!("{file}: {error}"));
-        let mut reader =
-            Reader { module: module_of(file), imports: HashMap::new(), defines: BTreeSet::new(), paths: Vec::new() };
+        let mut reader = Reader { module: module_of(file), ..Reader::default() };
         reader.visit_file(&parsed);
-        let Reader { module, imports, defines, paths } = reader;
+        let Reader { module, imports, defines, paths, exported } = reader;
+        macros.extend(exported.into_iter().map(|name| (name, module.clone())));
         modules.insert(module, Module { file: file.to_owned(), imports, defines, paths });
+    }
+    // Exported macros are named from the crate's root, wherever they are defined.
+    if let Some(face) = modules.get_mut(&Names::new()) {
+        let path = |(name, module): (String, Names)| {
+            let path = ["crate".to_owned()].into_iter().chain(module).chain([name.clone()]).collect();
+            (name, path)
+        };
+        face.imports.extend(macros.into_iter().map(path));
     }
     modules.iter().map(|(name, module)| (module.file.clone(), used_by(&modules, name, module))).collect()
 }
@@ -92,8 +101,8 @@ fn rooted(modules: &HashMap<Names, Module>, name: &Names, module: &Module, path:
         }
         first => {
             let child = || from.iter().cloned().chain([first.to_owned()]).collect::<Names>();
-            if let Some(import) = module.imports.get(first) {
-                let root = rooted(modules, name, module, import).filter(|_| import[0] != first)?;
+            if let Some(import) = module.imports.get(first).filter(|import| import[0] != first) {
+                let root = rooted(modules, name, module, import)?;
                 return Some(root.into_iter().chain(rest[1..].iter().cloned()).collect());
             } else if !modules.contains_key(&child()) {
                 return None;
@@ -119,11 +128,14 @@ fn defining<'m>(modules: &'m HashMap<Names, Module>, path: &[String], depth: u32
     Some(&module.file)
 }
 
+#[derive(Default)]
 struct Reader {
     module: Names,
     imports: HashMap<String, Names>,
     defines: BTreeSet<String>,
     paths: Vec<Names>,
+    /// Macros that `#[macro_export]` puts into the crate's root.
+    exported: Vec<String>,
 }
 
 /// Whether something is compiled for tests alone.
@@ -161,7 +173,12 @@ impl<'ast> Visit<'ast> for Reader {
             Item::Const(it) => (&it.attrs, Some(&it.ident)),
             Item::Static(it) => (&it.attrs, Some(&it.ident)),
             Item::Impl(it) => (&it.attrs, None),
-            Item::Macro(it) => (&it.attrs, it.ident.as_ref()),
+            Item::Macro(it) => {
+                if it.attrs.iter().any(|attribute| attribute.path().is_ident("macro_export")) {
+                    self.exported.extend(it.ident.iter().map(Ident::to_string));
+                }
+                (&it.attrs, it.ident.as_ref())
+            }
             _ => return visit::visit_item(self, item),
         };
         if !is_test(attributes) {
@@ -187,6 +204,9 @@ impl<'ast> Visit<'ast> for Reader {
             self.imports.insert(name, path);
         }
     }
+
+    /// `pub(crate)` names no file.
+    fn visit_visibility(&mut self, _: &'ast Visibility) {}
 
     fn visit_path(&mut self, path: &'ast syn::Path) {
         self.paths.push(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
