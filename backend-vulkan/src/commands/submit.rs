@@ -31,7 +31,7 @@ impl Timeline {
 impl Drop for Timeline {
     fn drop(&mut self) {
         if !self.gpu.is_abandoned() {
-            // SAFETY: whoever submitted with the semaphore waited before letting go of it.
+            // SAFETY: the submission that signals the semaphore is waited for before the semaphore is destroyed.
             unsafe { self.gpu.raw.destroy_semaphore(self.raw, None) };
         }
     }
@@ -163,7 +163,7 @@ impl CommandPool {
         if self.gpu.is_abandoned() {
             return Err(Error::DeviceLost { doing: DOING });
         }
-        // SAFETY: whoever submitted commands of the pool waited for them.
+        // SAFETY: the commands of the pool were waited for when they were submitted.
         unsafe { self.gpu.raw.reset_command_pool(self.raw, vk::CommandPoolResetFlags::empty()) }
             .map_err(Error::vulkan(DOING))
     }

@@ -158,7 +158,7 @@ impl Executor {
     /// Waits until the device is done with a frame.
     ///
     /// # Errors
-    /// [`Error::BadResource`] if it was never submitted, or so many were since that its report is gone;
+    /// [`Error::BadResource`] if it was never submitted, or its report was dropped for later ones;
     /// [`Error::DeviceLost`], [`Error::Timeout`].
     pub fn wait(&mut self, frame: u64) -> Result<FrameReport, Error> {
         self.frames.wait(frame)?;

@@ -121,7 +121,7 @@ fn create(
 
 impl Drop for Instance {
     fn drop(&mut self) {
-        // SAFETY: whoever made something from this instance holds it; the messenger goes before the instance.
+        // SAFETY: everything made from this instance holds it; the messenger goes before the instance.
         unsafe {
             if let Some((functions, messenger)) = self.messenger.take() {
                 functions.destroy_debug_utils_messenger(messenger, None);

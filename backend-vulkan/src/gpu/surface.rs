@@ -4,7 +4,7 @@ use ash::vk;
 use framewright_graph::vulkan::Rotation;
 
 /// By how much a surface wants pictures to be turned, from the `currentTransform` of its capabilities: a swapchain that is made
-/// with the same `preTransform` shows what is drawn so, without another turn by whoever composes the screen. `None` for the
+/// with the same `preTransform` shows what is drawn so, without another turn by the compositor. `None` for the
 /// transforms that mirror, and for `INHERIT`: draw upright, with `IDENTITY`, where the surface supports that.
 ///
 /// Swapchain images of surfaces that want a quarter or three have the size of the turned picture;

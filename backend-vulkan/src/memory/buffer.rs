@@ -115,7 +115,7 @@ impl RawBuffer {
         let raw = unsafe { gpu.raw.create_buffer(info, None) }.map_err(Error::vulkan("creating a buffer"))?;
         let buffer = RawBuffer { gpu: gpu.clone(), raw, memory, bytes, usage: info.usage };
         // SAFETY: the buffer is new; size, alignment and type of the memory are those of its requirements, or were checked
-        // against them by whoever placed it.
+        // against them when it was placed.
         unsafe { gpu.raw.bind_buffer_memory(raw, block, offset) }
             .map_err(Error::vulkan("binding a buffer to memory"))?;
         gpu.name(raw, name);
@@ -161,7 +161,7 @@ fn invisible(what: &str, bytes: usize) -> Error {
 impl Drop for RawBuffer {
     fn drop(&mut self) {
         if !self.is_foreign() && !self.gpu.is_abandoned() {
-            // SAFETY: whoever uses the buffer waits for the device before letting go of it. Its memory is freed after it.
+            // SAFETY: the owner of the buffer waits for the device before dropping it. Its memory is freed after it.
             unsafe { self.gpu.raw.destroy_buffer(self.raw, None) };
         }
     }

@@ -51,11 +51,11 @@ impl Image {
         offset: u64,
     ) -> Result<Image, Error> {
         let info = create_info(descriptor, &gpu.queues.families.indices);
-        // SAFETY: the device lives; formats, extents and usages were checked against the device by whoever planned.
+        // SAFETY: the device lives; formats, extents and usages were checked against the device when the Plan was made.
         let raw = unsafe { gpu.raw.create_image(&info, None) }.map_err(Error::vulkan("creating an image"))?;
         let (block, begin) = memory.place();
         let image = Image { gpu: gpu.clone(), raw, descriptor: *descriptor, memory: Some(memory) };
-        // SAFETY: the image is new; size, alignment and type of the memory were checked by whoever placed the image.
+        // SAFETY: the image is new; size, alignment and type of the memory were checked when the image was placed.
         unsafe { gpu.raw.bind_image_memory(raw, block, begin + offset) }
             .map_err(Error::vulkan("binding an image to memory"))?;
         gpu.name(raw, name);
@@ -88,7 +88,7 @@ impl Image {
 impl Drop for Image {
     fn drop(&mut self) {
         if self.memory.is_some() && !self.gpu.is_abandoned() {
-            // SAFETY: whoever uses the image waits for the device before letting go of it.
+            // SAFETY: the owner of the image waits for the device before dropping it.
             unsafe { self.gpu.raw.destroy_image(self.raw, None) };
         }
     }

@@ -42,7 +42,7 @@ impl View {
             })
             .format(convert::format(image.descriptor.format))
             .subresource_range(convert::range(range));
-        // SAFETY: the image lives, and the range was checked against it by whoever planned.
+        // SAFETY: the image lives, and the range was checked against it by `verify`.
         let raw =
             unsafe { image.gpu.raw.create_image_view(&info, None) }.map_err(Error::vulkan("creating an image view"))?;
         Ok(View { image: image.clone(), raw })
@@ -57,7 +57,7 @@ impl View {
 impl Drop for View {
     fn drop(&mut self) {
         if !self.image.gpu.is_abandoned() {
-            // SAFETY: whoever uses the view waits for the device before letting go of it.
+            // SAFETY: the owner of the view waits for the device before dropping it.
             unsafe { self.image.gpu.raw.destroy_image_view(self.raw, None) };
         }
     }

@@ -1,4 +1,4 @@
-//! Whether a shader fits what its pass and whoever draws give it, and the device.
+//! Whether a shader fits what its pass and its draw source give it, and the device.
 
 use crate::gpu::{Gpu, VertexAttribute};
 use ash::vk;
@@ -103,11 +103,11 @@ pub(crate) fn check_outputs(
     Ok(())
 }
 
-/// What an image is that whoever draws brings along.
+/// What an image is that the draw source provides.
 const PLAIN: ImageShape =
     ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: false, component: Component::Float };
 
-/// What whoever draws brings along must be something that Vulkan can bind.
+/// What the draw source provides must be something that Vulkan can bind.
 pub(crate) fn check_brought(gpu: &Gpu, brought: &DrawInterface) -> Result<(), String> {
     let limits = &gpu.limits;
     let stride = brought.vertex_stride;
@@ -134,7 +134,7 @@ pub(crate) fn check_brought(gpu: &Gpu, brought: &DrawInterface) -> Result<(), St
     Ok(())
 }
 
-/// The vertex attributes by the shader's locations, from one buffer that whoever draws brings along.
+/// The vertex attributes by the shader's locations, from one buffer that the draw source provides.
 pub(crate) fn brought_attributes(
     shader: &ShaderInterface,
     brought: &DrawInterface,

@@ -39,14 +39,14 @@ pub(crate) struct PassState {
     pub(crate) layout: vk::PipelineLayout,
     /// Layouts of the sets from 1 on, and whether the shader reads them.
     pub(crate) supplied: Vec<(vk::DescriptorSetLayout, bool)>,
-    /// Bytes from vertex to vertex of what whoever draws brings along; 0 if the pipeline reads no such vertex buffer.
+    /// Bytes from vertex to vertex of what the draw source provides; 0 if the pipeline reads no such vertex buffer.
     pub(crate) vertex_stride: u32,
     /// As [`crate::shaders::CompiledShader::usual_vertices`].
     pub(crate) usual_vertices: bool,
 }
 
 impl PassState {
-    /// Whether the shader reads anything that whoever draws brings along.
+    /// Whether the shader reads anything that the draw source provides.
     pub(crate) fn reads_supplied(&self) -> bool {
         self.supplied.iter().any(|(_, needed)| *needed)
     }

@@ -1,4 +1,4 @@
-//! How whoever draws records its draws.
+//! How a draw source records its draws.
 
 mod area;
 

@@ -92,7 +92,7 @@ impl Frame<'_> {
             local.map_or((&straight, &straight), |LocalRead { locations, inputs }| (locations, inputs));
         let locations = vk::RenderingAttachmentLocationInfoKHR::default().color_attachment_locations(locations);
         let inputs = vk::RenderingInputAttachmentIndexInfoKHR::default().color_attachment_input_indices(inputs);
-        // SAFETY: the command buffer is being recorded in a scope with so many colour attachments, and the extension is on.
+        // SAFETY: the command buffer is being recorded in a scope with these colour attachments, and the extension is on.
         unsafe {
             (extension.fp().cmd_set_rendering_attachment_locations_khr)(commands, &locations);
             (extension.fp().cmd_set_rendering_input_attachment_indices_khr)(commands, &inputs);

@@ -17,7 +17,7 @@ pub enum Resource<'r> {
     Texture(&'r Texture),
 }
 
-/// A descriptor set from 1 on, filled with what whoever draws brings along. Clones share it; it keeps what it holds.
+/// A descriptor set from 1 on, filled with what the draw source provides. Clones share it; it keeps what it holds.
 #[derive(Clone)]
 pub struct BindGroup(pub(crate) Arc<RawBindGroup>);
 

@@ -1,4 +1,4 @@
-//! What whoever draws brings along: buffers and textures.
+//! What the draw source provides: buffers and textures.
 
 use crate::base::Error;
 use crate::commands::record_upload;

@@ -214,7 +214,7 @@ impl<'m> Flow<'m> {
             }
             Op::ImageGather | Op::ImageDrefGather => {}
             _ if self.components(it) == 4 => self.made(frame, it),
-            // What is asked of the image itself is no texel.
+            // A query of the image itself reads no texel.
             _ => {}
         }
     }

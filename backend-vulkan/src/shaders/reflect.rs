@@ -33,7 +33,7 @@ pub(super) struct Varying {
     pub(super) ty: String,
 }
 
-/// Locations of vertex attributes are below this: Vulkan promises so many to all. The compiler itself limits those of colour
+/// Locations of vertex attributes are below this, which every Vulkan device has. The compiler itself limits those of colour
 /// outputs.
 const ATTRIBUTES: u32 = 16;
 /// A fragment stage declares at most this many outputs, the elements of arrays counted: no device has as many.

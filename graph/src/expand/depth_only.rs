@@ -67,7 +67,7 @@ fn hindrance(
     Some(format!("has the shader `{shader}`, and with the macro `DEPTH_ONLY` {wrong}"))
 }
 
-/// What is wrong with what is left of a shader to draw depth alone.
+/// Why the rest of a shader can't draw depth alone.
 fn difference(whole: &ShaderInterface, alone: &ShaderInterface) -> Option<String> {
     if whole.discards && !alone.discards {
         return Some("it discards no fragments any more".to_owned());

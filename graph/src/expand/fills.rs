@@ -92,7 +92,7 @@ fn depth(fill: Fill, format: Format) -> Result<FillValue, (String, String)> {
     Ok(FillValue::Depth(depth as f32, stencil))
 }
 
-/// A whole number of so many bits.
+/// A whole number of `bits` bits.
 fn bits(number: f64, size: u32) -> Option<u32> {
     let fits = number.fract() == 0.0 && (0.0..2_f64.powi(size.min(32).cast_signed())).contains(&number);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and in range, as checked")]

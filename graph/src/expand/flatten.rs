@@ -27,7 +27,7 @@ pub fn expand(
     if expanded.is_ok() || inputs.stereo == Stereo::Off {
         return expanded;
     }
-    // What is wrong for one eye is told once.
+    // A mistake that one eye has, too, is told once.
     let one = expand_so(document, sources, &Inputs { stereo: Stereo::Off, ..*inputs }, shaders);
     one.and(expanded)
 }

@@ -1,4 +1,4 @@
-//! The order of passes: nothing is read before it is written, and whoever writes first covers or clears.
+//! The order of passes: nothing is read before it is written, and the first writer covers or clears.
 
 use super::chosen::Chosen;
 use super::parts::Cells;
@@ -14,7 +14,7 @@ use crate::language::StandIn;
 use crate::vulkan::{Aspects, Layout};
 use std::iter::{once, successors};
 
-/// After so many mistakes it is no longer looked for which writer was meant: that would take long in a large file.
+/// After this many mistakes the writer that was meant is no longer looked for: that would take long in a large file.
 const MANY_MISTAKES: usize = 100;
 
 struct Check<'a> {

@@ -53,7 +53,7 @@ enum Wanted {
     Finer { format: Format, too_coarse: Format, choice: ChosenFormat },
 }
 
-/// What is farthest is to be told from what lies this share of its distance behind it.
+/// The farthest surface is told apart from one that lies this share of its distance behind it.
 const APART: f64 = 1.0 / 64.0;
 
 /// How many near distances away depth of a format still tells things apart that lie [`APART`]. Reversed depth without a far

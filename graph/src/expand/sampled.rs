@@ -418,7 +418,7 @@ pub(super) fn dimension(
     !fits
 }
 
-/// Why so many layers don't fit the declared shape.
+/// Why this number of layers doesn't fit the declared shape.
 pub(super) fn layers_fit(shape: ImageShape, layers: usize) -> Option<String> {
     let count = if layers == 1 { "1 layer".to_owned() } else { format!("{layers} layers") };
     let fits = match (shape.dimension, shape.arrayed) {

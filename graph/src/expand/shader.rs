@@ -56,7 +56,7 @@ impl<'s> Checked<'s> {
         self.known(shader, &path, found, errors)
     }
 
-    /// The interface of a shader that draws, compiled as `variant` says; its problem is reported by whoever asks.
+    /// The interface of a shader that draws, compiled as `variant` says; its problem is reported by the caller.
     pub(super) fn drawn(
         &mut self,
         shader: &str,
@@ -87,7 +87,7 @@ impl<'s> Checked<'s> {
         }
     }
 
-    /// What whoever draws brings along (nothing, for a dispatch), the first time that a shader draws this; then it is
+    /// What the draw source provides (nothing, for a dispatch), the first time that a shader draws this; then it is
     /// known to fit or not.
     pub(super) fn brought_along_first(&mut self, pass: &language::Pass) -> Option<DrawInterface> {
         let (_, draw) = named(pass)?;

@@ -1,4 +1,4 @@
-//! A shader meets whoever draws: vertex attributes, and the resources of sets from 1 on.
+//! A shader meets its draw source: vertex attributes, and the resources of sets from 1 on.
 
 use super::shader::Checked;
 use crate::base::{Diagnostic, suggestion};
@@ -7,7 +7,7 @@ use crate::ron::Name;
 use crate::shader::{Binding, BindingKind, DrawInterface, PASS_SET, ShaderInterface, Supplied, SuppliedKind};
 use crate::vulkan::{Component, Dimension, ImageShape};
 
-/// Reports what the shader wants and whoever draws doesn't bring along.
+/// Reports what the shader wants and the draw source doesn't provide.
 pub(super) fn check(
     shaders: &mut Checked<'_>,
     pass: &language::Pass,

@@ -95,7 +95,7 @@ fn drawn<'a>(
         errors.push(wrong.help("let a dispatch store into it"));
         return None;
     }
-    // What is out of range is reported with the pass.
+    // Parts out of range are reported with the pass.
     let mut known = Vec::new();
     let cells = parts::cells(image, &parts::range(chosen, things, part, &mut known));
     if !known.is_empty() {

@@ -168,7 +168,7 @@ fn lifetime(
             Resource::Buffer(index) => &chosen.pipeline.buffers[index.0 as usize].lifetime,
         };
     }
-    // What is wrong with a followed lifetime is shown at the one that follows, too: there it may mean something else.
+    // A mistake in a followed lifetime is shown at the one that follows, too: there it may mean something else.
     let here = |span: Span| if value.span == described.span { span } else { described.span };
     let initial = |fill: Option<Spanned<language::Fill>>, errors: &mut Vec<Diagnostic>| {
         let Some(fill) = fill else { return Some(fills::zero(of.format)) };

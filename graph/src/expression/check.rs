@@ -64,7 +64,7 @@ struct Operand {
 #[derive(Clone, Copy)]
 enum Name {
     Bound(Bound),
-    /// Reported by whoever read its declaration.
+    /// Reported where its declaration was read.
     Reported,
     /// Reported here: the number of the mistake.
     Unknown(usize),

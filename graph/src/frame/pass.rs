@@ -177,7 +177,7 @@ pub struct Cascade {
 }
 
 impl Cascade {
-    /// There are at most so many.
+    /// The most that there are.
     pub const MOST: u8 = 4;
 
     /// How far shadows reach, for people: "14 m", "the whole scene".

@@ -1,6 +1,6 @@
 //! The Plan: what the compiler decided, as plain data with a stable JSON form.
 //!
-//! A Plan is self-sufficient: whoever reads it, in this process or another program, can check it and replay it without the
+//! A Plan is self-sufficient: this process or another program can check it and replay it without the
 //! pipeline file. Names of stages, accesses, layouts, usages, formats and operations are Vulkan's, without prefix. Sets of
 //! flags are written `A | B`. Everything is in execution order; same input, same bytes. `docs/plan-format.md` describes the
 //! JSON form field by field.
@@ -24,7 +24,7 @@
 //! uses it to the first one in the next frame, and what persists is found in the state in which the frame before left it.
 //! At the end of a frame each persistent image or buffer becomes the one that `becomes` names: itself, or for history the
 //! one that stands for one frame further back, and the oldest becomes the newest again. What the host writes or reads itself
-//! (parameters, object data, outputs) is not the Plan's: whoever executes it keeps one copy for each frame in flight.
+//! (parameters, object data, outputs) is not the Plan's: the executor keeps one copy for each frame in flight.
 
 use crate::base::Place;
 use crate::frame::change::Action;

@@ -19,7 +19,7 @@ pub struct Note {
 }
 
 impl Note {
-    /// Whether it tells which passes a shipped fragment switches off by itself: whoever uses the fragment can do nothing
+    /// Whether it tells which passes a shipped fragment switches off by itself: users of the fragment can do nothing
     /// about it, and need not.
     #[must_use]
     pub fn is_of_shipped_fragment(&self) -> bool {

@@ -87,7 +87,7 @@ pub struct Buffer {
 pub enum Role {
     /// Lives within the frame, at an offset of a heap that it shares.
     Transient(Placement),
-    /// Memory of its own, made by whoever runs the Plan; contents stay from frame to frame.
+    /// Memory of its own, made by the executor; contents stay from frame to frame.
     Persistent {
         /// What it is in the next frame (index into the same list): itself, or with history the one that stands for one
         /// frame further back. Over all persistent images, and over all persistent buffers, this is a permutation.
@@ -99,12 +99,12 @@ pub enum Role {
         /// State in which a frame leaves it.
         after: State,
     },
-    /// Memory from outside: an output that the embedding program (or whoever runs the Plan for it) finds in `after` when the
+    /// Memory from outside: an output that the embedding program (or the executor for it) finds in `after` when the
     /// frame is done, or something that it hands in.
     External {
         /// State that the frame may rely on when it begins. Layout `UNDEFINED`: contents are not relied on.
         before: State,
-        /// State that the frame leaves it in: whoever uses it next waits for these stages and accesses, with a barrier of
+        /// State that the frame leaves it in: its next user waits for these stages and accesses, with a barrier of
         /// its own, or by a semaphore if there are none.
         after: State,
     },
@@ -136,7 +136,7 @@ pub struct Placement {
     /// Memory types that will do, one bit each.
     pub type_bits: u32,
     /// First and last step whose work touches it. Between them the memory is its own. Barriers for its first use may
-    /// stand before an earlier step, if whoever had the memory is done by then.
+    /// stand before an earlier step, if the previous user of the memory is done by then.
     pub lifetime: [StepId; 2],
 }
 

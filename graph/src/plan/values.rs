@@ -5,7 +5,7 @@ use crate::frame::{Groups, ParamValue};
 use crate::vulkan::FillValue;
 
 impl Plan {
-    /// What tells `other` from this Plan beside values, in words; `None`: whoever executes this one can go on with the other one,
+    /// What tells `other` from this Plan beside values, in words; `None`: an executor of this one can go on with the other one,
     /// with the memory, images, buffers and pipelines that it has.
     ///
     /// Values are settings, parameters, clear and fill values, counts of workgroups, how views are shifted, which part of an

@@ -175,7 +175,7 @@ impl<'t> Leaf<'t> {
         matches!(self.node().kind, Kind::List | Kind::Tuple).then(|| self.children())
     }
 
-    /// The values of `(…)` if there are just so many.
+    /// The values of `(…)` if there are exactly `N`.
     #[must_use]
     pub fn tuple<const N: usize>(self) -> Option<[Leaf<'t>; N]> {
         if self.node().kind != Kind::Tuple {

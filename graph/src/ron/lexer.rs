@@ -5,7 +5,7 @@ use super::{escapes, numbers};
 use crate::base::{Diagnostic, Span};
 use std::ops::Range;
 
-/// Walks over a text. What is wrong is returned, not kept.
+/// Walks over a text. Mistakes are returned, not kept.
 pub(crate) struct Lexer<'t> {
     pub(crate) file: u32,
     pub(crate) text: &'t str,

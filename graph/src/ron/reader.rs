@@ -177,7 +177,7 @@ impl Reader {
         if self.has_many() { None } else { suggestion(name, known) }
     }
 
-    /// Whether so many mistakes were reported that nobody reads the help of another.
+    /// Whether more mistakes were reported than people read the help of.
     pub(crate) fn has_many(&self) -> bool {
         self.errors.len() > MANY_MISTAKES
     }

@@ -61,7 +61,7 @@ pub enum AlphaUse {
 }
 
 /// The set whose bindings belong to the pass: its sampled and storage images, its buffers, and one block of parameters.
-/// Sets from 1 on belong to whoever draws.
+/// Sets from 1 on belong to the draw source.
 pub const PASS_SET: u32 = 0;
 
 /// One resource.
@@ -280,11 +280,11 @@ pub trait ShaderInterfaces {
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem>;
 
-    /// What whoever draws `draw` brings along.
+    /// What the draw source provides for `draw`.
     fn brought_along(&self, draw: Draw) -> DrawInterface;
 }
 
-/// What whoever draws brings along for one kind of draw: vertex attributes, and resources in sets from 1 on.
+/// What the draw source provides for one kind of draw: vertex attributes, and resources in sets from 1 on.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct DrawInterface {
     /// Bytes from vertex to vertex; 0 if there is no vertex buffer.

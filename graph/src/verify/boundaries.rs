@@ -2,7 +2,7 @@
 //!
 //! Something external is found in its stated state each time, whatever the frame before left. Something persistent is
 //! found in its stated state by the first frame; by later ones in that in which the frame before really left it, which
-//! must be the one that is stated too. After the last step of a frame whoever relies on the stated state puts a barrier
+//! must be the one that is stated too. After the last step of a frame a user that relies on the stated state puts a barrier
 //! behind it that names it as its source; where it names no stages, a semaphore, which waits for everything. Of the reads
 //! that it names, at least one can be made at once.
 

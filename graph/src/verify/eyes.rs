@@ -94,7 +94,7 @@ fn of_an_eye(plan: &Plan, id: StepId, accesses: &[Access], both: bool, found: &m
     }
 }
 
-/// What is moved is moved for both eyes.
+/// Copies and blits move both eyes' parts.
 fn same_on_both_sides(plan: &Plan, id: StepId, transfer: &Transfer, found: &mut Findings<'_>) {
     let eyes = |side: &Side| match side {
         Side::Image { image, .. } => (plan.image(*image).eyes, Some(*image)),

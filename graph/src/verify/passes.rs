@@ -206,7 +206,7 @@ impl<'p> Check<'_, 'p> {
         self.demand(declared, access.image, "isn't as its shader is made to declare it");
     }
 
-    /// Shaders can be told of so many parts.
+    /// The most parts that a shader can be told of.
     fn parts(&mut self, pass: &'p Pass) {
         if self.plan.parts(pass).nth(MOST_PARTS).is_some() {
             self.wrong_pass(pass, "samples more images in part than shaders can be told of");
@@ -268,7 +268,7 @@ impl<'p> Check<'_, 'p> {
         }
     }
 
-    /// Whether the pass has one buffer for this, with so many bytes at least.
+    /// Whether the pass has one buffer for this, with at least these bytes.
     fn holds(&mut self, pass: &Pass, role: BufferRole, bytes: u64) {
         let mut buffers = pass.buffers.iter().filter(|access| access.role == Some(role));
         match (buffers.next(), buffers.next()) {

@@ -58,7 +58,7 @@ fn read_upright(plan: &Plan, id: StepId, accesses: &[Access], found: &mut Findin
     }
 }
 
-/// What is moved stays as it is turned.
+/// Copies and blits keep the rotation.
 fn same_rotation(plan: &Plan, id: StepId, transfer: &Transfer, found: &mut Findings<'_>) {
     let rotation = |side: &Side| match side {
         Side::Image { image, .. } => (plan.image(*image).rotation, Some(*image)),

@@ -18,7 +18,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings) {
         transient_bytes: placements().map(|placement| placement.bytes).fold(0, u64::saturating_add),
         placed_bytes: plan.heaps.iter().map(|heap| heap.bytes).fold(0, u64::saturating_add),
         live_peak_bytes: live_peak(plan.steps.len(), placements()),
-        // What takes memory of its own is known only to whoever made it.
+        // Sizes of memory outside all heaps are known only to the program that made it.
         kept_bytes: stated.kept_bytes,
         ..Totals::count(&plan.steps)
     };

@@ -33,7 +33,7 @@ pub(super) struct Walk<'w, 'p, const Q: usize> {
     signalled: Vec<Vec<Clock<Q>>>,
 }
 
-/// Walks the steps of `plan` so many times.
+/// Walks the steps of `plan` once for each frame.
 pub(super) fn walk<'p>(plan: &'p Plan, program: &Program, frames: Frames, found: &mut Findings<'p>) {
     if program.several_queues {
         Walk::<3>::new(plan, program, found).all(frames);

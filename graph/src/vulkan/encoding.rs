@@ -3,7 +3,7 @@
 use super::{Format, Numeric};
 use serde::{Deserialize, Serialize};
 
-/// What the numbers of a picture mean to whoever shows it or writes it to a file.
+/// What the numbers of a picture mean to a screen or a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Encoding {
     /// Primaries of Rec. 709, encoded with the sRGB curve (IEC 61966-2-1): by the format, or by a shader into a UNORM one.

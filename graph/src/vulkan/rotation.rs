@@ -25,7 +25,7 @@ impl Rotation {
     /// All, by rising angle.
     pub const ALL: [Rotation; 4] = [Rotation::Identity, Rotation::Rotate90, Rotation::Rotate180, Rotation::Rotate270];
 
-    /// The rotation by so many degrees; `None` if that isn't 0, 90, 180 or 270.
+    /// The rotation by `degrees`; `None` if that isn't 0, 90, 180 or 270.
     #[must_use]
     pub fn from_degrees(degrees: u32) -> Option<Rotation> {
         Rotation::ALL.into_iter().find(|rotation| rotation.degrees() == degrees)

@@ -16,7 +16,7 @@ fn from_ycocg([y, co, cg]: Color) -> Color {
     [y + co - cg, y + cg, y - co - cg]
 }
 
-/// History as far as the 3 × 3 texels around allow it: within so many standard deviations from their mean, as what is shown of
+/// History as far as the 3 × 3 texels around allow it: within this number of standard deviations from their mean, as what is shown of
 /// radiance in luma and differences of colour.
 #[must_use]
 pub fn allowed_history(history: Color, around: &[Color; 9], deviations: f64) -> Color {

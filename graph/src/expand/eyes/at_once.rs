@@ -86,7 +86,7 @@ impl Apart {
         found
     }
 
-    /// What is drawn from or beside an image for each eye is one, too. Whether that found any.
+    /// An image that is drawn from or beside a per-eye image is per-eye, too. Whether that found any.
     fn spread<'p>(
         &mut self,
         pipeline: &Pipeline,

@@ -22,8 +22,8 @@ impl Plan {
         tree(self, None)
     }
 
-    /// The tree form for people, of a frame of a scene that has so many objects in each draw list: passes say how many they
-    /// draw at most.
+    /// The tree form for people. Passes say how many objects they draw at most: `objects` gives the number in each draw list of
+    /// a scene.
     #[must_use]
     pub fn tree_of(&self, objects: &dyn Fn(DrawList) -> usize) -> String {
         tree(self, Some(objects))
