@@ -9,7 +9,7 @@ pub(crate) fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
 }
 
 /// What is to be said if something went wrong and nothing says what.
-pub(super) fn never_none(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
+pub(crate) fn never_none(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
     if errors.is_empty() {
         let message = "this pipeline can't be put together, and why was not found out: a mistake of framewright itself";
         errors.push(Diagnostic::nowhere(message));

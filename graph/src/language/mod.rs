@@ -1,85 +1,52 @@
 //! What a file can say: one type per concept, names with source spans, diagnostics.
 //!
 //! ```text
-//! bytes ─► text ─► tree (lexer, syntax) ─► Document (settings, included trees)
-//! Document, values, Surroundings ─► bodies (entries with fields) ─► lower (scope, put_in) ─► images, passes … ─► Pipeline
+//! bytes ─► text ─► tree (compose: files, extends, extensions) ─► Document
+//! Document, values, Surroundings ─► entries, field by field (entries, scope) ─► evaluate ─► Pipeline (model)
 //! ```
-//! Trees are made once; lowering runs for each choice of settings, scene, view and device, and evaluates expressions on
-//! the way. Everything that is wrong is reported at once, and what is wrong whatever the values already when a file is
-//! read. What depends on shaders and on the order of passes comes in [`crate::expand`].
+//! Trees are made once; a document is evaluated for each choice of settings, scene, view and device. Everything that is
+//! wrong is reported at once, and what is wrong whatever the values already when a file is read. What depends on shaders
+//! and on the order of passes comes in [`crate::expand`].
+//!
+//! The rooms, each of which uses only those above it:
+//! - `model`: a pipeline as data, and what a user may choose.
+//! - `inputs`: what a pipeline is evaluated for: facts of the scene, the view and the device.
+//! - `scope`: the names of one level of a file, and the values of what stands in quotes.
+//! - `entries`: one file per kind of entry: its field table, its reading and its evaluation.
+//! - `compose`: the files of a pipeline are put together: `include`, `extends`, `extensions` and `changes`.
+//! - `evaluate`: all entries, repetitions and fragments become the flat lists of the model.
 //!
 //! # The language
-//! `docs/language.md` describes it. That page and the JSON Schema are made of the tables beside the readers: [`forms`].
+//! `docs/language.md` describes it. That page and the JSON Schema are made of the tables in `entries`: [`FILES`].
 
-mod bindings;
-mod body;
-mod buffers;
-mod casters;
-mod choices;
-mod circles;
+mod compose;
 mod document;
-mod extend;
-mod facts;
-mod fragments;
-mod images;
-mod includes;
-mod known;
-mod lifetimes;
-mod loader;
-mod lower;
+mod entries;
+mod evaluate;
+mod inputs;
 mod mistakes;
-mod origins;
-mod outputs;
-mod parameters;
-mod parts;
-mod pass;
-mod passes;
-mod pipeline;
-mod pipeline_files;
-mod precision;
-mod previous;
-mod properties;
-mod put_in;
+mod model;
 mod read;
-mod resolves;
-mod resources;
 mod schema;
 mod scope;
-mod scope_names;
-mod settings;
-mod sizes;
-mod surroundings;
-mod targets;
-mod textures;
-mod unused;
-mod uses;
-mod values;
-mod views;
-mod work;
+mod settings_file;
 
-pub(crate) use buffers::LARGEST_BUFFER;
-pub use choices::{Choice, ChosenBy, InForce, Preset, SETTINGS_VERSION, SettingsFile};
+pub use compose::files::{Files, Found, LANGUAGE_VERSION, LARGEST_FILE, NoFiles, Unread};
+pub(crate) use compose::origins::{USED_HERE, users_first};
+pub use compose::pipeline_files::{PipelineFiles, Shipped};
 pub use document::Document;
-pub use facts::{Fact, FactType, FactValue, Facts};
-pub(crate) use images::LARGEST_SIZE;
-pub use includes::{Files, Found, NoFiles, Unread};
-pub use loader::{LANGUAGE_VERSION, LARGEST_FILE};
+pub(crate) use entries::buffers::LARGEST_BUFFER;
+pub(crate) use entries::dispatch::MOST_GROUPS;
+pub use inputs::{Fact, FactType, FactValue, Facts, Surroundings, names_of};
 pub(crate) use mistakes::in_order;
-pub(crate) use origins::{USED_HERE, users_first};
-pub use pass::{
-    BufferPart, Color, Depth, Draw, Face, Forward, Groups, ImagePart, LeftOut, Off, Param, Part, Pass, Sample,
-    Selection, StandIn, Storage, StorageAccess, Uniform, Work,
+pub(crate) use model::{Area, LARGEST_SIZE, area};
+pub use model::{
+    Buffer, BufferPart, BufferRef, Bytes, Choice, ChosenBy, Color, Depth, Draw, Face, Fill, Format, Forward, Groups,
+    Image, ImagePart, ImageRef, ImageShape, InForce, Instance, Layers, LeftOut, Lifetime, Mips, Off, Output, Param,
+    Part, Pass, Pipeline, Precision, Precisions, Preset, RemovedPass, Resolves, ResourceRef, Sample, Samples,
+    Selection, Setting, SettingKind, SettingsFile, Size, StandIn, State, StateWord, Storage, StorageAccess, Uniform,
+    View, Work, last_step, nth_step,
 };
-pub use pipeline::{BufferRef, ImageRef, Instance, Output, Pipeline, RemovedPass, ResourceRef, Setting, SettingKind};
-pub use pipeline_files::{PipelineFiles, Shipped};
-pub(crate) use properties::{Area, area};
 pub use read::{read, read_bytes, read_bytes_with, read_extended, read_with};
-pub use resources::{
-    Buffer, Bytes, Fill, Format, Image, Layers, Lifetime, Mips, Precision, Precisions, Resolves, Samples,
-    Shape as ImageShape, Size, State, StateWord,
-};
 pub use schema::{FILES, goes_with, schema};
-pub use settings::{last_step, nth as nth_step};
-pub use surroundings::{Surroundings, names_of};
-pub use views::View;
-pub(crate) use work::MOST_GROUPS;
+pub use settings_file::SETTINGS_VERSION;

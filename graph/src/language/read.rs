@@ -1,11 +1,12 @@
 //! A pipeline file's bytes become a [`Document`], with the files that it names.
 
 use super::document::Document;
-use super::extend::{self, Layer};
-use super::includes::{Files, Found, NoFiles};
-use super::loader::{self, LARGEST_FILE, Loader, no_pipeline, odd_byte};
 use super::mistakes::{in_order, never_none};
 use crate::base::{Diagnostic, FilePath, Sources, Span};
+use crate::language::compose::extend;
+use crate::language::compose::files::{Files, Found, LARGEST_FILE, NoFiles, no_pipeline, odd_byte};
+use crate::language::compose::layers::Layer;
+use crate::language::compose::loader::{self, Loader};
 use crate::ron::{Reader, Tree};
 use std::sync::Arc;
 

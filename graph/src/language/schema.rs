@@ -1,10 +1,8 @@
 //! The language as a JSON Schema, draft 2020-12, of what [`convert`](crate::ron::convert()) makes of files.
 
-use super::choices::SettingsFields;
-use super::document::PipelineFields;
-use super::extend::{ExtendingFields, ExtensionFields};
-use super::fragments::LibraryFields;
-use super::work::GOES_WITH;
+use super::settings_file::SettingsFields;
+use crate::language::compose::tables::{EXTENDING, EXTENSION, LibraryFields, PIPELINE};
+use crate::language::entries::work::GOES_WITH;
 use crate::ron::{Described, Form, Plain, Row, Table, Takes, Word, Words};
 use serde_json::{Map, Value, json};
 
@@ -170,13 +168,8 @@ fn text(lines: &[&str]) -> String {
 }
 
 /// What a file as a whole is: a pipeline, a file of fragments, a settings file.
-pub const FILES: [fn() -> Table; 5] = [
-    PipelineFields::<'static>::table,
-    ExtendingFields::<'static>::table,
-    ExtensionFields::<'static>::table,
-    LibraryFields::<'static>::table,
-    SettingsFields::<'static>::table,
-];
+pub const FILES: [fn() -> Table; 5] =
+    [|| PIPELINE, || EXTENDING, || EXTENSION, LibraryFields::<'static>::table, SettingsFields::<'static>::table];
 
 /// The kinds of work beside which a field of a pass has a meaning; `None`: all.
 #[must_use]

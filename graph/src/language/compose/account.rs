@@ -1,0 +1,168 @@
+//! What files did to a pipeline: for those who look into it, and for messages that would make no sense otherwise.
+
+use crate::base::{Diagnostic, Label, Span};
+use crate::frame::change::{Action, Change, Kind};
+use crate::language::model::RemovedPass;
+use crate::ron::{Name, Tree};
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
+/// All that was done.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Account {
+    /// In the order in which it was done.
+    pub(crate) changes: Vec<Change>,
+    /// What was changed.
+    pub(crate) changed: Vec<Changed>,
+    /// What was removed.
+    removed: Vec<Removed>,
+    /// The last removal of a thing, by kind and name.
+    last_removed: HashMap<(Kind, Arc<str>), usize>,
+}
+
+/// An entry that another file changes.
+#[derive(Debug, Clone)]
+pub(crate) struct Changed {
+    /// The entry.
+    pub(crate) entry: Span,
+    /// Its name.
+    pub(crate) name: Name,
+    /// The change.
+    pub(crate) by: Span,
+}
+
+/// An entry that is no longer there.
+#[derive(Debug, Clone)]
+pub(crate) struct Removed {
+    pub(crate) kind: Kind,
+    pub(crate) name: Name,
+    /// Where it is removed.
+    pub(crate) by: Span,
+    /// Of a pass: the texts that it holds.
+    pub(crate) texts: Vec<Arc<str>>,
+}
+
+impl Account {
+    /// Something was done.
+    pub(crate) fn did(&mut self, span: Span, action: Action) {
+        self.changes.push(Change { span, action });
+    }
+
+    /// The removal of a thing of that name.
+    pub(crate) fn removed(&self, kind: Kind, name: &str) -> Option<&Removed> {
+        self.last_removed.get(&(kind, name.into())).map(|at| &self.removed[*at])
+    }
+
+    /// A thing was removed.
+    pub(crate) fn remove(&mut self, removed: Removed) {
+        self.last_removed.insert((removed.kind, removed.name.text.clone()), self.removed.len());
+        self.removed.push(removed);
+    }
+
+    /// The passes that were removed.
+    pub(crate) fn removed_passes(&self) -> impl Iterator<Item = RemovedPass> {
+        let passes = self.removed.iter().filter(|removed| removed.kind == Kind::Pass);
+        passes.map(|pass| RemovedPass { name: pass.name.text.clone(), span: pass.by, texts: pass.texts.clone() })
+    }
+
+    /// Adds to mistakes in entries that were changed, or in what refers to removed ones, the other place.
+    pub(crate) fn tell(&self, tree: &Tree, errors: &mut [Diagnostic]) {
+        if self.changed.is_empty() && self.removed.is_empty() {
+            return;
+        }
+        let places = Places::of(&self.changed);
+        let removed: HashMap<(Kind, &str), Span> =
+            self.removed.iter().map(|removed| ((removed.kind, &*removed.name.text), removed.by)).collect();
+        for error in errors {
+            let Some(primary) = error.labels.first().map(|label| label.span) else { continue };
+            let changed = self.beside(&places, error);
+            let named = tree.text_at(primary).trim_matches('"');
+            let missed = missed(&error.message, named).iter();
+            let removed = missed.filter_map(|kind| removed.get(&(*kind, named))).max_by_key(|by| (by.file(), by.start));
+            let removed = removed.map(|by| Label { span: *by, text: format!("`{named}` is removed here") });
+            error.labels.extend(changed.into_iter().chain(removed));
+        }
+    }
+
+    /// The other place of a mistake that is in a change, or in what is changed.
+    fn beside(&self, places: &Places, error: &Diagnostic) -> Option<Label> {
+        let is_in = |within: Span| error.labels.iter().any(|label| holds(within, label.span));
+        let in_changes = error.labels.iter().flat_map(|label| places.changes(&self.changed, label.span));
+        let in_change = in_changes.filter(|at| !is_in(self.changed[*at].entry)).min();
+        // Of the changes of one entry no more are looked at than the mistake has places.
+        let in_entries = error.labels.iter().map(|label| places.entries(&self.changed, label.span));
+        let mut in_entries = in_entries.map(|changes| changes.iter().find(|at| !is_in(self.changed[**at].by)));
+        let in_entry = in_entries.find_map(|at| at.copied());
+        let by_change = |at: usize| {
+            let Changed { name, .. } = &self.changed[at];
+            Label { span: name.span, text: format!("`{}` stands here", name.text) }
+        };
+        let by_entry = |at: usize| Label { span: self.changed[at].by, text: "changed here".to_owned() };
+        match (in_change, in_entry) {
+            (Some(change), Some(entry)) if entry < change => Some(by_entry(entry)),
+            (Some(change), _) => Some(by_change(change)),
+            (None, entry) => entry.map(by_entry),
+        }
+    }
+}
+
+/// Where changes and what they change stand, by file and beginning: numbers of [`Account::changed`]. Neither stands within
+/// another of its sort.
+struct Places {
+    by: BTreeMap<(Option<usize>, u32), Vec<usize>>,
+    entries: BTreeMap<(Option<usize>, u32), Vec<usize>>,
+}
+
+impl Places {
+    fn of(changed: &[Changed]) -> Places {
+        let mut places = Places { by: BTreeMap::new(), entries: BTreeMap::new() };
+        for (at, Changed { entry, by, .. }) in changed.iter().enumerate() {
+            places.by.entry((by.file(), by.start)).or_default().push(at);
+            places.entries.entry((entry.file(), entry.start)).or_default().push(at);
+        }
+        places
+    }
+
+    /// The changes that `place` stands in.
+    fn changes(&self, changed: &[Changed], place: Span) -> impl Iterator<Item = usize> {
+        last(&self.by, place).iter().copied().filter(move |at| holds(changed[*at].by, place))
+    }
+
+    /// The changes of the entry that `place` stands in.
+    fn entries(&self, changed: &[Changed], place: Span) -> &[usize] {
+        let changes = last(&self.entries, place);
+        let inside = changes.first().is_some_and(|at| holds(changed[*at].entry, place));
+        if inside { changes } else { &[] }
+    }
+}
+
+/// What begins last before `place`, or with it.
+fn last(places: &BTreeMap<(Option<usize>, u32), Vec<usize>>, place: Span) -> &[usize] {
+    let before = places.range(..=(place.file(), place.start)).next_back();
+    before.map_or(&[], |(_, numbers)| numbers)
+}
+
+/// Of which kinds a thing is that a mistake misses under the name `named`: in its words, which are all that says so.
+fn missed(message: &str, named: &str) -> &'static [Kind] {
+    if message.starts_with("texts in expressions stand in single quotes") {
+        return &[Kind::Setting];
+    }
+    let what = message.strip_prefix("there is ").and_then(|rest| rest.strip_suffix(&format!(" named `{named}`")));
+    match what.unwrap_or_default() {
+        "no pass" => &[Kind::Pass],
+        "no image" => &[Kind::Image, Kind::Texture],
+        "no buffer" => &[Kind::Buffer],
+        "no image or buffer" => &[Kind::Image, Kind::Texture, Kind::Buffer],
+        "no setting" => &[Kind::Setting],
+        "no preset" => &[Kind::Preset],
+        "no view" => &[Kind::View],
+        // In an expression.
+        "nothing" => &[Kind::Setting, Kind::Image, Kind::Texture, Kind::Buffer],
+        _ => &[],
+    }
+}
+
+/// Whether `inner` stands within `outer`.
+fn holds(outer: Span, inner: Span) -> bool {
+    outer.file() == inner.file() && outer.start <= inner.start && inner.end <= outer.end
+}

@@ -1,0 +1,152 @@
+//! What a pipeline says while files add to it and change it: lists of entries, each still where it was written.
+
+use super::account::Account;
+use super::entry::{Called, Entry};
+use super::layers::Role;
+use super::order::Order;
+use super::tables::{Section, Sections};
+use crate::base::Diagnostic;
+use crate::frame::change::{Action, Kind, Where};
+use crate::ron::{Leaf, Name, Reader, Shape};
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+/// Lists whose entries several files add, in the order in which a pipeline has them.
+pub(crate) const LISTS: [(Kind, Section); 7] = [
+    (Kind::Setting, Section::Settings),
+    (Kind::Preset, Section::Presets),
+    (Kind::View, Section::Views),
+    (Kind::Fragment, Section::Fragments),
+    (Kind::Texture, Section::Textures),
+    (Kind::Image, Section::Images),
+    (Kind::Buffer, Section::Buffers),
+];
+
+/// Values of which a later file's takes the place of an earlier one's.
+pub(crate) const REPLACED: [Section; 3] = [Section::Depth, Section::Color, Section::DepthFormat];
+
+/// All lists of a pipeline.
+#[derive(Default)]
+pub(crate) struct Draft<'t> {
+    lists: HashMap<Kind, List<'t>>,
+    pub(crate) passes: Order<'t>,
+    pub(crate) passes_written: Option<Leaf<'t>>,
+    pub(crate) outputs: List<'t>,
+    pub(crate) outputs_written: Option<Leaf<'t>>,
+    /// Values of [`REPLACED`]: those of the last file that has one.
+    pub(crate) replaced: [Option<Leaf<'t>>; REPLACED.len()],
+    /// Names of settings that were removed, whether or not others of the name were added since.
+    pub(crate) removed_settings: HashSet<Arc<str>>,
+}
+
+/// Entries whose order has no meaning.
+#[derive(Default)]
+pub(crate) struct List<'t> {
+    /// The list that was written first.
+    pub(crate) written: Option<Leaf<'t>>,
+    /// `None`: it was removed.
+    pub(crate) entries: Vec<Option<Entry<'t>>>,
+    index: HashMap<&'t str, usize>,
+}
+
+impl<'t> List<'t> {
+    /// The entry of that name.
+    pub(crate) fn find(&mut self, name: &str) -> Option<&mut Entry<'t>> {
+        self.entries.get_mut(*self.index.get(name)?)?.as_mut()
+    }
+
+    /// Removes the entry of that name.
+    pub(crate) fn remove(&mut self, name: &str) -> Option<Entry<'t>> {
+        self.entries.get_mut(self.index.remove(name)?)?.take()
+    }
+
+    /// Names of entries.
+    pub(crate) fn names(&self) -> Vec<&'t str> {
+        self.entries.iter().flatten().filter_map(|entry| Some(entry.name?.text)).collect()
+    }
+
+    /// Adds an entry; of those of one name the first is found.
+    pub(crate) fn add(&mut self, entry: Entry<'t>) {
+        if let Some(name) = entry.name {
+            self.index.entry(name.text).or_insert(self.entries.len());
+        }
+        self.entries.push(Some(entry));
+    }
+}
+
+impl<'t> Draft<'t> {
+    pub(crate) fn list(&self, kind: Kind) -> Option<&List<'t>> {
+        self.lists.get(&kind)
+    }
+
+    pub(crate) fn list_mut(&mut self, kind: Kind) -> &mut List<'t> {
+        self.lists.entry(kind).or_default()
+    }
+
+    /// Adds what a file says.
+    pub(crate) fn add(&mut self, reader: &mut Reader, sections: &Sections<'t>, role: Role, account: &mut Account) {
+        for (kind, section) in LISTS {
+            let Some(leaf) = sections.get(section) else { continue };
+            let Some(entries) = reader.list(leaf, &format!("`{}`", section.name())) else { continue };
+            let list = self.list_mut(kind);
+            list.written.get_or_insert(leaf);
+            let mut names = Vec::new();
+            for entry in entries.into_iter().map(Entry::of) {
+                if let Some(name) = entry.name.filter(|_| role != Role::Whole) {
+                    if let Some(first) = list.find(name.text).and_then(|first| first.name) {
+                        reader.report(again(kind, name, first));
+                        continue;
+                    }
+                    names.push(Arc::from(name.text));
+                }
+                list.add(entry);
+            }
+            if !names.is_empty() {
+                account.did(leaf.start(), Action::Add { of: kind, names });
+            }
+        }
+        for (old, section) in self.replaced.iter_mut().zip(REPLACED) {
+            *old = sections.get(section).or(*old);
+        }
+        if let Some(leaf) = sections.get(Section::Passes)
+            && let Some(entries) = reader.list(leaf, "`passes`")
+        {
+            self.passes_written.get_or_insert(leaf);
+            for entry in entries {
+                self.passes.insert(&Where::End, Entry::of(entry));
+            }
+        }
+        if let Some(leaf) = sections.get(Section::Outputs)
+            && let Some(entries) = reader.list(leaf, "`outputs`")
+        {
+            self.outputs_written = Some(leaf);
+            self.outputs = List::default();
+            entries.into_iter().map(output).for_each(|output| self.outputs.add(output));
+            if role != Role::Whole {
+                let names = self.outputs.names().into_iter().map(Arc::from).collect();
+                account.did(leaf.start(), Action::Outputs { names });
+            }
+        }
+    }
+}
+
+/// An output, by the name of what leaves the frame.
+pub(crate) fn output(leaf: Leaf<'_>) -> Entry<'_> {
+    let named = match leaf.shape() {
+        Shape::Text => Some(leaf),
+        _ => leaf.field("image").or_else(|| leaf.field("buffer")),
+    };
+    Entry { leaf, name: named.and_then(Called::of), fields: None }
+}
+
+/// That a file adds what there is already.
+fn again(kind: Kind, name: Called<'_>, first: Called<'_>) -> Diagnostic {
+    let Name { text, span } = name.name();
+    let what = kind.word();
+    let wrong = Diagnostic::new(span, format!("`{text}` is the name of more than one {what}"));
+    let wrong = wrong.remark("again here").label(first.span, "first here");
+    match kind {
+        Kind::Fragment => wrong.help("give it another name"),
+        _ => wrong.help(format!("give it another name, or change the first: `Set({what}: \"{text}\", to: (…))`")),
+    }
+}

@@ -1,0 +1,66 @@
+//! `extends`, `extensions` and `changes`: a pipeline that begins with what another says.
+//!
+//! ```text
+//! files ─► Layers (their turns) ─► Draft: lists of entries (add, then apply changes) ─► one Tree (build) ─► Document
+//! ```
+//! Trees are put together before anything in them is understood: what comes of it is a pipeline as if it had been written
+//! so, except that each value still stands where it was written.
+//!
+//! The order: the pipeline that is extended, then extensions as they are listed, then the file's own lists and changes.
+
+use super::account::Account;
+use super::draft::Draft;
+use super::files::Found;
+use super::includes::Wanted;
+use super::layers::{self, Layer, Layers, Role, Turn};
+use super::loader::{self, Loader};
+use super::tables::{Section, Sections};
+use super::{apply, build, unset};
+use crate::ron::{Reader, Tree};
+
+/// A pipeline that was put together.
+pub(crate) struct Composed {
+    pub(crate) tree: Tree,
+    pub(crate) wanted: Vec<Wanted>,
+    pub(crate) account: Account,
+}
+
+/// Reads what the pipeline's own file is put together with, and then `further` extensions. `None` if something that was
+/// reported leaves nothing to go on with.
+pub(crate) fn read(reader: &mut Reader, loader: &mut Loader<'_>, own: Layer, further: Vec<Found>) -> Option<Composed> {
+    if !own.is_pipeline(reader) {
+        return None;
+    }
+    if own.is_all() && further.is_empty() {
+        return Some(Composed { tree: own.into_tree(), wanted: Vec::new(), account: Account::default() });
+    }
+    let layers = layers::read(reader, loader, own, further)?;
+    compose(reader, &layers)
+}
+
+/// Puts layers together, in the order of their turns.
+fn compose(reader: &mut Reader, layers: &Layers) -> Option<Composed> {
+    let sections: Vec<Option<Sections<'_>>> = layers.list.iter().map(|layer| layer.sections(reader)).collect();
+    let sections: Vec<Sections<'_>> = sections.into_iter().collect::<Option<_>>()?;
+    let base = layers.list.iter().find(|layer| layer.role == Role::Whole)?.tree.root();
+    let mut account = Account::default();
+    let mut draft = Draft::default();
+    let mut wanted = Vec::new();
+    for Turn { layer: at, named, adds, changes } in &layers.turns {
+        let (layer, sections) = (&layers.list[*at], &sections[*at]);
+        if let Some(named) = named {
+            account.did(*named, layer.action());
+        }
+        if *adds {
+            let paths = loader::paths(reader, sections.get(Section::Include), "`include`");
+            wanted.push(Wanted { from: layer.relative.clone(), paths });
+            draft.add(reader, sections, layer.role, &mut account);
+        }
+        if let Some(list) = sections.get(Section::Changes).filter(|_| *changes) {
+            apply::changes(reader, &mut draft, list, &mut account);
+        }
+    }
+    let removed = std::mem::take(&mut draft.removed_settings);
+    unset::everywhere(&mut draft, &removed);
+    Some(Composed { tree: build::tree(&draft, base), wanted, account })
+}

@@ -1,0 +1,93 @@
+//! Where files come from that a pipeline names.
+
+use crate::base::{Diagnostic, FilePath, OutsideChoice, Span};
+use crate::frame::{TextureFile, TextureInfo, TextureProblem};
+
+/// The version of the language that this library reads.
+pub const LANGUAGE_VERSION: i64 = 1;
+
+/// A pipeline file has at most this many bytes (16 MiB).
+pub const LARGEST_FILE: usize = 16 << 20;
+
+/// Where files come from that a pipeline names. Whoever implements it decides which may be read.
+pub trait Files {
+    /// Reads a file. `from` is the [`Found::relative`] of the file that names it, and `path` what stands there.
+    ///
+    /// # Errors
+    /// Why it can't be read.
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread>;
+
+    /// Looks at a picture's file: its path is counted from the pipeline's own folder.
+    ///
+    /// # Errors
+    /// [`TextureProblem`] says why it holds no texture.
+    fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        let _ = file;
+        Err(TextureProblem::NotProvided)
+    }
+}
+
+/// Why a file can't be read. Not yet escaped.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unread {
+    /// A sentence without final stop.
+    pub why: String,
+    /// What to do.
+    pub help: Option<String>,
+    /// What can be chosen otherwise outside of all files.
+    pub choice: Option<OutsideChoice>,
+    /// Whether it is there, and the user has no right to read it: then nothing is wrong with the files.
+    pub denied: bool,
+}
+
+impl From<String> for Unread {
+    fn from(why: String) -> Unread {
+        Unread { why, help: None, choice: None, denied: false }
+    }
+}
+
+/// A file that was found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Found {
+    /// As it is shown in diagnostics.
+    pub shown: String,
+    /// Which file it is: this stands in Plans.
+    pub relative: FilePath,
+    /// What it holds.
+    pub bytes: Vec<u8>,
+}
+
+/// No files: a pipeline that names any is wrong.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&mut self, _: &FilePath, path: &str) -> Result<Found, Unread> {
+        Err(format!("`{path}` can't be read: this pipeline was given as a text by itself").into())
+    }
+}
+
+/// Which byte shows that this is no text.
+pub(crate) fn odd_byte(error: &std::string::FromUtf8Error) -> String {
+    let at = error.utf8_error().valid_up_to();
+    format!("byte {at} is 0x{:02X}, which is not UTF-8", error.as_bytes().get(at).copied().unwrap_or_default())
+}
+
+/// What shows at once that this is not a pipeline.
+pub(crate) fn no_pipeline(file: u32, text: &str) -> Option<Diagnostic> {
+    let span = |start: usize, end: usize| {
+        let [start, end] = [start, end].map(|at| u32::try_from(at).unwrap_or(u32::MAX));
+        Span::new(file, start, end)
+    };
+    if text.trim().is_empty() {
+        let empty = Diagnostic::new(span(0, text.len()), "the file is empty");
+        return Some(empty.help("a pipeline begins with `Pipeline(version: 1,`"));
+    }
+    if let Some(at) = text.find('\0') {
+        let zero = Diagnostic::new(span(at, at + 1), format!("this is not a text file: byte {at} is 0x00"));
+        return Some(zero.help("a pipeline is RON text in UTF-8"));
+    }
+    let mark = text.starts_with('\u{feff}');
+    let begins = || Diagnostic::new(span(0, 3), "the file begins with a byte order mark");
+    mark.then(|| begins().help("save it as UTF-8 without one"))
+}

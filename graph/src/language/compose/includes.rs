@@ -1,0 +1,69 @@
+//! `include`: files with fragments, each read once however often it is named.
+
+use super::loader::{self, Loader};
+use super::tables::LibraryFields;
+use crate::base::{FilePath, Span};
+use crate::ron::{Reader, Tree};
+use std::collections::HashSet;
+
+/// Files that a file wants included.
+#[derive(Debug)]
+pub(crate) struct Wanted {
+    /// The path of the file that names them.
+    pub(crate) from: FilePath,
+    /// Their paths, and where each is named.
+    pub(crate) paths: Vec<(String, Span)>,
+}
+
+/// What reads included files.
+pub(crate) struct Included<'l, 'a> {
+    loader: &'l mut Loader<'a>,
+    known: HashSet<FilePath>,
+    /// Files that are being read, and where each is named.
+    path: Vec<(FilePath, Span)>,
+    /// What was read, each file after those that it includes.
+    trees: Vec<Tree>,
+}
+
+/// Reads what the files of a pipeline want included, and what that includes.
+pub(crate) fn read(reader: &mut Reader, loader: &mut Loader<'_>, wanted: Vec<Wanted>) -> Vec<Tree> {
+    let known = wanted.iter().map(|wanted| wanted.from.clone()).collect();
+    let mut included = Included { loader, known, path: Vec::new(), trees: Vec::new() };
+    for Wanted { from, paths } in wanted {
+        included.path = vec![(from, Span::NONE)];
+        included.files(reader, &paths);
+    }
+    included.trees
+}
+
+impl Included<'_, '_> {
+    fn files(&mut self, reader: &mut Reader, paths: &[(String, Span)]) {
+        for (path, span) in paths {
+            self.file(reader, path, *span);
+        }
+    }
+
+    fn file(&mut self, reader: &mut Reader, path: &str, span: Span) {
+        let Some((from, _)) = self.path.last().cloned() else { return };
+        let Some(found) = self.loader.find(reader, &from, path, span) else { return };
+        if let Some(first) = self.path.iter().position(|(outer, _)| *outer == found.relative) {
+            loader::circle(reader, &self.path, first, span, ("include", "included"));
+            return;
+        }
+        if !self.known.insert(found.relative.clone()) {
+            return;
+        }
+        let relative = found.relative.clone();
+        let Some(tree) = self.loader.tree(reader, found, span, "included here") else { return };
+        if !loader::version(reader, tree.root()) {
+            return;
+        }
+        let library: Option<LibraryFields<'_>> = reader.read(tree.root(), "a file of fragments");
+        let paths = loader::paths(reader, library.and_then(|library| library.include), "`include`");
+        self.path.push((relative, span));
+        self.files(reader, &paths);
+        self.path.pop();
+        self.loader.look_in_fragments(reader, tree.root());
+        self.trees.push(tree);
+    }
+}

@@ -1,0 +1,64 @@
+//! Keys and values in the order in which they came, found by key.
+
+use crate::ron::Leaf;
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+/// Fields, or the entries of a map. What is written twice stays twice: that is still to be reported.
+pub(crate) struct Keyed<'t, V> {
+    /// `None`: it was taken away.
+    pairs: Vec<Option<(Leaf<'t>, V)>>,
+    /// Where those of a key are.
+    index: HashMap<Cow<'t, str>, Vec<usize>>,
+}
+
+impl<'t, V> Keyed<'t, V> {
+    /// Those of one file; `key` tells what a leaf comes to, if it can be a key.
+    pub(crate) fn new(
+        written: impl Iterator<Item = (Leaf<'t>, V)>,
+        key: impl Fn(Leaf<'t>) -> Option<Cow<'t, str>>,
+    ) -> Keyed<'t, V> {
+        let mut all = Keyed { pairs: Vec::new(), index: HashMap::new() };
+        for (name, value) in written {
+            all.add(key(name), (name, value));
+        }
+        all
+    }
+
+    /// The first value of that key.
+    pub(crate) fn find(&mut self, key: &str) -> Option<&mut V> {
+        let first = *self.index.get(key)?.first()?;
+        self.pairs[first].as_mut().map(|(_, value)| value)
+    }
+
+    /// Puts a value in the place of the one with the same key, or at the end.
+    pub(crate) fn put(&mut self, name: Leaf<'t>, value: V, key: impl Fn(Leaf<'t>) -> Option<Cow<'t, str>>) {
+        let key = key(name);
+        let there = key.as_ref().and_then(|key| self.index.get(key)).and_then(|all| all.first());
+        match there {
+            Some(first) => self.pairs[*first] = Some((name, value)),
+            None => self.add(key, (name, value)),
+        }
+    }
+
+    /// Takes all of that key away. Whether there were any.
+    pub(crate) fn take(&mut self, key: &str) -> bool {
+        let taken = self.index.remove(key).unwrap_or_default();
+        for at in &taken {
+            self.pairs[*at] = None;
+        }
+        !taken.is_empty()
+    }
+
+    /// All that is left, in order.
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = &(Leaf<'t>, V)> {
+        self.pairs.iter().flatten()
+    }
+
+    fn add(&mut self, key: Option<Cow<'t, str>>, pair: (Leaf<'t>, V)) {
+        if let Some(key) = key {
+            self.index.entry(key).or_default().push(self.pairs.len());
+        }
+        self.pairs.push(Some(pair));
+    }
+}

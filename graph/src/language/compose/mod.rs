@@ -1,0 +1,20 @@
+//! The files of a pipeline are put together: `include`, `extends`, `extensions` and `changes`.
+
+pub(crate) mod account;
+pub(crate) mod apply;
+pub(crate) mod build;
+pub(crate) mod changes;
+pub(crate) mod draft;
+pub(crate) mod entry;
+pub(crate) mod extend;
+pub(crate) mod files;
+pub(crate) mod includes;
+pub(crate) mod keyed;
+pub(crate) mod layers;
+pub(crate) mod loader;
+pub(crate) mod order;
+pub(crate) mod origins;
+pub(crate) mod pictures;
+pub(crate) mod pipeline_files;
+pub(crate) mod tables;
+pub(crate) mod unset;

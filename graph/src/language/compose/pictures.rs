@@ -1,0 +1,66 @@
+//! The picture files that textures name.
+
+use super::loader::Loader;
+use super::pipeline_files::WITHIN_ROOT;
+use crate::base::{Diagnostic, FilePath, OutsideChoice, Sources};
+use crate::frame::{TextureFile, TextureInfo, TextureProblem};
+use crate::language::entries::textures::{Picture, Pictures, TextureFields, color_space};
+use crate::ron::{Leaf, Reader};
+use std::sync::Arc;
+
+impl Loader<'_> {
+    /// Looks at the pictures that a list of textures names.
+    pub(crate) fn look(&mut self, reader: &mut Reader, textures: Option<Leaf<'_>>) {
+        let Loader { sources, files, looked, pictures, .. } = self;
+        let info = |file: &TextureFile| match looked.get(file) {
+            Some(known) => known.clone(),
+            None => looked.entry(file.clone()).insert_entry(files.picture(file)).get().clone(),
+        };
+        look(reader, sources, info, textures, pictures);
+    }
+
+    /// Looks at the pictures that the fragments of a file name.
+    pub(crate) fn look_in_fragments(&mut self, reader: &mut Reader, all: Leaf<'_>) {
+        let fragments = all.field("fragments").and_then(Leaf::values);
+        for textures in fragments.into_iter().flatten().filter_map(|fragment| fragment.field("textures")) {
+            self.look(reader, Some(textures));
+        }
+    }
+}
+
+/// Looks at the files that a list of textures names, by what `info` tells of them. What is wrong with the list itself is
+/// reported when it is evaluated.
+fn look(
+    reader: &mut Reader,
+    sources: &Sources,
+    mut info: impl FnMut(&TextureFile) -> Result<TextureInfo, TextureProblem>,
+    list: Option<Leaf<'_>>,
+    pictures: &mut Pictures,
+) {
+    let mut silent = Reader::default();
+    let entries = list.and_then(|list| silent.list(list, "`textures`")).unwrap_or_default();
+    for entry in entries {
+        let Some(fields) = silent.read::<TextureFields<'_>>(entry, "a texture") else { continue };
+        let Some(path) = silent.words(fields.file, "the path of a file") else { continue };
+        let Some(color_space) = color_space(&mut silent, fields.color_space) else { continue };
+        let span = fields.file.span();
+        let from = span.file().and_then(|file| sources.file(file)).map(|file| &file.path);
+        let picture = match from.unwrap_or(&"".into()).beside(&path) {
+            Ok(FilePath::Own(path)) => {
+                let file = TextureFile { path, color_space };
+                info(&file).map(|info| Picture { file: Arc::new(file), info }).map_err(|problem| {
+                    let outside = problem == TextureProblem::Outside;
+                    let help = outside.then(|| WITHIN_ROOT.to_owned());
+                    (problem.to_string(), help, outside.then_some(OutsideChoice::Root))
+                })
+            }
+            Ok(FilePath::Shipped(_)) => Err(("can't be read: no textures are shipped".to_owned(), None, None)),
+            Err(problem) => Err((problem.to_string(), None, None)),
+        };
+        let picture = picture.map_err(|(why, help, choice)| {
+            reader.report(Diagnostic { help, choice, ..Diagnostic::new(span, format!("`{path}` {why}")) });
+        });
+        let picture = picture.ok();
+        pictures.insert(span, picture);
+    }
+}

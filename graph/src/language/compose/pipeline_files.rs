@@ -1,0 +1,135 @@
+//! The files that a pipeline on disk names: those beside it, then those that are shipped with the program.
+
+use super::files::{Files, Found, LARGEST_FILE, Unread};
+use crate::base::{FilePath, NoFile, OutsideChoice, Root, for_shell, nearest};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// Path and text of files that are shipped with the program.
+pub type Shipped = &'static [(&'static str, &'static str)];
+
+/// What to do about a file that lies outside the root.
+pub(crate) const WITHIN_ROOT: &str = "give a folder that holds both";
+
+/// Files beside a pipeline, then shipped ones.
+///
+/// A path is counted from the file in which it stands. Where there is no such file, the shipped file of that path is
+/// taken. What a shipped file names is counted from it, and shipped too.
+#[derive(Debug)]
+pub struct PipelineFiles {
+    /// `None`: the pipeline is itself shipped, and the user's own files are those that are shipped.
+    root: Option<Root>,
+    shipped: Shipped,
+    /// Files that were read, and the first path that led to each: a second path leads to the same file.
+    paths: HashMap<PathBuf, FilePath>,
+}
+
+impl PipelineFiles {
+    /// Those of the pipeline called `name` in the folder of `root`.
+    #[must_use]
+    pub fn beside(root: Root, name: &str, shipped: Shipped) -> PipelineFiles {
+        let paths = root.locate(name).map(|own| (own, name.into())).into_iter().collect();
+        PipelineFiles { root: Some(root), shipped, paths }
+    }
+
+    /// Those of a shipped pipeline to which files in the folder of `root` are applied.
+    #[must_use]
+    pub fn of_shipped(root: Root, shipped: Shipped) -> PipelineFiles {
+        PipelineFiles { root: Some(root), shipped, paths: HashMap::new() }
+    }
+
+    /// Those of a pipeline that is itself shipped.
+    #[must_use]
+    pub fn shipped(shipped: Shipped) -> PipelineFiles {
+        PipelineFiles { root: None, shipped, paths: HashMap::new() }
+    }
+
+    /// Which file it is that the user names `file`, wherever it lies; the path of one that was read already is that one's.
+    pub fn which(&mut self, file: &Path) -> FilePath {
+        let relative = || {
+            let relative = self.root.as_ref().and_then(|root| root.relative(file).ok());
+            FilePath::Own(relative.unwrap_or_else(|| file.to_string_lossy().into_owned()).into())
+        };
+        match file.canonicalize() {
+            Ok(found) => match self.paths.get(&found) {
+                Some(known) => known.clone(),
+                None => {
+                    let relative = relative();
+                    self.paths.entry(found).or_insert(relative).clone()
+                }
+            },
+            Err(_) => relative(),
+        }
+    }
+
+    /// The file at `relative`, if there is one on disk.
+    fn on_disk(&mut self, root: &Root, relative: FilePath) -> Result<Found, NoFile> {
+        let found = root.locate(relative.path())?;
+        let bytes = root.read(&found, LARGEST_FILE)?;
+        let relative = self.paths.entry(found).or_insert(relative).clone();
+        let shown = match root.folder() {
+            here if here == Path::new(".") => relative.path().to_owned(),
+            folder => folder.join(relative.path()).to_string_lossy().into_owned(),
+        };
+        Ok(Found { shown, relative, bytes })
+    }
+
+    /// The shipped file at `path`.
+    fn carried(&self, path: &str) -> Option<Found> {
+        let (path, text) = self.shipped.iter().find(|(shipped, _)| *shipped == path)?;
+        let relative = match self.root {
+            Some(_) => FilePath::Shipped((*path).into()),
+            None => FilePath::Own((*path).into()),
+        };
+        Some(Found { shown: relative.to_string(), relative, bytes: text.as_bytes().to_vec() })
+    }
+
+    fn near(&self, path: &str) -> Option<String> {
+        let near = nearest(path, self.shipped.iter().map(|(path, _)| *path))?;
+        Some(format!("did you mean `{near}`, which is shipped?"))
+    }
+}
+
+impl Files for PipelineFiles {
+    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
+        let unread = |problem: NoFile| Unread::from(format!("`{path}` {problem}"));
+        let beside = from.beside(path).map_err(unread)?;
+        let root = match (&beside, &self.root) {
+            (FilePath::Own(_), Some(root)) => root.clone(),
+            (beside, _) => {
+                return self.carried(beside.path()).ok_or_else(|| Unread {
+                    why: format!("there is no file `{path}` among those that are shipped"),
+                    help: self.near(path),
+                    choice: None,
+                    denied: false,
+                });
+            }
+        };
+        let named = beside.path().to_owned();
+        match self.on_disk(&root, beside) {
+            Ok(found) => Ok(found),
+            Err(NoFile::Missing) => {
+                let shipped = FilePath::Shipped("".into()).beside(path).map_err(unread)?;
+                self.carried(shipped.path()).ok_or_else(|| Unread {
+                    why: format!("there is no file `{path}` beside `{from}`, and none of that path is shipped"),
+                    help: self.near(path),
+                    choice: None,
+                    denied: false,
+                })
+            }
+            Err(outside @ NoFile::Outside { .. }) => Err(Unread {
+                why: format!("`{path}` {outside}, from which nothing may be read"),
+                help: Some(WITHIN_ROOT.to_owned()),
+                choice: Some(OutsideChoice::Root),
+                denied: false,
+            }),
+            Err(denied @ NoFile::Denied { .. }) => Err(Unread {
+                why: format!("`{path}` {denied}"),
+                help: Some(format!("chmod u+r {}", for_shell(&root.folder().join(&named)))),
+                choice: None,
+                denied: true,
+            }),
+            Err(other) => Err(unread(other)),
+        }
+    }
+}

@@ -1,0 +1,304 @@
+//! `sample`, `storage`, `uniform` and `params`: what a pass gives to its shader, by the shader's own names.
+
+use super::condition::{self, optional};
+use super::parts::{self, Selected};
+use super::values;
+use crate::base::Diagnostic;
+use crate::fields;
+use crate::language::model::{Face, LeftOut, Param, Part, Sample, Storage, StorageAccess, Uniform};
+use crate::language::scope::Scope;
+use crate::ron::{Described, Form, Leaf, Name, Reader, Shape, Spanned, Takes, Word, Words, names};
+use crate::vulkan::{AddressMode, Filter};
+use std::collections::HashMap;
+
+fields! {
+    /// A sampled image: what a shader samples under a name of its own.
+    /// ```ron
+    /// (image: Resolved("image"), mip: 1, filter: Nearest)
+    /// ```
+    struct SampleFields<'src> {
+        /// The image, or a face of it.
+        image: Leaf<'src> => FACE,
+        /// The first mip level, from 0.
+        mip: Option<Leaf<'src>> => parts::FIRST,
+        /// How many mip levels; one if `mip` stands alone, all if neither stands there.
+        mips: Option<Leaf<'src>> => parts::COUNT,
+        /// The first layer, from 0.
+        layer: Option<Leaf<'src>> => parts::FIRST,
+        /// How many layers; one if `layer` stands alone, all if neither stands there.
+        layers: Option<Leaf<'src>> => parts::COUNT,
+        /// Depth or stencil; what the shader's declaration asks for if left out.
+        plane: Option<Leaf<'src>> => parts::PLANE,
+        /// Of how many frames before this one; only of what has history.
+        previous: Option<Leaf<'src>> => parts::PREVIOUS,
+        /// Between texels: the nearest, or a weighted mean of those around; `Linear` for colour and else `Nearest` if left out.
+        filter: Option<Leaf<'src>> => SAMPLER_FILTER,
+        /// Between mip levels: the nearest, or a weighted mean of two; `Nearest` if left out.
+        mip_filter: Option<Leaf<'src>> => SAMPLER_FILTER,
+        /// Beyond the edges: the texels at the edge, the image again, or the image mirrored, again and again; `Clamp` if left
+        /// out.
+        address: Option<Leaf<'src>> => ADDRESS,
+        /// A promise that each fragment reads only the texel at its own position.
+        own_pixel: Option<Leaf<'src>> => Form::Truth,
+        /// A condition: if it is false, the shader is compiled without it.
+        when: Option<Leaf<'src>> => condition::CONDITION,
+    }
+}
+
+/// Sampled images, by the shader's names.
+pub(crate) const SAMPLE: Form =
+    Form::Map("shader's name", &Form::Either(&[FACE, Form::Fields(SampleFields::<'static>::table)]));
+
+/// An image or a face of it.
+const FACE: Form = Form::Words(&FACES);
+
+static FACES: Words = Words {
+    name: "Face",
+    what: "a face of an image",
+    or: &[parts::EYE_IMAGE],
+    all: &[
+        Word::new("Samples", &[Takes::Values(&[parts::EYE_IMAGE])], &["Samples(\"image\")"], "Each sample by itself."),
+        Word::new(
+            "Resolved",
+            &[Takes::Values(&[parts::EYE_IMAGE])],
+            &["Resolved(\"image\")"],
+            "One value a texel. Where the image has several samples its `resolve` says what becomes of them.",
+        ),
+        Word::new(
+            "DepthOnly",
+            &[Takes::Values(&[parts::EYE_IMAGE])],
+            &["DepthOnly(\"image\")"],
+            "One value of depth a texel. Where the image has several samples, whatever drew it is drawn again with one, and \
+             nothing but its depth: that of the middle of each texel.",
+        ),
+    ],
+};
+
+/// How texels are mixed.
+pub(crate) const FILTER: Form = Form::Choice("a filter", || names(&FILTERS));
+
+/// How texels are mixed that are sampled.
+const SAMPLER_FILTER: Form = Form::Either(&[FILTER, Form::Expression("a filter")]);
+
+/// What lies beyond the edges.
+const ADDRESS: Form =
+    Form::Either(&[Form::Choice("an address mode", || names(&ADDRESSES)), Form::Expression("an address mode")]);
+
+/// Storage images and buffers, by the shader's names.
+pub(crate) const STORAGE: Form =
+    Form::Map("shader's name", &Form::Either(&[parts::WHOLE_RESOURCE, Form::Fields(StorageFields::<'static>::table)]));
+
+/// Uniform blocks, by the shader's names.
+pub(crate) const UNIFORM: Form = Form::Map("shader's name", &parts::BUFFER);
+
+/// Parameters, by the shader's names.
+pub(crate) const PARAMS: Form = Form::Map("shader's name", &Form::Either(&[Form::Number, Form::Truth]));
+
+fields! {
+    /// A storage image or buffer: what a shader reads and writes under a name of its own.
+    /// ```ron
+    /// (buffer: "buffer", access: ReadWrite)
+    /// ```
+    struct StorageFields<'src> {
+        /// Which image.
+        image: Option<Leaf<'src>> => parts::EYE_IMAGE,
+        /// Or which buffer.
+        buffer: Option<Leaf<'src>> => parts::WHOLE_BUFFER,
+        /// The mip level, from 0; it must be named if there are several.
+        mip: Option<Leaf<'src>> => parts::FIRST,
+        /// The first layer, from 0.
+        layer: Option<Leaf<'src>> => parts::FIRST,
+        /// How many layers; one if `layer` stands alone, all if neither stands there.
+        layers: Option<Leaf<'src>> => parts::COUNT,
+        /// Of how many frames before this one; only of buffers with history, and only read.
+        previous: Option<Leaf<'src>> => parts::PREVIOUS,
+        /// What is done with it; what the shader's declaration says if left out. `Write` promises that all of it is written
+        /// and nothing of it read before: `ReadWrite` is for atomics, and for writes here and there.
+        access: Option<Leaf<'src>> => Form::Choice("an access", || names(&ACCESSES)),
+    }
+}
+
+/// Filters, by name.
+pub(crate) const FILTERS: [(&str, Filter); 2] = [("Nearest", Filter::Nearest), ("Linear", Filter::Linear)];
+
+const ADDRESSES: [(&str, AddressMode); 3] =
+    [("Clamp", AddressMode::ClampToEdge), ("Repeat", AddressMode::Repeat), ("Mirror", AddressMode::MirroredRepeat)];
+
+const ACCESSES: [(&str, StorageAccess); 3] =
+    [("Read", StorageAccess::Read), ("Write", StorageAccess::Write), ("ReadWrite", StorageAccess::ReadWrite)];
+
+/// Images by the shader's names, and those that conditions leave out.
+pub(crate) fn samples<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+) -> Option<(Vec<Sample>, Vec<LeftOut>)> {
+    let mut left_out = Vec::new();
+    let all = entries(reader, leaf, "`sample`", "a sampled image", |reader, binding, value| {
+        let fields = match value.shape() {
+            Shape::Parentheses => reader.read(value, "a sampled image")?,
+            _ => SampleFields::plain(value),
+        };
+        let off = optional(fields.when, |leaf| condition::when(reader, scope, leaf)).map(Option::flatten);
+        let is_off = matches!(off, Some(Some(_)));
+        let scope = &Scope { lenient: scope.lenient || is_off, ..*scope };
+        let before = reader.errors.len();
+        let sample = sample(reader, scope, binding.clone(), fields);
+        match off? {
+            None => sample.map(Some),
+            // What has no value because it is left out is no mistake.
+            Some(off) if reader.errors.len() == before => {
+                left_out.push(LeftOut { binding: binding?, sample, off });
+                Some(None)
+            }
+            Some(_) => None,
+        }
+    })?;
+    Some((all.into_iter().flatten().collect(), left_out))
+}
+
+fn sample(reader: &mut Reader, scope: &Scope<'_>, binding: Option<Name>, fields: SampleFields<'_>) -> Option<Sample> {
+    let SampleFields { image, mip, mips, layer, layers, plane, previous, .. } = fields;
+    let SampleFields { filter, mip_filter, address, own_pixel, .. } = fields;
+    let selected = Selected { mip, mips, layer, layers, plane, previous };
+    let image = face(reader, image).map(|(name, face)| (parts::image_part(reader, scope, name, selected), face));
+    let filter = sampler(reader, scope, filter, "a filter", &FILTERS);
+    let mip_filter = sampler(reader, scope, mip_filter, "a filter", &FILTERS);
+    let address = sampler(reader, scope, address, "an address mode", &ADDRESSES);
+    let own_pixel = optional(own_pixel, |leaf| values::truth(reader, scope, leaf).map(|own| leaf.spanned(own)));
+    let (part, face) = image?;
+    let (binding, part, own_pixel) = (binding?, part?, own_pixel?);
+    Some(Sample { binding, part, face, filter: filter?, mip_filter: mip_filter?, address: address?, own_pixel })
+}
+
+impl<'src> SampleFields<'src> {
+    /// What an image's plain name says.
+    const fn plain(image: Leaf<'src>) -> SampleFields<'src> {
+        SampleFields {
+            image,
+            mip: None,
+            mips: None,
+            layer: None,
+            layers: None,
+            plane: None,
+            previous: None,
+            filter: None,
+            mip_filter: None,
+            address: None,
+            own_pixel: None,
+            when: None,
+        }
+    }
+}
+
+/// One of several words, if it is there: `None` if it is none of them.
+fn chosen<T: Copy>(
+    reader: &mut Reader,
+    leaf: Option<Leaf<'_>>,
+    what: &str,
+    choices: &[(&'static str, T)],
+) -> Option<Option<Spanned<T>>> {
+    let Some(leaf) = leaf else { return Some(None) };
+    values::choice(reader, leaf, what, choices).map(|value| Some(leaf.spanned(value)))
+}
+
+/// A part of a sampler, if it is there: `None` if it is none of the words that it may be.
+fn sampler<T: Copy>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Option<Leaf<'_>>,
+    what: &str,
+    choices: &[(&'static str, T)],
+) -> Option<Option<Spanned<T>>> {
+    let Some(leaf) = leaf else { return Some(None) };
+    values::word(reader, scope, leaf, what, choices).map(|value| Some(leaf.spanned(value)))
+}
+
+/// An image's name, and which of its faces is meant.
+fn face<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(Leaf<'src>, Face)> {
+    if let Shape::Text | Shape::Word("Eye", _) = leaf.shape() {
+        return Some((leaf, Face::Plain));
+    }
+    let (word, rest) = reader.one_of(leaf, &FACES)?;
+    let [inner]: [Leaf<'_>; 1] = reader.inside(leaf, rest, &format!("{word}(\"image\")"))?;
+    let face = match word {
+        "Samples" => Face::Samples,
+        "Resolved" => Face::Resolved,
+        _ => Face::DepthOnly,
+    };
+    Some((inner, face))
+}
+
+/// Images and buffers that the shader reads and writes, by its names.
+pub(crate) fn storage<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Storage>> {
+    entries(reader, leaf, "`storage`", "a storage image or buffer", |reader, binding, value| {
+        let Shape::Parentheses = value.shape() else {
+            let part = parts::any(reader, scope, value);
+            return Some(Storage { binding: binding?, part: part?, access: None });
+        };
+        let fields: StorageFields<'_> = reader.read(value, "a storage image or buffer")?;
+        let StorageFields { image, buffer, mip, layer, layers, previous, access } = fields;
+        let selected = Selected { mip, layer, layers, previous, ..Selected::default() };
+        let part = parts::one_of(reader, scope, value, image, buffer, selected);
+        let access = chosen(reader, access, "an access", &ACCESSES);
+        let (part, access) = (part?, access?);
+        if let (Some(previous), Some(access)) = (part.previous(), access)
+            && access.value != StorageAccess::Read
+        {
+            let written = Diagnostic::new(access.span, "what an earlier frame left can only be read");
+            reader.report(written.label(previous.span, "an earlier frame"));
+            return None;
+        }
+        if let (Part::Image(image), Some(previous)) = (part, part.previous()) {
+            let sampled =
+                Diagnostic::new(previous.span, "images of earlier frames can be sampled, not read as storage");
+            reader.report(sampled.label(image.image.span, "this image").help("name it in `sample`"));
+            return None;
+        }
+        Some(Storage { binding: binding?, part, access })
+    })
+}
+
+/// Buffers that the shader reads as uniform blocks, by its names.
+pub(crate) fn uniforms<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Uniform>> {
+    entries(reader, leaf, "`uniform`", "a uniform block", |reader, binding, value| {
+        let part = parts::buffer(reader, scope, value);
+        Some(Uniform { binding: binding?, part: part? })
+    })
+}
+
+/// Values by the names of the shader's parameters.
+pub(crate) fn params<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Param>> {
+    entries(reader, leaf, "`params`", "a parameter", |reader, name, leaf| {
+        let (value, written) = values::param(reader, scope, leaf)?;
+        Some(Param { name: name?, value: leaf.spanned(value), written })
+    })
+}
+
+/// The entries of a map whose keys are names, each once.
+fn entries<'src, T>(
+    reader: &mut Reader,
+    leaf: Leaf<'src>,
+    map: &str,
+    what: &str,
+    mut lower: impl FnMut(&mut Reader, Option<Name>, Leaf<'src>) -> Option<T>,
+) -> Option<Vec<T>> {
+    let mut names = HashMap::new();
+    let mut list = Vec::new();
+    let mut complete = true;
+    for (key, value) in reader.map(leaf, map)? {
+        let name = reader.reference(key, what);
+        if let Some(name) = &name
+            && let Some(first) = names.insert(name.text.clone(), name.span)
+        {
+            let twice = Diagnostic::new(name.span, format!("{map} names `{}` twice", name.text));
+            reader.report(twice.remark("again here").label(first, "first here"));
+            complete = false;
+        }
+        match lower(reader, name, value) {
+            Some(value) => list.push(value),
+            None => complete = false,
+        }
+    }
+    complete.then_some(list)
+}

@@ -1,0 +1,80 @@
+//! `draw: Casters(…)`: what casts the sun's shadow.
+
+use super::condition::optional;
+use super::values;
+use crate::base::Diagnostic;
+use crate::fields;
+use crate::frame::{Cascade, DrawList, Metres};
+use crate::language::scope::Scope;
+use crate::ron::{Described, Leaf, Reader, Table, names};
+
+/// Draw lists, by name.
+pub(crate) const LISTS: [(&str, DrawList); 3] =
+    [("Opaque", DrawList::Opaque), ("Masked", DrawList::Masked), ("Transparent", DrawList::Transparent)];
+
+/// How it is written.
+pub(crate) const FORM: &str = "Casters(list: Opaque, cascade: 0, of: 1)";
+
+fields! {
+    /// Casters: what casts the sun's shadow onto one of several parts of what is seen, by distance from the camera.
+    struct CastersFields<'src> {
+        /// Which objects; light goes through transparent ones.
+        list: Leaf<'src> => Form::Choice("a list of casters", || names(&CASTERS)),
+        /// Which part, from 0, the nearest.
+        cascade: Leaf<'src> => Form::Whole(0, Cascade::MOST as i64 - 1),
+        /// How many parts there are; all have a map of one size.
+        of: Leaf<'src> => Form::Whole(1, Cascade::MOST as i64),
+        /// How far from the camera shadows reach, in metres; through the whole scene if left out or 0.
+        reach: Option<Leaf<'src>> => Form::Number,
+    }
+}
+
+/// Its fields.
+pub(crate) fn fields() -> Table {
+    CastersFields::<'static>::table()
+}
+
+/// Those that light doesn't go through.
+const CASTERS: [(&str, DrawList); 2] = [LISTS[0], LISTS[1]];
+
+/// What casts the sun's shadow.
+pub(crate) fn lower<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    rest: Option<Leaf<'src>>,
+) -> Option<Cascade> {
+    let fields: CastersFields<'_> = reader.inside(leaf, rest, FORM)?;
+    let most = i64::from(Cascade::MOST);
+    let list = values::choice(reader, fields.list, "a list of casters", &CASTERS);
+    let index = values::whole(reader, scope, fields.cascade, "cascade", 0..=most - 1);
+    let of = values::whole(reader, scope, fields.of, "number of cascades", 1..=most);
+    let reach = optional(fields.reach, |leaf| reach(reader, scope, leaf)).map(Option::flatten);
+    let (list, index, of, reach) = (list?, index?, of?, reach?);
+    if index >= of {
+        let beyond = Diagnostic::new(fields.cascade.span(), format!("there is no cascade {index} of {of}"));
+        scope.fault(
+            reader,
+            fields.cascade,
+            beyond.label(fields.of.span(), "so many").help(format!("write a number from 0 to {}", of - 1)),
+        );
+        return None;
+    }
+    Some(Cascade { list, index, of, reach })
+}
+
+/// How far shadows reach; `None`: through the whole scene.
+fn reach<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Option<Metres>> {
+    let (metres, because) = values::number_because(reader, scope, leaf, "how far shadows reach")?;
+    if metres == 0.0 {
+        return Some(None);
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "what becomes 0 or infinite is refused")]
+    let known = Metres::try_from(metres as f32);
+    if known.is_err() {
+        let wrong = Diagnostic::new(leaf.span(), "shadows can't reach that far");
+        let wrong = wrong.help("write `0` for the whole scene, or a number of metres above 0 that 32 bits can hold");
+        scope.fault(reader, leaf, wrong.remark(because.as_deref().unwrap_or_default()));
+    }
+    known.ok().map(Some)
+}

@@ -1,0 +1,132 @@
+//! `dispatch`: how many workgroups a compute pass runs.
+
+use super::values::{self, MANY};
+use super::{buffers, parts};
+use crate::language::model::{Groups, Work};
+use crate::language::scope::Scope;
+use crate::ron::{Form, Leaf, Reader, Takes, Word, Words};
+
+/// What `groups` takes.
+pub(crate) const WORKGROUPS: Form = Form::Words(&GROUPS);
+
+static GROUPS: Words = Words {
+    name: "Groups",
+    what: "a number of workgroups",
+    or: &[],
+    all: &[
+        Word::new(
+            "Count",
+            &[Takes::Values(&[GROUP]), Takes::Values(&[GROUP, GROUP]), Takes::Values(&[GROUP, GROUP, GROUP])],
+            &["Count(8, 8, 1)"],
+            "So many in x, y and z; numbers that are left out are 1.",
+        ),
+        Word::new(
+            "Invocations",
+            &[Takes::Values(&[MANY]), Takes::Values(&[MANY, MANY]), Takes::Values(&[MANY, MANY, MANY])],
+            &["Invocations(1000, 1, 1)"],
+            "As many as cover so many invocations in x, y and z, by the shader's own workgroup size.",
+        ),
+        Word::new(
+            "Texels",
+            &[Takes::Values(&[parts::IMAGE]), Takes::Fields(parts::part)],
+            &["Texels(\"image\")"],
+            "As many as cover one invocation for each texel of an image or a part of it, layers or depth in z.",
+        ),
+        Word::new(
+            "Indirect",
+            &[
+                Takes::Values(&[parts::BUFFER]),
+                Takes::Values(&[parts::BUFFER, Form::Whole(0, buffers::LARGEST_BUFFER)]),
+            ],
+            &["Indirect(\"buffer\")"],
+            "As many as a buffer says, from this byte on: a `VkDispatchIndirectCommand`.",
+        ),
+    ],
+};
+
+const GROUP: Form = Form::Whole(1, MOST_GROUPS);
+
+/// Every device allows so many workgroups in x, y and z.
+pub(crate) const MOST_GROUPS: i64 = 65535;
+
+/// A compute shader and how often it runs.
+pub(crate) fn lower<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    groups_at: Option<Leaf<'src>>,
+    what: &str,
+) -> Option<Work> {
+    let shader = reader.outside_name(leaf, "a shader");
+    let Some(groups_at) = groups_at else {
+        reader.wrong(
+            leaf,
+            format!("{what} doesn't say how many workgroups run"),
+            "add `groups: Count(8, 8, 1)`, or another number",
+        );
+        return None;
+    };
+    let groups = groups(reader, scope, groups_at);
+    Some(Work::Dispatch { shader: shader?, groups: groups_at.spanned(groups?) })
+}
+
+fn groups<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Groups> {
+    let (word, rest) = reader.one_of(leaf, &GROUPS)?;
+    match word {
+        "Count" => three(reader, scope, leaf, rest, "number of workgroups", MOST_GROUPS).map(Groups::Count),
+        "Invocations" => {
+            three(reader, scope, leaf, rest, "number of invocations", i64::from(u32::MAX)).map(Groups::Invocations)
+        }
+        "Texels" => {
+            let image = match rest {
+                // `Texels(image: "x", mip: 1)` is the part itself, in the word's own parentheses.
+                Some(rest) if rest.tuple::<1>().is_none() => rest,
+                _ => reader.inside::<[Leaf<'_>; 1]>(leaf, rest, "Texels(\"image\")")?[0],
+            };
+            parts::image(reader, scope, image).map(Groups::Texels)
+        }
+        _ => {
+            let (buffer, offset) = match rest.and_then(Leaf::tuple) {
+                Some([buffer, offset]) => (buffer, Some(offset)),
+                None => (
+                    reader.inside::<[Leaf<'_>; 1]>(leaf, rest, "Indirect(\"buffer\")` or `Indirect(\"buffer\", 16)")?
+                        [0],
+                    None,
+                ),
+            };
+            let buffer = parts::buffer(reader, scope, buffer);
+            let offset = match offset {
+                Some(leaf) => values::whole(reader, scope, leaf, "offset in bytes", 0..=buffers::LARGEST_BUFFER),
+                None => Some(0),
+            };
+            Some(Groups::Indirect { buffer: buffer?, offset: offset? })
+        }
+    }
+}
+
+/// One to three whole numbers; those that are left out are 1.
+fn three<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    rest: Option<Leaf<'src>>,
+    what: &str,
+    most: i64,
+) -> Option<[u32; 3]> {
+    let probed = rest.and_then(|rest| {
+        let one = rest.tuple().map(|[x]| (x, None, None));
+        one.or_else(|| rest.tuple().map(|[x, y]| (x, Some(y), None)))
+    });
+    let (x, y, z) = match probed {
+        Some(few) => few,
+        None => {
+            let [x, y, z]: [Leaf<'_>; 3] = reader.inside(leaf, rest, "Count(8, 8, 1)")?;
+            (x, Some(y), Some(z))
+        }
+    };
+    let number = [Some(x), y, z].map(|leaf| match leaf {
+        Some(leaf) => values::whole(reader, scope, leaf, what, 1..=most),
+        None => Some(1),
+    });
+    Some([number[0]?, number[1]?, number[2]?])
+}

@@ -1,0 +1,133 @@
+//! `draw`: what a raster pass draws.
+
+use super::casters::{self, LISTS};
+use super::parts;
+use super::values::{self, MANY};
+use crate::frame::DrawList;
+use crate::language::model::{Draw, Work};
+use crate::language::scope::Scope;
+use crate::ron::{Form, Leaf, Name, Plain, Reader, Takes, Word, Words, names};
+
+/// What `draw` takes.
+pub(crate) const DRAW: Form = Form::Words(&DRAWS);
+
+static DRAWS: Words = Words {
+    name: "Draw",
+    what: "a draw",
+    or: &[],
+    all: &[
+        Word::new(
+            "Objects",
+            &[Takes::Values(&[Form::Choice("a draw list", || names(&LISTS))])],
+            &["Objects(Opaque)", "Objects(Masked)", "Objects(Transparent)"],
+            "The scene's opaque objects, those that alpha cuts holes into, or those that let light through.",
+        ),
+        Word::new(
+            "Casters",
+            &[Takes::Fields(casters::fields)],
+            &[casters::FORM],
+            "What casts the sun's shadow, as the sun sees it: depth for a shadow map.",
+        ),
+        Word::alone("Sky", "The scene's sky, by the shader `sky` unless `shader` names another."),
+        Word::new(
+            "FullScreen",
+            &[Takes::Values(&[Form::Plain(Plain::Outside)])],
+            &["FullScreen(\"shader\")"],
+            "Every pixel, by this shader.",
+        ),
+        Word::new(
+            "Vertices",
+            &[Takes::Values(&[MANY]), Takes::Values(&[MANY, MANY])],
+            &["Vertices(3, 100)"],
+            "So many vertices, or indices, of triangles, so many times; once if one number stands there.",
+        ),
+        Word::new(
+            "Indirect",
+            &[Takes::Values(&[parts::BUFFER])],
+            &["Indirect(\"buffer\")"],
+            "As many as a buffer says: a `VkDrawIndirectCommand`, with `index` a `VkDrawIndexedIndirectCommand`.",
+        ),
+    ],
+};
+
+/// What a pass says beside `draw` of what it draws.
+#[derive(Clone, Copy)]
+pub(crate) struct Beside<'src> {
+    pub(crate) shader: Option<Leaf<'src>>,
+    pub(crate) vertex: Option<Leaf<'src>>,
+    pub(crate) index: Option<Leaf<'src>>,
+}
+
+/// What is drawn, by which shader.
+pub(crate) fn lower<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    Beside { shader, vertex, index }: Beside<'src>,
+    what: &str,
+) -> Option<Work> {
+    let (word, rest) = reader.one_of(leaf, &DRAWS)?;
+    if !matches!(word, "Vertices" | "Indirect") {
+        for (field, foreign) in [("vertex", vertex), ("index", index)] {
+            let Some(foreign) = foreign else { continue };
+            let message = format!("{what} has `{field}`, which means nothing beside `{word}`");
+            reader.wrong(
+                foreign,
+                message,
+                &format!("leave `{field}` out: buffers of vertices go with `Vertices(…)` and `Indirect(…)`"),
+            );
+        }
+    }
+    let (draw, verb) = match word {
+        "FullScreen" => {
+            let [own]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "FullScreen(\"shader\")")?;
+            if let Some(second) = shader {
+                reader.wrong(second, format!("{what} names its shader in `FullScreen(…)` already"), "");
+                return None;
+            }
+            return Some(Work::Draw { draw: Draw::FullScreen, shader: reader.outside_name(own, "a shader")? });
+        }
+        "Sky" => {
+            reader.bare(word, rest)?;
+            if shader.is_none() {
+                let shader = Name { text: "sky".into(), span: leaf.span() };
+                return Some(Work::Draw { draw: Draw::Sky, shader });
+            }
+            (Draw::Sky, "draws the sky")
+        }
+        "Objects" => (Draw::Objects(list(reader, leaf, rest)?), "draws objects"),
+        "Casters" => (Draw::Casters(casters::lower(reader, scope, leaf, rest)?), "draws objects"),
+        "Vertices" => {
+            let one = || Some(1);
+            let number = |reader: &mut Reader, leaf, what: &str| {
+                values::whole(reader, scope, leaf, what, 1..=i64::from(u32::MAX))
+            };
+            let form = "Vertices(3)` or `Vertices(3, 100)";
+            let (count, instances) = match rest.and_then(Leaf::tuple) {
+                Some([count, instances]) => {
+                    (number(reader, count, "number of vertices"), number(reader, instances, "number of instances"))
+                }
+                None => {
+                    let [count]: [Leaf<'_>; 1] = reader.inside(leaf, rest, form)?;
+                    (number(reader, count, "number of vertices"), one())
+                }
+            };
+            (Draw::Vertices { count: count?, instances: instances? }, "draws vertices")
+        }
+        _ => {
+            let [buffer]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Indirect(\"buffer\")")?;
+            (Draw::Indirect(parts::buffer(reader, scope, buffer)?), "draws vertices")
+        }
+    };
+    let Some(shader) = shader else {
+        reader.wrong(leaf, format!("{what} {verb} and needs a shader"), "add `shader: \"…\"`");
+        return None;
+    };
+    Some(Work::Draw { draw, shader: reader.outside_name(shader, "a shader")? })
+}
+
+/// One of the scene's draw lists.
+fn list<'src>(reader: &mut Reader, leaf: Leaf<'src>, rest: Option<Leaf<'src>>) -> Option<DrawList> {
+    let [list]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Objects(Opaque)")?;
+    values::choice(reader, list, "a draw list", &LISTS)
+}

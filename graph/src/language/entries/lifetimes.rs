@@ -1,0 +1,289 @@
+//! How long contents live, and in which state they come in and go out.
+
+use super::parts::{self, MOST_FRAMES};
+use super::values;
+use crate::fields;
+use crate::language::model::{Fill, Lifetime, State, StateWord};
+use crate::language::scope::Scope;
+use crate::ron::{Described, Form, FromLeaf, Leaf, Reader, Shape, Spanned, Takes, Word, Words, names};
+use crate::vulkan::{self, Accesses, Layout, Stages};
+use bitflags::Flags;
+
+fields! {
+    /// What outlives the frame.
+    #[derive(Default)]
+    struct PersistentFields<'src> {
+        /// What the first frame finds, as in [a fill](#fills); zero if left out.
+        initial: Option<Leaf<'src>> => values::FILL,
+    }
+}
+
+fields! {
+    /// What earlier frames left.
+    #[derive(Default)]
+    struct HistoryFields<'src> {
+        /// How many frames back it can be read; 1 if left out.
+        frames: Option<Leaf<'src>> => Form::Whole(1, MOST_FRAMES),
+        /// What stands for frames before the first, as in [a fill](#fills); zero if left out.
+        initial: Option<Leaf<'src>> => values::FILL,
+    }
+}
+
+fields! {
+    /// What the program hands in.
+    struct ImportedFields<'src> {
+        /// The state in which it is handed in.
+        before: Leaf<'src> => STATE,
+        /// The state in which it is given back; that of its last use if left out.
+        after: Option<Leaf<'src>> => STATE,
+    }
+}
+
+fields! {
+    /// A state in Vulkan's words: the last or next use of what comes from outside of the frame or leaves it.
+    /// ```ron
+    /// (stages: [COPY], accesses: [TRANSFER_WRITE], layout: TRANSFER_DST_OPTIMAL)
+    /// ```
+    struct StateFields<'src> {
+        /// Pipeline stages: `VK_PIPELINE_STAGE_2_…`.
+        stages: Leaf<'src> => Form::List(&Form::Choice("a Vulkan stage", flag_names::<Stages>)),
+        /// Accesses: `VK_ACCESS_2_…`.
+        accesses: Leaf<'src> => Form::List(&Form::Choice("a Vulkan access", flag_names::<Accesses>)),
+        /// The layout of an image, `VK_IMAGE_LAYOUT_…`; a buffer has none.
+        layout: Option<Leaf<'src>> => Form::Choice("an image layout", || names(&LAYOUTS)),
+    }
+}
+
+/// What `lifetime` takes.
+pub(crate) const LIFETIME: Form = Form::Words(&LIFETIMES);
+
+static LIFETIMES: Words = Words {
+    name: "Lifetime",
+    what: "a lifetime",
+    or: &[],
+    all: &[
+        Word::alone("Transient", "Within the frame."),
+        Word::new(
+            "Persistent",
+            &[Takes::Nothing, Takes::Fields(PersistentFields::<'static>::table)],
+            &["Persistent", "Persistent(initial: 1.0)"],
+            "One image or buffer for all frames: a read before the first write finds what the frame before left.",
+        ),
+        Word::new(
+            "History",
+            &[Takes::Nothing, Takes::Fields(HistoryFields::<'static>::table)],
+            &["History", "History(frames: 2, initial: 0)"],
+            "Each frame writes it anew; `previous: 1` reads what the frame before left.",
+        ),
+        Word::new(
+            "Imported",
+            &[Takes::Fields(ImportedFields::<'static>::table)],
+            &["Imported(before: Undefined, after: Sampled)"],
+            "The program hands it in for each frame, and gets it back.",
+        ),
+        Word::new(
+            "Like",
+            &[Takes::Values(&[parts::WHOLE_RESOURCE])],
+            &["Like(\"name\")"],
+            "That of another image or buffer.",
+        ),
+    ],
+};
+
+/// A state, by purpose or in Vulkan's words.
+pub(crate) const STATE: Form = Form::Words(&STATES);
+
+static STATES: Words = Words {
+    name: "State",
+    what: "a state",
+    or: &[Form::Fields(StateFields::<'static>::table)],
+    all: &[
+        Word::alone("Undefined", "An image without contents."),
+        Word::alone("ColorAttachment", "An image that is drawn into as colour."),
+        Word::alone("DepthAttachment", "An image that is drawn into as depth or stencil."),
+        Word::alone("Sampled", "An image that shaders sample."),
+        Word::alone("Storage", "Read and written by shaders."),
+        Word::alone("Uniform", "A buffer that is read as a uniform block."),
+        Word::alone("Vertex", "A buffer of vertices."),
+        Word::alone("Index", "A buffer of indices."),
+        Word::alone("Indirect", "A buffer that holds counts of draws or dispatches."),
+        Word::alone("TransferSource", "Copied or scaled from."),
+        Word::alone("TransferTarget", "Copied, scaled or filled into."),
+        Word::alone("Present", "An image that is shown in a window."),
+        Word::alone("Host", "A buffer that the program writes before the frame, or reads afterwards."),
+    ],
+};
+
+/// Vulkan's words for flags.
+fn flag_names<F: Flags>() -> Vec<&'static str> {
+    F::FLAGS.iter().filter(|flag| !flag.is_unnamed()).map(|flag| flag.name()).collect()
+}
+
+/// Which of the two a state belongs to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Of {
+    /// An image.
+    Image,
+    /// A buffer.
+    Buffer,
+}
+
+/// A lifetime.
+pub(crate) fn lower<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'src>,
+    of: Of,
+) -> Option<Spanned<Lifetime>> {
+    let (word, rest) = reader.one_of(leaf, &LIFETIMES)?;
+    let lifetime = match word {
+        "Transient" => reader.bare(word, rest).map(|()| Lifetime::Transient)?,
+        "Persistent" => {
+            let fields: PersistentFields<'_> = within(reader, leaf, rest, "Persistent(initial: …)")?;
+            Lifetime::Persistent { initial: initial(reader, scope, fields.initial)? }
+        }
+        "History" => {
+            let fields: HistoryFields<'_> = within(reader, leaf, rest, "History(frames: 1, initial: …)")?;
+            let frames = match fields.frames {
+                Some(frames) => values::whole(reader, scope, frames, "number of frames to look back", 1..=MOST_FRAMES),
+                None => Some(1),
+            };
+            let initial = initial(reader, scope, fields.initial);
+            Lifetime::History { frames: frames?, initial: initial? }
+        }
+        "Imported" => {
+            let fields: ImportedFields<'_> = reader.inside(leaf, rest, "Imported(before: …, after: …)")?;
+            let before = state(reader, fields.before, of);
+            let after = match fields.after {
+                Some(after) => state(reader, after, of).map(Some),
+                None => Some(None),
+            };
+            Lifetime::Imported { before: before?, after: after? }
+        }
+        _ => {
+            let [other]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Like(\"name\")")?;
+            Lifetime::Like(scope.resource(reader, other)?)
+        }
+    };
+    Some(leaf.spanned(lifetime))
+}
+
+/// What stands in parentheses, if there are any.
+fn within<'src, T: FromLeaf<'src> + Default>(
+    reader: &mut Reader,
+    leaf: Leaf<'src>,
+    rest: Option<Leaf<'src>>,
+    form: &str,
+) -> Option<T> {
+    match rest {
+        Some(_) => reader.inside(leaf, rest, form),
+        None => Some(T::default()),
+    }
+}
+
+fn initial<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Option<Leaf<'src>>) -> Option<Option<Spanned<Fill>>> {
+    let Some(leaf) = leaf else { return Some(None) };
+    let value = values::fill(reader, scope, leaf)?;
+    Some(Some(leaf.spanned(value)))
+}
+
+const WORDS: [(&str, StateWord); 13] = [
+    ("Undefined", StateWord::Undefined),
+    ("ColorAttachment", StateWord::ColorAttachment),
+    ("DepthAttachment", StateWord::DepthAttachment),
+    ("Sampled", StateWord::Sampled),
+    ("Storage", StateWord::Storage),
+    ("Uniform", StateWord::Uniform),
+    ("Vertex", StateWord::Vertex),
+    ("Index", StateWord::Index),
+    ("Indirect", StateWord::Indirect),
+    ("TransferSource", StateWord::TransferSource),
+    ("TransferTarget", StateWord::TransferTarget),
+    ("Present", StateWord::Present),
+    ("Host", StateWord::Host),
+];
+
+const LAYOUTS: [(&str, Layout); 14] = [
+    ("UNDEFINED", Layout::Undefined),
+    ("GENERAL", Layout::General),
+    ("COLOR_ATTACHMENT_OPTIMAL", Layout::ColorAttachmentOptimal),
+    ("DEPTH_STENCIL_ATTACHMENT_OPTIMAL", Layout::DepthStencilAttachmentOptimal),
+    ("DEPTH_STENCIL_READ_ONLY_OPTIMAL", Layout::DepthStencilReadOnlyOptimal),
+    ("DEPTH_ATTACHMENT_OPTIMAL", Layout::DepthAttachmentOptimal),
+    ("DEPTH_READ_ONLY_OPTIMAL", Layout::DepthReadOnlyOptimal),
+    ("STENCIL_ATTACHMENT_OPTIMAL", Layout::StencilAttachmentOptimal),
+    ("STENCIL_READ_ONLY_OPTIMAL", Layout::StencilReadOnlyOptimal),
+    ("SHADER_READ_ONLY_OPTIMAL", Layout::ShaderReadOnlyOptimal),
+    ("TRANSFER_SRC_OPTIMAL", Layout::TransferSrcOptimal),
+    ("TRANSFER_DST_OPTIMAL", Layout::TransferDstOptimal),
+    ("PRESENT_SRC_KHR", Layout::PresentSrcKhr),
+    ("RENDERING_LOCAL_READ_KHR", Layout::RenderingLocalReadKhr),
+];
+
+impl StateWord {
+    /// Whether an image, and whether a buffer can be in it.
+    const fn fits(self, of: Of) -> bool {
+        match self {
+            StateWord::Storage | StateWord::TransferSource | StateWord::TransferTarget => true,
+            StateWord::Uniform | StateWord::Vertex | StateWord::Index | StateWord::Indirect | StateWord::Host => {
+                matches!(of, Of::Buffer)
+            }
+            StateWord::Undefined
+            | StateWord::ColorAttachment
+            | StateWord::DepthAttachment
+            | StateWord::Sampled
+            | StateWord::Present => matches!(of, Of::Image),
+        }
+    }
+}
+
+/// A state, by purpose or in Vulkan's words.
+pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: Of) -> Option<Spanned<State>> {
+    if let Shape::Parentheses = leaf.shape() {
+        let fields: StateFields<'_> = reader.read(leaf, "a state")?;
+        let stages = flags::<Stages>(reader, fields.stages, "`stages`", "a pipeline stage");
+        let accesses = flags::<Accesses>(reader, fields.accesses, "`accesses`", "an access");
+        let layout = match (fields.layout, of) {
+            (Some(layout), Of::Buffer) => {
+                reader.wrong(layout, "a buffer has no layout", "");
+                None
+            }
+            (Some(layout), Of::Image) => values::choice(reader, layout, "an image layout", &LAYOUTS),
+            (None, Of::Buffer) => Some(Layout::Undefined),
+            (None, Of::Image) => {
+                reader.wrong(leaf, "the state of an image has a layout", "add `layout: …`");
+                None
+            }
+        };
+        let state = vulkan::State { stages: stages?, accesses: accesses?, layout: layout? };
+        return Some(leaf.spanned(State::Named(state)));
+    }
+    let fitting: Vec<(&'static str, StateWord)> = WORDS.into_iter().filter(|(_, word)| word.fits(of)).collect();
+    let known: Vec<&'static str> = WORDS.iter().map(|(word, _)| *word).collect();
+    let words: Vec<String> = fitting.iter().map(|(word, _)| format!("`{word}`")).collect();
+    let layout = if of == Of::Image { ", layout: …" } else { "" };
+    let forms = format!("write {} or `(stages: […], accesses: […]{layout})`", words.join(", "));
+    let (word, rest) = reader.word(leaf, "a state", &known, &forms)?;
+    reader.bare(word, rest)?;
+    let Some((_, word)) = fitting.into_iter().find(|(fitting, _)| *fitting == word) else {
+        let whose = if of == Of::Image { "an image" } else { "a buffer" };
+        reader.wrong(leaf, format!("{whose} can't be in the state `{word}`"), &forms);
+        return None;
+    };
+    Some(leaf.spanned(State::Word(word)))
+}
+
+/// A list of Vulkan's words.
+fn flags<'src, F: Flags + Copy>(reader: &mut Reader, leaf: Leaf<'src>, field: &str, what: &str) -> Option<F> {
+    let choices: Vec<(&'static str, F)> =
+        F::FLAGS.iter().filter(|flag| !flag.is_unnamed()).map(|flag| (flag.name(), *flag.value())).collect();
+    let mut all = F::empty();
+    let mut complete = true;
+    for entry in reader.list(leaf, field)? {
+        match values::choice(reader, entry, what, &choices) {
+            Some(flag) => all = all.union(flag),
+            None => complete = false,
+        }
+    }
+    complete.then_some(all)
+}

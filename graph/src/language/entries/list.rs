@@ -1,0 +1,38 @@
+//! Lists of entries: the fields of each are told apart, and its name taken down.
+
+use crate::ron::{FromLeaf, Leaf, Name, Names, Reader, Shape};
+
+/// Tells the fields of each entry of a list apart, and takes down the entries' names.
+pub(crate) fn entries<'t, T: FromLeaf<'t>>(
+    reader: &mut Reader,
+    list: Option<Leaf<'t>>,
+    field: &str,
+    what: &'static str,
+    names: &mut Names,
+) -> Vec<Option<T>> {
+    let Some(list) = list else { return Vec::new() };
+    let Some(leaves) = reader.list(list, field) else {
+        // Whatever is looked for may be in the list that couldn't be read.
+        names.give(reader, None);
+        return Vec::new();
+    };
+    leaves.into_iter().map(|leaf| entry(reader, leaf, what, what, names)).collect()
+}
+
+/// Tells the fields of an entry apart, and takes down its name.
+pub(crate) fn entry<'t, T: FromLeaf<'t>>(
+    reader: &mut Reader,
+    leaf: Leaf<'t>,
+    what: &str,
+    shown: &str,
+    names: &mut Names,
+) -> Option<T> {
+    let name = leaf.field("name").and_then(Name::written);
+    let known = name.as_ref().map_or_else(|| format!("this {shown}"), |name| format!("{shown} `{}`", name.text));
+    names.give(reader, name);
+    if !matches!(leaf.shape(), Shape::Parentheses | Shape::Word(_, Some(_))) {
+        reader.expected(leaf, &format!("the {what} as `(name: \"…\", …)`"));
+        return None;
+    }
+    reader.read(leaf, &known)
+}

@@ -1,0 +1,32 @@
+//! One file per kind of entry: its field table, its reading and its evaluation.
+
+pub(crate) mod bindings;
+pub(crate) mod body;
+pub(crate) mod buffers;
+pub(crate) mod casters;
+pub(crate) mod condition;
+pub(crate) mod dispatch;
+pub(crate) mod draw;
+pub(crate) mod fragments;
+pub(crate) mod images;
+pub(crate) mod lifetimes;
+pub(crate) mod list;
+pub(crate) mod outputs;
+pub(crate) mod parameters;
+pub(crate) mod parts;
+pub(crate) mod pass_fields;
+pub(crate) mod passes;
+pub(crate) mod precision;
+pub(crate) mod presets;
+pub(crate) mod repeat;
+pub(crate) mod resolves;
+pub(crate) mod settings;
+pub(crate) mod sizes;
+pub(crate) mod stand_ins;
+pub(crate) mod targets;
+pub(crate) mod textures;
+pub(crate) mod transfer;
+pub(crate) mod uses;
+pub(crate) mod values;
+pub(crate) mod views;
+pub(crate) mod work;

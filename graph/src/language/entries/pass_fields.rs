@@ -1,0 +1,70 @@
+//! The fields of a pass.
+
+use super::condition::CONDITION;
+use super::repeat::REPEAT;
+use super::stand_ins::OTHERWISE;
+use super::{bindings, dispatch, draw, parts, targets, transfer, views};
+use crate::fields;
+use crate::ron::{Leaf, Plain};
+
+fields! {
+    /// A pass: one thing that is done.
+    /// ```ron
+    /// (name: "glass", when: "scene.has_transparent", draw: Objects(Transparent), shader: "lit",
+    ///     color: [(image: "image", blend: Premultiplied)], depth: (image: "depth", write: false))
+    /// ```
+    pub(crate) struct PassFields<'src> as "Pass" {
+        /// Its name, unique among passes and uses.
+        pub(crate) name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// The view that it draws for; the first if left out.
+        pub(crate) view: Option<Leaf<'src>> => views::NAME,
+        /// How often it stands there.
+        pub(crate) repeat: Option<Leaf<'src>> => REPEAT,
+        /// It draws.
+        pub(crate) draw: Option<Leaf<'src>> => draw::DRAW,
+        /// It runs a compute shader, `NAME.comp`.
+        pub(crate) dispatch: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
+        /// It copies bits as they are: texels to texels, bytes to bytes, or rows of texels without gaps to or from a buffer.
+        pub(crate) copy: Option<Leaf<'src>> => transfer::COPY,
+        /// It copies an image and scales it.
+        pub(crate) blit: Option<Leaf<'src>> => transfer::BLIT,
+        /// It sets an image or buffer to a value.
+        pub(crate) fill: Option<Leaf<'src>> => transfer::FILL,
+        /// It does what the embedding program records under this name: with `color` or `depth` within a rendering scope,
+        /// else outside.
+        pub(crate) custom: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
+        /// The shader of what it draws.
+        pub(crate) shader: Option<Leaf<'src>> => Form::Plain(Plain::Outside),
+        /// How many workgroups its compute shader runs in.
+        pub(crate) groups: Option<Leaf<'src>> => dispatch::WORKGROUPS,
+        /// Images that its shaders sample, by the shader's names.
+        pub(crate) sample: Option<Leaf<'src>> => bindings::SAMPLE,
+        /// Images and buffers that its shaders read and write by themselves, by the shader's names.
+        pub(crate) storage: Option<Leaf<'src>> => bindings::STORAGE,
+        /// Buffers that its shaders read as uniform blocks, by the shader's names.
+        pub(crate) uniform: Option<Leaf<'src>> => bindings::UNIFORM,
+        /// The buffer of the vertices of `Vertices` and `Indirect`.
+        pub(crate) vertex: Option<Leaf<'src>> => parts::BUFFER,
+        /// The buffer of their indices, 32 bits each.
+        pub(crate) index: Option<Leaf<'src>> => parts::BUFFER,
+        /// What it draws colour into, by location.
+        pub(crate) color: Option<Leaf<'src>> => targets::COLOR,
+        /// What it draws depth and stencil into.
+        pub(crate) depth: Option<Leaf<'src>> => targets::DEPTH,
+        /// `true`: as many samples of a texel are covered as the alpha says that the shader writes at location 0, where its
+        /// targets have several; not if left out.
+        pub(crate) alpha_to_coverage: Option<Leaf<'src>> => Form::Truth,
+        /// What it reads by transfer.
+        pub(crate) reads: Option<Leaf<'src>> => transfer::TRANSFERRED,
+        /// What it writes by transfer, all of it.
+        pub(crate) writes: Option<Leaf<'src>> => transfer::TRANSFERRED,
+        /// Values for the members of the shader's block `params`, by name.
+        pub(crate) params: Option<Leaf<'src>> => bindings::PARAMS,
+        /// `true`: it is kept although nothing in the frame needs it.
+        pub(crate) side_effect: Option<Leaf<'src>> => Form::Truth,
+        /// A condition: if it is false, the pass is off, and nothing that it says needs a value.
+        pub(crate) when: Option<Leaf<'src>> => CONDITION,
+        /// What images that it would write take when it is off.
+        pub(crate) otherwise: Option<Leaf<'src>> => OTHERWISE,
+    }
+}

@@ -1,0 +1,70 @@
+//! How exactly images hold what they are asked to: colour (`color`) and depth (`depth_format`).
+
+use super::values::{self, said};
+use crate::language::model::{Precision, Precisions};
+use crate::language::scope::Scope;
+use crate::ron::{Form, Leaf, Reader, Word, Words};
+
+/// What `Color` becomes.
+pub(crate) const COLOR: Form = Form::Words(&COLORS);
+
+/// What `Depth` and `DepthStencil` become.
+pub(crate) const DEPTH: Form = Form::Words(&DEPTHS);
+
+static COLORS: Words = Words {
+    name: "ColorPolicy",
+    what: "a policy",
+    or: &[Form::Expression("a text with one of these words")],
+    all: &[
+        Word::alone(
+            "Smallest",
+            "With high dynamic range `B10G11R11_UFLOAT_PACK32`, which holds steps of about 1/64 of a value, nothing negative and no \
+             alpha; else `R8G8B8A8_SRGB`.",
+        ),
+        Word::alone("Balanced", "With high dynamic range `R16G16B16A16_SFLOAT`, else `R8G8B8A8_SRGB`."),
+        Word::alone("Exact", "With high dynamic range `R32G32B32A32_SFLOAT`, else `R16G16B16A16_UNORM`."),
+    ],
+};
+
+static DEPTHS: Words = Words {
+    name: "DepthFormatPolicy",
+    what: "a policy",
+    or: &[Form::Expression("a text with one of these words")],
+    all: &[
+        Word::alone(
+            "Smallest",
+            "`D16_UNORM`, with stencil `D24_UNORM_S8_UINT`; finer if the scene reaches too far for it.",
+        ),
+        Word::alone(
+            "Balanced",
+            "`X8_D24_UNORM_PACK32`, with stencil `D24_UNORM_S8_UINT`; finer if the scene reaches too far for it.",
+        ),
+        Word::alone("Exact", "`D32_SFLOAT`; with stencil `D32_SFLOAT_S8_UINT`."),
+    ],
+};
+
+/// What each word stands for.
+const MEANINGS: [(&str, Precision); 3] =
+    [("Smallest", Precision::Smallest), ("Balanced", Precision::Balanced), ("Exact", Precision::Exact)];
+
+/// What a pipeline's `color` says.
+pub(crate) fn color(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<Precisions> {
+    lower(reader, scope, leaf, "color", &COLORS)
+}
+
+/// What a pipeline's `depth_format` says.
+pub(crate) fn depth(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<Precisions> {
+    lower(reader, scope, leaf, "depth_format", &DEPTHS)
+}
+
+fn lower(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    leaf: Leaf<'_>,
+    field: &str,
+    words: &'static Words,
+) -> Option<Precisions> {
+    let (word, because) = values::bare_word(reader, scope, leaf, words)?;
+    let (word, precision) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
+    Some(Precisions { precision, span: leaf.span(), said: said(field, word, because) })
+}

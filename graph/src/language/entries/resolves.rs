@@ -1,0 +1,76 @@
+//! How several samples become one value: those of an image (`resolve`), or of all depth of a pipeline (`depth`).
+
+use super::values;
+use crate::frame::ResolveWay;
+use crate::language::model::Resolves;
+use crate::language::scope::Scope;
+use crate::ron::{Form, Leaf, Reader, Spanned, Word, Words};
+use crate::vulkan::ResolveMode;
+
+/// How several samples of an image become one value.
+pub(crate) const RESOLVE: Form = Form::Words(&RESOLVES);
+
+/// How several samples of depth become one value, of images that don't say it.
+pub(crate) const DEPTH: Form = Form::Words(&POLICIES);
+
+static RESOLVES: Words = Words {
+    name: "Resolve",
+    what: "a way to resolve samples",
+    or: &[Form::Expression("a text with one of these words")],
+    all: &[
+        Word::alone(
+            "DepthOnly",
+            "Whatever drew the depth is drawn again with one sample, and nothing but its depth: that of the middle of each \
+             texel.",
+        ),
+        Word::alone("SampleZero", "The first sample. That of integers, which have no other way."),
+        Word::alone("Min", "The least sample; of depth the farthest, since it is reversed."),
+        Word::alone("Max", "The greatest sample; of depth the nearest, since it is reversed."),
+        Word::alone("Average", "The mean of all samples. That of colour, if nothing is said."),
+        Word::alone(
+            "Weighted",
+            "Of colour: the mean of tone-mapped samples, taken back to light, so that one bright sample doesn't drown the others. \
+             By a draw.",
+        ),
+    ],
+};
+
+static POLICIES: Words = Words {
+    name: "DepthPolicy",
+    what: "a policy",
+    or: &[Form::Expression("a text with one of these words")],
+    all: &[
+        Word::alone("Exact", "As `DepthOnly`."),
+        Word::alone("Fastest", "As `SampleZero`: where the device can, at no cost but the memory."),
+    ],
+};
+
+/// What each word stands for.
+const MEANINGS: [(&str, ResolveWay); 6] = [
+    ("DepthOnly", ResolveWay::DepthOnly),
+    ("SampleZero", ResolveWay::By(ResolveMode::SampleZero)),
+    ("Min", ResolveWay::By(ResolveMode::Min)),
+    ("Max", ResolveWay::By(ResolveMode::Max)),
+    ("Average", ResolveWay::By(ResolveMode::Average)),
+    ("Weighted", ResolveWay::Weighted),
+];
+
+/// What an image's `resolve` says.
+pub(crate) fn lower(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<Resolves> {
+    let (word, because) = values::bare_word(reader, scope, leaf, &RESOLVES)?;
+    let (word, resolve) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
+    Some(Resolves {
+        resolve: Spanned { value: resolve, span: leaf.span() },
+        said: values::said("resolve", word, because),
+    })
+}
+
+/// What a pipeline's `depth` says; `None` for what is so without it.
+pub(crate) fn policy(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<Option<Resolves>> {
+    let (word, because) = values::bare_word(reader, scope, leaf, &POLICIES)?;
+    if word == "Exact" {
+        return Some(None);
+    }
+    let resolve = Spanned { value: ResolveWay::By(ResolveMode::SampleZero), span: leaf.span() };
+    Some(Some(Resolves { resolve, said: values::said("depth", word, because) }))
+}

@@ -1,0 +1,125 @@
+//! `otherwise`: what fills the targets of a pass that is off.
+
+use super::{parts, values};
+use crate::base::Diagnostic;
+use crate::fields;
+use crate::language::model::{Forward, Pass, StandIn};
+use crate::language::scope::Scope;
+use crate::ron::{Described, Form, Leaf, Reader, Shape, Takes, Word, Words};
+use std::collections::HashMap;
+
+/// What `otherwise` takes.
+pub(crate) const OTHERWISE: Form = Form::Either(&[Form::Words(&STAND_INS), Form::List(&Form::Words(&STAND_INS))]);
+
+/// What targets take when a pass is off.
+static STAND_INS: Words = Words {
+    name: "StandIn",
+    what: "a stand-in",
+    or: &[],
+    all: &[
+        Word::new(
+            "Forward",
+            &[Takes::Fields(ForwardFields::<'static>::table)],
+            &["Forward(from: \"image\", to: \"image\")"],
+            "One image gets what another holds.",
+        ),
+        Word::new(
+            "Clear",
+            &[Takes::Fields(ClearFields::<'static>::table)],
+            &["Clear(image: \"image\", value: 0)"],
+            "An image gets a value.",
+        ),
+    ],
+};
+
+fields! {
+    /// An image that stands for another.
+    struct ForwardFields<'src> {
+        /// The image that is taken.
+        from: Leaf<'src> => parts::WHOLE_IMAGE,
+        /// The image that gets it, which the pass would write.
+        to: Leaf<'src> => parts::WHOLE_IMAGE,
+    }
+}
+
+fields! {
+    /// A value that stands for an image.
+    struct ClearFields<'src> {
+        /// The image, which the pass would write.
+        image: Leaf<'src> => parts::WHOLE_IMAGE,
+        /// What it gets, as in [a fill](#fills).
+        value: Leaf<'src> => values::FILL,
+    }
+}
+
+/// What targets take when the pass is off: one or several.
+pub(crate) fn stand_ins<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<StandIn>> {
+    if let Shape::List = leaf.shape() {
+        let entries = reader.list(leaf, "`otherwise`")?;
+        let all: Vec<Option<StandIn>> = entries.into_iter().map(|entry| stand_in(reader, scope, entry)).collect();
+        return all.into_iter().collect();
+    }
+    stand_in(reader, scope, leaf).map(|one| vec![one])
+}
+
+fn stand_in<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<StandIn> {
+    let (word, rest) = reader.one_of(leaf, &STAND_INS)?;
+    if word == "Clear" {
+        let fields: ClearFields<'_> = reader.inside(leaf, rest, "Clear(image: \"image\", value: 0)")?;
+        let (to, value) = (scope.image(reader, fields.image), values::fill(reader, scope, fields.value));
+        return Some(StandIn::Clear { to: to?, value: fields.value.spanned(value?) });
+    }
+    let fields: ForwardFields<'_> = reader.inside(leaf, rest, "Forward(from: \"image\", to: \"image\")")?;
+    let (from, to) = (scope.image(reader, fields.from), scope.image(reader, fields.to));
+    Some(StandIn::Forward(Forward { from: from?, to: to? }))
+}
+
+/// What `otherwise` is of.
+#[derive(Clone, Copy)]
+pub(crate) enum Of {
+    Pass,
+    Use,
+}
+
+impl Of {
+    /// What is said of a stand-in for an image that is not written, and what to do.
+    const fn foreign(self) -> (&'static str, &'static str) {
+        match self {
+            Of::Pass => (
+                "`otherwise` fills an image that this pass doesn't write",
+                "it is one of the images that the pass draws into or writes",
+            ),
+            Of::Use => (
+                "`otherwise` fills an image that no pass of this use would write",
+                "it is an image in `with` that a pass of the fragment writes; what is repeated 0 times writes nothing, on or \
+                 off",
+            ),
+        }
+    }
+}
+
+/// Stand-ins fill images of the pass's own, each once, from other images.
+pub(crate) fn stand_ins_make_sense(reader: &mut Reader, conditional: bool, leaf: Leaf<'_>, of: Of, pass: &Pass) {
+    if !conditional {
+        let idle = Diagnostic::new(leaf.span(), "`otherwise` never comes to pass: there is no `when`");
+        reader.report(idle.help("add `when: …`, or remove `otherwise`"));
+    }
+    let mut first = HashMap::new();
+    for stand_in in &pass.otherwise {
+        let to = stand_in.target();
+        if let StandIn::Forward(forward) = stand_in
+            && forward.from.index == forward.to.index
+        {
+            let same = Diagnostic::new(to.span, "an image can't be forwarded to itself");
+            reader.report(same.label(forward.from.span, "the same image"));
+            continue;
+        }
+        if !pass.written().any(|image| image.index == to.index) {
+            let (message, help) = of.foreign();
+            reader.report(Diagnostic::new(to.span, message).help(help));
+        } else if let Some(first) = first.insert(to.index, to.span) {
+            let twice = Diagnostic::new(to.span, "`otherwise` fills this image twice");
+            reader.report(twice.remark("again here").label(first, "first here"));
+        }
+    }
+}

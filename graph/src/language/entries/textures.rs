@@ -1,0 +1,127 @@
+//! `textures`: images whose texels come from picture files.
+
+use super::{parameters, values};
+use crate::base::{Diagnostic, Span};
+use crate::frame::{ColorSpace, TextureFile, TextureInfo, ViewIndex, format_problem};
+use crate::language::model::{Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
+use crate::language::scope::Scope;
+use crate::ron::{Described, Form, Leaf, Name, Plain, Reader, Spanned, names};
+use crate::{fields, vulkan};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+fields! {
+    /// A texture: an image whose texels come from a file. Passes sample it, and do nothing else with it.
+    ///
+    /// ```ron
+    /// (name: "grain", file: "grain.png", color_space: Linear)
+    /// ```
+    pub(crate) struct TextureFields<'src> as "Texture" {
+        /// Its name, unique among images and buffers.
+        name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// Its path, counted from the file in which it stands; parts are divided by `/`.
+        pub(crate) file: Leaf<'src> => Form::Plain(Plain::Text),
+        /// `Srgb`: red, green and blue are encoded with the sRGB curve, as pictures for people are; `Linear`: all values are as
+        /// they are, as in tables, noise and light. `Srgb` if left out; HDR and EXR files are linear.
+        pub(crate) color_space: Option<Leaf<'src>> => Form::Choice("a colour space", || names(&COLOR_SPACES)),
+        /// The format, if not the one that holds what the file does: `R8G8B8A8_SRGB` or `_UNORM` of 8 bits,
+        /// `R16G16B16A16_UNORM` of 16, `R16G16B16A16_SFLOAT` of floating point.
+        format: Option<Leaf<'src>> => Form::Either(&[parameters::FORMAT, Form::Expression("a format")]),
+        /// `D3`: the picture is a strip of N squares of N × N texels, one for each slice from left to right; a colour table has
+        /// red to the right, green downwards, and blue from square to square. `D2` if left out.
+        shape: Option<Leaf<'src>> => Form::Choice("the shape of a texture", || names(&SHAPES)),
+    }
+}
+
+/// The textures of one level.
+pub(crate) const TEXTURES: Form = Form::List(&Form::Fields(TextureFields::<'static>::table));
+
+const COLOR_SPACES: [(&str, ColorSpace); 2] = [("Srgb", ColorSpace::Srgb), ("Linear", ColorSpace::Linear)];
+
+const SHAPES: [(&str, vulkan::Shape); 2] = [("D2", vulkan::Shape::D2), ("D3", vulkan::Shape::D3)];
+
+/// What was found behind the paths of pictures, by where they stand; `None` where a mistake was reported.
+pub(crate) type Pictures = HashMap<Span, Option<Picture>>;
+
+/// A picture's file.
+#[derive(Debug, Clone)]
+pub(crate) struct Picture {
+    pub(crate) file: Arc<TextureFile>,
+    pub(crate) info: TextureInfo,
+}
+
+/// A texture, once its fields are told apart.
+pub(crate) fn lower<'src>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    pictures: &Pictures,
+    fields: &TextureFields<'src>,
+) -> Option<Image> {
+    let name = reader.name(fields.name, "a texture");
+    let path = reader.words(fields.file, "the path of a file");
+    let color_space = color_space(reader, fields.color_space);
+    let shape = match fields.shape {
+        Some(leaf) => values::choice(reader, leaf, "the shape of a texture", &SHAPES),
+        None => Some(vulkan::Shape::D2),
+    };
+    let format = match fields.format.map(|leaf| (leaf, leaf.shape())) {
+        Some((leaf, crate::ron::Shape::Text)) => {
+            values::format(reader, scope, leaf).map(|format| Some(leaf.spanned(format)))
+        }
+        Some((leaf, _)) => parameters::format(reader, leaf).map(|format| Some(leaf.spanned(format))),
+        None => Some(None),
+    };
+    let (name, path, _, shape, format) = (name?, path?, color_space?, shape?, format?);
+    let Picture { file, info } = pictures.get(&fields.file.span())?.as_ref()?;
+    if let Some(Spanned { value, span }) = format
+        && let Some(why) = format_problem(file, value)
+    {
+        reader.report(Diagnostic::new(span, format!("texture `{}` can't be {value}: {why}", name.text)));
+        return None;
+    }
+    let extent = match info.image_extent(shape) {
+        Ok(extent) => extent,
+        Err(problem) => {
+            let at = fields.shape.map_or(fields.file.span(), Leaf::span);
+            reader.report(Diagnostic::new(at, format!("`{path}` {problem}")).label(fields.file.span(), "this file"));
+            return None;
+        }
+    };
+    Some(image(name, file, format.map_or(info.format, |format| format.value), extent, shape, fields))
+}
+
+fn image(
+    name: Name,
+    file: &Arc<TextureFile>,
+    format: crate::vulkan::Format,
+    [width, height, depth]: [u32; 3],
+    shape: vulkan::Shape,
+    fields: &TextureFields<'_>,
+) -> Image {
+    let (from, span) = (fields.file, name.span);
+    let shape = if shape == vulkan::Shape::D3 { ImageShape::D3(depth) } else { ImageShape::D2 };
+    Image {
+        name,
+        format: fields.format.unwrap_or(from).spanned(Format::Named(format)),
+        size: from.spanned(Size::Fixed([width, height])),
+        size_because: None,
+        samples: Spanned { value: Samples::Count(1), span },
+        samples_because: None,
+        resolve: None,
+        mips: Spanned { value: Mips::Count(1), span },
+        layers: Spanned { value: Layers::Default, span },
+        shape: fields.shape.unwrap_or(from).spanned(shape),
+        lifetime: from.spanned(Lifetime::File(Arc::clone(file))),
+        per_eye: Some(Spanned { value: false, span }),
+        eyes: None,
+        view: ViewIndex::default(),
+        instance: None,
+    }
+}
+
+pub(crate) fn color_space(reader: &mut Reader, leaf: Option<Leaf<'_>>) -> Option<ColorSpace> {
+    match leaf {
+        Some(leaf) => values::choice(reader, leaf, "a colour space", &COLOR_SPACES),
+        None => Some(ColorSpace::default()),
+    }
+}

@@ -1,0 +1,252 @@
+//! `views`: from where, how large and with what the parts of a frame are drawn.
+
+use super::{list, presets, sizes, values};
+use crate::base::{Diagnostic, Label, OutsideChoice, shown_number};
+use crate::fields;
+use crate::frame::change::{Action, Change};
+use crate::frame::{self, Allowances, Jitter, ViewIndex};
+use crate::language::inputs::Surroundings;
+use crate::language::model::{Choice, LARGEST_SIZE, Setting, View, times};
+use crate::language::scope::{Given, Scope};
+use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader, Takes, Word, Words};
+use std::sync::Arc;
+
+fields! {
+    /// A view: what is seen from one place, at a size and with values of settings of its own.
+    ///
+    /// ```ron
+    /// (name: "preview", size: Scaled(0.25), camera: "top", allows_msaa: false, set: {"bloom": false})
+    /// ```
+    struct ViewFields<'src> as "View" {
+        /// Its name, by which images, buffers, passes and uses say that they are for it.
+        name: Leaf<'src> => Form::Plain(Plain::Name),
+        /// A description for people.
+        about: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// Width and height; `Output` if left out, and always of the first.
+        size: Option<Leaf<'src>> => Form::Words(&SIZES),
+        /// The scene's camera of that name; the scene's own if left out.
+        camera: Option<Leaf<'src>> => Form::Plain(Plain::Text),
+        /// What conditions see as `view.allows_msaa`; true if left out.
+        allows_msaa: Option<Leaf<'src>> => Form::Truth,
+        /// What conditions see as `view.allows_hdr`; true if left out.
+        allows_hdr: Option<Leaf<'src>> => Form::Truth,
+        /// What conditions see as `view.allows_scale`; true if left out.
+        allows_scale: Option<Leaf<'src>> => Form::Truth,
+        /// Over how many frames, 1 to 256, what its camera sees is shifted by parts of a texel, each time otherwise; 1, not at
+        /// all, if left out.
+        jitter: Option<Leaf<'src>> => JITTER,
+        /// The size of the picture whose texels are meant, where `Output` is the view's size; that if left out.
+        jitter_size: Option<Leaf<'src>> => Form::Words(&SIZES),
+        /// Values of settings that hold within it, whatever the user chooses.
+        set: Option<Leaf<'src>> => presets::SET,
+    }
+}
+
+/// How often a picture may be shifted otherwise.
+const JITTER: Form = Form::Whole(1, frame::LONGEST_JITTER as i64);
+
+/// The views of a pipeline.
+pub(crate) const VIEWS: Form = Form::List(&Form::Fields(ViewFields::<'static>::table));
+
+/// The name of a view.
+pub(crate) const NAME: Form = Form::Plain(Plain::Name);
+
+static SIZES: Words = Words {
+    name: "ViewSize",
+    what: "the size of a view",
+    or: &[],
+    all: &[
+        Word::alone("Output", "The frame's."),
+        Word::new(
+            "Scaled",
+            &[Takes::Values(&[Form::Number])],
+            &["Scaled(0.5)"],
+            "The frame's, times a number above 0; rounded down, at least 1.",
+        ),
+        Word::new("Fixed", &[Takes::Values(&[sizes::EXTENT, sizes::EXTENT])], &["Fixed(640, 360)"], "So many pixels."),
+    ],
+};
+
+/// What expressions see that stand in a view.
+pub(crate) struct Seen<'a> {
+    pub(crate) surroundings: Surroundings<'a>,
+    /// Values of settings.
+    pub(crate) given: Vec<Option<Given>>,
+}
+
+/// The views of a pipeline, the main one first; none if the file names none.
+pub(crate) struct Views<'a> {
+    names: Names,
+    /// `None` where one couldn't be read.
+    list: Vec<Option<(View, Seen<'a>)>>,
+}
+
+impl<'a> Views<'a> {
+    /// No views: all is drawn for one that has the frame's size.
+    pub(crate) fn none() -> Views<'a> {
+        Views { names: Names::new("view"), list: Vec::new() }
+    }
+
+    /// Reads a list of views. `scope` is the frame's, `settings` are those that views may set.
+    pub(crate) fn read(
+        reader: &mut Reader,
+        scope: &Scope<'_>,
+        surroundings: &Surroundings<'a>,
+        settings: &[Option<Setting>],
+        list: Leaf<'_>,
+        removed: Option<&Change>,
+    ) -> Views<'a> {
+        let (mut names, before) = (Names::new("view"), reader.errors.len());
+        let fields: Vec<Option<ViewFields<'_>>> = list::entries(reader, Some(list), "`views`", "view", &mut names);
+        if fields.is_empty() && reader.errors.is_empty() {
+            reader.wrong(list, "a frame without views shows nothing", "leave `views` out: there is one then");
+        }
+        let mut views = Vec::with_capacity(fields.len());
+        for (number, fields) in fields.into_iter().enumerate() {
+            views.push(fields.and_then(|fields| view(reader, scope, surroundings, settings, number == 0, &fields)));
+            if number == 0 {
+                since_removed(&mut reader.errors[before..], removed);
+            }
+        }
+        Views { names, list: views }
+    }
+
+    /// The view that `leaf` names.
+    pub(crate) fn find(&self, reader: &mut Reader, leaf: Leaf<'_>) -> Option<ViewIndex> {
+        let name = reader.reference(leaf, "a view")?;
+        if self.list.is_empty() && self.names.complete() {
+            let unknown = Diagnostic::new(name.span, format!("there is no view named `{}`", name.text));
+            reader.report(unknown.help(format!(
+                "list the views of the frame, the main one first: `views: [(name: \"main\"), (name: \"{}\")]`",
+                name.text
+            )));
+            return None;
+        }
+        self.names.find(reader, &name).and_then(|at| u32::try_from(at).ok()).map(ViewIndex)
+    }
+
+    /// What expressions see within a view; `None`: what they see of the frame.
+    pub(crate) fn seen(&self, view: ViewIndex) -> Option<&Seen<'a>> {
+        self.list.get(view.0 as usize)?.as_ref().map(|(_, seen)| seen)
+    }
+
+    /// The name of a view, unless it is the main one.
+    pub(crate) fn name(&self, view: ViewIndex) -> Option<&Name> {
+        let (view, _) = self.list.get(view.0 as usize).filter(|_| view != ViewIndex::default())?.as_ref()?;
+        Some(&view.name)
+    }
+
+    /// `because` of something within a view: of the main one as it is, else with the view's name.
+    pub(crate) fn within(&self, view: ViewIndex, because: Arc<str>) -> Arc<str> {
+        self.name(view).map_or_else(|| because.clone(), |name| format!("{because} in view `{}`", name.text).into())
+    }
+
+    /// All of them. `None` if one couldn't be read.
+    pub(crate) fn into_list(self) -> Option<Vec<View>> {
+        self.list.into_iter().map(|view| view.map(|(view, _)| view)).collect()
+    }
+}
+
+/// Adds to mistakes in the first view that another one was the first before it was removed.
+fn since_removed(errors: &mut [Diagnostic], removed: Option<&Change>) {
+    let Some(Change { span, action: Action::Remove { name, .. } }) = removed else { return };
+    for error in errors.iter_mut().filter(|error| error.message == FIRST_IS_THE_FRAMES) {
+        error.labels.push(Label { span: *span, text: format!("`{name}` is removed here") });
+    }
+}
+
+/// Said of a first view with a size.
+const FIRST_IS_THE_FRAMES: &str = "the first view has the size of the frame";
+
+fn view<'a>(
+    reader: &mut Reader,
+    scope: &Scope<'_>,
+    surroundings: &Surroundings<'a>,
+    settings: &[Option<Setting>],
+    main: bool,
+    fields: &ViewFields<'_>,
+) -> Option<(View, Seen<'a>)> {
+    let name = reader.name(fields.name, "a view");
+    if let Some(about) = fields.about {
+        reader.words(about, "a description");
+    }
+    let extent = match fields.size {
+        Some(leaf) if main => {
+            if !leaf.is_broken() {
+                let wrong = Diagnostic::new(leaf.span(), FIRST_IS_THE_FRAMES).help("leave `size` out");
+                reader.report(wrong.choice(OutsideChoice::OutputSize));
+            }
+            None
+        }
+        Some(leaf) => size(reader, scope, leaf),
+        None => Some(surroundings.extent),
+    };
+    let camera = match fields.camera {
+        Some(leaf) => reader.reference(leaf, "a camera").map(Some),
+        None => Some(None),
+    };
+    let mut allowed = |leaf: Option<Leaf<'_>>, frame: bool| match leaf {
+        Some(leaf) => values::truth(reader, scope, leaf),
+        None => Some(frame),
+    };
+    let all = surroundings.allows;
+    let (msaa, hdr) = (allowed(fields.allows_msaa, all.msaa), allowed(fields.allows_hdr, all.hdr));
+    let scale = allowed(fields.allows_scale, all.scale);
+    let set = fields.set.map_or_else(|| Some(Vec::new()), |leaf| presets::set(reader, leaf, settings));
+    let mut given = scope.given.to_vec();
+    for Choice { setting, value, .. } in set.iter().flatten() {
+        if let Some(given) = given.get_mut(*setting) {
+            *given = Some(Given { value: value.clone(), decided: Vec::new() });
+        }
+    }
+    // Read even where something else is wrong, so that all mistakes are told.
+    let seen = Surroundings { extent: extent.unwrap_or(surroundings.extent), ..*surroundings };
+    let jitter = jitter(reader, &Scope { given: &given, surroundings: &seen, ..*scope }, fields);
+    set?;
+    let allows = Allowances { msaa: msaa?, hdr: hdr?, scale: scale? };
+    let view = View { name: name?, extent: extent?, camera: camera?, allows, jitter: jitter?, eye: None };
+    let surroundings = Surroundings { extent: view.extent, allows, ..*surroundings };
+    Some((view, Seen { surroundings, given }))
+}
+
+/// How what a view's camera sees is shifted. `scope` is the view's own.
+fn jitter(reader: &mut Reader, scope: &Scope<'_>, fields: &ViewFields<'_>) -> Option<Option<Jitter>> {
+    let range = 1..=i64::from(frame::LONGEST_JITTER);
+    let length = |leaf| values::whole::<u16>(reader, scope, leaf, "number of shifts", range);
+    let length = fields.jitter.map_or(Some(1), length);
+    let extent = fields.jitter_size.map_or(Some(scope.surroundings.extent), |leaf| size(reader, scope, leaf));
+    let (length, extent) = (length?, extent?);
+    Some((length > 1).then(|| Jitter::halton(length, extent)))
+}
+
+fn size(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<[u32; 2]> {
+    let (word, rest) = reader.one_of(leaf, &SIZES)?;
+    let frame = scope.surroundings.extent;
+    match word {
+        "Output" => reader.bare(word, rest).map(|()| frame),
+        "Fixed" => {
+            let [width, height]: [Leaf<'_>; 2] = reader.inside(leaf, rest, "Fixed(width, height)")?;
+            let (width, height) = (sizes::extent(reader, scope, width), sizes::extent(reader, scope, height));
+            Some([width?, height?])
+        }
+        _ => {
+            let [by]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Scaled(0.5)")?;
+            let (factor, because) = sizes::scale(reader, scope, by)?;
+            match times(frame, factor) {
+                Ok(extent) => Some(extent),
+                // No frame is known yet, or none of this.
+                Err(_) if scope.lenient => {
+                    scope.forgave.set(true);
+                    None
+                }
+                Err([width, height]) => {
+                    let message = format!("the view would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
+                    let because = because.map_or_else(|| shown_number(factor), |because| because.to_string());
+                    let wrong = Diagnostic::new(by.span(), message);
+                    reader.report(wrong.remark(format!("{because} times {}×{}", frame[0], frame[1])));
+                    None
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! What a pipeline is evaluated for, besides the values of its settings: facts of the scene, the view and the device.
+
+mod facts;
+mod surroundings;
+
+pub use facts::{Fact, FactType, FactValue, Facts};
+pub use surroundings::{Surroundings, names_of};
+pub(crate) use surroundings::{find, names};

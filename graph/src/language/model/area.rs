@@ -1,0 +1,69 @@
+//! Width and height of images.
+
+use super::resources::{Image, Size};
+use crate::base::{Diagnostic, shown_number};
+
+/// Largest width and height that a file may ask for.
+pub(crate) const LARGEST_SIZE: u32 = 16384;
+
+/// A size is rounded down, but a product that is whole in exact arithmetic stays whole: 0.29 of 100 is 29.
+const ROUNDING: f64 = 1e-6;
+
+/// Width and height of an image, and those that it has room for if they may change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Area {
+    pub(crate) extent: [u32; 2],
+    pub(crate) room: Option<[u32; 2]>,
+}
+
+/// A linear filter reads two texels in each direction, the second with weight 0 where the first is met: both must be in use, since
+/// 0 times what was never drawn need not be 0.
+const LEAST_PART: u32 = 2;
+
+/// The area of an image in a view of this size, which follows another image's if its size says so; `None`: that isn't known.
+///
+/// # Errors
+/// If it is more than an image may have.
+pub(crate) fn area(image: &Image, view: [u32; 2], followed: Option<Area>) -> Result<Option<Area>, Diagnostic> {
+    let whole = |extent| Area { extent, room: None };
+    let (by, up_to, of) = match image.size.value {
+        Size::Output => return Ok(Some(whole(view))),
+        Size::Fixed(extent) => return Ok(Some(whole(extent))),
+        Size::Like(_) => return Ok(followed),
+        Size::Scaled { by, of } => (by, None, of),
+        Size::Dynamic { by, up_to, of } => (by, Some(up_to), of),
+    };
+    let Some(base) = (if of.is_some() { followed } else { Some(whole(view)) }) else { return Ok(None) };
+    let extent = scaled(image, base.extent, by)?;
+    if base.room.is_none() && up_to.is_none() {
+        return Ok(Some(whole(extent)));
+    }
+    // What follows an image whose size changes has room for the greatest, too.
+    let room = scaled(image, base.room.unwrap_or(base.extent), up_to.unwrap_or(by))?;
+    let least = [0, 1].map(|side| extent[side].max(room[side].min(LEAST_PART)));
+    Ok(Some(Area { extent: least, room: Some(room) }))
+}
+
+/// `base` times a factor, rounded down, at least 1.
+///
+/// # Errors
+/// If that is more than an image may have.
+fn scaled(image: &Image, base: [u32; 2], factor: f64) -> Result<[u32; 2], Diagnostic> {
+    times(base, factor).map_err(|[width, height]| {
+        let name = &image.name.text;
+        let message = format!("image `{name}` would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
+        let because = image.size_because.as_ref().map_or_else(|| shown_number(factor), ToString::to_string);
+        let remark = format!("{because} times {}×{}", base[0], base[1]);
+        Diagnostic::new(image.size.span, message).remark(remark)
+    })
+}
+
+/// `base` times a factor, rounded down, at least 1; or what that would be, as it is shown, if it is too much.
+pub(crate) fn times(base: [u32; 2], factor: f64) -> Result<[u32; 2], [String; 2]> {
+    let scaled = base.map(|extent| (f64::from(extent) * factor + ROUNDING).floor().max(1.0));
+    if scaled.iter().any(|extent| *extent > f64::from(LARGEST_SIZE)) {
+        return Err(scaled.map(shown_number));
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 16384, as checked above")]
+    Ok(scaled.map(|extent| extent as u32))
+}

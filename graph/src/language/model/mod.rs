@@ -1,0 +1,28 @@
+//! A pipeline as data, and what a user may choose of it.
+
+mod area;
+mod choices;
+mod part;
+mod pass;
+mod pipeline;
+mod references;
+mod resources;
+mod setting;
+mod view;
+
+pub(crate) use area::{Area, LARGEST_SIZE, area, times};
+pub use choices::{Choice, ChosenBy, InForce, Preset, SettingsFile};
+pub(crate) use choices::{in_force, unknown_preset};
+pub use part::{BufferPart, ImagePart, Part, Selection};
+pub use pass::{
+    Color, Depth, Draw, Face, Forward, Groups, LeftOut, Off, Param, Pass, Sample, StandIn, Storage, StorageAccess,
+    Uniform, Work,
+};
+pub use pipeline::{Instance, Output, Pipeline, RemovedPass};
+pub use references::{BufferRef, ImageRef, ResourceRef};
+pub use resources::{
+    Buffer, Bytes, Fill, Format, Image, Layers, Lifetime, Mips, Precision, Precisions, Resolves, Samples,
+    Shape as ImageShape, Size, State, StateWord,
+};
+pub use setting::{Setting, SettingKind, last_step, nth as nth_step};
+pub use view::View;

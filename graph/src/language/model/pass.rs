@@ -1,0 +1,360 @@
+//! What a pipeline file says of a pass: what it does, with which parts of which images and buffers, and when.
+
+use super::part::{BufferPart, ImagePart, Part};
+use super::references::{BufferRef, ImageRef};
+use super::resources::Fill;
+use crate::base::Span;
+use crate::frame::{Blend, Cascade, DrawList, ParamValue, StencilState, ViewIndex};
+use crate::ron::{Name, Spanned};
+use crate::vulkan::{AddressMode, CompareOp, Filter};
+use std::sync::Arc;
+
+/// A pass.
+#[derive(Debug, Clone)]
+pub struct Pass {
+    /// Unique name.
+    pub name: Name,
+    /// That and why it does not run; `None`: it does.
+    pub off: Option<Off>,
+    /// What it does.
+    pub work: Work,
+    /// Images that its shaders sample.
+    pub sample: Vec<Sample>,
+    /// Images that its shaders would sample, had conditions not left them out.
+    pub left_out: Vec<LeftOut>,
+    /// Images and buffers that its shaders read and write by themselves.
+    pub storage: Vec<Storage>,
+    /// Buffers that its shaders read as uniform blocks.
+    pub uniform: Vec<Uniform>,
+    /// The buffer of its vertex attributes.
+    pub vertex: Option<BufferPart>,
+    /// The buffer of its indices.
+    pub index: Option<BufferPart>,
+    /// Colour targets by location.
+    pub color: Vec<Color>,
+    /// Depth (and stencil) target.
+    pub depth: Option<Depth>,
+    /// Where it is said, if the alpha of the first colour says how many samples are covered.
+    pub alpha_to_coverage: Option<Span>,
+    /// Values for the shader's block `params`.
+    pub params: Vec<Param>,
+    /// Whether it has an effect that no image or buffer shows.
+    pub side_effect: bool,
+    /// What its targets take instead when it is off.
+    pub otherwise: Vec<StandIn>,
+    /// The view that it draws for.
+    pub view: ViewIndex,
+    /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).
+    pub instance: Option<u32>,
+}
+
+/// Why a pass does not run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Off {
+    /// Where its condition stands.
+    pub span: Span,
+    /// What made the condition fail: "tone_mapping = false".
+    pub because: String,
+}
+
+/// A sampled image that a condition leaves out.
+#[derive(Debug, Clone)]
+pub struct LeftOut {
+    /// The shader's name for it.
+    pub binding: Name,
+    /// What it would be; `None` if it has no value then.
+    pub sample: Option<Sample>,
+    /// Why.
+    pub off: Off,
+}
+
+/// What a pass does.
+#[derive(Debug, Clone)]
+pub enum Work {
+    /// It draws into its targets.
+    Draw {
+        /// What.
+        draw: Draw,
+        /// By which shader.
+        shader: Name,
+    },
+    /// It runs a compute shader.
+    Dispatch {
+        /// Which one.
+        shader: Name,
+        /// How many workgroups.
+        groups: Spanned<Groups>,
+    },
+    /// It copies.
+    Copy {
+        /// What.
+        from: Part,
+        /// To where.
+        to: Part,
+    },
+    /// It copies an image and scales it.
+    Blit {
+        /// What.
+        from: Part,
+        /// To where.
+        to: Part,
+        /// Filter, if the file chooses one.
+        filter: Option<Spanned<Filter>>,
+    },
+    /// It sets an image or buffer to a value.
+    Fill {
+        /// Which one.
+        to: Part,
+        /// The value.
+        value: Spanned<Fill>,
+    },
+    /// The embedding program records it.
+    Custom {
+        /// The name by which the program knows it.
+        callback: Name,
+        /// What it reads by transfer.
+        reads: Vec<Part>,
+        /// What it writes by transfer.
+        writes: Vec<Part>,
+    },
+}
+
+/// What a raster pass draws.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Draw {
+    /// One of the scene's draw lists.
+    Objects(DrawList),
+    /// What casts the sun's shadow.
+    Casters(Cascade),
+    /// The sky.
+    Sky,
+    /// One triangle that covers every pixel.
+    FullScreen,
+    /// So many vertices (or indices) of triangles.
+    Vertices {
+        /// How many.
+        count: u32,
+        /// How many times.
+        instances: u32,
+    },
+    /// As many as a buffer says.
+    Indirect(BufferPart),
+}
+
+/// How many workgroups a dispatch has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Groups {
+    /// So many in x, y and z.
+    Count([u32; 3]),
+    /// As many as cover so many invocations in x, y and z.
+    Invocations([u32; 3]),
+    /// As many as cover one invocation for each texel of an image, its layers or depth in z.
+    Texels(ImagePart),
+    /// As many as a buffer says.
+    Indirect {
+        /// Which one.
+        buffer: BufferPart,
+        /// Where in it, in bytes.
+        offset: u64,
+    },
+}
+
+/// An image that a shader samples.
+#[derive(Debug, Clone)]
+pub struct Sample {
+    /// The shader's name for it.
+    pub binding: Name,
+    /// Which part of which image.
+    pub part: ImagePart,
+    /// Which of its faces.
+    pub face: Face,
+    /// Filter between texels, if the file chooses one.
+    pub filter: Option<Spanned<Filter>>,
+    /// Filter between mip levels, if the file chooses one.
+    pub mip_filter: Option<Spanned<Filter>>,
+    /// What lies beyond its edges, if the file chooses that.
+    pub address: Option<Spanned<AddressMode>>,
+    /// Whether each fragment reads only the texel at its own position, if the file says so.
+    pub own_pixel: Option<Spanned<bool>>,
+}
+
+/// A face of an image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Face {
+    /// Whichever the shader's declaration asks for.
+    Plain,
+    /// Each sample by itself.
+    Samples,
+    /// One value a texel.
+    Resolved,
+    /// One value of depth a texel: where there are several samples, that which drawing it again with one leaves.
+    DepthOnly,
+}
+
+/// An image or buffer that a shader reads and writes by itself.
+#[derive(Debug, Clone)]
+pub struct Storage {
+    /// The shader's name for it.
+    pub binding: Name,
+    /// Which part of which image, or which buffer.
+    pub part: Part,
+    /// What is done with it; `None`: what the shader's declaration allows.
+    pub access: Option<Spanned<StorageAccess>>,
+}
+
+/// What a shader does with an image or buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StorageAccess {
+    /// It is read.
+    Read,
+    /// It is written anew, all of it.
+    Write,
+    /// It is read and written, or written in some places and kept in others.
+    ReadWrite,
+}
+
+/// A buffer that a shader reads as a uniform block.
+#[derive(Debug, Clone)]
+pub struct Uniform {
+    /// The shader's name for it.
+    pub binding: Name,
+    /// Which one.
+    pub part: BufferPart,
+}
+
+/// A colour target.
+#[derive(Debug, Clone)]
+pub struct Color {
+    /// Which part of which image.
+    pub part: ImagePart,
+    /// Clear value (linear red, green, blue, alpha).
+    pub clear: Option<[f32; 4]>,
+    /// How new colour meets old.
+    pub blend: Spanned<Blend>,
+}
+
+/// A depth target.
+#[derive(Debug, Clone)]
+pub struct Depth {
+    /// Which part of which image.
+    pub part: ImagePart,
+    /// Clear value, 0 (infinitely far) to 1.
+    pub clear: Option<f32>,
+    /// The comparison.
+    pub test: CompareOp,
+    /// Whether passing fragments write depth.
+    pub write: bool,
+    /// What happens to the stencil plane.
+    pub stencil: Option<Spanned<StencilState>>,
+}
+
+/// A value for a member of the shader's block `params`.
+#[derive(Debug, Clone)]
+pub struct Param {
+    /// The member's name.
+    pub name: Name,
+    /// Its value.
+    pub value: Spanned<ParamValue>,
+    /// What stands for it in the file, if that is no plain value: "setting `white_point`".
+    pub written: Option<Arc<str>>,
+}
+
+/// What fills a target of a pass that is off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StandIn {
+    /// Another image is copied into it.
+    Forward(Forward),
+    /// It is set to a value.
+    Clear {
+        /// Target, one of the pass's own.
+        to: ImageRef,
+        /// The value.
+        value: Spanned<Fill>,
+    },
+}
+
+/// What a target takes when its pass is off: `to` gets what `from` holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Forward {
+    /// Source.
+    pub from: ImageRef,
+    /// Target, one of the pass's own.
+    pub to: ImageRef,
+}
+
+impl StandIn {
+    /// What it fills.
+    #[must_use]
+    pub const fn target(&self) -> ImageRef {
+        match self {
+            StandIn::Forward(forward) => forward.to,
+            StandIn::Clear { to, .. } => *to,
+        }
+    }
+}
+
+impl Pass {
+    /// One that does nothing.
+    pub(crate) fn idle(name: Name) -> Pass {
+        let work = Work::Custom { callback: name.clone(), reads: Vec::new(), writes: Vec::new() };
+        Pass {
+            name,
+            off: None,
+            work,
+            sample: Vec::new(),
+            left_out: Vec::new(),
+            storage: Vec::new(),
+            uniform: Vec::new(),
+            vertex: None,
+            index: None,
+            color: Vec::new(),
+            depth: None,
+            alpha_to_coverage: None,
+            params: Vec::new(),
+            side_effect: false,
+            otherwise: Vec::new(),
+            view: ViewIndex::default(),
+            instance: None,
+        }
+    }
+
+    /// Images that it may write.
+    pub(crate) fn written(&self) -> impl Iterator<Item = ImageRef> {
+        let targets = self.color.iter().map(|color| color.part).chain(self.depth.as_ref().map(|depth| depth.part));
+        let storage = self.storage.iter().map(|storage| storage.part);
+        let transferred = match &self.work {
+            Work::Copy { to, .. } | Work::Blit { to, .. } | Work::Fill { to, .. } => std::slice::from_ref(to),
+            Work::Custom { writes, .. } => writes,
+            Work::Draw { .. } | Work::Dispatch { .. } => &[],
+        };
+        let parts = storage.chain(transferred.iter().copied()).filter_map(|part| match part {
+            Part::Image(part) => Some(part),
+            Part::Buffer(_) => None,
+        });
+        targets.chain(parts).map(|part| part.image)
+    }
+
+    /// Buffers that it may write.
+    pub(crate) fn written_buffers(&self) -> impl Iterator<Item = BufferRef> {
+        let storage = self.storage.iter().map(|storage| storage.part);
+        let transferred = match &self.work {
+            Work::Copy { to, .. } | Work::Fill { to, .. } => std::slice::from_ref(to),
+            Work::Custom { writes, .. } => writes,
+            Work::Blit { .. } | Work::Draw { .. } | Work::Dispatch { .. } => &[],
+        };
+        storage.chain(transferred.iter().copied()).filter_map(|part| match part {
+            Part::Buffer(part) => Some(part.buffer),
+            Part::Image(_) => None,
+        })
+    }
+
+    /// The name of its shader, or of what the embedding program records; copies, blits and fills have none.
+    #[must_use]
+    pub const fn shader(&self) -> Option<&Name> {
+        match &self.work {
+            Work::Draw { shader, .. } | Work::Dispatch { shader, .. } => Some(shader),
+            Work::Custom { callback, .. } => Some(callback),
+            Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } => None,
+        }
+    }
+}

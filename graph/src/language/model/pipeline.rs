@@ -1,0 +1,75 @@
+//! What a pipeline file says, as owned data: every name is found, every value has its place.
+
+use super::pass::Pass;
+use super::references::ResourceRef;
+use super::resources::{Buffer, Image, Precisions, Resolves, State};
+use super::view::View;
+use crate::base::Span;
+use crate::frame::Eye;
+use crate::ron::Spanned;
+use crate::vulkan::Encoding;
+use std::sync::Arc;
+
+/// A pipeline with all that it was made for put in: flat lists, names unique, every reference found, every expression
+/// evaluated, nothing follows itself. Made by [`Document::lower`](super::Document::lower).
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Pipeline {
+    /// Views, the main one first; none: one that has the frame's size. A [`ViewIndex`](crate::frame::ViewIndex) is an index
+    /// into this list.
+    pub views: Vec<View>,
+    /// Images; an [`ImageIndex`] is an index into this list.
+    pub images: Vec<Image>,
+    /// Buffers; a [`BufferIndex`] is an index into this list.
+    pub buffers: Vec<Buffer>,
+    /// Passes in the order that gives them meaning.
+    pub passes: Vec<Pass>,
+    /// How several samples of depth become one value, of images that don't say it; `None`: whatever drew it is drawn again
+    /// for passes that sample it.
+    pub depth: Option<Resolves>,
+    /// What `Color` becomes; `None`: [`Precision::Balanced`](super::Precision).
+    pub color: Option<Precisions>,
+    /// What `Depth` and `DepthStencil` become; `None`: [`Precision::Exact`](super::Precision).
+    pub depth_format: Option<Precisions>,
+    /// Images and buffers that leave the frame.
+    pub outputs: Vec<Output>,
+    /// Fragments that were put in, each before those within it.
+    pub instances: Vec<Instance>,
+    /// Passes that a file removed from a pipeline that it extends.
+    pub removed: Vec<RemovedPass>,
+}
+
+/// A pass that is no longer there: whoever misses what it wrote is told so.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RemovedPass {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Where it is removed.
+    pub span: Span,
+    /// Texts in it: names of images and buffers, among others.
+    pub texts: Vec<Arc<str>>,
+}
+
+/// A fragment that was put in.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Instance {
+    /// The whole name, which what is in it has before its own: `glow`, `effects.glow[1]`.
+    pub name: Arc<str>,
+    /// Where its use is named.
+    pub span: Span,
+    /// The instance that it is in: an index into [`Pipeline::instances`].
+    pub within: Option<u32>,
+}
+
+/// An image or buffer that leaves the frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Output {
+    /// Which one.
+    pub resource: ResourceRef,
+    /// The state in which it is to be left, if the file asks for one.
+    pub after: Option<Spanned<State>>,
+    /// What its numbers mean, if the file says it.
+    pub encoding: Option<Spanned<Encoding>>,
+    /// The eye whose it is; no file says it.
+    pub eye: Option<Eye>,
+}

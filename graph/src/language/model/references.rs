@@ -1,0 +1,31 @@
+//! What entries refer to: an image, a buffer, either.
+
+use crate::base::Span;
+use crate::frame::{BufferIndex, ImageIndex, Resource};
+
+/// An image that is referred to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ImageRef {
+    /// Index into [`Pipeline::images`].
+    pub index: ImageIndex,
+    /// Where it was named.
+    pub span: Span,
+}
+
+/// A buffer that is referred to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BufferRef {
+    /// Index into [`Pipeline::buffers`].
+    pub index: BufferIndex,
+    /// Where it was named.
+    pub span: Span,
+}
+
+/// An image or buffer that is referred to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ResourceRef {
+    /// Index into [`Pipeline::images`] or [`Pipeline::buffers`].
+    pub resource: Resource,
+    /// Where it was named.
+    pub span: Span,
+}

@@ -1,0 +1,172 @@
+//! What names in expressions stand for at one level, and their values.
+
+use super::level::Block;
+use super::parameter::{Parameter, ParameterKind};
+use super::quoted::Scope;
+use super::symbols::Known;
+use crate::base::Span;
+use crate::expression::{Decision, Declarations, Found, Missing, Origin, Property, Symbol, Type, Value, Values};
+use crate::frame::{BufferIndex, ImageIndex};
+use crate::language::inputs;
+use crate::language::model::SettingKind;
+use crate::ron::Names;
+
+// An identifier is a kind and the number of a name of that kind.
+const KIND: u32 = 0xF000_0000;
+
+const GIVEN: u32 = 0;
+
+const IMAGE: u32 = 0x1000_0000;
+
+const BUFFER: u32 = 0x2000_0000;
+
+const INDEX: u32 = 0x3000_0000;
+
+const SURROUNDINGS: u32 = 0x4000_0000;
+
+fn number(at: usize) -> Option<u32> {
+    u32::try_from(at).ok().filter(|at| at & KIND == 0)
+}
+
+const fn split(id: u32) -> (u32, usize) {
+    (id & KIND, (id & !KIND) as usize)
+}
+
+impl Declarations for Scope<'_> {
+    fn find(&self, name: &str) -> Found {
+        let Known { given, parameters, images, image_lists, buffers, buffer_lists, settings } = self.known;
+        let found = |symbol: Option<Symbol>| symbol.map_or(Found::Reported, Found::Symbol);
+        if let Some((index, _)) = self.index.filter(|(index, _)| *index.text == *name) {
+            let declared = index.span;
+            let symbol = Symbol { id: INDEX, ty: Type::Integer, list: false, origin: Origin::Index, declared };
+            return Found::Symbol(symbol);
+        }
+        if let Some(at) = given.at(name) {
+            let origin = if *settings { Origin::Setting } else { Origin::Parameter };
+            let declared = |parameter: &Parameter| {
+                let (ty, declared) = (parameter.kind.ty(), parameter.name.span);
+                Some(Symbol { id: GIVEN | number(at)?, ty, list: false, origin, declared })
+            };
+            return found(parameters.get(at).and_then(Option::as_ref).and_then(declared));
+        }
+        let thing = |names: &Names, lists: &[bool], id: u32, ty: Type, origin: Origin| {
+            let at = names.at(name)?;
+            let declared = names.find_name(name).map_or(Span::NONE, |name| name.span);
+            Some(found(
+                number(at)
+                    .and_then(|at| Some(Symbol { id: id | at, ty, list: *lists.get(at as usize)?, origin, declared })),
+            ))
+        };
+        if let Some(image) = thing(images, image_lists, IMAGE, Type::Image, Origin::Image) {
+            return image;
+        }
+        if let Some(buffer) = thing(buffers, buffer_lists, BUFFER, Type::Buffer, Origin::Buffer) {
+            return buffer;
+        }
+        if let Some((at, ty, origin)) = inputs::find(name) {
+            let declared = Span::NONE;
+            return Found::Symbol(Symbol { id: SURROUNDINGS | at, ty, list: false, origin, declared });
+        }
+        // It may be one of those that couldn't be read.
+        if self.known.complete() { Found::Unknown } else { Found::Reported }
+    }
+
+    fn names(&self) -> Vec<&str> {
+        let index = self.index.map(|(index, _)| &*index.text);
+        let own = self.known.given.in_order().chain(self.known.images.in_order()).chain(self.known.buffers.in_order());
+        let mut names: Vec<&str> = index.into_iter().chain(own).collect();
+        for name in inputs::names() {
+            names.push(name);
+        }
+        names
+    }
+
+    fn choices(&self, id: u32) -> Option<Vec<&str>> {
+        let (GIVEN, at) = split(id) else { return None };
+        match &self.known.parameters.get(at)?.as_ref()?.kind {
+            ParameterKind::Value(SettingKind::Choice { of, .. }) => Some(of.iter().map(|text| &**text).collect()),
+            _ => None,
+        }
+    }
+}
+
+impl Scope<'_> {
+    fn block(&self, id: u32) -> Result<(u32, u32), Missing> {
+        let (kind, at) = split(id);
+        let (blocks, names) = match kind {
+            IMAGE => (&self.level.images, &self.known.images),
+            _ => (&self.level.buffers, &self.known.buffers),
+        };
+        match blocks.get(at).copied() {
+            Some(Block::At { first, count }) => Ok((first, count)),
+            Some(Block::Below) => Err(Missing::Below(names.span(at))),
+            Some(Block::Failed) | None => Err(Missing::Reported),
+        }
+    }
+}
+
+/// The image or buffer with this index.
+const fn thing(id: u32, index: u32) -> Value {
+    match split(id) {
+        (IMAGE, _) => Value::Image(ImageIndex(index)),
+        _ => Value::Buffer(BufferIndex(index)),
+    }
+}
+
+impl Values for Scope<'_> {
+    fn value(&self, id: u32) -> Result<Value, Missing> {
+        let (kind, at) = split(id);
+        match kind {
+            GIVEN => match self.given.get(at) {
+                Some(Some(given)) => Ok(given.value.clone()),
+                _ => Err(Missing::Reported),
+            },
+            INDEX => self.index.map(|(_, at)| Value::Integer(at.into())).ok_or(Missing::Reported),
+            SURROUNDINGS => self.surroundings.value(id & !KIND).ok_or(Missing::Reported),
+            _ => self.block(id).map(|(first, _)| thing(id, first)),
+        }
+    }
+
+    fn length(&self, id: u32) -> Result<u64, Missing> {
+        self.block(id).map(|(_, count)| count.into())
+    }
+
+    fn element(&self, id: u32, at: u64) -> Result<Value, Missing> {
+        let (first, _) = self.block(id)?;
+        let at = u32::try_from(at).ok().and_then(|at| first.checked_add(at));
+        at.map(|index| thing(id, index)).ok_or(Missing::Reported)
+    }
+
+    fn property(&self, image: ImageIndex, property: Property) -> Result<i64, Missing> {
+        if self.early {
+            return Err(Missing::Reported);
+        }
+        let at = image.0 as usize;
+        let below = || Missing::Below(self.known.images.span(self.declaration(image)));
+        let Some(known) = self.properties.get(at) else { return Err(below()) };
+        let Some(known) = known else { return Err(Missing::Reported) };
+        let value = match property {
+            Property::Width => known.area.map(|area| area.extent[0]),
+            Property::Height => known.area.map(|area| area.extent[1]),
+            Property::Mips => known.mips,
+            Property::Layers => known.layers,
+            Property::Samples => known.samples,
+        };
+        value.map(i64::from).ok_or_else(below)
+    }
+
+    fn decided_by(&self, id: u32) -> &[Decision] {
+        match split(id) {
+            (GIVEN, at) => self.given.get(at).and_then(Option::as_ref).map_or(&[], |given| &given.decided),
+            _ => &[],
+        }
+    }
+}
+
+impl Scope<'_> {
+    /// Which declaration of this level an image comes from; of an image from elsewhere, one that there is not.
+    fn declaration(&self, image: ImageIndex) -> usize {
+        let within = |block: &Block| matches!(block, Block::At { first, count } if (*first..first.saturating_add(*count)).contains(&image.0));
+        self.level.images.iter().position(within).unwrap_or(usize::MAX)
+    }
+}
