@@ -9,6 +9,7 @@ mod casters;
 mod depth_only;
 mod eyes;
 mod fills;
+mod follow;
 mod halves;
 mod history;
 mod images;
