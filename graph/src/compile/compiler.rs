@@ -4,9 +4,10 @@ mod difference;
 
 use super::emit::{self, Parts};
 use super::model::OpKind;
+use super::options::Options;
 use super::structure::{Settled, Settling, Structure};
 use super::synchronise::Pending;
-use super::{Options, legal, retain, rotate};
+use super::{retain, rotate, validate};
 use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
@@ -178,7 +179,7 @@ impl Last {
 
     /// Whether order, scopes and places served again.
     fn put_in_values(&mut self, frame: &Frame) -> bool {
-        if !legal::still_holds(frame) {
+        if !validate::still_holds(frame) {
             return false;
         }
         let Last { structure, settled, device, plan, .. } = self;
@@ -195,7 +196,7 @@ impl Last {
         if forwards && !difference::keeps_proportions(before, frame) {
             return Ok(false);
         }
-        if !legal::still_holds(frame) || !structure.still_holds(frame, device, options) {
+        if !validate::still_holds(frame) || !structure.still_holds(frame, device, options) {
             return Ok(false);
         }
         retain::renew_clear_values(frame, &structure.adapted, &mut structure.retained);

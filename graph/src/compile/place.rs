@@ -1,7 +1,7 @@
 //! `place`: transient images get an offset in memory that they share with others that live at other times.
 
-use super::Options;
 use super::model::{Adapted, Kind, StoreIndex};
+use super::options::Options;
 use super::pack::{Block, Measured, Packing};
 use super::synchronise::NEVER;
 use crate::base::{Diagnostic, Span};

@@ -5,6 +5,7 @@ use super::cull::{self, Live};
 use super::hand_over::{self, MemoryScopes};
 use super::model::{Adapted, Use};
 use super::occupy::Occupancy;
+use super::options::{Options, Order};
 use super::outlive::{self, States};
 use super::parts::Grids;
 use super::place::{self, Placed};
@@ -12,7 +13,7 @@ use super::retain::{self, Retained};
 use super::schedule::{self, Scheduled};
 use super::scope::{self, Scoped, Step};
 use super::synchronise::{self, Pending, Walked};
-use super::{Options, Order, adapt, formats, legal, link, purpose, queues, redundant, samples, take_over, usable};
+use super::{adapt, fit, queues, redundant, take_over, usage};
 use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
@@ -63,36 +64,30 @@ pub(super) enum Settling {
 }
 
 impl Structure {
-    /// As [`Structure::find`]; where the device can't use formats as they are used, it is found for a frame with others,
-    /// which is returned too.
+    /// Runs the stages before `place`. Where the device can't use formats as the frame does, it runs them for a frame with
+    /// others, which is returned too. `keeps`: for [`Structure::still_holds`], later.
     pub(super) fn find_with_fallback(
         frame: &Frame,
         device: &Profile,
         options: &Options,
         keeps: bool,
     ) -> Result<(Structure, Option<Frame>), Vec<Diagnostic>> {
-        let errors = match Structure::find(frame, device, options, keeps) {
-            Ok(structure) => return Ok((structure, None)),
-            Err(errors) => errors,
-        };
-        let Some((substitute, notes)) = formats::fall_back(frame, device) else { return Err(errors) };
-        let mut structure = Structure::find(&substitute, device, options, keeps)?;
-        structure.notes.splice(0..0, notes);
-        Ok((structure, Some(substitute)))
+        let (grids, live) = cull::live(frame)?;
+        let formats = fit::formats(frame, &live.passes, device);
+        let mut structure = Structure::find(formats.frame(frame), (grids, live), &formats, device, options, keeps)?;
+        structure.notes.splice(0..0, formats.notes);
+        Ok((structure, formats.substitute))
     }
 
-    /// Runs the stages before `place`. `keeps`: for [`Structure::still_holds`], later.
-    pub(super) fn find(
+    fn find(
         frame: &Frame,
+        (grids, live): (Grids, Live),
+        formats: &fit::Formats<'_>,
         device: &Profile,
         options: &Options,
         keeps: bool,
     ) -> Result<Structure, Vec<Diagnostic>> {
-        legal::check(frame)?;
-        let grids = Grids::new(frame);
-        let linked = link::link(frame, &grids)?;
-        let live = cull::cull(frame, &linked);
-        let mut negotiated = samples::negotiate(frame, &live.passes, device)?;
+        let mut negotiated = fit::negotiate(frame, &live.passes, formats)?;
         let notes = std::mem::take(&mut negotiated.notes);
         let input = adapt::Input { frame, grids: &grids, live: &live, negotiated: &negotiated, device, options };
         let mut adapted = adapt::adapt(input)?;
@@ -106,8 +101,8 @@ impl Structure {
         let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained, queues);
         let export = scoped.steps.len() as u32;
         let states = outlive::promise(&grids, &adapted, &mut walked, export);
-        purpose::note(&grids, &mut adapted, &walked, &states, &retained, &scoped, options);
-        usable::check(frame, &adapted, &scoped, device)?;
+        usage::note(&grids, &mut adapted, &walked, &states, &retained, &scoped, options);
+        fit::check_support(frame, &adapted, &scoped, device)?;
         Ok(Structure {
             grids,
             live,
@@ -128,7 +123,7 @@ impl Structure {
     /// images of the same proportions, has the same structure. Takes over the sizes; if it says no, nothing here is of use
     /// any more.
     pub(super) fn still_holds(&mut self, frame: &Frame, device: &Profile, options: &Options) -> bool {
-        if !samples::still_holds(frame, &self.live.passes, device) {
+        if !fit::still_holds(frame, &self.live.passes, device) {
             return false;
         }
         let Structure { grids, adapted, uses, scheduled, same_areas, .. } = self;

@@ -1,7 +1,7 @@
 //! Images and buffers by their full descriptors, and the memory that they need.
 
 use super::sound;
-use crate::vulkan::{BufferUsage, Format, Shape, Sharing, Usage};
+use crate::vulkan::{BufferUsage, Format, Shape, Sharing, Usage, extent_at};
 use serde::{Deserialize, Serialize};
 
 /// The full descriptor of an image: compatibility, aliasing and caches compare all of it.
@@ -23,6 +23,13 @@ pub struct ImageDescriptor {
     pub usage: Usage,
     /// Which queues may use it.
     pub sharing: Sharing,
+}
+
+impl ImageDescriptor {
+    /// Width, height and depth of a mip level in texels.
+    pub(crate) fn extent_at(&self, mip: u32) -> [u32; 3] {
+        extent_at(self.extent, mip)
+    }
 }
 
 /// The full descriptor of a buffer.

@@ -11,6 +11,7 @@ mod depth_only;
 mod eyes;
 mod fills;
 mod flatten;
+mod follow;
 mod halves;
 mod history;
 mod images;

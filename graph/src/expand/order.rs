@@ -11,7 +11,7 @@ use super::written::{Cell, Written};
 use crate::base::{Diagnostic, Span, keep};
 use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::language::StandIn;
-use crate::vulkan::{Aspects, Layout};
+use crate::vulkan::Aspects;
 use std::iter::{once, successors};
 
 /// After this many mistakes the writer that was meant is no longer looked for: that would take long in a large file.
@@ -100,14 +100,7 @@ impl Check<'_> {
 
     /// The first of `cells` that holds nothing when the frame has come this far.
     fn missing(&self, of: Resource, cells: &Cells, frames_ago: u32) -> Option<Cell> {
-        let holds = match self.things.lifetime(of)? {
-            Lifetime::Transient => false,
-            Lifetime::Persistent { .. } | Lifetime::File(_) => true,
-            Lifetime::History { .. } => false,
-            Lifetime::Imported { before, .. } => {
-                matches!(of, Resource::Buffer(_)) || before.layout != Layout::Undefined
-            }
-        };
+        let holds = self.things.lifetime(of)?.has_contents(of);
         if holds && frames_ago == 0 { None } else { self.written[self.writers.index(of)].missing(cells) }
     }
 

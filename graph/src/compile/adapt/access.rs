@@ -1,10 +1,11 @@
 //! Which stages, accesses and layouts each use of an image or buffer takes.
 
-use super::TRANSFER;
-use crate::compile::link::buffer_access;
 use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
 use crate::frame::{Blend, BufferRole, BufferUse, ColorTarget, Resource, Sampled, Storage, TransferUse, Work};
 use crate::vulkan::{Accesses, Aspects, Format, Layout, Stages};
+
+/// Layouts in which transfers find their images.
+const TRANSFER: [Layout; 2] = [Layout::TransferSrcOptimal, Layout::TransferDstOptimal];
 
 const DEPTH_TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
 
@@ -63,7 +64,7 @@ fn read_only(format: Format, planes: Aspects) -> Layout {
 }
 
 /// The layout of a plane that is an attachment and written.
-pub(in crate::compile) fn attached(format: Format, plane: Aspects) -> Layout {
+pub(crate) fn attached(format: Format, plane: Aspects) -> Layout {
     match (format.aspects().contains(Aspects::STENCIL), plane == Aspects::STENCIL) {
         (false, _) => Layout::DepthStencilAttachmentOptimal,
         (true, false) => Layout::DepthAttachmentOptimal,
@@ -99,7 +100,7 @@ pub(super) fn depth(plane: Aspects, store: StoreIndex, range: u32, start: Start,
 }
 
 pub(super) fn buffer(buffer: &BufferUse, entry: u32, store: StoreIndex) -> Use {
-    let (reads, writes) = buffer_access(buffer);
+    let (reads, writes) = (buffer.role.reads(), buffer.role.writes());
     let (stages, accesses) = match buffer.role {
         BufferRole::Uniform => (buffer.stages, Accesses::UNIFORM_READ),
         BufferRole::Storage { read, write } => {
@@ -170,7 +171,7 @@ pub(super) fn forward_draw(source: StoreIndex, target: StoreIndex) -> [Use; 2] {
 }
 
 /// Whether a pass with these uses draws colour into several samples.
-pub(in crate::compile) fn has_samples(adapted: &Adapted, uses: &[Use]) -> bool {
+pub(crate) fn has_samples(adapted: &Adapted, uses: &[Use]) -> bool {
     let mut colors = uses.iter().filter(|used| used.role == Role::Color);
     colors.any(|used| adapted.stores[used.store as usize].image().is_some_and(|image| image.samples > 1))
 }

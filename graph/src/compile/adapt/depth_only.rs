@@ -1,7 +1,8 @@
 //! Depth-only passes: whatever drew a version of multisampled depth is drawn again with one sample, and nothing but its
 //! depth. It neither reads nor touches the multisampled depth.
 
-use super::{Adapter, access};
+use super::access;
+use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
 use crate::compile::model::{OpKind, Role, Start, StoreIndex, Use};
 use crate::frame::{Draw, ImageIndex, ViewIndex, Work};

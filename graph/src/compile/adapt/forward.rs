@@ -1,52 +1,12 @@
 //! Passes that are off: their target takes what another image holds.
 
-use super::{Adapter, access};
+use super::access;
+use super::adapter::Adapter;
 use crate::base::Diagnostic;
-use crate::compile::cull::Live;
 use crate::compile::model::{OpKind, StoreIndex, Use};
-use crate::compile::parts::outlives;
 use crate::device::ImageDescriptor;
-use crate::frame::{Frame, Image, ImageIndex, Pass, Resource, Work};
+use crate::frame::{Image, ImageIndex, Pass, Resource, Work};
 use crate::vulkan::{Filter, Rotation};
-
-/// For each image of the frame the last pass that stays and touches it, and the last that writes it.
-#[derive(Debug, Default)]
-pub(super) struct Later {
-    access: Vec<Option<u32>>,
-    write: Vec<Option<u32>>,
-}
-
-impl Later {
-    pub(super) fn of(frame: &Frame, live: &Live) -> Later {
-        let mut later = Later { access: vec![None; frame.images.len()], write: vec![None; frame.images.len()] };
-        for number in &live.passes {
-            let pass = &frame.passes[*number as usize];
-            let mut touch = |image: ImageIndex, writes: bool| {
-                later.access[image.0 as usize] = Some(*number);
-                if writes {
-                    later.write[image.0 as usize] = Some(*number);
-                }
-            };
-            pass.sampled.iter().for_each(|sampled| touch(sampled.image, false));
-            pass.storage.iter().for_each(|storage| touch(storage.image, storage.write));
-            pass.color.iter().for_each(|target| touch(target.image, true));
-            pass.depth.iter().for_each(|depth| {
-                let format = frame.images[depth.image.0 as usize].format;
-                touch(depth.image, depth.planes(format).any(|(_, _, writes)| writes));
-            });
-            for transfer in &pass.transfers {
-                if let Resource::Image(image) = transfer.resource {
-                    touch(image, transfer.write);
-                }
-            }
-            if let Work::Forward { from, to, .. } = pass.work {
-                touch(from, false);
-                touch(to, true);
-            }
-        }
-        later
-    }
-}
 
 impl Adapter<'_> {
     /// `to` takes what `from` holds: as the same image if nothing tells them apart, else by a copy or a draw.
@@ -61,7 +21,7 @@ impl Adapter<'_> {
         let mut wanted = self.input.negotiated.samples(to);
         // Where draws moved to a single sample, nobody needs more of what takes their place either.
         let moved = count < wanted && self.input.negotiated.samples(from) == wanted;
-        if moved && !outlives(&target_image.lifetime) {
+        if moved && !target_image.lifetime.outlives_frame() {
             wanted = count;
         }
         let size = |image: &Image| (image.extent, image.room, image.rotation, image.eyes);
@@ -169,7 +129,7 @@ impl Adapter<'_> {
     fn may_share(&mut self, number: u32, store: StoreIndex, from: ImageIndex, to: ImageIndex) -> bool {
         let images = &self.input.frame.images;
         let cut = self.input.grids.of(from) != self.input.grids.of(to);
-        if cut || [from, to].iter().any(|image| outlives(&images[image.0 as usize].lifetime)) {
+        if cut || [from, to].iter().any(|image| images[image.0 as usize].lifetime.outlives_frame()) {
             return false;
         }
         let Adapter { later, store_of, resolved_of, is_output, known_as, adapted, .. } = self;

@@ -3,13 +3,14 @@
 //! Colour is averaged, or weighted by a draw; integers are sample zero. Depth has a ladder: whatever drew it is drawn again with one sample (see
 //! `depth_only`), or it is resolved, by the scope that drew it where the device has the mode, else by a draw.
 
-use super::{Adapter, access};
+use super::access;
+use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
+use crate::compile::fit::drawn_together;
 use crate::compile::model::{OpKind, ResolveShader, StoreIndex, Use};
-use crate::compile::samples::drawn_together;
-use crate::compile::{link, parts};
+use crate::compile::parts::join;
 use crate::device::Profile;
-use crate::frame::{EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource, Work};
+use crate::frame::{AccessKind, EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource};
 use crate::plan::Inserted;
 use crate::vulkan::{Aspects, ResolveMode, Subresources, name_of};
 
@@ -176,30 +177,32 @@ impl Adapter<'_> {
         let store = &adapted.stores[source as usize];
         let Some(grid) = store.grid(input.grids) else { return vec![Subresources::WHOLE] };
         let declared = &input.frame.images[image.0 as usize];
-        let mut written = vec![parts::outlives(&declared.lifetime); grid.len() as usize];
+        let mut written = vec![declared.lifetime.outlives_frame(); grid.len() as usize];
         for used in adapted.uses.iter().filter(|used| used.writes && used.store == source) {
             grid.cover(adapted.range(used)).for_each(|part| written[part as usize] = true);
         }
         let mut read = vec![false; grid.len() as usize];
         let mut reads = |range| {
-            grid.cover(parts::resolve(declared, range)).for_each(|part| read[part as usize] = true);
+            grid.cover(declared.part(range)).for_each(|part| read[part as usize] = true);
         };
         if input.frame.outputs.iter().any(|output| output.resource == Resource::Image(image)) {
             reads(Subresources::WHOLE);
         }
         for pass in &input.frame.passes {
-            link::images_read(input.frame, pass)
-                .filter(|(read, ..)| *read == image)
-                .for_each(|(_, range, _)| reads(range));
-            // It may hold another image's contents, whose readers aren't its own.
-            if matches!(pass.work, Work::Forward { to, .. } if to == image) {
-                reads(Subresources::WHOLE);
+            for access in pass.accesses().filter(|access| access.image_index() == Some(image)) {
+                match access.kind {
+                    AccessKind::Sampled(_) if access.frames_ago == 0 => reads(declared.sampled_part(access.range)),
+                    AccessKind::Transfer { write: false } if access.frames_ago == 0 => reads(access.range),
+                    // Another image may take its contents or give it its own, whose readers aren't those of this one.
+                    AccessKind::ForwardSource | AccessKind::ForwardTarget => reads(access.range),
+                    _ => {}
+                }
             }
         }
         let mut ranges: Vec<Subresources> = Vec::new();
         for part in (0..grid.len()).filter(|part| written[*part as usize] && read[*part as usize]) {
             let range = grid.range(part);
-            match ranges.last_mut().and_then(|last| Some((parts::join(*last, range)?, last))) {
+            match ranges.last_mut().and_then(|last| Some((join(*last, range)?, last))) {
                 Some((joined, last)) => *last = joined,
                 None => ranges.push(range),
             }

@@ -1,6 +1,7 @@
 //! Physical images and buffers: made when first touched, replaced when a version can't stay where it is.
 
-use super::{Adapter, copies_samples};
+use super::adapter::Adapter;
+use super::demote::copies_samples;
 use crate::compile::model::{Home, Kind, Store, StoreIndex, Use};
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};

@@ -4,8 +4,8 @@
 //! A transfer queue copies, and fills buffers; an image is filled by a queue that computes at least.
 
 use super::number;
-use crate::compile::Options;
 use crate::compile::model::{Adapted, Home, OpKind, Use};
+use crate::compile::options::Options;
 use crate::compile::scope::Step;
 use crate::device::Profile;
 use crate::frame::{Frame, Work};

@@ -8,8 +8,8 @@
 use super::able::{Able, Bound};
 use super::reach::Steps;
 use super::{QUEUES, Queues, Shared, number};
-use crate::compile::Options;
 use crate::compile::model::{Adapted, Home, Kind, OpKind, StoreIndex, Use};
+use crate::compile::options::Options;
 use crate::compile::outlive::{last_of_cycle, of_all_planes};
 use crate::compile::parts::Grids;
 use crate::compile::scope::{Scoped, Step, op_name, store_name};

@@ -79,7 +79,7 @@ fn reads_otherwise(pass: &Pass, image: ImageIndex) -> bool {
 fn replaces(frame: &Frame, pass: &Pass, image: ImageIndex) -> bool {
     let declared = &frame.images[image.0 as usize];
     let mut targets = pass.color.iter().filter(|target| target.image == image);
-    targets.any(|target| declared.layers == 1 && (target.clear.is_some() || pass.covers_color(target, declared)))
+    targets.any(|target| declared.layers == 1 && !pass.keeps_color(target, declared))
         || matches!(pass.work, Work::Forward { to, .. } if to == image)
         || pass.transfers.iter().any(|it| it.write && it.resource == Resource::Image(image) && declared.layers == 1)
 }

@@ -139,7 +139,7 @@ impl Together<'_> {
         if !self.is_output {
             return Hindrance::Upright(what, pass.span);
         }
-        let (name, degrees) = (self.name(image), super::degrees(self.rotation));
+        let (name, degrees) = (self.name(image), degrees(self.rotation));
         let help = format!(
             "use `frag_coord()`, `ddx()`, `ddy()` and `rotate_clip()` of `include/rotation.glsl`; or draw into another image, \
              and from that into `{name}`"
@@ -156,7 +156,7 @@ impl Together<'_> {
             let what = format!("`{}` draws `{other}` beside `{}`", pass.name, self.name(image));
             return Hindrance::Upright(what, pass.span);
         };
-        let (name, degrees) = (self.name(self.start), super::degrees(self.rotation));
+        let (name, degrees) = (self.name(self.start), degrees(self.rotation));
         let message = format!(
             "`{}` draws into `{name}`, which leaves the frame {degrees}, and into `{other}`, which doesn't",
             pass.name
@@ -166,4 +166,9 @@ impl Together<'_> {
             "let it draw into an image of its own in place of `{name}`, and another pass from that into `{name}`"
         ))))
     }
+}
+
+/// "rotated by 90°"
+pub(super) fn degrees(rotation: Rotation) -> String {
+    format!("rotated by {}°", rotation.degrees())
 }

@@ -23,8 +23,8 @@ mod runs;
 mod touches;
 mod weighed;
 
-use super::Order;
 use super::model::Adapted;
+use super::options::Order;
 use super::parts::Grids;
 use dependencies::Dependencies;
 use greedy::Greedy;

@@ -1,16 +1,16 @@
-//! After `purpose`: what images are made for, the device can do with their formats. What passes do with images was looked at
-//! before (`samples`); here it is resolves, copies and draws that the compiler inserts, and what comes and goes.
+//! Checks, after `usage`, that each format supports the final usage of its image. Usages that passes take were checked before
+//! (`samples`); here it is about resolves, copies and draws that the compiler inserted, and about initial and final states.
 
-use super::model::{Adapted, Home, OpKind, Role, Store, StoreIndex};
-use super::scope::{Scoped, Step, store_name};
 use crate::base::{Diagnostic, Span};
+use crate::compile::model::{Adapted, Home, OpKind, Role, Store, StoreIndex};
+use crate::compile::scope::{Scoped, Step, store_name};
 use crate::device::{ImageDescriptor, Profile};
 use crate::frame::{Frame, Resource};
 use crate::plan::Inserted;
 use crate::vulkan::{Format, Usage};
 
 /// Refuses images whose formats can't be used as the Plan does on this device.
-pub(super) fn check(
+pub(crate) fn check_support(
     frame: &Frame,
     adapted: &Adapted,
     scoped: &Scoped,

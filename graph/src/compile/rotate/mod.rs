@@ -7,13 +7,12 @@
 mod separate;
 mod together;
 
-use super::parts::Grids;
-use super::{cull, legal, link};
+use super::cull;
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Resource, Work};
 use crate::vulkan::{Layout, Rotation, Shape};
 use std::collections::BTreeSet;
-use together::{Hindrance, Together, becomes};
+use together::{Hindrance, Together, becomes, degrees};
 
 /// The frame with turned images; `None`: nothing is turned.
 pub(super) fn rotate(frame: &Frame) -> Result<Option<Frame>, Vec<Diagnostic>> {
@@ -24,8 +23,7 @@ pub(super) fn rotate(frame: &Frame) -> Result<Option<Frame>, Vec<Diagnostic>> {
     if !frame.outputs.iter().any(|output| output.rotation.turns()) {
         return Ok(None);
     }
-    legal::check(frame)?;
-    let live = cull::cull(frame, &link::link(frame, &Grids::new(frame))?).passes;
+    let live = cull::live(frame)?.1.passes;
     let mut turner = Turner { frame: frame.clone(), live, errors: Vec::new() };
     for output in frame.outputs.iter().filter(|output| output.rotation.turns()) {
         turner.output(output);
@@ -140,9 +138,4 @@ fn unfit(image: &Image) -> Option<&'static str> {
         }
         _ => None,
     }
-}
-
-/// "rotated by 90°"
-fn degrees(rotation: Rotation) -> String {
-    format!("rotated by {}°", rotation.degrees())
 }

@@ -1,8 +1,8 @@
 //! What each image and buffer is made for: exactly the uses that the steps make of it, and what follows from its part in the
 //! frame and from the states in which it is found and left.
 
-use super::Options;
 use super::model::{Adapted, Home, Kind};
+use super::options::Options;
 use super::outlive::{States, cells, last_of_cycle};
 use super::parts::Grids;
 use super::retain::Retained;
