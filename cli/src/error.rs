@@ -70,7 +70,7 @@ pub(crate) enum Error {
         text::escape(name)
     )]
     ProfileIsNoDevice { name: String },
-    /// Vulkan, or what is drawn with it.
+    /// An error of Vulkan, a shader or a draw source.
     #[error("{}{}", text::escape_lines(&.0.to_string()), remedy(.0))]
     Vulkan(#[from] framewright_vulkan::Error),
     /// A picture can't be encoded.
@@ -129,7 +129,7 @@ pub(crate) enum Error {
     /// A file would be written over one that is read.
     #[error("`{}` is {what}, which would be lost: name another file to write", text::path(path))]
     ReadAndWritten {
-        /// What it is read as.
+        /// Its role as an input.
         what: &'static str,
         /// Which file, as it was named for writing.
         path: PathBuf,

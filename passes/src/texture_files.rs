@@ -168,7 +168,7 @@ impl Texels {
     }
 }
 
-/// Adds one texel; not a number becomes 0, and what is too large the largest that there is.
+/// Adds one texel. NaN becomes 0, and values that are too large become the largest that the format holds.
 fn pack(color: [f32; 4], format: Format, bytes: &mut Vec<u8>) -> Result<(), TextureProblem> {
     use Format as F;
     let color = color.map(|value| if value.is_nan() { 0.0 } else { value });

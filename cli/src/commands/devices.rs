@@ -27,7 +27,7 @@ struct Entry<'a> {
     vulkan: &'a str,
     /// Kinds of queues that it has.
     queues: &'a [&'static str],
-    /// Whether passes can read what was drawn at their own position without leaving the rendering scope.
+    /// Whether passes can read attachments of their own rendering scope.
     local_read: bool,
     /// Whether `run` can draw on it.
     usable: bool,

@@ -22,7 +22,7 @@ struct Entry<'a> {
     ty: String,
     value: Value,
     about: &'static str,
-    /// What decided it; empty where nothing can be added.
+    /// The reason for the value, or nothing.
     because: &'a str,
 }
 

@@ -43,7 +43,7 @@ impl FileFormat {
         }
     }
 
-    /// What the file loses of the values of an image of the format, in words.
+    /// How the file changes the values of an image of the format, in words; `None` if it keeps them.
     #[must_use]
     pub(crate) fn loss(self, format: Format) -> Option<&'static str> {
         match format.numeric() {

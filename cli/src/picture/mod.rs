@@ -1,6 +1,6 @@
 //! Images as files that other programs open.
 //!
-//! A PNG holds what is encoded already as it is, with a chunk that says how: 8 bits where the format has so many, else 16.
+//! A PNG holds encoded values as they are, with a chunk that names the encoding: 8 bits where the format has 8, else 16.
 //! All else is shown as a display would show it: clamped to 0…1 and encoded with the sRGB curve, NaN as 0. Alpha is left
 //! out, since what lies on a screen is opaque. Depth is shown like light, as a share of the image's own largest value: with
 //! reversed depth the nearest texel is white and infinitely far is black. Integers are greys or colours of their own value,

@@ -1,4 +1,4 @@
-//! The process around a command: exit codes, signals, symbolic links, and what is printed.
+//! The process around a command: exit codes, signals, symbolic links, printed text and progress bars.
 
 mod exit;
 pub(crate) mod interrupt;

@@ -61,7 +61,7 @@ pub(crate) fn say(text: &str) {
     drop(writeln!(out, "{text}"));
 }
 
-/// A count and what is counted: `1 pass`, `2 passes`.
+/// A count with its noun: `1 pass`, `2 passes`.
 #[must_use]
 pub(crate) fn count(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })

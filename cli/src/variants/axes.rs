@@ -198,33 +198,29 @@ fn first(default: String, others: impl Iterator<Item = String>) -> Vec<String> {
 mod tests {
     use super::*;
 
-    fn of(kind: &SettingKind) -> Vec<String> {
-        values(kind)
-    }
-
     #[test]
     fn a_setting_takes_all_values_or_those_at_the_ends_the_default_first() {
-        assert_eq!(of(&SettingKind::Bool { default: true }), ["true", "false"]);
-        assert_eq!(of(&SettingKind::OneOf { default: 4, of: vec![1, 2, 4] }), ["4", "1", "2"]);
-        assert_eq!(of(&SettingKind::Integer { default: 2, min: 1, max: 3, step: 1 }), ["2", "1", "3"]);
-        assert_eq!(of(&SettingKind::Integer { default: 1, min: 0, max: 15, step: 1 }).len(), 16);
-        assert_eq!(of(&SettingKind::Integer { default: 1, min: 0, max: 16, step: 1 }), ["1", "0", "8", "16"]);
-        assert_eq!(of(&SettingKind::Integer { default: 8, min: 0, max: 16, step: 1 }), ["8", "0", "9", "16"]);
+        assert_eq!(values(&SettingKind::Bool { default: true }), ["true", "false"]);
+        assert_eq!(values(&SettingKind::OneOf { default: 4, of: vec![1, 2, 4] }), ["4", "1", "2"]);
+        assert_eq!(values(&SettingKind::Integer { default: 2, min: 1, max: 3, step: 1 }), ["2", "1", "3"]);
+        assert_eq!(values(&SettingKind::Integer { default: 1, min: 0, max: 15, step: 1 }).len(), 16);
+        assert_eq!(values(&SettingKind::Integer { default: 1, min: 0, max: 16, step: 1 }), ["1", "0", "8", "16"]);
+        assert_eq!(values(&SettingKind::Integer { default: 8, min: 0, max: 16, step: 1 }), ["8", "0", "9", "16"]);
         let widest = SettingKind::Integer { default: 0, min: i64::MIN, max: i64::MAX, step: 1 };
-        assert_eq!(of(&widest), ["0", "-9223372036854775808", "-1", "9223372036854775807"]);
+        assert_eq!(values(&widest), ["0", "-9223372036854775808", "-1", "9223372036854775807"]);
         assert_eq!(
-            of(&SettingKind::Number { default: 0.1, min: 0.0, max: 1e300, step: None }),
+            values(&SettingKind::Number { default: 0.1, min: 0.0, max: 1e300, step: None }),
             ["0.1", "0.0", "1e300"]
         );
-        assert_eq!(of(&SettingKind::Number { default: 1.0, min: 1.0, max: 1.0, step: None }), ["1.0"]);
+        assert_eq!(values(&SettingKind::Number { default: 1.0, min: 1.0, max: 1.0, step: None }), ["1.0"]);
         let texts = ["low", "high"].map(std::sync::Arc::from).to_vec();
-        assert_eq!(of(&SettingKind::Choice { default: "high".into(), of: texts }), ["high", "low"]);
+        assert_eq!(values(&SettingKind::Choice { default: "high".into(), of: texts }), ["high", "low"]);
     }
 
     #[test]
     fn of_numbers_with_few_steps_all_are_tried_each_once() {
-        assert_eq!(of(&SettingKind::Integer { default: 5, min: 1, max: 8, step: 2 }), ["5", "1", "3", "7"]);
-        let number = |default, max| of(&SettingKind::Number { default, min: 0.0, max, step: Some(0.1) });
+        assert_eq!(values(&SettingKind::Integer { default: 5, min: 1, max: 8, step: 2 }), ["5", "1", "3", "7"]);
+        let number = |default, max| values(&SettingKind::Number { default, min: 0.0, max, step: Some(0.1) });
         // 3 · 0.1 is 0.30000000000000004, and 0.7 / 0.1 is 6.999999999999999.
         assert_eq!(number(0.3, 0.5), ["0.3", "0.0", "0.1", "0.2", "0.4", "0.5"]);
         assert_eq!(number(0.0, 0.75).last().map(String::as_str), Some("0.7"));

@@ -15,7 +15,7 @@ impl Block {
         self.0.extend(value.to_ne_bytes());
     }
 
-    /// A `vec3`. What follows may share its last four bytes: a scalar goes there, anything else is aligned first.
+    /// A `vec3`. A scalar that follows takes its last four bytes; any other member is aligned first.
     pub(super) fn vec3(&mut self, value: [f32; 3]) {
         self.align();
         value.into_iter().for_each(|component| self.float(component));

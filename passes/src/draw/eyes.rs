@@ -41,7 +41,7 @@ impl Eyes {
         Eyes { left: at(-0.5 * separation), right: at(0.5 * separation) }
     }
 
-    /// Eyes so many metres apart whose pictures lie on each other at a distance in metres, as on a screen that is that far away:
+    /// Eyes at a distance in metres from each other, whose pictures coincide on a screen at another distance in metres:
     /// each looks straight ahead through a window that is off its middle, and never inwards.
     #[must_use]
     pub fn converging(separation: f64, distance: f64, camera: &Camera, aspect: f64) -> Eyes {
@@ -91,7 +91,7 @@ impl EyeSight {
         DMat3::from_mat4(camera.transform) * self.place
     }
 
-    /// What takes the shaders' world space, whose origin is between the eyes, to this eye's clip space, if `world_to_clip` does
+    /// The matrix from the shaders' world space, whose origin is between the eyes, to this eye's clip space, if `world_to_clip` does
     /// so from between the eyes.
     pub(super) fn world_to_clip(&self, camera: &Camera, aspect: f64, world_to_clip: DMat4) -> DMat4 {
         self.window(camera, aspect) * world_to_clip * DMat4::from_translation(-self.offset(camera))

@@ -90,7 +90,7 @@ pub(super) fn objects_block(scene: &Scene, camera: &Camera) -> Vec<u8> {
     block.bytes()
 }
 
-/// How what is seen moved since the frame before, as the block `motion` of `shaders/include/motion.glsl`: for both eyes from world
+/// The block `motion` of `shaders/include/motion.glsl`, which holds the transforms of the frame before: for both eyes from world
 /// space to clip space now and then, neither shifted, and where every object was, with the camera of then as origin.
 pub(super) fn motion_block(
     scene: &Scene,

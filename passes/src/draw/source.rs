@@ -172,7 +172,7 @@ impl SceneDrawSource {
     }
 
     /// Whether passes that draw for one eye are given what either may see, as those are that draw for both at once; else what
-    /// their own may see. The picture is the same. Said before the first frame.
+    /// their own may see. The picture is the same. To be called before the first frame.
     pub fn set_shared_culling(&mut self, on: bool) {
         self.culls_once = on;
         self.views.iter_mut().for_each(|(view, _)| view.culls_by_eye = !on);

@@ -14,8 +14,8 @@ pub struct ExplainedFact {
     pub fact: Fact,
     /// Its value.
     pub value: FactValue,
-    /// What decided it, without final stop ("3 objects: `glass`, `bottle`, …"); empty where nothing can be added. Names in
-    /// it are those of the file, shortened, not escaped.
+    /// The reason for the value, without final stop ("3 objects: `glass`, `bottle`, …"), or nothing. Names in it are those of
+    /// the file, shortened, not escaped.
     pub because: String,
 }
 

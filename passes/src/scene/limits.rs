@@ -22,5 +22,5 @@ pub const TEXTURE_BYTES: u64 = 1 << 30;
 pub const COORDINATE: f64 = 1e9;
 /// Largest radiance, intensity or emissive strength.
 pub const RADIANCE: f64 = 1e9;
-/// Notes about what isn't drawn; more are counted only.
+/// Notes about content that isn't drawn; more are counted only.
 pub const NOTES: usize = 20;

@@ -19,7 +19,7 @@ pub enum SceneError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// It is too large.
@@ -60,7 +60,7 @@ pub enum SceneError {
 /// ([`super::text`]) where it ends in `.ron`.
 ///
 /// # Errors
-/// [`SceneError`] says what is wrong with the file, and where in it.
+/// [`SceneError`], with the mistake and its place.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
     load_recorded(path, &ReadFiles::default())
 }

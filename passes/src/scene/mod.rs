@@ -11,7 +11,7 @@
 //! ```
 //!
 //! with `d` and `l` the distance and direction to each point light; so a white surface that faces a sun of colour 1 gives
-//! 1: there is no division by π. What a surface mirrors comes on top and is the shader's own.
+//! 1: there is no division by π. Mirrored light comes on top; shaders decide it.
 
 mod defaults;
 pub mod gltf;

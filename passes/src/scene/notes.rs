@@ -5,25 +5,25 @@ use super::limits;
 /// Sentences without final stop; the first few, then a count.
 #[derive(Debug, Default)]
 pub(crate) struct Notes {
-    said: Vec<String>,
-    unsaid: usize,
+    shown: Vec<String>,
+    omitted: usize,
 }
 
 impl Notes {
     /// Adds a sentence, once.
     pub(crate) fn add(&mut self, note: String) {
-        if self.said.contains(&note) {
-        } else if self.said.len() < limits::NOTES {
-            self.said.push(note);
+        if self.shown.contains(&note) {
+        } else if self.shown.len() < limits::NOTES {
+            self.shown.push(note);
         } else {
-            self.unsaid += 1;
+            self.omitted += 1;
         }
     }
 
     pub(crate) fn finish(mut self) -> Vec<String> {
-        if self.unsaid > 0 {
-            self.said.push(format!("and {} more like these", self.unsaid));
+        if self.omitted > 0 {
+            self.shown.push(format!("and {} more like these", self.omitted));
         }
-        self.said
+        self.shown
     }
 }

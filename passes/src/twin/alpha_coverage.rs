@@ -1,6 +1,6 @@
 //! Twin of `shaders/include/alpha_coverage.glsl`.
 
-/// The least change of alpha from pixel to pixel that is told from none.
+/// Smaller changes of alpha from pixel to pixel count as none.
 const LEAST_WIDTH: f64 = 1e-4;
 
 /// How much of a pixel of a masked material is covered, 0 to 1: one half where alpha is the cutoff, and from nothing to all

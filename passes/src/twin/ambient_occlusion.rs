@@ -12,7 +12,7 @@ const RISE_OF_DISTANCE: f64 = 0.001;
 const NEARLY_TOUCHING: f64 = 0.0001;
 const APART: f64 = 0.05;
 
-/// What a picture knows of its surfaces: row by row depth, reversed without a far plane, 0 where there is none, and the
+/// The surfaces in a picture: row by row depth, reversed without a far plane, 0 where there is none, and the
 /// normal, octahedral.
 #[derive(Debug, Clone)]
 pub struct Surfaces {
@@ -92,7 +92,7 @@ fn spiral_turn([x, y]: [i32; 2]) -> f64 {
     f64::from((z & 1) << 3 | (y & 1) << 2 | z & 2 | y >> 1) / 16.0
 }
 
-/// What an occluder counts.
+/// The weight of an occluder.
 fn occlusion_by(towards: DVec3, normal: DVec3, away: f64, radius: f64) -> f64 {
     let squared = towards.length_squared() / (radius * radius);
     let share = (1.0 - squared).max(0.0);

@@ -1,6 +1,6 @@
 //! Twin of `shaders/include/depth_samples.glsl`.
 //!
-//! What the modes mean is what `VkResolveModeFlagBits` says of them (Vulkan 1.3, "Render Pass Resolve Operations").
+//! The modes are those of `VkResolveModeFlagBits` (Vulkan 1.3, "Render Pass Resolve Operations").
 
 /// The least number of all samples of a texel, with reversed depth the farthest; +∞ of none.
 #[must_use]

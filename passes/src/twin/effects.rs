@@ -11,7 +11,7 @@ pub fn stripe(depth: f64, near: f64, period: f64) -> f64 {
     if periods < 65536.0 { (PI * periods.fract()).sin().powi(2) } else { 1.0 }
 }
 
-/// What of radiance in 0…65504 is brighter than white.
+/// The part of radiance in 0…65504 that is brighter than white.
 #[must_use]
 pub fn over_bright(radiance: f64) -> f64 {
     (radiance - 1.0).max(0.0)
@@ -24,7 +24,7 @@ pub fn grain(pixel: [u32; 2], frame: u32) -> f64 {
     random(first) + random(first ^ 0x9e37_79b9) - 1.0
 }
 
-/// What of the light a lens leaves at a place of the picture, 0 to 1 across and down: cos⁴ of the angle at which it comes in.
+/// The share of light that a lens lets through at a place of the picture, 0 to 1 across and down: cos⁴ of the angle of incidence.
 /// `strength` is the tangent of that angle in the corners, `aspect` the width of the picture over its height.
 #[must_use]
 pub fn vignette(uv: [f64; 2], strength: f64, aspect: f64) -> f64 {

@@ -41,7 +41,7 @@ pub fn adapted(before: f64, average: f64, frames: u32, seconds: f64, adaptation:
     average + (before - average) * (-f64::from(frames) * seconds / adaptation).exp()
 }
 
-/// What radiance is multiplied by for an eye that is used to `stop`, if what it is used to becomes `key`.
+/// The factor of radiance for an eye that is adapted to `stop`, if that radiance becomes `key`.
 #[must_use]
 pub fn scale(key: f64, stop: f64) -> f64 {
     key * (-stop).exp2()

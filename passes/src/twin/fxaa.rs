@@ -6,12 +6,12 @@ use super::radiance::guard_radiance;
 /// Below this neither difference nor share of the brightest is an edge.
 const LEAST_CONTRAST: f64 = 1.0 / 24.0;
 const LEAST_SHARE: f64 = 1.0 / 8.0;
-/// What bends differ by if they are the same.
+/// The largest difference of equal bends.
 const EVEN: f64 = 1e-4;
 /// How far the ends of an edge are looked for, in texels.
 const REACH: i32 = 16;
 
-/// What becomes of a texel: red, green and blue. `texel(x, y)` is what is shown, 0 to 1 in linear values, also beyond the edges;
+/// The filtered texel: red, green and blue. `texel(x, y)` is the picture, 0 to 1 in linear values, also beyond the edges;
 /// `subpixel`, 0 to 1, how much is done against details smaller than a pixel.
 #[must_use]
 pub fn fxaa(texel: impl Fn(i32, i32) -> [f64; 3], [x, y]: [i32; 2], subpixel: f64) -> [f64; 3] {

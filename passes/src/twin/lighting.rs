@@ -9,7 +9,7 @@ const HEAD_ON_REFLECTANCE: f64 = 0.04;
 /// Blinn-Phong exponent.
 const SHININESS: f64 = 64.0;
 
-/// No surface mirrors more than this share of the sun's colour, whatever its normal and wherever it is seen from: the largest
+/// No surface mirrors more than this share of the sun's colour, for any normal and any direction of view: the largest
 /// value of `max(n · l, 0) · highlight(n, v, l)` over all unit vectors is 0.7986.
 pub const LARGEST_HIGHLIGHT: f64 = 0.8;
 
@@ -31,7 +31,7 @@ pub struct Reflected {
     pub specular: DVec3,
 }
 
-/// What a surface at `position` with unit normal `normal`, both in the scene's own coordinates, reflects to the camera.
+/// The light that a surface reflects to the camera. Its `position` and unit `normal` are in the scene's own coordinates.
 /// `sunlit` is the share of the sun's light that arrives there, 0 to 1.
 #[must_use]
 pub fn reflect_light(scene: &Scene, position: DVec3, normal: DVec3, sunlit: f64) -> Reflected {

@@ -1,9 +1,9 @@
-//! Twin of `shaders/include/motion.glsl`: by how much what is seen moved since the frame before.
+//! Twin of `shaders/include/motion.glsl`: motion vectors since the frame before.
 
 use crate::scene::Camera;
 use glam::{DMat3, DMat4, DVec2, DVec3};
 
-/// Stands for what was nowhere in the picture.
+/// Marks a place that wasn't in the picture.
 pub const NOWHERE: f64 = 2.0;
 
 /// Where a camera sees a place of the world, 0 to 1 from the picture's upper left corner; `None` behind it. `aspect` is the

@@ -6,7 +6,7 @@ pub fn shade_of_distance(depth: f64, near: f64, farthest: f64) -> f64 {
     (near / (depth * farthest)).min(1.0)
 }
 
-/// A value of either sign, times `gain`: 0 as 0.5, −1 as 0 and 1 as 1; what is no number as 0.5.
+/// A value of either sign, times `gain`: 0 as 0.5, −1 as 0 and 1 as 1; NaN as 0.5.
 #[must_use]
 pub fn shade_of_signed(value: f64, gain: f64) -> f64 {
     let scaled = value * gain;

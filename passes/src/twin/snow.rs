@@ -21,7 +21,7 @@ pub struct Flake {
     pub phase: f64,
 }
 
-/// What left at one side comes in at the other.
+/// Flakes that leave at one side enter at the other.
 fn around(position: f64) -> f64 {
     if position > EDGE {
         position - 2.0 * EDGE

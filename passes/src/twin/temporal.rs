@@ -36,7 +36,7 @@ pub fn allowed_history(history: Color, around: &[Color; 9], deviations: f64) -> 
     expanded(from_ycocg(nearer).map(|channel| channel.max(0.0)))
 }
 
-/// The mean of what is drawn, which counts `share`, and of history; bright ones weigh less.
+/// The mean of the new colour, with weight `share`, and of history; bright colours weigh less.
 #[must_use]
 pub fn mixed(drawn: Color, history: Color, share: f64) -> Color {
     let weight = |radiance: Color| 1.0 / (1.0 + radiance.into_iter().fold(0.0, f64::max));

@@ -28,7 +28,7 @@ pub(crate) struct Verdict {
 /// The verdict on `device`.
 ///
 /// # Errors
-/// What the pipeline is not to blame for, such as files that can't be read.
+/// Errors that aren't the pipeline's, such as files that can't be read.
 pub(crate) fn verdict(device: String, result: Result<Plan, Error>) -> Result<Verdict, Error> {
     let mut verdict = Verdict {
         device,

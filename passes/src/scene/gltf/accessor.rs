@@ -93,7 +93,7 @@ impl<'a> Data<'a> {
         };
         let values: Vec<f32> = bytes.chunks_exact(element.component.bytes() as usize).map(value).collect();
         if values.iter().any(|value| !value.is_finite()) {
-            return Err(GltfError { at: format!("accessor {index}"), problem: Problem::NotFinite(role) });
+            return Err(Problem::NotFinite(role).at(&format!("accessor {index}")));
         }
         Ok(values.as_chunks::<N>().0.to_vec())
     }
@@ -131,7 +131,7 @@ impl<'a> Data<'a> {
                 (read.get().map_or(&[][..], Vec::as_slice), "its data")
             }
             (None, Some(binary)) if index == 0 => (binary, "the binary chunk"),
-            (None, _) => return Err(GltfError { at, problem: Problem::NoData }),
+            (None, _) => return Err(Problem::NoData.at(&at)),
         };
         range(bytes, 0, buffer.byte_length, &at, || holder.into())
     }
@@ -140,10 +140,9 @@ impl<'a> Data<'a> {
     fn elements(&self, index: u64, user: &str) -> Result<(Element, Vec<u8>), GltfError> {
         let accessor = follow(&self.document.accessors, index, "accessor", user)?;
         let at = format!("accessor {index}");
-        let fail = |problem| GltfError { at: at.clone(), problem };
         let component = Component::from_code(accessor.component_type).ok_or_else(|| {
             let is = accessor.component_type.to_string();
-            fail(Problem::Word { what: "component type", is, expected: "5120, 5121, 5122, 5123, 5125 or 5126" })
+            Problem::Word { what: "component type", is, expected: "5120, 5121, 5122, 5123, 5125 or 5126" }.at(&at)
         })?;
         let components = match accessor.kind.as_str() {
             "SCALAR" => 1,
@@ -155,18 +154,18 @@ impl<'a> Data<'a> {
             other => {
                 let is = other.escape_debug().to_string();
                 let expected = "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4";
-                return Err(fail(Problem::Word { what: "type", is, expected }));
+                return Err(Problem::Word { what: "type", is, expected }.at(&at));
             }
         };
         let element = Element { component, components, normalized: accessor.normalized };
         let size = component.bytes() * components;
         if accessor.count == 0 {
-            return Err(fail(Problem::NoElements));
+            return Err(Problem::NoElements.at(&at));
         }
         // Elements without a view are zeros that the file needn't hold.
         let is = accessor.count.saturating_mul(size);
         if is > limits::FILE_BYTES {
-            return Err(fail(Problem::TooMuch { what: "bytes", is, limit: limits::FILE_BYTES }));
+            return Err(Problem::TooMuch { what: "bytes", is, limit: limits::FILE_BYTES }.at(&at));
         }
         let mut bytes = match accessor.buffer_view {
             Some(view) => self.packed(view, accessor.byte_offset, accessor.count, size, &at)?,
@@ -186,25 +185,24 @@ impl<'a> Data<'a> {
 
     /// Where sparse values go: ascending, each less than `count`.
     fn sparse_indices(&self, part: &SparsePart, len: u64, count: u64, at: &str) -> Result<Vec<u32>, GltfError> {
-        let fail = |problem| GltfError { at: at.into(), problem };
         if len == 0 {
-            return Err(fail(Problem::NoElements));
+            return Err(Problem::NoElements.at(at));
         }
         if len > count {
-            return Err(fail(Problem::TooMuch { what: "sparse elements", is: len, limit: count }));
+            return Err(Problem::TooMuch { what: "sparse elements", is: len, limit: count }.at(at));
         }
         let code = part.component_type.unwrap_or_default();
         let component = Component::from_code(code)
             .filter(|component| matches!(component, Component::U8 | Component::U16 | Component::U32))
             .ok_or_else(|| {
                 let expected = "5121, 5123 or 5125";
-                fail(Problem::Word { what: "component type of sparse indices", is: code.to_string(), expected })
+                Problem::Word { what: "component type of sparse indices", is: code.to_string(), expected }.at(at)
             })?;
         let places = integers(&self.packed(part.buffer_view, part.byte_offset, len, component.bytes(), at)?, component);
         let count = count as usize;
         let ascends = |at: usize| at == 0 || places[at] > places[at - 1];
         match (0..places.len()).find(|number| !ascends(*number) || places[*number] as usize >= count) {
-            Some(number) => Err(fail(Problem::SparseIndex { at: number, index: places[number], count })),
+            Some(number) => Err(Problem::SparseIndex { at: number, index: places[number], count }.at(at)),
             None => Ok(places),
         }
     }
@@ -214,7 +212,7 @@ impl<'a> Data<'a> {
         let (bytes, stride) = self.view(view, at)?;
         let stride = match stride {
             Some(stride) if stride < size || !(4..=252).contains(&stride) => {
-                return Err(GltfError { at: format!("buffer view {view}"), problem: Problem::Stride { stride, size } });
+                return Err(Problem::Stride { stride, size }.at(&format!("buffer view {view}")));
             }
             Some(stride) => stride,
             None => size,
@@ -255,8 +253,5 @@ fn range<'b>(
     let end = start.saturating_add(length);
     let inside =
         usize::try_from(start).ok().zip(usize::try_from(end).ok()).and_then(|(start, end)| bytes.get(start..end));
-    inside.ok_or_else(|| GltfError {
-        at: at.into(),
-        problem: Problem::Range { start, end, holder: holder(), has: bytes.len() as u64 },
-    })
+    inside.ok_or_else(|| Problem::Range { start, end, holder: holder(), has: bytes.len() as u64 }.at(at))
 }

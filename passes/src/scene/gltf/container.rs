@@ -10,28 +10,27 @@ pub(super) struct Container<'a> {
 }
 
 pub(super) fn split(bytes: &[u8]) -> Result<Container<'_>, GltfError> {
-    let whole = |problem| GltfError { at: String::new(), problem };
     if !bytes.starts_with(b"glTF") {
-        return Err(whole(Problem::NotGlb));
+        return Err(Problem::NotGlb.at(""));
     }
     let (Some(version), Some(length)) = (word(bytes, 4), word(bytes, 8)) else {
-        return Err(whole(Problem::CutShort { has: bytes.len(), says: HEADER as u64 }));
+        return Err(Problem::CutShort { has: bytes.len(), says: HEADER as u64 }.at(""));
     };
     if version != 2 {
-        return Err(whole(Problem::Version(version)));
+        return Err(Problem::Version(version).at(""));
     }
     // Bytes after the announced length are not part of the file.
     let Some(bytes) = bytes.get(..length as usize) else {
-        return Err(whole(Problem::CutShort { has: bytes.len(), says: length.into() }));
+        return Err(Problem::CutShort { has: bytes.len(), says: length.into() }.at(""));
     };
     let (json, rest) =
-        chunk(bytes.get(HEADER..).unwrap_or(&[]), "JSON chunk")?.ok_or_else(|| whole(Problem::NoJson))?;
+        chunk(bytes.get(HEADER..).unwrap_or(&[]), "JSON chunk")?.ok_or_else(|| Problem::NoJson.at(""))?;
     if json.kind != *b"JSON" {
-        return Err(whole(Problem::NoJson));
+        return Err(Problem::NoJson.at(""));
     }
     if json.data.len() > limits::JSON_BYTES {
         let (is, limit) = (json.data.len() as u64, limits::JSON_BYTES as u64);
-        return Err(GltfError { at: "JSON chunk".into(), problem: Problem::TooMuch { what: "bytes", is, limit } });
+        return Err(Problem::TooMuch { what: "bytes", is, limit }.at("JSON chunk"));
     }
     let binary = chunk(rest, "binary chunk")?.filter(|(chunk, _)| chunk.kind == *b"BIN\0").map(|(chunk, _)| chunk.data);
     Ok(Container { json: json.data, binary })
@@ -51,7 +50,7 @@ fn chunk<'a>(bytes: &'a [u8], name: &str) -> Result<Option<(Chunk<'a>, &'a [u8])
     };
     match rest.split_at_checked(says as usize) {
         Some((data, rest)) => Ok(Some((Chunk { kind: kind.to_le_bytes(), data }, rest))),
-        None => Err(GltfError { at: name.into(), problem: Problem::ChunkCutShort { has: rest.len(), says } }),
+        None => Err(Problem::ChunkCutShort { has: rest.len(), says }.at(name)),
     }
 }
 

@@ -31,17 +31,16 @@ pub(super) struct Document {
 impl Document {
     /// Reads the JSON; each element of a list by itself, so that a mistake in it can be named.
     pub(super) fn read(json: &[u8]) -> Result<Document, GltfError> {
-        let whole = |problem| GltfError { at: String::new(), problem };
-        let json = std::str::from_utf8(json).map_err(|_| whole(Problem::Json("the JSON is not UTF-8".into())))?;
+        let json = std::str::from_utf8(json).map_err(|_| Problem::Json("the JSON is not UTF-8".into()).at(""))?;
         // First of all the version: of another one everything else may differ.
-        let head: Head = json::text(json).map_err(|words| whole(Problem::Json(words)))?;
+        let head: Head = json::text(json).map_err(|words| Problem::Json(words).at(""))?;
         if !head.asset.version.starts_with("2.") {
-            return Err(whole(Problem::AssetVersion(head.asset.version.escape_debug().to_string())));
+            return Err(Problem::AssetVersion(head.asset.version.escape_debug().to_string()).at(""));
         }
         if let Some(unknown) = head.extensions_required.iter().find(|name| !extensions::READ.contains(&name.as_str())) {
-            return Err(whole(Problem::Extension(unknown.escape_debug().to_string())));
+            return Err(Problem::Extension(unknown.escape_debug().to_string()).at(""));
         }
-        let root: Root = json::text(json).map_err(|words| whole(Problem::Json(words)))?;
+        let root: Root = json::text(json).map_err(|words| Problem::Json(words).at(""))?;
         let mut extensions = Extensions::default();
         head.extensions_used.iter().for_each(|name| extensions.add(name, None));
         let own = root.extensions.map(|own| json::value(own).map(|own| Value::from_iter([("extensions", own)])));
@@ -75,7 +74,7 @@ pub(super) fn follow<'d, T>(list: &'d [T], index: u64, kind: &'static str, at: &
     usize::try_from(index)
         .ok()
         .and_then(|index| list.get(index))
-        .ok_or_else(|| GltfError { at: at.into(), problem: Problem::Missing { kind, index, count: list.len() } })
+        .ok_or_else(|| Problem::Missing { kind, index, count: list.len() }.at(at))
 }
 
 fn list<T: for<'a> Deserialize<'a>>(
@@ -93,7 +92,7 @@ fn element<T: for<'a> Deserialize<'a>>(
     value: Result<Value, String>,
     extensions: &mut Extensions,
 ) -> Result<T, GltfError> {
-    let wrong = |words| GltfError { at: at.to_owned(), problem: Problem::Json(words) };
+    let wrong = |words| Problem::Json(words).at(at);
     let value = value.map_err(wrong)?;
     extensions.add_used(at, &value);
     json::read(value).map_err(wrong)

@@ -36,26 +36,25 @@ impl<'a> External<'a> {
 
     /// The bytes that an URI refers to: those of a data URI, or the relative path of a file, percent-encoded (RFC 3986, section 2.1).
     pub(super) fn bytes(&self, uri: &str, at: &str) -> Result<Vec<u8>, GltfError> {
-        let fail = |problem| GltfError { at: at.into(), problem };
         let shown = || uri.chars().take(SHOWN).flat_map(char::escape_debug).collect::<String>();
         let bytes = match scheme(uri) {
             Some(scheme) if scheme.eq_ignore_ascii_case("data") => {
-                data(&uri[scheme.len() + 1..]).map_err(|reason| fail(Problem::DataUri { uri: shown(), reason }))?
+                data(&uri[scheme.len() + 1..]).map_err(|reason| Problem::DataUri { uri: shown(), reason }.at(at))?
             }
-            Some(_) => return Err(fail(Problem::Scheme(shown()))),
+            Some(_) => return Err(Problem::Scheme(shown()).at(at)),
             None => {
-                let root = self.beside.ok_or_else(|| fail(Problem::External(shown())))?;
+                let root = self.beside.ok_or_else(|| Problem::External(shown()).at(at))?;
                 self.file(root, uri).map_err(|problem| {
                     let path = percent_decode_str(uri).decode_utf8_lossy();
                     let path = path.chars().take(LONGEST_PATH).flat_map(char::escape_debug).collect();
-                    fail(Problem::File { path, problem })
+                    Problem::File { path, problem }.at(at)
                 })?
             }
         };
         self.taken.set(self.taken.get() + bytes.len() as u64);
         let (is, limit) = (self.taken.get(), limits::FILE_BYTES);
         let problem = Problem::TooMuch { what: "bytes of all files and data URIs up to here", is, limit };
-        if is > limit { Err(fail(problem)) } else { Ok(bytes) }
+        if is > limit { Err(problem.at(at)) } else { Ok(bytes) }
     }
 
     /// The bytes of a file beside this one.

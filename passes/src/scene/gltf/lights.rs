@@ -25,7 +25,7 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
         let within = |what, is: f64| {
             let problem = Problem::OutOfRange { what, is: is.to_string(), expected: "0 to 1e9" };
             let fits = (0.0..=limits::RADIANCE).contains(&is);
-            if fits { Ok(is) } else { Err(GltfError { at: at.clone(), problem }) }
+            if fits { Ok(is) } else { Err(problem.at(&at)) }
         };
         let mut color = light.color.unwrap_or([1.0; 3]);
         for part in &mut color {
@@ -52,8 +52,9 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
                 let position = to_world.w_axis.truncate();
                 if position.abs().max_element() > limits::COORDINATE {
                     let is = format!("{position:?}");
-                    let problem = Problem::OutOfRange { what: "its place in the world", is, expected: "at most 1e9 m" };
-                    return Err(GltfError { at, problem });
+                    return Err(
+                        Problem::OutOfRange { what: "its place in the world", is, expected: "at most 1e9 m" }.at(&at)
+                    );
                 }
                 points.push(PointLight {
                     position: position.to_array(),
@@ -66,14 +67,13 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
             "spot" => notes.add(format!("{at}: spot lights are not used")),
             other => {
                 let is = other.escape_debug().to_string();
-                let problem = Problem::Word { what: "type", is, expected: "directional, point or spot" };
-                return Err(GltfError { at, problem });
+                return Err(Problem::Word { what: "type", is, expected: "directional, point or spot" }.at(&at));
             }
         }
     }
     if points.len() > limits::POINT_LIGHTS {
         let (is, limit) = (points.len() as u64, limits::POINT_LIGHTS as u64);
-        return Err(GltfError { at: String::new(), problem: Problem::TooMuch { what: "point lights", is, limit } });
+        return Err(Problem::TooMuch { what: "point lights", is, limit }.at(""));
     }
     let dark = Sun { direction: defaults::SUN.direction, color: [0.0; 3], shadows: false };
     let sun = sun.unwrap_or(if points.is_empty() { defaults::SUN } else { dark });

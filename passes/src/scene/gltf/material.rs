@@ -20,7 +20,7 @@ pub(super) fn read(
         if (0.0..=most).contains(&is) {
             return Ok(is as f32);
         }
-        Err(GltfError { at: at.into(), problem: Problem::OutOfRange { what, is: is.to_string(), expected } })
+        Err(Problem::OutOfRange { what, is: is.to_string(), expected }.at(at))
     };
     let mut base_color = [1.0; 4];
     for (place, factor) in base_color.iter_mut().zip(pbr.base_color_factor.unwrap_or([1.0; 4])) {
@@ -67,8 +67,7 @@ pub(super) fn read(
         }
         other => {
             let is = other.escape_debug().to_string();
-            let problem = Problem::Word { what: "alpha mode", is, expected: "OPAQUE, MASK or BLEND" };
-            return Err(GltfError { at: at.into(), problem });
+            return Err(Problem::Word { what: "alpha mode", is, expected: "OPAQUE, MASK or BLEND" }.at(at));
         }
     };
     let name = material.name.clone().unwrap_or_else(|| at.to_owned());

@@ -75,7 +75,7 @@ fn scene(document: &Document, binary: Option<&[u8]>, beside: Option<&Root>) -> R
     let (meshes, groups) = meshes(&data, &mut materials, &mut notes)?;
     let placed = nodes::walk(document, &mut notes)?;
     let (objects, bounds) = objects(document, &placed, &meshes, &groups, &mut notes)?;
-    let bounds = bounds.ok_or(GltfError { at: String::new(), problem: Problem::Nothing })?;
+    let bounds = bounds.ok_or(Problem::Nothing.at(""))?;
     let lights = lights::read(document, &placed, &mut notes)?;
     let cameras = cameras(document, &placed, &mut notes)?;
     let camera = cameras.first().map_or_else(|| Camera::framing(bounds), |first| first.camera);
@@ -94,9 +94,9 @@ fn scene(document: &Document, binary: Option<&[u8]>, beside: Option<&Root>) -> R
     })
 }
 
-/// One primitive of a glTF mesh: a mesh and a material of the scene.
+/// A primitive of a glTF mesh, as a mesh and a material of the scene.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct ScenePrimitive {
     mesh: usize,
     material: usize,
 }
@@ -106,7 +106,7 @@ fn meshes(
     data: &Data<'_>,
     materials: &mut Vec<Material>,
     notes: &mut Notes,
-) -> Result<(Vec<Mesh>, Vec<Vec<Part>>), GltfError> {
+) -> Result<(Vec<Mesh>, Vec<Vec<ScenePrimitive>>), GltfError> {
     let mut meshes = Vec::new();
     let mut groups = Vec::with_capacity(data.document.meshes.len());
     let mut budget = primitive::Budget::default();
@@ -126,7 +126,7 @@ fn meshes(
                 }),
             };
             if let Some(mesh) = primitive::read(data, primitive, &at, &mut budget, notes)? {
-                parts.push(Part { mesh: meshes.len(), material });
+                parts.push(ScenePrimitive { mesh: meshes.len(), material });
                 meshes.push(mesh);
             }
         }
@@ -140,7 +140,7 @@ fn objects(
     document: &Document,
     placed: &[Placed<'_>],
     meshes: &[Mesh],
-    groups: &[Vec<Part>],
+    groups: &[Vec<ScenePrimitive>],
     notes: &mut Notes,
 ) -> Result<(Vec<Object>, Option<Bounds>), GltfError> {
     let mut objects: Vec<Object> = Vec::new();
@@ -155,7 +155,7 @@ fn objects(
         let is = objects.len() + parts.len();
         if is > limits::OBJECTS {
             let (is, limit) = (is as u64, limits::OBJECTS as u64);
-            return Err(GltfError { at, problem: Problem::TooMuch { what: "objects up to here", is, limit } });
+            return Err(Problem::TooMuch { what: "objects up to here", is, limit }.at(&at));
         }
         let mesh_name = document.meshes.get(group as usize).and_then(|mesh| mesh.name.clone());
         let name = node.name.clone().or(mesh_name).unwrap_or_else(|| at.clone());
@@ -164,8 +164,9 @@ fn objects(
             let bounds = meshes[part.mesh].bounds.transformed(transform);
             if !bounds.within(limits::COORDINATE) {
                 let is = format!("{:?} to {:?}", bounds.min.as_vec3().to_array(), bounds.max.as_vec3().to_array());
-                let problem = Problem::OutOfRange { what: "its place in the world", is, expected: "at most 1e9 m" };
-                return Err(GltfError { at, problem });
+                return Err(
+                    Problem::OutOfRange { what: "its place in the world", is, expected: "at most 1e9 m" }.at(&at)
+                );
             }
             all = Some(all.map_or(bounds, |all| all.union(bounds)));
             let name = if index == 0 { name.clone() } else { format!("{name}, primitive {index}") };
@@ -198,7 +199,7 @@ fn cameras(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Res
         };
         let check = |what, is: f64, ok: bool, expected| {
             let problem = Problem::OutOfRange { what, is: is.to_string(), expected };
-            if ok { Ok(is as f32) } else { Err(GltfError { at: at.clone(), problem }) }
+            if ok { Ok(is as f32) } else { Err(problem.at(&at)) }
         };
         let (fov, near) = (perspective.yfov, perspective.znear);
         let fov = check("the vertical field of view", fov, Camera::allows_fov(fov), "1e-4 to 3.1 radians")?;

@@ -24,7 +24,7 @@ pub(super) fn walk<'d>(document: &'d Document, notes: &mut Notes) -> Result<Vec<
         let at = format!("node {number}");
         let to_world = parent_to_world * local(node, &at)?;
         if !to_world.is_finite() {
-            return Err(GltfError { at, problem: Problem::NotFinite("its place and those of its ancestors together") });
+            return Err(Problem::NotFinite("its place and those of its ancestors together").at(&at));
         }
         let shown = parent_shown || listed[number];
         // `parents` has checked that every child exists and has no other parent.
@@ -45,7 +45,7 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, GltfError> {
             follow(nodes, *child, "node", &format!("node {number}"))?;
             let child = *child as usize;
             if let Some(other) = parents[child].replace(number) {
-                return Err(GltfError { at: format!("node {child}"), problem: Problem::TwoParents(other, number) });
+                return Err(Problem::TwoParents(other, number).at(&format!("node {child}")));
             }
         }
     }
@@ -57,7 +57,7 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, GltfError> {
             next = parents[node];
         }
         if let Some(node) = next.filter(|node| tried_from[*node] == start) {
-            return Err(GltfError { at: format!("node {node}"), problem: Problem::Loop });
+            return Err(Problem::Loop.at(&format!("node {node}")));
         }
     }
     Ok(parents)
@@ -105,7 +105,6 @@ fn roots(document: &Document, parents: &[Option<usize>], notes: &mut Notes) -> R
 
 /// From the node's space to its parent's.
 fn local(node: &Node, at: &str) -> Result<DMat4, GltfError> {
-    let fail = |problem| GltfError { at: at.into(), problem };
     let Some(matrix) = node.matrix else {
         let scale = node.scale.map_or(DVec3::ONE, DVec3::from);
         let translation = node.translation.map_or(DVec3::ZERO, DVec3::from);
@@ -114,7 +113,7 @@ fn local(node: &Node, at: &str) -> Result<DMat4, GltfError> {
                 let length = DQuat::from_array(rotation).length();
                 if !(length > 0.0 && length.is_finite()) {
                     let is = format!("{rotation:?}");
-                    return Err(fail(Problem::OutOfRange { what: "its rotation", is, expected: "a unit quaternion" }));
+                    return Err(Problem::OutOfRange { what: "its rotation", is, expected: "a unit quaternion" }.at(at));
                 }
                 DQuat::from_array(rotation.map(|part| part / length))
             }
@@ -123,12 +122,12 @@ fn local(node: &Node, at: &str) -> Result<DMat4, GltfError> {
         return Ok(DMat4::from_scale_rotation_translation(scale, rotation, translation));
     };
     if node.translation.is_some() || node.rotation.is_some() || node.scale.is_some() {
-        return Err(fail(Problem::MatrixAndParts));
+        return Err(Problem::MatrixAndParts.at(at));
     }
     let mut matrix = DMat4::from_cols_array(&matrix);
     // Exporters round; what they meant is exact.
     if !matrix.row(3).abs_diff_eq(glam::DVec4::W, 1e-4) {
-        return Err(fail(Problem::NotAffine));
+        return Err(Problem::NotAffine.at(at));
     }
     for (column, last) in [0.0, 0.0, 0.0, 1.0].into_iter().enumerate() {
         matrix.col_mut(column).w = last;

@@ -65,30 +65,30 @@ impl Textures {
     }
 
     fn decode(&mut self, data: &Data<'_>, image: &document::Image, at: &str) -> Result<DynamicImage, GltfError> {
-        let fail = |problem| GltfError { at: at.into(), problem };
         let bytes: Cow<'_, [u8]> = match (&image.uri, image.buffer_view) {
             (Some(uri), _) => data.external.bytes(uri, at)?.into(),
             (None, Some(view)) => data.view(view, at)?.0.into(),
-            (None, None) => return Err(fail(Problem::NoData)),
+            (None, None) => return Err(Problem::NoData.at(at)),
         };
         // The bytes decide the format; `mimeType` is ignored.
         let format = match image::guess_format(&bytes) {
             Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
-            _ => return Err(fail(Problem::ImageKind)),
+            _ => return Err(Problem::ImageKind.at(at)),
         };
-        let undecodable = |error: image::ImageError| fail(Problem::Image(error.to_string().escape_debug().to_string()));
+        let undecodable =
+            |error: image::ImageError| Problem::Image(error.to_string().escape_debug().to_string()).at(at);
         let (width, height) =
             ImageReader::with_format(Cursor::new(&bytes), format).into_dimensions().map_err(undecodable)?;
         let side = width.max(height);
         let limit = limits::TEXTURE_SIDE;
         if side > limit {
             let problem = Problem::TooMuch { what: "texels along a side", is: side.into(), limit: limit.into() };
-            return Err(fail(problem));
+            return Err(problem.at(at));
         }
         self.bytes += u64::from(width) * u64::from(height) * 4;
         if self.bytes > limits::TEXTURE_BYTES {
             let (is, limit) = (self.bytes, limits::TEXTURE_BYTES);
-            return Err(fail(Problem::TooMuch { what: "bytes of all pictures up to here", is, limit }));
+            return Err(Problem::TooMuch { what: "bytes of all pictures up to here", is, limit }.at(at));
         }
         ImageReader::with_format(Cursor::new(&bytes), format).decode().map_err(undecodable)
     }
@@ -96,10 +96,7 @@ impl Textures {
 
 /// glTF 2.0, section 5.26: OpenGL's numbers.
 fn read_sampler(sampler: &document::Sampler, at: &str) -> Result<Sampler, GltfError> {
-    let unknown = |what, is: u64, expected| GltfError {
-        at: at.into(),
-        problem: Problem::Word { what, is: is.to_string(), expected },
-    };
+    let unknown = |what, is: u64, expected| Problem::Word { what, is: is.to_string(), expected }.at(at);
     let wrap = |code: Option<u64>| match code.unwrap_or(10497) {
         10497 => Ok(Wrap::Repeat),
         33071 => Ok(Wrap::ClampToEdge),

@@ -20,7 +20,7 @@ impl Budget {
         self.indices = self.indices.saturating_add(indices);
         let fits = |what, is: usize, limit: usize| {
             let problem = Problem::TooMuch { what, is: is as u64, limit: limit as u64 };
-            if is > limit { Err(GltfError { at: at.into(), problem }) } else { Ok(()) }
+            if is > limit { Err(problem.at(at)) } else { Ok(()) }
         };
         fits("vertices of all meshes up to here", self.vertices, limits::VERTICES)?;
         fits("indices of all meshes up to here", self.indices, limits::INDICES)
@@ -35,7 +35,6 @@ pub(super) fn read(
     budget: &mut Budget,
     notes: &mut Notes,
 ) -> Result<Option<Mesh>, GltfError> {
-    let fail = |problem| GltfError { at: at.into(), problem };
     let mode = Mode::of(primitive, at)?;
     let Some(mode) = mode else {
         notes.add(format!("{at}: points and lines are not drawn"));
@@ -47,7 +46,7 @@ pub(super) fn read(
     if primitive.attributes.keys().any(|name| name.starts_with("COLOR_")) {
         notes.add(format!("{at}: vertex colours are ignored"));
     }
-    let positions = *primitive.attributes.get("POSITION").ok_or_else(|| fail(Problem::NoPositions))?;
+    let positions = *primitive.attributes.get("POSITION").ok_or_else(|| Problem::NoPositions.at(at))?;
     let positions = data.vectors::<3>(positions, "positions", at)?;
     let vertices = positions.len();
     let corners = match primitive.indices {
@@ -56,9 +55,9 @@ pub(super) fn read(
     };
     if let Some((number, index)) = corners.iter().enumerate().find(|(_, index)| **index as usize >= vertices) {
         let at = primitive.indices.map_or_else(String::new, |accessor| format!("accessor {accessor}"));
-        return Err(GltfError { at, problem: Problem::Index { at: number, index: *index, vertices } });
+        return Err(Problem::Index { at: number, index: *index, vertices }.at(&at));
     }
-    let indices = mode.triangles(&corners).ok_or_else(|| fail(Problem::Corners(corners.len())))?;
+    let indices = mode.triangles(&corners).ok_or_else(|| Problem::Corners(corners.len()).at(at))?;
     let normals = match primitive.attributes.get("NORMAL") {
         Some(accessor) => unit(per_vertex(data.vectors::<3>(*accessor, "normals", at)?, vertices, *accessor)?),
         None => None,
@@ -70,7 +69,7 @@ pub(super) fn read(
         Some(accessor) => per_vertex(data.vectors::<2>(*accessor, TEXTURE_COORDINATES, at)?, vertices, *accessor)?,
         None => vec![[0.0; 2]; vertices],
     };
-    let bounds = Bounds::of(&positions).ok_or_else(|| fail(Problem::NoPositions))?;
+    let bounds = Bounds::of(&positions).ok_or_else(|| Problem::NoPositions.at(at))?;
     let taken = if normals.is_some() { vertices } else { indices.len() };
     budget.take(taken, indices.len(), at)?;
     Ok(Some(match normals {
@@ -95,10 +94,7 @@ impl Mode {
             4 => Ok(Some(Mode::Triangles)),
             5 => Ok(Some(Mode::Strip)),
             6 => Ok(Some(Mode::Fan)),
-            other => {
-                let problem = Problem::Word { what: "mode", is: other.to_string(), expected: "0 to 6" };
-                Err(GltfError { at: at.into(), problem })
-            }
+            other => Err(Problem::Word { what: "mode", is: other.to_string(), expected: "0 to 6" }.at(at)),
         }
     }
 
@@ -129,8 +125,7 @@ fn per_vertex<T>(values: Vec<T>, vertices: usize, accessor: u64) -> Result<Vec<T
     if values.len() == vertices {
         return Ok(values);
     }
-    let problem = Problem::Count { count: values.len(), vertices };
-    Err(GltfError { at: format!("accessor {accessor}"), problem })
+    Err(Problem::Count { count: values.len(), vertices }.at(&format!("accessor {accessor}")))
 }
 
 /// Normals at length 1; `None` if one has no direction.

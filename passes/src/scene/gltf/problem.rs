@@ -20,6 +20,13 @@ impl fmt::Display for GltfError {
 
 impl std::error::Error for GltfError {}
 
+impl Problem {
+    /// The problem of an element of the file, such as "accessor 3"; of the file as a whole without a name.
+    pub(super) fn at(self, element: &str) -> GltfError {
+        GltfError { at: element.into(), problem: self }
+    }
+}
+
 /// A mistake, without its place.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Problem {

@@ -8,15 +8,15 @@ use glam::{DMat3, DMat4, Mat3};
 pub struct Object {
     /// Name for people; need not be unique and may hold any character.
     pub name: String,
-    /// Index into [`Scene::meshes`].
+    /// Index into [`crate::scene::Scene::meshes`].
     pub mesh: usize,
-    /// Index into [`Scene::materials`].
+    /// Index into [`crate::scene::Scene::materials`].
     pub material: usize,
     /// From the mesh's space to the world's; affine (its last row is 0 0 0 1).
     pub transform: DMat4,
-    /// How much of it is seen, −1 to 1, where 1 is all of it. At 0.3 three tenths of its pixels are drawn, in a fixed
-    /// pattern; at −0.3 exactly the others. So what changes for something else fades into it without showing what is behind
-    /// both. What is transparent fades by its opacity instead.
+    /// The share of its pixels that is drawn, −1 to 1, where 1 is all. At 0.3 three tenths are drawn, in a fixed pattern; at
+    /// −0.3 exactly the others. So one object fades into another without a gap between them. Transparent objects fade by
+    /// their opacity instead.
     pub cross_fade: f32,
     /// How it moves from where `transform` says that it is at frame 0.
     pub movement: Movement,
