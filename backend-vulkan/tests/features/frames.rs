@@ -1,6 +1,6 @@
 //! Frames in few words, and their execution on each driver.
 
-use crate::common::{find_layer, findings, skip};
+use crate::testing::{find_layer, findings, skip};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{
