@@ -192,6 +192,18 @@ pub fn floats(texels: &Texels) -> Vec<f64> {
     texels.bytes.as_chunks::<4>().0.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect()
 }
 
+/// Texels of four such numbers each.
+#[must_use]
+pub fn rgba(texels: &Texels) -> Vec<[f64; 4]> {
+    floats(texels).as_chunks::<4>().0.to_vec()
+}
+
+/// Their red, green and blue.
+#[must_use]
+pub fn rgb(texels: &Texels) -> Vec<[f64; 3]> {
+    rgba(texels).into_iter().map(|[r, g, b, _]| [r, g, b]).collect()
+}
+
 /// That the validation layer found nothing.
 ///
 /// # Errors

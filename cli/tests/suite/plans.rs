@@ -1,6 +1,7 @@
 //! `check` and `inspect`: Plans without a GPU, the same bytes every time.
 
 use crate::support::{Place, outcome, repository, shipped_pipelines};
+use framewright_tests::sweep;
 
 const FORWARD: &str = include_str!("../../../examples/pipelines/forward.ron");
 
@@ -35,7 +36,7 @@ fn every_shipped_pipeline_is_fine_as_it_comes() {
 
 #[test]
 fn forward_is_fine_in_every_combination_of_settings() {
-    for set in settings() {
+    for set in sweep::of(settings(), 6) {
         let mut arguments = vec!["check".to_owned(), "forward".to_owned()];
         arguments.extend(set);
         let outcome = Place::new().run(&arguments).exits(0);

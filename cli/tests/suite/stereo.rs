@@ -3,6 +3,7 @@
 use crate::support::{Place, Vulkan, live_profile, shipped_pipelines};
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
 use framewright_graph::view::Stereo;
+use framewright_tests::sweep;
 use image::{DynamicImage, GenericImageView};
 use std::path::Path;
 
@@ -141,14 +142,13 @@ fn of_several_modes_the_first_that_the_device_has_is_taken() {
 
 #[test]
 fn every_shipped_pipeline_is_fine_in_every_mode_on_every_device_that_has_it() {
-    for pipeline in shipped_pipelines() {
-        for mode in MODES {
-            // Devices that lack it draw one eye after the other.
-            let modes = format!("{mode},multi-pass");
-            let out = Place::new().run(&["check", &pipeline, "--device", "all", "--stereo", &modes]).exits(0).out;
-            let all = SHIPPED_PROFILES.len();
-            assert!(out.ends_with(&format!("{pipeline}: fine on {all} of {all} devices\n")), "{mode}: {out}");
-        }
+    let cases = shipped_pipelines().into_iter().flat_map(|pipeline| MODES.map(|mode| (pipeline.clone(), mode)));
+    for (pipeline, mode) in sweep::of(cases.collect(), 8) {
+        // Devices that lack it draw one eye after the other.
+        let modes = format!("{mode},multi-pass");
+        let out = Place::new().run(&["check", &pipeline, "--device", "all", "--stereo", &modes]).exits(0).out;
+        let all = SHIPPED_PROFILES.len();
+        assert!(out.ends_with(&format!("{pipeline}: fine on {all} of {all} devices\n")), "{mode}: {out}");
     }
 }
 

@@ -1,8 +1,8 @@
 //! Alpha that says how many samples are covered: where there are several, and nowhere else.
 
+use crate::testing::plans::{on, scopes, shipped};
 use crate::testing::table::{INPUTS, right, set};
-use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::Profile;
 use framewright_graph::expand::Inputs;
 use framewright_graph::plan::{Pass, Plan, Work};
 use framewright_graph::verify::verify;
@@ -31,29 +31,18 @@ const PIPELINE: &str = r#"Pipeline(
     outputs: ["screen"],
 )"#;
 
-fn lavapipe() -> Profile {
-    let (_, text) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
-    Profile::from_ron(text).expect("shipped profiles are read")
-}
-
 fn plan_on(chosen: &[(&str, &str)], device: &Profile) -> Plan {
     let set = set(chosen);
     let frame = right(PIPELINE, &Inputs { set: &set, ..INPUTS });
-    let plan = compile(&frame, device, &mut Estimated(device), &Options::default()).expect("it compiles");
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    plan
+    on(&frame, device).expect("it compiles")
 }
 
 fn plan(chosen: &[(&str, &str)]) -> Plan {
-    plan_on(chosen, &lavapipe())
+    plan_on(chosen, &shipped("lavapipe"))
 }
 
 fn passes(plan: &Plan) -> Vec<&Pass> {
-    let scopes = plan.steps.iter().filter_map(|step| match &step.work {
-        Work::Render(scope) => Some(scope),
-        _ => None,
-    });
-    scopes.flat_map(|scope| &scope.passes).collect()
+    scopes(plan).into_iter().flat_map(|scope| &scope.passes).collect()
 }
 
 /// Names of the passes that cover samples by alpha.
@@ -88,7 +77,7 @@ fn without_being_asked_nothing_is_covered_by_alpha() {
 fn with_one_sample_it_is_off_and_the_plan_says_why() {
     let asked = plan(&[("msaa", "1")]);
     assert!(covering(&asked).is_empty() && said(&asked), "{}", asked.tree());
-    let mut single = lavapipe();
+    let mut single = shipped("lavapipe");
     single.formats.iter_mut().for_each(|support| support.samples.retain(|count| *count == 1));
     let lowered = plan_on(&[], &single);
     assert!(covering(&lowered).is_empty() && said(&lowered), "{}", lowered.tree());

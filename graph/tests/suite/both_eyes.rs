@@ -1,14 +1,15 @@
 //! What the compiler makes of images that hold both eyes' parts (ST-2, ST-4): memory, limits, scopes, what it keeps of the last
 //! frame; and frames built in memory that it must refuse.
 
+use crate::testing::plans::{self, compiled, image, on, scopes};
 use crate::testing::raster::{self, Raster};
-use framewright_graph::compile::{Compiler, Options, Reuse, compile};
+use framewright_graph::compile::{Compiler, Options, Reuse};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{
     Blend, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled, Shape, Storage, TransferUse, Work,
 };
-use framewright_graph::plan::{self, ImageId, Plan, RenderScope, Role};
+use framewright_graph::plan::{ImageId, Plan, Role};
 use framewright_graph::rotation::Rotation;
 use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
@@ -45,33 +46,13 @@ const MODES: [(Stereo, EyeForm); 4] = [
     (Stereo::Multiview, EyeForm::Layers),
 ];
 
-fn on(frame: &Frame, device: &Profile) -> Result<Plan, Vec<(String, Option<String>)>> {
-    let compiled = compile(frame, device, &mut Estimated(device), &Options::default());
-    compiled.map_err(|mistakes| mistakes.into_iter().map(|it| (it.message, it.help)).collect())
+fn said(frame: &Frame, device: &Profile) -> Vec<(String, Option<String>)> {
+    let errors = on(frame, device).expect_err("it is refused");
+    errors.into_iter().map(|it| (it.message, it.help)).collect()
 }
 
-fn compiled(frame: &Frame) -> Plan {
-    let plan = on(frame, &raster::device()).unwrap_or_else(|mistakes| panic!("{mistakes:?}"));
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    plan
-}
-
-/// Why a frame can't be compiled; if it is compiled, that.
 fn refused(frame: &Frame) -> String {
-    match on(frame, &raster::device()) {
-        Ok(plan) => format!("it was compiled:\n{}", plan.tree()),
-        Err(mistakes) => mistakes.into_iter().map(|(message, _)| message + "\n").collect(),
-    }
-}
-
-fn image<'p>(plan: &'p Plan, name: &str) -> &'p plan::Image {
-    plan.images.iter().find(|it| *it.name == *name).unwrap_or_else(|| panic!("no `{name}`:\n{}", plan.tree()))
-}
-
-fn scopes(plan: &Plan) -> Vec<&RenderScope> {
-    let scope = |step: &'_ plan::Step| matches!(step.work, plan::Work::Render(_));
-    let steps = plan.steps.iter().filter(|step| scope(step));
-    steps.map(|step| if let plan::Work::Render(scope) = &step.work { &**scope } else { unreachable!() }).collect()
+    plans::refused(frame).into_iter().map(|message| message + "\n").collect()
 }
 
 fn bytes(plan: &Plan, name: &str) -> u64 {
@@ -132,7 +113,7 @@ fn a_device_without_images_as_wide_or_with_as_many_layers_is_named_with_what_it_
     };
     let device = Profile { max_attachment_extent: 4096, ..raster::device() };
     assert!(on(&wide(2048), &device).is_ok());
-    let mistakes = on(&wide(2049), &device).expect_err("both are 4098 wide");
+    let mistakes = said(&wide(2049), &device);
     let help = "`a device for tests` has images from 1×1 to 4096×4096";
     let expected = ["color", "depth", "screen"].map(|name| (format!("`{name}` is 4098×64"), Some(help.to_owned())));
     assert_eq!(mistakes, expected);
@@ -145,7 +126,7 @@ fn a_device_without_images_as_wide_or_with_as_many_layers_is_named_with_what_it_
     layers.images.iter_mut().for_each(|image| image.eyes = image.eyes.map(|_| EyeForm::Layers));
     assert!(on(&layers, &device).is_ok(), "and beside each other in layers");
     let flat = Profile { max_layers: 1, ..device };
-    let mistakes = on(&layers, &flat).expect_err("two layers are needed");
+    let mistakes = said(&layers, &flat);
     let help = "`a device for tests` has images of up to 1 layers";
     let expected = ["color", "depth", "screen"].map(|name| (format!("`{name}` has 2 layers"), Some(help.to_owned())));
     assert_eq!(mistakes, expected);

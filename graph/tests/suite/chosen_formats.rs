@@ -1,18 +1,13 @@
 //! Formats that a pipeline chose: what they come to in bytes, and what is taken where the device can't use them so.
 
+use crate::testing::plans::{image, on, shipped};
 use crate::testing::table::{INPUTS, right};
-use framewright_graph::compile::{Compiler, Options, compile};
-use framewright_graph::device::{Estimated, FormatSupport, Profile, SHIPPED_PROFILES};
+use framewright_graph::compile::{Compiler, Options};
+use framewright_graph::device::{Estimated, FormatSupport, Profile};
 use framewright_graph::expand::Inputs;
 use framewright_graph::format::Format::{self, *};
-use framewright_graph::plan::{ChosenFormat, Image, Plan, Stage};
-use framewright_graph::verify::verify;
+use framewright_graph::plan::{ChosenFormat, Plan, Stage};
 use std::sync::Arc;
-
-fn device(name: &str) -> Profile {
-    let (_, text) = SHIPPED_PROFILES.iter().find(|(known, _)| *known == name).expect("it is shipped");
-    Profile::from_ron(text).expect("shipped profiles are read")
-}
 
 /// Objects in light, blurred, glass before them blended, and shown. Light stays from frame to frame.
 fn text(policies: &str) -> String {
@@ -41,17 +36,11 @@ fn text(policies: &str) -> String {
 
 fn plan_at(policies: &str, device: &Profile, output_extent: [u32; 2]) -> Plan {
     let frame = right(&text(policies), &Inputs { output_extent, ..INPUTS });
-    let plan = compile(&frame, device, &mut Estimated(device), &Options::default()).expect("it compiles");
-    assert_eq!(verify(&plan), []);
-    plan
+    on(&frame, device).expect("it compiles")
 }
 
 fn plan(policies: &str, device: &Profile) -> Plan {
     plan_at(policies, device, INPUTS.output_extent)
-}
-
-fn image<'p>(plan: &'p Plan, name: &str) -> &'p Image {
-    plan.images.iter().find(|image| &*image.name == name).unwrap_or_else(|| panic!("no image {name}"))
 }
 
 fn formats(plan: &Plan) -> [Format; 3] {
@@ -66,7 +55,7 @@ fn chosen_bytes(plan: &Plan) -> i64 {
 #[test]
 fn what_a_choice_comes_to_is_the_difference_of_what_the_images_take() {
     for name in ["lavapipe", "swiftshader", "nvidia-rtx-2080", "mali-g78"] {
-        let device = device(name);
+        let device = shipped(name);
         let all = |plan: &Plan| (plan.totals.transient_bytes + plan.totals.kept_bytes).cast_signed();
         let usual = plan("", &device);
         assert!(usual.images.iter().all(|image| image.chosen.is_none()));
@@ -84,7 +73,7 @@ fn what_a_choice_comes_to_is_the_difference_of_what_the_images_take() {
 
 #[test]
 fn each_image_says_who_chose_its_format_and_what_that_comes_to() {
-    let device = device("lavapipe");
+    let device = shipped("lavapipe");
     let plan = plan("color: Smallest, depth_format: Balanced,", &device);
     assert_eq!(formats(&plan), [B10G11R11_UFLOAT_PACK32, B10G11R11_UFLOAT_PACK32, X8_D24_UNORM_PACK32]);
     let of = |name: &str| image(&plan, name).chosen.clone().expect("it is chosen");
@@ -103,7 +92,7 @@ fn each_image_says_who_chose_its_format_and_what_that_comes_to() {
 #[test]
 fn what_the_device_can_not_do_with_a_chosen_format_gives_it_up_and_is_said() {
     let without = |format: Format, change: fn(&mut FormatSupport)| {
-        let mut device = device("lavapipe");
+        let mut device = shipped("lavapipe");
         device.formats.iter_mut().filter(|support| support.format == format).for_each(change);
         device
     };
@@ -124,7 +113,7 @@ fn what_the_device_can_not_do_with_a_chosen_format_gives_it_up_and_is_said() {
         ),
         (
             "depth_format: Balanced,",
-            device("swiftshader"),
+            shipped("swiftshader"),
             [R16G16B16A16_SFLOAT, R16G16B16A16_SFLOAT, D32_SFLOAT],
             "DEPTH_STENCIL_ATTACHMENT",
         ),
@@ -142,7 +131,7 @@ fn what_the_device_can_not_do_with_a_chosen_format_gives_it_up_and_is_said() {
 
 #[test]
 fn another_size_brings_the_bytes_of_choices_up_to_date() {
-    let device = Arc::new(device("lavapipe"));
+    let device = Arc::new(shipped("lavapipe"));
     let [small, large] = [[640, 360], [1280, 720]]
         .map(|output_extent| Arc::new(right(&text("color: Exact,"), &Inputs { output_extent, ..INPUTS })));
     let mut compiler = Compiler::new();

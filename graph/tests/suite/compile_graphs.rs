@@ -1,19 +1,9 @@
 //! The measured graphs compile to Plans that keep their promises.
 
 use crate::testing::graphs;
-use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::Estimated;
-use framewright_graph::frame::{Frame, ImageIndex};
-use framewright_graph::plan::Plan;
-use framewright_graph::verify::verify;
+use crate::testing::plans::compiled;
+use framewright_graph::frame::ImageIndex;
 use std::collections::HashSet;
-
-fn compiled(frame: &Frame) -> Plan {
-    let device = graphs::device();
-    let plan = compile(frame, &device, &mut Estimated(&device), &Options::default()).expect("the graph is legal");
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    plan
-}
 
 #[test]
 fn deferred_is_placed_near_its_live_peak_and_has_the_fewest_image_barriers() {

@@ -1,27 +1,14 @@
 //! What the compiler makes of raster passes: resolves, scopes, load and store operations, forwards.
 
+use crate::testing::plans::{compiled, scopes};
 use crate::testing::raster::{self, Raster, forward};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Estimated;
 use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
-use framewright_graph::frame::{Blend, Frame};
-use framewright_graph::plan::{Plan, RenderScope, Resource, Role, Stage, Work};
+use framewright_graph::frame::Blend;
+use framewright_graph::plan::{Plan, Resource, Role, Stage};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Filter, Layout, LoadOp, ResolveMode, StoreOp, Usage};
-
-fn compiled(frame: &Frame) -> Plan {
-    let device = raster::device();
-    let plan = compile(frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is legal");
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    plan
-}
-
-fn scopes(plan: &Plan) -> Vec<&RenderScope> {
-    plan.steps
-        .iter()
-        .filter_map(|step| if let Work::Render(scope) = &step.work { Some(&**scope) } else { None })
-        .collect()
-}
 
 fn pass_names(plan: &Plan) -> Vec<Vec<String>> {
     scopes(plan).iter().map(|scope| scope.passes.iter().map(|pass| pass.name.to_string()).collect()).collect()

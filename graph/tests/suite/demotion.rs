@@ -1,12 +1,11 @@
 //! Full-screen draws gain nothing from several samples, so they move to images of one.
 
+use crate::testing::plans::planned;
 use crate::testing::raster::{self, Raster};
-use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::compile::Options;
 use framewright_graph::format::Format::R16G16B16A16_SFLOAT;
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::Plan;
-use framewright_graph::verify::verify;
 
 /// Objects in an image of 4 samples, blurred so many times: to and fro between that image and one of one sample.
 fn blurred(strength: u32) -> Frame {
@@ -25,11 +24,7 @@ fn blurred(strength: u32) -> Frame {
 }
 
 fn compiled(frame: &Frame, demote: bool) -> Plan {
-    let device = raster::device();
-    let options = Options { demote, ..Options::default() };
-    let plan = compile(frame, &device, &mut Estimated(&device), &options).expect("the frame is legal");
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    plan
+    planned(frame, &raster::device(), &Options { demote, ..Options::default() }).expect("the frame is legal")
 }
 
 /// IQ-9: a blur of strength 5 takes three resolves as it is written, and one where its draws are moved; both Plans can be

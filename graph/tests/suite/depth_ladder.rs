@@ -1,9 +1,8 @@
 //! How several samples of depth become one value: drawn again, resolved by the scope, resolved by a draw (IQ-10 to IQ-15).
 
+use crate::testing::plans::{compiled, on, scopes};
 use crate::testing::raster::{self, Raster};
-use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::Diagnostic;
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::Profile;
 use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_SRGB};
 use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Output, Resolve, ResolveWay, Resource};
 use framewright_graph::plan::{Cause, Plan, RenderScope, Work};
@@ -12,25 +11,9 @@ use framewright_graph::view::{EyeForm, Stereo};
 use framewright_graph::vocabulary::{CompareOp, LoadOp, ResolveMode, StoreOp, Usage};
 use std::path::Path;
 
-fn on(frame: &Frame, device: &Profile) -> Result<Plan, Vec<Diagnostic>> {
-    let plan = compile(frame, device, &mut Estimated(device), &Options::default())?;
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    Ok(plan)
-}
-
-fn compiled(frame: &Frame) -> Plan {
-    on(frame, &raster::device()).expect("the frame is legal")
-}
-
 /// A device that resolves depth in these modes.
 fn resolving(modes: &[ResolveMode]) -> Profile {
     Profile { depth_resolve: modes.to_vec(), ..raster::device() }
-}
-
-fn scopes(plan: &Plan) -> Vec<&RenderScope> {
-    let scopes =
-        plan.steps.iter().filter_map(|step| if let Work::Render(scope) = &step.work { Some(&**scope) } else { None });
-    scopes.collect()
 }
 
 fn names(plan: &Plan) -> Vec<Vec<&str>> {

@@ -1,10 +1,10 @@
 //! What the numbers of outputs mean: declared or said by the format, held against the format, and told with the place where
 //! they are encoded.
 
+use crate::testing::plans::on;
 use crate::testing::raster::{self, Raster};
-use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe::Diagnostic;
-use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::device::Profile;
 use framewright_graph::encoding::Encoding::{self, *};
 use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Work};
@@ -25,8 +25,7 @@ fn frame(screen: Format, encoding: Option<Encoding>) -> Frame {
 }
 
 fn planned_for(frame: &Frame, device: &Profile) -> Result<Plan, Vec<Diagnostic>> {
-    let plan = compile(frame, device, &mut Estimated(device), &Options::default())?;
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
+    let plan = on(frame, device)?;
     let json = plan.to_json().expect("JSON");
     assert_eq!(Plan::from_json(&json).expect("a Plan"), plan);
     Ok(plan)

@@ -1,15 +1,14 @@
 //! Format fallback: what a device can't use becomes a format that holds at least as much, and the Plan says so; where somebody
 //! relies on the format, it is refused.
 
+use crate::testing::plans::on;
 use crate::testing::raster::{self, Raster};
-use framewright_graph::compile::{Compiler, Options, compile};
-use framewright_graph::describe::Diagnostic;
+use framewright_graph::compile::{Compiler, Options};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Lifetime, Storage};
 use framewright_graph::plan::{Plan, Stage};
 use framewright_graph::source::Span;
-use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Accesses, FillValue, Layout, Stages, State, Subresources, Usage};
 use std::sync::Arc;
 
@@ -31,12 +30,6 @@ fn without(formats: &[Format]) -> Profile {
     device
 }
 
-fn planned(frame: &Frame, device: &Profile) -> Result<Plan, Vec<Diagnostic>> {
-    let plan = compile(frame, device, &mut Estimated(device), &Options::default())?;
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    Ok(plan)
-}
-
 fn format(plan: &Plan, name: &str) -> Format {
     plan.images.iter().find(|image| *image.name == *name).expect("it is in the Plan").format
 }
@@ -54,7 +47,7 @@ fn what_a_device_lacks_becomes_what_holds_as_much_and_is_said() {
         (B8G8R8A8_UNORM, R8G8B8A8_UNORM),
         (R16G16_SFLOAT, R32G32_SFLOAT),
     ] {
-        let plan = planned(&frame(wanted, D32_SFLOAT), &without(&[wanted])).expect("there is a substitute");
+        let plan = on(&frame(wanted, D32_SFLOAT), &without(&[wanted])).expect("there is a substitute");
         assert_eq!(format(&plan, "color"), made);
         let missing = "`a device for tests` has no SAMPLED, COLOR_ATTACHMENT for it";
         let said = note(&plan, "color");
@@ -66,12 +59,12 @@ fn what_a_device_lacks_becomes_what_holds_as_much_and_is_said() {
 
 #[test]
 fn depth_keeps_its_bits_and_its_stencil() {
-    let plan = planned(&frame(R8G8B8A8_UNORM, D24_UNORM_S8_UINT), &without(&[D24_UNORM_S8_UINT]));
+    let plan = on(&frame(R8G8B8A8_UNORM, D24_UNORM_S8_UINT), &without(&[D24_UNORM_S8_UINT]));
     assert_eq!(format(&plan.expect("there is a substitute"), "depth"), D32_SFLOAT_S8_UINT);
-    let plan = planned(&frame(R8G8B8A8_UNORM, D16_UNORM), &without(&[D16_UNORM, X8_D24_UNORM_PACK32]));
+    let plan = on(&frame(R8G8B8A8_UNORM, D16_UNORM), &without(&[D16_UNORM, X8_D24_UNORM_PACK32]));
     assert_eq!(format(&plan.expect("there is a substitute"), "depth"), D32_SFLOAT);
     // Fewer bits than asked for are never made.
-    let refused = planned(&frame(R8G8B8A8_UNORM, D32_SFLOAT_S8_UINT), &without(&[D32_SFLOAT_S8_UINT]));
+    let refused = on(&frame(R8G8B8A8_UNORM, D32_SFLOAT_S8_UINT), &without(&[D32_SFLOAT_S8_UINT]));
     let message = &refused.expect_err("nothing holds as much")[0].message;
     assert_eq!(message, "`depth` can't be D32_SFLOAT_S8_UINT on `a device for tests`: no DEPTH_STENCIL_ATTACHMENT");
 }
@@ -82,7 +75,7 @@ fn one_missing_use_is_enough_and_is_named() {
     for support in device.formats.iter_mut().filter(|support| support.format == B10G11R11_UFLOAT_PACK32) {
         support.usage.remove(Usage::COLOR_ATTACHMENT);
     }
-    let plan = planned(&frame(B10G11R11_UFLOAT_PACK32, D32_SFLOAT), &device).expect("there is a substitute");
+    let plan = on(&frame(B10G11R11_UFLOAT_PACK32, D32_SFLOAT), &device).expect("there is a substitute");
     assert!(
         note(&plan, "color").contains("has no COLOR_ATTACHMENT for it; it has an alpha"),
         "{}",
@@ -118,7 +111,7 @@ fn what_is_promised_outside_keeps_its_format() {
     for change in relied {
         let mut frame = frame(B10G11R11_UFLOAT_PACK32, D32_SFLOAT);
         change(&mut frame);
-        let refused = planned(&frame, &without(&[B10G11R11_UFLOAT_PACK32])).expect_err("somebody relies on it");
+        let refused = on(&frame, &without(&[B10G11R11_UFLOAT_PACK32])).expect_err("somebody relies on it");
         assert!(refused[0].message.contains("`color` can't be B10G11R11_UFLOAT_PACK32"), "{refused:?}");
     }
 }
@@ -133,7 +126,7 @@ fn history_and_what_it_is_forwarded_to_change_together() {
     raster.full_screen("show").sample(b).color(screen, Blend::Replace);
     let mut frame = raster.output(screen);
     frame.images[1].lifetime = Lifetime::History { frames: 1, initial: FillValue::Color([0.0; 4]) };
-    let plan = planned(&frame, &without(&[R16G16_SFLOAT])).expect("there is a substitute");
+    let plan = on(&frame, &without(&[R16G16_SFLOAT])).expect("there is a substitute");
     assert_eq!(["a", "b", "b (1 frame ago)"].map(|name| format(&plan, name)), [R32G32_SFLOAT; 3]);
 }
 
@@ -143,7 +136,7 @@ fn shipped_devices_without_24_bit_depth_draw_with_32() {
     for (name, text) in SHIPPED_PROFILES.iter().copied() {
         let device = Profile::from_ron(text).unwrap_or_else(|error| panic!("{name}: {error}"));
         let has = device.format(D24_UNORM_S8_UINT).is_some_and(|it| it.usage.contains(Usage::DEPTH_STENCIL_ATTACHMENT));
-        let plan = planned(&frame(R8G8B8A8_UNORM, D24_UNORM_S8_UINT), &device).expect("each has one of them");
+        let plan = on(&frame(R8G8B8A8_UNORM, D24_UNORM_S8_UINT), &device).expect("each has one of them");
         assert_eq!(format(&plan, "depth"), if has { D24_UNORM_S8_UINT } else { D32_SFLOAT_S8_UINT }, "{name}");
         fell_back += u32::from(!has);
     }
@@ -158,7 +151,7 @@ fn a_frame_that_fell_back_is_compiled_anew_when_it_changes() {
     for side in [64, 32] {
         frame.images.iter_mut().for_each(|image| image.extent = [side, side, 1]);
         let again = compiler.compile(&Arc::new(frame.clone()), &device, &mut Estimated(&device), &Options::default());
-        assert_eq!(again.ok(), planned(&frame, &device).ok().as_ref());
+        assert_eq!(again.ok(), on(&frame, &device).ok().as_ref());
     }
 }
 
@@ -172,7 +165,7 @@ fn what_is_inserted_and_the_format_cannot_do_is_refused_and_said() {
         device
     };
     let said = |frame: &Frame, device: &Profile| -> Vec<(String, String)> {
-        let errors = planned(frame, device).expect_err("the format can't do that");
+        let errors = on(frame, device).expect_err("the format can't do that");
         errors.into_iter().map(|error| (error.message, error.help.unwrap_or_default())).collect()
     };
     // A pass that samples what it writes samples a copy.
@@ -192,7 +185,7 @@ fn what_is_inserted_and_the_format_cannot_do_is_refused_and_said() {
         )
     };
     assert_eq!(refused, [words("color", "TRANSFER_SRC"), words("color (copy)", "TRANSFER_DST")]);
-    assert!(planned(&again, &lacking(B8G8R8A8_SRGB, copied)).is_ok());
+    assert!(on(&again, &lacking(B8G8R8A8_SRGB, copied)).is_ok());
 
     // Several layers are resolved by a step of its own.
     let mut layered = frame(R16G16B16A16_SFLOAT, D32_SFLOAT);

@@ -2,10 +2,12 @@
 //! alternative of each setting, and over a scene of opaque objects alone. The texts under `golden_plans/` are there to be
 //! reviewed: a change of the compiler shows as a change of theirs.
 
+use crate::testing::plans::shipped as shipped_device;
+use crate::testing::sweep;
 use crate::testing::table::{INPUTS, Table, shipped};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe::{self, Document, PipelineFiles, SettingKind};
-use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
+use framewright_graph::device::{Estimated, Profile, Queues};
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Image, Pass, Plan, Resource, Role, Sharing, StepId, Totals, Work};
@@ -85,8 +87,7 @@ fn all() -> Vec<(String, Variant)> {
 
 #[test]
 fn every_shipped_pipeline_makes_the_plans_that_were_reviewed() {
-    let (_, lavapipe) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
-    let profile = Profile::from_ron(lavapipe).expect("shipped profiles are read");
+    let profile = shipped_device("lavapipe");
     for (file, (name, set, facts)) in all() {
         let inputs = Inputs { set: &set, facts, facts_known: true, ..INPUTS };
         let frame = expanded(&file, &inputs);
@@ -127,12 +128,11 @@ fn needless(name: &str, plan: &Plan) -> Vec<String> {
 
 #[test]
 fn no_barrier_of_a_reviewed_plan_can_be_left_out() {
-    let (_, lavapipe) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
-    let one_queue = Profile::from_ron(lavapipe).expect("shipped profiles are read");
+    let one_queue = shipped_device("lavapipe");
     let queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive };
     let devices = [Profile { queues, local_read: true, ..one_queue.clone() }, one_queue];
     let mut found = Vec::new();
-    for (file, (name, set, facts)) in all() {
+    for (file, (name, set, facts)) in sweep::of(all(), 30) {
         let inputs = Inputs { set: &set, facts, facts_known: true, ..INPUTS };
         let frame = expanded(&file, &inputs);
         for device in &devices {
@@ -169,8 +169,7 @@ fn touches(work: &Work, resource: Resource) -> bool {
 
 /// Every Plan that is held here, for lavapipe, with its name.
 fn on_lavapipe() -> Vec<(String, Plan)> {
-    let (_, lavapipe) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
-    let device = Profile::from_ron(lavapipe).expect("shipped profiles are read");
+    let device = shipped_device("lavapipe");
     let compiled = all().into_iter().map(|(file, (name, set, facts))| {
         let inputs = Inputs { set: &set, facts, facts_known: true, ..INPUTS };
         let plan = compile(&expanded(&file, &inputs), &device, &mut Estimated(&device), &Options::default());

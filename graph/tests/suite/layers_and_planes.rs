@@ -1,22 +1,17 @@
 //! Raster passes that use some layers or one plane of an image leave the others as they are.
 
+use crate::testing::plans::planned;
 use crate::testing::raster::{self, Raster};
-use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::compile::{Options, Order};
 use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM};
 use framewright_graph::frame::{Blend, Draw, DrawList, Frame, Lifetime, Pass, StencilState, Work};
 use framewright_graph::plan::{self, Plan, Side};
-use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Aspects, CompareOp, FillValue, Layout, StencilOp, Subresources};
 
 fn compiled(frame: &Frame) -> Result<Plan, String> {
-    let device = raster::device();
     let options = Options { order: Order::File, ..Options::default() };
-    let plan = compile(frame, &device, &mut Estimated(&device), &options);
-    let plan =
-        plan.map_err(|errors| errors.iter().map(|error| error.message.clone()).collect::<Vec<_>>().join("; "))?;
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    Ok(plan)
+    let plan = planned(frame, &raster::device(), &options);
+    plan.map_err(|errors| errors.into_iter().map(|error| error.message).collect::<Vec<_>>().join("; "))
 }
 
 fn layer(base_layer: u32) -> Subresources {

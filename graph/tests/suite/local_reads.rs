@@ -1,12 +1,13 @@
 //! Local reads: a pass that reads only its own pixel joins the rendering scope that draws it, where the device can, and says why
 //! where it doesn't.
 
+use crate::testing::plans::{planned, scopes};
 use crate::testing::raster::{self, Raster};
 use framewright_graph::compile::{Compiler, Options, Order, Reuse, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::format::Format::{R8G8B8A8_SRGB, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Resource};
-use framewright_graph::plan::{BindingKind, Plan, RenderScope, Stage, Work};
+use framewright_graph::plan::{BindingKind, Plan, Stage, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{Accesses, Layout, Stages, StoreOp, Usage};
 use std::sync::Arc;
@@ -31,17 +32,7 @@ fn device(local_read: bool) -> Profile {
 }
 
 fn compiled(frame: &Frame, device: &Profile) -> Plan {
-    let plan = compile(frame, device, &mut Estimated(device), &Options { demote: false, ..Options::default() });
-    let plan = plan.expect("the frame is legal");
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    plan
-}
-
-fn scopes(plan: &Plan) -> Vec<&RenderScope> {
-    plan.steps
-        .iter()
-        .filter_map(|step| if let Work::Render(scope) = &step.work { Some(&**scope) } else { None })
-        .collect()
+    planned(frame, device, &Options { demote: false, ..Options::default() }).expect("the frame is legal")
 }
 
 fn note(plan: &Plan, subject: &str) -> String {

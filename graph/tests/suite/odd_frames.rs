@@ -1,5 +1,6 @@
 //! Frames that were built in memory and can't be made: each is refused in words, whatever their numbers.
 
+use crate::testing::plans::refused_on;
 use crate::testing::raster::{self, Raster};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
@@ -37,13 +38,6 @@ fn dispatch(name: &str, image: ImageIndex) -> Pass {
     };
     let work = Work::Dispatch { shader: name.into(), groups: Groups::Count([1; 3]) };
     Pass { storage: vec![target], ..Pass::new(name, work) }
-}
-
-fn refusals(frame: &Frame, device: &Profile) -> Vec<String> {
-    match compile(frame, device, &mut Estimated(device), &Options::default()) {
-        Ok(plan) => panic!("it was compiled:\n{}", plan.tree()),
-        Err(errors) => errors.into_iter().map(|error| error.message).collect(),
-    }
 }
 
 type Change = fn(&mut Frame);
@@ -145,7 +139,7 @@ fn what_cannot_be_is_refused_in_words() {
     for (words, change) in changes {
         let mut odd = frame();
         change(&mut odd);
-        let said = refusals(&odd, &raster::device());
+        let said = refused_on(&odd, &raster::device());
         assert!(said.iter().any(|message| message.contains(words)), "{words}: {said:?}");
     }
 }
@@ -157,10 +151,10 @@ fn attachments_of_one_pass_have_as_many_layers_and_are_no_more_than_the_device_h
     raster.objects("opaque").clear(a).clear(b);
     let mut frame = raster.outputs(&[a, b]);
     let device = Profile { max_color_attachments: 1, ..raster::device() };
-    let said = refusals(&frame, &device);
+    let said = refused_on(&frame, &device);
     assert_eq!(said, ["`opaque` draws into 2 colour images; `a device for tests` has 1"]);
     frame.images[0].layers = 2;
-    let said = refusals(&frame, &raster::device());
+    let said = refused_on(&frame, &raster::device());
     assert_eq!(said, ["`opaque` draws into `a` and `b`, which differ in size, layers or samples"]);
 }
 

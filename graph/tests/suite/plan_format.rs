@@ -3,12 +3,11 @@
 
 mod json;
 
+use crate::testing::plans::shipped as shipped_device;
 use crate::testing::table::{INPUTS, Table, shipped};
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::describe::{self, PipelineFiles};
-use framewright_graph::device::{
-    BufferDescriptor, ImageDescriptor, MemoryNeeds, MemoryProvider, Profile, Queues, SHIPPED_PROFILES,
-};
+use framewright_graph::device::{BufferDescriptor, ImageDescriptor, MemoryNeeds, MemoryProvider, Profile, Queues};
 use framewright_graph::expand::expand;
 use framewright_graph::frame::Draw;
 use framewright_graph::interface::{BindingKind, Dimension, ImageShape, ShaderInterfaces, Variant};
@@ -54,8 +53,7 @@ fn plans() -> Vec<(String, Value)> {
     let files = std::fs::read_dir(&folder).expect("pipelines are shipped");
     let names = files.map(|file| file.expect("the folder can be listed").file_name().to_string_lossy().into_owned());
     let shipped = names.filter(|name| name.ends_with(".ron")).map(|name| (name.clone(), shipped(&name)));
-    let (_, lavapipe) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
-    let one = Profile { local_read: true, ..Profile::from_ron(lavapipe).expect("shipped profiles are read") };
+    let one = Profile { local_read: true, ..shipped_device("lavapipe") };
     let queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive };
     let devices = [("one queue", one.clone()), ("three queues", Profile { queues, ..one })];
     let cases = devices.iter().flat_map(|device| [Order::Default, Order::File].map(|order| (device, order)));

@@ -1,6 +1,7 @@
 //! Which passes run on the queues for compute and transfer, what waits for what, and how images change hands.
 
 use crate::testing::graphs;
+use crate::testing::plans::planned;
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile, Queues};
 use framewright_graph::format::Format;
@@ -10,7 +11,6 @@ use framewright_graph::frame::{
 };
 use framewright_graph::plan::{self, Plan, Queue, Role, Sharing};
 use framewright_graph::source::Span;
-use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::{
     Accesses, Aspects, FillValue, Filter, Layout, Sampler, Stages, State, Subresources,
 };
@@ -113,11 +113,8 @@ fn device(queues: Queues) -> Profile {
 }
 
 fn compiled(frame: &Frame, queues: Queues) -> Plan {
-    let device = device(queues);
     let options = Options { order: Order::File, ..Options::default() };
-    let plan = compile(frame, &device, &mut Estimated(&device), &options).expect("the frame is legal");
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    plan
+    planned(frame, &device(queues), &options).expect("the frame is legal")
 }
 
 fn name(work: &plan::Work) -> String {

@@ -1,7 +1,8 @@
 //! Outputs that leave the frame rotated: what is drawn so with them, what stays upright, and what can't be.
 
+use crate::testing::plans::{compiled, on};
 use crate::testing::raster::{self, Raster};
-use framewright_graph::compile::{Compiler, Options, Reuse, compile};
+use framewright_graph::compile::{Compiler, Options, Reuse};
 use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::Estimated;
 use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
@@ -14,17 +15,8 @@ use std::sync::Arc;
 
 const TURN: Rotation = Rotation::Rotate90;
 
-fn compiled(frame: &Frame) -> Plan {
-    let device = raster::device();
-    let plan = compile(frame, &device, &mut Estimated(&device), &Options::default())
-        .unwrap_or_else(|errors| panic!("the frame is legal: {errors:?}"));
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    plan
-}
-
 fn refused(frame: &Frame) -> Diagnostic {
-    let device = raster::device();
-    let errors = compile(frame, &device, &mut Estimated(&device), &Options::default()).expect_err("it is refused");
+    let errors = on(frame, &raster::device()).expect_err("it is refused");
     let [error] = <[Diagnostic; 1]>::try_from(errors).expect("one mistake");
     error
 }

@@ -2,22 +2,18 @@
 //! more.
 
 use crate::testing::graphs::{self, Builder};
+use crate::testing::plans::planned;
 use crate::testing::raster::{Raster, device};
-use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::device::Estimated;
+use framewright_graph::compile::{Options, Order};
 use framewright_graph::format::Format::{R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Resource};
 use framewright_graph::plan::{Plan, Work};
-use framewright_graph::verify::verify;
 
 const ORDERS: [Order; 5] = [Order::File, Order::Default, Order::LowMemory, Order::Random(1), Order::Random(2)];
 
 fn compiled(frame: &Frame, order: Order) -> Plan {
-    let device = device();
     let options = Options { order, ..Options::default() };
-    let plan = compile(frame, &device, &mut Estimated(&device), &options).expect("the graph is legal");
-    assert_eq!(verify(&plan), [], "{order:?}\n{}", plan.tree());
-    plan
+    planned(frame, &device(), &options).unwrap_or_else(|errors| panic!("{order:?}: {errors:?}"))
 }
 
 /// The passes of each step.

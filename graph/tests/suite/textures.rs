@@ -1,8 +1,8 @@
 //! Images whose contents come from files: what a frame may say of them, and what a Plan says then.
 
+use crate::testing::plans::{self, compiled, on, refused_on};
 use crate::testing::raster::{self, Raster};
-use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile, Queues};
+use framewright_graph::device::{Profile, Queues};
 use framewright_graph::format::Format;
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, BufferRole, BufferUse, Frame, Groups, ImageIndex, Lifetime, Pass, Resource, Sampled,
@@ -30,26 +30,15 @@ fn frame() -> Frame {
     frame
 }
 
-fn on(frame: &Frame, device: &Profile) -> Result<Plan, Vec<String>> {
-    let plan = compile(frame, device, &mut Estimated(device), &Options::default());
-    plan.map_err(|errors| errors.into_iter().map(|error| error.message).collect())
-}
-
-fn plan(frame: &Frame) -> Plan {
-    let plan = on(frame, &raster::device()).unwrap_or_else(|errors| panic!("{errors:?}"));
-    assert_eq!(verify(&plan), []);
-    plan
-}
-
 fn refused(change: impl FnOnce(&mut Frame)) -> Vec<String> {
     let mut frame = frame();
     change(&mut frame);
-    on(&frame, &raster::device()).expect_err("it is wrong")
+    plans::refused(&frame)
 }
 
 #[test]
 fn a_texture_from_a_file_has_memory_of_its_own_one_layout_and_no_barrier() {
-    let plan = plan(&frame());
+    let plan = compiled(&frame());
     let grain = plan.images.iter().find(|image| &*image.name == "grain").expect("it is planned");
     assert_eq!(grain.usage, Usage::SAMPLED | Usage::TRANSFER_DST);
     let Role::Persistent { becomes, initial: Initial::File(file), before, after } = &grain.role else {
@@ -72,7 +61,7 @@ fn a_texture_from_a_file_has_memory_of_its_own_one_layout_and_no_barrier() {
 
 #[test]
 fn a_plan_with_a_texture_survives_its_json_form_and_names_the_file_in_the_tree() {
-    let plan = plan(&frame());
+    let plan = compiled(&frame());
     let json = plan.to_json().expect("it has one");
     assert!(
         json.contains("\"path\": \"textures/grain.png\"") && json.contains("\"color_space\": \"LINEAR\""),
@@ -145,7 +134,7 @@ fn an_image_that_no_file_can_fill_is_refused() {
 
 #[test]
 fn a_plan_that_writes_a_texture_is_wrong() {
-    let right = plan(&frame());
+    let right = compiled(&frame());
     let found = |change: fn(&mut Plan)| {
         let mut plan = right.clone();
         change(&mut plan);
@@ -203,7 +192,7 @@ fn a_sampler_stands_in_the_plan_and_the_tree_says_what_is_unusual() {
     let mut frame = frame();
     let sampler = Sampler { filter: Filter::Linear, mips: Filter::Linear, address: AddressMode::MirroredRepeat };
     frame.passes[0].sampled[0].sampler = sampler;
-    let plan = plan(&frame);
+    let plan = compiled(&frame);
     let json = plan.to_json().expect("it has one");
     assert_eq!(Plan::from_json(&json).expect("it is read"), plan);
     let said = "source0 = `grain`, sampled, LINEAR, between mip levels too, MIRRORED_REPEAT";
@@ -216,6 +205,6 @@ fn a_mean_between_mip_levels_needs_a_format_that_can_be_filtered() {
     frame.passes[0].sampled[0].sampler.mips = Filter::Linear;
     let mut device = raster::device();
     device.formats.iter_mut().for_each(|support| support.linear_filter = false);
-    let errors = on(&frame, &device).expect_err("nothing can be filtered");
+    let errors = refused_on(&frame, &device);
     assert!(errors[0].starts_with("`film` can't filter `grain`"), "{errors:?}");
 }

@@ -1,5 +1,6 @@
 //! The views of a frame: what a frame may say of them, and what a Plan says then.
 
+use crate::testing::plans::compiled;
 use crate::testing::raster::{self, Raster};
 use framewright_graph::compile::{Compiler, Options, Reuse, compile};
 use framewright_graph::device::Estimated;
@@ -7,7 +8,6 @@ use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::{Plan, ViewId, Work};
 use framewright_graph::source::Span;
-use framewright_graph::verify::verify;
 use framewright_graph::view::{Allowances, View, ViewIndex};
 use std::sync::Arc;
 
@@ -29,13 +29,6 @@ fn frame() -> Frame {
     frame
 }
 
-fn plan(frame: &Frame) -> Plan {
-    let device = raster::device();
-    let plan = compile(frame, &device, &mut Estimated(&device), &Options::default()).expect("a Plan");
-    assert_eq!(verify(&plan), []);
-    plan
-}
-
 fn views_of_passes(plan: &Plan) -> Vec<Option<ViewId>> {
     let passes = plan.steps.iter().filter_map(|step| match &step.work {
         Work::Render(scope) => Some(scope.passes.iter().map(|pass| pass.view)),
@@ -46,7 +39,7 @@ fn views_of_passes(plan: &Plan) -> Vec<Option<ViewId>> {
 
 #[test]
 fn each_pass_names_its_view_and_the_plan_lists_them() {
-    let plan = plan(&frame());
+    let plan = compiled(&frame());
     assert_eq!(views_of_passes(&plan), [Some(ViewId(0)), Some(ViewId(1))]);
     let json = plan.to_json().expect("it has one");
     assert_eq!(Plan::from_json(&json).expect("it is read"), plan);
@@ -62,7 +55,7 @@ fn a_frame_without_views_makes_a_plan_without() {
     let mut frame = frame();
     frame.views.clear();
     frame.passes[1].view = ViewIndex(0);
-    let plan = plan(&frame);
+    let plan = compiled(&frame);
     assert_eq!((plan.views.len(), views_of_passes(&plan)), (0, vec![None, None]));
 }
 
@@ -85,15 +78,15 @@ fn views_have_names_of_their_own_and_sizes_and_exist() {
 fn another_size_of_a_view_keeps_the_structure_and_another_camera_does_not() {
     let (device, options) = (Arc::new(raster::device()), Options::default());
     let mut compiler = Compiler::new();
-    let mut compiled = |frame: &Frame| {
-        let compiled = compiler.compile(&Arc::new(frame.clone()), &device, &mut Estimated(&device), &options);
-        assert_eq!(*compiled.expect("a Plan"), plan(frame));
+    let mut reuse = |frame: &Frame| {
+        let plan = compiler.compile(&Arc::new(frame.clone()), &device, &mut Estimated(&device), &options);
+        assert_eq!(*plan.expect("a Plan"), compiled(frame));
         compiler.reuse()
     };
     let mut frame = frame();
-    compiled(&frame);
+    reuse(&frame);
     frame.views[1].extent = [48, 16];
-    assert!(matches!(compiled(&frame), Reuse::Structure | Reuse::Barriers), "the structure stays");
+    assert!(matches!(reuse(&frame), Reuse::Structure | Reuse::Barriers), "the structure stays");
     frame.views[1].camera = None;
-    assert_eq!(compiled(&frame), Reuse::Nothing);
+    assert_eq!(reuse(&frame), Reuse::Nothing);
 }

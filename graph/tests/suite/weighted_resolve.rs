@@ -1,20 +1,15 @@
 //! Colour whose image says `resolve: Weighted`: wherever one value is made of its samples, a draw makes it (IQ-20).
 
+use crate::testing::plans::on;
 use crate::testing::raster::{self, Raster};
-use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe::Diagnostic;
-use framewright_graph::device::Estimated;
 use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, ParamValue, Resolve, ResolveWay};
 use framewright_graph::plan::{Access, Cause, Pass, Plan, Work};
-use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::ResolveMode;
 
 fn planned(frame: &Frame) -> Result<Plan, Vec<Diagnostic>> {
-    let device = raster::device();
-    let plan = compile(frame, &device, &mut Estimated(&device), &Options::default())?;
-    assert_eq!(verify(&plan), [], "{}", plan.tree());
-    Ok(plan)
+    on(frame, &raster::device())
 }
 
 fn say(frame: &mut Frame, image: ImageIndex, way: ResolveWay) {

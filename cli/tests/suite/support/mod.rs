@@ -155,6 +155,11 @@ impl Vulkan {
     /// SwiftShader under the current layer.
     pub(crate) const SWIFTSHADER_CURRENT: Vulkan = Vulkan { driver: Driver::SwiftShader, layer: Some(Layer::Current) };
 
+    /// Whether it is lavapipe.
+    pub(crate) fn is_lavapipe(self) -> bool {
+        self.driver == Driver::Lavapipe
+    }
+
     /// Whether its layer sees hazards of dynamic rendering: one that takes settings does.
     pub(crate) fn layer_sees_attachments(self) -> bool {
         let manifest = || std::fs::read_to_string(format!("{DISTRIBUTION_LAYERS}/VkLayer_khronos_validation.json"));

@@ -1,9 +1,10 @@
 //! Every file under `bad/` is wrong, its name says how, and the whole answer stands beside it.
 
+use crate::testing::plans::shipped;
 use crate::testing::table::{INPUTS, Pictures, Table};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe::{self, Diagnostic, Files, Found, Unread};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::file_path::FilePath;
 use framewright_graph::rotation::Rotation;
@@ -56,8 +57,7 @@ impl Files for Folder {
 pub(crate) fn device(text: &str) -> Option<Profile> {
     let asked = text.strip_prefix("//! device ")?.lines().next()?;
     let (name, lacks) = asked.split_once(" without ").unwrap_or((asked, ""));
-    let (_, profile) = SHIPPED_PROFILES.iter().find(|(known, _)| *known == name).expect("a shipped device");
-    let mut profile = Profile::from_ron(profile).expect("a profile");
+    let mut profile = shipped(name);
     profile.formats.retain(|it| it.format.name() != lacks);
     Some(profile)
 }

@@ -1,8 +1,9 @@
 //! What both eyes have is in one image where they are drawn at once, and what draws it runs once (ST-2, ST-4); what can't be so
 //! is drawn for one eye after the other, and the frame says why.
 
+use crate::testing::plans::shipped;
 use crate::testing::table::{INPUTS, frame, right, wrong};
-use framewright_graph::device::{Profile, SHIPPED_PROFILES};
+use framewright_graph::device::Profile;
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Frame, Pass, Resource};
 use framewright_graph::view::{Eye, EyeForm, Stereo};
@@ -57,7 +58,7 @@ fn images(frame: &Frame) -> Vec<(&str, Option<EyeForm>)> {
 
 /// A device whose profile is shipped.
 fn saved() -> Profile {
-    Profile::from_ron(SHIPPED_PROFILES[0].1).expect("it is shipped")
+    shipped("amd-rx-7800-xt")
 }
 
 /// What a frame remarks: of what, where, and what.

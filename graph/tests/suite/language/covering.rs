@@ -1,9 +1,8 @@
 //! Who writes an image first covers it or clears it: the rule by which files are read is the one by which frames are
 //! compiled.
 
+use crate::testing::plans::{on, shipped};
 use crate::testing::table::{INPUTS, frame};
-use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vocabulary::LoadOp;
@@ -24,8 +23,7 @@ fn first_with(depth: &str) -> String {
 
 fn plan(depth: &str) -> Result<Plan, String> {
     let frame = frame(&first_with(depth), &INPUTS)?;
-    let device = Profile::from_ron(SHIPPED_PROFILES[0].1).expect("a shipped profile");
-    compile(&frame, &device, &mut Estimated(&device), &Options::default())
+    on(&frame, &shipped("amd-rx-7800-xt"))
         .map_err(|errors| errors.iter().map(|error| format!("{}\n", error.message)).collect())
 }
 

@@ -1,17 +1,17 @@
 //! Sizes that change from frame to frame, and the Plans that come of them.
 
+use crate::testing::plans::{on, shipped};
 use crate::testing::table::{INPUTS, right, set};
 use framewright_graph::compile::{Compiler, Options, Reuse, compile};
 use framewright_graph::describe::render;
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Plan, Work};
-use framewright_graph::verify::verify;
 use std::sync::Arc;
 
 fn device() -> Arc<Profile> {
-    Arc::new(Profile::from_ron(SHIPPED_PROFILES[0].1).expect("a shipped profile"))
+    Arc::new(shipped("amd-rx-7800-xt"))
 }
 
 /// What is drawn is forwarded at its own size and scaled to the screen's.
@@ -50,10 +50,7 @@ fn frame(scale: &str, more: &str) -> Frame {
 }
 
 fn planned(frame: &Frame) -> Plan {
-    let device = device();
-    let plan = compile(frame, &device, &mut Estimated(&device), &Options::default()).expect("it compiles");
-    assert_eq!(verify(&plan), []);
-    plan
+    on(frame, &device()).expect("it compiles")
 }
 
 #[test]

@@ -1,10 +1,9 @@
 //! Pipelines that begin with what others say: what is set, removed and inserted, and in which order.
 
+use crate::testing::plans::{on, shipped};
 use crate::testing::table::{INPUTS, Table, right, unnamed};
 use framewright_graph::change::{Action, Kind, Where};
-use framewright_graph::compile::{Options, compile};
 use framewright_graph::describe::{self, Document, Files, Found, Unread};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::file_path::FilePath;
 use framewright_graph::frame::Frame;
@@ -68,8 +67,7 @@ fn frame_of(text: &str, files: &[(&'static str, &str)], applied: &[&str]) -> Fra
 }
 
 fn plan(frame: &Frame) -> Plan {
-    let profile = Profile::from_ron(SHIPPED_PROFILES[0].1).expect("shipped profiles are read");
-    compile(frame, &profile, &mut Estimated(&profile), &Options::default()).expect("it can be made")
+    on(frame, &shipped("amd-rx-7800-xt")).expect("it can be made")
 }
 
 fn passes(frame: &Frame) -> Vec<&str> {

@@ -1,11 +1,9 @@
 //! History is kept as far back as a pass reads it that something needs.
 
+use crate::testing::plans::{on, shipped};
 use crate::testing::table::{INPUTS, frame, set};
-use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Frame, Lifetime};
-use framewright_graph::verify::verify;
 
 /// A pipeline whose pass `mix` alone reads what the frame before left of `past`. `show` is what is shown.
 fn mixed(settings: &[(&str, &str)], show: &str) -> Frame {
@@ -32,10 +30,7 @@ fn mixed(settings: &[(&str, &str)], show: &str) -> Frame {
 
 /// The Plan's images, by name, and how many copies it makes.
 fn planned(frame: &Frame) -> (Vec<String>, u64) {
-    let (_, profile) = SHIPPED_PROFILES[0];
-    let device = Profile::from_ron(profile).expect("a shipped profile");
-    let plan = compile(frame, &device, &mut Estimated(&device), &Options::default()).expect("a Plan");
-    assert_eq!(verify(&plan), []);
+    let plan = on(frame, &shipped("amd-rx-7800-xt")).expect("a Plan");
     (plan.images.iter().map(|image| image.name.to_string()).collect(), u64::from(plan.totals.copies))
 }
 

@@ -1,12 +1,12 @@
 //! A shader may leave to the pass as what it declares an image: the pass's own image says it, and the Plan.
 
+use crate::testing::plans::{on, shipped};
 use crate::testing::table::{INPUTS, frame, right, set};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Plan, Work};
-use framewright_graph::verify::verify;
 
 /// A pipeline whose last pass samples `source`, which is `image` without its name.
 fn pipeline(image: &str, source: &str) -> String {
@@ -63,10 +63,7 @@ fn what_a_shader_declares_follows_from_what_the_pass_gives() {
 }
 
 fn planned(text: &str, inputs: &Inputs<'_>, device: &Profile) -> Plan {
-    let plan = compile(&right(text, inputs), device, &mut Estimated(device), &Options::default());
-    let plan = plan.unwrap_or_else(|wrong| panic!("{wrong:?}"));
-    assert_eq!(verify(&plan), []);
-    plan
+    on(&right(text, inputs), device).unwrap_or_else(|wrong| panic!("{wrong:?}"))
 }
 
 /// What the Plan has the shader of its last step declare.
@@ -77,8 +74,7 @@ fn in_plan(plan: &Plan) -> Option<String> {
 }
 
 fn lavapipe() -> Profile {
-    let (_, text) = SHIPPED_PROFILES.iter().find(|(name, _)| *name == "lavapipe").expect("it is shipped");
-    Profile::from_ron(text).expect("shipped profiles are read")
+    shipped("lavapipe")
 }
 
 /// Cleared by a draw, since what is multisampled isn't filled.

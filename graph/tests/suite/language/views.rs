@@ -1,8 +1,9 @@
 //! Views: parts of a frame that have their own size, camera, allowances and values of settings.
 
+use crate::testing::plans::shipped;
 use crate::testing::table::{INPUTS, right, set, wrong};
 use framewright_graph::compile::{Compiler, Options, compile};
-use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
+use framewright_graph::device::Estimated;
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Frame, Image, Pass};
 use framewright_graph::jitter::Jitter;
@@ -176,7 +177,7 @@ fn a_view_is_shifted_by_parts_of_a_texel_of_what_is_drawn() {
 
 #[test]
 fn a_compiler_that_remembers_the_last_frame_takes_over_how_views_are_shifted() {
-    let device = Arc::new(Profile::from_ron(SHIPPED_PROFILES[0].1).expect("a shipped profile"));
+    let device = Arc::new(shipped("amd-rx-7800-xt"));
     let mut compiler = Compiler::new();
     for jitter in ["4", "8", "8, jitter_size: Scaled(0.5)", "2"] {
         let frame = Arc::new(right(&pipeline(&format!("size: Fixed(320, 200), jitter: {jitter}"), "", ""), &INPUTS));

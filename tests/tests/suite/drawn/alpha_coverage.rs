@@ -1,7 +1,7 @@
 //! What masked materials cover of a pixel is held against its twin, and drawn (NU-5, IQ-6).
 
 use framewright_passes::twin::alpha_coverage::covered_by;
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, render, rgba};
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
 
@@ -12,10 +12,8 @@ fn what_is_covered_is_that_of_the_twin_over_the_whole_range() -> Result<(), Box<
     let scene = empty_scene();
     let setup = Setup { pipeline: "tests/pipelines/coverage.ron", set: &[], scene: &scene, extent: [8, 8] };
     let output = render(device, &setup)?.swap_remove(0);
-    let (words, _) = output.bytes.as_chunks::<4>();
-    let floats: Vec<f64> = words.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect();
     let mut between = 0;
-    for [found, alpha, cutoff, width] in floats.as_chunks::<4>().0 {
+    for [found, alpha, cutoff, width] in &rgba(&output) {
         let expected = covered_by(*alpha, *cutoff, *width);
         // Two roundings of a quotient of up to 10⁴, and Vulkan's division, which may be 2.5 units off.
         assert!(

@@ -4,7 +4,7 @@
 use framewright_passes::twin::bloom::{mixed, shrunk, tent};
 use framewright_passes::twin::filters::gauss;
 use framewright_passes::twin::radiance::LARGEST_HALF;
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, floats, render};
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
 
@@ -52,8 +52,7 @@ fn filtered(radius: &str, share: &str) -> Result<Option<Filtered>, Box<dyn Error
     let scene = empty_scene();
     let setup = Setup { pipeline: "tests/pipelines/bloom.ron", set: &set, scene: &scene, extent: [8, 8] };
     let images = render(device, &setup)?.into_iter().map(|output| {
-        let (words, _) = output.bytes.as_chunks::<4>();
-        let channels = words.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect();
+        let channels = floats(&output);
         let [width, height, _] = output.extent.map(u32::cast_signed);
         Image { width, height, channels }
     });

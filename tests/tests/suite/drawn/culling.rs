@@ -1,13 +1,11 @@
 //! Objects that no pass shows are left out: the pictures stay as they are, bit by bit.
 
 use framewright_graph::compile::Options;
-use framewright_graph::root::Root;
-use framewright_passes::draw::{SceneDrawSource, interface};
+use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::{Camera, Scene, load};
-use framewright_passes::shipped::SHADERS;
-use framewright_tests::render::{Setup, device, in_repository, plan, silent};
+use framewright_tests::render::{Setup, device, in_repository, library, plan, silent};
 use framewright_tests::shapes::{material, scene, square};
-use framewright_vulkan::{Executor, ExecutorOptions, FrameReport, ShaderLibrary};
+use framewright_vulkan::{Executor, ExecutorOptions, FrameReport};
 use glam::{DVec3, Mat4, Vec3};
 use std::error::Error;
 
@@ -22,7 +20,7 @@ struct Drawn {
 
 fn drawn(pipeline: &str, scene: &Scene, culling: bool) -> Result<Option<Drawn>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
-    let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
+    let mut shaders = library();
     let setup = Setup { pipeline, set: &[], scene, extent: EXTENT };
     let plan = plan(device, &setup, &mut shaders, &Options::default())?;
     let mut source = SceneDrawSource::for_plan(device, scene, EXTENT, &plan)?;

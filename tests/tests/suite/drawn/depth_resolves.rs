@@ -1,7 +1,7 @@
 //! Shaders that make one depth of a texel's samples are held against what the samples are (IQ-10, IQ-14).
 
 use framewright_passes::twin::depth_samples::{greatest_depth, least_depth, mean_depth};
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, floats, render};
 use framewright_tests::shapes::{material, scene, sphere, square};
 use glam::{Mat4, Vec3};
 use std::error::Error;
@@ -17,10 +17,7 @@ fn resolved() -> Result<Option<Resolved>, Box<dyn Error>> {
     let objects = vec![(0, 0, floor), (0, 0, tilted), (1, 0, Mat4::from_translation(Vec3::new(-1.0, 0.5, 0.5)))];
     let scene = scene(vec![square(), sphere(16)], vec![material([1.0; 4])], objects);
     let setup = Setup { pipeline: "tests/pipelines/depth_resolves.ron", set: &[], scene: &scene, extent: [67, 45] };
-    let outputs = render(device, &setup)?.into_iter().map(|output| {
-        let (words, _) = output.bytes.as_chunks::<4>();
-        words.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect()
-    });
+    let outputs = render(device, &setup)?.into_iter().map(|output| floats(&output));
     let outputs: Vec<Vec<f64>> = outputs.collect();
     let [samples, zero, least, greatest, mean] = &outputs[..] else { return Err("not five outputs".into()) };
     let samples = samples.as_chunks::<4>().0.iter();

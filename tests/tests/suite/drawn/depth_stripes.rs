@@ -3,7 +3,7 @@
 
 use framewright_passes::scene::Scene;
 use framewright_passes::twin::effects::stripe;
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, floats, render};
 use framewright_tests::shapes::{material, scene, sphere, square};
 use glam::{Mat4, Vec3};
 use std::error::Error;
@@ -24,10 +24,7 @@ fn striped(msaa: &str, period: &str) -> Result<Option<Striped>, Box<dyn Error>> 
     let Some(device) = device() else { return Ok(None) };
     let (set, scene) = ([("msaa", msaa), ("period", period)], floor_and_sphere());
     let setup = Setup { pipeline: "tests/pipelines/depth_stripes.ron", set: &set, scene: &scene, extent: [67, 45] };
-    let channels = render(device, &setup)?.into_iter().map(|output| {
-        let (words, _) = output.bytes.as_chunks::<4>();
-        words.iter().step_by(4).map(|word| f64::from(f32::from_ne_bytes(*word))).collect()
-    });
+    let channels = render(device, &setup)?.into_iter().map(|output| floats(&output).into_iter().step_by(4).collect());
     let red: Vec<Vec<f64>> = channels.collect();
     let [depth, blended, copied] = &red[..] else { return Err("not three outputs".into()) };
     Ok(Some((0..depth.len()).map(|at| (depth[at], [blended[at], copied[at]])).collect()))

@@ -1,11 +1,9 @@
 //! Images that change their size from frame to frame are used in part, and show what images of that size would (IQ-1).
 
 use framewright_graph::compile::Options;
-use framewright_graph::root::Root;
-use framewright_passes::draw::{SceneDrawSource, interface};
+use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::{AlphaMode, Material, Scene};
-use framewright_passes::shipped::SHADERS;
-use framewright_tests::render::{Setup, device, draw, in_repository, plan, silent};
+use framewright_tests::render::{Setup, device, draw, library, plan, silent};
 use framewright_tests::shapes::{material, scene, sphere, square};
 use framewright_vulkan::{Device, Error as Failed, Executor, ExecutorOptions, ShaderLibrary};
 use glam::{Mat4, Vec3};
@@ -124,7 +122,7 @@ fn the_scale_changes_in_every_frame_and_nothing_is_made_anew_for_it() -> Result<
     let Some(device) = device() else { return Ok(()) };
     let _alone = DEVICE_IN_USE.lock();
     let yard = yard();
-    let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
+    let mut shaders = library();
     let planned = |scale, shaders: &mut ShaderLibrary| {
         let setup = Setup { pipeline: PIPELINE, set: &[("scale", scale)], scene: &yard, extent: EXTENT };
         plan(device, &setup, shaders, &poisoned())
@@ -160,7 +158,7 @@ fn parameters_change_between_frames_in_flight_and_more_than_values_is_refused() 
     let Some(device) = device() else { return Ok(()) };
     let _alone = DEVICE_IN_USE.lock();
     let yard = yard();
-    let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
+    let mut shaders = library();
     let planned = |set: &[(&str, &str)], shaders: &mut ShaderLibrary| {
         plan(device, &Setup { pipeline: PIPELINE, set, scene: &yard, extent: EXTENT }, shaders, &poisoned())
     };

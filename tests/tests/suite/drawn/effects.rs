@@ -4,9 +4,8 @@ use framewright_graph::compile::Options;
 use framewright_passes::twin::bloom::tent;
 use framewright_passes::twin::effects::{grain, over_bright, vignette};
 use framewright_passes::twin::radiance::guard_radiance;
-use framewright_tests::render::{Setup, device, draw, render, silent};
+use framewright_tests::render::{Setup, device, draw, render, rgb, silent};
 use framewright_tests::shapes::empty_scene;
-use framewright_vulkan::Texels;
 use std::error::Error;
 
 const EXTENT: [usize; 2] = [64, 48];
@@ -14,12 +13,6 @@ const EXTENT: [usize; 2] = [64, 48];
 const BRIGHTEST: [f64; 3] = [1.0, 60000.0, 1000.0];
 
 type Picture = Vec<[f64; 3]>;
-
-fn picture(output: &Texels) -> Picture {
-    let (words, _) = output.bytes.as_chunks::<4>();
-    let floats: Vec<f64> = words.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect();
-    floats.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
-}
 
 const PIPELINE: &str = "tests/pipelines/effects.ron";
 
@@ -29,12 +22,12 @@ fn drawn(frame: u32, strength: &str, amount: &str) -> Result<Option<Vec<Picture>
     let (set, scene) = ([("strength", strength), ("amount", amount)], empty_scene());
     let setup = Setup { pipeline: PIPELINE, set: &set, scene: &scene, extent: [8, 8] };
     if frame == 1 {
-        return Ok(Some(render(device, &setup)?.iter().map(picture).collect()));
+        return Ok(Some(render(device, &setup)?.iter().map(rgb).collect()));
     }
     let (plan, mut executor) = draw(device, &setup, &Options::default(), frame)?;
     let outputs: Result<Vec<_>, _> = (0..plan.outputs.len()).map(|output| executor.read(output)).collect();
     silent(device)?;
-    Ok(Some(outputs?.iter().map(picture).collect()))
+    Ok(Some(outputs?.iter().map(rgb).collect()))
 }
 
 #[test]

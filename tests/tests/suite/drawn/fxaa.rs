@@ -1,7 +1,7 @@
 //! FXAA leaves alone what is flat, smooths what is hard, and is its twin (NU-5).
 
 use framewright_passes::twin::fxaa::fxaa;
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, render, rgb};
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
 
@@ -14,11 +14,7 @@ fn smoothed(set: &[(&str, &str)]) -> Result<Option<[Picture; 4]>, Box<dyn Error>
     let Some(device) = device() else { return Ok(None) };
     let (scene, extent) = (empty_scene(), EXTENT.map(|side| side as u32));
     let setup = Setup { pipeline: "tests/pipelines/fxaa.ron", set, scene: &scene, extent };
-    let pictures = render(device, &setup)?.into_iter().map(|output| {
-        let (words, _) = output.bytes.as_chunks::<4>();
-        let floats: Vec<f64> = words.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect();
-        floats.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
-    });
+    let pictures = render(device, &setup)?.into_iter().map(|output| rgb(&output));
     let pictures: Vec<Picture> = pictures.collect();
     Ok(Some(pictures.try_into().map_err(|_| "not four outputs")?))
 }

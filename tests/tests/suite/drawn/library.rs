@@ -2,7 +2,7 @@
 
 use framewright_passes::twin::filters::gauss;
 use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, render, rgb};
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
 
@@ -19,11 +19,7 @@ fn drawn(times: &str, radius: &str) -> Result<Option<Vec<Picture>>, Box<dyn Erro
     let Some(device) = device() else { return Ok(None) };
     let (set, scene) = ([("times", times), ("radius", radius)], empty_scene());
     let setup = Setup { pipeline: "tests/pipelines/library.ron", set: &set, scene: &scene, extent: [8, 8] };
-    let pictures = render(device, &setup)?.into_iter().map(|output| {
-        let (words, _) = output.bytes.as_chunks::<4>();
-        let floats: Vec<f64> = words.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect();
-        floats.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
-    });
+    let pictures = render(device, &setup)?.into_iter().map(|output| rgb(&output));
     Ok(Some(pictures.collect()))
 }
 

@@ -1,7 +1,7 @@
 //! The debug overlay: what stands in its rectangle, and that nothing changes around it.
 
 use framewright_passes::twin::overlay::{shade_of_distance, shade_of_signed};
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, render, rgba};
 use framewright_tests::shapes::{empty_scene, material, scene, square};
 use glam::{Mat4, Vec3};
 use std::error::Error;
@@ -70,10 +70,9 @@ fn one_component_is_shown_as_grey_and_values_of_either_sign_around_grey() -> Res
     let scene = empty_scene();
     let setup = Setup { pipeline: "tests/pipelines/overlay_channels.ron", set: &[], scene: &scene, extent: [8, 4] };
     let output = render(device, &setup)?.swap_remove(0);
-    let (words, _) = output.bytes.as_chunks::<4>();
-    let floats: Vec<f64> = words.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect();
+    let texels = rgba(&output);
     let signed = [-0.5, 0.5, -3.0].map(|value| shade_of_signed(value, 1.0));
-    for (at, texel) in floats.as_chunks::<4>().0.iter().enumerate() {
+    for (at, texel) in texels.iter().enumerate() {
         let expected = match (at % 8, at / 8) {
             (_, 2..) => [0.0; 3],
             // 0.2 of 255 steps is a whole number of them.

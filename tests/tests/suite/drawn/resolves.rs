@@ -3,7 +3,7 @@
 use framewright_passes::twin::radiance::guard_radiance;
 use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
 use framewright_passes::twin::weighted_resolve::{compressed, expanded, mean_compressed, weighted_mean};
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, render, rgb};
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
 
@@ -22,11 +22,7 @@ fn resolved(operator: &str) -> Result<Option<Resolved>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
     let (set, scene) = ([("operator", operator)], empty_scene());
     let setup = Setup { pipeline: "tests/pipelines/resolves.ron", set: &set, scene: &scene, extent: [8, 8] };
-    let pictures = render(device, &setup)?.into_iter().map(|output| {
-        let (words, _) = output.bytes.as_chunks::<4>();
-        let floats: Vec<f64> = words.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect();
-        floats.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
-    });
+    let pictures = render(device, &setup)?.into_iter().map(|output| rgb(&output));
     let pictures: Vec<Picture> = pictures.collect();
     let [a, b, c, d, weighted, small, shown, inserted] =
         <[Picture; 8]>::try_from(pictures).map_err(|_| "not eight outputs")?;

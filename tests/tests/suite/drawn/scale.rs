@@ -1,7 +1,7 @@
 //! Each filter of the final scale is held against its definition at scales from 0.25 to 4 and odd sizes (IQ-1, IQ-4, NU-5).
 
 use framewright_passes::twin::scale::{area, bilinear, catmull_rom, middle, sharpened};
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, floats, render};
 use framewright_tests::shapes::empty_scene;
 use framewright_vulkan::Texels;
 use std::error::Error;
@@ -21,10 +21,9 @@ impl Image {
     /// Of 32-bit floats, or of 8 bits in their own steps.
     fn of(output: &Texels, eight_bits: bool) -> Image {
         let [width, height, _] = output.extent;
-        let (words, _) = output.bytes.as_chunks::<4>();
         let channels = match eight_bits {
             true => output.bytes.iter().map(|byte| f64::from(*byte)).collect(),
-            false => words.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect(),
+            false => floats(output),
         };
         Image { extent: [width, height], channels }
     }

@@ -4,7 +4,7 @@
 use framewright_graph::compile::Options;
 use framewright_passes::scene::{Movement, Scene};
 use framewright_passes::twin::weighted_resolve::{compressed, weighted_mean};
-use framewright_tests::render::{Setup, device, floats, ready, silent};
+use framewright_tests::render::{Setup, device, ready, rgb, silent};
 use framewright_tests::shapes::{material, scene, sphere, square};
 use framewright_vulkan::{Device, ExecutorOptions};
 use glam::{DVec3, Mat4, Vec3};
@@ -36,10 +36,7 @@ fn frames(
     for number in 0..count {
         executor.frame(&mut source)?;
         if number + kept >= count {
-            let [drawn, steady] = [executor.read(0)?, executor.read(1)?].map(|texels| {
-                let channels = floats(&texels);
-                channels.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
-            });
+            let [drawn, steady] = [executor.read(0)?, executor.read(1)?].map(|texels| rgb(&texels));
             frames.push(Frame { drawn, steady });
         }
     }

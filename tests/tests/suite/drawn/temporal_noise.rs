@@ -1,7 +1,7 @@
 //! The shader of temporal anti-aliasing is held against its twin, over noise (NU-5).
 
 use framewright_passes::twin::temporal::{allowed_history, mixed};
-use framewright_tests::render::{Setup, device, floats, render};
+use framewright_tests::render::{Setup, device, render, rgb};
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
 
@@ -14,10 +14,7 @@ fn mixed_noise(set: &[(&str, &str)]) -> Result<Option<[Picture; 3]>, Box<dyn Err
     let Some(device) = device() else { return Ok(None) };
     let scene = empty_scene();
     let setup = Setup { pipeline: "tests/pipelines/temporal.ron", set, scene: &scene, extent: [8, 8] };
-    let pictures = render(device, &setup)?.into_iter().map(|output| {
-        let texels = floats(&output);
-        texels.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
-    });
+    let pictures = render(device, &setup)?.into_iter().map(|output| rgb(&output));
     let pictures: Vec<Picture> = pictures.collect();
     Ok(Some(pictures.try_into().map_err(|_| "not three outputs")?))
 }

@@ -2,7 +2,7 @@
 
 use framewright_passes::twin::radiance::guard_radiance;
 use framewright_passes::twin::tone_mapping::{filmic, modified_reinhard, neutral, reinhard};
-use framewright_tests::render::{Setup, device, render};
+use framewright_tests::render::{Setup, device, render, rgb};
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
 
@@ -30,11 +30,7 @@ fn shown(operator: &str, exposure: &str, white_point: &str) -> Result<Option<Tex
     let scene = empty_scene();
     let setup = Setup { pipeline: "tests/pipelines/tone_mapping.ron", set: &set, scene: &scene, extent: [8, 8] };
     let outputs = render(device, &setup)?;
-    let texels = |output: usize| -> Vec<[f64; 3]> {
-        let (words, _) = outputs[output].bytes.as_chunks::<4>();
-        let floats: Vec<f64> = words.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect();
-        floats.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
-    };
+    let texels = |output: usize| rgb(&outputs[output]);
     Ok(Some(texels(0).into_iter().zip(texels(3)).map(|(light, found)| [light, found]).collect()))
 }
 

@@ -63,13 +63,9 @@ mod samples;
 
 use framewright_graph::compile::Options;
 use framewright_graph::plan::{Image, Plan, Work};
-use framewright_graph::root::Root;
-use framewright_passes::draw::interface;
 use framewright_passes::scene::{AlphaMode, Material, Scene};
-use framewright_passes::shipped::SHADERS;
-use framewright_tests::render::{self, Setup, device, in_repository};
+use framewright_tests::render::{self, Setup, device, library};
 use framewright_tests::shapes::{material, scene, square};
-use framewright_vulkan::ShaderLibrary;
 use glam::{Mat4, Vec3};
 use std::error::Error;
 
@@ -103,7 +99,7 @@ fn shining_behind_glass(emissive: [f32; 3]) -> Scene {
 /// The Plan of a pipeline for the device here, demoted or as the file says.
 fn plan_of(pipeline: &str, set: Set<'_>, scene: &Scene, demote: bool) -> Result<Option<Plan>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
-    let mut shaders = ShaderLibrary::new(vec![Root::new(in_repository("tests/shaders"))], SHADERS, interface);
+    let mut shaders = library();
     let setup = Setup { pipeline, set, scene, extent: [65, 47] };
     render::plan(device, &setup, &mut shaders, &Options { demote, ..Options::default() }).map(Some)
 }

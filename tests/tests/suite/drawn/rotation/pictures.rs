@@ -6,6 +6,7 @@ use framewright_graph::plan::{Plan, Resource};
 use framewright_graph::rotation::Rotation;
 use framewright_passes::scene::load;
 use framewright_tests::render::{Setup, device, draw_rotated, in_repository, silent};
+use framewright_tests::sweep;
 use framewright_vulkan::{Device, Texels};
 use std::error::Error;
 
@@ -89,7 +90,8 @@ fn every_shipped_pipeline_shows_the_same_rotated() -> Result<(), Box<dyn Error>>
     let shipped = all_shipped()?;
     // In three frames what is kept from frame to frame shows.
     let cases = shipped.iter().map(|name| (&**name, &[][..], 3, 0)).chain(CASES);
-    for (case, extent) in cases.flat_map(|case| [EVEN, EXTENT].map(|extent| (case, extent))) {
+    let cases = cases.flat_map(|case| [EVEN, EXTENT].map(|extent| (case, extent)));
+    for (case, extent) in sweep::of(cases.collect(), 14) {
         let (upright, expected) = shown(device, case, extent, Rotation::Identity)?;
         assert!(
             expected.bytes.chunks(4).collect::<std::collections::BTreeSet<_>>().len() > 100,

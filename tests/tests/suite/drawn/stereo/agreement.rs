@@ -6,6 +6,7 @@ use framewright_passes::draw::Eyes;
 use framewright_passes::scene::load;
 use framewright_tests::render::{device, in_repository};
 use framewright_tests::shapes::empty_scene;
+use framewright_tests::sweep;
 use framewright_vulkan::Device;
 use std::collections::BTreeSet;
 use std::error::Error;
@@ -81,11 +82,7 @@ fn ways(device: &Device, case: Shipped<'_>, extent: [u32; 2]) -> Result<Vec<Way>
 }
 
 /// Fails if more than `most` pixels of an eye are off in halves, or more than `away` away from edges; or one in layers.
-fn agree<'a>(
-    device: &Device,
-    cases: impl IntoIterator<Item = (Shipped<'a>, [u32; 2], usize)>,
-    away: usize,
-) -> Result<(), Box<dyn Error>> {
+fn agree<'a>(device: &Device, cases: Vec<(Shipped<'a>, [u32; 2], usize)>, away: usize) -> Result<(), Box<dyn Error>> {
     let (mut found, mut wrong) = (Vec::new(), false);
     for (case, extent, most) in cases {
         for Way { stereo, form, off } in ways(device, case, extent)? {
@@ -111,7 +108,8 @@ fn every_shipped_pipeline_shows_each_eye_what_it_sees_alone() -> Result<(), Box<
     let even = CASES.iter().enumerate();
     let even = even.filter(|(at, case)| *at == 0 || CASES[at - 1].0 != case.0 || case.4 == BY_PLACE);
     let even = even.map(|(_, case)| (*case, EVEN, if case.4 == BY_PLACE { 6 } else { case.4 }));
-    agree(device, CASES.iter().map(|case| (*case, EXTENT, case.4)).chain(even), 0)
+    let cases = CASES.iter().map(|case| (*case, EXTENT, case.4)).chain(even);
+    agree(device, sweep::of(cases.collect(), 12), 0)
 }
 
 /// ST-14: of pictures with 39 times as many pixels, by the settings that differ most. docs/stereo.md has the numbers of all.
@@ -119,16 +117,18 @@ fn every_shipped_pipeline_shows_each_eye_what_it_sees_alone() -> Result<(), Box<
 fn larger_pictures_agree_too() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let blurred = |case: &&Shipped<'_>| case.1.contains(&("blur", "3"));
-    agree(device, CASES.iter().filter(blurred).map(|case| (*case, LARGE, MOST_OF_LARGE)), 0)
+    agree(device, CASES.iter().filter(blurred).map(|case| (*case, LARGE, MOST_OF_LARGE)).collect(), 0)
 }
 
-/// Prints what docs/stereo.md says of larger pictures.
+/// Prints what docs/stereo.md says of larger pictures. Only with `FRAMEWRIGHT_LONG`: it takes several minutes.
 #[test]
-#[ignore = "takes several minutes"]
 fn all_larger_pictures_agree_too() -> Result<(), Box<dyn Error>> {
+    if !sweep::is_long() {
+        return Ok(());
+    }
     let Some(device) = device() else { return Ok(()) };
     let most = |case: &Shipped<'_>| if case.4 == BY_PLACE { 39 * BY_PLACE } else { MOST_OF_LARGE };
-    agree(device, CASES.iter().map(|case| (*case, LARGE, most(case))), 3)
+    agree(device, CASES.iter().map(|case| (*case, LARGE, most(case))).collect(), 3)
 }
 
 #[test]
