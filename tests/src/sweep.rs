@@ -33,14 +33,7 @@ pub fn row(all: Range<u64>, few: u64) -> Range<u64> {
         return all;
     }
     say(few, count);
-    let first = all.start + mixed(seed()) % (count - few + 1);
-    first..first + few
-}
-
-/// How many random cases are tested: `all`, or `few`.
-#[must_use]
-pub fn count(all: u32, few: u32) -> u32 {
-    if is_long() { all } else { few }
+    part(all, few, seed())
 }
 
 /// Places of the cases that are tested, in rising order.
@@ -65,6 +58,12 @@ fn sample(count: usize, few: usize, seed: u64) -> Vec<usize> {
     places.truncate(few);
     places.sort_unstable();
     places
+}
+
+/// `few` numbers of a longer row, from a place that a seed chooses.
+const fn part(all: Range<u64>, few: u64, seed: u64) -> Range<u64> {
+    let first = all.start + mixed(seed) % (all.end - all.start - few + 1);
+    first..first + few
 }
 
 /// SplitMix64's mixing of a number.
@@ -100,5 +99,13 @@ mod tests {
     fn every_case_is_chosen_by_some_seed() {
         let all: BTreeSet<usize> = (0..200).flat_map(|seed| sample(40, 4, seed)).collect();
         assert_eq!(all, (0..40).collect());
+    }
+
+    #[test]
+    fn every_number_of_a_row_is_in_the_part_that_some_seed_chooses_and_no_other() {
+        let all: BTreeSet<u64> = (0..200).flat_map(|seed| part(10..30, 4, seed)).collect();
+        assert_eq!(all, (10..30).collect());
+        assert_eq!(part(10..30, 4, 7).count(), 4);
+        assert_eq!(part(10..30, 4, 7), part(10..30, 4, 7));
     }
 }

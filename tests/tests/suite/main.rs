@@ -5,6 +5,7 @@ mod drawn;
 mod hand_written_plans;
 mod happens_before;
 mod mutation;
+mod programs;
 mod queues;
 mod random_pipelines;
 mod random_plans;

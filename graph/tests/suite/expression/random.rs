@@ -1,7 +1,6 @@
 //! Random expressions against values that are calculated on their trees, and random texts.
 
 use crate::expression::world::{ANY, World};
-use crate::testing::sweep;
 use framewright_graph::describe::render;
 use framewright_graph::expression::{Expression, Parsed, Type, Value};
 use framewright_graph::source::{Sources, Span};
@@ -419,7 +418,7 @@ fn goes_through(text: &str) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(sweep::count(1500, 400)) })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1500) })]
 
     #[test]
     fn random_expressions_come_to_what_their_trees_do(

@@ -1,6 +1,5 @@
 //! Whatever a file holds, reading it ends in a pipeline or in mistakes that can be shown.
 
-use crate::testing::sweep;
 use crate::testing::table::{INPUTS, Table, shipped};
 use framewright_graph::describe;
 use framewright_graph::expand::expand;
@@ -68,7 +67,7 @@ const PIECES: &[&str] = &[
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(sweep::count(400, 100)) })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
 
     #[test]
     fn any_bytes_are_answered(bytes in proptest::collection::vec(any::<u8>(), 0..200)) {

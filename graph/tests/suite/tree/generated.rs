@@ -1,6 +1,5 @@
 //! Texts that are made at random, or changed so.
 
-use crate::testing::sweep;
 use crate::tree::judge::judge;
 use crate::tree::{ours, shipped};
 use proptest::prelude::*;
@@ -60,7 +59,7 @@ fn changed(text: &str, changes: &[(f64, usize, String)]) -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: sweep::count(2000, 400), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn generated_ron_is_read_as_ron_reads_it(text in value()) {
@@ -86,7 +85,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: sweep::count(300, 60), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn changed_files_are_read_or_refused_as_ron_does(file in any::<prop::sample::Index>(), changes in changes()) {
