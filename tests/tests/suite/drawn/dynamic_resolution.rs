@@ -3,19 +3,16 @@
 use framewright_graph::compile::Options;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::{AlphaMode, Material, Scene};
-use framewright_tests::render::{Setup, device, draw, library, plan, silent};
+use framewright_tests::render::{Setup, device, draw, library, own_device, plan, silent};
 use framewright_tests::shapes::{material, scene, sphere, square};
+use framewright_tests::sweep;
 use framewright_vulkan::{Device, Error as Failed, Executor, ExecutorOptions, ShaderLibrary};
 use glam::{Mat4, Vec3};
 use std::error::Error;
-use std::sync::Mutex;
 
 const PIPELINE: &str = "tests/pipelines/dynamic_resolution.ron";
 const EXTENT: [u32; 2] = [67, 45];
 const SCALES: [&str; 7] = ["0.25", "1", "0.5", "0.9", "0.2", "0.71", "0.99"];
-
-/// One test counts what the device has, so no other may take any of it meanwhile.
-static DEVICE_IN_USE: Mutex<()> = Mutex::new(());
 
 /// Edges before one another and before nothing, up to the right and the lower border, and something to see through.
 fn yard() -> Scene {
@@ -80,19 +77,17 @@ fn difference(one: &[u8], other: &[u8]) -> (u8, usize) {
 #[test]
 fn a_part_shows_what_an_image_of_its_size_would_and_nothing_of_what_lies_beyond() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
-    let _alone = DEVICE_IN_USE.lock();
     let yard = yard();
-    for scale in SCALES {
-        for (filter, soft) in [("nearest", "false"), ("area", "false"), ("catmull_rom", "false"), ("bilinear", "true")]
-        {
-            let set = |largest| [("scale", scale), ("largest", largest), ("filter", filter), ("soft", soft)];
-            let part = alone(device, &yard, &set("1.2"))?;
-            let whole = alone(device, &yard, &set(scale))?;
-            assert!(part.1 == whole.1, "{scale}: other texels were counted");
-            let (most, channels) = difference(&part.0, &whole.0);
-            let bound = if soft == "true" { 1 } else { 0 };
-            assert!(most <= bound, "{scale}, {filter}: {channels} channels differ by up to {most}");
-        }
+    let filters = [("nearest", "false"), ("area", "false"), ("catmull_rom", "false"), ("bilinear", "true")];
+    let cases = SCALES.iter().flat_map(|scale| filters.map(|filter| (*scale, filter)));
+    for (scale, (filter, soft)) in sweep::of(cases.collect(), 10) {
+        let set = |largest| [("scale", scale), ("largest", largest), ("filter", filter), ("soft", soft)];
+        let part = alone(device, &yard, &set("1.2"))?;
+        let whole = alone(device, &yard, &set(scale))?;
+        assert!(part.1 == whole.1, "{scale}: other texels were counted");
+        let (most, channels) = difference(&part.0, &whole.0);
+        let bound = if soft == "true" { 1 } else { 0 };
+        assert!(most <= bound, "{scale}, {filter}: {channels} channels differ by up to {most}");
     }
     Ok(())
 }
@@ -103,7 +98,6 @@ fn a_part_shows_what_an_image_of_its_size_would_and_nothing_of_what_lies_beyond(
 #[test]
 fn what_lies_beyond_makes_no_difference_however_small_the_part() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
-    let _alone = DEVICE_IN_USE.lock();
     let (yard, mut smallest) = (yard(), 0);
     for (scale, extent) in
         [("0.37", [61, 43]), ("0.3333", [63, 37]), ("0.25", [64, 64]), ("0.37", [64, 160]), ("0.75", EXTENT)]
@@ -119,8 +113,8 @@ fn what_lies_beyond_makes_no_difference_however_small_the_part() -> Result<(), B
 
 #[test]
 fn the_scale_changes_in_every_frame_and_nothing_is_made_anew_for_it() -> Result<(), Box<dyn Error>> {
-    let Some(device) = device() else { return Ok(()) };
-    let _alone = DEVICE_IN_USE.lock();
+    let Some(device) = own_device() else { return Ok(()) };
+    let device = &device;
     let yard = yard();
     let mut shaders = library();
     let planned = |scale, shaders: &mut ShaderLibrary| {
@@ -156,7 +150,6 @@ fn the_scale_changes_in_every_frame_and_nothing_is_made_anew_for_it() -> Result<
 #[test]
 fn parameters_change_between_frames_in_flight_and_more_than_values_is_refused() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
-    let _alone = DEVICE_IN_USE.lock();
     let yard = yard();
     let mut shaders = library();
     let planned = |set: &[(&str, &str)], shaders: &mut ShaderLibrary| {
