@@ -89,7 +89,8 @@ run() {
         done
         shift
         exec chroot "$root" env --chdir="$here" "$@"
-    ' - "$root" "$PWD" "$top" ${CARGO_TARGET_DIR:+"$CARGO_TARGET_DIR"} /tmp $(current_layer) -- "$@"
+    ' - "$root" "$PWD" "$top" ${CARGO_TARGET_DIR:+"$CARGO_TARGET_DIR"} \
+        ${MESA_SHADER_CACHE_DIR:+"$MESA_SHADER_CACHE_DIR"} /tmp $(current_layer) -- "$@"
 }
 
 # The current validation layer comes from outside: it needs nothing but the C library.

@@ -1,8 +1,8 @@
 //! A device that doesn't answer in time, or that is no longer waited for. A test binary of its own: the device is given up with its work unfinished.
 
-mod common;
+mod testing;
 
-use common::plans::resolve_then_sample;
+use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::shader::DrawInterface;
 use framewright_graph::vulkan::{Aspects, Format};
@@ -10,6 +10,7 @@ use framewright_vulkan::{DrawSource, Error, Executor, ExecutorOptions, Recorder,
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
+use testing::plans::resolve_then_sample;
 
 const SHADERS: &[(&str, &str)] = &[
     (
@@ -56,7 +57,7 @@ impl DrawSource for Busy {
 
 #[test]
 fn a_frame_that_takes_too_long_is_an_error_and_the_device_is_given_up() {
-    let Some(device) = common::open() else { return };
+    let Some(device) = testing::open() else { return };
     let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
     let plan = resolve_then_sample(&device, ("white", Draw::Objects(DrawList::Opaque)), "show");
     let options = ExecutorOptions { timeout: Duration::from_millis(1), ..ExecutorOptions::default() };
@@ -80,7 +81,7 @@ fn a_frame_that_takes_too_long_is_an_error_and_the_device_is_given_up() {
 
 #[test]
 fn a_wait_that_the_program_cancels_is_an_error_and_the_device_is_given_up() {
-    let Some(device) = common::open() else { return };
+    let Some(device) = testing::open() else { return };
     let stop = Arc::new(AtomicBool::new(false));
     let asked = stop.clone();
     device.cancel_when(move || asked.load(Ordering::Relaxed));

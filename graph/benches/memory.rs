@@ -2,7 +2,7 @@
 //! allocation, so times are measured by another bench.
 
 #[allow(dead_code, reason = "the other bench uses more of it")]
-#[path = "../tests/graphs/mod.rs"]
+#[path = "../tests/suite/testing/graphs.rs"]
 mod graphs;
 
 use framewright_graph::compile::{Compiler, Options, compile};

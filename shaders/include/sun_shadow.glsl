@@ -1,4 +1,4 @@
-// The share of the sun's light that no caster keeps away. tests/tests/shadows.rs holds it against rays to the sun.
+// The share of the sun's light that no caster keeps away. tests/tests/suite/drawn/shadows.rs holds it against rays to the sun.
 //
 // A shader that may be given shadow maps declares them before it includes this, one layer for each cascade:
 //

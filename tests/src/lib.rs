@@ -1,4 +1,4 @@
-//! What the tests of the whole share. The tests themselves are in `tests/tests`.
+//! What the tests of the whole share. The tests themselves are in `tests/tests/suite`.
 //!
 //! - [`frames`]: small frames built in memory.
 //! - [`happens_before`]: a brute-force judge of Plans.
@@ -9,6 +9,7 @@
 //! - [`render`]: a pipeline file and a scene become pictures.
 //! - [`shapes`]: simple scenes.
 //! - [`optima`]: what small frames cost at least.
+//! - [`sweep`]: all cases of a sweep, or a sample.
 //! - [`shipped`]: the shipped pipelines, as frames.
 //! - [`agreement`]: what the GPU drew, held against it.
 //! - [`drivers`]: the software drivers and validation layers of this machine.
@@ -25,3 +26,4 @@ pub mod raycast;
 pub mod render;
 pub mod shapes;
 pub mod shipped;
+pub mod sweep;

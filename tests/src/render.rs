@@ -18,28 +18,33 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
-/// The device that the tests of one binary share: `FRAMEWRIGHT_TEST_DEVICE` or the default. `None`, with a message, where
+/// The device that the tests of one program share: `FRAMEWRIGHT_TEST_DEVICE` or the default. `None`, with a message, where
 /// the machine has no driver or no validation layer that is awake; with `CI` set that is a failure.
 ///
 /// # Panics
 /// With `CI` set, if there is none.
 pub fn device() -> Option<&'static Device> {
     static DEVICE: OnceLock<Option<Device>> = OnceLock::new();
-    let open = || {
-        let choice = std::env::var("FRAMEWRIGHT_TEST_DEVICE").map_or(DeviceChoice::Default, DeviceChoice::Name);
-        let opened = Device::open(&DeviceOptions { choice, validation: true, ..DeviceOptions::default() });
-        // The layer's silence proves nothing before it has reported a planted mistake.
-        match opened.and_then(|device| device.canary().map(|_| device)) {
-            Ok(device) => Some(device),
-            Err(error) => {
-                let may_be_absent = error.blame() == Blame::Environment && std::env::var_os("CI").is_none();
-                assert!(may_be_absent, "{error}");
-                eprintln!("skipped: {error}");
-                None
-            }
+    DEVICE.get_or_init(own_device).as_ref()
+}
+
+/// The same device, opened anew: for a test that counts what the device holds.
+///
+/// # Panics
+/// With `CI` set, if there is none.
+pub fn own_device() -> Option<Device> {
+    let choice = std::env::var("FRAMEWRIGHT_TEST_DEVICE").map_or(DeviceChoice::Default, DeviceChoice::Name);
+    let opened = Device::open(&DeviceOptions { choice, validation: true, ..DeviceOptions::default() });
+    // The layer's silence proves nothing before it has reported a planted mistake.
+    match opened.and_then(|device| device.canary().map(|_| device)) {
+        Ok(device) => Some(device),
+        Err(error) => {
+            let may_be_absent = error.blame() == Blame::Environment && std::env::var_os("CI").is_none();
+            assert!(may_be_absent, "{error}");
+            eprintln!("skipped: {error}");
+            None
         }
-    };
-    DEVICE.get_or_init(open).as_ref()
+    }
 }
 
 /// What is rendered.
@@ -189,6 +194,18 @@ pub fn library() -> ShaderLibrary {
 #[must_use]
 pub fn floats(texels: &Texels) -> Vec<f64> {
     texels.bytes.as_chunks::<4>().0.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect()
+}
+
+/// Texels of four such numbers each.
+#[must_use]
+pub fn rgba(texels: &Texels) -> Vec<[f64; 4]> {
+    floats(texels).as_chunks::<4>().0.to_vec()
+}
+
+/// Their red, green and blue.
+#[must_use]
+pub fn rgb(texels: &Texels) -> Vec<[f64; 3]> {
+    rgba(texels).into_iter().map(|[r, g, b, _]| [r, g, b]).collect()
 }
 
 /// That the validation layer found nothing.

@@ -9,7 +9,8 @@ use framewright_graph::vulkan::Rotation;
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::ShaderLibrary;
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex};
 
 /// A frame and how it came about.
 pub struct ShippedFrame {
@@ -50,12 +51,19 @@ fn combinations(pipeline: &Document) -> Vec<Vec<(String, String)>> {
     })
 }
 
-/// All frames of all shipped pipelines, with everything in the scene and with nothing but opaque objects.
+/// All frames of all shipped pipelines, with everything in the scene and with nothing but opaque objects. They are made once
+/// for each extent.
 ///
 /// # Panics
 /// If a shipped pipeline isn't right.
 #[must_use]
-pub fn frames(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
+pub fn frames(output_extent: [u32; 2]) -> &'static [ShippedFrame] {
+    static MADE: Mutex<BTreeMap<[u32; 2], &'static [ShippedFrame]>> = Mutex::new(BTreeMap::new());
+    let mut made = MADE.lock().expect("the shipped pipelines are right");
+    made.entry(output_extent).or_insert_with(|| make(output_extent).leak())
+}
+
+fn make(output_extent: [u32; 2]) -> Vec<ShippedFrame> {
     let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, interface);
     let mut frames = Vec::new();
     let folder = std::fs::read_dir(in_repository("examples/pipelines")).expect("pipelines are shipped");

@@ -1,9 +1,9 @@
 //! What a frame can hold, feature by feature: small frames compiled and executed on each software driver under the
 //! validation layer, and exactly what they leave.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod frames;
+#[path = "../testing/mod.rs"]
+mod testing;
 
 mod blending;
 mod compute;

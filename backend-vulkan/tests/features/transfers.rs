@@ -1,10 +1,10 @@
 //! Copies, blits, fills, and passes that the embedding program records.
 
-use crate::common::findings;
 use crate::frames::{
     Custom, Small, Uses, copy, dispatch, draw, everywhere, frame, layer, library, mip, on_each_driver_with, planned,
     texels, to_bytes, to_words, transfer, words,
 };
+use crate::testing::findings;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Groups, Image, ImageIndex, Pass, Resource, Work};
 use framewright_graph::vulkan::{Aspects, FillValue, Filter, Format, Shape, Stages, Subresources};

@@ -1,0 +1,265 @@
+//! `run`: pictures, reports and dumps from real drivers, under real validation layers.
+
+use crate::support::{Outcome, Place, Vulkan, shipped_pipelines};
+use image::{GenericImageView, Rgb, RgbImage};
+use serde_json::Value;
+use std::path::Path;
+
+const SIZE: [u32; 2] = [160, 90];
+
+/// Draws the shipped scene through a shipped pipeline; `None` where the driver or layer is missing.
+fn draw(place: &Place, vulkan: Vulkan, pipeline: &str, more: &[&str]) -> Option<Outcome> {
+    draw_scene(place, vulkan, pipeline, "spheres_and_cubes", more)
+}
+
+/// The same of another scene.
+fn draw_scene(place: &Place, vulkan: Vulkan, pipeline: &str, scene: &str, more: &[&str]) -> Option<Outcome> {
+    let variables = vulkan.variables()?;
+    let mut arguments = vec!["run", pipeline, "--scene", scene, "--size", "160x90"];
+    arguments.extend(more);
+    Some(place.run_with(&variables, &arguments))
+}
+
+fn picture(path: &Path) -> RgbImage {
+    image::open(path).expect("a picture").into_rgb8()
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(path).expect("written")).expect("JSON")
+}
+
+/// Number of different colours: a picture worth the name has many.
+fn colours(picture: &RgbImage) -> usize {
+    picture.pixels().collect::<std::collections::HashSet<_>>().len()
+}
+
+#[test]
+fn the_picture_is_the_same_bytes_run_to_run() {
+    let place = Place::new();
+    let Some(first) = draw(&place, Vulkan::LAVAPIPE, "forward", &["-o", "a.png"]) else { return };
+    first.exits(0);
+    if let Some(second) = draw(&place, Vulkan::LAVAPIPE, "forward", &["-o", "b.png", "--frames", "3"]) {
+        second.exits(0);
+    }
+    assert_eq!(std::fs::read(place.path("a.png")).expect("a"), std::fs::read(place.path("b.png")).expect("b"));
+    let picture = picture(&place.path("a.png"));
+    assert_eq!(picture.dimensions(), SIZE.into());
+    assert!(colours(&picture) > 500, "{} colours", colours(&picture));
+    assert_eq!(place.names(), ["a.png", "b.png"]);
+}
+
+/// Whatever lies in memory, however it is shared and in whatever order passes run: what follows from the file is the picture.
+#[test]
+fn no_way_to_make_a_plan_changes_a_pixel() {
+    let place = Place::new();
+    let ways: [&[&str]; 7] = [
+        &["--poison"],
+        &["--no-alias"],
+        &["--naive", "resolves"],
+        &["--one-queue"],
+        &["--order", "file"],
+        &["--order", "low-memory"],
+        &["--order", "random:7"],
+    ];
+    for pipeline in &shipped_pipelines() {
+        let frames = ["--frames", "3"];
+        let file = ["-o", "plain.png"];
+        let Some(plain) = draw(&place, Vulkan::LAVAPIPE, pipeline, &[&frames[..], &file].concat()) else { return };
+        plain.exits(0);
+        let plain = picture(&place.path("plain.png"));
+        for way in ways {
+            let file = ["-o", "other.png"];
+            if let Some(other) = draw(&place, Vulkan::LAVAPIPE, pipeline, &[&frames[..], &file, way].concat()) {
+                other.exits(0);
+            }
+            assert!(picture(&place.path("other.png")) == plain, "{pipeline} with {way:?} is another picture");
+        }
+    }
+}
+
+fn silent(vulkan: Vulkan, pipeline: &str) {
+    let sets = match pipeline {
+        "deferred" | "deferred_mobile" => ["bloom=0.08", "bloom=1"],
+        "temporal" => ["taa=true", "taa=false"],
+        _ => ["msaa=4", "msaa=1"],
+    };
+    for set in sets {
+        let place = Place::new();
+        let more = ["--validate", "--report", "report.json", "-o", "a.png", "--frames", "3", "--set", set];
+        let Some(outcome) = draw(&place, vulkan, pipeline, &more) else { return };
+        let outcome = outcome.exits(0);
+        assert!(outcome.out.contains("validation: silent; "), "{}", outcome.out);
+        let validation = &json(&place.path("report.json"))["validation"];
+        assert_eq!(validation["findings"], 0);
+        assert_eq!(validation["sees_attachments"], vulkan.layer_sees_attachments());
+        assert!(validation["canary"].as_array().is_some_and(|ids| !ids.is_empty()), "{validation:#}");
+    }
+}
+
+#[test]
+fn shipped_pipelines_are_silent_on_lavapipe_under_the_current_layer() {
+    for pipeline in &shipped_pipelines() {
+        silent(Vulkan::LAVAPIPE_CURRENT, pipeline);
+    }
+}
+
+#[test]
+fn shipped_pipelines_are_silent_on_lavapipe_under_the_distributions_layer() {
+    for pipeline in &shipped_pipelines() {
+        silent(Vulkan::LAVAPIPE_OLD, pipeline);
+    }
+}
+
+#[test]
+fn shipped_pipelines_are_silent_on_swiftshader_under_the_current_layer() {
+    for pipeline in &shipped_pipelines() {
+        silent(Vulkan::SWIFTSHADER_CURRENT, pipeline);
+    }
+}
+
+/// Scaled up, an edge is spread over pixels that look smooth: smooth are then only those that are further from it.
+#[test]
+fn both_drivers_draw_the_same_pictures_up_to_their_edges() {
+    let place = Place::new();
+    let mut cases = Vec::new();
+    for pipeline in shipped_pipelines() {
+        let scales: &[(&str, u32)] = match &*pipeline {
+            "dynamic_resolution" => &[("render_scale=1", 1), ("render_scale=0.7", 2)],
+            "deferred_mobile" => &[("scale=1", 1), ("scale=0.5", 2)],
+            _ => &[("", 1)],
+        };
+        cases.extend(scales.iter().map(|(set, around)| (pipeline.clone(), "spheres_and_cubes", *set, *around)));
+    }
+    // In the other scene the sun casts shadows.
+    cases.extend(["deferred", "shadows"].map(|pipeline| (pipeline.to_owned(), "courtyard", "", 1)));
+    for (pipeline, scene, set, around) in cases {
+        let set: &[&str] = if set.is_empty() { &[] } else { &["--set", set] };
+        for (vulkan, file) in [(Vulkan::LAVAPIPE, "lavapipe.png"), (Vulkan::SWIFTSHADER_CURRENT, "swiftshader.png")] {
+            let more = [&["--frames", "3", "-o", file], set].concat();
+            let Some(outcome) = draw_scene(&place, vulkan, &pipeline, scene, &more) else { return };
+            outcome.exits(0);
+        }
+        let (ours, theirs) = (picture(&place.path("lavapipe.png")), picture(&place.path("swiftshader.png")));
+        let differ = |a: &Rgb<u8>, b: &Rgb<u8>| (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap_or(0);
+        // On edges the drivers round coverage differently: only where the picture is smooth must they agree.
+        let smooth = |x: u32, y: u32| {
+            let square = (y - around..=y + around).flat_map(|y| (x - around..=x + around).map(move |x| (x, y)));
+            square.into_iter().all(|(i, k)| differ(ours.get_pixel(i, k), ours.get_pixel(x, y)) <= 16)
+        };
+        let inside = (around..SIZE[1] - around).flat_map(|y| (around..SIZE[0] - around).map(move |x| (x, y)));
+        let compared: Vec<u8> = inside
+            .filter(|(x, y)| smooth(*x, *y))
+            .map(|(x, y)| differ(ours.get_pixel(x, y), theirs.get_pixel(x, y)))
+            .collect();
+        let (apart, all) = (compared.iter().filter(|difference| **difference > 2).count(), compared.len());
+        assert!(all > 5000, "{pipeline} {set:?}: only {all} pixels are smooth");
+        assert!(apart * 200 <= all, "{pipeline} {set:?}: {apart} of {all} smooth pixels are further apart than 2/255");
+    }
+}
+
+#[test]
+fn a_dump_is_a_picture_of_its_image_and_may_change_the_plan() {
+    let place = Place::new();
+    let more = ["-o", "a.png", "--dump", "color=color.png", "--set", "msaa=4", "--dump", "depth=depth.png"];
+    let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &more) else { return };
+    let outcome = outcome.exits(0).mentions("note: dumping changes the Plan: ");
+    assert!(outcome.err.contains("in its picture values outside 0…1 are clamped"), "{}", outcome.err);
+    assert!(outcome.err.contains("in its picture the nearest texel is white"), "{}", outcome.err);
+    for file in ["color.png", "depth.png"] {
+        let picture = image::open(place.path(file)).expect("a picture");
+        assert_eq!(picture.dimensions(), SIZE.into());
+        assert!(colours(&picture.into_rgb8()) > 50, "{file}");
+    }
+    assert_eq!(image::open(place.path("depth.png")).expect("a picture").color(), image::ColorType::L8);
+}
+
+#[test]
+fn floating_point_images_go_to_openexr_files_and_others_are_refused_before_anything_is_drawn() {
+    let place = Place::new();
+    let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &["--dump", "color=color.exr"]) else { return };
+    assert!(!outcome.exits(0).err.contains("in its picture"));
+    let picture = image::open(place.path("color.exr")).expect("a picture");
+    assert_eq!((picture.dimensions(), picture.color()), (SIZE.into(), image::ColorType::Rgba32F));
+    let picture = picture.into_rgb32f();
+    assert!(picture.iter().all(|light| light.is_finite()) && picture.iter().any(|light| *light > 1.0));
+    if let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &["-o", "screen.exr"]) {
+        let why = "`screen` is R8G8B8A8_SRGB, and OpenEXR files hold floating-point numbers: write it to a .png file";
+        outcome.exits(1).mentions(why);
+    }
+    assert_eq!(place.names(), ["color.exr"]);
+}
+
+#[test]
+fn the_report_holds_what_the_table_shows_and_more() {
+    let place = Place::new();
+    let Some(outcome) = draw(&place, Vulkan::LAVAPIPE, "forward", &["--report", "report.json"]) else { return };
+    let outcome = outcome.exits(0);
+    let report = json(&place.path("report.json"));
+    assert_eq!(report["format_version"], 2);
+    assert_eq!(report["size"], serde_json::json!(SIZE));
+    assert_eq!(report["validation"], Value::Null);
+    assert!(report["device"]["driver"].as_str().is_some_and(|driver| driver.contains("llvmpipe")), "{report:#}");
+    let memory = |name: &str| report["memory"][name].as_u64().expect("a number");
+    assert!(memory("live_peak_bytes") <= memory("placed_bytes") && memory("placed_bytes") <= memory("sum_bytes"));
+    assert!(memory("live_peak_bytes") > 0);
+    assert!(report["barriers"]["image"].as_u64() > Some(0));
+    let passes = report["passes"].as_array().expect("a list");
+    let names: Vec<&str> = passes.iter().filter_map(|pass| pass["name"].as_str()).collect();
+    for name in ["opaque", "masked", "sky", "transparent", "tone_map"] {
+        assert!(names.contains(&name), "{names:?}");
+        assert!(outcome.out.contains(name), "{}", outcome.out);
+    }
+    assert_eq!(passes.iter().filter(|pass| pass["kind"] == "resolve").count(), 1);
+    let opaque = &passes[0];
+    assert!(opaque["draws"].as_u64() > Some(10), "{opaque:#}");
+    assert_eq!(opaque["culled"], 2, "{opaque:#}");
+    assert!(opaque["gpu_milliseconds"].as_f64() > Some(0.0), "{opaque:#}");
+    assert!(report["gpu_milliseconds"].as_f64() > opaque["gpu_milliseconds"].as_f64());
+}
+
+#[test]
+fn devices_are_listed_for_people_and_for_programs() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    let people = place.run_with(&variables, &["devices"]).exits(0).out;
+    assert!(people.contains("llvmpipe") && people.contains("| usable |"), "{people}");
+    let programs = place.run_with(&variables, &["devices", "--format", "json"]).exits(0).out;
+    let answer: Value = serde_json::from_str(&programs).expect("JSON");
+    let device = &answer["devices"][0];
+    assert_eq!((&device["index"], &device["kind"], &device["usable"]), (&0.into(), &"cpu".into(), &true.into()));
+}
+
+#[test]
+fn an_interrupted_run_leaves_no_file() {
+    let place = Place::new();
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let arguments =
+        ["run", "forward", "--scene", "spheres_and_cubes", "--size", "160x90", "--frames", "1000000", "-o", "a.png"];
+    let child =
+        place.command(&arguments).envs(variables).stderr(std::process::Stdio::piped()).spawn().expect("it starts");
+    // It watches from its beginning on; were it too early nonetheless, the end would be the system's own, without a code.
+    std::thread::sleep(std::time::Duration::from_secs(3));
+    let interrupt =
+        std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill runs");
+    assert!(interrupt.success());
+    let output = child.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains("of 1000000 frames: nothing was written"), "{said}");
+    assert_eq!(place.names(), [""; 0]);
+}
+
+#[test]
+fn the_shipped_profile_says_what_the_driver_says() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    // The driver of the process is chosen by variables: this test asks the command, whose Plans hold what it took.
+    let place = Place::new();
+    let arguments = ["run", "forward", "--scene", "spheres_and_cubes", "--size", "160x90", "--report", "report.json"];
+    place.run_with(&variables, &arguments).exits(0);
+    let inspect = ["inspect", "forward", "--scene", "spheres_and_cubes", "--size", "160x90", "--format", "json"];
+    let plan: Value = serde_json::from_str(&place.run(&inspect).exits(0).out).expect("JSON");
+    let report = json(&place.path("report.json"));
+    assert_eq!(report["memory"]["placed_bytes"], plan["totals"]["placed_bytes"]);
+    assert_eq!(report["barriers"]["image"], plan["totals"]["image_barriers"]);
+    assert_eq!(report["notes"], plan["notes"]);
+}

@@ -1,0 +1,74 @@
+//! What a scene says that isn't drawn is told by every command that reads it.
+
+use crate::support::{Place, Vulkan};
+use serde_json::Value;
+
+const SCENE: &str = r#"{
+    "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_unlit"],
+    "buffers": [{"uri": "triangle.bin", "byteLength": 36.0}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "materials": [{"extensions": {"KHR_materials_unlit": {}}, "pbrMetallicRoughness": {"roughnessFactor": 0.1}}],
+    "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}]
+}"#;
+
+const NOTES: [&str; 3] = [
+    "the extension `KHR_materials_unlit` is not supported, and ignored (material 0)",
+    "metallic factors, 1 where none is given, are ignored (material 0)",
+    "roughness factors are ignored (material 0)",
+];
+
+fn place() -> Place {
+    let place = Place::new();
+    let corners = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let bytes: Vec<u8> = corners.iter().flatten().flat_map(|number| number.to_le_bytes()).collect();
+    place.file("triangle.bin", bytes);
+    place.file("scene.gltf", SCENE);
+    place
+}
+
+#[test]
+fn inspect_and_facts_tell_what_a_scene_says_that_is_not_drawn() {
+    for arguments in [&["inspect", "forward", "--scene", "scene.gltf"][..], &["facts", "scene.gltf"]] {
+        let outcome = place().run(arguments).exits(0);
+        for note in NOTES {
+            assert_eq!(outcome.err.matches(&format!("note: scene.gltf: {note}\n")).count(), 1, "{}", outcome.err);
+        }
+    }
+}
+
+#[test]
+fn run_tells_what_a_scene_says_that_is_not_drawn_and_reports_it() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = place();
+    let arguments = ["run", "forward", "--scene", "scene.gltf", "--size", "16x16", "--report", "report.json"];
+    let outcome = place.run_with(&variables, &arguments).exits(0);
+    for note in NOTES {
+        assert!(outcome.err.contains(&format!("note: scene.gltf: {note}\n")), "{}", outcome.err);
+    }
+    let report = std::fs::read_to_string(place.path("report.json")).expect("written");
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    assert_eq!(report["scene_notes"], Value::from(NOTES.to_vec()));
+}
+
+#[test]
+fn run_tells_like_inspect_that_a_scene_needs_finer_depth_than_was_asked_for() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    let outcome = |near: &str, command: &str, rest: &[&str]| {
+        let scene = "Scene(version: 1, camera: (position: (0, 2, 9), target: (0, 0, 0), fov: 40, near: NEAR),\n\
+            materials: [(name: \"plain\", color: (1, 1, 1))], objects: [Cube(name: \"a\", material: \"plain\", size: 2)])\n";
+        place.file("scene.ron", scene.replace("NEAR", near));
+        let smallest =
+            ["image_quality", "--scene", "scene.ron", "--size", "16x16", "--set", "depth_precision=Smallest"];
+        place.run_with(&variables, &[&[command], &smallest[..], rest].concat()).exits(0)
+    };
+    let plan: Value = serde_json::from_str(&outcome("0.0001", "inspect", &["--format", "json"]).out).expect("JSON");
+    let notes = plan["notes"].as_array().expect("a list");
+    let text = |note: &&Value| note["text"].as_str().is_some_and(|text| text.contains("D16_UNORM is too coarse"));
+    let note = notes.iter().find(text).expect("it is noted");
+    let said = format!("note: `depth`: {} (image_quality.ron:", note["text"].as_str().expect("a text"));
+    outcome("0.0001", "run", &[]).mentions(&said);
+    let fine = outcome("0.1", "run", &[]);
+    assert!(!fine.err.contains("too coarse"), "{}", fine.err);
+}

@@ -1,0 +1,56 @@
+//! What a program that embeds the library would supply: `check` and `inspect` plan it, `run` says that nobody does.
+
+use crate::support::{Place, Vulkan};
+
+const TITLE: &str = "images: [(name: \"screen\", format: Output, size: Output)";
+
+fn pipeline(place: &Place, more_images: &str, buffers: &str, passes: &str) {
+    let text = format!(
+        "Pipeline(version: 1, {TITLE}{more_images}], buffers: [{buffers}], passes: [{passes}], outputs: [\"screen\"])"
+    );
+    place.file("p.ron", text);
+    place.run(&["check", "p.ron", "--device", "all"]).exits(0);
+}
+
+#[test]
+fn a_custom_pass_is_planned_and_not_run() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    let run = ["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "16x16", "-o", "a.png"];
+    for (passes, said) in [
+        (
+            "(name: \"mine\", custom: \"panel\", color: [(image: \"screen\", clear: (0.0, 0.0, 0.0, 1.0))])",
+            "error: a scene doesn't draw `panel`, which pass `mine` asks for",
+        ),
+        (
+            "(name: \"mine\", custom: \"panel\", writes: [\"screen\"])",
+            "error: nobody records `panel`, which the custom pass `mine` asks for",
+        ),
+    ] {
+        pipeline(&place, "", "", passes);
+        let tree = place.run(&["inspect", "p.ron"]).exits(0).out;
+        assert!(tree.contains("panel"), "{tree}");
+        place.run_with(&variables, &run).exits(1).mentions(said);
+        assert_eq!(place.names(), ["p.ron"]);
+    }
+}
+
+#[test]
+fn what_nobody_hands_in_is_zero_and_said() {
+    let Some(variables) = Vulkan::LAVAPIPE.variables() else { return };
+    let place = Place::new();
+    pipeline(
+        &place,
+        ", (name: \"logo\", format: R8G8B8A8_UNORM, size: Fixed(4, 4), lifetime: Imported(before: Sampled)), \
+         (name: \"window\", format: Output, size: Output, lifetime: Imported(before: Undefined, after: Present))",
+        "",
+        "(name: \"show\", draw: FullScreen(\"copy\"), sample: {\"source\": \"logo\"}, color: [\"screen\"]), \
+         (name: \"present\", draw: FullScreen(\"copy\"), sample: {\"source\": \"logo\"}, color: [\"window\"])",
+    );
+    let run = ["run", "p.ron", "--scene", "spheres_and_cubes", "--size", "16x16", "-o", "a.png", "--frames", "2"];
+    let err =
+        place.run_with(&variables, &run).exits(0).mentions("note: nobody hands in `logo` here: all of it is 0").err;
+    assert!(!err.contains("`window`"), "it is handed in without contents: {err}");
+    let picture = image::open(place.path("a.png")).expect("a picture").into_rgb8();
+    assert!(picture.pixels().all(|pixel| pixel.0 == [0; 3]));
+}

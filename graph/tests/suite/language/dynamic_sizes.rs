@@ -1,0 +1,146 @@
+//! Sizes that change from frame to frame, and the Plans that come of them.
+
+use crate::testing::plans::{on, shipped};
+use crate::testing::table::{INPUTS, right, set};
+use framewright_graph::compile::{Compiler, Options, Reuse, compile};
+use framewright_graph::describe::render;
+use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::expand::Inputs;
+use framewright_graph::frame::Frame;
+use framewright_graph::plan::{Plan, Work};
+use std::sync::Arc;
+
+fn device() -> Arc<Profile> {
+    Arc::new(shipped("amd-rx-7800-xt"))
+}
+
+/// What is drawn is forwarded at its own size and scaled to the screen's.
+fn frame(scale: &str, more: &str) -> Frame {
+    let text = format!(
+        r#"Pipeline(
+            version: 1,
+            settings: [
+                (name: "scale", value: Number(default: 1.0, min: 0.1, max: 2.0)),
+                (name: "exposure", value: Number(default: 1.0, min: 0.1, max: 2.0)),
+                (name: "soft", value: Bool(default: false)),
+            ],
+            images: [
+                (name: "color", format: Color(hdr: true), size: Dynamic(by: "scale", up_to: 2.0), samples: 4),
+                (name: "depth", format: Depth, size: Like("color"), samples: 4, resolve: SampleZero),
+                (name: "soft", format: Like("color"), size: Like("color")),
+                (name: "toned", format: Output, size: Like("color")),
+                (name: "screen", format: Output, size: Output),
+            ],
+            passes: [
+                (name: "opaque", draw: Objects(Opaque), shader: "lit",
+                    color: [(image: "color", clear: (0.0, 0.0, 0.0, 1.0))], depth: (image: "depth", clear: 0.0)),
+                (name: "stripes", draw: FullScreen("depth_stripes"), sample: {{"depth": Resolved("depth")}},
+                    params: {{"period": 1.0}}, color: [(image: "color", blend: Premultiplied)]),
+                (name: "soften", when: "soft", draw: FullScreen("blur_tent"), sample: {{"source": "color"}},
+                    color: ["soft"], otherwise: Forward(from: "color", to: "soft")),
+                (name: "map", draw: FullScreen("tone_map"), sample: {{"source": "soft"}}, color: ["toned"],
+                    params: {{"exposure": "exposure", "white_point": 2.0}}),
+                (name: "show", draw: FullScreen("copy"), sample: {{"source": "toned"}}, color: ["screen"]),
+            ],
+            outputs: [{more} "screen"],
+        )"#
+    );
+    let chosen = set(&[("scale", scale)]);
+    right(&text, &Inputs { set: &chosen, output_extent: [64, 36], ..INPUTS })
+}
+
+fn planned(frame: &Frame) -> Plan {
+    on(frame, &device()).expect("it compiles")
+}
+
+#[test]
+fn whatever_part_is_in_use_a_plan_differs_in_values_alone_and_takes_the_same_memory() {
+    let first = planned(&frame("1", ""));
+    let mut compiler = Compiler::new();
+    for scale in ["1", "0.1", "2", "0.5", "1.99", "1"] {
+        let frame = Arc::new(frame(scale, ""));
+        let plan = planned(&frame);
+        assert_eq!(first.differs_beyond_values(&plan), None, "{scale}");
+        assert_eq!(first.heaps, plan.heaps, "{scale}");
+        let device = device();
+        let followed = compiler.compile(&frame, &device, &mut Estimated(&device), &Options::default());
+        assert_eq!(followed.expect("it compiles"), &plan, "{scale}");
+        assert!(scale == "1" || compiler.reuse() == Reuse::Barriers, "{scale}: {:?}", compiler.reuse());
+        let extents: Vec<_> = plan
+            .steps
+            .iter()
+            .filter_map(|step| match &step.work {
+                Work::Render(scope) => Some(scope.extent),
+                _ => None,
+            })
+            .collect();
+        let part = plan.images[0].extent;
+        assert_eq!(extents.last(), Some(&[64, 36]));
+        assert!(extents.iter().rev().skip(1).all(|extent| *extent == [part[0], part[1]]), "{extents:?}");
+    }
+}
+
+#[test]
+fn a_part_is_two_texels_wide_and_high_at_least_where_there_is_room() {
+    let text = r#"Pipeline(
+        version: 1,
+        images: [
+            (name: "least", format: R8_UNORM, size: Dynamic(by: 0.01, up_to: 1.0)),
+            (name: "row", format: R8_UNORM, size: Dynamic(by: 0.01, up_to: 0.04)),
+            (name: "screen", format: Output, size: Output),
+        ],
+        passes: [
+            (name: "fill", fill: (to: "least", value: 0)), (name: "fill_row", fill: (to: "row", value: 0)),
+            (name: "sky", draw: Sky, color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]),
+        ],
+        outputs: ["screen"],
+    )"#;
+    let images = right(text, &Inputs { output_extent: [64, 36], ..INPUTS }).images;
+    let size = |at: usize| (images[at].extent, images[at].room);
+    assert_eq!(size(0), ([2, 2, 1], Some([64, 36])));
+    assert_eq!(size(1), ([2, 1, 1], Some([2, 1])), "there is room for no more");
+}
+
+#[test]
+fn a_part_as_large_as_the_screen_is_no_image_of_the_screen() {
+    // At this scale all sizes are the same: what would become one image otherwise stays two.
+    let whole = planned(&frame("1", ""));
+    assert!(whole.images.iter().filter(|image| image.extent == [64, 36, 1]).count() == whole.images.len());
+    assert!(whole.images.iter().filter(|image| image.room.is_none()).count() == 1);
+}
+
+#[test]
+fn other_rooms_samples_or_passes_are_more_than_values() {
+    let first = planned(&frame("1", ""));
+    let changed = |change: &dyn Fn(&mut Plan)| {
+        let mut plan = first.clone();
+        change(&mut plan);
+        first.differs_beyond_values(&plan)
+    };
+    assert_eq!(changed(&|plan| plan.images[0].room = Some([130, 72])).as_deref(), Some("its images are others"));
+    assert_eq!(changed(&|plan| plan.heaps[0].bytes += 1).as_deref(), Some("its memory is cut in another way"));
+    assert_eq!(changed(&|plan| drop(plan.steps.pop())).map(|said| said.contains("steps, not")), Some(true));
+    assert_eq!(changed(&|plan| drop(plan.outputs.pop())).as_deref(), Some("other outputs leave it"));
+    let scope = |plan: &mut Plan, change: &dyn Fn(&mut framewright_graph::plan::RenderScope)| {
+        let scopes = plan.steps.iter_mut().filter_map(|step| match &mut step.work {
+            Work::Render(scope) => Some(scope),
+            _ => None,
+        });
+        change(scopes.last().expect("a scope"));
+    };
+    // The screen's own size is none of the values.
+    let larger = changed(&|plan| scope(plan, &|scope| scope.extent = [65, 36]));
+    assert!(larger.is_some_and(|said| said.contains("does something else")));
+    assert!(changed(&|plan| scope(plan, &|scope| scope.passes[0].shader = "other".into())).is_some());
+    assert_eq!(changed(&|plan| scope(plan, &|scope| scope.color[0].because = "so".to_owned())), None);
+}
+
+#[test]
+fn what_changes_its_size_neither_leaves_the_frame_nor_is_stored_into() {
+    let frame = frame("1", "\"toned\",");
+    let device = device();
+    let errors = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect_err("it can't be");
+    let said = render(&frame.sources, &errors);
+    assert!(said.contains("`toned` can't leave the frame: its size may change from frame to frame"), "{said}");
+    assert!(said.contains("scale it into an image of a fixed size"), "{said}");
+}

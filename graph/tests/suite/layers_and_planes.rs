@@ -1,0 +1,201 @@
+//! Raster passes that use some layers or one plane of an image leave the others as they are.
+
+use crate::testing::plans::planned;
+use crate::testing::raster::{self, Raster};
+use framewright_graph::compile::{Options, Order};
+use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM};
+use framewright_graph::frame::{Blend, Draw, DrawList, Frame, Lifetime, Pass, StencilState, Work};
+use framewright_graph::plan::{self, Plan, Side};
+use framewright_graph::vocabulary::{Aspects, CompareOp, FillValue, Layout, StencilOp, Subresources};
+
+fn compiled(frame: &Frame) -> Result<Plan, String> {
+    let options = Options { order: Order::File, ..Options::default() };
+    let plan = planned(frame, &raster::device(), &options);
+    plan.map_err(|errors| errors.into_iter().map(|error| error.message).collect::<Vec<_>>().join("; "))
+}
+
+fn layer(base_layer: u32) -> Subresources {
+    Subresources { base_layer, layers: 1, ..Subresources::WHOLE }
+}
+
+/// `first` clears both layers of `color`, with 4 samples, `cover` covers the first one, `show` samples both.
+fn two_layers(cover: Subresources) -> Frame {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_UNORM, 4);
+    let screen = raster.image("screen", R8G8B8A8_UNORM, 1);
+    raster.objects("first").clear(color);
+    raster.full_screen("cover").color(color, Blend::Replace);
+    raster.full_screen("show").sample(color).color(screen, Blend::Replace);
+    let mut frame = raster.output(screen);
+    frame.images[0].layers = 2;
+    frame.passes[1].color[0].range = cover;
+    frame
+}
+
+/// IQ-9: moving such a draw to an image with one sample would lose the other layers.
+#[test]
+fn a_full_screen_draw_into_one_layer_of_several_keeps_its_samples() {
+    let plan = compiled(&two_layers(layer(0))).expect("both layers are written");
+    assert_eq!(plan.totals.resolves, 1);
+    assert!(plan.images.iter().all(|image| !image.name.contains("1 sample")), "{}", plan.tree());
+}
+
+#[test]
+fn a_layer_that_is_cleared_after_a_full_screen_draw_leaves_the_other_as_it_is() {
+    let mut frame = two_layers(layer(0));
+    frame.passes.swap(0, 1);
+    frame.passes[0].color[0].range = layer(1);
+    frame.passes[1].color[0].range = layer(0);
+    compiled(&frame).expect("both layers are written");
+}
+
+/// `one` clears layer 0 of `many`, of 2 layers and 4 samples; `more` clears layer 1, if it is there; `show` samples layer 0.
+fn one_layer_read(more: bool) -> Frame {
+    let mut raster = Raster::default();
+    let many = raster.image("many", R8G8B8A8_UNORM, 4);
+    let screen = raster.image("screen", R8G8B8A8_UNORM, 1);
+    raster.objects("one").clear(many);
+    if more {
+        raster.objects("more").clear(many);
+    }
+    raster.full_screen("show").sample(many).color(screen, Blend::Replace);
+    let mut frame = raster.output(screen);
+    frame.images[0].layers = 2;
+    for (pass, number) in frame.passes.iter_mut().zip(0..) {
+        pass.color.iter_mut().filter(|target| target.image == many).for_each(|target| target.range = layer(number));
+        pass.sampled.iter_mut().for_each(|sampled| sampled.range = layer(0));
+    }
+    frame
+}
+
+fn resolved_layers(plan: &Plan) -> Vec<(u32, u32)> {
+    let resolves = plan.steps.iter().filter_map(|step| match &step.work {
+        plan::Work::Resolve(resolve) => Some(resolve),
+        _ => None,
+    });
+    let part = |side: &Side| match side {
+        Side::Image { range, .. } => (range.base_layer, range.layers),
+        Side::Buffer { .. } => panic!("only images are resolved"),
+    };
+    resolves.map(|resolve| part(&resolve.source)).collect()
+}
+
+#[test]
+fn a_resolve_of_an_array_covers_the_layers_that_are_written_and_read() {
+    for more in [false, true] {
+        let plan = compiled(&one_layer_read(more)).expect("it is legal");
+        assert_eq!(resolved_layers(&plan), [(0, 1)], "{}", plan.tree());
+    }
+    let plan = compiled(&two_layers(layer(0))).expect("it is legal");
+    assert_eq!(resolved_layers(&plan), [(0, 2)], "{}", plan.tree());
+}
+
+/// `more` keeps layer 1 from frame to frame, which needs it and resolves nothing of it.
+#[test]
+fn a_layer_that_is_written_and_never_read_resolved_is_not_resolved() {
+    let mut frame = one_layer_read(true);
+    frame.images[0].lifetime = Lifetime::Persistent { initial: FillValue::Color([0.0; 4]) };
+    frame.passes[1].color[0].clear = None;
+    frame.passes[1].color[0].blend = Blend::Additive;
+    let plan = compiled(&frame).expect("it is legal");
+    assert!(plan.tree().contains("more"), "{}", plan.tree());
+    assert_eq!(resolved_layers(&plan), [(0, 1)], "{}", plan.tree());
+}
+
+#[test]
+fn a_layer_that_is_read_resolved_only_after_a_later_write_is_resolved_then() {
+    let mut raster = Raster::default();
+    let many = raster.image("many", R8G8B8A8_UNORM, 4);
+    let [first, second] = ["first", "second"].map(|name| raster.image(name, R8G8B8A8_UNORM, 1));
+    for (number, screen) in [first, second].into_iter().enumerate() {
+        raster.objects(["one", "more"][number]).clear(many);
+        raster.full_screen(["show", "show_more"][number]).sample(many).color(screen, Blend::Replace);
+    }
+    let mut frame = raster.outputs(&[first, second]);
+    frame.images[0].layers = 2;
+    for (pair, number) in frame.passes.chunks_mut(2).zip(0..) {
+        pair[0].color[0].range = layer(number);
+        pair[1].sampled[0].range = layer(number);
+    }
+    let plan = compiled(&frame).expect("it is legal");
+    let resolved = resolved_layers(&plan);
+    assert_eq!((resolved[0], resolved.len()), ((0, 1), 2), "{}", plan.tree());
+}
+
+/// A triangle meets one layer, unless its shader chooses others.
+#[test]
+fn a_full_screen_draw_covers_no_more_than_one_layer() {
+    let mut frame = two_layers(Subresources::WHOLE);
+    frame.passes.remove(0);
+    let refusal = compiled(&frame).map(|plan| plan.tree());
+    assert_eq!(
+        refusal.expect_err("nothing has written the second layer"),
+        "`cover` is the first to write `color`, and may leave parts of it untouched"
+    );
+}
+
+#[test]
+fn a_draw_that_does_not_surely_reach_every_sample_covers_nothing() {
+    type Change = fn(&mut Pass);
+    let with = |change: Change| {
+        let mut raster = Raster::default();
+        let color = raster.image("color", R8G8B8A8_UNORM, 4);
+        let screen = raster.image("screen", R8G8B8A8_UNORM, 1);
+        raster.full_screen("cover").color(color, Blend::Replace);
+        raster.full_screen("show").sample(color).color(screen, Blend::Replace);
+        let mut frame = raster.output(screen);
+        change(&mut frame.passes[0]);
+        compiled(&frame).map(|plan| plan.tree())
+    };
+    fn draws(pass: &mut Pass, new: Draw, discarding: bool) {
+        let Work::Draw { draw, discards, .. } = &mut pass.work else { panic!("it draws") };
+        (*draw, *discards) = (new, discarding);
+    }
+    with(|_| {}).expect("it covers");
+    let others: [(&str, Change); 5] = [
+        ("objects", |pass| draws(pass, Draw::Objects(DrawList::Opaque), false)),
+        ("the sky", |pass| draws(pass, Draw::Sky, false)),
+        ("fragments that may be discarded", |pass| draws(pass, Draw::FullScreen, true)),
+        ("alpha that says how many samples are covered", |pass| pass.alpha_to_coverage = true),
+        ("light that is added", |pass| pass.color[0].blend = Blend::Additive),
+    ];
+    for (what, change) in others {
+        let refusal = with(change).err().unwrap_or_else(|| panic!("{what} is taken for covering"));
+        assert_eq!(refusal, "`cover` is the first to write `color`, and may leave parts of it untouched", "{what}");
+    }
+}
+
+#[test]
+fn plain_sampling_of_depth_with_stencil_reads_the_depth_alone() {
+    let mut raster = Raster::default();
+    let depth = raster.image("depth", D32_SFLOAT_S8_UINT, 1);
+    let screen = raster.image("screen", R8G8B8A8_UNORM, 1);
+    raster.objects("opaque").clear_depth(depth);
+    raster.full_screen("show").sample(depth).color(screen, Blend::Replace);
+    let mut frame = raster.output(screen);
+    let stencil = StencilState { clear: Some(0), test: CompareOp::Always, reference: 1, pass: StencilOp::Replace };
+    for stencil in [None, Some(stencil)] {
+        frame.passes[0].depth.as_mut().expect("it tests depth").stencil = stencil;
+        let plan = compiled(&frame).expect("the depth is written");
+        let barriers = plan.steps.iter().flat_map(|step| &step.image_barriers);
+        let read: Vec<Aspects> = barriers
+            .filter(|barrier| barrier.new_layout == Layout::DepthReadOnlyOptimal)
+            .map(|barrier| barrier.range.aspects)
+            .collect();
+        assert_eq!(read, [Aspects::DEPTH]);
+    }
+}
+
+/// Neither can a rendering scope carry it, nor is there a command for it.
+#[test]
+fn several_layers_of_multisampled_depth_are_not_resolved() {
+    let mut raster = Raster::default();
+    let depth = raster.image("depth", D32_SFLOAT, 4);
+    raster.objects("opaque").clear_depth(depth);
+    let mut frame = raster.output(depth);
+    frame.images[0].layers = 2;
+    assert_eq!(
+        compiled(&frame).map(|plan| plan.tree()).expect_err("nothing could resolve it"),
+        "`depth` is an output and has 4 samples; an image of several layers can't be resolved, whichever of them is read"
+    );
+}

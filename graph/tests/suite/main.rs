@@ -1,0 +1,32 @@
+//! The compiler's tests: one program, so that what they need is linked once. `cargo test -p framewright-graph --test suite
+//! language::` runs those of one module.
+
+mod alpha_to_coverage;
+mod both_eyes;
+mod chosen_formats;
+mod compile_graphs;
+mod compile_raster;
+mod demotion;
+mod depth_ladder;
+mod encodings;
+mod expression;
+mod format_fallback;
+mod golden_plans;
+mod language;
+mod layers_and_planes;
+mod local_reads;
+mod odd_frames;
+mod plan_format;
+mod queues;
+mod random_frames;
+mod reference;
+mod rotation;
+mod schedule;
+mod shipped_devices;
+mod testing;
+mod textures;
+mod tree;
+mod unchanged;
+mod verify;
+mod views;
+mod weighted_resolve;

@@ -1,0 +1,188 @@
+//! Frames that were built in memory and can't be made: each is refused in words, whatever their numbers.
+
+use crate::testing::plans::refused_on;
+use crate::testing::raster::{self, Raster};
+use framewright_graph::compile::{Options, compile};
+use framewright_graph::device::{Estimated, Profile};
+use framewright_graph::frame::{Blend, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Storage, Work};
+use framewright_graph::verify::verify;
+use framewright_graph::vocabulary::{Accesses, Layout, Stages, State, Subresources};
+
+/// Draws into `color`, filters it to `screen`, and has a compute pass write `noise`, which is filtered, too.
+fn frame() -> Frame {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_SRGB, 4);
+    let noise = raster.image("noise", R16G16B16A16_SFLOAT, 1);
+    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+    raster.objects("opaque").clear(color);
+    raster.full_screen("blend").sample(color).sample(noise).color(screen, Blend::Replace);
+    let mut frame = raster.output(screen);
+    frame.passes.insert(0, dispatch("fill", noise));
+    frame
+}
+
+fn dispatch(name: &str, image: ImageIndex) -> Pass {
+    let stages = Stages::COMPUTE_SHADER;
+    let target = Storage {
+        binding: "target".into(),
+        image,
+        range: Subresources::WHOLE,
+        span: Span::NONE,
+        read: false,
+        write: true,
+        stages,
+    };
+    let work = Work::Dispatch { shader: name.into(), groups: Groups::Count([1; 3]) };
+    Pass { storage: vec![target], ..Pass::new(name, work) }
+}
+
+type Change = fn(&mut Frame);
+
+/// Something that compute shaders saw last.
+fn imported(accesses: Accesses, layout: Layout) -> Lifetime {
+    Lifetime::Imported { before: State { stages: Stages::COMPUTE_SHADER, accesses, layout }, after: None }
+}
+
+#[test]
+fn the_largest_images_with_the_most_samples_are_added_up_without_overflow() {
+    let mut device = raster::device();
+    device.formats.iter_mut().for_each(|format| format.samples = vec![1, 2, 4, 8, 16]);
+    let mut frame = frame();
+    for image in &mut frame.images {
+        image.extent = [16384, 16384, 1];
+    }
+    frame.images[0].samples = 16;
+    let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("it is only large");
+    assert_eq!(verify(&plan), []);
+    // 4 bytes × 16 samples, and once resolved; 8 bytes of noise.
+    assert_eq!(plan.totals.transient_bytes, (16384 * 16384) * (4 * 16 + 4 + 8));
+}
+
+#[test]
+fn what_cannot_be_is_refused_in_words() {
+    const NOISE: usize = 1;
+    fn noise(frame: &mut Frame) -> &mut Image {
+        &mut frame.images[NOISE]
+    }
+    let changes: [(&str, Change); 34] = [
+        ("accesses `color` as storage, which has several samples", |frame| {
+            frame.passes.push(dispatch("keep", ImageIndex(0)));
+        }),
+        ("is 0×64×1", |frame| noise(frame).extent[0] = 0),
+        ("is 64×64×0", |frame| noise(frame).extent[2] = 0),
+        ("is 4294967295×64", |frame| noise(frame).extent[0] = u32::MAX),
+        ("more memory than can be addressed", |frame| {
+            noise(frame).layers = u32::MAX;
+            noise(frame).extent = [16384, 16384, 1];
+            frame.images[0].layers = u32::MAX;
+            frame.images[0].extent = [16384, 16384, 1];
+        }),
+        ("has 0 mip levels; its size allows 1 to 7", |frame| noise(frame).mips = 0),
+        ("has 8 mip levels", |frame| noise(frame).mips = 8),
+        ("has 4294967295 mip levels", |frame| noise(frame).mips = u32::MAX),
+        ("has no layers", |frame| noise(frame).layers = 0),
+        ("has 0 samples", |frame| noise(frame).samples = 0),
+        ("has 3 samples", |frame| noise(frame).samples = 3),
+        ("multisampled and has mip levels", |frame| frame.images[0].mips = 2),
+        ("`blend` draws into `screen`, which has mip levels", |frame| frame.images[2].mips = 2),
+        ("`blend` draws into `screen`, which is three-dimensional", |frame| {
+            frame.images[2].extent[2] = 2;
+            frame.images[2].shape = Shape::D3;
+        }),
+        ("`blend` draws into `screen`, which is three-dimensional", |frame| frame.images[2].shape = Shape::D3),
+        ("is three-dimensional and can't hold depth", |frame| {
+            noise(frame).format = D32_SFLOAT;
+            noise(frame).shape = Shape::D3;
+        }),
+        ("`blend` reads `noise` of 1 frames ago, and it keeps 0", |frame| frame.passes[2].sampled[1].frames_ago = 1),
+        ("`blend` names a part of `noise` that it doesn't have: it has 1 mip levels", |frame| {
+            frame.passes[2].sampled[1].range = Subresources { base_mip: 1, ..Subresources::WHOLE }
+        }),
+        ("`blend` names a part of `noise` that it doesn't have: it has 1 layers", |frame| {
+            frame.passes[2].sampled[1].range = Subresources { base_layer: u32::MAX, layers: 2, ..Subresources::WHOLE }
+        }),
+        ("`blend` reads `noise` before anything has written it", |frame| frame.passes.swap(0, 2)),
+        ("`noise` holds colour (R16G16B16A16_SFLOAT) and can't be in the layout DEPTH_READ_ONLY_OPTIMAL", |frame| {
+            noise(frame).lifetime = imported(Accesses::empty(), Layout::DepthReadOnlyOptimal)
+        }),
+        ("`noise` can't have seen TRANSFER_WRITE in these stages", |frame| {
+            noise(frame).lifetime = imported(Accesses::TRANSFER_WRITE, Layout::TransferDstOptimal)
+        }),
+        ("`screen` can't be left in the layout UNDEFINED", |frame| {
+            let Lifetime::Imported { before, .. } = imported(Accesses::empty(), Layout::Undefined) else { return };
+            frame.outputs[0].after = Some(before);
+        }),
+        ("an output does not exist", |frame| frame.outputs[0].resource = Resource::Image(ImageIndex(9))),
+        ("names image number 9, which does not exist", |frame| frame.passes[0].storage[0].image = ImageIndex(9)),
+        ("`screen` is an output twice", |frame| frame.outputs.push(frame.outputs[0].clone())),
+        ("`fill` has attachments and doesn't draw", |frame| frame.passes[0].color = frame.passes[1].color.clone()),
+        ("`opaque` draws into nothing: it has no attachment", |frame| frame.passes[1].color.clear()),
+        ("`blend` accesses `source1` in stages", |frame| frame.passes[2].sampled[1].stages = Stages::COMPUTE_SHADER),
+        ("`fill` accesses `target` in stages", |frame| frame.passes[0].storage[0].stages = Stages::empty()),
+        ("`fill` neither reads nor writes `target`", |frame| frame.passes[0].storage[0].write = false),
+        ("`opaque` clears to what is not a finite number", |frame| {
+            frame.passes[1].color[0].clear = Some([f32::NAN; 4])
+        }),
+        ("`fill` accesses `noise` as storage and in another way", |frame| {
+            let again = Storage { read: true, write: false, ..frame.passes[0].storage[0].clone() };
+            frame.passes[0].storage.push(again);
+        }),
+        ("`opaque` writes `color` in two ways at once", |frame| {
+            let again = frame.passes[1].color[0].clone();
+            frame.passes[1].color.push(again);
+        }),
+    ];
+    for (words, change) in changes {
+        let mut odd = frame();
+        change(&mut odd);
+        let said = refused_on(&odd, &raster::device());
+        assert!(said.iter().any(|message| message.contains(words)), "{words}: {said:?}");
+    }
+}
+
+#[test]
+fn attachments_of_one_pass_have_as_many_layers_and_are_no_more_than_the_device_has() {
+    let mut raster = Raster::default();
+    let [a, b] = ["a", "b"].map(|name| raster.image(name, R8G8B8A8_SRGB, 1));
+    raster.objects("opaque").clear(a).clear(b);
+    let mut frame = raster.outputs(&[a, b]);
+    let device = Profile { max_color_attachments: 1, ..raster::device() };
+    let said = refused_on(&frame, &device);
+    assert_eq!(said, ["`opaque` draws into 2 colour images; `a device for tests` has 1"]);
+    frame.images[0].layers = 2;
+    let said = refused_on(&frame, &raster::device());
+    assert_eq!(said, ["`opaque` draws into `a` and `b`, which differ in size, layers or samples"]);
+}
+
+#[test]
+fn an_empty_frame_is_an_empty_plan() {
+    let device = raster::device();
+    let plan = compile(&Frame::default(), &device, &mut Estimated(&device), &Options::default());
+    let plan = plan.expect("there is nothing to refuse");
+    assert_eq!((plan.images.len(), plan.steps.len()), (0, 1));
+    assert_eq!(verify(&plan), []);
+}
+
+#[test]
+fn the_unchanged_frame_is_compiled() {
+    let device = raster::device();
+    let plan = compile(&frame(), &device, &mut Estimated(&device), &Options::default());
+    assert_eq!(verify(&plan.expect("it is legal")), []);
+}
+
+/// Of images that are forwarded with equal samples, both get as many as the device has for them together.
+#[test]
+fn forwarded_images_are_lowered_together() {
+    let mut device = raster::device();
+    for support in &mut device.formats {
+        support.samples = if support.format == R8G8B8A8_SRGB { vec![1, 2, 4] } else { vec![1, 2] };
+    }
+    let mut raster = Raster::default();
+    let [color, other] = ["color", "other"].map(|name| raster.image(name, R8G8B8A8_SRGB, 4));
+    let normal = raster.image("normal", R16G16B16A16_SFLOAT, 4);
+    raster.objects("opaque").clear(color).clear(normal);
+    raster.forward("glow", color, other);
+    let plan = compile(&raster.output(other), &device, &mut Estimated(&device), &Options::default());
+    let plan = plan.expect("the frame is legal");
+    assert_eq!(plan.totals.inserted_passes, 0, "{}", plan.tree());
+}

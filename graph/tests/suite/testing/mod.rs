@@ -1,0 +1,8 @@
+//! What the tests of this crate share.
+
+pub(crate) mod graphs;
+pub(crate) mod hand_written_plans;
+pub(crate) mod plans;
+pub(crate) mod raster;
+pub(crate) mod symbolic;
+pub(crate) mod table;

@@ -1,0 +1,222 @@
+//! What holds both eyes' parts and isn't used for both eyes is found, whoever made the Plan.
+
+use crate::testing::raster::{self, Raster};
+use framewright_graph::compile::{Options, compile};
+use framewright_graph::device::Estimated;
+use framewright_graph::frame::{
+    Blend, Eye, EyeForm, Image, ImageIndex, Pass, Resource, Stereo, TransferUse, Work as Described,
+};
+use framewright_graph::plan::{Plan, RenderScope, Side, Transfer, Work};
+use framewright_graph::verify::verify;
+use framewright_graph::vulkan::Format::{R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::vulkan::{Accesses, Filter, Shape, Subresources};
+
+/// `color`, multisampled, and `screen` hold both eyes' parts, as does `kept`, a copy of `screen`; `mirror` shows the right eye's.
+fn plan(stereo: Stereo, form: EyeForm) -> Plan {
+    let mut raster = Raster::default();
+    let color = raster.image("color", R16G16B16A16_SFLOAT, 4);
+    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+    let kept = raster.image("kept", R8G8B8A8_SRGB, 1);
+    let mirror = raster.image("mirror", R8G8B8A8_SRGB, 1);
+    raster.objects("opaque").clear(color);
+    raster.full_screen("show").sample(color).color(screen, Blend::Replace);
+    raster.full_screen("mirror").sample(screen).color(mirror, Blend::Replace);
+    let mut frame = raster.outputs(&[screen, kept, mirror]);
+    frame.stereo = stereo;
+    frame.images[..3].iter_mut().for_each(|image: &mut Image| image.eyes = Some(form));
+    frame.passes[2].sampled[0].eye = Some(Eye::Right);
+    let used = |image: ImageIndex, write| TransferUse {
+        resource: Resource::Image(image),
+        range: Subresources::WHOLE,
+        frames_ago: 0,
+        span: Span::NONE,
+        write,
+    };
+    let transfers = vec![used(screen, false), used(kept, true)];
+    frame.passes.push(Pass { transfers, ..Pass::new("keep", Described::Copy) });
+    let device = raster::device();
+    let plan = compile(&frame, &device, &mut Estimated(&device), &Options::default()).expect("the frame is legal");
+    assert_eq!(verify(&plan), [], "{}", plan.tree());
+    plan
+}
+
+const MODES: [(Stereo, EyeForm); 4] = [
+    (Stereo::DoubleWide, EyeForm::Halves),
+    (Stereo::Instanced, EyeForm::Halves),
+    (Stereo::Instanced, EyeForm::Layers),
+    (Stereo::Multiview, EyeForm::Layers),
+];
+
+fn image(plan: &Plan, name: &str) -> usize {
+    plan.images.iter().position(|it| *it.name == *name).unwrap_or_else(|| panic!("no `{name}`:\n{}", plan.tree()))
+}
+
+/// The scope in which this pass draws.
+fn scope<'p>(plan: &'p mut Plan, pass: &str) -> &'p mut RenderScope {
+    let scopes = plan.steps.iter_mut().filter_map(|step| match &mut step.work {
+        Work::Render(scope) => Some(&mut **scope),
+        _ => None,
+    });
+    scopes.into_iter().find(|scope| scope.passes.iter().any(|it| *it.name == *pass)).expect("it draws")
+}
+
+fn copy(plan: &mut Plan) -> &mut Work {
+    plan.steps.iter_mut().map(|step| &mut step.work).find(|work| matches!(work, Work::Copy(_))).expect("it copies")
+}
+
+fn transfer(plan: &mut Plan) -> &mut Transfer {
+    let Work::Copy(transfer) = copy(plan) else { panic!("it copies") };
+    transfer
+}
+
+/// The access of a pass that samples.
+fn sampling<'p>(plan: &'p mut Plan, pass: &str) -> &'p mut framewright_graph::plan::Access {
+    let passes = &mut scope(plan, pass).passes;
+    let pass = passes.iter_mut().find(|it| *it.name == *pass).expect("it draws");
+    pass.accesses.iter_mut().find(|access| access.binding.is_some()).expect("it samples")
+}
+
+type Change = fn(&mut Plan);
+
+/// What changes, and what is to be said of it; the name of the image first.
+const CHANGES: &[(Change, &str)] = &[
+    (|plan| plan.stereo = Stereo::MultiPass, "`screen`: holds both eyes' parts as `multi-pass` doesn't draw them"),
+    (|plan| plan.stereo = Stereo::Off, "`kept`: holds both eyes' parts as `off` doesn't draw them"),
+    (
+        |plan| {
+            let at = image(plan, "color");
+            plan.images[at].shape = Shape::D3;
+        },
+        "`color`: holds both eyes' parts, which aren't flat or have layers of their own",
+    ),
+    (
+        |plan| {
+            let at = image(plan, "kept");
+            plan.images[at].layers = 2;
+        },
+        "`kept`: holds both eyes' parts, which aren't flat or have layers of their own",
+    ),
+    (
+        |plan| {
+            let at = image(plan, "kept");
+            plan.images[at].mips = 2;
+        },
+        "`kept`: holds both eyes' parts, which aren't flat or have layers of their own",
+    ),
+    (
+        |plan| {
+            let at = image(plan, "color (resolved)");
+            plan.images[at].eyes = None;
+        },
+        "`color (resolved)`: is drawn beside an image that holds both eyes' parts otherwise",
+    ),
+    (
+        |plan| {
+            let at = image(plan, "color");
+            plan.images[at].eyes = None;
+        },
+        "`color (resolved)`: is drawn beside an image that holds both eyes' parts otherwise",
+    ),
+    (
+        |plan| {
+            let other = scope(plan, "mirror").color[0].clone();
+            scope(plan, "show").color.push(other);
+        },
+        "`mirror`: is drawn beside an image that holds both eyes' parts otherwise",
+    ),
+    (
+        |plan| sampling(plan, "show").accesses |= Accesses::SHADER_STORAGE_READ,
+        "`color (resolved)`: holds both eyes' parts, and a pass accesses it as one",
+    ),
+    (
+        |plan| sampling(plan, "mirror").accesses |= Accesses::TRANSFER_READ,
+        "`screen`: holds both eyes' parts, and a pass accesses it as one",
+    ),
+    (
+        |plan| sampling(plan, "mirror").eye = None,
+        "`screen`: holds both eyes' parts, and a pass doesn't say whose it reads",
+    ),
+    (
+        |plan| {
+            let at = image(plan, "screen");
+            plan.images[at].eyes = None;
+        },
+        "`screen`: is no eye's, and a pass reads one eye's part of it",
+    ),
+    (
+        |plan| sampling(plan, "mirror").accesses |= Accesses::INPUT_ATTACHMENT_READ,
+        "`screen`: is read at each fragment's own position, and one eye's part of it is meant",
+    ),
+    (
+        |plan| {
+            let at = image(plan, "kept");
+            plan.images[at].eyes = None;
+        },
+        "`kept`: is copied, and holds both eyes' parts on only one side",
+    ),
+    (
+        |plan| {
+            let mirror = image(plan, "mirror") as u32;
+            let Side::Image { image, .. } = &mut transfer(plan).source else { panic!("of an image") };
+            image.0 = mirror;
+        },
+        "`kept`: is copied, and holds both eyes' parts on only one side",
+    ),
+    (
+        |plan| {
+            let mut blit = transfer(plan).clone();
+            blit.filter = Some(Filter::Nearest);
+            *copy(plan) = Work::Blit(blit);
+        },
+        "`screen`: holds both eyes' parts and is scaled by a blit",
+    ),
+    (
+        |plan| {
+            let mut blit = transfer(plan).clone();
+            blit.filter = Some(Filter::Nearest);
+            *copy(plan) = Work::Blit(blit);
+        },
+        "`kept`: holds both eyes' parts and is scaled by a blit",
+    ),
+];
+
+#[test]
+fn whatever_is_not_for_both_eyes_is_found() {
+    let mut missed = Vec::new();
+    for (stereo, form) in MODES {
+        let right = plan(stereo, form);
+        for (change, expected) in CHANGES {
+            let mut plan = right.clone();
+            change(&mut plan);
+            let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
+            if !said.iter().any(|it| it.contains(expected)) {
+                missed.push(format!("{stereo:?} {form:?}: `{expected}` is not in {said:#?}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{}", missed.join("\n"));
+}
+
+#[test]
+fn the_other_form_is_found_where_a_mode_draws_one() {
+    for (stereo, form) in MODES {
+        let mut plan = plan(stereo, form);
+        let other = if form == EyeForm::Layers { EyeForm::Halves } else { EyeForm::Layers };
+        plan.images.iter_mut().for_each(|image| image.eyes = image.eyes.map(|_| other));
+        let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
+        let form = format!("holds both eyes' parts as `{}` doesn't draw them", stereo.name());
+        let found = said.iter().filter(|it| it.contains(&form)).count();
+        // `color`, what it is resolved into, `screen` and `kept`.
+        assert_eq!(found, if stereo == Stereo::Instanced { 0 } else { 4 }, "{stereo:?}: {said:#?}");
+    }
+}
+
+#[test]
+fn an_image_in_another_form_than_the_rest_of_its_scope_is_found() {
+    let mut plan = plan(Stereo::Instanced, EyeForm::Layers);
+    let at = image(&plan, "color (resolved)");
+    plan.images[at].eyes = Some(EyeForm::Halves);
+    let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
+    let expected = "`color (resolved)`: is drawn beside an image that holds both eyes' parts otherwise";
+    assert!(said.iter().any(|it| it.contains(expected)), "{said:#?}");
+}

@@ -1,0 +1,16 @@
+//! The tests of the whole. `cargo test -p framewright-tests --test suite drawn::` runs those that draw.
+
+mod drawn;
+#[path = "../../../graph/tests/suite/testing/hand_written_plans/mod.rs"]
+mod hand_written_plans;
+mod happens_before;
+mod mutation;
+mod programs;
+mod queues;
+mod random_pipelines;
+mod random_plans;
+mod raycast;
+mod recompilation;
+mod shipped_plans;
+mod shipped_shaders;
+mod small_optima;
