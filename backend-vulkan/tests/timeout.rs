@@ -2,7 +2,6 @@
 
 mod testing;
 
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::shader::DrawInterface;
 use framewright_graph::vulkan::{Aspects, Format};

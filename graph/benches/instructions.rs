@@ -11,7 +11,7 @@
 
 #[path = "compile/changed.rs"]
 mod changed;
-#[path = "../tests/graphs/mod.rs"]
+#[path = "../tests/suite/testing/graphs.rs"]
 mod graphs;
 
 use framewright_graph::compile::{Compiler, Options, Reuse};

@@ -1,6 +1,7 @@
 //! Frames in few words, and their execution on each driver.
 
 use crate::testing::{find_layer, findings, skip};
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Face, Frame, Groups, Image,

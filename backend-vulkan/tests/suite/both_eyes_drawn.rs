@@ -1,6 +1,7 @@
 //! Plans that draw for both eyes at once: which devices execute them, and what who records draws may do.
 
 use crate::testing;
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Profile;
 use framewright_graph::frame::{

@@ -1,6 +1,7 @@
 //! Memory that changes hands: nobody may see what its last owner left, or what the poison put there.
 
 use crate::testing;
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Face, Frame, ImageIndex, Pass, Sampled, Work};
 use framewright_graph::plan::{Plan, Role};

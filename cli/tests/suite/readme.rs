@@ -1,38 +1,21 @@
 //! Commands that the README and the pages under `docs/` show print what stands there.
 
-use crate::support::{Place, outcome, repository};
+use crate::support::{Place, Vulkan, outcome, pages, repository};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
+
+/// How a renewed page is seen and accepted.
+const UPDATE: &str = "FRAMEWRIGHT_UPDATE";
+
+/// What stands before a command and its output.
+const CONSOLE: &str = "```console\n$ ";
 
 #[test]
 fn the_readme_shows_what_new_writes() {
     let place = Place::new();
     place.run(&["new", "first"]).exits(0);
     let written = std::fs::read_to_string(place.path("first.ron")).expect("a text");
-    assert_eq!(block(&readme, "ron"), written, "the README shows what `framewright new first` writes");
-
-    let mut renewed = String::new();
-    let mut rest = readme.as_str();
-    let mut commands = 0;
-    while let Some((before, after)) = rest.split_once("```console\n$ ") {
-        let (shown, after) = after.split_once("\n```").expect("the block ends");
-        let command = shown.lines().next().expect("a command");
-        renewed += &format!("{before}```console\n$ {command}\n{}\n```", printed(&place, command));
-        rest = after;
-        commands += 1;
-    }
-    renewed += rest;
-    assert!(commands >= 4, "the README shows {commands} commands");
-    if std::env::var_os("FRAMEWRIGHT_UPDATE").is_some() {
-        std::fs::write(path, renewed).expect("written");
-        return;
-    }
-    let differs = readme.lines().zip(renewed.lines()).find(|(shown, printed)| shown != printed);
-    assert!(
-        readme == renewed,
-        "the README shows other output than the command prints, first {differs:#?}\n\
-         see:    FRAMEWRIGHT_UPDATE=1 cargo test --package framewright --test suite readme; git diff README.md\n\
-         accept: git add README.md"
-    );
+    assert_eq!(block(&text(&repository("README.md")), "```ron\n"), written);
 }
 
 /// Each command in a `console` block runs in a folder that holds the README's pipeline; its output must stand below it.
@@ -54,7 +37,7 @@ fn pages_show_what_commands_print() {
         assert!(
             shown == renewed,
             "{} shows other output than the command prints, first {differs:#?}\n\
-             see:    {UPDATE}=1 cargo test --package framewright --test readme; git diff\n\
+             see:    {UPDATE}=1 cargo test --package framewright --test suite readme; git diff\n\
              accept: git add README.md docs",
             page.display()
         );

@@ -1,6 +1,7 @@
 //! Whole files in the reference can be copied: the command itself says that they are fine.
 
-use crate::support::{Place, repository};
+use crate::support::{Place, pages, repository};
+use std::collections::BTreeSet;
 
 /// Each block of RON in the README and the pages under `docs/`.
 fn examples() -> Vec<String> {

@@ -2,7 +2,7 @@
 
 use crate::support::{Place, Vulkan, live_profile, shipped_pipelines};
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
-use framewright_graph::view::Stereo;
+use framewright_graph::frame::Stereo;
 use framewright_tests::sweep;
 use image::{DynamicImage, GenericImageView};
 use std::path::Path;

@@ -7,6 +7,7 @@
 //! glibc gives freed memory back to the system and asks for it again, at times for each frame. So that this isn't what is
 //! measured, the bench starts itself again with `MALLOC_TRIM_THRESHOLD_`, `MALLOC_MMAP_THRESHOLD_` and `MALLOC_TOP_PAD_` set.
 
+mod changed;
 #[path = "../../tests/suite/testing/graphs.rs"]
 mod graphs;
 mod reading;

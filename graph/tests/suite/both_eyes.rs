@@ -3,17 +3,16 @@
 
 use crate::testing::plans::{self, compiled, image, on, scopes};
 use crate::testing::raster::{self, Raster};
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Compiler, Options, Reuse};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::frame::{
     Blend, Eye, EyeForm, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled, Stereo, Storage, TransferUse, Work,
 };
 use framewright_graph::plan::{ImageId, Plan, Role};
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Span;
 use framewright_graph::verify::verify;
-use framewright_graph::view::{Eye, EyeForm, Stereo};
-use framewright_graph::vocabulary::{Filter, Stages, Subresources};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::vulkan::{Filter, Rotation, Shape, Stages, Subresources};
 use std::sync::Arc;
 
 const COLOR: ImageIndex = ImageIndex(0);

@@ -5,8 +5,8 @@ use crate::testing::table::{INPUTS, right};
 use framewright_graph::compile::{Compiler, Options};
 use framewright_graph::device::{Estimated, FormatSupport, Profile};
 use framewright_graph::expand::Inputs;
-use framewright_graph::format::Format::{self, *};
 use framewright_graph::plan::{ChosenFormat, Plan, Stage};
+use framewright_graph::vulkan::Format::{self, *};
 use std::sync::Arc;
 
 /// Objects in light, blurred, glass before them blended, and shown. Light stays from frame to frame.

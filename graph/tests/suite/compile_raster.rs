@@ -4,11 +4,11 @@ use crate::testing::plans::{compiled, scopes};
 use crate::testing::raster::{self, Raster, forward};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Estimated;
-use framewright_graph::format::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
 use framewright_graph::frame::Blend;
 use framewright_graph::plan::{Plan, Resource, Role, Stage};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Filter, Layout, LoadOp, ResolveMode, StoreOp, Usage};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT, R32_UINT};
+use framewright_graph::vulkan::{Filter, Layout, LoadOp, ResolveMode, StoreOp, Usage};
 
 fn pass_names(plan: &Plan) -> Vec<Vec<String>> {
     scopes(plan).iter().map(|scope| scope.passes.iter().map(|pass| pass.name.to_string()).collect()).collect()

@@ -3,9 +3,9 @@
 use crate::testing::plans::planned;
 use crate::testing::raster::{self, Raster};
 use framewright_graph::compile::Options;
-use framewright_graph::format::Format::R16G16B16A16_SFLOAT;
 use framewright_graph::frame::{Blend, Frame};
 use framewright_graph::plan::Plan;
+use framewright_graph::vulkan::Format::R16G16B16A16_SFLOAT;
 
 /// Objects in an image of 4 samples, blurred so many times: to and fro between that image and one of one sample.
 fn blurred(strength: u32) -> Frame {

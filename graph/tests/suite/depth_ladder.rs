@@ -3,12 +3,13 @@
 use crate::testing::plans::{compiled, on, scopes};
 use crate::testing::raster::{self, Raster};
 use framewright_graph::device::Profile;
-use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_SRGB};
-use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Output, Resolve, ResolveWay, Resource};
+use framewright_graph::frame::{
+    Blend, Draw, EyeForm, Frame, ImageIndex, Output, Resolve, ResolveWay, Resource, Stereo,
+};
 use framewright_graph::plan::{Cause, Plan, RenderScope, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::view::{EyeForm, Stereo};
-use framewright_graph::vocabulary::{CompareOp, LoadOp, ResolveMode, StoreOp, Usage};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_SRGB};
+use framewright_graph::vulkan::{CompareOp, LoadOp, ResolveMode, StoreOp, Usage};
 use std::path::Path;
 
 /// A device that resolves depth in these modes.

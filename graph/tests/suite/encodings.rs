@@ -3,13 +3,13 @@
 
 use crate::testing::plans::on;
 use crate::testing::raster::{self, Raster};
-use framewright_graph::describe::Diagnostic;
+use framewright_graph::base::{Diagnostic, Span};
 use framewright_graph::device::Profile;
-use framewright_graph::encoding::Encoding::{self, *};
-use framewright_graph::format::Format::{self, *};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Work};
 use framewright_graph::plan::{Output, Plan};
 use framewright_graph::verify::verify;
+use framewright_graph::vulkan::Encoding::{self, *};
+use framewright_graph::vulkan::Format::{self, *};
 
 /// Draws into `color`, and shows it on `screen`, which leaves the frame so encoded.
 fn frame(screen: Format, encoding: Option<Encoding>) -> Frame {

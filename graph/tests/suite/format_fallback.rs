@@ -3,12 +3,13 @@
 
 use crate::testing::plans::on;
 use crate::testing::raster::{self, Raster};
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Compiler, Options};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Lifetime, Storage};
 use framewright_graph::plan::{Plan, Stage};
-use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{Accesses, FillValue, Layout, Stages, State, Subresources, Usage};
+use framewright_graph::vulkan::Format::{self, *};
+use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Subresources, Usage};
 use std::sync::Arc;
 
 /// Draws into `color` with `depth`, and filters it to `screen`.

@@ -4,8 +4,8 @@
 
 use crate::testing::plans::shipped as shipped_device;
 use crate::testing::table::{INPUTS, Table, shipped};
+use framewright_graph::base::{self, Root, Sources};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::{self, Document, PipelineFiles, SettingKind};
 use framewright_graph::device::{Estimated, Profile, Queues};
 use framewright_graph::expand::{Facts, Inputs, expand};
 use framewright_graph::frame::Frame;

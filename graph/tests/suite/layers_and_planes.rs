@@ -3,10 +3,10 @@
 use crate::testing::plans::planned;
 use crate::testing::raster::{self, Raster};
 use framewright_graph::compile::{Options, Order};
-use framewright_graph::format::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM};
 use framewright_graph::frame::{Blend, Draw, DrawList, Frame, Lifetime, Pass, StencilState, Work};
 use framewright_graph::plan::{self, Plan, Side};
-use framewright_graph::vocabulary::{Aspects, CompareOp, FillValue, Layout, StencilOp, Subresources};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM};
+use framewright_graph::vulkan::{Aspects, CompareOp, FillValue, Layout, StencilOp, Subresources};
 
 fn compiled(frame: &Frame) -> Result<Plan, String> {
     let options = Options { order: Order::File, ..Options::default() };

@@ -8,7 +8,8 @@ use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Resource};
 use framewright_graph::plan::{BindingKind, Plan, Stage, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Accesses, Layout, Stages, StoreOp, Usage};
+use framewright_graph::vulkan::Format::{R8G8B8A8_SRGB, R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
+use framewright_graph::vulkan::{Accesses, Layout, Stages, StoreOp, Usage};
 use std::sync::Arc;
 
 /// Geometry draws into `albedo` and `normal`, `light` reads both at its own pixel into `lit`, `tonemap` samples that.

@@ -2,11 +2,13 @@
 
 use crate::testing::plans::refused_on;
 use crate::testing::raster::{self, Raster};
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::frame::{Blend, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Storage, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Accesses, Layout, Stages, State, Subresources};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::vulkan::{Accesses, Layout, Shape, Stages, State, Subresources};
 
 /// Draws into `color`, filters it to `screen`, and has a compute pass write `noise`, which is filtered, too.
 fn frame() -> Frame {

@@ -5,8 +5,8 @@ mod json;
 
 use crate::testing::plans::shipped as shipped_device;
 use crate::testing::table::{INPUTS, Table, shipped};
+use framewright_graph::base::{self, Root, Sources};
 use framewright_graph::compile::{Options, Order, compile};
-use framewright_graph::describe::{self, PipelineFiles};
 use framewright_graph::device::{BufferDescriptor, ImageDescriptor, MemoryNeeds, MemoryProvider, Profile, Queues};
 use framewright_graph::expand::expand;
 use framewright_graph::frame::Draw;

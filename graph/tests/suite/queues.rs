@@ -2,16 +2,16 @@
 
 use crate::testing::graphs;
 use crate::testing::plans::planned;
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile, Queues};
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Face, Frame, Groups, Image, ImageIndex,
     Lifetime, Pass, Resource, Sampled, Storage, TransferUse, Work,
 };
-use framewright_graph::plan::{self, Plan, Queue, Role, Sharing};
-use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{
-    Accesses, Aspects, FillValue, Filter, Layout, Sampler, Stages, State, Subresources,
+use framewright_graph::plan::{self, Plan, Queue, Role};
+use framewright_graph::vulkan::{
+    Accesses, Aspects, FillValue, Filter, Format, Layout, Sampler, Sharing, Stages, State, Subresources,
 };
 
 const EXCLUSIVE: Queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive };

@@ -1,7 +1,7 @@
 //! Random legal frames: every Plan passes the checker, makes of its outputs what the frame says, and has no barrier too many.
 
-use crate::testing::raster;
-use crate::testing::symbolic;
+use crate::testing::{raster, symbolic};
+use framewright_graph::base::{Diagnostic, Span};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::frame::{

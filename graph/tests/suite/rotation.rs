@@ -2,13 +2,14 @@
 
 use crate::testing::plans::{compiled, on};
 use crate::testing::raster::{self, Raster};
+use framewright_graph::base::Diagnostic;
 use framewright_graph::compile::{Compiler, Options, Reuse};
-use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::{Blend, Frame, Image, ImageIndex, Lifetime};
 use framewright_graph::plan::{Cause, Plan, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{Accesses, FillValue, Layout, Stages, State};
+use framewright_graph::vulkan::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::vulkan::{Accesses, FillValue, Layout, Rotation, Stages, State};
 use std::sync::Arc;
 
 const TURN: Rotation = Rotation::Rotate90;

@@ -5,9 +5,9 @@ use crate::testing::graphs::{self, Builder};
 use crate::testing::plans::planned;
 use crate::testing::raster::{Raster, device};
 use framewright_graph::compile::{Options, Order};
-use framewright_graph::format::Format::{R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
 use framewright_graph::frame::{Blend, Frame, ImageIndex, Resource};
 use framewright_graph::plan::{Plan, Work};
+use framewright_graph::vulkan::Format::{R8G8B8A8_UNORM, R16G16B16A16_SFLOAT};
 
 const ORDERS: [Order; 5] = [Order::File, Order::Default, Order::LowMemory, Order::Random(1), Order::Random(2)];
 

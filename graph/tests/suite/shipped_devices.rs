@@ -7,7 +7,7 @@ use framewright_graph::device::{Estimated, KnownNeeds, MemoryNeeds, Profile, SHI
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::Queue;
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::Usage;
+use framewright_graph::vulkan::Usage;
 
 fn shipped() -> impl Iterator<Item = (&'static str, Profile)> {
     SHIPPED_PROFILES.iter().map(|(name, text)| (*name, Profile::from_ron(text).expect("a profile")))

@@ -2,15 +2,17 @@
 
 use crate::testing::plans::{self, compiled, on, refused_on};
 use crate::testing::raster::{self, Raster};
+use framewright_graph::base::Span;
 use framewright_graph::device::{Profile, Queues};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorSpace, Frame, Groups, ImageIndex, Lifetime, Pass, Resource,
     Sampled, Storage, TextureFile, TextureInfo, TextureProblem, Work,
 };
 use framewright_graph::plan::{Initial, Plan, Resource as Planned, Role};
 use framewright_graph::verify::verify;
-use framewright_graph::vocabulary::{AddressMode, FillValue, Filter, Layout, Sampler, Stages, Subresources, Usage};
+use framewright_graph::vulkan::{
+    AddressMode, FillValue, Filter, Format, Layout, Sampler, Shape, Sharing, Stages, Subresources, Usage,
+};
 use std::sync::Arc;
 
 fn file(color_space: ColorSpace) -> Lifetime {

@@ -2,12 +2,12 @@
 
 use crate::testing::plans::compiled;
 use crate::testing::raster::{self, Raster};
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Compiler, Options, Reuse, compile};
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::{Allowances, Blend, Frame, View, ViewIndex};
 use framewright_graph::plan::{Plan, ViewId, Work};
-use framewright_graph::source::Span;
-use framewright_graph::view::{Allowances, View, ViewIndex};
+use framewright_graph::vulkan::Format;
 use std::sync::Arc;
 
 fn view(name: &str, extent: [u32; 2], camera: Option<&str>) -> View {

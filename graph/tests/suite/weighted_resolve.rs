@@ -2,11 +2,11 @@
 
 use crate::testing::plans::on;
 use crate::testing::raster::{self, Raster};
-use framewright_graph::describe::Diagnostic;
-use framewright_graph::format::Format::{self, *};
+use framewright_graph::base::Diagnostic;
 use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, ParamValue, Resolve, ResolveWay};
 use framewright_graph::plan::{Access, Cause, Pass, Plan, Work};
-use framewright_graph::vocabulary::ResolveMode;
+use framewright_graph::vulkan::Format::{self, *};
+use framewright_graph::vulkan::ResolveMode;
 
 fn planned(frame: &Frame) -> Result<Plan, Vec<Diagnostic>> {
     on(frame, &raster::device())

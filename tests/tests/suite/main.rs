@@ -11,6 +11,7 @@ mod random_pipelines;
 mod random_plans;
 mod raycast;
 mod recompilation;
+mod rooms;
 mod shipped_plans;
 mod shipped_shaders;
 mod small_optima;

@@ -14,7 +14,7 @@ use framewright_tests::random_pipelines::pipeline::{
     Work,
 };
 use framewright_tests::random_pipelines::to_frame::to_frame;
-use framewright_tests::random_pipelines::{passes, shader, shrink};
+use framewright_tests::random_pipelines::{generate, passes, shader, shrink};
 use framewright_tests::sweep;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;

@@ -1,6 +1,7 @@
 //! Bounds on length and depth, and that nothing recurses beyond them.
 
 use crate::expression::world::{ANY, World};
+use framewright_graph::base::Span;
 use framewright_graph::expression::{Expression, LONGEST_TEXT, MOST_NESTED, Value};
 
 /// Reads and evaluates on a stack of 256 KiB, which recursion along the text would overflow.

@@ -1,7 +1,7 @@
 //! Mistakes, each with its whole answer.
 
 use crate::expression::world::{ANY, World};
-use framewright_graph::describe::render;
+use framewright_graph::base::{Sources, Span, render};
 use framewright_graph::expression::{Expression, Parsed, Wanted};
 
 /// Pins the answers to several expressions as one text.

@@ -1,6 +1,7 @@
 //! What decided, and which part of a condition failed.
 
 use crate::expression::world::{ANY, World};
+use framewright_graph::base::Span;
 use framewright_graph::expression::{Decision, Expression, Parsed, Type, Value, Wanted};
 
 fn decided(text: &str) -> String {

@@ -1,7 +1,7 @@
 //! Random expressions against values that are calculated on their trees, and random texts.
 
 use crate::expression::world::{ANY, World};
-use framewright_graph::describe::render;
+use framewright_graph::base::{Sources, Span, render};
 use framewright_graph::expression::{Expression, Parsed, Type, Value};
 use proptest::prelude::*;
 

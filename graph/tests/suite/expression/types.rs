@@ -1,6 +1,7 @@
 //! What a place wants, and what the whole expression is, whatever the values.
 
 use crate::expression::world::{ANY, World};
+use framewright_graph::base::Span;
 use framewright_graph::expression::{Expression, Type, Value, Wanted};
 
 fn ty(text: &str, wanted: Wanted<'_>) -> Option<Type> {

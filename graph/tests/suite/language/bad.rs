@@ -2,8 +2,8 @@
 
 use crate::testing::plans::shipped;
 use crate::testing::table::{INPUTS, Pictures, Table};
+use framewright_graph::base::{self, Diagnostic, FilePath, Sources};
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::{self, Diagnostic, Files, Found, Unread};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Stereo, TextureFile, TextureInfo, TextureProblem};

@@ -1,7 +1,7 @@
 //! Small files that would make a great deal: each ends at a limit that its answer names, soon and in bounded memory.
 
 use crate::testing::table::{INPUTS, frame};
-use framewright_graph::describe::{self, Files, Found, Unread};
+use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::expand::Inputs;
 use framewright_graph::language::{self, Files, Found, Unread};
 use std::fmt::Write as _;

@@ -2,7 +2,7 @@
 //! is wrong, its name says how, and the whole answer stands beside it.
 
 use crate::testing::table::{INPUTS, Table, set};
-use framewright_graph::describe::{self, ChosenBy, Diagnostic, Document, SettingsFile};
+use framewright_graph::base::{self, Diagnostic, Sources};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::expression::Value;
 use framewright_graph::language::{self, ChosenBy, Document, SettingsFile};

@@ -2,8 +2,8 @@
 
 use crate::testing::plans::{on, shipped};
 use crate::testing::table::{INPUTS, right, set};
+use framewright_graph::base::render;
 use framewright_graph::compile::{Compiler, Options, Reuse, compile};
-use framewright_graph::describe::render;
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::Frame;

@@ -1,8 +1,8 @@
 //! What a file says that the numbers of its outputs mean.
 
 use crate::testing::table::{INPUTS, frame, right};
-use framewright_graph::encoding::Encoding::{self, *};
-use framewright_graph::format::Format;
+use framewright_graph::vulkan::Encoding::{self, *};
+use framewright_graph::vulkan::Format;
 
 /// A pipeline whose one output has this format and these fields beside its name.
 fn text(format: Format, fields: &str) -> String {

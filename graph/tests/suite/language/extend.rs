@@ -2,8 +2,7 @@
 
 use crate::testing::plans::{on, shipped};
 use crate::testing::table::{INPUTS, Table, right, unnamed};
-use framewright_graph::change::{Action, Kind, Where};
-use framewright_graph::describe::{self, Document, Files, Found, Unread};
+use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::Frame;
 use framewright_graph::frame::change::{Action, Kind, Where};

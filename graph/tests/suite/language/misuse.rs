@@ -2,10 +2,9 @@
 
 use crate::language::{bad, choices};
 use crate::reference::catalogue::{self, called};
-use framewright_graph::describe::Diagnostic;
-use framewright_graph::describe::forms::{FILES, Form, Table, Takes};
-use framewright_graph::describe::text::{Leaf, Shape, Tree};
-use framewright_graph::source::{Sources, Span};
+use framewright_graph::base::{Diagnostic, Sources, Span};
+use framewright_graph::language::FILES;
+use framewright_graph::ron::{Form, Leaf, Shape, Table, Takes, Tree};
 use std::collections::BTreeSet;
 
 /// Fields and words of files, with where they stand.

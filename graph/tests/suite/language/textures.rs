@@ -1,7 +1,7 @@
 //! Textures: images whose texels come from files.
 
 use crate::testing::table::{INPUTS, Pictures, Table, right};
-use framewright_graph::describe::{self, Files, Found, Unread};
+use framewright_graph::base::{FilePath, Sources};
 use framewright_graph::expand::expand;
 use framewright_graph::frame::{ColorSpace, Frame, Image, Lifetime, TextureFile, TextureInfo, TextureProblem};
 use framewright_graph::language::{self, Files, Found, Unread};

@@ -2,9 +2,8 @@
 
 use crate::reference::catalogue;
 use crate::testing::table::Pictures;
-use framewright_graph::describe;
-use framewright_graph::file_path::FilePath;
-use framewright_graph::source::Sources;
+use framewright_graph::base::{self, FilePath, Sources};
+use framewright_graph::language;
 
 /// A pipeline in which everything that examples name is declared. Places for more are marked by `{…}`.
 const HOST: &str = r#"Pipeline(

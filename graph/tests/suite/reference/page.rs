@@ -2,8 +2,6 @@
 
 use crate::reference::catalogue::{self, Catalogue, called};
 use crate::reference::takes::{MOST_INLINE, Places, besides, takes};
-use framewright_graph::describe::forms::{Row, Table, Takes, Words, goes_with};
-use framewright_graph::describe::names_of;
 use framewright_graph::expression::functions;
 use framewright_graph::language::{goes_with, names_of};
 use framewright_graph::ron::{Row, Table, Takes, Words};

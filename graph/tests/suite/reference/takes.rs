@@ -1,7 +1,7 @@
 //! What may stand in a place, in a few words with links.
 
 use crate::reference::catalogue::called;
-use framewright_graph::describe::forms::{Form, Plain, Words};
+use framewright_graph::ron::{Form, Plain, Words};
 use std::collections::BTreeMap;
 
 /// Choices of more words than this have a list of their own.

@@ -1,8 +1,8 @@
 //! From a frame to its Plan, and what tests look up there.
 
 use super::graphs::device;
+use framewright_graph::base::Diagnostic;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::describe::Diagnostic;
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::frame::Frame;
 use framewright_graph::plan::{Image, Plan, RenderScope, Work};

@@ -1,13 +1,12 @@
 //! Raster frames built in memory.
 
 pub(crate) use super::graphs::device;
-use framewright_graph::format::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::base::Span;
 use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Image, ImageIndex, Pass, Resource, Sampled, Work,
 };
-use framewright_graph::rotation::Rotation;
-use framewright_graph::source::Span;
-use framewright_graph::vocabulary::{CompareOp, Filter, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::Format::{self, D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
+use framewright_graph::vulkan::{CompareOp, Filter, Rotation, Sampler, Stages, Subresources};
 
 /// Builds a frame of raster passes, all images 64×64.
 #[derive(Default)]

@@ -1,7 +1,7 @@
 //! Holds what our reader makes of a text against what the `ron` crate makes of it.
 
 use crate::tree::ours;
-use framewright_graph::describe::text::{Leaf, Number, Shape};
+use framewright_graph::ron::{Leaf, Number, Shape};
 use ron::extensions::Extensions;
 use ron::value::RawValue;
 use serde::Deserialize;

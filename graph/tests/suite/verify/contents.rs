@@ -1,7 +1,7 @@
 //! What is sure to set all of an image, and what isn't.
 
-use crate::testing::hand_written_plans::{build::*, recount};
-use framewright_graph::format::Format;
+use crate::testing::hand_written_plans::build::*;
+use crate::testing::hand_written_plans::recount;
 use framewright_graph::frame::{Blend, Draw, DrawList};
 use framewright_graph::plan::{DepthState, Hazard, Plan, Work};
 use framewright_graph::verify::{Rule, Violation, verify};

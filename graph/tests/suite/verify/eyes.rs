@@ -1,6 +1,7 @@
 //! What holds both eyes' parts and isn't used for both eyes is found, whoever made the Plan.
 
 use crate::testing::raster::{self, Raster};
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::Estimated;
 use framewright_graph::frame::{

@@ -1,10 +1,7 @@
 //! Malformed Plans: each mistake is said, none makes the checker panic.
 
 use crate::testing::hand_written_plans;
-use framewright_graph::format::Format;
-use framewright_graph::frame::{Blend, Shape};
-use framewright_graph::interface::{Component, Dimension, ImageShape};
-use framewright_graph::jitter::Jitter;
+use framewright_graph::frame::{Allowances, Blend, Jitter};
 use framewright_graph::plan::{BindingKind, FORMAT_VERSION, Plan, PlanError, RenderScope, Resource, Role, View, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{

@@ -3,7 +3,6 @@
 use crate::testing::hand_written_plans::build::{
     self, State, UNDEFINED, barrier, between, dispatch, step, storage, transient,
 };
-use framewright_graph::format::Format;
 use framewright_graph::plan::{Hazard, Image, ImageBarrier, MemoryBarrier, Plan, Role, Step, Subresources, Work};
 use framewright_graph::verify::{Rule, Violation, verify};
 use framewright_graph::vulkan::{Accesses, Format, Layout, Stages, Usage};

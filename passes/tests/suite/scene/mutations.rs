@@ -1,8 +1,7 @@
 //! Whatever is done to a file's bytes, reading it ends in a scene or a sentence.
 
 use crate::scene::fixtures;
-use framewright_graph::describe::render;
-use framewright_graph::source::Sources;
+use framewright_graph::base::{Sources, render};
 use framewright_passes::scene::{Scene, gltf, text};
 use proptest::prelude::*;
 

@@ -1,6 +1,5 @@
 //! Objects that no pass shows are left out: the pictures stay as they are, bit by bit.
 
-use framewright_graph::base::Root;
 use framewright_graph::compile::Options;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::{Camera, Scene, load};

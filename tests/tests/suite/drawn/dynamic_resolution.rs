@@ -1,6 +1,5 @@
 //! Images that change their size from frame to frame are used in part, and show what images of that size would (IQ-1).
 
-use framewright_graph::base::Root;
 use framewright_graph::compile::Options;
 use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::{AlphaMode, Material, Scene};

@@ -1,7 +1,6 @@
 //! What the precision of colour and depth does to the picture, and to memory.
 
 use crate::drawn::image_quality::{Set, picture, plan, shining_behind_glass};
-use framewright_graph::format::Format::{self, *};
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::Format::{self, *};
 use std::error::Error;

@@ -1,7 +1,6 @@
 //! What becomes of the file: which draws, resolves and images there are.
 
 use crate::drawn::image_quality::{DIRECT, PIPELINE, drawn_by, listing, plan, plan_of, shining, shining_behind_glass};
-use framewright_graph::format::Format;
 use framewright_graph::frame::{Blend, Draw};
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::vulkan::{Format, LoadOp, StoreOp};

@@ -1,10 +1,8 @@
 //! The README and the pages under `docs/`, which are an mdBook: all are listed, and all that they point to is there.
 
-mod support;
-
+use crate::support::{pages, repository};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use support::{pages, repository};
 
 /// Words that the README may have, code included, as `wc -w` counts them.
 const MOST_WORDS: usize = 1300;

@@ -1,6 +1,6 @@
 //! What must hold of the arrows between files: rooms in order, no two folders that use each other, no wide circle of files.
 
-use crate::arrows::Arrows;
+use super::arrows::Arrows;
 use petgraph::algo::tarjan_scc;
 use petgraph::graphmap::DiGraphMap;
 
@@ -9,7 +9,7 @@ const WIDEST_CIRCLE: usize = 3;
 
 /// Everything that breaks the rules, each with the files that do. `order`: the folders and files of the crate's top level, each
 /// of which uses only those before it.
-pub(crate) fn breaches(arrows: &Arrows, order: &[String]) -> Vec<String> {
+pub(super) fn breaches(arrows: &Arrows, order: &[String]) -> Vec<String> {
     let mut breaches = upward(arrows, order);
     breaches.extend(folders(arrows));
     breaches.extend(circles(arrows));

@@ -10,7 +10,7 @@ use syn::{Attribute, Ident, Item, ItemMod, ItemUse, Macro, UseTree, Visibility};
 type Names = Vec<String>;
 
 /// For each file of a crate, the other files that it uses. Files are named by their paths below `src`.
-pub(crate) type Arrows = BTreeMap<String, BTreeSet<String>>;
+pub(super) type Arrows = BTreeMap<String, BTreeSet<String>>;
 
 /// One module: a file of its own.
 struct Module {
@@ -24,7 +24,7 @@ struct Module {
 }
 
 /// The arrows of the crate whose sources lie in `src`.
-pub(crate) fn of_folder(src: &Path) -> Arrows {
+pub(super) fn of_folder(src: &Path) -> Arrows {
     let mut sources = Vec::new();
     collect(src, src, &mut sources);
     of_sources(sources.iter().map(|(file, text)| (file.as_str(), text.as_str())))
@@ -44,7 +44,7 @@ fn collect(src: &Path, folder: &Path, sources: &mut Vec<(String, String)>) {
 }
 
 /// The arrows between files that are given by path and text.
-pub(crate) fn of_sources<'s>(sources: impl IntoIterator<Item = (&'s str, &'s str)>) -> Arrows {
+pub(super) fn of_sources<'s>(sources: impl IntoIterator<Item = (&'s str, &'s str)>) -> Arrows {
     let mut modules: HashMap<Names, Module> = HashMap::new();
     let mut macros: Vec<(String, Names)> = Vec::new();
     for (file, text) in sources {
@@ -205,7 +205,7 @@ impl<'ast> Visit<'ast> for Reader {
         }
     }
 
-    /// `pub(crate)` names no file.
+    /// `pub(super)` names no file.
     fn visit_visibility(&mut self, _: &'ast Visibility) {}
 
     fn visit_path(&mut self, path: &'ast syn::Path) {
