@@ -13,7 +13,7 @@
 //! | IQ-4 | `pictures::light_is_averaged_before_tone_mapping_or_what_is_shown_after_it` | size of `scaled` for `mapped != 'pixels'` |
 //! | IQ-5 | `graph/tests/suite/compile_raster.rs`, `graph/tests/suite/shipped_devices.rs`, `cli/tests/suite/every_device.rs`, `cli/tests/suite/plans.rs` | `compile/samples.rs`: `chosen` is what was wanted |
 //! | IQ-4, IQ-6 | `samples::pictures_of_256_samples_show_what_rays_meet` | `scene/camera.rs`: `vertical_fov` times 0.51 |
-//! | IQ-6 | `samples::a_fragment_shader_runs_once_a_texel_whatever_the_samples` | `backend-vulkan/src/pipeline.rs`: `sample_shading_enable(true)`, with a share of 1 |
+//! | IQ-6 | `samples::a_fragment_shader_runs_once_a_texel_whatever_the_samples` | `backend-vulkan/src/pipeline/graphics.rs`: `sample_shading_enable(true)`, with a share of 1 |
 //! | IQ-6 | `samples::edges_improve_with_samples_and_with_scale` | samples of `color` 1 |
 //! | IQ-6 | `samples::edges_of_holes_improve_with_samples_only_where_alpha_says_how_many_are_covered`, `alpha_coverage` | `alpha_coverage.glsl`: `+ 0.5` left out |
 //! | IQ-7 | `plans::multisampled_colour_is_resolved_before_what_samples_it`, `texture_declarations` | samples of `color` 1 |
