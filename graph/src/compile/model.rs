@@ -4,7 +4,9 @@ use super::parts::{Grid, Grids};
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, with_room};
 use crate::plan::{Inserted, Note, Subresources};
-use crate::vulkan::{Accesses, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Stages, State, Usage};
+use crate::vulkan::{
+    Accesses, Aspects, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Stages, State, Usage,
+};
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -64,6 +66,25 @@ impl Store {
         match self.of {
             Resource::Image(image) => grids.of(image),
             Resource::Buffer(_) => None,
+        }
+    }
+
+    /// Its cells.
+    pub(super) fn cells(&self, grids: &Grids) -> Range<CellIndex> {
+        self.first_cell..self.first_cell + self.grid(grids).map_or(1, |grid| grid.len())
+    }
+
+    /// The layout of all its planes, one of which is in `layout`.
+    pub(super) fn layout_of_all_planes(&self, layout: Layout) -> Layout {
+        let both = self.image().is_some_and(|image| image.format.aspects().contains(Aspects::STENCIL));
+        match layout {
+            Layout::DepthAttachmentOptimal | Layout::StencilAttachmentOptimal if both => {
+                Layout::DepthStencilAttachmentOptimal
+            }
+            Layout::DepthReadOnlyOptimal | Layout::StencilReadOnlyOptimal if both => {
+                Layout::DepthStencilReadOnlyOptimal
+            }
+            layout => layout,
         }
     }
 

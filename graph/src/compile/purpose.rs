@@ -2,12 +2,12 @@
 //! frame and from the states in which it is found and left.
 
 use super::Options;
+use super::history_ring::last_of_ring;
 use super::model::{Adapted, Home, Kind};
-use super::outlive::{States, cells, last_of_cycle};
 use super::parts::Grids;
 use super::retain::Retained;
 use super::scope::{Scoped, Step};
-use super::synchronise::Walked;
+use super::sync::Timeline;
 use crate::vulkan::states::usage_for;
 use crate::vulkan::{BufferUsage, LoadOp, StoreOp, Usage};
 
@@ -16,8 +16,7 @@ use crate::vulkan::{BufferUsage, LoadOp, StoreOp, Usage};
 pub(super) fn note(
     grids: &Grids,
     adapted: &mut Adapted,
-    walked: &Walked,
-    states: &[Option<States>],
+    timeline: &Timeline,
     retained: &Retained,
     scoped: &Scoped,
     options: &Options,
@@ -25,8 +24,8 @@ pub(super) fn note(
     let attachments_only = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT | Usage::INPUT_ATTACHMENT;
     for at in 0..adapted.stores.len() {
         let store = &adapted.stores[at];
-        let bits = walked.usage(cells(grids, store));
-        let [first, last] = walked.lifetimes[at];
+        let bits = timeline.usage(store.cells(grids));
+        let [first, last] = timeline.lifetimes[at];
         let in_one_scope = first == last && matches!(scoped.steps.get(first as usize), Some(Step::Scope(_)));
         let stays = in_one_scope
             && retained
@@ -39,7 +38,7 @@ pub(super) fn note(
         match &mut store.kind {
             Kind::Image(image) => {
                 image.usage = Usage::from_bits_truncate(bits);
-                for state in states[at].iter().flat_map(|states| [states.before, states.after]) {
+                for state in timeline.states[at].iter().flat_map(|states| [states.before, states.after]) {
                     image.usage |= usage_for(state.layout);
                 }
                 match home {
@@ -75,7 +74,7 @@ pub(super) fn note(
 fn share_purpose(adapted: &mut Adapted) {
     let mut first = 0;
     while let Some(store) = adapted.stores.get(first as usize) {
-        let last = if let Home::Persistent { .. } = store.home { last_of_cycle(adapted, first) } else { first };
+        let last = if let Home::Persistent { .. } = store.home { last_of_ring(adapted, first) } else { first };
         if last > first {
             let cycle = &mut adapted.stores[first as usize..=last as usize];
             let (mut images, mut buffers) = (Usage::empty(), BufferUsage::empty());

@@ -1,0 +1,37 @@
+//! Switches of the compiler.
+
+/// Switches of the compiler that never change what a frame means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Options {
+    /// Whether transient images share memory.
+    pub alias: bool,
+    /// Whether transient images can be filled with poison before their first use: adds `TRANSFER_DST`, and leaves no
+    /// image `TRANSIENT_ATTACHMENT`, which excludes it.
+    pub poison: bool,
+    /// The order of execution.
+    pub order: Order,
+    /// Whether full-screen draws that gain nothing from several samples move to single-sampled images.
+    pub demote: bool,
+    /// Whether queues beside the first are used, where the device has them.
+    pub queues: bool,
+}
+
+/// Which of the legal orders is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Order {
+    /// That of the file.
+    File,
+    /// The one that scores best.
+    #[default]
+    Default,
+    /// One that keeps little memory alive.
+    LowMemory,
+    /// Any, the same for the same seed.
+    Random(u64),
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options { alias: true, poison: false, order: Order::Default, demote: true, queues: true }
+    }
+}
