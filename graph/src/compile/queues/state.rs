@@ -141,6 +141,6 @@ impl Queues {
 
     /// The waits of a step.
     pub(in crate::compile) fn waits(&self, step: u32) -> Vec<Wait> {
-        self.clocks.waits(step)
+        if self.is_one() { Vec::new() } else { self.clocks.waits(step) }
     }
 }

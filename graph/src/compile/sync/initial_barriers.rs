@@ -5,7 +5,7 @@
 //! Frames follow each other, so the first owner of memory comes after the last one.
 
 use super::aliasing_barriers::{AliasedWrite, Source};
-use super::cell::{CellBarrier, CellState};
+use super::cell::CellBarrier;
 use super::last_accesses::{LastAccess, LastAccesses};
 use super::timeline::{States, Timeline};
 use crate::compile::history_ring;
@@ -151,20 +151,16 @@ impl Completing<'_> {
 
     fn last_accesses(&self, store: StoreIndex, cells: Range<CellIndex>) -> LastAccesses {
         let queues = &self.timeline.queues;
+        let is_crossed = queues.is_crossed(store);
         let mut accesses = LastAccesses::default();
         for cell in cells {
-            let known: &CellState = &self.timeline.cells[cell as usize];
-            if !known.is_touched() {
-                continue;
-            }
-            if queues.is_crossed(store) {
+            let known = &self.timeline.cells[cell as usize];
+            if is_crossed {
                 for (queue, used) in queues.uses(cell).by.iter().enumerate().filter(|(_, used)| used.until > 0) {
-                    let (stages, writes) = (used.stages, used.accesses.writes());
-                    accesses.add(LastAccess { queue, stages, writes, last: used.until - 1 });
+                    accesses.add(queue, used.stages, used.accesses, used.until - 1);
                 }
-            } else {
-                let (queue, writes) = (queues.at(known.last), known.accesses.writes());
-                accesses.add(LastAccess { queue, stages: known.stages, writes, last: known.last });
+            } else if known.is_touched() {
+                accesses.add(queues.at(known.last), known.stages, known.accesses, known.last);
             }
         }
         accesses

@@ -22,15 +22,20 @@ pub(super) struct LastAccesses {
 }
 
 impl LastAccesses {
-    /// Adds the last access to a cell.
-    pub(super) fn add(&mut self, new: LastAccess) {
-        let same = |it: &&mut LastAccess| (it.queue, it.stages, it.writes) == (new.queue, new.stages, new.writes);
+    /// Adds the last accesses to a cell, in `step` on queue number `queue`.
+    #[inline]
+    pub(super) fn add(&mut self, queue: usize, stages: Stages, accesses: Accesses, step: u32) {
+        let writes = accesses.writes();
+        let same = |it: &&mut LastAccess| (it.queue, it.stages, it.writes) == (queue, stages, writes);
         match self.first.iter_mut().chain(&mut self.others).find(same) {
-            Some(same) => same.last = same.last.max(new.last),
-            None => match self.first {
-                None => self.first = Some(new),
-                Some(_) => self.others.push(new),
-            },
+            Some(same) => same.last = same.last.max(step),
+            None => {
+                let new = LastAccess { queue, stages, writes, last: step };
+                match self.first {
+                    None => self.first = Some(new),
+                    Some(_) => self.others.push(new),
+                }
+            }
         }
     }
 
@@ -47,9 +52,9 @@ mod tests {
     fn accesses_alike_are_one_with_the_latest_step() {
         let mut accesses = LastAccesses::default();
         for last in [3, 7, 5] {
-            accesses.add(LastAccess { queue: 0, stages: Stages::CLEAR, writes: Accesses::TRANSFER_WRITE, last });
+            accesses.add(0, Stages::CLEAR, Accesses::TRANSFER_WRITE, last);
         }
-        accesses.add(LastAccess { queue: 0, stages: Stages::COPY, writes: Accesses::empty(), last: 9 });
+        accesses.add(0, Stages::COPY, Accesses::TRANSFER_READ, 9);
         let [cleared, read] = accesses.iter().collect::<Vec<_>>()[..] else { panic!("two kinds of accesses") };
         assert_eq!((cleared.writes, cleared.last), (Accesses::TRANSFER_WRITE, 7));
         assert_eq!((read.writes, read.last), (Accesses::empty(), 9));

@@ -81,9 +81,9 @@ impl Timeline {
             let lifetime = &mut lifetimes[access.store as usize];
             *lifetime = [lifetime[0].min(step), step];
         }
-        let joins = match &crossed {
+        let joins = match crossed {
             None => cell.is_read_on(access) && !cell.writes() && (lasts || access.stages.contains(cell.stages)),
-            Some(crossed) => crossed.joins(cell, access),
+            Some(crossed) => crossed.joins(queues.uses(access.cell), cell, access),
         };
         if joins {
             cell.stages |= access.stages;
@@ -94,13 +94,13 @@ impl Timeline {
                 Some(crossed) => crossed.join(queues, barriers, access, step, lasts),
             };
         }
-        let source = match &crossed {
+        let source = match crossed {
             None => Some((cell.stages, cell.accesses.writes())),
             Some(crossed) => crossed.source(queues, cell, access, step),
         };
         let number = barriers.len() as u32;
         if let Some(source) = source {
-            let transfers = crossed.as_ref().is_some_and(|crossed| crossed.transfers(cell, access));
+            let transfers = crossed.is_some_and(|it| it.transfers(queues.uses(access.cell), cell, access));
             let hazard = if transfers { Hazard::Ownership } else { cell.hazard(access) };
             let old_layout = if access.keeps { cell.layout } else { Layout::Undefined };
             barriers.push(CellBarrier::before(access, step, (source, cell.last), old_layout, hazard));
