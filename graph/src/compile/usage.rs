@@ -1,5 +1,5 @@
-//! What each image and buffer is made for: exactly the uses that the steps make of it, and what follows from its part in the
-//! frame and from the states in which it is found and left.
+//! Usage flags of each image and buffer: those that its steps take, and those that follow from its lifetime and from its
+//! states before and after the frame.
 
 use super::model::{Adapted, Home, Kind};
 use super::options::Options;
@@ -11,8 +11,8 @@ use super::synchronise::Walked;
 use crate::vulkan::states::usage_for;
 use crate::vulkan::{BufferUsage, LoadOp, StoreOp, Usage};
 
-/// Notes usages: what outlives the frame can be copied from, what has initial contents can be copied to; images that never
-/// leave their one scope become transient attachments.
+/// Sets usages. Outputs and all that outlives the frame can be copied from, initial contents can be copied to, and images that
+/// never leave their only scope become transient attachments.
 pub(super) fn note(
     grids: &Grids,
     adapted: &mut Adapted,
@@ -68,11 +68,11 @@ pub(super) fn note(
             }
         }
     }
-    share_purpose(adapted);
+    share_usages(adapted);
 }
 
-/// What becomes each other from frame to frame is the same images in other roles, made for all of these.
-fn share_purpose(adapted: &mut Adapted) {
+/// History images rotate from frame to frame, so each gets the usages of all.
+fn share_usages(adapted: &mut Adapted) {
     let mut first = 0;
     while let Some(store) = adapted.stores.get(first as usize) {
         let last = if let Home::Persistent { .. } = store.home { last_of_cycle(adapted, first) } else { first };

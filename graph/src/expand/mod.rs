@@ -5,6 +5,7 @@
 //! ```
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
+mod accesses;
 mod casters;
 mod depth_only;
 mod eyes;
@@ -30,7 +31,6 @@ mod storage;
 mod supplied;
 mod targets;
 mod things;
-mod touches;
 mod transfers;
 mod variant;
 mod views;

@@ -13,22 +13,24 @@ mod part;
 mod pass;
 mod resource;
 mod texture;
-mod touch;
+mod uses;
 mod view;
 
 pub(crate) use access::{Access, AccessKind, Effect};
 pub use index::{BufferIndex, ImageIndex, Resource};
-pub use jitter::*;
+pub use jitter::{Jitter, LONGEST};
 pub use output::Output;
 pub(crate) use part::TargetShape;
 pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Work};
 pub(crate) use resource::with_room;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, SAMPLE_COUNTS};
-pub use texture::*;
-pub use touch::{
+pub use texture::{
+    ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
+};
+pub use uses::{
     Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,
 };
-pub use view::*;
+pub use view::{Allowances, Eye, EyeForm, Stereo, View, ViewEye, ViewIndex};
 
 use crate::base::{Sources, Span};
 use change::Change;

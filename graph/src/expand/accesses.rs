@@ -1,4 +1,4 @@
-//! What a pass of the frame reads and writes, part by part.
+//! The reads and writes of a pass, part by part, as far as its images and buffers are known.
 
 use super::order::State;
 use super::parts::{self, Cells};
