@@ -1,9 +1,12 @@
-//! `cull`: only what reaches an output, the next frame or a side effect stays.
+//! `cull`: keeps the passes whose results reach an output, the next frame or a side effect.
 
-use super::link::Linked;
+use super::link::{self, Linked};
+use super::parts::Grids;
+use super::validate;
+use crate::base::Diagnostic;
 use crate::frame::Frame;
 
-/// What stays.
+/// Which passes stay.
 #[derive(Debug)]
 pub(super) struct Live {
     /// Indices of the passes that stay, in frame order.
@@ -12,7 +15,15 @@ pub(super) struct Live {
     pub(super) culled: Vec<u32>,
 }
 
-pub(super) fn cull(frame: &Frame, linked: &Linked) -> Live {
+/// Validates a frame and culls its passes.
+pub(super) fn live(frame: &Frame) -> Result<(Grids, Live), Vec<Diagnostic>> {
+    validate::check(frame)?;
+    let grids = Grids::new(frame);
+    let live = cull(frame, &link::link(frame, &grids)?);
+    Ok((grids, live))
+}
+
+fn cull(frame: &Frame, linked: &Linked) -> Live {
     let mut needed = linked.needed.clone();
     let (mut passes, mut culled) = (Vec::with_capacity(frame.passes.len()), Vec::new());
     for (number, pass) in frame.passes.iter().enumerate().rev() {

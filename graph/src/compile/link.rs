@@ -1,13 +1,12 @@
-//! `link`: what each pass reads and writes, part by part, and whether what it reads is there.
+//! `link`: finds the parts that each pass reads and writes, and checks that earlier passes wrote all that is read.
 //!
 //! Order in the frame gives meaning: a pass reads the versions that stand before itself, even of images it also writes.
 
-use super::parts::{self, Grids, outlives};
-use crate::base::{Diagnostic, Span};
-use crate::frame::{BufferRole, BufferUse, Frame, ImageIndex, Lifetime, Pass, Resource, Work};
-use crate::vulkan::{Layout, Subresources};
+use super::parts::Grids;
+use crate::base::Diagnostic;
+use crate::frame::{Access, BufferIndex, Effect, Frame, Image, ImageIndex, Pass, Resource};
 
-/// What one pass does with one part of an image, or with a buffer.
+/// The access of one pass to one part of an image, or to a buffer.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartUse(u32);
 
@@ -51,34 +50,6 @@ impl Linked {
     }
 }
 
-/// Whether a use of a buffer reads and writes it.
-pub(super) fn buffer_access(used: &BufferUse) -> (bool, bool) {
-    match used.role {
-        BufferRole::Storage { read, write } => (read, write),
-        BufferRole::Uniform | BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => (true, false),
-    }
-}
-
-/// What a pass reads of images as they were before it, otherwise than as attachments and storage images: each image, which part
-/// of it, and where that stands.
-pub(super) fn images_read<'f>(
-    frame: &'f Frame,
-    pass: &'f Pass,
-) -> impl Iterator<Item = (ImageIndex, Subresources, Span)> + 'f {
-    let sampled = pass.sampled.iter().filter(|it| it.frames_ago == 0);
-    let sampled = sampled.map(|it| (it.image, parts::seen(&frame.images[it.image.0 as usize], it.range), it.span));
-    let transferred = pass.transfers.iter().filter(|it| it.frames_ago == 0 && !it.write);
-    let transferred = transferred.filter_map(|it| match it.resource {
-        Resource::Image(image) => Some((image, it.range, it.span)),
-        Resource::Buffer(_) => None,
-    });
-    let forwarded = match pass.work {
-        Work::Forward { from, .. } => Some((from, Subresources::WHOLE, pass.span)),
-        _ => None,
-    };
-    sampled.chain(transferred).chain(forwarded)
-}
-
 pub(super) fn link(frame: &Frame, grids: &Grids) -> Result<Linked, Vec<Diagnostic>> {
     let mut first_part = Vec::with_capacity(frame.images.len() + frame.buffers.len());
     let mut written = Vec::with_capacity(frame.images.len() + frame.buffers.len());
@@ -86,15 +57,13 @@ pub(super) fn link(frame: &Frame, grids: &Grids) -> Result<Linked, Vec<Diagnosti
     for (image, number) in frame.images.iter().zip(0_u32..) {
         first_part.push(written.len() as u32);
         let parts = grids.of(ImageIndex(number)).map_or(1, |grid| grid.len() as usize);
-        let (there, stays) = lives(&image.lifetime, true);
-        written.resize(written.len() + parts, there);
-        needed.resize(written.len(), stays);
+        written.resize(written.len() + parts, image.lifetime.has_contents(Resource::Image(ImageIndex(number))));
+        needed.resize(written.len(), image.lifetime.outlives_frame());
     }
-    for buffer in &frame.buffers {
+    for (buffer, number) in frame.buffers.iter().zip(0_u32..) {
         first_part.push(written.len() as u32);
-        let (there, stays) = lives(&buffer.lifetime, false);
-        written.push(there);
-        needed.push(stays);
+        written.push(buffer.lifetime.has_contents(Resource::Buffer(BufferIndex(number))));
+        needed.push(buffer.lifetime.outlives_frame());
     }
     let mut linker = Linker {
         frame,
@@ -126,16 +95,6 @@ pub(super) fn link(frame: &Frame, grids: &Grids) -> Result<Linked, Vec<Diagnosti
     if linker.errors.is_empty() { Ok(Linked { uses: linker.uses, starts, needed }) } else { Err(linker.errors) }
 }
 
-/// Whether there are contents before the first pass, and whether those after the last one matter.
-fn lives(lifetime: &Lifetime, has_layout: bool) -> (bool, bool) {
-    let there = match lifetime {
-        Lifetime::Transient | Lifetime::History { .. } => false,
-        Lifetime::Persistent { .. } | Lifetime::File(_) => true,
-        Lifetime::Imported { before, .. } => !has_layout || before.layout != Layout::Undefined,
-    };
-    (there, outlives(lifetime))
-}
-
 struct Linker<'f> {
     frame: &'f Frame,
     grids: &'f Grids,
@@ -151,51 +110,20 @@ struct Linker<'f> {
 
 impl Linker<'_> {
     fn pass(&mut self, pass: &Pass) {
-        for (image, range, span) in images_read(self.frame, pass) {
-            self.image(pass, image, range, span, true, false);
-        }
-        for storage in &pass.storage {
-            self.image(pass, storage.image, storage.range, storage.span, storage.read, storage.write);
-        }
-        for target in &pass.color {
-            let image = &self.frame.images[target.image.0 as usize];
-            let keeps = target.clear.is_none() && !pass.covers_color(target, image);
-            self.image(pass, target.image, target.range, target.span, keeps, true);
-        }
-        if let Some(depth) = &pass.depth {
-            let image = &self.frame.images[depth.image.0 as usize];
-            for (plane, clears, writes) in depth.planes(image.format) {
-                let range = Subresources { aspects: plane, ..depth.range };
-                let keeps = !clears && !pass.covers_plane(depth, plane, image);
-                self.image(pass, depth.image, range, depth.span, keeps, writes);
-            }
-        }
-        for used in &pass.buffers {
-            if used.frames_ago == 0 {
-                let (reads, writes) = buffer_access(used);
-                self.access(pass, Resource::Buffer(used.buffer), 0, used.span, reads, writes);
-            }
-        }
-        for used in &pass.transfers {
-            match used.resource {
-                _ if used.frames_ago > 0 => {}
-                Resource::Image(image) if used.write => self.image(pass, image, used.range, used.span, false, true),
-                Resource::Image(_) => {}
-                buffer => self.access(pass, buffer, 0, used.span, !used.write, used.write),
-            }
-        }
-        if let Work::Forward { to, .. } = pass.work {
-            self.image(pass, to, Subresources::WHOLE, pass.span, false, true);
-        }
+        pass.accesses().filter(|access| access.frames_ago == 0).for_each(|access| {
+            let image = access.image_index().map(|image| &self.frame.images[image.0 as usize]);
+            access.for_each_effect(pass, image, |effect| self.effect(pass, &access, image, effect));
+        });
     }
 
-    fn image(&mut self, pass: &Pass, image: ImageIndex, range: Subresources, span: Span, reads: bool, writes: bool) {
-        let Some(grid) = self.grids.of(image) else {
-            return self.access(pass, Resource::Image(image), 0, span, reads, writes);
-        };
-        let range = parts::resolve(&self.frame.images[image.0 as usize], range);
-        for part in grid.cover(range) {
-            self.access(pass, Resource::Image(image), part, span, reads, writes);
+    fn effect(&mut self, pass: &Pass, access: &Access<'_>, image: Option<&Image>, effect: Effect) {
+        match (image, access.image_index().and_then(|index| self.grids.of(index))) {
+            (Some(image), Some(grid)) => {
+                for part in grid.cover(image.part(effect.range)) {
+                    self.access(pass, access, part, effect);
+                }
+            }
+            _ => self.access(pass, access, 0, effect),
         }
     }
 
@@ -220,11 +148,12 @@ impl Linker<'_> {
         (self.first_part[number] as usize..end, self.name(resource))
     }
 
-    /// Notes one access. What it writes is there only for the passes after it ([`Linker::commit`]).
-    fn access(&mut self, pass: &Pass, resource: Resource, part: u32, span: Span, reads: bool, writes: bool) {
+    /// Notes one access. Later passes alone can read its writes ([`Linker::commit`]).
+    fn access(&mut self, pass: &Pass, access: &Access<'_>, part: u32, effect: Effect) {
+        let (Access { resource, span, .. }, Effect { reads, writes, .. }) = (*access, effect);
         let part = self.first_part[self.number(resource)] + part;
         if reads && !self.written[part as usize] {
-            // Said once for each part.
+            // Reported once for each part.
             self.written[part as usize] = true;
             let (name, pass) = (self.name(resource), &pass.name);
             let message = if writes {

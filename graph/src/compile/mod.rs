@@ -1,13 +1,12 @@
 //! A frame becomes a Plan: one file or folder per stage, each a function from data to data.
 //!
 //! ```text
-//! rotate ─► legal ─► parts ─► link ─► cull ─► samples ─► adapt ─► schedule ─► scope ─► queues ─► retain ─► timeline
-//!       ─► purpose ─► usable                                                          (these don't depend on sizes)
+//! rotate ─► validate ─► parts ─► link ─► cull ─► fit ─► adapt ─► schedule ─► scope ─► queues ─► retain ─► timeline ─► usage
+//!                                                                                       (these don't depend on sizes)
 //!       ─► place ─► aliasing ─► barriers ─► emit
 //! ```
 //!
-//! `structure` runs the stages. If the device refuses a format, `formats` finds another one and they run again.
-//! `incremental` keeps what they decided from frame to frame.
+//! `structure` runs the stages. `incremental` keeps what they decided from frame to frame.
 
 use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
@@ -19,27 +18,25 @@ use structure::Structure;
 mod adapt;
 mod cull;
 mod emit;
-mod formats;
+mod fit;
 pub mod heap_size;
 mod history_ring;
 mod incremental;
-mod legal;
 mod link;
 mod memory;
 mod model;
 mod options;
 mod parts;
-mod purpose;
 mod queues;
 mod retain;
 mod rotate;
-mod samples;
 mod schedule;
 mod scope;
 mod steps;
 mod structure;
 mod sync;
-mod usable;
+mod usage;
+mod validate;
 
 pub use incremental::{Compiler, Reuse};
 pub use options::{Options, Order};

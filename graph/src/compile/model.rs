@@ -5,7 +5,8 @@ use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, with_room};
 use crate::plan::{Inserted, Note, Subresources};
 use crate::vulkan::{
-    Accesses, Aspects, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Stages, State, Usage,
+    Accesses, Aspects, BufferUsage, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Sharing, Stages, State,
+    Usage,
 };
 use std::collections::HashMap;
 use std::ops::Range;
@@ -93,6 +94,21 @@ impl Store {
         match &self.kind {
             Kind::Image(image) => Subresources::all(image.format, image.mips, image.layers),
             Kind::Buffer(_) => Subresources::WHOLE,
+        }
+    }
+
+    /// Sets its usage flags, which are bits of `VkImageUsageFlags` or `VkBufferUsageFlags`.
+    pub(super) fn set_usage(&mut self, bits: u32) {
+        match &mut self.kind {
+            Kind::Image(image) => image.usage = Usage::from_bits_truncate(bits),
+            Kind::Buffer(buffer) => buffer.usage = BufferUsage::from_bits_truncate(bits),
+        }
+    }
+
+    pub(super) fn set_sharing(&mut self, sharing: Sharing) {
+        match &mut self.kind {
+            Kind::Image(image) => image.sharing = sharing,
+            Kind::Buffer(buffer) => buffer.sharing = sharing,
         }
     }
 

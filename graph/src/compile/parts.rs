@@ -3,7 +3,7 @@
 //! An image that is only ever used whole is one part. Else its planes, mip levels and layers are cut where an access begins
 //! or ends, and each piece of that grid is a part.
 
-use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, Resource};
+use crate::frame::{Frame, Image, ImageIndex, Pass};
 use crate::vulkan::{Aspects, Subresources};
 
 /// How one image is cut. Parts are numbered plane by plane, in each mip level by mip level, in each layer by layer.
@@ -40,17 +40,9 @@ impl Grids {
             }
         }
         for pass in &frame.passes {
-            let depth = pass.depth.iter().map(|depth| (depth.image, depth.range));
-            let color = pass.color.iter().map(|target| (target.image, target.range));
-            let sampled = pass.sampled.iter().map(|sampled| (sampled.image, sampled.range));
-            let storage = pass.storage.iter().map(|storage| (storage.image, storage.range));
-            let transfers = pass.transfers.iter().filter_map(|transfer| match transfer.resource {
-                Resource::Image(image) => Some((image, transfer.range)),
-                Resource::Buffer(_) => None,
-            });
-            for (image, range) in sampled.chain(storage).chain(color).chain(depth).chain(transfers) {
-                if range != Subresources::WHOLE {
-                    grids.cut(frame, image, range);
+            for access in pass.accesses().filter(|access| access.range != Subresources::WHOLE) {
+                if let Some(image) = access.image_index() {
+                    grids.cut(frame, image, access.range);
                 }
             }
             grids.cut_copies(frame, pass);
@@ -73,8 +65,8 @@ impl Grids {
 
     fn cut(&mut self, frame: &Frame, index: ImageIndex, range: Subresources) {
         let image = &frame.images[index.0 as usize];
-        let range = resolve(image, range);
-        if range == Subresources::all(image.format, image.mips, image.layers) {
+        let range = image.part(range);
+        if range == image.whole() {
             return;
         }
         let grid = self.grid(frame, index, image);
@@ -90,7 +82,7 @@ impl Grids {
         }
     }
 
-    /// What a pass samples while it writes it is copied, mip level by mip level.
+    /// Cuts images that a pass samples while it writes them: they are copied mip level by mip level.
     fn cut_copies(&mut self, frame: &Frame, pass: &Pass) {
         for sampled in &pass.sampled {
             let written = pass.color.iter().any(|target| target.image == sampled.image)
@@ -115,42 +107,6 @@ impl Grids {
 /// Whether an image has more than one plane, mip level and layer.
 fn can_be_cut(image: &Image) -> bool {
     image.mips > 1 || image.layers > 1 || image.format.aspects().bits().count_ones() > 1
-}
-
-/// The part of `image` that `range` means: counts without `REMAINING`, planes named.
-pub(super) fn resolve(image: &Image, range: Subresources) -> Subresources {
-    let count = |count: u32, base: u32, all: u32| {
-        if count == Subresources::REMAINING { all.saturating_sub(base) } else { count }
-    };
-    Subresources {
-        aspects: if range.aspects.is_empty() { image.format.aspects() } else { range.aspects },
-        base_mip: range.base_mip,
-        mips: count(range.mips, range.base_mip, image.mips),
-        base_layer: range.base_layer,
-        layers: count(range.layers, range.base_layer, image.layers),
-    }
-}
-
-/// What of `image` a pass samples that names `range`: shaders see one plane, of depth with stencil the depth unless another
-/// one is named.
-pub(super) fn seen(image: &Image, range: Subresources) -> Subresources {
-    let both = Aspects::DEPTH | Aspects::STENCIL;
-    let plain = image.format.aspects() == both && (range.aspects.is_empty() || range.aspects == both);
-    if plain { Subresources { aspects: Aspects::DEPTH, ..range } } else { range }
-}
-
-/// Whether two ranges of `image` have a part in common.
-pub(super) fn overlap(image: &Image, a: Subresources, b: Subresources) -> bool {
-    let (a, b) = (resolve(image, a), resolve(image, b));
-    let meet = |a: u32, some: u32, b: u32, others: u32| a < b + others && b < a + some;
-    a.aspects.intersects(b.aspects)
-        && meet(a.base_mip, a.mips, b.base_mip, b.mips)
-        && meet(a.base_layer, a.layers, b.base_layer, b.layers)
-}
-
-/// Whether contents of earlier frames can be found in it.
-pub(super) fn outlives(lifetime: &Lifetime) -> bool {
-    !matches!(lifetime, Lifetime::Transient)
 }
 
 impl Grid {
@@ -180,7 +136,7 @@ impl Grid {
         })
     }
 
-    /// What part number `part` is.
+    /// The subresources of part number `part`.
     pub(super) fn range(&self, part: u32) -> Subresources {
         let (rows, columns) = (self.mip_rows(), self.layer_columns());
         let (layer, mip, plane) = (part % columns, part / columns % rows, part / columns / rows);

@@ -2,7 +2,7 @@
 
 use super::cull::{self, Live};
 use super::memory::{self, Aliasing, Placed};
-use super::model::{Adapted, Kind, Use};
+use super::model::{Adapted, Use};
 use super::options::{Options, Order};
 use super::parts::Grids;
 use super::queues::{self, Assigned};
@@ -10,7 +10,7 @@ use super::retain::{self, Retained};
 use super::schedule::{self, Scheduled};
 use super::scope::{self, Scoped};
 use super::sync::{self, Barriers, CellBarrier, Timeline};
-use super::{adapt, formats, legal, link, purpose, samples, usable};
+use super::{adapt, fit, usage};
 use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
@@ -57,36 +57,30 @@ pub(super) enum Settling {
 }
 
 impl Structure {
-    /// As [`Structure::find`]; where the device can't use formats as they are used, it is found for a frame with others,
-    /// which is returned too.
+    /// Runs the stages before `place`. Where the device can't use formats as the frame does, it runs them for a frame with
+    /// others, which is returned too. `keeps`: for [`Structure::still_holds`], later.
     pub(super) fn find_with_fallback(
         frame: &Frame,
         device: &Profile,
         options: &Options,
         keeps: bool,
     ) -> Result<(Structure, Option<Frame>), Vec<Diagnostic>> {
-        let errors = match Structure::find(frame, device, options, keeps) {
-            Ok(structure) => return Ok((structure, None)),
-            Err(errors) => errors,
-        };
-        let Some((substitute, notes)) = formats::fall_back(frame, device) else { return Err(errors) };
-        let mut structure = Structure::find(&substitute, device, options, keeps)?;
-        structure.notes.splice(0..0, notes);
-        Ok((structure, Some(substitute)))
+        let (grids, live) = cull::live(frame)?;
+        let formats = fit::formats(frame, &live.passes, device);
+        let mut structure = Structure::find(formats.frame(frame), (grids, live), &formats, device, options, keeps)?;
+        structure.notes.splice(0..0, formats.notes);
+        Ok((structure, formats.substitute))
     }
 
-    /// Runs the stages before `place`. `keeps`: for [`Structure::still_holds`], later.
-    pub(super) fn find(
+    fn find(
         frame: &Frame,
+        (grids, live): (Grids, Live),
+        formats: &fit::Formats<'_>,
         device: &Profile,
         options: &Options,
         keeps: bool,
     ) -> Result<Structure, Vec<Diagnostic>> {
-        legal::check(frame)?;
-        let grids = Grids::new(frame);
-        let linked = link::link(frame, &grids)?;
-        let live = cull::cull(frame, &linked);
-        let mut negotiated = samples::negotiate(frame, &live.passes, device)?;
+        let mut negotiated = fit::negotiate(frame, &live.passes, formats)?;
         let notes = std::mem::take(&mut negotiated.notes);
         let input = adapt::Input { frame, grids: &grids, live: &live, negotiated: &negotiated, device, options };
         let mut adapted = adapt::adapt(input)?;
@@ -94,24 +88,22 @@ impl Structure {
         let areas = || scope::same_areas(&adapted, &scheduled.order, device).collect();
         let same_areas = if keeps { areas() } else { Vec::new() };
         let uses = if keeps && options.order == Order::LowMemory { adapted.uses.clone() } else { Vec::new() };
-        let scoped = scope::scope(frame, &grids, &mut adapted, &scheduled.order, device);
+        let mut scoped = scope::scope(frame, &grids, &adapted, &scheduled.order, device);
+        adapted.notes.append(&mut scoped.notes);
+        scope::read_locally(&mut adapted.uses, &scoped.local);
         let Assigned { scoped, queues, notes: of_queues, sharing } =
             queues::assign(frame, &grids, &adapted, scoped, device, options);
         adapted.notes.extend(of_queues);
-        for (store, sharing) in sharing {
-            match &mut adapted.stores[store as usize].kind {
-                Kind::Image(image) => image.sharing = sharing,
-                Kind::Buffer(buffer) => buffer.sharing = sharing,
-            }
-        }
+        sharing.into_iter().for_each(|(store, sharing)| adapted.stores[store as usize].set_sharing(sharing));
         let retained = retain::retain(frame, &grids, &adapted, &scoped);
         let timeline = sync::timeline(&grids, &adapted, &scoped, &retained, queues);
         for (used, layout) in &timeline.layouts {
             adapted.uses[*used as usize].layout = *layout;
         }
         let spans = timeline.queues.memory_spans(&adapted, &scoped, &timeline.lifetimes);
-        purpose::note(&grids, &mut adapted, &timeline, &retained, &scoped, options);
-        usable::check(frame, &adapted, &scoped, device)?;
+        let usages = usage::usages(&grids, &adapted, &timeline, &retained, &scoped, options);
+        adapted.stores.iter_mut().zip(usages).for_each(|(store, usage)| store.set_usage(usage));
+        fit::check_support(frame, &adapted, &scoped, device)?;
         Ok(Structure { grids, live, notes, adapted, uses, scheduled, same_areas, scoped, retained, timeline, spans })
     }
 
@@ -119,7 +111,7 @@ impl Structure {
     /// images of the same proportions, has the same structure. Takes over the sizes; if it says no, nothing here is of use
     /// any more.
     pub(super) fn still_holds(&mut self, frame: &Frame, device: &Profile, options: &Options) -> bool {
-        if !samples::still_holds(frame, &self.live.passes, device) {
+        if !fit::still_holds(frame, &self.live.passes, device) {
             return false;
         }
         let Structure { grids, adapted, uses, scheduled, same_areas, .. } = self;

@@ -63,7 +63,7 @@ impl MemoryModel {
     /// What one sample of one layer of one plane takes.
     fn plane(&self, image: &ImageDescriptor, texel_bytes: u64) -> u64 {
         let level = |mip: u32| {
-            let [width, height, depth] = image.extent.map(|extent| u64::from((extent >> mip).max(1)));
+            let [width, height, depth] = image.extent_at(mip).map(u64::from);
             let row = padded(padded(width, self.row_texels.into()).saturating_mul(texel_bytes), self.row_bytes.into());
             let texels = row.saturating_mul(padded(height, self.rows.into())).saturating_mul(depth);
             padded(texels, self.alignment)

@@ -8,7 +8,7 @@ mod usual;
 pub use estimate::Estimated;
 pub use saved::{ProfileError, SHIPPED_PROFILES};
 
-use crate::vulkan::{BufferUsage, Format, ResolveMode, Shape, Sharing, Usage};
+use crate::vulkan::{BufferUsage, Format, ResolveMode, Shape, Sharing, Usage, extent_at};
 use serde::{Deserialize, Serialize};
 
 /// A device's capabilities, as far as a Plan depends on them.
@@ -226,6 +226,13 @@ pub struct ImageDescriptor {
     pub usage: Usage,
     /// Which queues may use it.
     pub sharing: Sharing,
+}
+
+impl ImageDescriptor {
+    /// Width, height and depth of a mip level in texels.
+    pub(crate) fn extent_at(&self, mip: u32) -> [u32; 3] {
+        extent_at(self.extent, mip)
+    }
 }
 
 /// The full descriptor of a buffer.

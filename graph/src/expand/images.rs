@@ -1,10 +1,11 @@
 //! Formats, sizes and sample counts of images, each its own or that of an image that it follows.
 
+use super::follow::follow_all;
 use super::{Chosen, shapes};
 use crate::base::Diagnostic;
-use crate::frame::{self, Image, ResolveWay};
+use crate::frame::{self, Image};
 use crate::language::{self, Format as Described, ImageRef, Layers, Mips, Resolves, Samples, Size};
-use crate::vulkan::{Format, ResolveMode};
+use crate::vulkan::Format;
 use std::sync::Arc;
 
 /// An image of the frame, and where its samples come from.
@@ -17,18 +18,18 @@ pub(super) struct Resolved {
 /// Every image of the pipeline; `None` where a mistake was reported.
 pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<Option<Resolved>> {
     let images = &chosen.pipeline.images;
-    let formats = follow(
+    let formats = follow_all(
         images,
         |image| match image.format.value {
-            Described::Like(of) => Some(of),
+            Described::Like(of) => Some(index(of)),
             _ => None,
         },
         format,
     );
-    let areas = follow(
+    let areas = follow_all(
         images,
         |image| match image.size.value {
-            Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } => Some(of),
+            Size::Like(of) | Size::Scaled { of: Some(of), .. } | Size::Dynamic { of: Some(of), .. } => Some(index(of)),
             _ => None,
         },
         |image, followed| {
@@ -36,26 +37,26 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
             area.map_err(|wrong| errors.push(wrong)).ok().flatten()
         },
     );
-    let samples = follow(
+    let samples = follow_all(
         images,
         |image| match image.samples.value {
-            Samples::Like(of) => Some(of),
+            Samples::Like(of) => Some(index(of)),
             Samples::Count(_) => None,
         },
         samples,
     );
-    let layers = follow(
+    let layers = follow_all(
         images,
         |image| match image.layers.value {
-            Layers::Like(of) => Some(of),
+            Layers::Like(of) => Some(index(of)),
             _ => None,
         },
         shapes::layers,
     );
-    let mips = follow(
+    let mips = follow_all(
         images,
         |image| match image.mips.value {
-            Mips::Like(of) => Some(of),
+            Mips::Like(of) => Some(index(of)),
             _ => None,
         },
         |image, followed| match image.mips.value {
@@ -77,32 +78,8 @@ pub(super) fn resolve(chosen: &Chosen<'_>, errors: &mut Vec<Diagnostic>) -> Vec<
     .collect()
 }
 
-/// The value of each image: its own, or made from the value of the image that it follows. Walks along what is followed
-/// without recursion, since a chain may be as long as the file.
-fn follow<T: Clone>(
-    images: &[language::Image],
-    next: impl Fn(&language::Image) -> Option<ImageRef>,
-    mut value: impl FnMut(&language::Image, Option<T>) -> Option<T>,
-) -> Vec<Option<T>> {
-    let mut known: Vec<Option<Option<T>>> = vec![None; images.len()];
-    for start in 0..images.len() {
-        let mut path = vec![start];
-        while let Some(&at) = path.last() {
-            let to = next(&images[at]).map(|of| of.index.0 as usize);
-            match to.map(|to| (to, known[to].clone())) {
-                _ if known[at].is_some() => {}
-                // A circle would be longer than all images together; reading a pipeline has ruled it out.
-                Some((to, None)) if path.len() <= images.len() => {
-                    path.push(to);
-                    continue;
-                }
-                Some((_, followed)) => known[at] = Some(followed.flatten().and_then(|of| value(&images[at], Some(of)))),
-                None => known[at] = Some(value(&images[at], None)),
-            }
-            path.pop();
-        }
-    }
-    known.into_iter().map(Option::flatten).collect()
+fn index(of: ImageRef) -> usize {
+    of.index.0 as usize
 }
 
 fn format(image: &language::Image, followed: Option<Format>) -> Option<Format> {
@@ -127,16 +104,13 @@ fn asked(
     let Some(Resolves { resolve, said }) = described.resolve.as_ref().or(policy.filter(|_| depth)) else {
         return Some(None);
     };
-    let (way, integers) = (resolve.value, image.format.is_integer());
-    let (fits, ways) = match way {
-        _ if depth => (way != ResolveWay::Weighted, "write `DepthOnly`, `SampleZero`, `Min`, `Max` or `Average`"),
-        _ if integers => (way == ResolveWay::By(ResolveMode::SampleZero), "write `SampleZero`"),
-        way => {
-            let known = [ResolveWay::By(ResolveMode::Average), ResolveWay::Weighted];
-            (known.contains(&way), "write `Average` or `Weighted`")
-        }
-    };
-    if !fits {
+    let way = resolve.value;
+    if !way.fits(image.format) {
+        let ways = match (depth, image.format.is_integer()) {
+            (true, _) => "write `DepthOnly`, `SampleZero`, `Min`, `Max` or `Average`",
+            (false, true) => "write `SampleZero`",
+            (false, false) => "write `Average` or `Weighted`",
+        };
         let message = format!("`{}` can't be resolved so: it is {}", image.name, image.format);
         let wrong = Diagnostic::new(resolve.span, message).label(described.format.span, "its format");
         errors.push(wrong.help(ways));

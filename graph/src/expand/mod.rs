@@ -5,10 +5,12 @@
 //! ```
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
+mod accesses;
 mod casters;
 mod depth_only;
 mod eyes;
 mod fills;
+mod follow;
 mod halves;
 mod history;
 mod images;
@@ -29,7 +31,6 @@ mod storage;
 mod supplied;
 mod targets;
 mod things;
-mod touches;
 mod transfers;
 mod variant;
 mod views;

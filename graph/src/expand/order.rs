@@ -1,15 +1,15 @@
 //! The order of passes: nothing is read before it is written, and whoever writes first covers or clears.
 
+use super::accesses::{self, Read, Write};
 use super::parts::Cells;
 use super::things::Things;
-use super::touches::{self, Read, Write};
 use super::waits::{self, Need};
 use super::written::{Cell, Written};
 use super::{Chosen, passes};
 use crate::base::{Diagnostic, Span, keep};
 use crate::frame::{Lifetime, Output, Pass, Resource};
 use crate::language::StandIn;
-use crate::vulkan::{Aspects, Layout};
+use crate::vulkan::Aspects;
 use std::iter::{once, successors};
 
 /// After so many mistakes it is no longer looked for which writer was meant: that would take long in a large file.
@@ -64,7 +64,7 @@ impl Writers {
         for (position, state) in states.iter().enumerate() {
             let otherwise = &chosen.pipeline.passes[position].otherwise;
             let stood_for = |of: Resource| otherwise.iter().any(|one| of == Resource::Image(one.target().index));
-            for write in state.runs().iter().flat_map(|pass| touches::writes(things, pass)) {
+            for write in state.runs().iter().flat_map(|pass| accesses::writes(things, pass)) {
                 let at = writers.index(write.resource);
                 writers.on[at].push(Writer { position, span: write.span });
             }
@@ -132,7 +132,7 @@ pub(super) fn check(
         super::used_here(chosen.pipeline, chosen.pipeline.passes[position].instance, &mut check.errors[before..]);
     }
     for (position, state) in states.iter().enumerate() {
-        for read in state.runs().iter().flat_map(|pass| touches::reads(things, pass)) {
+        for read in state.runs().iter().flat_map(|pass| accesses::reads(things, pass)) {
             if read.frames_ago > 0 {
                 let reader = format!("pass `{}`", chosen.pipeline.passes[position].name.text);
                 check.needs(states.len(), &read, &reader);
@@ -141,7 +141,7 @@ pub(super) fn check(
     }
     for output in outputs {
         let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
-        if let Some(cells) = touches::whole(things, output.resource) {
+        if let Some(cells) = accesses::whole(things, output.resource) {
             let read = Read { resource: output.resource, cells, frames_ago: 0, span: output.span };
             check.needs(states.len(), &read, reader);
         }
@@ -151,11 +151,11 @@ pub(super) fn check(
 impl Check<'_> {
     /// Reads, then writes. `named` is where a stand-in's source is named.
     fn runs(&mut self, position: usize, pass: &Pass, reader: &str, named: Option<Span>) {
-        for read in touches::reads(self.things, pass).into_iter().filter(|read| read.frames_ago == 0) {
+        for read in accesses::reads(self.things, pass).into_iter().filter(|read| read.frames_ago == 0) {
             let span = named.unwrap_or(read.span);
             self.needs(position, &Read { span, ..read }, reader);
         }
-        for write in touches::writes(self.things, pass) {
+        for write in accesses::writes(self.things, pass) {
             if let Some(clear) = write.continues {
                 self.continues(position, pass, &write, clear);
             }
@@ -164,7 +164,7 @@ impl Check<'_> {
     }
 
     fn add(&mut self, of: Resource, cells: &Cells) {
-        if let Some(whole) = touches::whole(self.things, of) {
+        if let Some(whole) = accesses::whole(self.things, of) {
             let at = self.writers.index(of);
             self.written[at].add(cells, &whole);
         }
@@ -172,14 +172,7 @@ impl Check<'_> {
 
     /// The first of `cells` that holds nothing when the frame has come this far.
     fn missing(&self, of: Resource, cells: &Cells, frames_ago: u32) -> Option<Cell> {
-        let holds = match self.things.lifetime(of)? {
-            Lifetime::Transient => false,
-            Lifetime::Persistent { .. } | Lifetime::File(_) => true,
-            Lifetime::History { .. } => false,
-            Lifetime::Imported { before, .. } => {
-                matches!(of, Resource::Buffer(_)) || before.layout != Layout::Undefined
-            }
-        };
+        let holds = self.things.lifetime(of)?.has_contents(of);
         if holds && frames_ago == 0 { None } else { self.written[self.writers.index(of)].missing(cells) }
     }
 
@@ -260,7 +253,7 @@ impl Check<'_> {
         }
         let wrong = wrong.label(writer.span, "first written here, further below");
         // Further up it would itself read what nothing has written.
-        let reads = self.states[writer.position].runs().iter().flat_map(|pass| touches::reads(self.things, pass));
+        let reads = self.states[writer.position].runs().iter().flat_map(|pass| accesses::reads(self.things, pass));
         if reads.into_iter().any(|own| own.resource == of && own.frames_ago == 0 && own.cells == read.cells) {
             return wrong.help(format!("another pass has to write it first, since `{below}` reads it as well"));
         }
@@ -301,7 +294,7 @@ impl Check<'_> {
         let message =
             format!("pass `{}` is the first to draw into {what} and may leave texels untouched{why}", pass.name);
         let clear = clear.replace('…', name);
-        let clear = match touches::whole(self.things, write.resource) {
+        let clear = match accesses::whole(self.things, write.resource) {
             Some(whole) => {
                 let mip = if whole.mips.len() > 1 { format!(", mip: {}", cell.mip) } else { String::new() };
                 let layer = match layers.len() {
@@ -327,7 +320,7 @@ impl Check<'_> {
     /// "`color`", or "mip level 2 of `color`" where a part of `cells` alone is missing.
     fn words(&self, of: Resource, cells: &Cells, cell: Cell) -> String {
         let name = &self.chosen.name(of).text;
-        let Some(whole) = touches::whole(self.things, of) else { return format!("`{name}`") };
+        let Some(whole) = accesses::whole(self.things, of) else { return format!("`{name}`") };
         if *cells == whole && self.written[self.writers.index(of)].is_blank() {
             return format!("`{name}`");
         }
@@ -350,7 +343,7 @@ impl Check<'_> {
         let few = self.errors.len() < MANY_MISTAKES;
         let writes = |writer: &&Writer| {
             let pass = self.states[writer.position].runs();
-            let writes = pass.iter().flat_map(|pass| touches::writes(self.things, pass));
+            let writes = pass.iter().flat_map(|pass| accesses::writes(self.things, pass));
             writes.into_iter().any(|write| write.resource == of && write.cells.contains(cell))
         };
         let first = if few { writers.iter().find(writes) } else { writers.first() };

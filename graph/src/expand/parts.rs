@@ -31,13 +31,8 @@ pub(super) fn cells(image: &Image, range: &Subresources) -> Cells {
     }
 }
 
-/// Width, height and depth of `image` at a mip level, in texels.
-pub(super) fn extent(image: &Image, mip: u32) -> [u32; 3] {
-    image.extent.map(|extent| extent.checked_shr(mip).unwrap_or(0).max(1))
-}
-
 /// How large an image is, or a mip level of it, in words: "640×360", "640×360 of up to 1280×720".
-pub(super) fn size_words([width, height]: [u32; 2], image: &Image) -> String {
+pub(super) fn size_words([width, height, _]: [u32; 3], image: &Image) -> String {
     match image.room {
         Some([wide, high]) => format!("{width}×{height} of up to {wide}×{high}"),
         None => format!("{width}×{height}"),

@@ -7,7 +7,7 @@ use super::{
     work,
 };
 use crate::base::Diagnostic;
-use crate::frame::{BufferRole, BufferUse, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
+use crate::frame::{Access, BufferRole, BufferUse, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
 use crate::language::{self, StandIn, Work as Described};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{FillValue, Stages, Subresources};
@@ -199,13 +199,6 @@ pub(super) fn stand_ins(
 
 /// Images and buffers whose contents `pass` would make, were it on.
 pub(super) fn would_write(pass: &Pass) -> impl Iterator<Item = (Resource, crate::base::Span)> {
-    let color = pass.color.iter().map(|target| (Resource::Image(target.image), target.span));
-    let depth = pass.depth.iter().map(|target| (Resource::Image(target.image), target.span));
-    let storage = pass.storage.iter().filter(|storage| storage.write);
-    let storage = storage.map(|storage| (Resource::Image(storage.image), storage.span));
-    let buffers = pass.buffers.iter().filter(|used| matches!(used.role, BufferRole::Storage { write: true, .. }));
-    let buffers = buffers.map(|used| (Resource::Buffer(used.buffer), used.span));
-    let transfers = pass.transfers.iter().filter(|transfer| transfer.write);
-    let transfers = transfers.map(|transfer| (transfer.resource, transfer.span));
-    color.chain(depth).chain(storage).chain(buffers).chain(transfers)
+    let writes = |access: &Access<'_>| access.attaches() || access.writes(pass, None);
+    pass.accesses().filter(writes).map(|access| (access.resource, access.span))
 }

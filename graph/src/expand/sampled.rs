@@ -352,29 +352,25 @@ impl Check<'_> {
             return;
         }
         let span = self.sample.own_pixel.map_or(self.sample.part.image.span, |own| own.span);
-        let target = lowered.color.iter().map(|target| (target.image, target.range));
-        let target = target.chain(lowered.depth.iter().map(|target| (target.image, target.range))).next();
-        let Some((target, range)) = target else {
+        let Some((target, range)) = lowered.attachments().next() else {
             let message = format!("pass `{}` draws no pixels, so it has no own ones", self.pass.name.text);
             errors.push(Diagnostic::new(span, message).help("leave `own_pixel` out: it is for passes that draw"));
             return;
         };
         let Some(target) = things.image(target).map(|target| &target.image) else { return };
-        let extent = |image: &crate::frame::Image, mip| {
-            let [width, height, _] = parts::extent(image, mip);
-            [width, height]
-        };
-        let (own, drawn) =
-            (extent(image, self.cells.mips.start), extent(target, parts::cells(target, &range).mips.start));
-        if (own, image.room) != (drawn, target.room) || self.cells.mips.len() > 1 || self.cells.layers.len() > 1 {
+        let (own, drawn) = (image.extent_at(self.cells.mips.start), target.target_shape(range).extent);
+        if (&own[..2], image.room) != (&drawn[..2], target.room)
+            || self.cells.mips.len() > 1
+            || self.cells.layers.len() > 1
+        {
             let message = format!(
                 "`{}` can't be read at the fragment's own position: it isn't the size of what pass `{}` draws into",
                 image.name, self.pass.name.text
             );
-            let words = |size, image| parts::size_words(size, image);
             let levels = self.cells.mips.len();
-            let more = words(own, image) + &if levels > 1 { format!(", {levels} mip levels") } else { String::new() };
-            let targets = format!("`{}` is {}", target.name, words(drawn, target));
+            let more = parts::size_words(own, image)
+                + &if levels > 1 { format!(", {levels} mip levels") } else { String::new() };
+            let targets = format!("`{}` is {}", target.name, parts::size_words(drawn, target));
             errors.push(Diagnostic::new(span, message).remark(more).help(targets));
         }
     }

@@ -5,7 +5,7 @@ use super::shader::component_words;
 use super::things::Things;
 use super::{Chosen, parts, transfers};
 use crate::base::Diagnostic;
-use crate::frame::Blend;
+use crate::frame::{Blend, TargetShape};
 use crate::language::{self, ImagePart, ImageRef};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{Aspects, Component, Shape};
@@ -74,8 +74,7 @@ fn kind(image: &Resolved) -> &'static str {
 struct Part<'a> {
     part: &'a ImagePart,
     image: &'a Resolved,
-    extent: [u32; 2],
-    layers: usize,
+    shape: TargetShape,
 }
 
 /// The one mip level, and the layers, that are drawn into. `None` if that can't be; mistakes were reported then.
@@ -96,12 +95,13 @@ fn drawn<'a>(
     }
     // What is out of range is reported with the pass.
     let mut known = Vec::new();
-    let cells = parts::cells(image, &parts::range(chosen, things, part, &mut known));
+    let range = parts::range(chosen, things, part, &mut known);
     if !known.is_empty() {
         return None;
     }
-    transfers::one_mip(chosen, image, part, &cells, "is drawn into", errors)?;
-    let layers = cells.layers.len();
+    transfers::one_mip(chosen, image, part, &parts::cells(image, &range), "is drawn into", errors)?;
+    let shape = image.target_shape(range);
+    let layers = shape.layers;
     if layers > 1 && part.layers.first.is_none() && part.layers.count.is_none() {
         let declared = chosen.image(part.image.index).layers.span;
         let message = format!("`{name}` has {layers} layers: say which one is drawn into");
@@ -111,8 +111,7 @@ fn drawn<'a>(
         errors.push(Diagnostic::new(part.image.span, message).label(declared, "declared here").help(help));
         return None;
     }
-    let [width, height, _] = parts::extent(image, cells.mips.start);
-    Some(Part { part, image: resolved, extent: [width, height], layers })
+    Some(Part { part, image: resolved, shape })
 }
 
 /// All targets of a pass have one size, one sample count and as many layers.
@@ -121,19 +120,19 @@ fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
     for other in others {
         let (one, another) = (&first.image.image, &other.image.image);
         let span = other.part.image.span;
-        if (first.extent, one.room) != (other.extent, another.room) {
+        if (first.shape.extent, first.shape.room) != (other.shape.extent, other.shape.room) {
             let message = format!(
                 "pass `{}` draws into images of different sizes: `{}` and `{}`",
                 pass.name.text, one.name, another.name
             );
             let wrong = Diagnostic::new(span, message)
-                .remark(parts::size_words(other.extent, another))
-                .label(first.part.image.span, parts::size_words(first.extent, one));
+                .remark(parts::size_words(other.shape.extent, another))
+                .label(first.part.image.span, parts::size_words(first.shape.extent, one));
             let whole = (one.extent, one.room) != (another.extent, another.room);
             let help = format!("let one follow the other: say `size: Like(\"{}\")` of `{}`", one.name, another.name);
             errors.push(if whole { wrong.help(help) } else { wrong.help("draw into the same mip level of both") });
         }
-        if one.samples != another.samples {
+        if first.shape.samples != other.shape.samples {
             let message = format!(
                 "pass `{}` draws into images with different sample counts: `{}` and `{}`",
                 pass.name.text, one.name, another.name
@@ -148,14 +147,14 @@ fn agree(pass: &language::Pass, parts: &[Part<'_>], errors: &mut Vec<Diagnostic>
                     )),
             );
         }
-        if first.layers != other.layers {
-            let layers = |count: usize| if count == 1 { "1 layer".to_owned() } else { format!("{count} layers") };
+        if first.shape.layers != other.shape.layers {
+            let layers = |count: u32| if count == 1 { "1 layer".to_owned() } else { format!("{count} layers") };
             let message = format!(
                 "pass `{}` draws into different numbers of layers: `{}` and `{}`",
                 pass.name.text, one.name, another.name
             );
-            let wrong = Diagnostic::new(span, message).remark(layers(other.layers));
-            errors.push(wrong.label(first.part.image.span, layers(first.layers)));
+            let wrong = Diagnostic::new(span, message).remark(layers(other.shape.layers));
+            errors.push(wrong.label(first.part.image.span, layers(first.shape.layers)));
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Images and buffers of the frame, each from what the file says and what it follows.
 
+use super::follow::follow;
 use super::{Chosen, fills, images, states};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
@@ -31,11 +32,16 @@ impl Things {
                 super::used_here(chosen.pipeline, described.instance, &mut errors[before..]);
             }
         }
-        let mut sizes: Vec<Option<Option<u64>>> = vec![None; chosen.pipeline.buffers.len()];
+        let mut sizes = vec![None; chosen.pipeline.buffers.len()];
         let buffers = &chosen.pipeline.buffers;
         let buffers = buffers.iter().enumerate().map(|(at, buffer)| {
             let before = errors.len();
-            let bytes = followed(chosen, &images, &mut sizes, at, errors);
+            let next = |buffer: &language::Buffer| match buffer.bytes.value {
+                Bytes::Like(of) => Some(of.index.0 as usize),
+                _ => None,
+            };
+            let bytes =
+                follow(buffers, &mut sizes, at, next, |buffer, followed| bytes(&images, buffer, followed, errors));
             let subject = Subject { name: &buffer.name.text, format: None, samples: 1 };
             let lifetime = lifetime(chosen, &buffer.lifetime, subject, errors);
             super::used_here(chosen.pipeline, buffer.instance, &mut errors[before..]);
@@ -101,34 +107,13 @@ impl<'a> Chosen<'a> {
     }
 }
 
-/// The size of the buffer numbered `at`, along the buffers that it follows. Every size is found once.
-fn followed(
-    chosen: &Chosen<'_>,
+/// The size of a buffer.
+fn bytes(
     images: &[Option<images::Resolved>],
-    sizes: &mut [Option<Option<u64>>],
-    at: usize,
+    buffer: &language::Buffer,
+    followed: Option<u64>,
     errors: &mut Vec<Diagnostic>,
 ) -> Option<u64> {
-    let mut path = vec![at];
-    let size = loop {
-        let last = *path.last()?;
-        if let Some(known) = sizes[last] {
-            break known;
-        }
-        match chosen.pipeline.buffers[last].bytes.value {
-            // A circle would be longer than all buffers together; reading a pipeline has ruled it out.
-            Bytes::Like(of) if path.len() <= sizes.len() => path.push(of.index.0 as usize),
-            _ => break own(images, &chosen.pipeline.buffers[last], errors),
-        }
-    };
-    for at in path {
-        sizes[at] = Some(size);
-    }
-    size
-}
-
-/// The size of a buffer that follows no other.
-fn own(images: &[Option<images::Resolved>], buffer: &language::Buffer, errors: &mut Vec<Diagnostic>) -> Option<u64> {
     let (bytes, because) = match buffer.bytes.value {
         Bytes::Count(bytes) => (bytes.checked_next_multiple_of(4), format!("{bytes} bytes")),
         Bytes::Times(each, count) => {
@@ -141,7 +126,7 @@ fn own(images: &[Option<images::Resolved>], buffer: &language::Buffer, errors: &
             let texels = width * height * depth * u64::from(image.layers);
             (each.checked_mul(texels), format!("{each} bytes times {texels} texels of `{}`", image.name))
         }
-        Bytes::Like(_) => return None,
+        Bytes::Like(_) => return followed,
     };
     let most = LARGEST_BUFFER.unsigned_abs();
     let rounded = bytes.and_then(|bytes| bytes.checked_next_multiple_of(4)).filter(|bytes| *bytes <= most);

@@ -55,7 +55,7 @@ fn side<'a>(
     let image = &things.image(part.image.index)?.image;
     let cells = parts::cells(image, &transfer.range);
     one_mip(chosen, image, part, &cells, "is copied", errors)?;
-    let extent = parts::extent(image, cells.mips.start);
+    let extent = image.extent_at(cells.mips.start);
     Some(Side { image, part, cells, extent })
 }
 
@@ -112,7 +112,7 @@ pub(super) fn copy(
         (Part::Image(_), Part::Image(_)) => {
             let (one, other) = (side(chosen, things, from, source, errors), side(chosen, things, to, target, errors));
             if let (Some(one), Some(other)) = (one, other) {
-                images_fit(&one, &other, source.frames_ago == 0, errors);
+                images_fit([&one, &other], [source, target], errors);
                 same_texels(chosen, &one, &other, errors);
             }
         }
@@ -170,12 +170,9 @@ fn same_texels(chosen: &Chosen<'_>, from: &Side<'_>, to: &Side<'_>, errors: &mut
 }
 
 /// An image is not copied onto itself.
-fn images_fit(from: &Side<'_>, to: &Side<'_>, same_frame: bool, errors: &mut Vec<Diagnostic>) {
-    let (one, other) = (&from.cells, &to.cells);
-    let meet = |a: &std::ops::Range<u32>, b: &std::ops::Range<u32>| a.start < b.end && b.start < a.end;
-    let overlap =
-        one.planes.intersects(other.planes) && meet(&one.mips, &other.mips) && meet(&one.layers, &other.layers);
-    if from.part.image.index == to.part.image.index && same_frame && overlap {
+fn images_fit([from, to]: [&Side<'_>; 2], [source, target]: [&TransferUse; 2], errors: &mut Vec<Diagnostic>) {
+    let one = source.resource == target.resource && source.frames_ago == 0;
+    if one && from.image.overlap(source.range, target.range) {
         let itself = Diagnostic::new(to.part.image.span, "a part of an image can't be copied to itself");
         errors.push(itself.label(from.part.image.span, "copied from here"));
     }
@@ -227,7 +224,7 @@ pub(super) fn blit(
     let [source, target] = &lowered.transfers[..] else { return };
     let (one, other) = (side(chosen, things, from, source, errors), side(chosen, things, to, target, errors));
     let (Some(one), Some(other)) = (one, other) else { return };
-    images_fit(&one, &other, source.frames_ago == 0, errors);
+    images_fit([&one, &other], [source, target], errors);
     for side in [&one, &other] {
         if side.image.samples > 1 {
             let message = format!("`{}` has {} samples and can't be scaled", side.image.name, side.image.samples);

@@ -2,7 +2,7 @@
 
 use super::order::{self, Writers};
 use super::things::Things;
-use super::{Chosen, touches};
+use super::{Chosen, accesses};
 use crate::base::{Diagnostic, Span};
 use crate::frame::Resource;
 use std::collections::{HashMap, VecDeque};
@@ -28,9 +28,9 @@ pub(super) fn circle(things: &Things, states: &[order::State], writers: &Writers
     let mut queue = VecDeque::from([first.writer]);
     while let Some(at) = queue.pop_front() {
         let runs = states.get(at).map_or(&[][..], order::State::runs);
-        let read = runs.iter().flat_map(|pass| touches::reads(things, pass)).filter(|read| read.frames_ago == 0);
+        let read = runs.iter().flat_map(|pass| accesses::reads(things, pass)).filter(|read| read.frames_ago == 0);
         let read = read.map(|read| (read.resource, read.span));
-        let continued = runs.iter().flat_map(|pass| touches::writes(things, pass));
+        let continued = runs.iter().flat_map(|pass| accesses::writes(things, pass));
         let continued = continued.filter(|write| write.continues.is_some());
         for (resource, span) in read.chain(continued.map(|write| (write.resource, write.span))) {
             let Some(writer) = writers.last_before(resource, at).filter(|writer| *writer >= first.pass) else {

@@ -77,7 +77,7 @@ fn groups(chosen: &Chosen<'_>, things: &Things, groups: &Described) -> Groups {
 fn texels(chosen: &Chosen<'_>, things: &Things, part: &language::ImagePart) -> [u32; 3] {
     let Some(image) = things.image(part.image.index).map(|image| &image.image) else { return [1; 3] };
     let cells = parts::cells(image, &parts::range(chosen, things, part, &mut Vec::new()));
-    let [width, height, depth] = parts::extent(image, cells.mips.start);
+    let [width, height, depth] = image.extent_at(cells.mips.start);
     [width, height, depth.saturating_mul(cells.layers.end - cells.layers.start)]
 }
 

@@ -3,28 +3,34 @@
 //! This is what [`crate::compile`] reads. It still says only *what*: no barrier, layout, load or store operation, resolve
 //! or alias. It is plain data, so an embedding program may also build it without any file.
 
+mod access;
 pub mod change;
 mod covers;
 mod index;
 mod jitter;
 mod output;
+mod part;
 mod pass;
 mod resource;
 mod texture;
-mod touch;
+mod uses;
 mod view;
 
+pub(crate) use access::{Access, AccessKind, Effect};
 pub use index::{BufferIndex, ImageIndex, Resource};
-pub use jitter::*;
+pub use jitter::{Jitter, LONGEST};
 pub use output::Output;
+pub(crate) use part::TargetShape;
 pub use pass::{Cascade, Draw, DrawList, Groups, Metres, ParamValue, Pass, Work};
 pub(crate) use resource::with_room;
-pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay};
-pub use texture::*;
-pub use touch::{
+pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, SAMPLE_COUNTS};
+pub use texture::{
+    ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
+};
+pub use uses::{
     Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,
 };
-pub use view::*;
+pub use view::{Allowances, Eye, EyeForm, Stereo, View, ViewEye, ViewIndex};
 
 use crate::base::{Sources, Span};
 use change::Change;

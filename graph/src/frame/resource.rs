@@ -1,9 +1,12 @@
 //! Images and buffers of a frame.
 
-use super::{EyeForm, TextureFile};
+use super::{EyeForm, Resource, TextureFile};
 use crate::base::Span;
-use crate::vulkan::{FillValue, Format, ResolveMode, Rotation, Shape, State};
+use crate::vulkan::{FillValue, Format, Layout, ResolveMode, Rotation, Shape, State};
 use std::sync::Arc;
+
+/// The numbers of samples a texel that an image can be asked to have.
+pub const SAMPLE_COUNTS: [u32; 5] = [1, 2, 4, 8, 16];
 
 /// An image of a frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +36,7 @@ pub struct Image {
     pub mips: u32,
     /// Array layers, at least 1; of a cube 6 for each.
     pub layers: u32,
-    /// Samples a texel that were asked for: 1, 2, 4, 8 or 16. `adapt` lowers it to what the device has.
+    /// Samples a texel that were asked for, one of [`SAMPLE_COUNTS`]. `adapt` lowers it to what the device has.
     pub samples: u32,
     /// How several samples of it become one value, if the pipeline says so. Without a word colour is averaged, integers are
     /// sample zero, and depth is drawn again for passes that sample it and sample zero where it is copied or leaves the
@@ -115,6 +118,19 @@ pub enum ResolveWay {
     Weighted,
 }
 
+impl ResolveWay {
+    /// Whether images of a format can be resolved in this way.
+    pub(crate) fn fits(self, format: Format) -> bool {
+        match self {
+            ResolveWay::DepthOnly => format.is_depth(),
+            ResolveWay::By(_) if format.is_depth() => true,
+            ResolveWay::By(mode) if format.is_integer() => mode == ResolveMode::SampleZero,
+            ResolveWay::By(mode) => mode == ResolveMode::Average,
+            ResolveWay::Weighted => !format.is_depth() && !format.is_integer(),
+        }
+    }
+}
+
 /// A buffer of a frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Buffer {
@@ -155,4 +171,22 @@ pub enum Lifetime {
     },
     /// An image whose contents come from a file before the first frame, and which is only sampled.
     File(Arc<TextureFile>),
+}
+
+impl Lifetime {
+    /// Whether contents of earlier frames can be found in it.
+    pub(crate) fn outlives_frame(&self) -> bool {
+        !matches!(self, Lifetime::Transient)
+    }
+
+    /// Whether `of`, which lives so, has contents before the first pass.
+    pub(crate) fn has_contents(&self, of: Resource) -> bool {
+        match self {
+            Lifetime::Transient | Lifetime::History { .. } => false,
+            Lifetime::Persistent { .. } | Lifetime::File(_) => true,
+            Lifetime::Imported { before, .. } => {
+                matches!(of, Resource::Buffer(_)) || before.layout != Layout::Undefined
+            }
+        }
+    }
 }

@@ -265,6 +265,16 @@ impl Subresources {
     pub const fn all(format: Format, mips: u32, layers: u32) -> Subresources {
         Subresources { aspects: format.aspects(), base_mip: 0, mips, base_layer: 0, layers }
     }
+
+    /// Whether two parts of one image, both with planes and counts, have anything in common.
+    pub(crate) const fn overlaps(self, other: Subresources) -> bool {
+        const fn meet(a: u32, some: u32, b: u32, others: u32) -> bool {
+            a < b + others && b < a + some
+        }
+        self.aspects.intersects(other.aspects)
+            && meet(self.base_mip, self.mips, other.base_mip, other.mips)
+            && meet(self.base_layer, self.layers, other.base_layer, other.layers)
+    }
 }
 
 /// What every texel of an image, or every 32-bit word of a buffer, is set to.

@@ -47,6 +47,11 @@ pub enum Component {
     Uint,
 }
 
+/// Width, height and depth of mip level number `mip` of an image with this extent, in texels.
+pub(crate) fn extent_at(extent: [u32; 3], mip: u32) -> [u32; 3] {
+    extent.map(|side| side.checked_shr(mip).unwrap_or(0).max(1))
+}
+
 impl Component {
     /// What a component of `format` is to a shader.
     #[must_use]

@@ -13,6 +13,7 @@ pub use encoding::*;
 pub use enums::*;
 pub(crate) use foreign_formats::vulkans_name;
 pub use format::*;
+pub(crate) use image_shape::extent_at;
 pub use image_shape::{Component, Dimension, ImageShape};
 pub(crate) use name::name_of;
 pub use rotation::*;

@@ -1,14 +1,12 @@
 //! Which stages, accesses and layouts each use of an image or buffer takes.
 
-use super::TRANSFER;
-use crate::compile::link::buffer_access;
 use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
 use crate::frame::{Blend, BufferRole, BufferUse, ColorTarget, Resource, Sampled, Storage, TransferUse, Work};
 use crate::vulkan::{Accesses, Aspects, Format, Layout, Stages};
 
 const DEPTH_TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
 
-/// A use that reads, to be changed.
+/// A reading use, from which the others are made.
 fn used(store: StoreIndex, range: u32, role: Role) -> Use {
     Use {
         store,
@@ -63,7 +61,7 @@ fn read_only(format: Format, planes: Aspects) -> Layout {
 }
 
 /// The layout of a plane that is an attachment and written.
-pub(in crate::compile) fn attached(format: Format, plane: Aspects) -> Layout {
+pub(crate) fn attached(format: Format, plane: Aspects) -> Layout {
     match (format.aspects().contains(Aspects::STENCIL), plane == Aspects::STENCIL) {
         (false, _) => Layout::DepthStencilAttachmentOptimal,
         (true, false) => Layout::DepthAttachmentOptimal,
@@ -90,7 +88,7 @@ pub(super) fn color(target: &ColorTarget, entry: u32, store: StoreIndex, range: 
 pub(super) fn depth(plane: Aspects, store: StoreIndex, range: u32, start: Start, writes: bool, format: Format) -> Use {
     let role = if plane == Aspects::STENCIL { Role::Stencil } else { Role::Depth };
     let mut accesses = Accesses::empty();
-    // What covers is tested against nothing.
+    // A draw that covers passes every depth test, so that nothing is read.
     accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_READ, start != Start::Discard);
     accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE, writes);
     let layout = if writes { attached(format, plane) } else { read_only(format, plane) };
@@ -99,7 +97,7 @@ pub(super) fn depth(plane: Aspects, store: StoreIndex, range: u32, start: Start,
 }
 
 pub(super) fn buffer(buffer: &BufferUse, entry: u32, store: StoreIndex) -> Use {
-    let (reads, writes) = buffer_access(buffer);
+    let (reads, writes) = (buffer.role.reads(), buffer.role.writes());
     let (stages, accesses) = match buffer.role {
         BufferRole::Uniform => (buffer.stages, Accesses::UNIFORM_READ),
         BufferRole::Storage { read, write } => {
@@ -115,7 +113,7 @@ pub(super) fn buffer(buffer: &BufferUse, entry: u32, store: StoreIndex) -> Use {
     Use { entry, reads, writes, stages, accesses, ..used(store, Use::ALL, Role::Buffer) }
 }
 
-/// What a pass transfers.
+/// The use of an image or buffer by a transfer.
 pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, store: StoreIndex, range: u32) -> Use {
     let stages = match work {
         Work::Blit { .. } => Stages::BLIT,
@@ -129,12 +127,24 @@ pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, store: S
 }
 
 pub(super) fn source(store: StoreIndex, range: u32, stages: Stages) -> Use {
-    Use { layout: TRANSFER[0], stages, accesses: Accesses::TRANSFER_READ, ..used(store, range, Role::Source) }
+    Use {
+        layout: Layout::TransferSrcOptimal,
+        stages,
+        accesses: Accesses::TRANSFER_READ,
+        ..used(store, range, Role::Source)
+    }
 }
 
 pub(super) fn target(store: StoreIndex, range: u32, stages: Stages) -> Use {
     let accesses = Accesses::TRANSFER_WRITE;
-    Use { reads: false, writes: true, layout: TRANSFER[1], stages, accesses, ..used(store, range, Role::Target) }
+    Use {
+        reads: false,
+        writes: true,
+        layout: Layout::TransferDstOptimal,
+        stages,
+        accesses,
+        ..used(store, range, Role::Target)
+    }
 }
 
 /// The stage in which an inserted transfer happens, if no scope carries it.
@@ -170,7 +180,7 @@ pub(super) fn forward_draw(source: StoreIndex, target: StoreIndex) -> [Use; 2] {
 }
 
 /// Whether a pass with these uses draws colour into several samples.
-pub(in crate::compile) fn has_samples(adapted: &Adapted, uses: &[Use]) -> bool {
+pub(crate) fn has_samples(adapted: &Adapted, uses: &[Use]) -> bool {
     let mut colors = uses.iter().filter(|used| used.role == Role::Color);
     colors.any(|used| adapted.stores[used.store as usize].image().is_some_and(|image| image.samples > 1))
 }

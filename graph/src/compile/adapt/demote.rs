@@ -1,9 +1,8 @@
 //! Demotion: a full-screen draw that covers every pixel of a multisampled image gains nothing from the samples. Unless
 //! geometry is drawn on top of what it draws, or single samples of it are read, it moves to a single-sampled image.
 
-use super::{Input, copies_samples, has_edges};
-use crate::compile::parts::outlives;
-use crate::frame::{Draw, Face, ImageIndex, Pass, Resource, Work};
+use super::input::Input;
+use crate::frame::{Draw, Face, Frame, ImageIndex, Pass, Resource, Work};
 use crate::plan::{Note, Stage};
 use std::collections::BTreeSet;
 
@@ -62,11 +61,11 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
         for target in pass.color.iter().filter(|target| multisampled(target.image)) {
             let later = &mut needs[target.image.0 as usize];
             let image = &frame.images[target.image.0 as usize];
-            // Who draws into some layers keeps the others.
-            let keeps = image.layers > 1 || target.clear.is_none() && !pass.covers_color(target, image);
-            let fixed = outlives(&image.lifetime);
+            // A draw into some layers keeps the others.
+            let keeps = image.layers > 1 || pass.keeps_color(target, image);
+            let fixed = image.lifetime.outlives_frame();
             match (is_flat(pass), keeps) {
-                // It follows its image to wherever that is.
+                // It draws into whichever physical image holds the current version.
                 (true, true) => {}
                 (true, false) => {
                     let later = std::mem::take(later);
@@ -85,7 +84,7 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
         if let Work::Forward { from, to, .. } = pass.work {
             let later = std::mem::take(&mut needs[to.0 as usize]);
             // What outlives the frame has all its samples.
-            let fixed = outlives(&frame.images[to.0 as usize].lifetime) && multisampled(to);
+            let fixed = frame.images[to.0 as usize].lifetime.outlives_frame() && multisampled(to);
             match later {
                 Needs::Nothing if fixed => needs[from.0 as usize] = Needs::Samples(number),
                 Needs::Nothing => {}
@@ -140,4 +139,18 @@ fn stays(input: &Input<'_>, pass: &Pass, image: ImageIndex, why: Needs) -> Note 
         text: format!("draws `{name}` with {} samples: {because}", input.negotiated.samples(image)),
         at: frame.sources.place(pass.span),
     }
+}
+
+/// Whether a pass copies into images sample by sample: then it reads single samples, too.
+pub(super) fn copies_samples(frame: &Frame, pass: &Pass) -> bool {
+    let target = pass.transfers.iter().find(|used| used.write).map(|used| used.resource);
+    let Some(Resource::Image(target)) = target.filter(|_| matches!(pass.work, Work::Copy | Work::Custom { .. })) else {
+        return false;
+    };
+    frame.images[target.0 as usize].samples > 1
+}
+
+/// Whether a draw is made of objects or other geometry that has edges inside the image, or makes edges by its alpha.
+fn has_edges(pass: &Pass) -> bool {
+    pass.alpha_to_coverage || matches!(&pass.work, Work::Draw { draw, .. } if *draw != Draw::FullScreen)
 }

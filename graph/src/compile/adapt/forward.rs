@@ -1,52 +1,12 @@
-//! Passes that are off: their target takes what another image holds.
+//! Stand-ins for passes that are off: their target takes the contents of another image.
 
-use super::{Adapter, access};
+use super::access;
+use super::adapter::Adapter;
 use crate::base::Diagnostic;
-use crate::compile::cull::Live;
 use crate::compile::model::{OpKind, StoreIndex, Use};
-use crate::compile::parts::outlives;
 use crate::device::ImageDescriptor;
-use crate::frame::{Frame, Image, ImageIndex, Pass, Resource, Work};
+use crate::frame::{Image, ImageIndex, Pass, Resource, Work};
 use crate::vulkan::{Filter, Rotation};
-
-/// For each image of the frame the last pass that stays and touches it, and the last that writes it.
-#[derive(Debug, Default)]
-pub(super) struct Later {
-    access: Vec<Option<u32>>,
-    write: Vec<Option<u32>>,
-}
-
-impl Later {
-    pub(super) fn of(frame: &Frame, live: &Live) -> Later {
-        let mut later = Later { access: vec![None; frame.images.len()], write: vec![None; frame.images.len()] };
-        for number in &live.passes {
-            let pass = &frame.passes[*number as usize];
-            let mut touch = |image: ImageIndex, writes: bool| {
-                later.access[image.0 as usize] = Some(*number);
-                if writes {
-                    later.write[image.0 as usize] = Some(*number);
-                }
-            };
-            pass.sampled.iter().for_each(|sampled| touch(sampled.image, false));
-            pass.storage.iter().for_each(|storage| touch(storage.image, storage.write));
-            pass.color.iter().for_each(|target| touch(target.image, true));
-            pass.depth.iter().for_each(|depth| {
-                let format = frame.images[depth.image.0 as usize].format;
-                touch(depth.image, depth.planes(format).any(|(_, _, writes)| writes));
-            });
-            for transfer in &pass.transfers {
-                if let Resource::Image(image) = transfer.resource {
-                    touch(image, transfer.write);
-                }
-            }
-            if let Work::Forward { from, to, .. } = pass.work {
-                touch(from, false);
-                touch(to, true);
-            }
-        }
-        later
-    }
-}
 
 impl Adapter<'_> {
     /// `to` takes what `from` holds: as the same image if nothing tells them apart, else by a copy or a draw.
@@ -59,9 +19,9 @@ impl Adapter<'_> {
         let (source_image, target_image) = (&frame.images[from.0 as usize], &frame.images[to.0 as usize]);
         let count = self.current_samples(from);
         let mut wanted = self.input.negotiated.samples(to);
-        // Where draws moved to a single sample, nobody needs more of what takes their place either.
+        // Where draws moved to a single sample, their stand-in needs no more samples either.
         let moved = count < wanted && self.input.negotiated.samples(from) == wanted;
-        if moved && !outlives(&target_image.lifetime) {
+        if moved && !target_image.lifetime.outlives_frame() {
             wanted = count;
         }
         let size = |image: &Image| (image.extent, image.room, image.rotation, image.eyes);
@@ -164,12 +124,12 @@ impl Adapter<'_> {
         self.push(OpKind::ForwardDraw { pass: number, filter, why }, &uses);
     }
 
-    /// Whether `to` may live in `store` from pass `number` on: nobody must be able to tell. That holds unless somebody
-    /// writes the store under one name while it is still used under another, or one of them has memory of its own.
+    /// Whether `to` may share `store` from pass `number` on. It may not if a later pass writes the store under one name while
+    /// it is still used under another, or if one of the images has memory of its own.
     fn may_share(&mut self, number: u32, store: StoreIndex, from: ImageIndex, to: ImageIndex) -> bool {
         let images = &self.input.frame.images;
         let cut = self.input.grids.of(from) != self.input.grids.of(to);
-        if cut || [from, to].iter().any(|image| outlives(&images[image.0 as usize].lifetime)) {
+        if cut || [from, to].iter().any(|image| images[image.0 as usize].lifetime.outlives_frame()) {
             return false;
         }
         let Adapter { later, store_of, resolved_of, is_output, known_as, adapted, .. } = self;
@@ -180,7 +140,7 @@ impl Adapter<'_> {
             Resource::Buffer(_) => Vec::new(),
         };
         let known = known_as.entry(store).or_insert(first);
-        // What isn't used any more by now never is again, so a long chain of forwards is no long list.
+        // Names that are not used any more are dropped, so that a long chain of forwards makes no long list.
         let used = |image: &ImageIndex| after(later.access[image.0 as usize]) || is_output[image.0 as usize];
         known.retain(|image| used(image) && *image != to);
         let resolved = |image: ImageIndex| {

@@ -1,15 +1,16 @@
-//! Several samples become one value: once for each version of an image, for all its readers.
+//! Resolves: once for each version of an image, for all its readers.
 //!
-//! Colour is averaged, or weighted by a draw; integers are sample zero. Depth has a ladder: whatever drew it is drawn again with one sample (see
-//! `depth_only`), or it is resolved, by the scope that drew it where the device has the mode, else by a draw.
+//! Colour is averaged, or weighted by a draw; of integers sample zero is taken. Depth is drawn again with one sample
+//! (`depth_only`), or it is resolved: by the scope that drew it where the device has the mode, else by a draw.
 
-use super::{Adapter, access};
+use super::access;
+use super::adapter::Adapter;
 use crate::base::{Diagnostic, Span};
+use crate::compile::fit::drawn_together;
 use crate::compile::model::{OpKind, ResolveShader, StoreIndex, Use};
-use crate::compile::samples::drawn_together;
-use crate::compile::{link, parts};
+use crate::compile::parts::join;
 use crate::device::Profile;
-use crate::frame::{EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource, Work};
+use crate::frame::{AccessKind, EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource};
 use crate::plan::Inserted;
 use crate::vulkan::{Aspects, ResolveMode, Subresources, name_of};
 
@@ -34,8 +35,8 @@ impl Adapter<'_> {
         }
     }
 
-    /// The same for what copies it, texel for texel, or carries it out of the frame: of depth without a word sample zero, since
-    /// what is there is asked for, and not what would be drawn.
+    /// The same for a copy, texel for texel, and for an output. Depth without a `resolve` is resolved to sample zero: the
+    /// copy takes the contents, not what drawing them again would give.
     pub(super) fn resolved_as_it_is(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
         let declared = &self.input.frame.images[image.0 as usize];
         if !declared.format.is_depth() {
@@ -112,7 +113,7 @@ impl Adapter<'_> {
     fn resolve_by_draw(&mut self, by: ResolveShader, why: Box<Inserted>, uses: [Use; 2]) -> StoreIndex {
         let [source, target] = [uses[0].store, uses[1].store];
         let store = &self.adapted.stores[target as usize];
-        // Whoever is inserted has a name of its own.
+        // Inserted images have names of their own.
         let name = store.renamed.clone().unwrap_or_default();
         let view = self.view_of_writer(source);
         let way = match by {
@@ -176,30 +177,32 @@ impl Adapter<'_> {
         let store = &adapted.stores[source as usize];
         let Some(grid) = store.grid(input.grids) else { return vec![Subresources::WHOLE] };
         let declared = &input.frame.images[image.0 as usize];
-        let mut written = vec![parts::outlives(&declared.lifetime); grid.len() as usize];
+        let mut written = vec![declared.lifetime.outlives_frame(); grid.len() as usize];
         for used in adapted.uses.iter().filter(|used| used.writes && used.store == source) {
             grid.cover(adapted.range(used)).for_each(|part| written[part as usize] = true);
         }
         let mut read = vec![false; grid.len() as usize];
         let mut reads = |range| {
-            grid.cover(parts::resolve(declared, range)).for_each(|part| read[part as usize] = true);
+            grid.cover(declared.part(range)).for_each(|part| read[part as usize] = true);
         };
         if input.frame.outputs.iter().any(|output| output.resource == Resource::Image(image)) {
             reads(Subresources::WHOLE);
         }
         for pass in &input.frame.passes {
-            link::images_read(input.frame, pass)
-                .filter(|(read, ..)| *read == image)
-                .for_each(|(_, range, _)| reads(range));
-            // It may hold another image's contents, whose readers aren't its own.
-            if matches!(pass.work, Work::Forward { to, .. } if to == image) {
-                reads(Subresources::WHOLE);
+            for access in pass.accesses().filter(|access| access.image_index() == Some(image)) {
+                match access.kind {
+                    AccessKind::Sampled(_) if access.frames_ago == 0 => reads(declared.sampled_part(access.range)),
+                    AccessKind::Transfer { write: false } if access.frames_ago == 0 => reads(access.range),
+                    // Another image may take its contents or give it its own, whose readers aren't those of this one.
+                    AccessKind::ForwardSource | AccessKind::ForwardTarget => reads(access.range),
+                    _ => {}
+                }
             }
         }
         let mut ranges: Vec<Subresources> = Vec::new();
         for part in (0..grid.len()).filter(|part| written[*part as usize] && read[*part as usize]) {
             let range = grid.range(part);
-            match ranges.last_mut().and_then(|last| Some((parts::join(*last, range)?, last))) {
+            match ranges.last_mut().and_then(|last| Some((join(*last, range)?, last))) {
                 Some((joined, last)) => *last = joined,
                 None => ranges.push(range),
             }
@@ -207,8 +210,8 @@ impl Adapter<'_> {
         ranges
     }
 
-    /// What an image holds resolved in a way, if somebody asked for that: images that are forwarded to each other may say
-    /// different ones.
+    /// The resolved copy of an image in a certain way, if there is one: images that are forwarded to each other may ask for
+    /// different ways.
     fn resolved_so(&self, source: StoreIndex, way: ResolveWay) -> Option<StoreIndex> {
         self.resolved_of[source as usize].filter(|(known, _)| *known == way).map(|(_, resolved)| resolved)
     }

@@ -6,7 +6,7 @@ use crate::compile::emit::{self, Parts};
 use crate::compile::model::OpKind;
 use crate::compile::options::Options;
 use crate::compile::structure::{Settled, Settling, Structure};
-use crate::compile::{legal, retain, rotate};
+use crate::compile::{retain, rotate, validate};
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Plan;
@@ -173,7 +173,7 @@ impl Last {
 
     /// Whether order, scopes and places served again.
     fn put_in_values(&mut self, frame: &Frame) -> bool {
-        if !legal::still_holds(frame) {
+        if !validate::still_holds(frame) {
             return false;
         }
         let Last { structure, settled, device, plan, .. } = self;
@@ -190,7 +190,7 @@ impl Last {
         if forwards && !difference::keeps_proportions(before, frame) {
             return Ok(false);
         }
-        if !legal::still_holds(frame) || !structure.still_holds(frame, device, options) {
+        if !validate::still_holds(frame) || !structure.still_holds(frame, device, options) {
             return Ok(false);
         }
         retain::renew_clear_values(frame, &structure.adapted, &mut structure.retained);

@@ -1,10 +1,10 @@
-//! What passes gain that share a rendering scope. Words for it are found when they are wanted: sizes may be others by then.
+//! What passes gain by sharing a rendering scope. The sentence is made when it is printed: sizes may have changed by then.
 
-use super::{Scope, Target, op_name, store_name};
+use super::step::{Scope, Target, op_name, store_name};
 use crate::compile::model::{Adapted, Use};
 use crate::frame::Frame;
 
-/// What a pass gains in the scope of the pass before it.
+/// What a pass gains by joining the scope before it.
 #[derive(Debug, Clone)]
 pub(super) enum Gain {
     /// It draws into attachments that the scope has already.
@@ -55,7 +55,7 @@ impl Gain {
 /// Bytes of a part of an image.
 fn bytes(adapted: &Adapted, target: &Target) -> u64 {
     let Some(image) = adapted.stores[target.store as usize].image() else { return 0 };
-    let sides = image.extent.map(|side| u64::from((side >> target.range.base_mip.min(31)).max(1)));
+    let sides = image.extent_at(target.range.base_mip).map(u64::from);
     let texels = sides.into_iter().fold(u64::from(target.range.layers), u64::saturating_mul);
     texels.saturating_mul(image.format.texel_bytes()).saturating_mul(u64::from(image.samples))
 }

@@ -2,14 +2,13 @@
 //!
 //! Colour attachments with one sample can be read so. The passes of such a scope draw into different ones of its attachments.
 
-use super::{Builder, Scope, Target, op_name};
+use super::step::{Scope, Target};
 use crate::compile::model::{Adapted, OpKind, Role, Use};
 use crate::frame::{Frame, Sampled};
-use crate::plan::{Note, Stage};
 use crate::vulkan::{Accesses, Layout, Stages};
 
-/// What a use of a draw samples at each fragment's own position alone.
-fn own_pixel<'f>(frame: &'f Frame, adapted: &Adapted, op: u32, used: &Use) -> Option<&'f Sampled> {
+/// The entry of a use that samples only the texel at the fragment's own position.
+pub(super) fn own_pixel<'f>(frame: &'f Frame, adapted: &Adapted, op: u32, used: &Use) -> Option<&'f Sampled> {
     let OpKind::Draw(pass) = adapted.ops[op as usize].kind else { return None };
     if used.role != Role::Sampled {
         return None;
@@ -34,8 +33,8 @@ pub(super) fn possible(frame: &Frame, adapted: &Adapted, op: u32, used: &Use, at
     obstacle == Some(None) && attached.contains(&target) && once()
 }
 
-/// What of a use makes a local read impossible on any device.
-fn obstacle(adapted: &Adapted, sampled: &Sampled, used: &Use) -> Option<&'static str> {
+/// Why a use can't be a local read on any device.
+pub(super) fn obstacle(adapted: &Adapted, sampled: &Sampled, used: &Use) -> Option<&'static str> {
     let image = adapted.stores[used.store as usize].image()?;
     if image.format.is_depth() {
         Some("only colour is read from its scope")
@@ -50,33 +49,13 @@ fn obstacle(adapted: &Adapted, sampled: &Sampled, used: &Use) -> Option<&'static
     }
 }
 
-/// Turns uses, by number, into local reads.
-pub(super) fn read_locally(adapted: &mut Adapted, uses: &[u32]) {
-    for number in uses {
-        let used = &mut adapted.uses[*number as usize];
+/// Turns uses, by index, into local reads.
+pub(in crate::compile) fn read_locally(uses: &mut [Use], local: &[u32]) {
+    for index in local {
+        let used = &mut uses[*index as usize];
         used.role = Role::Input;
         used.layout = Layout::RenderingLocalReadKhr;
         used.accesses = Accesses::INPUT_ATTACHMENT_READ;
-    }
-}
-
-impl Builder<'_> {
-    /// Says why what a pass reads at its own position is read from memory.
-    pub(super) fn explain(&mut self, op: u32) {
-        let adapted = self.adapted;
-        let uses = adapted.uses(op).iter();
-        let mut own = uses.filter_map(|used| Some((used, own_pixel(self.frame, adapted, op, used)?)));
-        let (Some((used, sampled)), Some(subject)) = (own.next(), op_name(self.frame, adapted, op)) else { return };
-        let why = if let Some(why) = obstacle(adapted, sampled, used) {
-            why.to_owned()
-        } else if !self.device.local_read {
-            format!("`{}` has no local reads", self.device.name)
-        } else {
-            "it doesn't share the scope that draws it".to_owned()
-        };
-        let text = format!("reads `{}` at its own position from memory: {why}", self.name(used.store));
-        let at = self.frame.sources.place(sampled.span);
-        self.notes.push(Note { stage: Stage::Scope, subject: subject.clone(), text, at });
     }
 }
 

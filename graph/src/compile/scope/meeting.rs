@@ -1,17 +1,17 @@
-//! A scope meets the pass after it: whether they can be one.
+//! Whether a pass can join the rendering scope before it.
 
-use super::{Scope, Target, colors_of, plane_of};
+use super::step::{Scope, Target, colors_of, plane_of};
 use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
 use crate::device::Profile;
-use crate::frame::EyeForm;
+use crate::frame::TargetShape;
 
-/// What comes of a scope and the pass after it.
+/// Whether a pass joins the scope before it.
 pub(super) enum Meeting {
     Merge,
     Apart(Option<Refusal>),
 }
 
-/// Why they stay apart.
+/// Why it doesn't.
 pub(super) enum Refusal {
     OtherAttachments,
     Clears(StoreIndex),
@@ -88,7 +88,7 @@ impl Scope {
     }
 
     /// The resolve operations that it carries.
-    pub(in crate::compile) fn carries(&self) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn carries(&self) -> impl Iterator<Item = u32> + '_ {
         self.resolves.iter().chain([&self.depth_resolve]).flatten().copied()
     }
 
@@ -106,7 +106,7 @@ impl Scope {
     }
 
     /// All attachments.
-    pub(in crate::compile) fn targets(&self) -> impl Iterator<Item = Target> + '_ {
+    pub(crate) fn targets(&self) -> impl Iterator<Item = Target> + '_ {
         self.color.iter().copied().chain(self.depth).chain(self.stencil)
     }
 
@@ -119,39 +119,30 @@ impl Scope {
     /// Whether a use is about some of what is attached.
     pub(super) fn overlaps(&self, adapted: &Adapted, used: &Use) -> bool {
         let range = adapted.range(used);
-        let meet = |a: u32, some: u32, b: u32, others: u32| a < b + others && b < a + some;
-        self.targets().any(|ours| {
-            ours.store == used.store
-                && ours.range.aspects.intersects(range.aspects)
-                && meet(ours.range.base_mip, ours.range.mips, range.base_mip, range.mips)
-                && meet(ours.range.base_layer, ours.range.layers, range.base_layer, range.layers)
-        })
+        self.targets().any(|ours| ours.store == used.store && ours.range.overlaps(range))
     }
 
     fn same_area(&self, adapted: &Adapted, uses: &[Use]) -> bool {
         let first = self.targets().next();
         first.is_none_or(|first| {
             let attached = uses.iter().filter(|used| used.role.is_attachment());
-            attached.map(|used| Target::of(adapted, used)).all(|target| area(adapted, target) == area(adapted, first))
+            attached.map(|used| Target::of(adapted, used)).all(|target| shape(adapted, target) == shape(adapted, first))
         })
     }
 }
 
-/// What attachments of one scope have in common: width, height and depth, room for more of them, whether they hold both eyes'
-/// parts, layers and samples.
-type Area = ([u32; 3], Option<[u32; 2]>, Option<EyeForm>, u32, u32);
-
-fn area(adapted: &Adapted, target: Target) -> Option<Area> {
+/// What the attachments of one scope have in common, as the device makes them.
+fn shape(adapted: &Adapted, target: Target) -> Option<TargetShape> {
     let image = adapted.stores[target.store as usize].image()?;
-    let mip = target.range.base_mip.min(31);
-    let size = image.extent.map(|side| (side >> mip).max(1));
-    Some((size, adapted.room(target.store), adapted.eyes(target.store), target.range.layers, image.samples))
+    let (room, eyes) = (adapted.room(target.store), adapted.eyes(target.store));
+    let (extent, layers) = (image.extent_at(target.range.base_mip), target.range.layers);
+    Some(TargetShape { extent, room, eyes, layers, samples: image.samples })
 }
 
 /// For each draw that may meet the scope of a draw before it, in the given order, whether they have the same area: all that
 /// sizes decide about scopes. All attachments of one draw have one area, and draws that meet share an attachment, so areas
 /// only differ where a draw meets what it reads at its own position: nothing is said of devices without local reads.
-pub(in crate::compile) fn same_areas(adapted: &Adapted, order: &[u32], device: &Profile) -> impl Iterator<Item = bool> {
+pub(crate) fn same_areas(adapted: &Adapted, order: &[u32], device: &Profile) -> impl Iterator<Item = bool> {
     let order = if device.local_read { order } else { &[] };
     let mut before = None;
     order.iter().filter_map(move |op| {
@@ -165,7 +156,7 @@ pub(in crate::compile) fn same_areas(adapted: &Adapted, order: &[u32], device: &
             }
         }
         let attached = adapted.uses(*op).iter().find(|used| used.role.is_attachment());
-        let now = attached.map(|used| area(adapted, Target::of(adapted, used)));
+        let now = attached.map(|used| shape(adapted, Target::of(adapted, used)));
         let before = before.replace(now)?;
         Some(before == now)
     })

@@ -1,16 +1,16 @@
-//! After `purpose`: what images are made for, the device can do with their formats. What passes do with images was looked at
-//! before (`samples`); here it is resolves, copies and draws that the compiler inserts, and what comes and goes.
+//! Checks, after `usage`, that each format supports the final usage of its image. Usages that passes take were checked before
+//! (`samples`); here it is about resolves, copies and draws that the compiler inserted, and about initial and final states.
 
-use super::model::{Adapted, Home, OpKind, Role, Store, StoreIndex};
-use super::scope::{Scoped, Step, store_name};
 use crate::base::{Diagnostic, Span};
+use crate::compile::model::{Adapted, Home, OpKind, Role, Store, StoreIndex};
+use crate::compile::scope::{Scoped, Step, store_name};
 use crate::device::{ImageDescriptor, Profile};
 use crate::frame::{Frame, Resource};
 use crate::plan::Inserted;
 use crate::vulkan::{Format, Usage};
 
 /// Refuses images whose formats can't be used as the Plan does on this device.
-pub(super) fn check(
+pub(crate) fn check_support(
     frame: &Frame,
     adapted: &Adapted,
     scoped: &Scoped,
@@ -36,7 +36,7 @@ pub(super) fn check(
         if !matches!(adapted.ops[op as usize].kind, OpKind::Resolve { .. }) {
             continue;
         }
-        // Whatever is resolved by a step of its own takes a format that can be drawn into as well.
+        // A resolve that no scope carries needs a format that can be an attachment.
         let Some(target) = adapted.uses(op).iter().find(|used| used.role == Role::Target) else { continue };
         let Some(image) = adapted.stores[target.store as usize].image() else { continue };
         let missing = Usage::COLOR_ATTACHMENT.difference(supported(image.format));
@@ -47,7 +47,7 @@ pub(super) fn check(
     if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
-/// What every format has that can be drawn into.
+/// Usages that every format supports that can be an attachment.
 const FOLLOWS: Usage = Usage::TRANSIENT_ATTACHMENT.union(Usage::INPUT_ATTACHMENT);
 
 fn refusal(
@@ -69,7 +69,7 @@ fn refusal(
     Diagnostic::new(span, message).help(help)
 }
 
-/// What the compiler inserted that uses a store, or where it comes from and goes.
+/// Why a store has its usages: an inserted operation that uses it, or where it comes from and goes.
 fn why<'a>(adapted: &'a Adapted, store: &'a Store, at: StoreIndex) -> &'a str {
     let inserted = |number: u32| -> Option<&Inserted> {
         let why = adapted.ops[number as usize].kind.inserted()?;

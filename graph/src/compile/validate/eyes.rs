@@ -30,7 +30,7 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
         let name = &frame.images[image.0 as usize].name;
         errors.push(Diagnostic::new(span, format!("`{}` {what} `{name}`, which holds both eyes' parts", pass.name)));
     };
-    let own = pass.color.first().map(|it| it.image).or(pass.depth.as_ref().map(|it| it.image)).and_then(eyes);
+    let own = pass.attachments().next().and_then(|(image, _)| eyes(image));
     for storage in pass.storage.iter().filter(|it| eyes(it.image).is_some()) {
         wrong(storage.image, storage.span, "accesses as storage");
     }

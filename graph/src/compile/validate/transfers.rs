@@ -1,8 +1,7 @@
 //! Copies, blits and fills: what is on both sides fits together.
 
-use super::Check;
 use super::lifetimes::value_problem;
-use crate::compile::parts;
+use super::pass::Check;
 use crate::frame::{Image, Resource, TransferUse, Work};
 use crate::vulkan::{Aspects, Format, Subresources};
 
@@ -33,8 +32,8 @@ impl Check<'_> {
     fn level(&mut self, used: &TransferUse) -> Option<(Subresources, [u32; 3], &Image)> {
         let Resource::Image(image) = used.resource else { return None };
         let image = &self.frame.images[image.0 as usize];
-        let part = parts::resolve(image, used.range);
-        Some((part, image.extent.map(|side| (side >> part.base_mip.min(31)).max(1)), image))
+        let part = image.part(used.range);
+        Some((part, image.extent_at(part.base_mip), image))
     }
 
     fn copy(&mut self, source: &TransferUse, target: &TransferUse) {
@@ -100,7 +99,7 @@ impl Check<'_> {
         }
         let overlaps = match source.resource {
             Resource::Buffer(_) => true,
-            Resource::Image(image) => parts::overlap(&self.frame.images[image.0 as usize], source.range, target.range),
+            Resource::Image(image) => self.frame.images[image.0 as usize].overlap(source.range, target.range),
         };
         if overlaps {
             self.wrong(self.pass.span, "transfers from and to the same part");

@@ -1,19 +1,18 @@
-//! `rotate`: outputs that leave the frame turned are drawn turned. With them goes whatever is drawn beside them or becomes
-//! them: depth, and images of several samples that are resolved into them, since a resolve turns nothing.
+//! `rotate`: outputs that leave the frame rotated are drawn rotated. So are the images that are attached beside them, and
+//! multisampled images that are resolved into them, since a resolve rotates nothing.
 //!
-//! What a shader reads stays upright: it looks texels up where the upright picture has them. So an output that passes also
-//! read is split where it is drawn anew, or drawn upright and turned by one more draw.
+//! Images that a shader reads stay upright: it looks texels up where the upright picture has them. So an output that passes
+//! also read becomes two images where it is drawn anew, or it is drawn upright and rotated by one more draw.
 
 mod separate;
 mod together;
 
-use super::parts::Grids;
-use super::{cull, legal, link};
+use super::cull;
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Resource, Work};
 use crate::vulkan::{Layout, Rotation, Shape};
 use std::collections::BTreeSet;
-use together::{Hindrance, Together, becomes};
+use together::{Hindrance, Together, becomes, degrees};
 
 /// The frame with turned images; `None`: nothing is turned.
 pub(super) fn rotate(frame: &Frame) -> Result<Option<Frame>, Vec<Diagnostic>> {
@@ -24,8 +23,7 @@ pub(super) fn rotate(frame: &Frame) -> Result<Option<Frame>, Vec<Diagnostic>> {
     if !frame.outputs.iter().any(|output| output.rotation.turns()) {
         return Ok(None);
     }
-    legal::check(frame)?;
-    let live = cull::cull(frame, &link::link(frame, &Grids::new(frame))?).passes;
+    let live = cull::live(frame)?.1.passes;
     let mut turner = Turner { frame: frame.clone(), live, errors: Vec::new() };
     for output in frame.outputs.iter().filter(|output| output.rotation.turns()) {
         turner.output(output);
@@ -82,7 +80,7 @@ impl Turner {
         self.turn(&BTreeSet::from([image]), output.rotation);
     }
 
-    /// Turns what is forwarded to turned images, if it can be: then it needn't be drawn into them.
+    /// Turns images that are forwarded to turned ones where it can, which saves a draw.
     fn forwarded(&mut self) {
         loop {
             let forwards = self.live.iter().filter_map(|pass| match self.frame.passes[*pass as usize].work {
@@ -140,9 +138,4 @@ fn unfit(image: &Image) -> Option<&'static str> {
         }
         _ => None,
     }
-}
-
-/// "rotated by 90°"
-fn degrees(rotation: Rotation) -> String {
-    format!("rotated by {}°", rotation.degrees())
 }

@@ -1,169 +1,46 @@
-//! `scope`: neighbouring raster passes become one rendering scope where nothing forbids it and something gains; resolves
-//! fold into the scope that wrote last.
+//! Groups operations, in execution order, into steps.
 
-mod gain;
-mod local;
-mod meeting;
-
-use super::model::{Adapted, OpKind, Role, StoreIndex, Use};
-use super::parts::Grids;
+use super::gain::Gain;
+use super::local;
+use super::meeting::{Meeting, Refusal};
+use super::step::{Scope, Step, colors_of, op_name, plane_of, store_name};
+use super::trace::{Trace, Ways};
+use crate::compile::model::{Adapted, OpKind, Role, StoreIndex, Use};
+use crate::compile::parts::Grids;
 use crate::device::Profile;
 use crate::frame::Frame;
-use crate::plan::{Note, Stage, Subresources};
-use gain::Gain;
-use meeting::{Meeting, Refusal};
-use std::sync::Arc;
+use crate::plan::{Note, Stage};
 
-pub(super) use meeting::same_areas;
-
-/// Steps in execution order.
-#[derive(Debug)]
-pub(super) struct Scoped {
-    pub(super) steps: Vec<Step>,
-    /// What a pass gains that shares its scope with the pass before it, for each operation; empty if nothing is drawn.
-    gains: Vec<Option<Gain>>,
-}
-
-impl Scoped {
-    /// Why operation number `op` shares its scope with the one before it.
-    pub(super) fn merged(&self, frame: &Frame, adapted: &Adapted, op: u32) -> Option<String> {
-        Some(self.gains.get(op as usize)?.as_ref()?.words(frame, adapted))
-    }
-}
-
-/// One step.
-#[derive(Debug, PartialEq)]
-pub(super) enum Step {
-    /// A rendering scope.
-    Scope(Box<Scope>),
-    /// One operation that is not drawn.
-    Single(u32),
-    /// The promised state of what outlives the frame.
-    Export,
-}
-
-/// An attachment: which part of which image.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Target {
-    pub(super) store: StoreIndex,
-    pub(super) range: Subresources,
-}
-
-impl Target {
-    pub(super) fn of(adapted: &Adapted, used: &Use) -> Target {
-        Target { store: used.store, range: adapted.range(used) }
-    }
-}
-
-/// A rendering scope.
-#[derive(Debug, Default, PartialEq)]
-pub(super) struct Scope {
-    /// Colour attachments by location.
-    pub(super) color: Vec<Target>,
-    pub(super) depth: Option<Target>,
-    pub(super) stencil: Option<Target>,
-    /// Operations that draw.
-    pub(super) ops: Vec<u32>,
-    /// For each colour attachment the resolve operation that it carries.
-    pub(super) resolves: Vec<Option<u32>>,
-    /// The resolve operation that the depth attachment carries.
-    pub(super) depth_resolve: Option<u32>,
-    /// Whether passes read at their own position what others drew: then each draws into some of the colour attachments.
-    pub(super) local: bool,
-}
-
-/// The name of the pass that an operation is in the Plan.
-pub(super) fn op_name<'f>(frame: &'f Frame, adapted: &'f Adapted, op: u32) -> Option<&'f Arc<str>> {
-    match &adapted.ops[op as usize].kind {
-        OpKind::DepthOnly { name, .. } | OpKind::ResolveDraw { name, .. } => Some(name),
-        kind => kind.pass().map(|pass| &frame.passes[pass as usize].name),
-    }
-}
-
-pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &mut Adapted, order: &[u32], device: &Profile) -> Scoped {
-    if !adapted.ops.iter().any(|op| op.kind.draws()) {
-        let mut steps = Vec::with_capacity(order.len() + 1);
-        steps.extend(order.iter().map(|op| Step::Single(*op)));
-        return Scoped { steps, gains: Vec::new() };
-    }
-    let mut builder = Builder {
-        frame,
-        grids,
-        device,
-        adapted,
-        steps: Vec::with_capacity(order.len() + 1),
-        gains: vec![None; adapted.ops.len()],
-        traces: vec![Trace::default(); adapted.cells as usize],
-        notes: Vec::new(),
-        local: Vec::new(),
-    };
-    for op in order {
-        builder.op(*op);
-    }
-    let Builder { steps, gains, notes, local, .. } = builder;
-    adapted.notes.extend(notes);
-    local::read_locally(adapted, &local);
-    Scoped { steps, gains }
-}
-
-struct Builder<'a> {
+pub(super) struct Builder<'a> {
     frame: &'a Frame,
     grids: &'a Grids,
     device: &'a Profile,
     adapted: &'a Adapted,
-    steps: Vec<Step>,
-    gains: Vec<Option<Gain>>,
+    pub(super) steps: Vec<Step>,
+    pub(super) gains: Vec<Option<Gain>>,
     /// For each cell what is known of it.
     traces: Vec<Trace>,
-    notes: Vec<Note>,
+    pub(super) notes: Vec<Note>,
     /// Uses that read at their own position what their scope drew.
-    local: Vec<u32>,
+    pub(super) local: Vec<u32>,
 }
 
-/// What steps did to a cell so far; steps are indices into [`Builder::steps`].
-#[derive(Debug, Clone, Copy, Default)]
-struct Trace {
-    /// The last step that used it.
-    used: Option<usize>,
-    /// The last step that wrote it.
-    written: Option<usize>,
-    /// The last scope that wrote it as an attachment.
-    drawn: Option<usize>,
-    /// In what ways the last step that used it did.
-    ways: Ways,
-}
-
-/// Ways in which the passes of one scope use a cell.
-#[derive(Debug, Clone, Copy, Default)]
-struct Ways {
-    attached: bool,
-    sampled: bool,
-    stored: bool,
-    /// Whether a shader writes it.
-    shaded: bool,
-}
-
-impl Ways {
-    /// Whether a use can't be in one scope with these.
-    fn clash(self, used: &Use) -> bool {
-        let Ways { attached, sampled, stored, shaded } = self;
-        let others = if used.role == Role::Sampled { stored } else { sampled };
-        match used.role.is_attachment() {
-            true => sampled || stored,
-            false => attached || shaded || others || (used.writes && (sampled || stored)),
+impl<'a> Builder<'a> {
+    pub(super) fn new(frame: &'a Frame, grids: &'a Grids, adapted: &'a Adapted, device: &'a Profile) -> Builder<'a> {
+        Builder {
+            frame,
+            grids,
+            device,
+            adapted,
+            steps: Vec::with_capacity(adapted.ops.len() + 1),
+            gains: vec![None; adapted.ops.len()],
+            traces: vec![Trace::default(); adapted.cells as usize],
+            notes: Vec::new(),
+            local: Vec::new(),
         }
     }
 
-    fn add(&mut self, used: &Use) {
-        self.attached |= used.role.is_attachment();
-        self.sampled |= used.role == Role::Sampled;
-        self.stored |= matches!(used.role, Role::Storage | Role::Buffer);
-        self.shaded |= !used.role.is_attachment() && used.writes;
-    }
-}
-
-impl Builder<'_> {
-    fn op(&mut self, op: u32) {
+    pub(super) fn op(&mut self, op: u32) {
         match &self.adapted.ops[op as usize].kind {
             draw if draw.draws() => self.draw(op),
             OpKind::Resolve { .. } => match self.fold(op) {
@@ -189,7 +66,7 @@ impl Builder<'_> {
         let Builder { adapted, grids, traces, local, .. } = self;
         let first = adapted.ops[op as usize].uses.start;
         for (used, number) in adapted.uses(op).iter().zip(first..) {
-            // In a scope, whoever draws where another has read its own pixel waits for it behind a local barrier.
+            // A local barrier orders later draws of the scope behind local reads.
             if local.iter().rev().take(adapted.uses(op).len()).any(|local| *local == number) {
                 continue;
             }
@@ -340,32 +217,22 @@ impl Builder<'_> {
         (trace.used, trace.written) = (Some(at), Some(at));
         Ok(())
     }
-}
 
-impl Step {
-    /// The operations that it runs, without folded resolves.
-    pub(super) fn ops(&self) -> &[u32] {
-        match self {
-            Step::Scope(scope) => &scope.ops,
-            Step::Single(op) => std::slice::from_ref(op),
-            Step::Export => &[],
-        }
+    /// Notes why a read at the fragment's own position goes through memory.
+    fn explain(&mut self, op: u32) {
+        let adapted = self.adapted;
+        let uses = adapted.uses(op).iter();
+        let mut own = uses.filter_map(|used| Some((used, local::own_pixel(self.frame, adapted, op, used)?)));
+        let (Some((used, sampled)), Some(subject)) = (own.next(), op_name(self.frame, adapted, op)) else { return };
+        let why = if let Some(why) = local::obstacle(adapted, sampled, used) {
+            why.to_owned()
+        } else if !self.device.local_read {
+            format!("`{}` has no local reads", self.device.name)
+        } else {
+            "it doesn't share the scope that draws it".to_owned()
+        };
+        let text = format!("reads `{}` at its own position from memory: {why}", self.name(used.store));
+        let at = self.frame.sources.place(sampled.span);
+        self.notes.push(Note { stage: Stage::Scope, subject: subject.clone(), text, at });
     }
-}
-
-/// The name of a physical image or buffer.
-pub(super) fn store_name<'n>(frame: &'n Frame, adapted: &'n Adapted, store: StoreIndex) -> &'n Arc<str> {
-    let store = &adapted.stores[store as usize];
-    store.renamed.as_ref().unwrap_or(match store.of {
-        crate::frame::Resource::Image(image) => &frame.images[image.0 as usize].name,
-        crate::frame::Resource::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
-    })
-}
-
-fn colors_of(adapted: &Adapted, uses: &[Use]) -> Vec<Target> {
-    uses.iter().filter(|used| used.role == Role::Color).map(|used| Target::of(adapted, used)).collect()
-}
-
-fn plane_of(adapted: &Adapted, uses: &[Use], role: Role) -> Option<Target> {
-    uses.iter().find(|used| used.role == role).map(|used| Target::of(adapted, used))
 }

@@ -5,13 +5,12 @@
 //! imported ones nor outputs, no storage images, nothing that is copied to or from buffers or by custom passes. An output
 //! that is encoded for HDR10 may have 16 bits instead of 10.
 
-use super::parts::Grids;
-use super::{cull, legal, link, samples};
-use crate::device::{FormatSupport, Profile};
-use crate::frame::{Blend, Frame, Lifetime, Pass, Resource, Work};
+use super::needs::{Needs, Supports};
+use crate::device::Profile;
+use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, Resource};
 use crate::plan::{Note, Stage};
+use crate::vulkan::Encoding;
 use crate::vulkan::Format::{self, *};
-use crate::vulkan::{Encoding, Usage};
 use petgraph::unionfind::UnionFind;
 use std::collections::BTreeMap;
 
@@ -49,37 +48,46 @@ fn up_to(chosen: Format, usual: Format) -> Vec<Format> {
     larger[..last].iter().copied().chain([usual]).collect()
 }
 
-/// What the frame asks of an image's format.
-#[derive(Debug, Clone, Copy, Default)]
-struct Wanted {
-    usage: Usage,
-    filter: bool,
-    blend: bool,
-    /// Whether somebody relies on the very format.
-    fixed: bool,
-    /// Whether it leaves the frame as HDR10.
-    hdr10: bool,
+/// What a frame asks of the formats of its images, and other formats where the device lacks those.
+pub(crate) struct Formats<'d> {
+    pub(super) supports: Supports<'d>,
+    /// Of each image, in the formats that are taken.
+    pub(super) needs: Vec<Needs>,
+    /// The frame with other formats, if it takes any.
+    pub(crate) substitute: Option<Frame>,
+    /// One for each other format.
+    pub(crate) notes: Vec<Note>,
 }
 
-impl Wanted {
-    fn missing(self, support: Option<&FormatSupport>) -> Vec<&'static str> {
-        let usage = support.map_or(Usage::empty(), |support| support.usage);
-        let mut missing: Vec<&str> = self.usage.difference(usage).iter_names().map(|(name, _)| name).collect();
-        if let Some(support) = support {
-            missing.extend((self.filter && !support.linear_filter).then_some("linear filtering"));
-            missing.extend((self.blend && !support.blend).then_some("blending"));
+impl Formats<'_> {
+    /// The frame with the formats that are taken.
+    pub(crate) fn frame<'f>(&'f self, asked: &'f Frame) -> &'f Frame {
+        self.substitute.as_ref().unwrap_or(asked)
+    }
+}
+
+/// Finds formats in place of those that the device can't use as the passes `live` do. Without a substitute the frame's own
+/// stay, to be refused.
+pub(crate) fn formats<'d>(frame: &Frame, live: &[u32], device: &'d Profile) -> Formats<'d> {
+    let supports = Supports::new(device);
+    let passes = || live.iter().map(|pass| &frame.passes[*pass as usize]);
+    let needs = Needs::of(frame, passes());
+    match fall_back(frame, live, &needs, &supports) {
+        None => Formats { supports, needs, substitute: None, notes: Vec::new() },
+        Some((substitute, notes)) => {
+            let needs = Needs::of(&substitute, live.iter().map(|pass| &substitute.passes[*pass as usize]));
+            Formats { supports, needs, substitute: Some(substitute), notes }
         }
-        missing
     }
 }
 
 /// The frame with other formats, and a note for each; `None` if the device has all formats that it needs, or no substitute.
-pub(super) fn fall_back(frame: &Frame, device: &Profile) -> Option<(Frame, Vec<Note>)> {
-    legal::check(frame).ok()?;
-    let linked = link::link(frame, &Grids::new(frame)).ok()?;
-    let live = cull::cull(frame, &linked).passes;
+fn fall_back(frame: &Frame, live: &[u32], needs: &[Needs], supports: &Supports<'_>) -> Option<(Frame, Vec<Note>)> {
+    if frame.images.iter().zip(needs).all(|(image, needs)| needs.are_met(supports.of(image.format))) {
+        return None;
+    }
     let passes = || live.iter().map(|pass| &frame.passes[*pass as usize]);
-    let wanted = wanted(frame, passes);
+    let fixed = fixed(frame, passes());
     let mut alike = UnionFind::<u32>::new(frame.images.len());
     passes().filter_map(|pass| alike_in(frame, pass)).for_each(|[one, other]| {
         alike.union(one, other);
@@ -92,21 +100,21 @@ pub(super) fn fall_back(frame: &Frame, device: &Profile) -> Option<(Frame, Vec<N
     for group in groups.values() {
         // What is copied texel for texel has one format.
         let format = frame.images[group[0]].format;
-        let lacks = |format: Format, image: &usize| !wanted[*image].missing(device.format(format)).is_empty();
+        let lacks = |format: Format, image: &usize| !needs[*image].are_met(supports.of(format));
         let Some(first) = group.iter().find(|image| lacks(format, image)) else { continue };
         let usual = group.iter().find_map(|image| frame.images[*image].chosen.as_ref()).map(|chosen| chosen.usual);
-        if usual.is_none() && group.iter().any(|image| wanted[*image].fixed) {
+        if usual.is_none() && group.iter().any(|image| fixed[*image]) {
             return None;
         }
         let fits = |format: &Format| !group.iter().any(|image| lacks(*format, image));
-        let hdr10 = group.iter().any(|image| wanted[*image].hdr10);
+        let hdr10 = group.iter().any(|image| is_hdr10(frame, *image));
         let substitutes = match usual {
             Some(usual) => up_to(format, usual),
             None if hdr10 => hdr10_substitutes(format).to_vec(),
             None => substitutes(format).to_vec(),
         };
         let other = substitutes.into_iter().find(fits)?;
-        let missing = wanted[*first].missing(device.format(format)).join(", ");
+        let missing = needs[*first].missing(supports.of(format));
         group.iter().for_each(|image| made[*image] = Some((other, missing.clone())));
     }
     for (number, made) in made.into_iter().enumerate() {
@@ -114,60 +122,35 @@ pub(super) fn fall_back(frame: &Frame, device: &Profile) -> Option<(Frame, Vec<N
         let image = &mut substitute.images[number];
         image.format = format;
         image.chosen.take_if(|chosen| chosen.usual == format);
-        notes.push(note(frame, number, format, &format!("`{}` has no {missing} for it", device.name)));
+        notes.push(note(frame, number, format, &format!("`{}` has no {missing} for it", supports.device.name)));
     }
     (!notes.is_empty()).then_some((substitute, notes))
 }
 
-fn wanted<'f, P: Iterator<Item = &'f Pass>>(frame: &Frame, passes: impl Fn() -> P) -> Vec<Wanted> {
-    let mut usage = vec![Usage::empty(); frame.images.len()];
-    passes().for_each(|pass| samples::note_usage(frame, pass, &mut usage));
-    samples::note_states(frame, &mut usage);
-    let fixed = |lifetime: &Lifetime| matches!(lifetime, Lifetime::Imported { .. });
-    let mut wanted: Vec<Wanted> = frame
-        .images
-        .iter()
-        .zip(usage)
-        .map(|(image, usage)| Wanted { usage, fixed: fixed(&image.lifetime), ..Wanted::default() })
-        .collect();
-    for output in &frame.outputs {
-        if let Resource::Image(image) = output.resource {
-            let wanted = &mut wanted[image.0 as usize];
-            // HDR10 has a second format, and the Plan says which it is.
-            wanted.hdr10 = output.encoding == Some(Encoding::Hdr10);
-            wanted.fixed |= !wanted.hdr10;
+/// Of each image whether the embedding program, a shader or a copy relies on its very format. An output in HDR10 has a second
+/// one, and the Plan says which it is.
+fn fixed<'f>(frame: &Frame, passes: impl Iterator<Item = &'f Pass>) -> Vec<bool> {
+    let imported = |image: &Image| matches!(image.lifetime, Lifetime::Imported { .. });
+    let mut fixed: Vec<bool> = frame.images.iter().map(imported).collect();
+    let outputs = frame.outputs.iter().filter(|output| output.encoding != Some(Encoding::Hdr10));
+    let relied = passes.flat_map(|pass| pass.accesses().filter(|access| pass.relies_on_format(access)));
+    for resource in outputs.map(|output| output.resource).chain(relied.map(|access| access.resource)) {
+        if let Resource::Image(image) = resource {
+            fixed[image.0 as usize] = true;
         }
     }
-    for pass in passes() {
-        for sampled in &pass.sampled {
-            wanted[sampled.image.0 as usize].filter |= sampled.sampler.is_linear();
-        }
-        for target in &pass.color {
-            wanted[target.image.0 as usize].blend |= target.blend != Blend::Replace;
-        }
-        pass.storage.iter().for_each(|storage| wanted[storage.image.0 as usize].fixed = true);
-        let with_buffer = pass.transfers.iter().any(|used| matches!(used.resource, Resource::Buffer(_)));
-        if with_buffer || matches!(pass.work, Work::Custom { .. }) {
-            for used in &pass.transfers {
-                if let Resource::Image(image) = used.resource {
-                    wanted[image.0 as usize].fixed = true;
-                }
-            }
-        }
-    }
-    wanted
+    fixed
+}
+
+/// Whether an image leaves the frame as HDR10.
+fn is_hdr10(frame: &Frame, image: usize) -> bool {
+    let image = Resource::Image(ImageIndex(image as u32));
+    frame.outputs.iter().any(|output| output.resource == image && output.encoding == Some(Encoding::Hdr10))
 }
 
 /// Two images of which a pass copies one into the other texel for texel.
 fn alike_in(frame: &Frame, pass: &Pass) -> Option<[u32; 2]> {
-    let pair = match (&pass.work, &pass.transfers[..]) {
-        (Work::Forward { from, to, .. }, _) => [*from, *to],
-        (Work::Copy | Work::Blit { .. }, [from, to]) => match (from.resource, to.resource) {
-            (Resource::Image(from), Resource::Image(to)) => [from, to],
-            _ => return None,
-        },
-        _ => return None,
-    };
+    let pair = pass.moved_images()?;
     let [one, other] = pair.map(|image| frame.images[image.0 as usize].format);
     (one == other).then(|| pair.map(|image| image.0))
 }

@@ -1,4 +1,4 @@
-//! What a pass does with an image or a buffer.
+//! How a pass names the images and buffers that it uses: sampled, as storage, as attachment, as buffer, by transfer.
 
 use super::{BufferIndex, Eye, ImageIndex, Resource};
 use crate::base::Span;

@@ -1,51 +1,30 @@
-//! First part of `adapt`: sample counts, formats and sizes meet what the device has.
+//! Sample counts, and what a frame asks of its images by itself, against what the device has.
 
-use super::model::Negotiated;
-use super::parts;
+use super::formats::Formats;
+use super::needs::{Needs, Supports};
 use crate::base::{Diagnostic, Span};
-use crate::device::{FormatSupport, Profile};
-use crate::frame::{Blend, Frame, Image, ImageIndex, Lifetime, Pass, Resource, Work};
+use crate::compile::model::Negotiated;
+use crate::device::Profile;
+use crate::frame::{Blend, Frame, Image, ImageIndex, Pass, Resource, TargetShape, Work};
 use crate::plan::{Note, Stage};
-use crate::vulkan::states::usage_for;
-use crate::vulkan::{Filter, Format, Sampler, Shape, State, Subresources, Usage};
+use crate::vulkan::{Filter, Format, Sampler, Shape, Subresources, Usage};
 use petgraph::unionfind::UnionFind;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What a device can do with each format, found at once.
-struct Supports<'d> {
-    device: &'d Profile,
-    of: Vec<Option<&'d FormatSupport>>,
-}
-
-impl<'d> Supports<'d> {
-    fn new(device: &'d Profile) -> Supports<'d> {
-        Supports { device, of: Format::ALL.iter().map(|format| device.format(*format)).collect() }
-    }
-
-    fn of(&self, format: Format) -> Option<&'d FormatSupport> {
-        self.of[format as usize]
-    }
-}
-
 /// Lowers each sample count to the highest that every image attached together with it supports.
-pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result<Negotiated, Vec<Diagnostic>> {
-    let supports = Supports::new(device);
+pub(crate) fn negotiate(frame: &Frame, live: &[u32], formats: &Formats<'_>) -> Result<Negotiated, Vec<Diagnostic>> {
+    let (needs, supports) = (&formats.needs, &formats.supports);
+    let device = supports.device;
     let multisampled = frame.images.iter().any(|image| image.samples > 1);
     let mut together = UnionFind::<u32>::new(if multisampled { frame.images.len() } else { 0 });
-    let mut usage = vec![Usage::empty(); frame.images.len()];
     let mut forwarded = vec![false; frame.images.len()];
     let mut errors = Vec::new();
     for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
-        note_usage(frame, pass, &mut usage);
-        if let Some((first, _)) = attachments(pass).next() {
-            if multisampled {
-                for (other, _) in attachments(pass) {
-                    together.union(first.0, other.0);
-                }
-            }
-            errors.extend(disagreement(frame, pass));
+        if multisampled && let Some((first, _)) = pass.attachments().next() {
+            pass.attachments().for_each(|(other, _)| _ = together.union(first.0, other.0));
         }
-        check_operations(frame, pass, &supports, &mut errors);
+        errors.extend(disagreement(frame, pass));
+        check_operations(frame, pass, supports, &mut errors);
         let (targets, most) = (pass.color.len(), device.max_color_attachments);
         if targets > most as usize {
             let message = format!("`{}` draws into {targets} colour images; `{}` has {most}", pass.name, device.name);
@@ -61,27 +40,26 @@ pub(super) fn negotiate(frame: &Frame, live: &[u32], device: &Profile) -> Result
             }
         }
     }
-    note_states(frame, &mut usage);
-    for (image, used) in usage.iter().enumerate().filter(|(_, used)| !used.is_empty()) {
-        check_support(frame, image, *used, &supports, &mut errors);
+    for (image, needs) in needs.iter().enumerate().filter(|(_, needs)| !needs.usage.is_empty()) {
+        check_support(frame, image, needs.usage, supports, &mut errors);
     }
     let mut groups: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (image, _) in frame.images.iter().enumerate().filter(|(_, image)| image.samples > 1) {
-        if !usage[image].is_empty() || forwarded[image] {
+        if !needs[image].usage.is_empty() || forwarded[image] {
             groups.entry(together.find(image as u32)).or_default().push(image);
         }
     }
     let samples = frame.images.iter().map(|image| image.samples).collect();
     let mut negotiated = Negotiated { samples, notes: Vec::new() };
     for group in groups.values() {
-        lower(frame, group, &supports, &mut negotiated);
+        lower(frame, group, supports, &mut negotiated);
     }
     if errors.is_empty() { Ok(negotiated) } else { Err(errors) }
 }
 
 /// Whether what was negotiated for a frame stays as it is for one that differs from it in nothing but sizes and values, and
 /// forwards between images of the same proportions.
-pub(super) fn still_holds(frame: &Frame, live: &[u32], device: &Profile) -> bool {
+pub(crate) fn still_holds(frame: &Frame, live: &[u32], device: &Profile) -> bool {
     let passes = live.iter().map(|pass| &frame.passes[*pass as usize]);
     frame.images.iter().all(|image| image.made().iter().all(|side| *side <= largest(image, device)))
         && passes.into_iter().all(|pass| disagreement(frame, pass).is_none())
@@ -92,7 +70,7 @@ fn largest(image: &Image, device: &Profile) -> u32 {
     if image.shape == Shape::D3 { device.max_extent_3d } else { device.max_attachment_extent }
 }
 
-/// What is copied sample by sample has as many on both sides.
+/// Joins the images of a copy of single samples: they need equal sample counts.
 fn copied_together(frame: &Frame, pass: &Pass, together: &mut UnionFind<u32>) {
     let images = pass.transfers.iter().filter_map(|used| match used.resource {
         Resource::Image(image) if frame.images[image.0 as usize].samples > 1 => Some((image, used.write)),
@@ -105,19 +83,13 @@ fn copied_together(frame: &Frame, pass: &Pass, together: &mut UnionFind<u32>) {
     }
 }
 
-/// The images that a pass draws into, and which parts of them.
-fn attachments(pass: &Pass) -> impl Iterator<Item = (ImageIndex, Subresources)> + '_ {
-    let color = pass.color.iter().map(|target| (target.image, target.range));
-    color.chain(pass.depth.as_ref().map(|depth| (depth.image, depth.range)))
-}
-
-/// An image and all that have as many samples, since passes draw into them together.
-pub(super) fn drawn_together(passes: &[Pass], image: ImageIndex) -> BTreeSet<ImageIndex> {
+/// An image and all images that need its sample count because passes attach them together.
+pub(crate) fn drawn_together(passes: &[Pass], image: ImageIndex) -> BTreeSet<ImageIndex> {
     let mut together = BTreeSet::from([image]);
     loop {
         let before = together.len();
         for pass in passes {
-            let drawn = || attachments(pass).map(|(image, _)| image);
+            let drawn = || pass.attachments().map(|(image, _)| image);
             if drawn().any(|image| together.contains(&image)) {
                 together.extend(drawn());
             }
@@ -128,62 +100,14 @@ pub(super) fn drawn_together(passes: &[Pass], image: ImageIndex) -> BTreeSet<Ima
     }
 }
 
-pub(super) fn note_usage(frame: &Frame, pass: &Pass, usage: &mut [Usage]) {
-    let mut add = |image: ImageIndex, used: Usage| usage[image.0 as usize] |= used;
-    let shape = |image: ImageIndex| {
-        let image = &frame.images[image.0 as usize];
-        (image.format, image.extent, image.room, image.eyes)
-    };
-    pass.sampled.iter().for_each(|sampled| add(sampled.image, Usage::SAMPLED));
-    pass.storage.iter().for_each(|storage| add(storage.image, Usage::STORAGE));
-    pass.color.iter().for_each(|target| add(target.image, Usage::COLOR_ATTACHMENT));
-    pass.depth.iter().for_each(|depth| add(depth.image, Usage::DEPTH_STENCIL_ATTACHMENT));
-    for transfer in &pass.transfers {
-        if let Resource::Image(image) = transfer.resource {
-            add(image, if transfer.write { Usage::TRANSFER_DST } else { Usage::TRANSFER_SRC });
-        }
-    }
-    if let Work::Forward { from, to, .. } = pass.work
-        && shape(from) != shape(to)
-    {
-        add(from, Usage::SAMPLED);
-        add(to, Usage::COLOR_ATTACHMENT);
-    }
-}
-
-/// Adds what the images in use need for the states in which they come and go.
-pub(super) fn note_states(frame: &Frame, usage: &mut [Usage]) {
-    let mut add = |image: usize, state: &State| {
-        if !usage[image].is_empty() {
-            usage[image] |= usage_for(state.layout);
-        }
-    };
-    for (number, image) in frame.images.iter().enumerate() {
-        if let Lifetime::Imported { before, after } = &image.lifetime {
-            add(number, before);
-            after.iter().for_each(|after| add(number, after));
-        }
-    }
-    for output in &frame.outputs {
-        if let (Resource::Image(image), Some(after)) = (output.resource, &output.after) {
-            add(image.0 as usize, after);
-        }
-    }
-}
-
 /// Attachments of one pass must have one size, one number of layers and one sample count.
 fn disagreement(frame: &Frame, pass: &Pass) -> Option<Diagnostic> {
-    let shape = |(image, range): (ImageIndex, Subresources)| {
-        let image = &frame.images[image.0 as usize];
-        let part = parts::resolve(image, range);
-        let size = image.extent.map(|side| (side >> part.base_mip.min(31)).max(1));
-        (size, image.room, image.eyes, part.layers, image.samples)
-    };
-    let mut attached = attachments(pass);
+    let shape = |(image, range): (ImageIndex, Subresources)| frame.images[image.0 as usize].target_shape(range);
+    let mut attached = pass.attachments();
     let first = attached.next()?;
     let other = attached.find(|other| shape(*other) != shape(first))?;
     let words = |part| {
-        let ([width, height, _], room, _, layers, samples) = shape(part);
+        let TargetShape { extent: [width, height, _], room, layers, samples, .. } = shape(part);
         let room = room.map_or_else(String::new, |[width, height]| format!(" of up to {width}×{height}"));
         let layers = if layers == 1 { String::new() } else { format!(", {layers} layers") };
         format!("{width}×{height}{room}{layers} with {samples} samples")
@@ -239,24 +163,13 @@ fn check_support(frame: &Frame, image: usize, used: Usage, supports: &Supports<'
     }
 }
 
-/// The formats of the same kind with which the device can do all that is done with an image.
+/// The formats of the same kind that support all uses of an image.
 fn others(frame: &Frame, index: ImageIndex, supports: &Supports<'_>) -> String {
     let image = &frame.images[index.0 as usize];
     let format = image.format;
-    let mut usage = vec![Usage::empty(); frame.images.len()];
-    frame.passes.iter().for_each(|pass| note_usage(frame, pass, &mut usage));
-    note_states(frame, &mut usage);
-    let mut sampled = frame.passes.iter().flat_map(|pass| &pass.sampled).filter(|it| it.image == index);
-    let mut drawn = frame.passes.iter().flat_map(|pass| &pass.color).filter(|it| it.image == index);
-    let filtered = sampled.any(|it| it.sampler.is_linear());
-    let blended = drawn.any(|it| it.blend != Blend::Replace);
-    let can = |support: &FormatSupport| {
-        support.usage.contains(usage[index.0 as usize])
-            && (support.linear_filter || !filtered)
-            && (support.blend || !blended)
-    };
+    let needs = Needs::of(frame, frame.passes.iter())[index.0 as usize];
     let alike = |other: &&Format| other.aspects() == format.aspects() && other.is_integer() == format.is_integer();
-    let able = |other: &&Format| supports.of(**other).is_some_and(can);
+    let able = |other: &&Format| supports.of(**other).is_some() && needs.are_met(supports.of(**other));
     let names: Vec<String> = Format::ALL.iter().filter(alike).filter(able).map(|it| format!("`{it}`")).collect();
     match &names[..] {
         [] => format!("`{}` has no format of this kind for that", supports.device.name),
@@ -267,7 +180,7 @@ fn others(frame: &Frame, index: ImageIndex, supports: &Supports<'_>) -> String {
     }
 }
 
-/// A format can be sampled without being filtered, and drawn into without being blended.
+/// Checks that formats support linear filtering and blending where a pass uses them.
 fn check_operations(frame: &Frame, pass: &Pass, supports: &Supports<'_>, errors: &mut Vec<Diagnostic>) {
     let mut refuse = |image: ImageIndex, span: Span, what: &str, help: &str| {
         let image = &frame.images[image.0 as usize];

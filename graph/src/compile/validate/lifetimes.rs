@@ -1,7 +1,7 @@
 //! How long contents live: from which values they start, how far back they are kept, in which states they come and go.
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Frame, Lifetime, Pass, Resource, TextureFile, Work, format_problem};
+use crate::frame::{AccessKind, Frame, Lifetime, Pass, TextureFile, format_problem};
 use crate::vulkan::states::{Subject, When, contradiction};
 use crate::vulkan::{FillValue, Format, Layout, State};
 
@@ -43,19 +43,8 @@ fn file_problem(file: &TextureFile, of: Subject<'_>) -> Option<String> {
 
 /// Where a pass uses an image that comes from a file for anything but sampling it.
 pub(super) fn misused_file(frame: &Frame, pass: &Pass) -> Option<(Span, String)> {
-    let storage = pass.storage.iter().map(|used| (used.image, used.span));
-    let color = pass.color.iter().map(|target| (target.image, target.span));
-    let depth = pass.depth.iter().map(|target| (target.image, target.span));
-    let transfers = pass.transfers.iter().filter_map(|used| match used.resource {
-        Resource::Image(image) => Some((image, used.span)),
-        Resource::Buffer(_) => None,
-    });
-    let forwarded = match pass.work {
-        Work::Forward { from, to, .. } => Some([(from, pass.span), (to, pass.span)]),
-        _ => None,
-    };
-    let others = storage.chain(color).chain(depth).chain(transfers).chain(forwarded.into_iter().flatten());
-    let images = others.map(|(image, span)| (&frame.images[image.0 as usize], span));
+    let others = pass.accesses().filter(|access| !matches!(access.kind, AccessKind::Sampled(_)));
+    let images = others.filter_map(|access| Some((&frame.images[access.image_index()?.0 as usize], access.span)));
     let mut files = images.filter(|(image, _)| matches!(image.lifetime, Lifetime::File(_)));
     files
         .next()

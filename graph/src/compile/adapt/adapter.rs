@@ -1,0 +1,131 @@
+//! The state of `adapt`, and how operations are added.
+
+use super::access;
+use super::demote::Demotions;
+use super::input::Input;
+use super::later::Later;
+use crate::base::{Diagnostic, Place, Span};
+use crate::compile::model::{Adapted, Op, OpKind, StoreIndex, Use};
+use crate::frame::{ImageIndex, ResolveWay};
+use crate::plan::{Inserted, Note, Stage};
+use crate::vulkan::Subresources;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// What is adapted so far, and which physical image and buffer holds each current version.
+pub(super) struct Adapter<'a> {
+    pub(super) input: Input<'a>,
+    /// The physical image that holds each image's current version. Those of earlier frames stand right behind it.
+    pub(super) store_of: Vec<Option<StoreIndex>>,
+    /// The same for buffers.
+    pub(super) buffer_store_of: Vec<Option<StoreIndex>>,
+    /// For each physical image its resolved copy of one sample and the way of resolving, if a pass asked for one.
+    pub(super) resolved_of: Vec<Option<(ResolveWay, StoreIndex)>>,
+    /// For each physical image its depth-only copy of one sample, if a pass asked for one.
+    pub(super) redrawn_of: Vec<Option<StoreIndex>>,
+    /// For each multisampled depth image the operations that wrote its current version.
+    pub(super) depth_writers: BTreeMap<StoreIndex, Vec<u32>>,
+    /// How often each pass is drawn again.
+    pub(super) redrawn_times: BTreeMap<u32, u32>,
+    /// Whether each image is an output.
+    pub(super) is_output: Vec<bool>,
+    /// How many resolved copies, copies and second images each image has had: they need distinct names.
+    pub(super) inserted_for: BTreeMap<ImageIndex, u32>,
+    /// The images that a forwarded physical image holds or is the resolved copy of, as far as they are still used.
+    pub(super) known_as: BTreeMap<StoreIndex, Vec<ImageIndex>>,
+    /// The last accesses of images, if any is forwarded.
+    pub(super) later: Later,
+    /// Full-screen draws that move to single-sampled images.
+    pub(super) demotions: Demotions,
+    /// Whether any physical image has another name than its image.
+    pub(super) renamed: bool,
+    /// Number of physical images and of buffers so far.
+    pub(super) images: u32,
+    pub(super) buffers: u32,
+    pub(super) adapted: Adapted,
+    /// For each physical image whether a draw wrote it last.
+    pub(super) drawn: Vec<bool>,
+    pub(super) errors: Vec<Diagnostic>,
+    /// Uses of the current pass.
+    pub(super) scratch: Vec<Use>,
+    /// Images that the current pass reads and writes: each one, and the copy that it reads.
+    pub(super) copies: Vec<(StoreIndex, StoreIndex)>,
+}
+
+impl<'a> Adapter<'a> {
+    pub(super) fn new(input: Input<'a>) -> Adapter<'a> {
+        let frame = input.frame;
+        Adapter {
+            input,
+            store_of: vec![None; frame.images.len()],
+            buffer_store_of: vec![None; frame.buffers.len()],
+            resolved_of: Vec::with_capacity(frame.images.len()),
+            redrawn_of: Vec::with_capacity(frame.images.len()),
+            depth_writers: BTreeMap::new(),
+            redrawn_times: BTreeMap::new(),
+            is_output: vec![false; frame.images.len()],
+            inserted_for: BTreeMap::new(),
+            known_as: BTreeMap::new(),
+            later: Later::default(),
+            demotions: Demotions::default(),
+            renamed: false,
+            images: 0,
+            buffers: 0,
+            adapted: Adapted::default(),
+            drawn: Vec::with_capacity(frame.images.len()),
+            errors: Vec::new(),
+            scratch: Vec::new(),
+            copies: Vec::new(),
+        }
+    }
+
+    pub(super) fn push(&mut self, kind: OpKind, uses: &[Use]) {
+        let start = self.adapted.uses.len() as u32;
+        for used in uses {
+            if used.writes {
+                self.drawn[used.store as usize] = kind.draws();
+                self.note_depth_writer(used, kind.draws());
+            }
+            let store = &self.adapted.stores[used.store as usize];
+            let cell = if store.grid(self.input.grids).is_none() { store.first_cell } else { Use::CELLS };
+            self.adapted.uses.push(Use { cell, ..*used });
+        }
+        let own = if kind.inserted().is_none() { kind.pass() } else { None };
+        let side_effect = own.is_some_and(|pass| self.input.frame.passes[pass as usize].side_effect);
+        self.adapted.ops.push(Op { kind, uses: start..start + uses.len() as u32, side_effect });
+    }
+
+    /// Adds an operation from one image to another, whole, which have the same parts.
+    pub(super) fn push_transfer(&mut self, kind: OpKind, source: StoreIndex, target: StoreIndex, range: u32) {
+        let stage = access::transfer_stage(&kind);
+        let uses = [access::source(source, range, stage), access::target(target, range, stage)];
+        self.push(kind, &uses);
+    }
+
+    /// The number under which a part of an image is known; [`Use::ALL`] if it is all of it.
+    pub(super) fn range(&mut self, image: ImageIndex, range: Subresources) -> u32 {
+        if range == Subresources::WHOLE && self.input.grids.of(image).is_none() {
+            return Use::ALL;
+        }
+        let image = &self.input.frame.images[image.0 as usize];
+        let range = image.part(range);
+        if range == image.whole() {
+            return Use::ALL;
+        }
+        self.adapted.ranges.push(range);
+        self.adapted.ranges.len() as u32 - 1
+    }
+
+    pub(super) fn place(&self, span: Span) -> Option<Place> {
+        self.input.frame.sources.place(span)
+    }
+
+    pub(super) fn reason(&self, because: String, span: Span) -> Box<Inserted> {
+        Box::new(Inserted { because, at: self.place(span) })
+    }
+
+    pub(super) fn note(&mut self, subject: &Arc<str>, text: String, span: Span) {
+        let at = self.place(span);
+        self.adapted.notes.push(Note { stage: Stage::Adapt, subject: subject.clone(), text, at });
+    }
+}

@@ -1,0 +1,32 @@
+//! Until when images are used.
+
+use crate::compile::cull::Live;
+use crate::frame::{Frame, ImageIndex};
+
+/// For each image of the frame the last pass that stays and touches it, and the last that writes it.
+#[derive(Debug, Default)]
+pub(super) struct Later {
+    pub(super) access: Vec<Option<u32>>,
+    pub(super) write: Vec<Option<u32>>,
+}
+
+impl Later {
+    pub(super) fn of(frame: &Frame, live: &Live) -> Later {
+        let mut later = Later { access: vec![None; frame.images.len()], write: vec![None; frame.images.len()] };
+        for number in &live.passes {
+            let pass = &frame.passes[*number as usize];
+            let mut touch = |image: ImageIndex, writes: bool| {
+                later.access[image.0 as usize] = Some(*number);
+                if writes {
+                    later.write[image.0 as usize] = Some(*number);
+                }
+            };
+            for access in pass.accesses() {
+                if let Some(index) = access.image_index() {
+                    touch(index, access.writes(pass, Some(&frame.images[index.0 as usize])));
+                }
+            }
+        }
+        later
+    }
+}

@@ -1,0 +1,53 @@
+//! `adapt`: samples, sizes and formats are made to meet. Resolves, copies and second images are inserted, each with its
+//! cause; passes that are off forward what they would have replaced.
+//!
+//! A resolve belongs to a *version* of an image and is shared by all its readers.
+
+mod access;
+mod adapter;
+mod demote;
+mod depth_only;
+mod forward;
+mod input;
+mod later;
+mod pass;
+mod resolve;
+mod stores;
+mod versions;
+
+pub(super) use access::has_samples;
+pub(super) use input::Input;
+
+use super::model::Adapted;
+use crate::base::Diagnostic;
+use crate::frame::{Resource, Work};
+use adapter::Adapter;
+use later::Later;
+
+pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
+    let Input { frame, live, .. } = input;
+    let mut adapter = Adapter::new(input);
+    for output in &frame.outputs {
+        if let Resource::Image(image) = output.resource {
+            adapter.is_output[image.0 as usize] = true;
+        }
+    }
+    if live.passes.iter().any(|pass| matches!(frame.passes[*pass as usize].work, Work::Forward { .. })) {
+        adapter.later = Later::of(frame, live);
+    }
+    adapter.demotions = demote::find(&input, &mut adapter.adapted.notes);
+    adapter.adapted.stores.reserve(frame.images.len());
+    adapter.adapted.ops.reserve(live.passes.len());
+    adapter.adapted.uses.reserve(live.passes.len() * 4);
+    for pass in &live.passes {
+        adapter.pass(*pass);
+    }
+    for output in &frame.outputs {
+        adapter.output(output);
+    }
+    if adapter.renamed {
+        stores::distinct_names(frame, &mut adapter.adapted.stores);
+    }
+    access::settle_depth(&mut adapter.adapted);
+    if adapter.errors.is_empty() { Ok(adapter.adapted) } else { Err(adapter.errors) }
+}

@@ -1,0 +1,158 @@
+//! One pass of the frame becomes an operation on physical images and buffers.
+
+use super::access;
+use super::adapter::Adapter;
+use crate::base::Diagnostic;
+use crate::compile::model::{OpKind, Start, StoreIndex};
+use crate::frame::{Face, ImageIndex, Pass, Sampled, Work};
+use crate::vulkan::{Aspects, Subresources};
+
+impl Adapter<'_> {
+    pub(super) fn pass(&mut self, number: u32) {
+        let frame = self.input.frame;
+        let pass = &frame.passes[number as usize];
+        if let Work::Forward { from, to, because } = &pass.work {
+            return self.forward(number, pass, *from, *to, because);
+        }
+        self.copies.clear();
+        let mut uses = std::mem::take(&mut self.scratch);
+        uses.clear();
+        for (entry, sampled) in (0_u32..).zip(&pass.sampled) {
+            if let Some(store) = self.sampled(number, pass, sampled) {
+                let range = frame.images[sampled.image.0 as usize].sampled_part(sampled.range);
+                let range = self.range(sampled.image, range);
+                uses.push(access::sampled(sampled, entry, store, range));
+            }
+        }
+        for (entry, storage) in (0_u32..).zip(&pass.storage) {
+            let store = match storage.write {
+                true => self.target(number, pass, storage.image, storage.range, storage.span, storage.read),
+                false => self.current(storage.image),
+            };
+            let range = self.range(storage.image, storage.range);
+            uses.push(access::storage(storage, entry, store, range));
+        }
+        for (entry, target) in (0_u32..).zip(&pass.color) {
+            let start = match target.clear {
+                Some(_) => Start::Clear,
+                None if pass.keeps_color(target, &frame.images[target.image.0 as usize]) => Start::Keep,
+                None => Start::Discard,
+            };
+            let store = self.target(number, pass, target.image, target.range, target.span, start == Start::Keep);
+            let range = self.range(target.image, target.range);
+            uses.push(access::color(target, entry, store, range, start));
+        }
+        if let Some(depth) = &pass.depth {
+            let image = &frame.images[depth.image.0 as usize];
+            for (plane, clears, writes) in depth.planes(image.format) {
+                let start = match clears {
+                    true => Start::Clear,
+                    false if pass.keeps_plane(depth, plane, image) => Start::Keep,
+                    false => Start::Discard,
+                };
+                let store =
+                    if writes { self.written(depth.image, start == Start::Keep) } else { self.current(depth.image) };
+                self.refuse_depth_feedback(pass, depth.image, depth.range, plane, writes);
+                let range = self.range(depth.image, Subresources { aspects: plane, ..depth.range });
+                uses.push(access::depth(plane, store, range, start, writes, image.format));
+            }
+        }
+        for (entry, used) in (0_u32..).zip(&pass.buffers) {
+            let store = self.buffer(used.buffer, used.frames_ago);
+            uses.push(access::buffer(used, entry, store));
+        }
+        for (entry, used) in (0_u32..).zip(&pass.transfers) {
+            if let Some((store, range)) = self.transferred(pass, used) {
+                uses.push(access::transfer(&pass.work, used, entry, store, range));
+            }
+        }
+        if pass.alpha_to_coverage && !access::has_samples(&self.adapted, &uses) {
+            let text = "alpha_to_coverage is off: its targets have 1 sample".to_owned();
+            self.note(&pass.name, text, pass.span);
+        }
+        let kind = if matches!(pass.work, Work::Draw { .. }) { OpKind::Draw(number) } else { OpKind::Pass(number) };
+        self.push(kind, &uses);
+        self.scratch = uses;
+    }
+
+    /// The physical image that a sampling pass reads.
+    fn sampled(&mut self, number: u32, pass: &Pass, sampled: &Sampled) -> Option<StoreIndex> {
+        let declared = &self.input.frame.images[sampled.image.0 as usize];
+        if sampled.frames_ago > 0 {
+            let earlier = self.current(sampled.image) + sampled.frames_ago;
+            return self.samples_unresolved(pass, sampled, earlier).then_some(earlier);
+        }
+        let before = self.current(sampled.image);
+        let count = self.samples(before);
+        let per_sample = sampled.face == Face::Samples;
+        if per_sample && count > 1 {
+            return Some(self.version_before(number, pass, sampled, before));
+        }
+        // A shader that adapts does without samples.
+        if per_sample && sampled.texture.is_none() {
+            let message = format!("`{}` reads single samples of `{}`, which has one sample", pass.name, declared.name);
+            let help = format!(
+                "declare it `TEXTURE_{0} {0}` in the shader, which fits any number of samples, or sample it as `sampler2D` \
+                 where its sample count is 1 ({1} were asked for)",
+                sampled.binding, declared.samples
+            );
+            self.errors.push(Diagnostic::new(sampled.span, message).help(help));
+            return None;
+        }
+        if count > 1 {
+            let because = format!("`{}` samples `{}` and it has {count} samples", pass.name, declared.name);
+            if sampled.range.aspects == Aspects::STENCIL {
+                self.refuse_stencil(sampled.image, &because, sampled.span);
+                return None;
+            }
+            return self.resolved(sampled.image, sampled.face, because, sampled.span);
+        }
+        if self.demotions.is_worth_a_note(sampled.image) {
+            let text = format!("`{}` samples it as it is: it has 1 sample, so nothing is resolved", pass.name);
+            self.note(&declared.name, text, sampled.span);
+        }
+        Some(self.version_before(number, pass, sampled, before))
+    }
+
+    /// Whether a shader can sample an earlier frame, which is never resolved. Reports it if not.
+    fn samples_unresolved(&mut self, pass: &Pass, sampled: &Sampled, earlier: StoreIndex) -> bool {
+        let count = self.samples(earlier);
+        if count == 1 || sampled.face == Face::Samples {
+            return true;
+        }
+        let name = &self.input.frame.images[sampled.image.0 as usize].name;
+        let message = format!(
+            "`{}` samples an earlier frame of `{name}`, which has {count} samples; only a frame's own images are resolved",
+            pass.name
+        );
+        let help = "let a pass draw it into an image with 1 sample and `lifetime: History`, and sample an earlier frame of that \
+            one; or declare it `sampler2DMS` in the shader";
+        self.errors.push(Diagnostic::new(sampled.span, message).help(help));
+        false
+    }
+
+    /// Whether a pass writes the plane of a depth image that it also samples: it can't be given a copy.
+    fn refuse_depth_feedback(
+        &mut self,
+        pass: &Pass,
+        image: ImageIndex,
+        range: Subresources,
+        plane: Aspects,
+        writes: bool,
+    ) {
+        let range = Subresources { aspects: plane, ..range };
+        let declared = &self.input.frame.images[image.0 as usize];
+        let same = |sampled: &&Sampled| {
+            let seen = declared.sampled_part(sampled.range);
+            sampled.image == image && sampled.frames_ago == 0 && declared.overlap(seen, range)
+        };
+        if writes && let Some(sampled) = pass.sampled.iter().find(same) {
+            let name = &declared.name;
+            let message = format!("`{}` samples the depth `{name}` that it also writes", pass.name);
+            self.errors.push(
+                Diagnostic::new(sampled.span, message)
+                    .help(format!("test it without writing: say `depth: (image: \"{name}\", write: false)`")),
+            );
+        }
+    }
+}

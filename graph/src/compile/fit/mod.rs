@@ -1,0 +1,10 @@
+//! `fit`: sample counts, formats and usages meet what the device has.
+
+mod formats;
+mod needs;
+mod samples;
+mod support;
+
+pub(super) use formats::{Formats, formats};
+pub(super) use samples::{drawn_together, negotiate, still_holds};
+pub(super) use support::check_support;

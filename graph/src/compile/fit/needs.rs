@@ -1,0 +1,118 @@
+//! What passes ask of the formats of images, and what a device can do with formats.
+
+use crate::device::{FormatSupport, Profile};
+use crate::frame::{AccessKind, Blend, Frame, ImageIndex, Lifetime, Pass, Resource, Work};
+use crate::vulkan::states::usage_for;
+use crate::vulkan::{Format, State, Usage};
+
+/// What a device can do with each format, found at once.
+pub(super) struct Supports<'d> {
+    pub(super) device: &'d Profile,
+    of: Vec<Option<&'d FormatSupport>>,
+}
+
+impl<'d> Supports<'d> {
+    pub(super) fn new(device: &'d Profile) -> Supports<'d> {
+        Supports { device, of: Format::ALL.iter().map(|format| device.format(*format)).collect() }
+    }
+
+    pub(super) fn of(&self, format: Format) -> Option<&'d FormatSupport> {
+        self.of[format as usize]
+    }
+}
+
+/// What passes, and the states in which it comes and goes, ask of an image's format.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Needs {
+    pub(super) usage: Usage,
+    pub(super) linear_filter: bool,
+    pub(super) blend: bool,
+}
+
+impl Needs {
+    /// Of each image of a frame.
+    pub(super) fn of<'f>(frame: &'f Frame, passes: impl Iterator<Item = &'f Pass>) -> Vec<Needs> {
+        let mut needs = vec![Needs::default(); frame.images.len()];
+        for pass in passes {
+            pass.accesses().for_each(|access| {
+                if let Resource::Image(image) = access.resource {
+                    needs[image.0 as usize].add(access.kind);
+                }
+            });
+            if let Work::Forward { from, to, .. } = pass.work
+                && is_drawn(frame, from, to)
+            {
+                needs[from.0 as usize].usage |= Usage::SAMPLED;
+                needs[to.0 as usize].usage |= Usage::COLOR_ATTACHMENT;
+            }
+        }
+        note_states(frame, &mut needs);
+        needs
+    }
+
+    fn add(&mut self, kind: AccessKind<'_>) {
+        self.usage |= match kind {
+            AccessKind::Sampled(_) => Usage::SAMPLED,
+            AccessKind::Storage(_) => Usage::STORAGE,
+            AccessKind::Color(_) => Usage::COLOR_ATTACHMENT,
+            AccessKind::Depth(_) => Usage::DEPTH_STENCIL_ATTACHMENT,
+            AccessKind::Transfer { write: true } => Usage::TRANSFER_DST,
+            AccessKind::Transfer { write: false } => Usage::TRANSFER_SRC,
+            AccessKind::Buffer(_) | AccessKind::ForwardSource | AccessKind::ForwardTarget => Usage::empty(),
+        };
+        self.linear_filter |= matches!(kind, AccessKind::Sampled(sampled) if sampled.sampler.is_linear());
+        self.blend |= matches!(kind, AccessKind::Color(target) if target.blend != Blend::Replace);
+    }
+
+    /// Whether a format with this support does.
+    pub(super) fn are_met(self, support: Option<&FormatSupport>) -> bool {
+        match support {
+            None => self.usage.is_empty(),
+            Some(support) => {
+                support.usage.contains(self.usage)
+                    && (support.linear_filter || !self.linear_filter)
+                    && (support.blend || !self.blend)
+            }
+        }
+    }
+
+    /// What a format with this support lacks, in words.
+    pub(super) fn missing(self, support: Option<&FormatSupport>) -> String {
+        let usage = support.map_or(Usage::empty(), |support| support.usage);
+        let mut missing: Vec<&str> = self.usage.difference(usage).iter_names().map(|(name, _)| name).collect();
+        if let Some(support) = support {
+            missing.extend((self.linear_filter && !support.linear_filter).then_some("linear filtering"));
+            missing.extend((self.blend && !support.blend).then_some("blending"));
+        }
+        missing.join(", ")
+    }
+}
+
+/// Whether what is forwarded has to be drawn into its target.
+fn is_drawn(frame: &Frame, from: ImageIndex, to: ImageIndex) -> bool {
+    let shape = |image: ImageIndex| {
+        let image = &frame.images[image.0 as usize];
+        (image.format, image.extent, image.room, image.eyes)
+    };
+    shape(from) != shape(to)
+}
+
+/// Adds what the images in use need for the states in which they come and go.
+fn note_states(frame: &Frame, needs: &mut [Needs]) {
+    let mut add = |image: usize, state: &State| {
+        if !needs[image].usage.is_empty() {
+            needs[image].usage |= usage_for(state.layout);
+        }
+    };
+    for (number, image) in frame.images.iter().enumerate() {
+        if let Lifetime::Imported { before, after } = &image.lifetime {
+            add(number, before);
+            after.iter().for_each(|after| add(number, after));
+        }
+    }
+    for output in &frame.outputs {
+        if let (Resource::Image(image), Some(after)) = (output.resource, &output.after) {
+            add(image.0 as usize, after);
+        }
+    }
+}

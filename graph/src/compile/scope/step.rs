@@ -1,0 +1,85 @@
+//! Steps, rendering scopes and their attachments.
+
+use crate::compile::model::{Adapted, OpKind, Role, StoreIndex, Use};
+use crate::frame::{Frame, Resource};
+use crate::plan::Subresources;
+use std::sync::Arc;
+
+/// One step.
+#[derive(Debug, PartialEq)]
+pub(crate) enum Step {
+    /// A rendering scope.
+    Scope(Box<Scope>),
+    /// One operation that is not drawn.
+    Single(u32),
+    /// The promised state of what outlives the frame.
+    Export,
+}
+
+/// An attachment: which part of which image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Target {
+    pub(crate) store: StoreIndex,
+    pub(crate) range: Subresources,
+}
+
+impl Target {
+    pub(crate) fn of(adapted: &Adapted, used: &Use) -> Target {
+        Target { store: used.store, range: adapted.range(used) }
+    }
+}
+
+/// A rendering scope.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct Scope {
+    /// Colour attachments by location.
+    pub(crate) color: Vec<Target>,
+    pub(crate) depth: Option<Target>,
+    pub(crate) stencil: Option<Target>,
+    /// Operations that draw.
+    pub(crate) ops: Vec<u32>,
+    /// For each colour attachment the resolve operation that it carries.
+    pub(crate) resolves: Vec<Option<u32>>,
+    /// The resolve operation that the depth attachment carries.
+    pub(crate) depth_resolve: Option<u32>,
+    /// Whether passes read at their own position what others drew: then each draws into some of the colour attachments.
+    pub(crate) local: bool,
+}
+
+impl Step {
+    /// The operations that it runs, without folded resolves.
+    pub(crate) fn ops(&self) -> &[u32] {
+        match self {
+            Step::Scope(scope) => &scope.ops,
+            Step::Single(op) => std::slice::from_ref(op),
+            Step::Export => &[],
+        }
+    }
+}
+
+/// The name of a physical image or buffer.
+pub(crate) fn store_name<'n>(frame: &'n Frame, adapted: &'n Adapted, store: StoreIndex) -> &'n Arc<str> {
+    let store = &adapted.stores[store as usize];
+    store.renamed.as_ref().unwrap_or(match store.of {
+        Resource::Image(image) => &frame.images[image.0 as usize].name,
+        Resource::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
+    })
+}
+
+/// The colour attachments of an operation with these uses.
+pub(super) fn colors_of(adapted: &Adapted, uses: &[Use]) -> Vec<Target> {
+    uses.iter().filter(|used| used.role == Role::Color).map(|used| Target::of(adapted, used)).collect()
+}
+
+/// Its depth or its stencil attachment.
+pub(super) fn plane_of(adapted: &Adapted, uses: &[Use], role: Role) -> Option<Target> {
+    uses.iter().find(|used| used.role == role).map(|used| Target::of(adapted, used))
+}
+
+/// The name of the pass that an operation is in the Plan.
+pub(crate) fn op_name<'f>(frame: &'f Frame, adapted: &'f Adapted, op: u32) -> Option<&'f Arc<str>> {
+    match &adapted.ops[op as usize].kind {
+        OpKind::DepthOnly { name, .. } | OpKind::ResolveDraw { name, .. } => Some(name),
+        kind => kind.pass().map(|pass| &frame.passes[pass as usize].name),
+    }
+}

@@ -1,0 +1,45 @@
+//! The accesses of steps to cells so far, and whether a pass can join the last step.
+
+use crate::compile::model::{Role, Use};
+
+/// The steps that used a cell so far, numbered in execution order.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Trace {
+    /// The last step that used it.
+    pub(super) used: Option<usize>,
+    /// The last step that wrote it.
+    pub(super) written: Option<usize>,
+    /// The last scope that wrote it as an attachment.
+    pub(super) drawn: Option<usize>,
+    /// In what ways the last step that used it did.
+    pub(super) ways: Ways,
+}
+
+/// Ways in which the passes of one scope use a cell.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Ways {
+    attached: bool,
+    sampled: bool,
+    stored: bool,
+    /// Whether a shader writes it.
+    shaded: bool,
+}
+
+impl Ways {
+    /// Whether a use can't be in one scope with these.
+    pub(super) fn clash(self, used: &Use) -> bool {
+        let Ways { attached, sampled, stored, shaded } = self;
+        let others = if used.role == Role::Sampled { stored } else { sampled };
+        match used.role.is_attachment() {
+            true => sampled || stored,
+            false => attached || shaded || others || (used.writes && (sampled || stored)),
+        }
+    }
+
+    pub(super) fn add(&mut self, used: &Use) {
+        self.attached |= used.role.is_attachment();
+        self.sampled |= used.role == Role::Sampled;
+        self.stored |= matches!(used.role, Role::Storage | Role::Buffer);
+        self.shaded |= !used.role.is_attachment() && used.writes;
+    }
+}

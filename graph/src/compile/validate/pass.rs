@@ -1,0 +1,203 @@
+//! What one pass names and does.
+
+use super::lifetimes;
+use crate::base::{Diagnostic, Span};
+use crate::frame::{
+    Access, AccessKind, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Work,
+};
+use crate::vulkan::{Shape, Stages, Subresources};
+
+/// The check of a pass.
+pub(super) struct Check<'c> {
+    pub(super) frame: &'c Frame,
+    pub(super) pass: &'c Pass,
+    pub(super) errors: &'c mut Vec<Diagnostic>,
+}
+
+impl Check<'_> {
+    pub(super) fn wrong(&mut self, span: Span, what: &str) {
+        self.errors.push(Diagnostic::new(span, format!("`{}` {what}", self.pass.name)));
+    }
+
+    /// Reports all that is wrong with it but for how it is drawn for two eyes. Returns whether what it names exists.
+    pub(super) fn all(&mut self) -> bool {
+        let exists = self.resources();
+        if exists {
+            self.work();
+            self.storage();
+            self.files();
+        }
+        exists
+    }
+
+    /// Whether all images and buffers exist, and the parts of them that are named.
+    fn resources(&mut self) -> bool {
+        let before = self.errors.len();
+        let pass = self.pass;
+        for access in pass.accesses() {
+            match access.resource {
+                Resource::Image(image) => self.image(image, &access),
+                Resource::Buffer(buffer) => self.buffer(buffer.0, access.frames_ago, access.span),
+            }
+            if access.frames_ago > 0 && matches!(access.kind, AccessKind::Transfer { write: true }) {
+                self.wrong(access.span, "writes into an earlier frame");
+            }
+        }
+        self.errors.len() == before
+    }
+
+    /// What comes from a file is only sampled.
+    fn files(&mut self) {
+        if let Some((span, what)) = lifetimes::misused_file(self.frame, self.pass) {
+            self.wrong(span, &what);
+            if let Some(error) = self.errors.last_mut() {
+                error.help = Some(
+                    "passes only sample a texture: declare an image and draw into that; the shader `copy` copies into it"
+                        .to_owned(),
+                );
+            }
+        }
+    }
+
+    fn image(&mut self, index: ImageIndex, access: &Access<'_>) {
+        let Access { range, span, .. } = *access;
+        let Some(image) = self.frame.images.get(index.0 as usize) else {
+            return self.wrong(span, &format!("names image number {}, which does not exist", index.0));
+        };
+        self.history(&image.lifetime, access.frames_ago, &image.name, span);
+        if range != Subresources::WHOLE {
+            self.inside(image, range, span);
+        }
+        if access.attaches() || matches!(access.kind, AccessKind::ForwardSource | AccessKind::ForwardTarget) {
+            self.one_mip(image, range, span);
+        }
+        if matches!(access.kind, AccessKind::Depth(_)) && !image.format.is_depth() {
+            self.wrong(span, "tests depth in an image that has none");
+        }
+    }
+
+    fn inside(&mut self, image: &Image, range: Subresources, span: Span) {
+        let part = image.part(range);
+        let inside = |base: u32, count: u32, all: u32| count > 0 && base < all && count <= all - base;
+        let planes = !part.aspects.is_empty() && image.format.aspects().contains(part.aspects);
+        if !planes || !inside(part.base_mip, part.mips, image.mips) {
+            let what =
+                format!("names a part of `{}` that it doesn't have: it has {} mip levels", image.name, image.mips);
+            self.wrong(span, &what);
+        } else if !inside(part.base_layer, part.layers, image.layers) {
+            let what = format!("names a part of `{}` that it doesn't have: it has {} layers", image.name, image.layers);
+            self.wrong(span, &what);
+        }
+    }
+
+    fn buffer(&mut self, index: u32, frames_ago: u32, span: Span) {
+        match self.frame.buffers.get(index as usize) {
+            None => self.wrong(span, &format!("names buffer number {index}, which does not exist")),
+            Some(buffer) => self.history(&buffer.lifetime, frames_ago, &buffer.name, span),
+        }
+    }
+
+    fn history(&mut self, lifetime: &Lifetime, frames_ago: u32, name: &str, span: Span) {
+        let most = if let Lifetime::History { frames, .. } = lifetime { *frames } else { 0 };
+        if frames_ago > most {
+            self.wrong(span, &format!("reads `{name}` of {frames_ago} frames ago, and it keeps {most}"));
+        }
+    }
+
+    /// What is drawn into or forwarded is one mip level of a flat image.
+    fn one_mip(&mut self, image: &Image, range: Subresources, span: Span) {
+        if image.shape == Shape::D3 {
+            self.wrong(span, &format!("draws into `{}`, which is three-dimensional", image.name));
+        } else if image.part(range).mips > 1 {
+            self.wrong(span, &format!("draws into `{}`, which has mip levels: it can be only one of them", image.name));
+        }
+    }
+
+    fn work(&mut self) {
+        let pass = self.pass;
+        let attached = !pass.color.is_empty() || pass.depth.is_some();
+        let shaded = match pass.work {
+            Work::Draw { .. } => Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER,
+            Work::Dispatch { .. } => Stages::COMPUTE_SHADER,
+            Work::Custom { .. } => Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER | Stages::COMPUTE_SHADER,
+            Work::Copy | Work::Blit { .. } | Work::Fill { .. } | Work::Forward { .. } => Stages::empty(),
+        };
+        match (attached, matches!(pass.work, Work::Draw { .. })) {
+            (true, false) => return self.wrong(pass.span, "has attachments and doesn't draw"),
+            (false, true) => return self.wrong(pass.span, "draws into nothing: it has no attachment"),
+            _ => {}
+        }
+        let fits = |stages: Stages| !stages.is_empty() && shaded.contains(stages);
+        let sampled = pass.sampled.iter().filter(|sampled| !fits(sampled.stages)).map(|sampled| &sampled.binding);
+        let storage = pass.storage.iter().filter(|storage| !fits(storage.stages)).map(|storage| &storage.binding);
+        let buffers = pass.buffers.iter().filter(|used| match used.role {
+            BufferRole::Uniform | BufferRole::Storage { .. } => !fits(used.stages),
+            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => !used.stages.is_empty(),
+        });
+        let buffers = buffers.map(|used| &self.frame.buffers[used.buffer.0 as usize].name);
+        if let Some(name) = sampled.chain(storage).chain(buffers).next() {
+            return self.wrong(pass.span, &format!("accesses `{name}` in stages that it doesn't have"));
+        }
+        if !clears_are_finite(pass) {
+            return self.wrong(pass.span, "clears to what is not a finite number");
+        }
+        let counts = pass.buffers.iter().filter(|used| used.role == BufferRole::Indirect).count();
+        let indirect = match &pass.work {
+            Work::Draw { draw, .. } => *draw == Draw::Indirect,
+            Work::Dispatch { groups, .. } => matches!(groups, Groups::Indirect { .. }),
+            _ => false,
+        };
+        if counts != usize::from(indirect) {
+            return self.wrong(pass.span, "needs one buffer of counts if it is indirect, and else none");
+        }
+        self.transfers();
+    }
+
+    /// A part that is accessed as storage is accessed in no other way, but for being sampled as it was before.
+    fn storage(&mut self) {
+        let pass = self.pass;
+        for (at, storage) in pass.storage.iter().enumerate() {
+            if !storage.read && !storage.write {
+                self.wrong(storage.span, &format!("neither reads nor writes `{}`", storage.binding));
+            }
+            let image = &self.frame.images[storage.image.0 as usize];
+            if image.samples > 1 {
+                self.wrong(storage.span, &format!("accesses `{}` as storage, which has several samples", image.name));
+            }
+            if image.room.is_some() {
+                let what =
+                    format!("accesses `{}` as storage, which changes its size: it can be drawn into", image.name);
+                self.wrong(storage.span, &what);
+            }
+            let meets =
+                |other: ImageIndex, range: Subresources| other == storage.image && image.overlap(range, storage.range);
+            let others = pass.storage.iter().take(at).any(|other| meets(other.image, other.range))
+                || pass.attachments().any(|(image, range)| meets(image, range));
+            if others {
+                let message = format!("`{}` accesses `{}` as storage and in another way", pass.name, image.name);
+                let help = "access it once, for reading and writing";
+                self.errors.push(Diagnostic::new(storage.span, message).help(help));
+            }
+        }
+        for (at, used) in pass.buffers.iter().enumerate() {
+            let twice = pass.buffers.iter().take(at).any(|other| {
+                (other.buffer, other.frames_ago) == (used.buffer, used.frames_ago)
+                    && (other.role.writes() || used.role.writes())
+            });
+            let name = &self.frame.buffers[used.buffer.0 as usize].name;
+            if twice {
+                self.wrong(used.span, &format!("writes `{name}` and accesses it in another way"));
+            } else if matches!(used.role, BufferRole::Storage { read: false, write: false }) {
+                self.wrong(used.span, &format!("neither reads nor writes `{name}`"));
+            } else if used.role.writes() && used.frames_ago > 0 {
+                self.wrong(used.span, &format!("writes `{name}` of an earlier frame"));
+            }
+        }
+    }
+}
+
+/// Whether it clears to numbers alone.
+pub(super) fn clears_are_finite(pass: &Pass) -> bool {
+    let mut clears = pass.color.iter().filter_map(|target| target.clear).flatten();
+    clears.all(f32::is_finite) && pass.depth.as_ref().and_then(|depth| depth.clear).is_none_or(f32::is_finite)
+}

@@ -1,0 +1,42 @@
+//! `Like`: what follows another takes the value of that one, or one that is made from it.
+
+/// What is known of values so far: `Some(None)` after a mistake.
+pub(super) type Known<T> = Vec<Option<Option<T>>>;
+
+/// The value of number `start`: its own, or made from the value of the one that it follows. Each value is found once.
+///
+/// Walks along what is followed without recursion, since a chain may be as long as the file.
+pub(super) fn follow<N, T: Clone>(
+    all: &[N],
+    known: &mut Known<T>,
+    start: usize,
+    next: impl Fn(&N) -> Option<usize>,
+    mut value: impl FnMut(&N, Option<T>) -> Option<T>,
+) -> Option<T> {
+    let mut path = vec![start];
+    while let Some(&at) = path.last() {
+        let to = next(&all[at]).map(|to| (to, known[to].clone()));
+        match to {
+            _ if known[at].is_some() => {}
+            // A circle would be longer than all together; reading a pipeline has ruled it out.
+            Some((to, None)) if path.len() <= all.len() => {
+                path.push(to);
+                continue;
+            }
+            Some((_, followed)) => known[at] = Some(followed.flatten().and_then(|of| value(&all[at], Some(of)))),
+            None => known[at] = Some(value(&all[at], None)),
+        }
+        path.pop();
+    }
+    known[start].clone().flatten()
+}
+
+/// The values of all of them.
+pub(super) fn follow_all<N, T: Clone>(
+    all: &[N],
+    next: impl Fn(&N) -> Option<usize>,
+    mut value: impl FnMut(&N, Option<T>) -> Option<T>,
+) -> Vec<Option<T>> {
+    let mut known = vec![None; all.len()];
+    (0..all.len()).map(|at| follow(all, &mut known, at, &next, &mut value)).collect()
+}

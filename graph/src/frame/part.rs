@@ -1,0 +1,63 @@
+//! Parts of images: what a range means for one image, and what attachments have in common.
+
+use super::{EyeForm, Image};
+use crate::vulkan::{Aspects, Subresources, extent_at};
+
+/// What all attachments of a pass have in common.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct TargetShape {
+    /// Width, height and depth of the mip level.
+    pub(crate) extent: [u32; 3],
+    /// Width and height that the image is made with, if its size may change.
+    pub(crate) room: Option<[u32; 2]>,
+    /// How it holds both eyes' parts, if it does.
+    pub(crate) eyes: Option<EyeForm>,
+    pub(crate) layers: u32,
+    pub(crate) samples: u32,
+}
+
+impl Image {
+    /// Width, height and depth of a mip level in texels.
+    pub(crate) fn extent_at(&self, mip: u32) -> [u32; 3] {
+        extent_at(self.extent, mip)
+    }
+
+    /// All of it, planes named.
+    pub(crate) fn whole(&self) -> Subresources {
+        Subresources::all(self.format, self.mips, self.layers)
+    }
+
+    /// The part that `range` means: counts without `REMAINING`, planes named.
+    pub(crate) fn part(&self, range: Subresources) -> Subresources {
+        let count = |count: u32, base: u32, all: u32| {
+            if count == Subresources::REMAINING { all.saturating_sub(base) } else { count }
+        };
+        Subresources {
+            aspects: if range.aspects.is_empty() { self.format.aspects() } else { range.aspects },
+            base_mip: range.base_mip,
+            mips: count(range.mips, range.base_mip, self.mips),
+            base_layer: range.base_layer,
+            layers: count(range.layers, range.base_layer, self.layers),
+        }
+    }
+
+    /// The part that a pass samples that names `range`: shaders see one plane, of depth with stencil the depth unless the
+    /// range names the stencil alone.
+    pub(crate) fn sampled_part(&self, range: Subresources) -> Subresources {
+        let both = Aspects::DEPTH | Aspects::STENCIL;
+        let plain = self.format.aspects() == both && (range.aspects.is_empty() || range.aspects == both);
+        if plain { Subresources { aspects: Aspects::DEPTH, ..range } } else { range }
+    }
+
+    /// Whether two ranges of it have a part in common.
+    pub(crate) fn overlap(&self, a: Subresources, b: Subresources) -> bool {
+        self.part(a).overlaps(self.part(b))
+    }
+
+    /// What `range` of it, one mip level, demands of the attachments beside it.
+    pub(crate) fn target_shape(&self, range: Subresources) -> TargetShape {
+        let Subresources { base_mip, layers, .. } = self.part(range);
+        let Image { room, eyes, samples, .. } = *self;
+        TargetShape { extent: self.extent_at(base_mip), room, eyes, layers, samples }
+    }
+}
