@@ -1,4 +1,4 @@
-//! `cull`: only what reaches an output, the next frame or a side effect stays.
+//! `cull`: keeps the passes whose results reach an output, the next frame or a side effect.
 
 use super::link::{self, Linked};
 use super::parts::Grids;
@@ -6,7 +6,7 @@ use super::validate;
 use crate::base::Diagnostic;
 use crate::frame::Frame;
 
-/// What stays.
+/// Which passes stay.
 #[derive(Debug)]
 pub(super) struct Live {
     /// Indices of the passes that stay, in frame order.

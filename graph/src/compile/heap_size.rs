@@ -1,11 +1,11 @@
-//! Whether a device that is not here has the memory that a Plan takes.
+//! Whether a device has the memory that a Plan takes.
 
 use crate::base::{Diagnostic, Span, amount};
 use crate::device::{Estimated, ImageDescriptor, MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::{Image, Plan, Role};
 
-/// What to say of a Plan of `frame` that takes more memory than the largest heap of `device` has; `None` if it fits, or the
+/// The error for a Plan of `frame` that takes more memory than the largest heap of `device` has; `None` if it fits, or the
 /// profile doesn't know the heap's size.
 #[must_use]
 pub fn too_large(plan: &Plan, frame: &Frame, device: &Profile) -> Option<Diagnostic> {
@@ -30,8 +30,7 @@ pub fn too_large(plan: &Plan, frame: &Frame, device: &Profile) -> Option<Diagnos
     Some(Diagnostic::new(span, message).help(help))
 }
 
-/// Where the image or buffer is declared that `name` is of. What the compiler makes of it has its name and a suffix:
-/// "color (resolved)".
+/// Where the image or buffer of this name is declared. Inserted images have its name and a suffix: "color (resolved)".
 fn place(frame: &Frame, name: &str) -> Span {
     let images = frame.images.iter().map(|image| (&*image.name, image.span));
     let declared = images.chain(frame.buffers.iter().map(|buffer| (&*buffer.name, buffer.span)));
@@ -42,7 +41,7 @@ fn place(frame: &Frame, name: &str) -> Span {
     of.max_by_key(|(declared, _)| declared.len()).map_or(Span::NONE, |(_, span)| span)
 }
 
-/// What an image takes.
+/// The bytes of an image.
 fn bytes(image: &Image, device: &Profile) -> u64 {
     if let Role::Transient(placement) = &image.role {
         return placement.bytes;

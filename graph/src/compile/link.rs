@@ -1,4 +1,4 @@
-//! `link`: what each pass reads and writes, part by part, and whether what it reads is there.
+//! `link`: finds the parts that each pass reads and writes, and checks that earlier passes wrote all that is read.
 //!
 //! Order in the frame gives meaning: a pass reads the versions that stand before itself, even of images it also writes.
 
@@ -6,7 +6,7 @@ use super::parts::Grids;
 use crate::base::Diagnostic;
 use crate::frame::{Access, BufferIndex, Effect, Frame, Image, ImageIndex, Pass, Resource};
 
-/// What one pass does with one part of an image, or with a buffer.
+/// The access of one pass to one part of an image, or to a buffer.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartUse(u32);
 
@@ -148,12 +148,12 @@ impl Linker<'_> {
         (self.first_part[number] as usize..end, self.name(resource))
     }
 
-    /// Notes one access. What it writes is there only for the passes after it ([`Linker::commit`]).
+    /// Notes one access. Later passes alone can read its writes ([`Linker::commit`]).
     fn access(&mut self, pass: &Pass, access: &Access<'_>, part: u32, effect: Effect) {
         let (Access { resource, span, .. }, Effect { reads, writes, .. }) = (*access, effect);
         let part = self.first_part[self.number(resource)] + part;
         if reads && !self.written[part as usize] {
-            // Said once for each part.
+            // Reported once for each part.
             self.written[part as usize] = true;
             let (name, pass) = (self.name(resource), &pass.name);
             let message = if writes {

@@ -4,7 +4,10 @@ use super::parts::{Grid, Grids};
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, with_room};
 use crate::plan::{Inserted, Note, Subresources};
-use crate::vulkan::{Accesses, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Stages, State, Usage};
+use crate::vulkan::{
+    Accesses, Aspects, BufferUsage, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Sharing, Stages, State,
+    Usage,
+};
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -67,11 +70,45 @@ impl Store {
         }
     }
 
+    /// Its cells.
+    pub(super) fn cells(&self, grids: &Grids) -> Range<CellIndex> {
+        self.first_cell..self.first_cell + self.grid(grids).map_or(1, |grid| grid.len())
+    }
+
+    /// The layout of all its planes, one of which is in `layout`.
+    pub(super) fn layout_of_all_planes(&self, layout: Layout) -> Layout {
+        let both = self.image().is_some_and(|image| image.format.aspects().contains(Aspects::STENCIL));
+        match layout {
+            Layout::DepthAttachmentOptimal | Layout::StencilAttachmentOptimal if both => {
+                Layout::DepthStencilAttachmentOptimal
+            }
+            Layout::DepthReadOnlyOptimal | Layout::StencilReadOnlyOptimal if both => {
+                Layout::DepthStencilReadOnlyOptimal
+            }
+            layout => layout,
+        }
+    }
+
     /// All of an image.
     pub(super) fn all(&self) -> Subresources {
         match &self.kind {
             Kind::Image(image) => Subresources::all(image.format, image.mips, image.layers),
             Kind::Buffer(_) => Subresources::WHOLE,
+        }
+    }
+
+    /// Sets its usage flags, which are bits of `VkImageUsageFlags` or `VkBufferUsageFlags`.
+    pub(super) fn set_usage(&mut self, bits: u32) {
+        match &mut self.kind {
+            Kind::Image(image) => image.usage = Usage::from_bits_truncate(bits),
+            Kind::Buffer(buffer) => buffer.usage = BufferUsage::from_bits_truncate(bits),
+        }
+    }
+
+    pub(super) fn set_sharing(&mut self, sharing: Sharing) {
+        match &mut self.kind {
+            Kind::Image(image) => image.sharing = sharing,
+            Kind::Buffer(buffer) => buffer.sharing = sharing,
         }
     }
 

@@ -82,7 +82,7 @@ impl Grids {
         }
     }
 
-    /// What a pass samples while it writes it is copied, mip level by mip level.
+    /// Cuts images that a pass samples while it writes them: they are copied mip level by mip level.
     fn cut_copies(&mut self, frame: &Frame, pass: &Pass) {
         for sampled in &pass.sampled {
             let written = pass.color.iter().any(|target| target.image == sampled.image)
@@ -136,7 +136,7 @@ impl Grid {
         })
     }
 
-    /// What part number `part` is.
+    /// The subresources of part number `part`.
     pub(super) fn range(&self, part: u32) -> Subresources {
         let (rows, columns) = (self.mip_rows(), self.layer_columns());
         let (layer, mip, plane) = (part % columns, part / columns % rows, part / columns / rows);

@@ -16,22 +16,22 @@ pub(super) struct AttachmentOps {
     pub(super) clear: Option<[f32; 4]>,
     /// The operation that uses it first.
     pub(super) first: u32,
-    /// Who uses its contents next.
+    /// The next use of its contents.
     pub(super) next: Next,
     /// Whether a pass of the scope writes it.
     written: bool,
 }
 
-/// Who uses an attachment's contents next.
+/// The next use of an attachment's contents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Next {
-    /// Nobody.
+    /// None.
     Nobody,
-    /// Somebody starts afresh.
+    /// They are overwritten.
     Replaced,
-    /// An operation.
+    /// An operation reads or keeps them.
     Op(u32),
-    /// What comes after the frame.
+    /// They outlive the frame.
     After,
 }
 
@@ -86,7 +86,7 @@ pub(super) fn retain(frame: &Frame, grids: &Grids, adapted: &Adapted, scoped: &S
         starts.push(walk.ops.len() as u32);
         match step {
             Step::Scope(scope) => walk.scope(scope),
-            Step::Single(op) => adapted.uses(*op).iter().for_each(|used| walk.touch(*op, used)),
+            Step::Single(op) => adapted.uses(*op).iter().for_each(|used| walk.access(*op, used)),
             Step::Export => {}
         }
     }
@@ -134,7 +134,7 @@ impl Walk<'_> {
         for op in &scope.ops {
             let from_memory = |used: &&Use| !used.role.is_attachment() && used.role != Role::Input;
             for used in self.adapted.uses(*op).iter().filter(from_memory) {
-                self.touch(*op, used);
+                self.access(*op, used);
             }
         }
         for at in first..self.ops.len() {
@@ -145,12 +145,12 @@ impl Walk<'_> {
         }
         for op in scope.carries() {
             if let Some(target) = self.adapted.uses(op).get(1) {
-                self.touch(op, target);
+                self.access(op, target);
             }
         }
     }
 
-    /// An attachment by what its first and all its uses in the scope are.
+    /// An attachment: its first use says how it is loaded, and any use that writes it that it is written.
     fn attachment(&self, scope: &Scope, target: Target, role: Role) -> AttachmentOps {
         let Walk { frame, adapted, .. } = self;
         let is_it =
@@ -189,7 +189,7 @@ impl Walk<'_> {
         }
     }
 
-    fn touch(&mut self, op: u32, used: &Use) {
+    fn access(&mut self, op: u32, used: &Use) {
         let (adapted, grids) = (self.adapted, self.grids);
         adapted.for_each_cell(grids, used, |cell| {
             if used.reads {
@@ -201,7 +201,7 @@ impl Walk<'_> {
         });
     }
 
-    /// Somebody needs what a cell contains.
+    /// Notes that the contents of a cell are needed.
     fn needed(&mut self, cell: u32, by: Next) {
         if let Some(attachment) = self.ops.get_mut(self.last[cell as usize] as usize)
             && !matches!(attachment.next, Next::Op(_))
@@ -210,7 +210,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Somebody writes a cell.
+    /// Notes that a cell is overwritten.
     fn replaced(&mut self, cell: u32, by: u32) {
         let last = std::mem::replace(&mut self.last[cell as usize], by);
         if let Some(attachment) = self.ops.get_mut(last as usize).filter(|_| last != by)
@@ -220,7 +220,7 @@ impl Walk<'_> {
         }
     }
 
-    /// What outlives the frame is needed.
+    /// Notes that contents are needed that outlive the frame.
     fn after(&mut self) {
         for (store, next) in self.adapted.stores.iter().zip(self.adapted.stores.iter().skip(1).map(Some).chain([None]))
         {

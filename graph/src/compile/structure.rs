@@ -1,25 +1,22 @@
-//! What doesn't depend on sizes and values, and what follows from it once sizes are known.
+//! Runs the stages: first those that don't depend on sizes and values, then those that do.
 
-use super::batch::{self, Batched};
 use super::cull::{self, Live};
-use super::hand_over::{self, MemoryScopes};
+use super::memory::{self, Aliasing, Placed};
 use super::model::{Adapted, Use};
-use super::occupy::Occupancy;
 use super::options::{Options, Order};
-use super::outlive::{self, States};
 use super::parts::Grids;
-use super::place::{self, Placed};
+use super::queues::{self, Assigned};
 use super::retain::{self, Retained};
 use super::schedule::{self, Scheduled};
-use super::scope::{self, Scoped, Step};
-use super::synchronise::{self, Pending, Walked};
-use super::{adapt, fit, queues, redundant, take_over, usage};
+use super::scope::{self, Scoped};
+use super::sync::{self, Barriers, CellBarrier, Timeline};
+use super::{adapt, fit, usage};
 use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
 use crate::frame::Frame;
 use crate::plan::Note;
 
-/// What the stages before `place` decided.
+/// The results of the stages before `place`.
 #[derive(Debug)]
 pub(super) struct Structure {
     pub(super) grids: Grids,
@@ -34,30 +31,26 @@ pub(super) struct Structure {
     same_areas: Vec<bool>,
     pub(super) scoped: Scoped,
     pub(super) retained: Retained,
-    pub(super) walked: Walked,
-    pub(super) states: Vec<Option<States>>,
-    /// The number of steps but for the export.
-    pub(super) export: u32,
+    pub(super) timeline: Timeline,
+    /// How long memory is taken, where steps of several queues run side by side.
+    spans: Option<Vec<[u32; 2]>>,
 }
 
-/// What the stages from `place` on decided.
+/// The results of the stages from `place` on.
 #[derive(Debug)]
 pub(super) struct Settled {
     pub(super) placed: Placed,
-    /// How long memory is taken, where steps of several queues run side by side.
-    spans: Option<Vec<[u32; 2]>>,
-    occupancy: Occupancy,
-    pub(super) batched: Vec<Batched>,
-    pub(super) memory: Vec<(u32, MemoryScopes)>,
+    aliasing: Aliasing,
+    pub(super) barriers: Barriers,
     pub(super) exact_memory: bool,
 }
 
-/// How much of what was settled serves for other sizes.
+/// How much of what was settled holds for other sizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Settling {
     /// All but sizes and offsets.
     Same,
-    /// Memory changes hands in another way, so that barriers are other ones.
+    /// Memory is aliased in another way, so barriers differ.
     OtherBarriers,
     /// Nothing.
     Nothing,
@@ -95,28 +88,23 @@ impl Structure {
         let areas = || scope::same_areas(&adapted, &scheduled.order, device).collect();
         let same_areas = if keeps { areas() } else { Vec::new() };
         let uses = if keeps && options.order == Order::LowMemory { adapted.uses.clone() } else { Vec::new() };
-        let mut scoped = scope::scope(frame, &grids, &mut adapted, &scheduled.order, device);
-        let queues = queues::assign(frame, &grids, &mut adapted, &mut scoped, device, options);
+        let mut scoped = scope::scope(frame, &grids, &adapted, &scheduled.order, device);
+        adapted.notes.append(&mut scoped.notes);
+        scope::read_locally(&mut adapted.uses, &scoped.local);
+        let Assigned { scoped, queues, notes: of_queues, sharing } =
+            queues::assign(frame, &grids, &adapted, scoped, device, options);
+        adapted.notes.extend(of_queues);
+        sharing.into_iter().for_each(|(store, sharing)| adapted.stores[store as usize].set_sharing(sharing));
         let retained = retain::retain(frame, &grids, &adapted, &scoped);
-        let mut walked = synchronise::walk(&grids, &mut adapted, &scoped, &retained, queues);
-        let export = scoped.steps.len() as u32;
-        let states = outlive::promise(&grids, &adapted, &mut walked, export);
-        usage::note(&grids, &mut adapted, &walked, &states, &retained, &scoped, options);
+        let timeline = sync::timeline(&grids, &adapted, &scoped, &retained, queues);
+        for (used, layout) in &timeline.layouts {
+            adapted.uses[*used as usize].layout = *layout;
+        }
+        let spans = timeline.queues.memory_spans(&adapted, &scoped, &timeline.lifetimes);
+        let usages = usage::usages(&grids, &adapted, &timeline, &retained, &scoped, options);
+        adapted.stores.iter_mut().zip(usages).for_each(|(store, usage)| store.set_usage(usage));
         fit::check_support(frame, &adapted, &scoped, device)?;
-        Ok(Structure {
-            grids,
-            live,
-            notes,
-            adapted,
-            uses,
-            scheduled,
-            same_areas,
-            scoped,
-            retained,
-            walked,
-            states,
-            export,
-        })
+        Ok(Structure { grids, live, notes, adapted, uses, scheduled, same_areas, scoped, retained, timeline, spans })
     }
 
     /// Whether a legal frame that differs from the one it was found for in nothing but sizes and values, and forwards between
@@ -142,88 +130,75 @@ impl Structure {
         same_order
     }
 
-    /// Runs the stages from `place` on; barriers before first uses must be as `find` left them.
+    /// Runs the stages from `place` on. `barriers`: those of the timeline.
     pub(super) fn settle(
-        &mut self,
+        &self,
+        barriers: Vec<CellBarrier>,
         device: &Profile,
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Settled, Vec<Diagnostic>> {
-        let Structure { adapted, scoped, walked, .. } = self;
-        let spans = walked.queues.as_ref().map(|queues| queues.spans(adapted, scoped, &walked.lifetimes));
-        let placed = place::place(adapted, &walked.lifetimes, spans.as_deref(), device, memory, options)?;
-        let occupancy = Occupancy::of(&placed, &walked.lifetimes);
-        let (batched, hand_overs) = self.synchronise(&occupancy);
-        Ok(Settled { placed, spans, occupancy, batched, memory: hand_overs, exact_memory: memory.exact() })
+        let placed = self.place(device, memory, options)?;
+        let aliasing = Aliasing::of(&placed, &self.timeline.lifetimes);
+        let barriers = self.barriers(barriers, &aliasing);
+        Ok(Settled { placed, aliasing, barriers, exact_memory: memory.exact() })
     }
 
-    /// As [`Structure::settle`], where nothing is settled again: what only that takes needn't lie beside the Plan.
+    /// As [`Structure::settle`], where nothing is settled again: drops what only that needs.
     pub(super) fn settle_for_good(
         &mut self,
         device: &Profile,
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Settled, Vec<Diagnostic>> {
-        let mut settled = self.settle(device, memory, options)?;
-        settled.occupancy = Occupancy::default();
-        self.walked.cells = Vec::new();
-        self.walked.lifetimes = Vec::new();
+        let barriers = std::mem::take(&mut self.timeline.barriers);
+        let mut settled = self.settle(barriers, device, memory, options)?;
+        settled.aliasing = Aliasing::default();
+        settled.barriers.barriers.shrink_to_fit();
+        self.timeline.forget_cells();
         self.scheduled.order = Vec::new();
-        self.walked.barriers.shrink_to_fit();
         self.adapted.uses.shrink_to_fit();
         Ok(settled)
     }
 
-    /// Settles again where the structure held for other sizes. `pending`: barriers as `find` left them.
+    /// Settles again for other sizes.
     pub(super) fn settle_again(
-        &mut self,
+        &self,
         settled: &mut Settled,
-        pending: &[Pending],
         device: &Profile,
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Settling, Vec<Diagnostic>> {
-        let Structure { adapted, walked, .. } = self;
-        let spans = settled.spans.as_deref();
-        settled.placed = place::place(adapted, &walked.lifetimes, spans, device, memory, options)?;
-        if settled.occupancy.still_holds(&settled.placed) {
+        settled.placed = self.place(device, memory, options)?;
+        if settled.aliasing.still_holds(&settled.placed) {
             return Ok(Settling::Same);
         }
-        let occupancy = Occupancy::of(&settled.placed, &walked.lifetimes);
-        let before = std::mem::replace(&mut settled.occupancy, occupancy);
-        if before.taken == settled.occupancy.taken {
+        let aliasing = Aliasing::of(&settled.placed, &self.timeline.lifetimes);
+        let before = std::mem::replace(&mut settled.aliasing, aliasing);
+        if before.edges == settled.aliasing.edges {
             return Ok(Settling::Same);
         }
-        // What steps of several queues wait for depends on who had whose memory.
-        if walked.queues.is_some() {
+        // The waits of several queues depend on aliasing too.
+        if !self.timeline.queues.is_one() {
             return Ok(Settling::Nothing);
         }
-        walked.barriers.clear();
-        walked.barriers.extend_from_slice(pending);
-        (settled.batched, settled.memory) = self.synchronise(&settled.occupancy);
+        let mut barriers = std::mem::take(&mut settled.barriers.barriers);
+        barriers.clone_from(&self.timeline.barriers);
+        settled.barriers = self.barriers(barriers, &settled.aliasing);
         Ok(Settling::OtherBarriers)
     }
 
-    /// Runs the stages behind `occupy`.
-    fn synchronise(&mut self, occupancy: &Occupancy) -> (Vec<Batched>, Vec<(u32, MemoryScopes)>) {
-        let Structure { grids, adapted, scoped, walked, states, export, .. } = self;
-        let hand_overs = take_over::take_over(grids, adapted, states, occupancy, walked);
-        let mut batched = match &walked.queues {
-            None => batch::batch(&adapted.stores, &walked.barriers),
-            Some(queues) => batch::batch_on(queues, &adapted.stores, &walked.barriers),
-        };
-        redundant::take_out(adapted, walked, &mut batched);
-        let (pending, queues) = (&walked.barriers, &walked.queues);
-        scoped.steps.truncate(*export as usize);
-        let waits = queues.as_ref().is_some_and(|queues| !queues.waits(*export).is_empty());
-        if batched.last().is_some_and(|last| last.at == *export) || *export == 0 || waits {
-            scoped.steps.push(Step::Export);
-        }
-        let steps = scoped.steps.len();
-        let memory_barriers = match queues {
-            None => hand_over::memory_barriers(&hand_overs, pending, &batched, steps),
-            Some(queues) => hand_over::memory_barriers_on(queues, &hand_overs, pending, &batched, steps),
-        };
-        (batched, memory_barriers)
+    fn place(
+        &self,
+        device: &Profile,
+        memory: &mut dyn MemoryProvider,
+        options: &Options,
+    ) -> Result<Placed, Vec<Diagnostic>> {
+        memory::place(&self.adapted, &self.timeline.lifetimes, self.spans.as_deref(), device, memory, options)
+    }
+
+    fn barriers(&self, barriers: Vec<CellBarrier>, aliasing: &Aliasing) -> Barriers {
+        let steps = self.scoped.steps.len() as u32;
+        sync::barriers(&self.grids, &self.adapted, &self.timeline, barriers, &aliasing.edges, steps)
     }
 }

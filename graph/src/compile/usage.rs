@@ -1,96 +1,84 @@
-//! What each image and buffer is made for: exactly the uses that the steps make of it, and what follows from its part in the
-//! frame and from the states in which it is found and left.
+//! Usage flags of each image and buffer: those that its steps take, and those that follow from its lifetime and from its
+//! states before and after the frame.
 
-use super::model::{Adapted, Home, Kind};
+use super::history_ring::last_of_ring;
+use super::model::{Adapted, Home, Kind, StoreIndex};
 use super::options::Options;
-use super::outlive::{States, cells, last_of_cycle};
 use super::parts::Grids;
-use super::retain::Retained;
+use super::retain::{AttachmentOps, Retained};
 use super::scope::{Scoped, Step};
-use super::synchronise::Walked;
+use super::sync::Timeline;
 use crate::vulkan::states::usage_for;
 use crate::vulkan::{BufferUsage, LoadOp, StoreOp, Usage};
 
-/// Notes usages: what outlives the frame can be copied from, what has initial contents can be copied to; images that never
-/// leave their one scope become transient attachments.
-pub(super) fn note(
+/// For each physical resource its usage flags, as the bits of `VkImageUsageFlags` or `VkBufferUsageFlags`. Outputs and all
+/// that outlives the frame can be copied from, initial contents can be copied to, and images that never leave their only
+/// scope become transient attachments.
+pub(super) fn usages(
     grids: &Grids,
-    adapted: &mut Adapted,
-    walked: &Walked,
-    states: &[Option<States>],
+    adapted: &Adapted,
+    timeline: &Timeline,
     retained: &Retained,
     scoped: &Scoped,
     options: &Options,
-) {
-    let attachments_only = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT | Usage::INPUT_ATTACHMENT;
-    for at in 0..adapted.stores.len() {
-        let store = &adapted.stores[at];
-        let bits = walked.usage(cells(grids, store));
-        let [first, last] = walked.lifetimes[at];
+) -> Vec<u32> {
+    let stays_in_scope = |at: u32| {
+        let [first, last] = timeline.lifetimes[at as usize];
         let in_one_scope = first == last && matches!(scoped.steps.get(first as usize), Some(Step::Scope(_)));
-        let stays = in_one_scope
-            && retained
-                .of(first)
-                .iter()
-                .filter(|ops| ops.target.store == at as u32)
-                .all(|ops| ops.load != LoadOp::Load && ops.store != StoreOp::Store);
-        let store = &mut adapted.stores[at];
-        let home = store.home;
-        match &mut store.kind {
+        let stays = |ops: &AttachmentOps| ops.load != LoadOp::Load && ops.store != StoreOp::Store;
+        in_one_scope && retained.of(first).iter().filter(|ops| ops.target.store == at).all(stays)
+    };
+    let mut usages = Vec::with_capacity(adapted.stores.len());
+    for (store, at) in adapted.stores.iter().zip(0_u32..) {
+        let bits = timeline.usage(store.cells(grids));
+        usages.push(match &store.kind {
             Kind::Image(image) => {
-                image.usage = Usage::from_bits_truncate(bits);
-                for state in states[at].iter().flat_map(|states| [states.before, states.after]) {
-                    image.usage |= usage_for(state.layout);
+                let mut usage = Usage::from_bits_truncate(bits);
+                for state in timeline.states[at as usize].iter().flat_map(|states| [states.before, states.after]) {
+                    usage |= usage_for(state.layout);
                 }
-                match home {
-                    Home::Transient if options.poison => image.usage |= Usage::TRANSFER_DST,
-                    Home::Transient if stays && attachments_only.contains(image.usage) => {
-                        image.usage |= Usage::TRANSIENT_ATTACHMENT;
-                    }
-                    Home::Transient => {}
-                    // A file is copied into it, and mip levels are made one from the other.
-                    Home::Persistent { initial: None, .. } if image.mips == 1 => image.usage |= Usage::TRANSFER_DST,
-                    Home::Persistent { .. } => image.usage |= Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
-                    Home::Imported { .. } => image.usage |= Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
-                    Home::Output => image.usage |= Usage::TRANSFER_SRC,
-                }
+                (usage | of_image(usage, store.home, image.mips, options.poison, || stays_in_scope(at))).bits()
             }
-            Kind::Buffer(buffer) => {
-                buffer.usage = BufferUsage::from_bits_truncate(bits);
-                match home {
-                    Home::Transient if options.poison => buffer.usage |= BufferUsage::TRANSFER_DST,
-                    Home::Transient => {}
-                    Home::Persistent { .. } | Home::Imported { .. } => {
-                        buffer.usage |= BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST;
-                    }
-                    Home::Output => buffer.usage |= BufferUsage::TRANSFER_SRC,
-                }
-            }
-        }
+            Kind::Buffer(_) => (BufferUsage::from_bits_truncate(bits) | of_buffer(store.home, options.poison)).bits(),
+        });
     }
-    share_purpose(adapted);
+    share_usages(adapted, &mut usages);
+    usages
 }
 
-/// What becomes each other from frame to frame is the same images in other roles, made for all of these.
-fn share_purpose(adapted: &mut Adapted) {
+/// The usage that follows from the lifetime of an image, which has `usage` already.
+fn of_image(usage: Usage, home: Home, mips: u32, poison: bool, stays_in_scope: impl Fn() -> bool) -> Usage {
+    let attachments_only = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT | Usage::INPUT_ATTACHMENT;
+    match home {
+        Home::Transient if poison => Usage::TRANSFER_DST,
+        Home::Transient if attachments_only.contains(usage) && stays_in_scope() => Usage::TRANSIENT_ATTACHMENT,
+        Home::Transient => Usage::empty(),
+        // A file is copied into it, and mip levels are made one from the other.
+        Home::Persistent { initial: None, .. } if mips == 1 => Usage::TRANSFER_DST,
+        Home::Persistent { .. } | Home::Imported { .. } => Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
+        Home::Output => Usage::TRANSFER_SRC,
+    }
+}
+
+/// The usage that follows from the lifetime of a buffer.
+fn of_buffer(home: Home, poison: bool) -> BufferUsage {
+    match home {
+        Home::Transient if poison => BufferUsage::TRANSFER_DST,
+        Home::Transient => BufferUsage::empty(),
+        Home::Persistent { .. } | Home::Imported { .. } => BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
+        Home::Output => BufferUsage::TRANSFER_SRC,
+    }
+}
+
+/// History images rotate from frame to frame, so each gets the usages of all.
+fn share_usages(adapted: &Adapted, usages: &mut [u32]) {
     let mut first = 0;
-    while let Some(store) = adapted.stores.get(first as usize) {
-        let last = if let Home::Persistent { .. } = store.home { last_of_cycle(adapted, first) } else { first };
+    while first < usages.len() {
+        let last = last_of_ring(adapted, first as StoreIndex) as usize;
         if last > first {
-            let cycle = &mut adapted.stores[first as usize..=last as usize];
-            let (mut images, mut buffers) = (Usage::empty(), BufferUsage::empty());
-            for store in &*cycle {
-                match &store.kind {
-                    Kind::Image(image) => images |= image.usage,
-                    Kind::Buffer(buffer) => buffers |= buffer.usage,
-                }
-            }
-            for store in cycle {
-                match &mut store.kind {
-                    Kind::Image(image) => image.usage = images,
-                    Kind::Buffer(buffer) => buffer.usage = buffers,
-                }
-            }
+            let ring = &mut usages[first..=last];
+            let all = ring.iter().fold(0, |all, usage| all | usage);
+            ring.fill(all);
         }
         first = last + 1;
     }

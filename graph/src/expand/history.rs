@@ -1,16 +1,16 @@
 //! How far back history is kept: as far as a pass that runs reads it. What no pass reads of earlier frames lives within the
 //! frame.
 
+use super::accesses;
 use super::state::State;
 use super::things::Things;
-use super::touches;
 use crate::frame::{Lifetime, Resource};
 
 /// Shortens the history of images and buffers to what is read of it.
 pub(super) fn shorten(things: &mut Things, states: &[State]) {
     let mut images = vec![0_u32; things.images.len()];
     let mut buffers = vec![0_u32; things.buffers.len()];
-    for read in states.iter().flat_map(State::runs).flat_map(|pass| touches::reads(things, pass)) {
+    for read in states.iter().flat_map(State::runs).flat_map(|pass| accesses::reads(things, pass)) {
         let back = match read.resource {
             Resource::Image(index) => images.get_mut(index.0 as usize),
             Resource::Buffer(index) => buffers.get_mut(index.0 as usize),

@@ -5,6 +5,7 @@
 //! ```
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 
+mod accesses;
 mod casters;
 mod chosen;
 mod depth_only;
@@ -35,7 +36,6 @@ mod storage;
 mod supplied;
 mod targets;
 mod things;
-mod touches;
 mod transfers;
 mod variant;
 mod views;

@@ -1,10 +1,10 @@
 //! The order of passes: nothing is read before it is written, and the first writer covers or clears.
 
+use super::accesses::{self, Read, Write};
 use super::chosen::Chosen;
 use super::parts::Cells;
 use super::state::State;
 use super::things::Things;
-use super::touches::{self, Read, Write};
 use super::waits::{self, Need};
 use super::writers::{Writer, Writers};
 use super::written::{Cell, Written};
@@ -60,7 +60,7 @@ pub(super) fn check(
         );
     }
     for (position, state) in states.iter().enumerate() {
-        for read in state.runs().iter().flat_map(|pass| touches::reads(things, pass)) {
+        for read in state.runs().iter().flat_map(|pass| accesses::reads(things, pass)) {
             if read.frames_ago > 0 {
                 let reader = format!("pass `{}`", chosen.pipeline.passes[position].name.text);
                 check.needs(states.len(), &read, &reader);
@@ -69,7 +69,7 @@ pub(super) fn check(
     }
     for output in outputs {
         let reader = if output.span == Span::NONE { "the dump" } else { "the frame" };
-        if let Some(cells) = touches::whole(things, output.resource) {
+        if let Some(cells) = accesses::whole(things, output.resource) {
             let read = Read { resource: output.resource, cells, frames_ago: 0, span: output.span };
             check.needs(states.len(), &read, reader);
         }
@@ -79,11 +79,11 @@ pub(super) fn check(
 impl Check<'_> {
     /// Reads, then writes. `named` is where a stand-in's source is named.
     fn runs(&mut self, position: usize, pass: &Pass, reader: &str, named: Option<Span>) {
-        for read in touches::reads(self.things, pass).into_iter().filter(|read| read.frames_ago == 0) {
+        for read in accesses::reads(self.things, pass).into_iter().filter(|read| read.frames_ago == 0) {
             let span = named.unwrap_or(read.span);
             self.needs(position, &Read { span, ..read }, reader);
         }
-        for write in touches::writes(self.things, pass) {
+        for write in accesses::writes(self.things, pass) {
             if let Some(clear) = write.continues {
                 self.continues(position, pass, &write, clear);
             }
@@ -92,7 +92,7 @@ impl Check<'_> {
     }
 
     fn add(&mut self, of: Resource, cells: &Cells) {
-        if let Some(whole) = touches::whole(self.things, of) {
+        if let Some(whole) = accesses::whole(self.things, of) {
             let at = self.writers.index(of);
             self.written[at].add(cells, &whole);
         }
@@ -181,7 +181,7 @@ impl Check<'_> {
         }
         let wrong = wrong.label(writer.span, "first written here, further below");
         // Further up it would itself read what nothing has written.
-        let reads = self.states[writer.position].runs().iter().flat_map(|pass| touches::reads(self.things, pass));
+        let reads = self.states[writer.position].runs().iter().flat_map(|pass| accesses::reads(self.things, pass));
         if reads.into_iter().any(|own| own.resource == of && own.frames_ago == 0 && own.cells == read.cells) {
             return wrong.help(format!("another pass has to write it first, since `{below}` reads it as well"));
         }
@@ -222,7 +222,7 @@ impl Check<'_> {
         let message =
             format!("pass `{}` is the first to draw into {what} and may leave texels untouched{why}", pass.name);
         let clear = clear.replace('…', name);
-        let clear = match touches::whole(self.things, write.resource) {
+        let clear = match accesses::whole(self.things, write.resource) {
             Some(whole) => {
                 let mip = if whole.mips.len() > 1 { format!(", mip: {}", cell.mip) } else { String::new() };
                 let layer = match layers.len() {
@@ -248,7 +248,7 @@ impl Check<'_> {
     /// "`color`", or "mip level 2 of `color`" where a part of `cells` alone is missing.
     fn words(&self, of: Resource, cells: &Cells, cell: Cell) -> String {
         let name = &self.chosen.name(of).text;
-        let Some(whole) = touches::whole(self.things, of) else { return format!("`{name}`") };
+        let Some(whole) = accesses::whole(self.things, of) else { return format!("`{name}`") };
         if *cells == whole && self.written[self.writers.index(of)].is_blank() {
             return format!("`{name}`");
         }
@@ -271,7 +271,7 @@ impl Check<'_> {
         let few = self.errors.len() < MANY_MISTAKES;
         let writes = |writer: &&Writer| {
             let pass = self.states[writer.position].runs();
-            let writes = pass.iter().flat_map(|pass| touches::writes(self.things, pass));
+            let writes = pass.iter().flat_map(|pass| accesses::writes(self.things, pass));
             writes.into_iter().any(|write| write.resource == of && write.cells.contains(cell))
         };
         let first = if few { writers.iter().find(writes) } else { writers.first() };

@@ -10,7 +10,7 @@ use super::state::State;
 use super::things::Things;
 use super::variant;
 use crate::base::Span;
-use crate::frame::{Blend, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
+use crate::frame::{AccessKind, Blend, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
 use crate::language::{self, Format as Described, Precision, Precisions};
 use crate::shader::AlphaUse;
 use crate::vulkan::Format;
@@ -167,21 +167,9 @@ fn running(states: &[State]) -> Vec<&Pass> {
 
 /// Two images of one format that a pass copies one into the other.
 fn copied(things: &Things, pass: &Pass) -> Option<[ImageIndex; 2]> {
-    let pair = moved(pass)?;
+    let pair = pass.moved_images()?;
     let [one, other] = pair.map(|image| things.image(image).map(|image| image.image.format));
     (one.is_some() && one == other).then_some(pair)
-}
-
-/// The images of which a pass takes one over into the other.
-fn moved(pass: &Pass) -> Option<[ImageIndex; 2]> {
-    match (&pass.work, &pass.transfers[..]) {
-        (Work::Forward { from, to, .. }, _) => Some([*from, *to]),
-        (Work::Copy | Work::Blit { .. }, [from, to]) => match (from.resource, to.resource) {
-            (Resource::Image(from), Resource::Image(to)) => Some([from, to]),
-            _ => None,
-        },
-        _ => None,
-    }
 }
 
 /// Why an image keeps its usual format.
@@ -231,16 +219,11 @@ impl Uses {
         }
         let passes = running(states);
         for pass in &passes {
-            for storage in &pass.storage {
-                let name = &pass.name;
-                uses.fix(storage.image, format!("`{name}` uses it as a storage image"), storage.span);
-            }
-            let with_buffer = pass.transfers.iter().any(|used| matches!(used.resource, Resource::Buffer(_)));
-            if with_buffer || matches!(pass.work, Work::Custom { .. }) {
-                for used in &pass.transfers {
-                    if let Resource::Image(image) = used.resource {
-                        uses.fix(image, format!("`{}` moves its bytes", pass.name), used.span);
-                    }
+            for access in pass.accesses().filter(|access| pass.relies_on_format(access)) {
+                if let Some(image) = access.image_index() {
+                    let storage = matches!(access.kind, AccessKind::Storage(_));
+                    let what = if storage { "uses it as a storage image" } else { "moves its bytes" };
+                    uses.fix(image, format!("`{}` {what}", pass.name), access.span);
                 }
             }
         }
@@ -266,13 +249,14 @@ impl Uses {
             let pass = match state {
                 State::On(pass) => pass,
                 State::Off { stand_ins, .. } => {
-                    let moves =
-                        stand_ins.iter().filter_map(|pass| moved(pass).map(|[from, to]| (from, to, pass, pass.span)));
+                    let moves = stand_ins
+                        .iter()
+                        .filter_map(|pass| pass.moved_images().map(|[from, to]| (from, to, pass, pass.span)));
                     handed_on.extend(moves);
                     continue;
                 }
             };
-            handed_on.extend(moved(pass).map(|[from, to]| (from, to, pass, pass.span)));
+            handed_on.extend(pass.moved_images().map(|[from, to]| (from, to, pass, pass.span)));
             let Some(alpha) = alpha_of(chosen, things, described, pass, shaders) else { continue };
             for sampled in &pass.sampled {
                 let Some((_, used)) = alpha.iter().find(|(name, _)| **name == *sampled.binding) else { continue };

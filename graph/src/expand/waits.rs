@@ -1,9 +1,9 @@
 //! Passes that wait for each other: moving one up doesn't help where the other needs it.
 
+use super::accesses;
 use super::chosen::Chosen;
 use super::state::State;
 use super::things::Things;
-use super::touches;
 use super::writers::Writers;
 use crate::base::{Diagnostic, Span};
 use crate::frame::Resource;
@@ -30,9 +30,9 @@ pub(super) fn circle(things: &Things, states: &[State], writers: &Writers, first
     let mut queue = VecDeque::from([first.writer]);
     while let Some(at) = queue.pop_front() {
         let runs = states.get(at).map_or(&[][..], State::runs);
-        let read = runs.iter().flat_map(|pass| touches::reads(things, pass)).filter(|read| read.frames_ago == 0);
+        let read = runs.iter().flat_map(|pass| accesses::reads(things, pass)).filter(|read| read.frames_ago == 0);
         let read = read.map(|read| (read.resource, read.span));
-        let continued = runs.iter().flat_map(|pass| touches::writes(things, pass));
+        let continued = runs.iter().flat_map(|pass| accesses::writes(things, pass));
         let continued = continued.filter(|write| write.continues.is_some());
         for (resource, span) in read.chain(continued.map(|write| (write.resource, write.span))) {
             let Some(writer) = writers.last_before(resource, at).filter(|writer| *writer >= first.pass) else {

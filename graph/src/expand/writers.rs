@@ -1,9 +1,9 @@
 //! Which passes write each image and buffer.
 
+use super::accesses;
 use super::chosen::Chosen;
 use super::state::State;
 use super::things::Things;
-use super::touches;
 use crate::base::Span;
 use crate::frame::Resource;
 
@@ -31,12 +31,12 @@ impl Writers {
         for (position, state) in states.iter().enumerate() {
             let otherwise = &chosen.pipeline.passes[position].otherwise;
             let stood_for = |of: Resource| otherwise.iter().any(|one| of == Resource::Image(one.target().index));
-            for write in state.runs().iter().flat_map(|pass| touches::writes(things, pass)) {
+            for write in state.runs().iter().flat_map(|pass| accesses::writes(things, pass)) {
                 let at = writers.index(write.resource);
                 writers.on[at].push(Writer { position, span: write.span });
             }
             if let State::Off { would, .. } = state {
-                for (resource, span) in touches::would_write(would).filter(|(of, _)| !stood_for(*of)) {
+                for (resource, span) in accesses::would_write(would).filter(|(of, _)| !stood_for(*of)) {
                     let at = writers.index(resource);
                     writers.off[at].push(Writer { position, span });
                 }

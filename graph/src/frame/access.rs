@@ -1,8 +1,7 @@
 //! What a pass accesses: its images and buffers, which part of each, and whether that is read and written.
 
 use super::{
-    BufferRole, BufferUse, ColorTarget, DepthTarget, Image, ImageIndex, Pass, Resource, Sampled, Storage, TransferUse,
-    Work,
+    BufferRole, ColorTarget, DepthTarget, Image, ImageIndex, Pass, Resource, Sampled, Storage, TransferUse, Work,
 };
 use crate::base::Span;
 use crate::vulkan::Subresources;
@@ -47,15 +46,26 @@ pub(crate) struct Effect {
 impl Pass {
     /// All that it accesses: what is sampled, storage images, attachments, buffers, transfers, then what is forwarded.
     pub(crate) fn accesses(&self) -> impl Iterator<Item = Access<'_>> {
-        let sampled = self.sampled.iter().map(Access::sampled);
-        let storage = self.storage.iter().map(|it| Access::image(it.image, it.range, it.span, AccessKind::Storage(it)));
-        let color = self.color.iter().map(|it| Access::image(it.image, it.range, it.span, AccessKind::Color(it)));
-        let depth = self.depth.iter().map(|it| {
-            let range = Subresources { aspects: Subresources::WHOLE.aspects, ..it.range };
-            Access::image(it.image, range, it.span, AccessKind::Depth(it))
+        let image =
+            |image, range, span, kind| Access { resource: Resource::Image(image), range, frames_ago: 0, span, kind };
+        let sampled = self.sampled.iter().map(move |it| {
+            let kind = AccessKind::Sampled(it);
+            Access { frames_ago: it.frames_ago, ..image(it.image, it.range, it.span, kind) }
         });
-        let buffers = self.buffers.iter().map(Access::buffer);
-        let transfers = self.transfers.iter().map(Access::transfer);
+        let storage = self.storage.iter().map(move |it| image(it.image, it.range, it.span, AccessKind::Storage(it)));
+        let color = self.color.iter().map(move |it| image(it.image, it.range, it.span, AccessKind::Color(it)));
+        let depth = self.depth.iter().map(move |it| {
+            let range = Subresources { aspects: Subresources::WHOLE.aspects, ..it.range };
+            image(it.image, range, it.span, AccessKind::Depth(it))
+        });
+        let buffers = self.buffers.iter().map(|it| {
+            let (resource, kind) = (Resource::Buffer(it.buffer), AccessKind::Buffer(it.role));
+            Access { resource, range: Subresources::WHOLE, frames_ago: it.frames_ago, span: it.span, kind }
+        });
+        let transfers = self.transfers.iter().map(|it| {
+            let TransferUse { resource, range, frames_ago, span, write } = *it;
+            Access { resource, range, frames_ago, span, kind: AccessKind::Transfer { write } }
+        });
         let forwarded = match self.work {
             Work::Forward { from, to, .. } => {
                 Some([(from, AccessKind::ForwardSource), (to, AccessKind::ForwardTarget)])
@@ -63,8 +73,33 @@ impl Pass {
             _ => None,
         };
         let forwarded = forwarded.into_iter().flatten();
-        let forwarded = forwarded.map(|(image, kind)| Access::image(image, Subresources::WHOLE, self.span, kind));
+        let forwarded = forwarded.map(move |(it, kind)| image(it, Subresources::WHOLE, self.span, kind));
         sampled.chain(storage).chain(color).chain(depth).chain(buffers).chain(transfers).chain(forwarded)
+    }
+
+    /// Whether it relies on the very format of what it accesses: a shader or a program is told the layout of the texels, or
+    /// they are copied to or from a buffer.
+    pub(crate) fn relies_on_format(&self, access: &Access<'_>) -> bool {
+        let is_buffer = |used: &TransferUse| matches!(used.resource, Resource::Buffer(_));
+        match access.kind {
+            AccessKind::Storage(_) => true,
+            AccessKind::Transfer { .. } => {
+                matches!(self.work, Work::Custom { .. }) || self.transfers.iter().any(is_buffer)
+            }
+            _ => false,
+        }
+    }
+
+    /// The images of which it copies, scales or forwards the first into the second.
+    pub(crate) fn moved_images(&self) -> Option<[ImageIndex; 2]> {
+        match (&self.work, &self.transfers[..]) {
+            (Work::Forward { from, to, .. }, _) => Some([*from, *to]),
+            (Work::Copy | Work::Blit { .. }, [from, to]) => match (from.resource, to.resource) {
+                (Resource::Image(from), Resource::Image(to)) => Some([from, to]),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 
     /// The images that it draws into, and which parts of them: colour, then depth.
@@ -74,27 +109,7 @@ impl Pass {
     }
 }
 
-impl<'p> Access<'p> {
-    fn image(image: ImageIndex, range: Subresources, span: Span, kind: AccessKind<'p>) -> Access<'p> {
-        Access { resource: Resource::Image(image), range, frames_ago: 0, span, kind }
-    }
-
-    fn sampled(sampled: &'p Sampled) -> Access<'p> {
-        let Sampled { image, range, frames_ago, span, .. } = *sampled;
-        Access { frames_ago, ..Access::image(image, range, span, AccessKind::Sampled(sampled)) }
-    }
-
-    fn buffer(used: &BufferUse) -> Access<'p> {
-        let BufferUse { buffer, frames_ago, span, role, .. } = *used;
-        let (resource, kind) = (Resource::Buffer(buffer), AccessKind::Buffer(role));
-        Access { resource, range: Subresources::WHOLE, frames_ago, span, kind }
-    }
-
-    fn transfer(used: &TransferUse) -> Access<'p> {
-        let TransferUse { resource, range, frames_ago, span, write } = *used;
-        Access { resource, range, frames_ago, span, kind: AccessKind::Transfer { write } }
-    }
-
+impl Access<'_> {
     /// Its image; `None`: it is a buffer.
     pub(crate) fn image_index(&self) -> Option<ImageIndex> {
         match self.resource {

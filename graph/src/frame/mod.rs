@@ -13,7 +13,7 @@ mod part;
 mod pass;
 mod resource;
 mod texture;
-mod touch;
+mod uses;
 mod view;
 
 pub(crate) use access::{Access, AccessKind, Effect};
@@ -27,7 +27,7 @@ pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, S
 pub use texture::{
     ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
 };
-pub use touch::{
+pub use uses::{
     Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, Sampled, StencilState, Storage, TransferUse,
 };
 pub use view::{Allowances, Eye, EyeForm, Stereo, View, ViewEye, ViewIndex};

@@ -4,12 +4,9 @@ use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
 use crate::frame::{Blend, BufferRole, BufferUse, ColorTarget, Resource, Sampled, Storage, TransferUse, Work};
 use crate::vulkan::{Accesses, Aspects, Format, Layout, Stages};
 
-/// Layouts in which transfers find their images.
-const TRANSFER: [Layout; 2] = [Layout::TransferSrcOptimal, Layout::TransferDstOptimal];
-
 const DEPTH_TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
 
-/// A use that reads, to be changed.
+/// A reading use, from which the others are made.
 fn used(store: StoreIndex, range: u32, role: Role) -> Use {
     Use {
         store,
@@ -91,7 +88,7 @@ pub(super) fn color(target: &ColorTarget, entry: u32, store: StoreIndex, range: 
 pub(super) fn depth(plane: Aspects, store: StoreIndex, range: u32, start: Start, writes: bool, format: Format) -> Use {
     let role = if plane == Aspects::STENCIL { Role::Stencil } else { Role::Depth };
     let mut accesses = Accesses::empty();
-    // What covers is tested against nothing.
+    // A draw that covers passes every depth test, so that nothing is read.
     accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_READ, start != Start::Discard);
     accesses.set(Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE, writes);
     let layout = if writes { attached(format, plane) } else { read_only(format, plane) };
@@ -116,7 +113,7 @@ pub(super) fn buffer(buffer: &BufferUse, entry: u32, store: StoreIndex) -> Use {
     Use { entry, reads, writes, stages, accesses, ..used(store, Use::ALL, Role::Buffer) }
 }
 
-/// What a pass transfers.
+/// The use of an image or buffer by a transfer.
 pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, store: StoreIndex, range: u32) -> Use {
     let stages = match work {
         Work::Blit { .. } => Stages::BLIT,
@@ -130,12 +127,24 @@ pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, store: S
 }
 
 pub(super) fn source(store: StoreIndex, range: u32, stages: Stages) -> Use {
-    Use { layout: TRANSFER[0], stages, accesses: Accesses::TRANSFER_READ, ..used(store, range, Role::Source) }
+    Use {
+        layout: Layout::TransferSrcOptimal,
+        stages,
+        accesses: Accesses::TRANSFER_READ,
+        ..used(store, range, Role::Source)
+    }
 }
 
 pub(super) fn target(store: StoreIndex, range: u32, stages: Stages) -> Use {
     let accesses = Accesses::TRANSFER_WRITE;
-    Use { reads: false, writes: true, layout: TRANSFER[1], stages, accesses, ..used(store, range, Role::Target) }
+    Use {
+        reads: false,
+        writes: true,
+        layout: Layout::TransferDstOptimal,
+        stages,
+        accesses,
+        ..used(store, range, Role::Target)
+    }
 }
 
 /// The stage in which an inserted transfer happens, if no scope carries it.

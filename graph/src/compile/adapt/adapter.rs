@@ -19,25 +19,25 @@ pub(super) struct Adapter<'a> {
     pub(super) store_of: Vec<Option<StoreIndex>>,
     /// The same for buffers.
     pub(super) buffer_store_of: Vec<Option<StoreIndex>>,
-    /// For each physical image what it holds resolved to one sample, and how, if somebody asked for that.
+    /// For each physical image its resolved copy of one sample and the way of resolving, if a pass asked for one.
     pub(super) resolved_of: Vec<Option<(ResolveWay, StoreIndex)>>,
-    /// For each physical image what it holds drawn again with one sample, if somebody asked for that.
+    /// For each physical image its depth-only copy of one sample, if a pass asked for one.
     pub(super) redrawn_of: Vec<Option<StoreIndex>>,
     /// For each multisampled depth image the operations that wrote its current version.
     pub(super) depth_writers: BTreeMap<StoreIndex, Vec<u32>>,
     /// How often each pass is drawn again.
     pub(super) redrawn_times: BTreeMap<u32, u32>,
-    /// Whether each image leaves the frame.
+    /// Whether each image is an output.
     pub(super) is_output: Vec<bool>,
     /// How many resolved copies, copies and second images each image has had: they need distinct names.
     pub(super) inserted_for: BTreeMap<ImageIndex, u32>,
     /// The images that a forwarded physical image holds or is the resolved copy of, as far as they are still used.
     pub(super) known_as: BTreeMap<StoreIndex, Vec<ImageIndex>>,
-    /// What comes later in the frame, if anything is forwarded.
+    /// The last accesses of images, if any is forwarded.
     pub(super) later: Later,
     /// Full-screen draws that move to single-sampled images.
     pub(super) demotions: Demotions,
-    /// Whether a physical image has a name that isn't its own image's.
+    /// Whether any physical image has another name than its image.
     pub(super) renamed: bool,
     /// Number of physical images and of buffers so far.
     pub(super) images: u32,
@@ -46,9 +46,9 @@ pub(super) struct Adapter<'a> {
     /// For each physical image whether a draw wrote it last.
     pub(super) drawn: Vec<bool>,
     pub(super) errors: Vec<Diagnostic>,
-    /// Uses of the pass at hand.
+    /// Uses of the current pass.
     pub(super) scratch: Vec<Use>,
-    /// What the pass at hand reads of images that it also writes: each image, and its copy.
+    /// Images that the current pass reads and writes: each one, and the copy that it reads.
     pub(super) copies: Vec<(StoreIndex, StoreIndex)>,
 }
 

@@ -61,11 +61,11 @@ pub(super) fn find(input: &Input<'_>, notes: &mut Vec<Note>) -> Demotions {
         for target in pass.color.iter().filter(|target| multisampled(target.image)) {
             let later = &mut needs[target.image.0 as usize];
             let image = &frame.images[target.image.0 as usize];
-            // Who draws into some layers keeps the others.
+            // A draw into some layers keeps the others.
             let keeps = image.layers > 1 || pass.keeps_color(target, image);
             let fixed = image.lifetime.outlives_frame();
             match (is_flat(pass), keeps) {
-                // It follows its image to wherever that is.
+                // It draws into whichever physical image holds the current version.
                 (true, true) => {}
                 (true, false) => {
                     let later = std::mem::take(later);

@@ -1,5 +1,5 @@
-//! Depth-only passes: whatever drew a version of multisampled depth is drawn again with one sample, and nothing but its
-//! depth. It neither reads nor touches the multisampled depth.
+//! Depth-only passes: the draws of a version of multisampled depth are drawn again with one sample, and without colour. They
+//! neither read nor write the multisampled depth.
 
 use super::access;
 use super::adapter::Adapter;
@@ -18,7 +18,7 @@ struct Unavailable {
 }
 
 impl Adapter<'_> {
-    /// Notes who wrote the current version of multisampled depth, each time that somebody writes it.
+    /// Notes the operations that wrote the current version of multisampled depth.
     pub(super) fn note_depth_writer(&mut self, used: &Use, draws: bool) {
         let Use { store, start, role, .. } = *used;
         let depth = self.adapted.stores[store as usize].image();
@@ -27,7 +27,7 @@ impl Adapter<'_> {
         }
         let op = self.adapted.ops.len() as u32;
         let writers = self.depth_writers.entry(store).or_default();
-        // Nothing shows from before; what else writes than draws replaces it whole, or can't be drawn again.
+        // A clear or a draw that covers replaces earlier draws. Other operations replace them too, or can't be drawn again.
         if start != Start::Keep || !draws {
             writers.clear();
         }

@@ -1,4 +1,4 @@
-//! Passes that are off: their target takes what another image holds.
+//! Stand-ins for passes that are off: their target takes the contents of another image.
 
 use super::access;
 use super::adapter::Adapter;
@@ -19,7 +19,7 @@ impl Adapter<'_> {
         let (source_image, target_image) = (&frame.images[from.0 as usize], &frame.images[to.0 as usize]);
         let count = self.current_samples(from);
         let mut wanted = self.input.negotiated.samples(to);
-        // Where draws moved to a single sample, nobody needs more of what takes their place either.
+        // Where draws moved to a single sample, their stand-in needs no more samples either.
         let moved = count < wanted && self.input.negotiated.samples(from) == wanted;
         if moved && !target_image.lifetime.outlives_frame() {
             wanted = count;
@@ -124,8 +124,8 @@ impl Adapter<'_> {
         self.push(OpKind::ForwardDraw { pass: number, filter, why }, &uses);
     }
 
-    /// Whether `to` may live in `store` from pass `number` on: nobody must be able to tell. That holds unless somebody
-    /// writes the store under one name while it is still used under another, or one of them has memory of its own.
+    /// Whether `to` may share `store` from pass `number` on. It may not if a later pass writes the store under one name while
+    /// it is still used under another, or if one of the images has memory of its own.
     fn may_share(&mut self, number: u32, store: StoreIndex, from: ImageIndex, to: ImageIndex) -> bool {
         let images = &self.input.frame.images;
         let cut = self.input.grids.of(from) != self.input.grids.of(to);
@@ -140,7 +140,7 @@ impl Adapter<'_> {
             Resource::Buffer(_) => Vec::new(),
         };
         let known = known_as.entry(store).or_insert(first);
-        // What isn't used any more by now never is again, so a long chain of forwards is no long list.
+        // Names that are not used any more are dropped, so that a long chain of forwards makes no long list.
         let used = |image: &ImageIndex| after(later.access[image.0 as usize]) || is_output[image.0 as usize];
         known.retain(|image| used(image) && *image != to);
         let resolved = |image: ImageIndex| {

@@ -1,7 +1,7 @@
-//! Several samples become one value: once for each version of an image, for all its readers.
+//! Resolves: once for each version of an image, for all its readers.
 //!
-//! Colour is averaged, or weighted by a draw; integers are sample zero. Depth has a ladder: whatever drew it is drawn again with one sample (see
-//! `depth_only`), or it is resolved, by the scope that drew it where the device has the mode, else by a draw.
+//! Colour is averaged, or weighted by a draw; of integers sample zero is taken. Depth is drawn again with one sample
+//! (`depth_only`), or it is resolved: by the scope that drew it where the device has the mode, else by a draw.
 
 use super::access;
 use super::adapter::Adapter;
@@ -35,8 +35,8 @@ impl Adapter<'_> {
         }
     }
 
-    /// The same for what copies it, texel for texel, or carries it out of the frame: of depth without a word sample zero, since
-    /// what is there is asked for, and not what would be drawn.
+    /// The same for a copy, texel for texel, and for an output. Depth without a `resolve` is resolved to sample zero: the
+    /// copy takes the contents, not what drawing them again would give.
     pub(super) fn resolved_as_it_is(&mut self, image: ImageIndex, because: String, span: Span) -> Option<StoreIndex> {
         let declared = &self.input.frame.images[image.0 as usize];
         if !declared.format.is_depth() {
@@ -113,7 +113,7 @@ impl Adapter<'_> {
     fn resolve_by_draw(&mut self, by: ResolveShader, why: Box<Inserted>, uses: [Use; 2]) -> StoreIndex {
         let [source, target] = [uses[0].store, uses[1].store];
         let store = &self.adapted.stores[target as usize];
-        // Whoever is inserted has a name of its own.
+        // Inserted images have names of their own.
         let name = store.renamed.clone().unwrap_or_default();
         let view = self.view_of_writer(source);
         let way = match by {
@@ -210,8 +210,8 @@ impl Adapter<'_> {
         ranges
     }
 
-    /// What an image holds resolved in a way, if somebody asked for that: images that are forwarded to each other may say
-    /// different ones.
+    /// The resolved copy of an image in a certain way, if there is one: images that are forwarded to each other may ask for
+    /// different ways.
     fn resolved_so(&self, source: StoreIndex, way: ResolveWay) -> Option<StoreIndex> {
         self.resolved_of[source as usize].filter(|(known, _)| *known == way).map(|(_, resolved)| resolved)
     }

@@ -1,4 +1,4 @@
-//! Physical images and buffers: made when first touched, replaced when a version can't stay where it is.
+//! Physical images and buffers: made at their first use, replaced when a version needs another one.
 
 use super::adapter::Adapter;
 use super::demote::copies_samples;
@@ -103,7 +103,7 @@ impl Adapter<'_> {
         first + frames_ago
     }
 
-    /// Adds what a lifetime takes: one store, or with history one for each frame, the newest first.
+    /// Adds the stores that a lifetime takes: one, or with history one for each frame, the newest first.
     fn add_lives(
         &mut self,
         of: Resource,
@@ -207,7 +207,7 @@ impl Adapter<'_> {
         self.adapted.stores.len() as StoreIndex - 1
     }
 
-    /// What a pass transfers, and which part of it; a multisampled source is resolved first.
+    /// The store that a pass transfers, and which part of it; a multisampled source is resolved first.
     pub(super) fn transferred(&mut self, pass: &Pass, used: &TransferUse) -> Option<(StoreIndex, u32)> {
         let image = match used.resource {
             Resource::Buffer(buffer) => return Some((self.buffer(buffer, used.frames_ago), Use::ALL)),

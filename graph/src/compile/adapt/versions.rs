@@ -24,7 +24,7 @@ impl Adapter<'_> {
         self.copied(pass, sampled, before)
     }
 
-    /// A copy of what a pass samples of `before`, in which it writes.
+    /// A copy of the parts of `before` that a pass samples while it writes the image.
     fn copied(&mut self, pass: &Pass, sampled: &Sampled, before: StoreIndex) -> StoreIndex {
         let image = sampled.image;
         let declared = &self.input.frame.images[image.0 as usize];
@@ -32,7 +32,7 @@ impl Adapter<'_> {
         let why = self.reason(because, sampled.span);
         let samples = self.samples(before);
         let copy = self.second(image, "copy", why.clone(), samples);
-        // Whatever the pass samples of the image it then finds in the copy.
+        // All that the pass samples of the image is read from the copy.
         let also = pass.sampled.iter().filter(|other| other.image == image && other.frames_ago == 0);
         let mut copied: Vec<Subresources> = Vec::new();
         for range in also.map(|other| declared.part(other.range)) {

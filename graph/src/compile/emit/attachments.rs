@@ -1,6 +1,7 @@
 //! Rendering scopes of the Plan, and why their attachments are loaded and stored as they are.
 
-use super::{Parts, cause, passes};
+use super::parts::{Parts, cause};
+use super::passes;
 use crate::compile::model::{OpKind, Role};
 use crate::compile::retain::{AttachmentOps, Next};
 use crate::compile::scope::{Scope, Target, op_name};
@@ -27,8 +28,8 @@ pub(super) fn scope(parts: &Parts<'_>, scope: &Scope, step: u32) -> RenderScope 
     }
 }
 
-/// The passes of a scope with local reads. What is drawn or cleared is shown to them once, before the first that reads it;
-/// what was read is drawn over behind another barrier, unless one stands between already.
+/// The passes of a scope with local reads. A local barrier stands before the first pass that reads what was drawn or cleared,
+/// and before a pass that draws over what was read, unless one stands between already.
 fn local_passes(parts: &Parts<'_>, scope: &Scope, attachments: &[AttachmentOps]) -> Vec<Pass> {
     let begun = attachments.iter().filter(|ops| ops.role == Role::Color && ops.load != LoadOp::Load);
     let mut fresh: Vec<Target> = begun.map(|ops| ops.target).collect();

@@ -1,9 +1,9 @@
-//! Barriers of each step: those of parts that belong together become one.
+//! Barriers of each step: those of neighbouring cells become one.
 
-use super::{Parts, resource};
-use crate::compile::batch::Batched;
+use super::parts::{Parts, resource};
 use crate::compile::parts::join;
-use crate::compile::synchronise::{NEVER, Pending};
+use crate::compile::steps::NEVER;
+use crate::compile::sync::{Batched, CellBarrier};
 use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId, Subresources};
 use crate::vulkan::Accesses;
 
@@ -16,7 +16,7 @@ pub(super) struct Barriers<'p, 'a> {
 
 impl<'p, 'a> Barriers<'p, 'a> {
     pub(super) fn new(parts: &'p Parts<'a>) -> Barriers<'p, 'a> {
-        Barriers { parts, batched: parts.batched, memory: 0 }
+        Barriers { parts, batched: &parts.sync.batched, memory: 0 }
     }
 
     /// The barriers of step number `step`; steps are asked for in order.
@@ -25,12 +25,12 @@ impl<'p, 'a> Barriers<'p, 'a> {
         let (here, rest) = self.batched.split_at(here);
         self.batched = rest;
         let mut memory = Vec::new();
-        if let Some((at, scopes)) = self.parts.memory.get(self.memory)
+        if let Some((at, scopes)) = self.parts.sync.aliasing.get(self.memory)
             && *at == step
         {
             self.memory += 1;
             let stores = &self.parts.adapted.stores;
-            let hand_overs = scopes.hand_overs.iter();
+            let hand_overs = scopes.stores.iter();
             memory.push(MemoryBarrier {
                 src_stages: scopes.src_stages,
                 src_accesses: scopes.src_accesses,
@@ -43,58 +43,51 @@ impl<'p, 'a> Barriers<'p, 'a> {
         let mut images = Vec::with_capacity(here.len());
         let mut buffers: Option<MemoryBarrier> = None;
         for it in here {
-            let pending = &self.parts.pending[it.barrier as usize];
-            let subject = &self.parts.subjects[pending.store as usize];
+            let barrier = &self.parts.sync.barriers[it.barrier as usize];
+            let subject = &self.parts.subjects[barrier.store as usize];
             if !subject.is_image {
-                add_buffer(&mut buffers, pending, subject.id);
+                add_buffer(&mut buffers, barrier, subject.id);
                 continue;
             }
-            if pending.hazard == Hazard::Ownership {
-                // Its other half has to be the same: see `queues`.
+            if barrier.hazard == Hazard::Ownership {
+                // It is emitted with its other half: see `ownership`.
                 continue;
             }
-            let range = if subject.is_cut { self.part(pending) } else { subject.all };
-            add(&mut images, image_barrier(pending, subject.id, range));
+            let range = if subject.is_cut { self.parts.subresources(barrier.store, barrier.cell) } else { subject.all };
+            add(&mut images, image_barrier(barrier, subject.id, range));
         }
         memory.extend(buffers);
         (memory, images)
     }
-
-    /// The part of its image that a barrier is about.
-    fn part(&self, pending: &Pending) -> Subresources {
-        let store = &self.parts.adapted.stores[pending.store as usize];
-        let grid = store.grid(self.parts.grids);
-        grid.map_or(store.all(), |grid| grid.range(pending.cell - store.first_cell))
-    }
 }
 
-fn after(pending: &Pending) -> Option<StepId> {
-    (pending.after != NEVER).then_some(StepId(pending.after))
+fn after(barrier: &CellBarrier) -> Option<StepId> {
+    (barrier.after != NEVER).then_some(StepId(barrier.after))
 }
 
-/// What the frame leaves in a state is needed by whatever comes after it.
-fn needed_by(pending: &Pending) -> Option<StepId> {
-    (pending.hazard != Hazard::Export).then_some(StepId(pending.step))
+/// The step that needs a barrier; `None` for one that leaves a final state.
+fn needed_by(barrier: &CellBarrier) -> Option<StepId> {
+    (barrier.hazard != Hazard::Export).then_some(StepId(barrier.step))
 }
 
-fn image_barrier(pending: &Pending, image: u32, range: Subresources) -> ImageBarrier {
+fn image_barrier(barrier: &CellBarrier, image: u32, range: Subresources) -> ImageBarrier {
     ImageBarrier {
         image: ImageId(image),
         range,
-        src_stages: pending.src_stages,
-        src_accesses: pending.src_accesses,
-        dst_stages: pending.dst_stages,
-        dst_accesses: pending.dst_accesses,
-        old_layout: pending.old_layout,
-        new_layout: pending.new_layout,
+        src_stages: barrier.src_stages,
+        src_accesses: barrier.src_accesses,
+        dst_stages: barrier.dst_stages,
+        dst_accesses: barrier.dst_accesses,
+        old_layout: barrier.old_layout,
+        new_layout: barrier.new_layout,
         ownership: None,
-        hazard: pending.hazard,
-        after: after(pending),
-        needed_by: needed_by(pending),
+        hazard: barrier.hazard,
+        after: after(barrier),
+        needed_by: needed_by(barrier),
     }
 }
 
-/// Adds a barrier, joined with those before it that differ from it only in their part of the image.
+/// Adds a barrier, joined with those before it that differ from it only in their subresources.
 fn add(barriers: &mut Vec<ImageBarrier>, mut new: ImageBarrier) {
     while let Some(last) = barriers.last()
         && last.image == new.image
@@ -115,19 +108,19 @@ fn add(barriers: &mut Vec<ImageBarrier>, mut new: ImageBarrier) {
 }
 
 /// All buffers of a step share one memory barrier.
-fn add_buffer(barrier: &mut Option<MemoryBarrier>, pending: &Pending, buffer: u32) {
-    let barrier = barrier.get_or_insert_with(|| MemoryBarrier {
-        src_stages: pending.src_stages,
-        src_accesses: pending.src_accesses,
-        dst_stages: pending.dst_stages,
-        dst_accesses: pending.dst_accesses,
+fn add_buffer(shared: &mut Option<MemoryBarrier>, barrier: &CellBarrier, buffer: u32) {
+    let shared = shared.get_or_insert_with(|| MemoryBarrier {
+        src_stages: barrier.src_stages,
+        src_accesses: barrier.src_accesses,
+        dst_stages: barrier.dst_stages,
+        dst_accesses: barrier.dst_accesses,
         hand_overs: Vec::new(),
         buffers: Vec::new(),
     });
-    barrier.src_stages |= pending.src_stages;
-    barrier.src_accesses |= pending.src_accesses;
-    barrier.dst_stages |= pending.dst_stages;
-    barrier.dst_accesses |= pending.dst_accesses;
-    let (buffer, after, needed_by) = (BufferId(buffer), after(pending), needed_by(pending));
-    barrier.buffers.push(BufferHazard { buffer, hazard: pending.hazard, after, needed_by });
+    shared.src_stages |= barrier.src_stages;
+    shared.src_accesses |= barrier.src_accesses;
+    shared.dst_stages |= barrier.dst_stages;
+    shared.dst_accesses |= barrier.dst_accesses;
+    let (buffer, after, needed_by) = (BufferId(buffer), after(barrier), needed_by(barrier));
+    shared.buffers.push(BufferHazard { buffer, hazard: barrier.hazard, after, needed_by });
 }

@@ -1,6 +1,6 @@
-//! What leaves the frame, and where it gets its encoding.
+//! Outputs of the Plan, and where each gets its encoding.
 
-use super::{Parts, resource};
+use super::parts::{Parts, resource};
 use crate::frame::{Frame, ImageIndex, Pass, Resource as Declared, Work};
 use crate::plan::Output;
 use crate::vulkan::{Encoding, Format, Numeric};
@@ -23,11 +23,11 @@ pub(super) fn outputs(parts: &Parts<'_>) -> Vec<Output> {
     outputs.collect()
 }
 
-/// Where an image gets its encoding: by whatever writes it last.
+/// Where an image gets its encoding: from its last writer.
 fn encoded(frame: &Frame, image: ImageIndex, format: Format) -> String {
     let by_format = format.numeric() == Numeric::Srgb;
     let (mut image, mut before) = (image, frame.passes.len());
-    // What is copied bit by bit was encoded earlier.
+    // A copy doesn't change bits, so its source was encoded earlier.
     while let Some((at, pass)) = last_writer(frame, image, before) {
         let name = &pass.name;
         let from = match &pass.work {

@@ -1,6 +1,6 @@
 //! Passes, copies, blits, fills and resolves of the Plan.
 
-use super::{Parts, cause, frame_work};
+use super::parts::{Parts, cause, frame_work};
 use crate::compile::adapt::has_samples;
 use crate::compile::model::{Kind, Op, OpKind, ResolveShader, Role, Use};
 use crate::frame::{Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, ViewIndex, Work as FrameWork};
@@ -11,7 +11,7 @@ use crate::plan::{
 use crate::vulkan::{CompareOp, Component, Dimension, Filter, ImageShape, ResolveMode, Sampler};
 use std::sync::Arc;
 
-/// The shader that draws one image into another. What the compiler inserts is drawn by shipped shaders, whatever files of
+/// The shader that draws one image into another. Inserted passes are drawn by shipped shaders, even if there are files of
 /// those names a user has.
 const COPY_SHADER: &str = "shipped:copy";
 /// The name by which it knows its source.
@@ -37,7 +37,7 @@ pub(super) fn single(parts: &Parts<'_>, number: u32) -> Work {
     }
 }
 
-/// What a transfer without sides would move; `legal` has seen to it that there is none.
+/// The side of a transfer without sides: validation refuses these.
 const NOTHING: Side = Side::Buffer { buffer: BufferId(0), bytes: 0 };
 
 fn name(parts: &Parts<'_>, op: &Op) -> Option<Arc<str>> {
@@ -49,7 +49,7 @@ fn transfer(parts: &Parts<'_>, op: &Op, number: u32, filter: Option<Filter>) -> 
     Transfer { name: name(parts, op), cause: cause(parts, op), source, target, filter }
 }
 
-/// What a fill fills.
+/// The target of a fill.
 pub(super) fn filled(parts: &Parts<'_>, number: u32) -> Side {
     parts.adapted.uses(number).first().map_or(NOTHING, |used| side(parts, used))
 }
@@ -201,8 +201,8 @@ fn resolve_draw(parts: &Parts<'_>, number: u32, by: ResolveShader, name: &Arc<st
     }
 }
 
-/// What the shader of weighted resolves takes beside its source: to be told that its source has samples, and that the mean is
-/// to be light.
+/// Adds the texture and the parameter that the shader of weighted resolves takes: its source is multisampled, and it computes
+/// the mean of light.
 fn weighted(mut pass: Pass) -> Pass {
     let samples =
         ImageShape { dimension: Dimension::D2, arrayed: false, multisampled: true, component: Component::Float };
@@ -213,7 +213,7 @@ fn weighted(mut pass: Pass) -> Pass {
     Pass { blend: vec![Blend::Replace], params, ..pass }
 }
 
-/// What only draws have.
+/// Adds the state that only draws have.
 fn drawn(planned: &mut Pass, declared: &FramePass, uses: &[Use]) {
     planned.discards = matches!(declared.work, FrameWork::Draw { discards: true, .. });
     planned.blend = declared.color.iter().map(|target| target.blend).collect();
@@ -261,7 +261,7 @@ fn binding(parts: &Parts<'_>, used: &Use, declared: &FramePass) -> Option<Bindin
     }
 }
 
-/// As what a shader that adapts declares an image: without samples where there is but one.
+/// The texture that an adapting shader declares: multisampled only if the image has several samples.
 fn adapted(parts: &Parts<'_>, used: &Use, texture: ImageShape) -> ImageShape {
     let samples = parts.adapted.stores[used.store as usize].image().map_or(1, |image| image.samples);
     ImageShape { multisampled: texture.multisampled && samples > 1, ..texture }

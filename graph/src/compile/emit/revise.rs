@@ -1,7 +1,9 @@
-//! Brings a Plan up to date where the structure stayed: new values, or new sizes too.
+//! Brings a Plan up to date where the structure is the same: new values, or new sizes too.
 
 use super::barriers::Barriers;
-use super::{Parts, attachments, passes, settings, views, with_bytes};
+use super::parts::{Parts, frame_work};
+use super::values::{settings, views, with_bytes};
+use super::{attachments, passes};
 use crate::compile::model::{Kind, OpKind};
 use crate::compile::scope::Step as Grouped;
 use crate::frame::Work as FrameWork;
@@ -24,7 +26,7 @@ pub(in crate::compile) fn values(parts: &Parts<'_>, plan: &mut Plan) {
             }
             (Work::Dispatch(pass) | Work::Custom(pass), Grouped::Single(op)) => pass_values(parts, *op, pass),
             (Work::Fill(fill), Grouped::Single(op)) => {
-                if let Some(FrameWork::Fill { value }) = super::frame_work(parts, &parts.adapted.ops[*op as usize]) {
+                if let Some(FrameWork::Fill { value }) = frame_work(parts, &parts.adapted.ops[*op as usize]) {
                     fill.value = *value;
                 }
             }
@@ -50,7 +52,7 @@ fn pass_values(parts: &Parts<'_>, op: u32, planned: &mut Pass) {
     }
 }
 
-/// Brings everything up to date that sizes or values say, where steps and barriers are the same.
+/// Brings sizes and values up to date. Steps and barriers are the same.
 pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
     values(parts, plan);
     let Plan { images, buffers, .. } = plan;
@@ -96,7 +98,7 @@ pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
     plan.totals = with_bytes(parts, plan.totals);
 }
 
-/// Brings barriers up to date where memory changes hands in another way, and the steps are the same.
+/// Brings barriers up to date. Steps are the same, but memory is aliased in another way.
 pub(in crate::compile) fn barriers(parts: &Parts<'_>, plan: &mut Plan) {
     let mut barriers = Barriers::new(parts);
     for (step, number) in plan.steps.iter_mut().zip(0..) {

@@ -7,7 +7,7 @@
 
 use super::needs::{Needs, Supports};
 use crate::device::Profile;
-use crate::frame::{AccessKind, Frame, Image, Lifetime, Pass, Resource, Work};
+use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, Resource};
 use crate::plan::{Note, Stage};
 use crate::vulkan::Encoding;
 use crate::vulkan::Format::{self, *};
@@ -87,7 +87,7 @@ fn fall_back(frame: &Frame, live: &[u32], needs: &[Needs], supports: &Supports<'
         return None;
     }
     let passes = || live.iter().map(|pass| &frame.passes[*pass as usize]);
-    let trusts = trusts(frame, passes);
+    let fixed = fixed(frame, passes());
     let mut alike = UnionFind::<u32>::new(frame.images.len());
     passes().filter_map(|pass| alike_in(frame, pass)).for_each(|[one, other]| {
         alike.union(one, other);
@@ -103,11 +103,11 @@ fn fall_back(frame: &Frame, live: &[u32], needs: &[Needs], supports: &Supports<'
         let lacks = |format: Format, image: &usize| !needs[*image].are_met(supports.of(format));
         let Some(first) = group.iter().find(|image| lacks(format, image)) else { continue };
         let usual = group.iter().find_map(|image| frame.images[*image].chosen.as_ref()).map(|chosen| chosen.usual);
-        if usual.is_none() && group.iter().any(|image| trusts[*image] == Some(Trust::Format)) {
+        if usual.is_none() && group.iter().any(|image| fixed[*image]) {
             return None;
         }
         let fits = |format: &Format| !group.iter().any(|image| lacks(*format, image));
-        let hdr10 = group.iter().any(|image| trusts[*image] == Some(Trust::Hdr10));
+        let hdr10 = group.iter().any(|image| is_hdr10(frame, *image));
         let substitutes = match usual {
             Some(usual) => up_to(format, usual),
             None if hdr10 => hdr10_substitutes(format).to_vec(),
@@ -127,58 +127,30 @@ fn fall_back(frame: &Frame, live: &[u32], needs: &[Needs], supports: &Supports<'
     (!notes.is_empty()).then_some((substitute, notes))
 }
 
-/// What somebody outside of the frame, or a shader or a program, relies on of an image.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Trust {
-    /// Its very format.
-    Format,
-    /// That it holds HDR10. There is a second format for that, and the Plan says which it is.
-    Hdr10,
-}
-
-/// Of each image what is relied on.
-fn trusts<'f, P: Iterator<Item = &'f Pass>>(frame: &Frame, passes: impl Fn() -> P) -> Vec<Option<Trust>> {
+/// Of each image whether the embedding program, a shader or a copy relies on its very format. An output in HDR10 has a second
+/// one, and the Plan says which it is.
+fn fixed<'f>(frame: &Frame, passes: impl Iterator<Item = &'f Pass>) -> Vec<bool> {
     let imported = |image: &Image| matches!(image.lifetime, Lifetime::Imported { .. });
     let mut fixed: Vec<bool> = frame.images.iter().map(imported).collect();
-    let mut hdr10 = vec![false; frame.images.len()];
-    for output in &frame.outputs {
-        if let Resource::Image(image) = output.resource {
-            let encoded = output.encoding == Some(Encoding::Hdr10);
-            hdr10[image.0 as usize] = encoded;
-            fixed[image.0 as usize] |= !encoded;
+    let outputs = frame.outputs.iter().filter(|output| output.encoding != Some(Encoding::Hdr10));
+    let relied = passes.flat_map(|pass| pass.accesses().filter(|access| pass.relies_on_format(access)));
+    for resource in outputs.map(|output| output.resource).chain(relied.map(|access| access.resource)) {
+        if let Resource::Image(image) = resource {
+            fixed[image.0 as usize] = true;
         }
     }
-    for pass in passes() {
-        let with_buffer = pass.transfers.iter().any(|used| matches!(used.resource, Resource::Buffer(_)));
-        let opaque = with_buffer || matches!(pass.work, Work::Custom { .. });
-        for access in pass.accesses() {
-            let relies = match access.kind {
-                AccessKind::Storage(_) => true,
-                AccessKind::Transfer { .. } => opaque,
-                _ => false,
-            };
-            if let Some(image) = access.image_index().filter(|_| relies) {
-                fixed[image.0 as usize] = true;
-            }
-        }
-    }
-    let trust = |(fixed, hdr10): (bool, bool)| match (fixed, hdr10) {
-        (true, _) => Some(Trust::Format),
-        (false, hdr10) => hdr10.then_some(Trust::Hdr10),
-    };
-    fixed.into_iter().zip(hdr10).map(trust).collect()
+    fixed
+}
+
+/// Whether an image leaves the frame as HDR10.
+fn is_hdr10(frame: &Frame, image: usize) -> bool {
+    let image = Resource::Image(ImageIndex(image as u32));
+    frame.outputs.iter().any(|output| output.resource == image && output.encoding == Some(Encoding::Hdr10))
 }
 
 /// Two images of which a pass copies one into the other texel for texel.
 fn alike_in(frame: &Frame, pass: &Pass) -> Option<[u32; 2]> {
-    let pair = match (&pass.work, &pass.transfers[..]) {
-        (Work::Forward { from, to, .. }, _) => [*from, *to],
-        (Work::Copy | Work::Blit { .. }, [from, to]) => match (from.resource, to.resource) {
-            (Resource::Image(from), Resource::Image(to)) => [from, to],
-            _ => return None,
-        },
-        _ => return None,
-    };
+    let pair = pass.moved_images()?;
     let [one, other] = pair.map(|image| frame.images[image.0 as usize].format);
     (one == other).then(|| pair.map(|image| image.0))
 }

@@ -70,7 +70,7 @@ fn largest(image: &Image, device: &Profile) -> u32 {
     if image.shape == Shape::D3 { device.max_extent_3d } else { device.max_attachment_extent }
 }
 
-/// What is copied sample by sample has as many on both sides.
+/// Joins the images of a copy of single samples: they need equal sample counts.
 fn copied_together(frame: &Frame, pass: &Pass, together: &mut UnionFind<u32>) {
     let images = pass.transfers.iter().filter_map(|used| match used.resource {
         Resource::Image(image) if frame.images[image.0 as usize].samples > 1 => Some((image, used.write)),
@@ -83,7 +83,7 @@ fn copied_together(frame: &Frame, pass: &Pass, together: &mut UnionFind<u32>) {
     }
 }
 
-/// An image and all that have as many samples, since passes draw into them together.
+/// An image and all images that need its sample count because passes attach them together.
 pub(crate) fn drawn_together(passes: &[Pass], image: ImageIndex) -> BTreeSet<ImageIndex> {
     let mut together = BTreeSet::from([image]);
     loop {
@@ -163,7 +163,7 @@ fn check_support(frame: &Frame, image: usize, used: Usage, supports: &Supports<'
     }
 }
 
-/// The formats of the same kind with which the device can do all that is done with an image.
+/// The formats of the same kind that support all uses of an image.
 fn others(frame: &Frame, index: ImageIndex, supports: &Supports<'_>) -> String {
     let image = &frame.images[index.0 as usize];
     let format = image.format;
@@ -180,7 +180,7 @@ fn others(frame: &Frame, index: ImageIndex, supports: &Supports<'_>) -> String {
     }
 }
 
-/// A format can be sampled without being filtered, and drawn into without being blended.
+/// Checks that formats support linear filtering and blending where a pass uses them.
 fn check_operations(frame: &Frame, pass: &Pass, supports: &Supports<'_>, errors: &mut Vec<Diagnostic>) {
     let mut refuse = |image: ImageIndex, span: Span, what: &str, help: &str| {
         let image = &frame.images[image.0 as usize];

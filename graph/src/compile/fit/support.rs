@@ -36,7 +36,7 @@ pub(crate) fn check_support(
         if !matches!(adapted.ops[op as usize].kind, OpKind::Resolve { .. }) {
             continue;
         }
-        // Whatever is resolved by a step of its own takes a format that can be drawn into as well.
+        // A resolve that no scope carries needs a format that can be an attachment.
         let Some(target) = adapted.uses(op).iter().find(|used| used.role == Role::Target) else { continue };
         let Some(image) = adapted.stores[target.store as usize].image() else { continue };
         let missing = Usage::COLOR_ATTACHMENT.difference(supported(image.format));
@@ -47,7 +47,7 @@ pub(crate) fn check_support(
     if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
-/// What every format has that can be drawn into.
+/// Usages that every format supports that can be an attachment.
 const FOLLOWS: Usage = Usage::TRANSIENT_ATTACHMENT.union(Usage::INPUT_ATTACHMENT);
 
 fn refusal(
@@ -69,7 +69,7 @@ fn refusal(
     Diagnostic::new(span, message).help(help)
 }
 
-/// What the compiler inserted that uses a store, or where it comes from and goes.
+/// Why a store has its usages: an inserted operation that uses it, or where it comes from and goes.
 fn why<'a>(adapted: &'a Adapted, store: &'a Store, at: StoreIndex) -> &'a str {
     let inserted = |number: u32| -> Option<&Inserted> {
         let why = adapted.ops[number as usize].kind.inserted()?;

@@ -1,16 +1,20 @@
-//! Which queue each step runs on.
+//! `queues`: which queue each step runs on.
 //!
-//! A dispatch, copy or fill leaves the graphics queue if work stays there that can run beside it: graphics steps between the
-//! last one that it comes behind and the first one that comes behind it. In a chain between two draws that nothing stands
-//! beside, each link would wait for the other queue step by step; it stays. A frame doesn't say how long its passes take,
-//! so nothing more is weighed. What stays makes windows smaller, so they are looked at until nothing changes.
+//! A dispatch, copy or fill leaves the graphics queue if its window has work: graphics steps that it doesn't depend on and
+//! that don't depend on it. In a chain between two draws with no such work, each step would wait for the other queue; the
+//! chain stays. A frame doesn't say how long its passes take, so nothing else is weighed. Each step that stays makes other
+//! windows smaller, so windows are looked at again until nothing changes.
 
-use super::able::{Able, Bound};
-use super::reach::Steps;
-use super::{QUEUES, Queues, Shared, number};
-use crate::compile::model::{Adapted, Home, Kind, OpKind, StoreIndex, Use};
+use super::crossing::Crossing;
+use super::eligible::{Bound, Eligible};
+use super::layout_changes;
+use super::number::{QUEUES, number};
+use super::state::Queues;
+use super::step_uses::uses_of;
+use super::windows::Steps;
+use crate::compile::history_ring::last_of_ring;
+use crate::compile::model::{Adapted, Home, Kind, OpKind, StoreIndex};
 use crate::compile::options::Options;
-use crate::compile::outlive::{last_of_cycle, of_all_planes};
 use crate::compile::parts::Grids;
 use crate::compile::scope::{Scoped, Step, op_name, store_name};
 use crate::device::Profile;
@@ -18,29 +22,40 @@ use crate::frame::{Frame, Work};
 use crate::plan::{Note, Queue, Stage};
 use crate::vulkan::{Layout, Sharing};
 
-/// How often all windows are looked at: no frame that passes are written for takes more than a few rounds.
+/// How often all windows are looked at. Frames that people write take a few rounds.
 const MOST_ROUNDS: u32 = 32;
 
-/// Why steps stay on graphics that could leave it.
+/// Why an eligible step stays on graphics.
 const ALONE: &str = "nothing that neither waits for it nor is waited for runs beside it";
 const UNDECIDED: &str =
     "what can run beside what was not found out in as many rounds as are tried, so nothing leaves it";
 
-/// Gives each step its queue, and each image and buffer its sharing; `None` if all steps run on graphics.
+/// The queues, and what follows from them for other stages.
+#[derive(Debug)]
+pub(in crate::compile) struct Assigned {
+    /// The steps, with those that change layouts.
+    pub(in crate::compile) scoped: Scoped,
+    pub(in crate::compile) queues: Queues,
+    pub(in crate::compile) notes: Vec<Note>,
+    /// Physical resources that are used on other queues than graphics, with their sharing.
+    pub(in crate::compile) sharing: Vec<(StoreIndex, Sharing)>,
+}
+
+/// Gives each step its queue, and inserts steps that change layouts.
 pub(in crate::compile) fn assign(
     frame: &Frame,
     grids: &Grids,
-    adapted: &mut Adapted,
-    scoped: &mut Scoped,
+    adapted: &Adapted,
+    mut scoped: Scoped,
     device: &Profile,
     options: &Options,
-) -> Option<Box<Queues>> {
+) -> Assigned {
     if !options.queues || !(device.queues.compute || device.queues.transfer) {
-        return None;
+        return one_queue(scoped, Vec::new());
     }
-    let able = Able { frame, adapted, device, options };
-    let bound: Vec<Result<[bool; QUEUES], Bound>> = scoped.steps.iter().map(|step| able.of(step)).collect();
-    let mut queues = wanted(frame, adapted, scoped, &bound);
+    let eligible = Eligible { frame, adapted, device, options };
+    let bound: Vec<Result<[bool; QUEUES], Bound>> = scoped.steps.iter().map(|step| eligible.of(step)).collect();
+    let mut queues = wanted(frame, adapted, &scoped, &bound);
     let mut windows = Vec::new();
     let mut gives_up = false;
     for round in 0.. {
@@ -57,7 +72,7 @@ pub(in crate::compile) fn assign(
         let mut stays: Vec<bool> = (windows.iter().zip(&queues))
             .map(|(window, queue)| *queue != Queue::Graphics && beside(&bound, *window).next().is_none())
             .collect();
-        split_users(adapted, scoped, &queues, &mut stays);
+        split_users(adapted, &scoped, &queues, &mut stays);
         if !stays.contains(&true) {
             break;
         }
@@ -66,17 +81,22 @@ pub(in crate::compile) fn assign(
         }
     }
     let stays = if gives_up { UNDECIDED } else { ALONE };
-    let notes = notes(frame, adapted, scoped, &bound, &queues, &windows, stays);
-    adapted.notes.extend(notes);
+    let notes = notes(frame, adapted, &scoped, &bound, &queues, &windows, stays);
     if queues.iter().all(|queue| *queue == Queue::Graphics) {
-        return None;
+        return one_queue(scoped, notes);
     }
-    let shared = share(adapted, scoped, device, &queues);
-    let changes = super::change::insert(grids, adapted, scoped, &mut queues, &shared);
-    Some(Box::new(Queues::new(queues, shared, changes, adapted.cells)))
+    let (crossings, sharing) = share(adapted, &scoped, device, &queues);
+    let changes = layout_changes::insert(grids, adapted, &mut scoped, &mut queues, &crossings);
+    Assigned { scoped, queues: Queues::new(queues, crossings, changes, adapted.cells), notes, sharing }
 }
 
-/// The queue that each step would leave graphics for. A transfer beside dispatches goes where they go: that saves waits.
+/// All steps on graphics.
+fn one_queue(scoped: Scoped, notes: Vec<Note>) -> Assigned {
+    Assigned { scoped, queues: Queues::default(), notes, sharing: Vec::new() }
+}
+
+/// The queue that each step would leave graphics for. A transfer of what dispatches use goes to the compute queue: that
+/// saves waits.
 fn wanted(frame: &Frame, adapted: &Adapted, scoped: &Scoped, bound: &[Result<[bool; QUEUES], Bound>]) -> Vec<Queue> {
     let [compute, transfer] = [Queue::Compute, Queue::Transfer].map(number);
     let mut dispatched = vec![false; adapted.stores.len()];
@@ -106,19 +126,12 @@ fn uses<'a>(adapted: &'a Adapted, step: &'a Step) -> impl Iterator<Item = (Store
     uses_of(adapted, step).map(|used| (used.store, used.writes, used.layout))
 }
 
-/// Every use of a step, those of the resolves that it carries too.
-pub(super) fn uses_of<'a>(adapted: &'a Adapted, step: &'a Step) -> impl Iterator<Item = &'a Use> + 'a {
-    let carried = if let Step::Scope(scope) = step { Some(scope.carries()) } else { None };
-    let ops = step.ops().iter().copied().chain(carried.into_iter().flatten());
-    ops.flat_map(|op| adapted.uses(op))
-}
-
-/// The graphics steps of a window, without those that could leave and stay after all.
+/// The graphics steps of a window, without eligible ones that stay.
 fn beside(bound: &[Result<[bool; QUEUES], Bound>], [from, to]: [u32; 2]) -> impl Iterator<Item = u32> {
     (from..to.max(from)).filter(|step| bound[*step as usize].is_err())
 }
 
-/// What is handed in is used on one queue, or on graphics: its state before the frame names the stages of one.
+/// What is imported is used on one queue, or on graphics: its state before the frame names the stages of one queue.
 fn split_users(adapted: &Adapted, scoped: &Scoped, queues: &[Queue], stays: &mut [bool]) {
     let is_imported = |store: StoreIndex| matches!(adapted.stores[store as usize].home, Home::Imported { .. });
     let mut user: Vec<Option<Queue>> = vec![None; adapted.stores.len()];
@@ -135,7 +148,7 @@ fn split_users(adapted: &Adapted, scoped: &Scoped, queues: &[Queue], stays: &mut
     }
 }
 
-/// Why each pass that isn't drawn runs where it does. `stays`: why those stay on graphics that could leave it.
+/// Why each pass that isn't drawn runs on its queue. `stays`: why eligible steps stay on graphics.
 fn notes(
     frame: &Frame,
     adapted: &Adapted,
@@ -174,7 +187,7 @@ fn notes(
     notes
 }
 
-/// What a step is known as.
+/// The name of a step in notes.
 fn first_name<'f>(frame: &'f Frame, adapted: &'f Adapted, step: &Step) -> Option<&'f str> {
     let named = step.ops().iter().find_map(|op| op_name(frame, adapted, *op));
     let transferred = || {
@@ -184,8 +197,13 @@ fn first_name<'f>(frame: &'f Frame, adapted: &'f Adapted, step: &Step) -> Option
     named.or_else(transferred).map(|name| &**name)
 }
 
-/// Finds out what several queues use, and how they share it.
-fn share(adapted: &mut Adapted, scoped: &Scoped, device: &Profile, of: &[Queue]) -> Vec<Option<Shared>> {
+/// How several queues share each physical resource, and the sharing of those that other queues than graphics use.
+fn share(
+    adapted: &Adapted,
+    scoped: &Scoped,
+    device: &Profile,
+    of: &[Queue],
+) -> (Vec<Option<Crossing>>, Vec<(StoreIndex, Sharing)>) {
     let count = adapted.stores.len();
     let mut users = vec![[false; QUEUES]; count];
     let mut layouts: Vec<Option<Layout>> = vec![None; count];
@@ -195,15 +213,15 @@ fn share(adapted: &mut Adapted, scoped: &Scoped, device: &Profile, of: &[Queue])
             let store = store as usize;
             users[store][number(*queue)] = true;
             // Between frames all planes have one layout.
-            let stays = of_all_planes(&adapted.stores[store], layout) == layout;
+            let stays = adapted.stores[store].layout_of_all_planes(layout) == layout;
             let same = layouts[store].replace(layout).is_none_or(|other| other == layout);
             constant[store] &= !writes && stays && same;
         }
     }
-    // Stores that become each other stand side by side, and are used by each other's queues in turns.
+    // The members of a history ring are used by each other's queues.
     let mut first = 0;
     while first < count {
-        let last = circle(adapted, first);
+        let last = last_of_ring(adapted, first as StoreIndex) as usize;
         if last > first {
             let all = users[first..=last].iter().fold([false; QUEUES], |all, users| {
                 let mut all = all;
@@ -215,40 +233,28 @@ fn share(adapted: &mut Adapted, scoped: &Scoped, device: &Profile, of: &[Queue])
         }
         first = last + 1;
     }
-    let mut shared = vec![None; count];
-    for (store, at) in adapted.stores.iter_mut().zip(0..) {
+    let mut crossings = vec![None; count];
+    let mut sharing = Vec::new();
+    for (store, at) in adapted.stores.iter().zip(0..) {
         let beside = users[at][1..].contains(&true);
         let several = users[at].iter().filter(|uses| **uses).count() > 1;
         let transient = store.is_transient();
         let persistent = matches!(store.home, Home::Persistent { .. });
-        // Whoever prepares or reads what outlives the frame does so on graphics.
-        let sharing = match (transient, &store.kind) {
+        // What outlives the frame is prepared and read on graphics.
+        let shared = match (transient, &store.kind) {
             (true, Kind::Image(_)) if several => device.queues.sharing,
             (true, Kind::Buffer(_)) if several => Sharing::Concurrent,
             (false, _) if beside => Sharing::Concurrent,
             _ => continue,
         };
-        let crossed = match (&mut store.kind, sharing) {
-            (Kind::Buffer(buffer), _) => {
-                buffer.sharing = sharing;
-                Shared::Buffer
-            }
-            (Kind::Image(image), Sharing::Concurrent) => {
-                image.sharing = sharing;
-                Shared::Image
-            }
-            (Kind::Image(_), Sharing::Exclusive) => Shared::InTurns,
+        sharing.push((at as StoreIndex, shared));
+        let crossing = match (&store.kind, shared) {
+            _ if persistent && constant[at] => Crossing::Constant,
+            (Kind::Buffer(_), _) => Crossing::Buffer,
+            (Kind::Image(_), Sharing::Concurrent) => Crossing::Image,
+            (Kind::Image(_), Sharing::Exclusive) => Crossing::Exclusive,
         };
-        let crossed = if persistent && constant[at] { Shared::Constant } else { crossed };
-        shared[at] = Some(crossed).filter(|_| several || persistent);
+        crossings[at] = Some(crossing).filter(|_| several || persistent);
     }
-    shared
-}
-
-/// The last of the stores that become each other, from the first one on.
-fn circle(adapted: &Adapted, first: usize) -> usize {
-    if !matches!(adapted.stores[first].home, Home::Persistent { .. }) {
-        return first;
-    }
-    last_of_cycle(adapted, first as StoreIndex) as usize
+    (crossings, sharing)
 }

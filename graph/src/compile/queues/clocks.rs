@@ -1,23 +1,24 @@
-//! What each queue knows of the others, and the waits that it takes.
+//! Vector clocks: what each queue knows of the others, and the waits between them.
 //!
-//! A step that waits for another one knows whatever that one knew, and that it and all before it on its queue are done. So
-//! a wait is left out where an earlier wait of the queue, or another one of the same step, brings as much already: what
-//! remains is the transitive reduction.
+//! A step that waits for another one knows all that the other one knew, and that the other one and all before it on its
+//! queue are done. So a wait is left out where an earlier wait of the queue, or another wait of the same step, implies it.
+//! The rest is the transitive reduction of all waits.
 
-use super::{QUEUES, Steps};
+use super::number::{QUEUES, Steps};
+use crate::compile::steps::of_step;
 use crate::plan::{StepId, Wait};
 use crate::vulkan::Stages;
 
-/// What queues know, step by step. Steps of several frames are numbered in one row.
-#[derive(Debug, Clone)]
+/// The clocks of all queues, step by step. Steps of several frames are numbered in one row.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Clocks {
     /// Steps of one frame.
     frame: u32,
-    /// What each queue knows so far.
+    /// The steps that each queue knows to be done.
     now: [Steps; QUEUES],
-    /// What each step knows when it begins.
+    /// The steps that are known to be done when each step begins.
     known: Vec<Steps>,
-    /// What those know who wait for each step.
+    /// The steps that are known to be done after a wait for each step.
     signals: Vec<Steps>,
     /// Each step and a wait of it, in the order of steps.
     waits: Vec<(u32, Awaited)>,
@@ -31,13 +32,24 @@ struct Awaited {
     frames_ago: u32,
 }
 
+/// A step that comes after a step of another queue, some frames ago.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct EarlierStep {
+    pub(super) frames_ago: u32,
+    pub(super) step: u32,
+    /// The other step's queue.
+    pub(super) queue: usize,
+    /// The other step.
+    pub(super) of: u32,
+}
+
 impl Clocks {
-    /// Nothing is known yet. A frame has so many steps.
+    /// Clocks of frames of `frame` steps. Nothing is known yet.
     pub(super) fn new(frame: u32) -> Clocks {
-        Clocks { frame, now: Default::default(), known: Vec::new(), signals: Vec::new(), waits: Vec::new() }
+        Clocks { frame, ..Clocks::default() }
     }
 
-    /// Lets a step wait, once the steps before it are through.
+    /// Lets a step wait. The waits of the steps before it must be known.
     pub(super) fn require(&mut self, step: u32, queue: usize, required: Steps) {
         let missing: Vec<Awaited> = (0..QUEUES)
             .filter(|other| *other != queue && required[*other] > self.now[queue][*other])
@@ -63,46 +75,43 @@ impl Clocks {
         self.waits.extend(needed(&here, |awaited| signals[awaited.step as usize]).map(|awaited| (step, awaited)));
     }
 
-    /// The number of steps that are known of.
+    /// The number of steps so far.
     pub(super) fn len(&self) -> u32 {
         self.known.len() as u32
     }
 
-    /// What a step knows when it begins.
+    /// The steps that are known to be done when a step begins.
     pub(super) fn known(&self, step: u32) -> Steps {
         self.known[step as usize]
     }
 
-    /// What those know who wait for a step.
+    /// The steps that are known to be done after a wait for `step`.
     pub(super) fn signal(&self, step: u32) -> Steps {
         self.signals[step as usize]
     }
 
     /// The waits of a step.
     pub(super) fn waits(&self, step: u32) -> Vec<Wait> {
-        let start = self.waits.partition_point(|(of, _)| *of < step);
-        let here = self.waits[start..].iter().take_while(|(of, _)| *of == step);
-        here.map(|(_, awaited)| Wait {
+        let wait = |(_, awaited): &(u32, Awaited)| Wait {
             step: StepId(awaited.step),
             frames_ago: awaited.frames_ago,
             stages: Stages::ALL_COMMANDS,
-        })
-        .collect()
+        };
+        of_step(&self.waits, step, |(of, _)| *of).iter().map(wait).collect()
     }
 
-    /// Adds the waits that `required` asks for: steps, each with another one that it comes after, `frames_ago` frames back.
+    /// Adds the waits that `required` asks for, which are all the same number of frames ago, in the order of steps.
     /// `queues` says where each step runs. The waits for later frames than that one must be known.
-    pub(super) fn require_earlier(&mut self, queues: &[usize], required: &[(u32, usize, u32)], frames_ago: u32) {
+    pub(super) fn require_earlier(&mut self, queues: &[usize], required: &[EarlierStep]) {
+        let frames_ago = required.first().map_or(0, |first| first.frames_ago);
         let mut frames = Clocks::new(self.frame);
         let mut added: Vec<(u32, Awaited)> = Vec::new();
         let time = |frame: u32, step: u32| frame * self.frame + step;
         for frame in 0..=frames_ago {
             for (step, queue) in (0..self.frame).zip(queues) {
                 let mut here: Vec<Awaited> = Vec::new();
-                let start = self.waits.partition_point(|(of, _)| *of < step);
-                let known = self.waits[start..].iter().take_while(|(of, _)| *of == step).map(|(_, awaited)| *awaited);
                 let mut before = Steps::default();
-                for awaited in known {
+                for (_, awaited) in of_step(&self.waits, step, |(of, _)| *of) {
                     if let Some(frame) = frame.checked_sub(awaited.frames_ago) {
                         before[awaited.queue] = before[awaited.queue].max(time(frame, awaited.step) + 1);
                     }
@@ -110,11 +119,10 @@ impl Clocks {
                 if frame == frames_ago {
                     frames.require(time(frame, step), *queue, before);
                     let now = frames.known(time(frame, step));
-                    let start = required.partition_point(|(of, ..)| *of < step);
-                    for (_, other, awaited) in required[start..].iter().take_while(|(of, ..)| *of == step) {
-                        if now[*other] <= *awaited && !here.iter().any(|it| it.queue == *other && it.step >= *awaited) {
-                            here.retain(|it| it.queue != *other);
-                            here.push(Awaited { queue: *other, step: *awaited, frames_ago });
+                    for EarlierStep { queue, of, .. } in of_step(required, step, |it| it.step).iter().copied() {
+                        if now[queue] <= of && !here.iter().any(|it| it.queue == queue && it.step >= of) {
+                            here.retain(|it| it.queue != queue);
+                            here.push(Awaited { queue, step: of, frames_ago });
                         }
                     }
                     let here: Vec<Awaited> = needed(&here, |it| frames.signals[it.step as usize]).collect();
@@ -133,15 +141,12 @@ fn join(known: &mut Steps, more: &Steps) {
     known.iter_mut().zip(more).for_each(|(known, more)| *known = (*known).max(*more));
 }
 
-/// Those of several waits of one step that no other one makes needless. Of each queue there is one of each frame.
+/// The waits of one step that no other of them implies. There is at most one for each queue and frame.
 fn needed(waits: &[Awaited], signal: impl Fn(&Awaited) -> Steps) -> impl Iterator<Item = Awaited> {
     let is_implied = |wait: &Awaited| {
         let mut others = waits.iter().filter(|other| *other != wait);
-        others.any(|other| {
-            let brings = signal(other)[wait.queue];
-            // Of two that bring each other neither could be left out; that can't be, since each comes after what it brings.
-            brings > wait.step
-        })
+        // No two imply each other, since each step comes after those that it knows.
+        others.any(|other| signal(other)[wait.queue] > wait.step)
     };
     waits.iter().filter(|wait| !is_implied(wait)).copied().collect::<Vec<_>>().into_iter()
 }

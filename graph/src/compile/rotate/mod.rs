@@ -1,8 +1,8 @@
-//! `rotate`: outputs that leave the frame turned are drawn turned. With them goes whatever is drawn beside them or becomes
-//! them: depth, and images of several samples that are resolved into them, since a resolve turns nothing.
+//! `rotate`: outputs that leave the frame rotated are drawn rotated. So are the images that are attached beside them, and
+//! multisampled images that are resolved into them, since a resolve rotates nothing.
 //!
-//! What a shader reads stays upright: it looks texels up where the upright picture has them. So an output that passes also
-//! read is split where it is drawn anew, or drawn upright and turned by one more draw.
+//! Images that a shader reads stay upright: it looks texels up where the upright picture has them. So an output that passes
+//! also read becomes two images where it is drawn anew, or it is drawn upright and rotated by one more draw.
 
 mod separate;
 mod together;
@@ -80,7 +80,7 @@ impl Turner {
         self.turn(&BTreeSet::from([image]), output.rotation);
     }
 
-    /// Turns what is forwarded to turned images, if it can be: then it needn't be drawn into them.
+    /// Turns images that are forwarded to turned ones where it can, which saves a draw.
     fn forwarded(&mut self) {
         loop {
             let forwards = self.live.iter().filter_map(|pass| match self.frame.passes[*pass as usize].work {

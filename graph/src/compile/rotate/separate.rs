@@ -1,7 +1,7 @@
 //! An output that passes read becomes two images: one that stays upright and is read, and one that leaves the frame turned.
 
 use crate::base::Span;
-use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, Resource, Work};
+use crate::frame::{Access, AccessKind, Frame, Image, ImageIndex, Lifetime, Pass, Resource, Work};
 use std::sync::Arc;
 
 /// The frame with an upright image in place of `image` up to where it is drawn anew, and not read after that; `None`: there is
@@ -40,7 +40,7 @@ pub(super) fn draw_upright(frame: &mut Frame, live: &[u32], image: ImageIndex, w
         let lifetime = std::mem::take(&mut declared.lifetime);
         frame.images[upright.0 as usize].lifetime = lifetime;
     }
-    let writes = |number: &&u32| writes(&frame.passes[**number as usize], upright);
+    let writes = |number: &&u32| writes(frame, &frame.passes[**number as usize], upright);
     let view = live.iter().rev().find(writes).map(|number| frame.passes[*number as usize].view).unwrap_or_default();
     let name = format!("{} (rotated)", frame.images[image.0 as usize].name);
     let work = Work::Forward { from: upright, to: image, because: String::new() };
@@ -69,10 +69,11 @@ fn reads(pass: &Pass, image: ImageIndex) -> bool {
 /// Whether a pass reads it otherwise than by sampling it, or needs it upright.
 fn reads_otherwise(pass: &Pass, image: ImageIndex) -> bool {
     let copies = matches!(pass.work, Work::Copy | Work::Blit { .. });
-    let mut transfers = pass.transfers.iter().filter(|it| it.resource == Resource::Image(image));
-    pass.storage.iter().any(|it| it.image == image)
-        || transfers.any(|it| copies || !it.write)
-        || matches!(pass.work, Work::Forward { from, .. } if from == image)
+    accesses(pass, image).any(|access| match access.kind {
+        AccessKind::Storage(_) | AccessKind::ForwardSource => true,
+        AccessKind::Transfer { write } => copies || !write,
+        _ => false,
+    })
 }
 
 /// Whether a pass makes it anew, whatever was there.
@@ -84,11 +85,12 @@ fn replaces(frame: &Frame, pass: &Pass, image: ImageIndex) -> bool {
         || pass.transfers.iter().any(|it| it.write && it.resource == Resource::Image(image) && declared.layers == 1)
 }
 
-fn writes(pass: &Pass, image: ImageIndex) -> bool {
-    pass.color.iter().any(|it| it.image == image)
-        || pass.storage.iter().any(|it| it.write && it.image == image)
-        || pass.transfers.iter().any(|it| it.write && it.resource == Resource::Image(image))
-        || matches!(pass.work, Work::Forward { to, .. } if to == image)
+fn writes(frame: &Frame, pass: &Pass, image: ImageIndex) -> bool {
+    accesses(pass, image).any(|access| access.writes(pass, frame.images.get(image.0 as usize)))
+}
+
+fn accesses(pass: &Pass, image: ImageIndex) -> impl Iterator<Item = Access<'_>> {
+    pass.accesses().filter(move |access| access.resource == Resource::Image(image))
 }
 
 /// Has a pass use `to` in place of `from`.

@@ -1,7 +1,7 @@
 //! Which images are turned together, since they are drawn in the same passes.
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource, Work};
+use crate::frame::{AccessKind, Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource, Work};
 use crate::vulkan::{Rotation, Shape};
 use std::collections::BTreeSet;
 
@@ -37,8 +37,8 @@ pub(super) struct Together<'f> {
 }
 
 impl Together<'_> {
-    /// The image and all that must be turned with it. Where anything keeps it upright nothing is a mistake, so that is looked
-    /// for everywhere before a mistake is told.
+    /// The image and all that must be turned with it. If anything keeps the image upright, mistakes don't matter: they are
+    /// returned only where the whole search finds no such obstacle.
     pub(super) fn find(&self) -> Result<BTreeSet<ImageIndex>, Hindrance> {
         let (mut all, mut left) = (BTreeSet::from([self.start]), vec![self.start]);
         let mut mistake = None;
@@ -69,7 +69,7 @@ impl Together<'_> {
         &self.frame.images[image.0 as usize].name
     }
 
-    /// What an image is by itself.
+    /// Whether an image can be turned, apart from what passes do with it.
     fn may_turn(&self, image: ImageIndex) -> Result<(), Hindrance> {
         let declared = &self.frame.images[image.0 as usize];
         let upright = |what: &str| Err(Hindrance::Upright(format!("`{}` {what}", declared.name), declared.span));
@@ -87,32 +87,29 @@ impl Together<'_> {
         }
     }
 
-    /// Passes may draw into it and replace it whole; nobody may read it.
+    /// Whether a pass leaves it free to turn: it may draw into it and replace it whole, but not read it.
     fn is_only_drawn(&self, pass: &Pass, image: ImageIndex, all: &BTreeSet<ImageIndex>) -> Result<(), Hindrance> {
-        let upright = |verb: &str, span: Span| {
-            Err(Hindrance::Upright(format!("`{}` {verb} `{}`", pass.name, self.name(image)), span))
-        };
-        if let Some(sampled) = pass.sampled.iter().find(|sampled| sampled.image == image) {
-            return upright("samples", sampled.span);
+        let whole = matches!(pass.work, Work::Fill { .. } | Work::Custom { .. });
+        for access in pass.accesses().filter(|access| access.resource == Resource::Image(image)) {
+            let verb = match access.kind {
+                AccessKind::Sampled(_) => "samples",
+                AccessKind::Storage(_) => "accesses as storage",
+                AccessKind::Transfer { write } if !whole || !write => "copies",
+                AccessKind::ForwardSource if !self.passes_on_turned(pass, all) => "passes on",
+                _ => continue,
+            };
+            let what = format!("`{}` {verb} `{}`", pass.name, self.name(image));
+            return Err(Hindrance::Upright(what, access.span));
         }
-        if let Some(storage) = pass.storage.iter().find(|storage| storage.image == image) {
-            return upright("accesses as storage", storage.span);
-        }
-        for transfer in pass.transfers.iter().filter(|transfer| transfer.resource == Resource::Image(image)) {
-            let whole = matches!(pass.work, Work::Fill { .. } | Work::Custom { .. }) && transfer.write;
-            if !whole {
-                return upright("copies", transfer.span);
-            }
-        }
-        match pass.work {
-            Work::Forward { from, to, .. } if from == image && to != image => {
-                let images = &self.frame.images;
-                let (from, target) = (&images[image.0 as usize], &images[to.0 as usize]);
-                let turned = all.contains(&to) || target.rotation == self.rotation;
-                if turned && becomes(from, target, self.rotation) { Ok(()) } else { upright("passes on", pass.span) }
-            }
-            _ => Ok(()),
-        }
+        Ok(())
+    }
+
+    /// Whether what a pass forwards becomes an image that is turned too, by nothing but a resolve.
+    fn passes_on_turned(&self, pass: &Pass, all: &BTreeSet<ImageIndex>) -> bool {
+        let Work::Forward { from, to, .. } = pass.work else { return true };
+        let [source, target] = [from, to].map(|image| &self.frame.images[image.0 as usize]);
+        let turned = all.contains(&to) || target.rotation == self.rotation;
+        from == to || turned && becomes(source, target, self.rotation)
     }
 
     /// Whether a pass that draws into it can draw it turned.

@@ -1,7 +1,7 @@
-//! Which runs depend on which, as lists.
+//! The dependencies between runs, as lists.
 
+use super::accesses::{Access, Accesses};
 use super::runs::Runs;
-use super::touches::{Touch, Touches};
 
 /// No entry.
 const NONE: u32 = u32::MAX;
@@ -15,7 +15,7 @@ pub(super) struct Dependencies {
     followers: Vec<u32>,
 }
 
-/// What was done to a cell: the last write, and a list of the reads since.
+/// The last write of a cell, and a list of the reads since.
 #[derive(Debug, Clone, Copy)]
 struct Cell {
     writer: u32,
@@ -24,13 +24,13 @@ struct Cell {
 }
 
 impl Dependencies {
-    /// What depends on what among `runs`.
-    pub(super) fn between(touches: &Touches, runs: &Runs) -> Dependencies {
-        let mut cells = vec![Cell { writer: NONE, readers: NONE }; touches.cells];
+    /// The dependencies between `runs`.
+    pub(super) fn between(accesses: &Accesses, runs: &Runs) -> Dependencies {
+        let mut cells = vec![Cell { writer: NONE, readers: NONE }; accesses.cells];
         let mut readers: Vec<(u32, u32)> = Vec::new();
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for run in 0..runs.len() {
-            for Touch { cell, writes, .. } in runs.run(run).iter().flat_map(|op| touches.op(*op)) {
+            for Access { cell, writes, .. } in runs.run(run).iter().flat_map(|op| accesses.op(*op)) {
                 let cell = &mut cells[*cell as usize];
                 if cell.writer != NONE {
                     pairs.push((cell.writer, run));

@@ -1,8 +1,9 @@
-//! Orders that keep little memory alive, run by run: what comes next is what begins fewest bytes less those that it ends.
+//! Orders that keep little memory alive: the next run is always the one that adds fewest bytes, those that it begins less
+//! those that it ends.
 //!
-//! That works in both directions: from the last run to the first, whatever reads a store last begins it. What of equal
-//! ones comes first matters much, and a good answer is where they stand in an order that was found in the other direction:
-//! so the directions take turns, each with the places of the order before as its ranks.
+//! The rule works in both directions: from the last run to the first, the last reader of a store begins it. The choice among
+//! equal runs matters much. A good one is the order that was found in the other direction, so the directions take turns, and
+//! each ranks equal runs by their places in the order before.
 
 use super::dependencies::Dependencies;
 use super::memory::{Lifetimes, Memory, lists};
@@ -14,7 +15,7 @@ use std::collections::BinaryHeap;
 /// How often the directions take turns.
 const TURNS: u32 = 8;
 
-/// What orders are made of.
+/// The runs, their dependencies, and the memory that they use.
 pub(super) struct Greedy<'a> {
     adapted: &'a Adapted,
     runs: &'a Runs,

@@ -1,22 +1,22 @@
 //! Levels: a run is one level above the highest that it depends on, or further up where that saves memory.
 
+use super::accesses::{Access, Accesses};
 use super::memory::Memory;
 use super::runs::Runs;
-use super::touches::{Touch, Touches};
 use super::weighed::{Sums, Weighed, Weight};
 use crate::compile::model::Adapted;
 use crate::vulkan::Layout;
 
-/// The runs level by level; `None` if there is no level with more than one. What bytes decide goes into `weighed`, if that is
-/// to be kept.
+/// The runs level by level; `None` if there is no level with more than one. Decisions that sizes made go into
+/// `weighed`, if they are to be kept.
 pub(super) fn by_level(
     adapted: &Adapted,
-    touches: &Touches,
+    accesses: &Accesses,
     runs: &Runs,
     memory: &Memory,
     mut weighed: Option<&mut Weighed>,
 ) -> Option<Vec<u32>> {
-    let mut upwards = Walk::new(touches, runs);
+    let mut upwards = Walk::new(accesses, runs);
     let mut levels: Vec<u32> = Vec::with_capacity(runs.len() as usize);
     // For each store the first run that uses it.
     let mut begins = vec![u32::MAX; adapted.stores.len()];
@@ -33,7 +33,7 @@ pub(super) fn by_level(
     if top + 1 == runs.len() {
         return None;
     }
-    let mut downwards = Walk::new(touches, runs);
+    let mut downwards = Walk::new(accesses, runs);
     // For each store one more than the level of its last use, as far as that is known.
     let mut ends = vec![0_u32; adapted.stores.len()];
     let mut keys = levels;
@@ -83,7 +83,7 @@ fn counting_sort(keys: &[u32], bound: u32) -> Vec<u32> {
 
 /// A walk through all runs, from the first to the last or from the last to the first: what is behind is counted in levels.
 struct Walk<'a> {
-    touches: &'a Touches,
+    accesses: &'a Accesses,
     runs: &'a Runs,
     cells: Vec<Cell>,
 }
@@ -98,18 +98,18 @@ struct Cell {
 }
 
 impl<'a> Walk<'a> {
-    fn new(touches: &'a Touches, runs: &'a Runs) -> Walk<'a> {
+    fn new(accesses: &'a Accesses, runs: &'a Runs) -> Walk<'a> {
         let cell = Cell { before: 0, readers: 0, layout: Layout::Undefined };
-        Walk { touches, runs, cells: vec![cell; touches.cells] }
+        Walk { accesses, runs, cells: vec![cell; accesses.cells] }
     }
 
     /// The least level of a run behind all that it depends on.
     fn least(&self, run: u32) -> u32 {
         let mut least = 0;
         for op in self.runs.run(run) {
-            for touch in self.touches.op(*op) {
-                let cell = &self.cells[touch.cell as usize];
-                let joins = !touch.writes && cell.layout == touch.layout;
+            for access in self.accesses.op(*op) {
+                let cell = &self.cells[access.cell as usize];
+                let joins = !access.writes && cell.layout == access.layout;
                 least = least.max(if joins { cell.before } else { cell.before.max(cell.readers) });
             }
         }
@@ -119,7 +119,7 @@ impl<'a> Walk<'a> {
     /// Notes the level of an operation.
     fn put(&mut self, op: u32, level: u32) {
         let behind = level + 1;
-        for Touch { cell, writes, layout } in self.touches.op(op).iter().copied() {
+        for Access { cell, writes, layout } in self.accesses.op(op).iter().copied() {
             let cell = &mut self.cells[cell as usize];
             if writes {
                 *cell = Cell { before: behind, readers: 0, layout };

@@ -3,13 +3,13 @@
 use super::runs::Runs;
 use crate::compile::model::{Adapted, Kind, StoreIndex};
 
-/// Bytes of what lives in shared memory, as its texels say: alignments and padding are the device's, and not known here.
+/// Bytes of each store in shared memory, counted in texels: the device's alignment and padding are not known here.
 #[derive(Debug)]
 pub(super) struct Memory {
     bytes: Vec<u64>,
 }
 
-/// When an order uses what.
+/// The lifetime of each store in an order.
 #[derive(Debug)]
 pub(super) struct Lifetimes {
     /// Number of places in the order.

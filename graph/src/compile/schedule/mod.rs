@@ -13,24 +13,24 @@
 //!    and stands in its level behind what ends bytes. If the most that is alive at one time is still more than a fiftieth
 //!    above that of the file's order, the file's order stays.
 //!
-//! What ties keeps the file's order.
+//! Ties keep the file's order.
 
+mod accesses;
 mod dependencies;
 mod greedy;
 mod levels;
 mod memory;
 mod runs;
-mod touches;
 mod weighed;
 
 use super::model::Adapted;
 use super::options::Order;
 use super::parts::Grids;
+use accesses::Accesses;
 use dependencies::Dependencies;
 use greedy::Greedy;
 use memory::{Lifetimes, Memory};
 use runs::Runs;
-use touches::Touches;
 use weighed::Weighed;
 
 /// An order, and what bytes decided about it.
@@ -44,21 +44,21 @@ pub(super) struct Scheduled {
 /// Finds the order of execution. `keeps`: for [`Scheduled::still_holds`], later.
 pub(super) fn schedule(grids: &Grids, adapted: &Adapted, order: Order, keeps: bool) -> Scheduled {
     let mut weighed = Weighed::default();
-    let touches = || Touches::of(grids, adapted);
+    let accesses = || Accesses::of(grids, adapted);
     let order = match order {
         Order::File => (0..adapted.ops.len() as u32).collect(),
         Order::Default => {
-            let touches = touches();
-            let runs = Runs::gather(grids, adapted, &touches);
+            let accesses = accesses();
+            let runs = Runs::gather(grids, adapted, &accesses);
             let keep = keeps.then_some(&mut weighed);
-            runs.operations(&scored(adapted, &touches, &runs, &Memory::of(adapted), keep))
+            runs.operations(&scored(adapted, &accesses, &runs, &Memory::of(adapted), keep))
         }
         Order::LowMemory => {
-            let touches = touches();
-            let runs = Runs::gather(grids, adapted, &touches);
-            runs.operations(&small(adapted, &touches, &runs))
+            let accesses = accesses();
+            let runs = Runs::gather(grids, adapted, &accesses);
+            runs.operations(&small(adapted, &accesses, &runs))
         }
-        Order::Random(seed) => Dependencies::between(&touches(), &Runs::of_one(adapted)).random_order(seed),
+        Order::Random(seed) => Dependencies::between(&accesses(), &Runs::of_one(adapted)).random_order(seed),
     };
     Scheduled { order, weighed }
 }
@@ -78,13 +78,13 @@ impl Scheduled {
 /// The runs in the order that scores best.
 fn scored(
     adapted: &Adapted,
-    touches: &Touches,
+    accesses: &Accesses,
     runs: &Runs,
     memory: &Memory,
     mut keep: Option<&mut Weighed>,
 ) -> Vec<u32> {
     let file: Vec<u32> = (0..runs.len()).collect();
-    let Some(order) = levels::by_level(adapted, touches, runs, memory, keep.as_deref_mut()) else { return file };
+    let Some(order) = levels::by_level(adapted, accesses, runs, memory, keep.as_deref_mut()) else { return file };
     let [in_file, in_levels] = [&file, &order].map(|order| Lifetimes::of(adapted, runs, order));
     let takes_levels = weighed::takes_levels(memory, &in_file, &in_levels);
     if let Some(weighed) = keep {
@@ -94,8 +94,8 @@ fn scored(
 }
 
 /// The runs in that of several orders in which the least memory is alive at one time.
-fn small(adapted: &Adapted, touches: &Touches, runs: &Runs) -> Vec<u32> {
+fn small(adapted: &Adapted, accesses: &Accesses, runs: &Runs) -> Vec<u32> {
     let memory = Memory::of(adapted);
-    let others = vec![(0..runs.len()).collect(), scored(adapted, touches, runs, &memory, None)];
-    Greedy::new(adapted, runs, &memory, Dependencies::between(touches, runs)).best(others)
+    let others = vec![(0..runs.len()).collect(), scored(adapted, accesses, runs, &memory, None)];
+    Greedy::new(adapted, runs, &memory, Dependencies::between(accesses, runs)).best(others)
 }

@@ -1,6 +1,6 @@
 //! Draws that may share a rendering scope are brought together, and from then on stay together.
 
-use super::touches::{Touch, Touches};
+use super::accesses::{Access, Accesses};
 use crate::compile::model::{Adapted, Role, Start, Use};
 use crate::compile::parts::Grids;
 use crate::vulkan::Layout;
@@ -24,17 +24,17 @@ impl Runs {
     }
 
     /// Draws that may share a scope in one run.
-    pub(super) fn gather(grids: &Grids, adapted: &Adapted, touches: &Touches) -> Runs {
+    pub(super) fn gather(grids: &Grids, adapted: &Adapted, accesses: &Accesses) -> Runs {
         if !adapted.ops.iter().any(|op| op.kind.draws()) {
             return Runs::of_one(adapted);
         }
         let mut gatherer = Gatherer {
             grids,
             adapted,
-            touches,
+            accesses,
             runs: Vec::new(),
             run_of: Vec::with_capacity(adapted.ops.len()),
-            cells: vec![Cell { before: NONE, readers: NONE, layout: Layout::Undefined }; touches.cells],
+            cells: vec![Cell { before: NONE, readers: NONE, layout: Layout::Undefined }; accesses.cells],
             places: 0,
         };
         for op in 0..adapted.ops.len() as u32 {
@@ -75,7 +75,7 @@ impl Runs {
     }
 }
 
-/// What was done to a cell so far: a write, then reads in one layout. A read in another layout than the one before it comes
+/// The accesses to a cell so far: a write, then reads in one layout. A read in another layout than the one before it comes
 /// behind it, as a write would: changing the order of layouts could only add barriers.
 #[derive(Debug, Clone, Copy)]
 struct Cell {
@@ -99,7 +99,7 @@ struct Run {
 struct Gatherer<'a> {
     grids: &'a Grids,
     adapted: &'a Adapted,
-    touches: &'a Touches,
+    accesses: &'a Accesses,
     runs: Vec<Run>,
     run_of: Vec<u32>,
     cells: Vec<Cell>,
@@ -108,11 +108,11 @@ struct Gatherer<'a> {
 
 impl Gatherer<'_> {
     fn op(&mut self, op: u32) {
-        let Gatherer { grids, adapted, touches, runs, cells, .. } = self;
+        let Gatherer { grids, adapted, accesses, runs, cells, .. } = self;
         let candidate = candidate(grids, adapted, cells, op).filter(|run| meet(adapted, runs[*run as usize].last, op));
         // The place of the rearmost run that it depends on besides the candidate.
         let mut behind = None;
-        for Touch { cell, writes, layout } in touches.op(op) {
+        for Access { cell, writes, layout } in accesses.op(op) {
             let Cell { before, readers, layout: current } = cells[*cell as usize];
             let readers = if *writes || current != *layout { readers } else { NONE };
             for run in [before, readers] {
@@ -141,8 +141,8 @@ impl Gatherer<'_> {
         });
         runs[run as usize].last = op;
         self.run_of.push(run);
-        for touch in touches.op(op) {
-            note(runs, &mut cells[touch.cell as usize], run, touch.writes, touch.layout);
+        for access in accesses.op(op) {
+            note(runs, &mut cells[access.cell as usize], run, access.writes, access.layout);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What bytes decided about an order, so that other bytes can be asked whether they decide the same.
+//! The decisions that sizes in bytes made about an order, so that they can be tested against other sizes.
 
 use super::memory::{Lifetimes, Memory};
 use crate::compile::model::StoreIndex;
@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 
 /// The comparisons of bytes that led to an order, in the sequence in which they were made; none if bytes decided nothing.
 ///
-/// What is compared next depends on what came out so far. So where all come out the same, they are the same comparisons.
+/// Each result decides what is compared next. So if all results stay the same, so do the comparisons.
 #[derive(Debug, Default)]
 pub(super) struct Weighed {
     runs: Vec<Run>,
@@ -14,7 +14,7 @@ pub(super) struct Weighed {
     peaks: Option<Peaks>,
 }
 
-/// What was decided about one run.
+/// The decision about one run.
 #[derive(Debug, Clone, Copy)]
 struct Run {
     /// Where its part of the list of stores ends.
@@ -43,7 +43,7 @@ pub(super) struct Sums {
     held: u64,
 }
 
-/// What bytes decide about a run.
+/// The place of a run, as far as sizes decide it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Decision {
     /// Whether it moves up to the last level that it may stand in.
@@ -82,12 +82,12 @@ pub(super) fn takes_levels(memory: &Memory, file: &Lifetimes, levels: &Lifetimes
 }
 
 impl Weighed {
-    /// Notes a store that the run at hand uses.
+    /// Notes a store that the current run uses.
     pub(super) fn weigh(&mut self, weight: Weight) {
         self.stores.push(weight);
     }
 
-    /// Notes what was decided about the run at hand.
+    /// Notes the decision about the current run.
     pub(super) fn decided(&mut self, may_rise: bool, decision: Decision) {
         self.runs.push(Run { end: self.stores.len() as u32, may_rise, decision });
     }
@@ -97,7 +97,7 @@ impl Weighed {
         self.peaks = Some(Peaks { file, levels, takes_levels });
     }
 
-    /// Whether these bytes decide everything in the same way.
+    /// Whether these sizes lead to the same decisions.
     pub(super) fn decide_the_same(&self, memory: &Memory) -> bool {
         let mut start = 0;
         let same_runs = self.runs.iter().all(|run| {

@@ -66,7 +66,7 @@ impl<'a> Builder<'a> {
         let Builder { adapted, grids, traces, local, .. } = self;
         let first = adapted.ops[op as usize].uses.start;
         for (used, number) in adapted.uses(op).iter().zip(first..) {
-            // In a scope, whoever draws where another has read its own pixel waits for it behind a local barrier.
+            // A local barrier orders later draws of the scope behind local reads.
             if local.iter().rev().take(adapted.uses(op).len()).any(|local| *local == number) {
                 continue;
             }
@@ -218,7 +218,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Says why what a pass reads at its own position is read from memory.
+    /// Notes why a read at the fragment's own position goes through memory.
     fn explain(&mut self, op: u32) {
         let adapted = self.adapted;
         let uses = adapted.uses(op).iter();

@@ -1,10 +1,10 @@
-//! What passes gain that share a rendering scope. Words for it are found when they are wanted: sizes may be others by then.
+//! What passes gain by sharing a rendering scope. The sentence is made when it is printed: sizes may have changed by then.
 
 use super::step::{Scope, Target, op_name, store_name};
 use crate::compile::model::{Adapted, Use};
 use crate::frame::Frame;
 
-/// What a pass gains in the scope of the pass before it.
+/// What a pass gains by joining the scope before it.
 #[derive(Debug, Clone)]
 pub(super) enum Gain {
     /// It draws into attachments that the scope has already.

@@ -7,7 +7,7 @@ use crate::compile::model::{Adapted, OpKind, Role, Use};
 use crate::frame::{Frame, Sampled};
 use crate::vulkan::{Accesses, Layout, Stages};
 
-/// What a use of a draw samples at each fragment's own position alone.
+/// The entry of a use that samples only the texel at the fragment's own position.
 pub(super) fn own_pixel<'f>(frame: &'f Frame, adapted: &Adapted, op: u32, used: &Use) -> Option<&'f Sampled> {
     let OpKind::Draw(pass) = adapted.ops[op as usize].kind else { return None };
     if used.role != Role::Sampled {
@@ -33,7 +33,7 @@ pub(super) fn possible(frame: &Frame, adapted: &Adapted, op: u32, used: &Use, at
     obstacle == Some(None) && attached.contains(&target) && once()
 }
 
-/// What of a use makes a local read impossible on any device.
+/// Why a use can't be a local read on any device.
 pub(super) fn obstacle(adapted: &Adapted, sampled: &Sampled, used: &Use) -> Option<&'static str> {
     let image = adapted.stores[used.store as usize].image()?;
     if image.format.is_depth() {
@@ -49,10 +49,10 @@ pub(super) fn obstacle(adapted: &Adapted, sampled: &Sampled, used: &Use) -> Opti
     }
 }
 
-/// Turns uses, by number, into local reads.
-pub(super) fn read_locally(adapted: &mut Adapted, uses: &[u32]) {
-    for number in uses {
-        let used = &mut adapted.uses[*number as usize];
+/// Turns uses, by index, into local reads.
+pub(in crate::compile) fn read_locally(uses: &mut [Use], local: &[u32]) {
+    for index in local {
+        let used = &mut uses[*index as usize];
         used.role = Role::Input;
         used.layout = Layout::RenderingLocalReadKhr;
         used.accesses = Accesses::INPUT_ATTACHMENT_READ;

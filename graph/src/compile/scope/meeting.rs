@@ -1,17 +1,17 @@
-//! A scope meets the pass after it: whether they can be one.
+//! Whether a pass can join the rendering scope before it.
 
 use super::step::{Scope, Target, colors_of, plane_of};
 use crate::compile::model::{Adapted, OpKind, Role, Start, StoreIndex, Use};
 use crate::device::Profile;
 use crate::frame::TargetShape;
 
-/// What comes of a scope and the pass after it.
+/// Whether a pass joins the scope before it.
 pub(super) enum Meeting {
     Merge,
     Apart(Option<Refusal>),
 }
 
-/// Why they stay apart.
+/// Why it doesn't.
 pub(super) enum Refusal {
     OtherAttachments,
     Clears(StoreIndex),

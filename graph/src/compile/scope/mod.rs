@@ -12,9 +12,11 @@ use super::model::Adapted;
 use super::parts::Grids;
 use crate::device::Profile;
 use crate::frame::Frame;
+use crate::plan::Note;
 use builder::Builder;
 use gain::Gain;
 
+pub(super) use local::read_locally;
 pub(super) use meeting::same_areas;
 pub(super) use step::{Scope, Step, Target, op_name, store_name};
 
@@ -24,6 +26,9 @@ pub(super) struct Scoped {
     pub(super) steps: Vec<Step>,
     /// What a pass gains that shares its scope with the pass before it, for each operation; empty if nothing is drawn.
     gains: Vec<Option<Gain>>,
+    pub(super) notes: Vec<Note>,
+    /// Uses, by index, that become local reads.
+    pub(super) local: Vec<u32>,
 }
 
 impl Scoped {
@@ -33,18 +38,16 @@ impl Scoped {
     }
 }
 
-pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &mut Adapted, order: &[u32], device: &Profile) -> Scoped {
+pub(super) fn scope(frame: &Frame, grids: &Grids, adapted: &Adapted, order: &[u32], device: &Profile) -> Scoped {
     if !adapted.ops.iter().any(|op| op.kind.draws()) {
         let mut steps = Vec::with_capacity(order.len() + 1);
         steps.extend(order.iter().map(|op| Step::Single(*op)));
-        return Scoped { steps, gains: Vec::new() };
+        return Scoped { steps, gains: Vec::new(), notes: Vec::new(), local: Vec::new() };
     }
     let mut builder = Builder::new(frame, grids, adapted, device);
     for op in order {
         builder.op(*op);
     }
     let Builder { steps, gains, notes, local, .. } = builder;
-    adapted.notes.extend(notes);
-    local::read_locally(adapted, &local);
-    Scoped { steps, gains }
+    Scoped { steps, gains, notes, local }
 }

@@ -1,8 +1,8 @@
-//! What steps did to cells so far, and whether a pass can share the last one.
+//! The accesses of steps to cells so far, and whether a pass can join the last step.
 
 use crate::compile::model::{Role, Use};
 
-/// What steps did to a cell so far; steps are numbered in execution order.
+/// The steps that used a cell so far, numbered in execution order.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Trace {
     /// The last step that used it.

@@ -34,13 +34,13 @@ impl Check<'_> {
     fn resources(&mut self) -> bool {
         let before = self.errors.len();
         let pass = self.pass;
-        for Access { resource, range, frames_ago, span, kind } in pass.accesses() {
-            match resource {
-                Resource::Image(image) => self.image(image, range, frames_ago, span, kind),
-                Resource::Buffer(buffer) => self.buffer(buffer.0, frames_ago, span),
+        for access in pass.accesses() {
+            match access.resource {
+                Resource::Image(image) => self.image(image, &access),
+                Resource::Buffer(buffer) => self.buffer(buffer.0, access.frames_ago, access.span),
             }
-            if frames_ago > 0 && matches!(kind, AccessKind::Transfer { write: true }) {
-                self.wrong(span, "writes into an earlier frame");
+            if access.frames_ago > 0 && matches!(access.kind, AccessKind::Transfer { write: true }) {
+                self.wrong(access.span, "writes into an earlier frame");
             }
         }
         self.errors.len() == before
@@ -59,25 +59,20 @@ impl Check<'_> {
         }
     }
 
-    fn image(&mut self, index: ImageIndex, range: Subresources, frames_ago: u32, span: Span, kind: AccessKind<'_>) {
+    fn image(&mut self, index: ImageIndex, access: &Access<'_>) {
+        let Access { range, span, .. } = *access;
         let Some(image) = self.frame.images.get(index.0 as usize) else {
             return self.wrong(span, &format!("names image number {}, which does not exist", index.0));
         };
-        self.history(&image.lifetime, frames_ago, &image.name, span);
+        self.history(&image.lifetime, access.frames_ago, &image.name, span);
         if range != Subresources::WHOLE {
             self.inside(image, range, span);
         }
-        match kind {
-            AccessKind::Color(_) | AccessKind::ForwardSource | AccessKind::ForwardTarget => {
-                self.one_mip(image, range, span);
-            }
-            AccessKind::Depth(_) => {
-                self.one_mip(image, range, span);
-                if !image.format.is_depth() {
-                    self.wrong(span, "tests depth in an image that has none");
-                }
-            }
-            _ => {}
+        if access.attaches() || matches!(access.kind, AccessKind::ForwardSource | AccessKind::ForwardTarget) {
+            self.one_mip(image, range, span);
+        }
+        if matches!(access.kind, AccessKind::Depth(_)) && !image.format.is_depth() {
+            self.wrong(span, "tests depth in an image that has none");
         }
     }
 

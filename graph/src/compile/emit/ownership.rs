@@ -1,0 +1,73 @@
+//! Queue family ownership transfers: their two halves, release and acquire, name the same subresources.
+
+use super::parts::Parts;
+use crate::compile::parts::join;
+use crate::compile::queues::OwnershipTransfer;
+use crate::plan::{Hazard, ImageBarrier, ImageId, StepId};
+use crate::vulkan::{Accesses, Stages};
+
+/// Both halves of a transfer, each with its step.
+#[derive(Debug)]
+pub(super) struct Transfer {
+    pub(super) from: u32,
+    pub(super) release: ImageBarrier,
+    pub(super) to: u32,
+    pub(super) acquire: ImageBarrier,
+}
+
+impl Transfer {
+    /// Joins it with another one that differs only in its subresources.
+    fn join(&self, other: &Transfer) -> Option<Transfer> {
+        let range = join(self.release.range, other.release.range)?;
+        let with = |barrier: &ImageBarrier| ImageBarrier { range, ..barrier.clone() };
+        let same = (self.from, self.to) == (other.from, other.to)
+            && with(&self.release) == with(&other.release)
+            && with(&self.acquire) == with(&other.acquire);
+        same.then(|| Transfer { release: with(&self.release), acquire: with(&self.acquire), ..*self })
+    }
+}
+
+/// All ownership transfers, in the order of the steps that acquire.
+pub(super) fn transfers(parts: &Parts<'_>) -> Vec<Transfer> {
+    let mut transfers: Vec<Transfer> = Vec::new();
+    for of_cell in parts.sync.queues.transfers() {
+        let mut new = transfer(parts, of_cell);
+        while let Some(joined) = transfers.last().and_then(|last| last.join(&new)) {
+            new = joined;
+            transfers.pop();
+        }
+        transfers.push(new);
+    }
+    transfers
+}
+
+fn transfer(parts: &Parts<'_>, of_cell: &OwnershipTransfer) -> Transfer {
+    let (queues, acquiring) = (&parts.sync.queues, &parts.sync.barriers[of_cell.barrier as usize]);
+    let image = ImageId(parts.subjects[acquiring.store as usize].id);
+    let range = parts.subresources(acquiring.store, acquiring.cell);
+    let barrier = |after, src: (Stages, Accesses), dst: (Stages, Accesses)| ImageBarrier {
+        image,
+        range,
+        src_stages: src.0,
+        src_accesses: src.1,
+        dst_stages: dst.0,
+        dst_accesses: dst.1,
+        old_layout: acquiring.old_layout,
+        new_layout: acquiring.new_layout,
+        ownership: Some([queues.of(of_cell.from), queues.of(acquiring.step)]),
+        hazard: Hazard::Ownership,
+        after,
+        needed_by: Some(StepId(acquiring.step)),
+    };
+    let nothing = (Stages::empty(), Accesses::empty());
+    Transfer {
+        from: of_cell.from,
+        release: barrier(Some(StepId(of_cell.from)), (of_cell.stages, of_cell.accesses), nothing),
+        to: acquiring.step,
+        acquire: barrier(
+            Some(StepId(of_cell.from)),
+            (acquiring.src_stages, Accesses::empty()),
+            (acquiring.dst_stages, acquiring.dst_accesses),
+        ),
+    }
+}

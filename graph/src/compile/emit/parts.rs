@@ -1,0 +1,112 @@
+//! The results of all stages, from which the parts of a Plan are made.
+
+use crate::base::Place;
+use crate::compile::memory::Placed;
+use crate::compile::model::{Adapted, CellIndex, Kind, Op, Store, StoreIndex};
+use crate::compile::parts::Grids;
+use crate::compile::retain::Retained;
+use crate::compile::scope::Scoped;
+use crate::compile::structure::{Settled, Structure};
+use crate::compile::sync::Barriers;
+use crate::device::Profile;
+use crate::frame::{Frame, Work};
+use crate::plan::{BufferId, Cause, ImageId, Resource, Subresources};
+use std::sync::Arc;
+
+/// The results of all stages.
+pub(in crate::compile) struct Parts<'a> {
+    pub(super) frame: &'a Frame,
+    pub(super) device: &'a Profile,
+    pub(super) structure: &'a Structure,
+    pub(super) grids: &'a Grids,
+    pub(super) adapted: &'a Adapted,
+    pub(super) scoped: &'a Scoped,
+    pub(super) retained: &'a Retained,
+    pub(super) placed: &'a Placed,
+    pub(super) sync: &'a Barriers,
+    pub(super) exact_memory: bool,
+    /// The subject of each physical resource.
+    pub(super) subjects: Vec<Subject>,
+    /// The name of what has none.
+    pub(super) nothing: Arc<str>,
+}
+
+impl<'a> Parts<'a> {
+    pub(in crate::compile) fn new(
+        frame: &'a Frame,
+        device: &'a Profile,
+        structure: &'a Structure,
+        settled: &'a Settled,
+    ) -> Parts<'a> {
+        let Structure { grids, adapted, scoped, retained, .. } = structure;
+        let Settled { placed, barriers: sync, exact_memory, .. } = settled;
+        let subjects = Subject::of(adapted, grids);
+        let (exact_memory, nothing) = (*exact_memory, Arc::default());
+        Parts {
+            frame,
+            device,
+            structure,
+            grids,
+            adapted,
+            scoped,
+            retained,
+            placed,
+            sync,
+            exact_memory,
+            subjects,
+            nothing,
+        }
+    }
+}
+
+/// What passes and barriers name of a physical resource: close together in memory, since it is read often.
+pub(super) struct Subject {
+    pub(super) id: u32,
+    pub(super) is_image: bool,
+    /// Whether it has several cells.
+    pub(super) is_cut: bool,
+    pub(super) all: Subresources,
+}
+
+impl Subject {
+    /// One for each physical resource.
+    fn of(adapted: &Adapted, grids: &Grids) -> Vec<Subject> {
+        let subject = |store: &Store| Subject {
+            id: store.id,
+            is_image: store.image().is_some(),
+            is_cut: store.grid(grids).is_some(),
+            all: store.all(),
+        };
+        adapted.stores.iter().map(subject).collect()
+    }
+}
+
+impl Parts<'_> {
+    /// The subresources that a cell is.
+    pub(super) fn subresources(&self, store: StoreIndex, cell: CellIndex) -> Subresources {
+        let store = &self.adapted.stores[store as usize];
+        store.grid(self.grids).map_or(store.all(), |grid| grid.range(cell - store.first_cell))
+    }
+}
+
+/// The id of a physical resource in the Plan.
+pub(super) fn resource(store: &Store) -> Resource {
+    match store.kind {
+        Kind::Image(_) => Resource::Image(ImageId(store.id)),
+        Kind::Buffer(_) => Resource::Buffer(BufferId(store.id)),
+    }
+}
+
+/// Why an operation is in the Plan.
+pub(super) fn cause(parts: &Parts<'_>, op: &Op) -> Cause {
+    let place = |pass: u32| -> Option<Place> { parts.frame.sources.place(parts.frame.passes[pass as usize].span) };
+    match op.kind.inserted() {
+        Some(why) => Cause::Inserted(Box::new(why.clone())),
+        None => Cause::Written(op.kind.pass().and_then(place)),
+    }
+}
+
+/// The work of the pass that an operation is or stands in for.
+pub(super) fn frame_work<'f>(parts: &Parts<'f>, op: &Op) -> Option<&'f Work> {
+    op.kind.pass().map(|pass| &parts.frame.passes[pass as usize].work)
+}

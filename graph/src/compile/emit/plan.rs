@@ -1,0 +1,52 @@
+//! A whole Plan.
+
+use super::ownership::Transfer;
+use super::parts::Parts;
+use super::resources::Resources;
+use super::values::{changes, settings, views, with_bytes};
+use super::{attachments, barriers, notes, outputs, ownership, passes};
+use crate::compile::scope::Step as Grouped;
+use crate::compile::sync::Barriers;
+use crate::plan::{DeviceUsed, FORMAT_VERSION, Plan, Step, Totals, Work};
+
+/// The Plan, with the images and buffers that `resources` made.
+pub(in crate::compile) fn emit(parts: &Parts<'_>, (images, buffers): Resources) -> Plan {
+    let steps = steps(parts);
+    Plan {
+        format_version: FORMAT_VERSION,
+        device: DeviceUsed { name: parts.device.name.clone(), exact_memory: parts.exact_memory },
+        settings: settings(parts),
+        changes: changes(parts),
+        stereo: parts.frame.stereo,
+        views: views(parts),
+        images,
+        buffers,
+        outputs: outputs::outputs(parts),
+        heaps: parts.placed.heaps.clone(),
+        totals: with_bytes(parts, Totals::count(&steps)),
+        steps,
+        notes: notes::notes(parts),
+    }
+}
+
+fn steps(parts: &Parts<'_>) -> Vec<Step> {
+    let Barriers { queues, steps: count, .. } = parts.sync;
+    let mut steps = Vec::with_capacity(*count as usize);
+    let mut barriers = barriers::Barriers::new(parts);
+    let grouped = parts.scoped.steps.iter().chain([&Grouped::Export]);
+    for (step, number) in grouped.zip(0..*count) {
+        let (memory_barriers, image_barriers) = barriers.of(number);
+        let work = match step {
+            Grouped::Scope(scope) => Work::Render(Box::new(attachments::scope(parts, scope, number))),
+            Grouped::Single(op) => passes::single(parts, *op),
+            Grouped::Export => Work::Export,
+        };
+        let (queue, waits, releases) = (queues.of(number), queues.waits(number), Vec::new());
+        steps.push(Step { queue, waits, memory_barriers, image_barriers, work, releases });
+    }
+    for Transfer { from, release, to, acquire } in ownership::transfers(parts) {
+        steps[from as usize].releases.push(release);
+        steps[to as usize].image_barriers.push(acquire);
+    }
+    steps
+}

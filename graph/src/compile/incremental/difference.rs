@@ -1,0 +1,242 @@
+//! The difference between two frames.
+
+use crate::frame::{
+    Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, ParamValue, Pass, Sampled, StencilState, Storage,
+    View, Work,
+};
+use crate::vulkan::FillValue;
+use std::sync::Arc;
+
+/// How much two frames differ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Difference {
+    /// In nothing.
+    None,
+    /// In values that no decision depends on.
+    Values,
+    /// In sizes of images and buffers, and perhaps in values.
+    Sizes,
+    /// In more.
+    Structure,
+}
+
+use Difference::{None as Nothing, Sizes, Structure, Values};
+
+/// The difference that there is if two things are not the same.
+fn unless(same: bool, difference: Difference) -> Difference {
+    if same { Nothing } else { difference }
+}
+
+/// Whether two names are the same: often they are one, since frames come from one another.
+fn same_name(old: &Arc<str>, new: &Arc<str>) -> bool {
+    Arc::ptr_eq(old, new) || old == new
+}
+
+/// Whether all members of two lists are the same.
+fn same_lists<T>(old: &[T], new: &[T], same: impl Fn(&T, &T) -> bool) -> bool {
+    old.len() == new.len() && old.iter().zip(new).all(|(old, new)| same(old, new))
+}
+
+/// The greatest of the differences between the members of two lists.
+fn of_lists<T>(old: &[T], new: &[T], of: impl Fn(&T, &T) -> Difference) -> Difference {
+    if old.len() != new.len() {
+        return Structure;
+    }
+    let mut most = Nothing;
+    for (old, new) in old.iter().zip(new) {
+        most = most.max(of(old, new));
+        if most == Structure {
+            break;
+        }
+    }
+    most
+}
+
+pub(super) fn between(old: &Frame, new: &Frame) -> Difference {
+    let Frame { sources, settings, changes, stereo, views, images, buffers, passes, outputs, switched_off, remarks } =
+        new;
+    let same = old.sources == *sources && old.changes == *changes && old.outputs == *outputs && old.stereo == *stereo;
+    if !same || old.switched_off != *switched_off || old.remarks != *remarks {
+        return Structure;
+    }
+    unless(old.settings == *settings, Values)
+        .max(of_lists(&old.views, views, view))
+        .max(of_lists(&old.images, images, image))
+        .max(of_lists(&old.buffers, buffers, buffer))
+        .max(of_lists(&old.passes, passes, pass))
+}
+
+fn view(old: &View, new: &View) -> Difference {
+    let View { name, span, extent, camera, allows, jitter, eye } = new;
+    let same =
+        old.name == *name && old.span == *span && old.camera == *camera && old.allows == *allows && old.eye == *eye;
+    if same { unless(old.jitter == *jitter, Values).max(unless(old.extent == *extent, Sizes)) } else { Structure }
+}
+
+fn image(old: &Image, new: &Image) -> Difference {
+    let Image {
+        name,
+        span,
+        format,
+        shape,
+        extent,
+        room,
+        rotation,
+        eyes,
+        mips,
+        layers,
+        samples,
+        resolve,
+        chosen,
+        lifetime,
+    } = new;
+    let same = same_name(&old.name, name)
+        && old.span == *span
+        && (&old.resolve, &old.chosen) == (resolve, chosen)
+        && (old.format, old.shape, old.mips, old.layers, old.samples) == (*format, *shape, *mips, *layers, *samples)
+        && (old.rotation, old.eyes) == (*rotation, *eyes)
+        && old.room.is_some() == room.is_some()
+        && same_lifetime(&old.lifetime, lifetime);
+    if same { unless((old.extent, old.room) == (*extent, *room), Sizes) } else { Structure }
+}
+
+fn buffer(old: &Buffer, new: &Buffer) -> Difference {
+    let Buffer { name, span, bytes, lifetime } = new;
+    let same = same_name(&old.name, name) && old.span == *span && same_lifetime(&old.lifetime, lifetime);
+    if same { unless(old.bytes == *bytes, Sizes) } else { Structure }
+}
+
+fn same_lifetime(old: &Lifetime, new: &Lifetime) -> bool {
+    let same_start = match (old, new) {
+        (Lifetime::Persistent { initial: old }, Lifetime::Persistent { initial: new }) => same_fill(old, new),
+        (Lifetime::History { initial: old, .. }, Lifetime::History { initial: new, .. }) => same_fill(old, new),
+        _ => true,
+    };
+    same_start && old == new
+}
+
+fn pass(old: &Pass, new: &Pass) -> Difference {
+    let Pass {
+        name,
+        span,
+        view,
+        work,
+        sampled,
+        storage,
+        color,
+        depth,
+        alpha_to_coverage,
+        no_depth_only,
+        no_rotation,
+        inserted,
+        buffers,
+        transfers,
+        side_effect,
+        params,
+    } = new;
+    let same = same_name(&old.name, name)
+        && old.span == *span
+        && old.view == *view
+        && (old.side_effect, old.alpha_to_coverage) == (*side_effect, *alpha_to_coverage)
+        && old.no_depth_only == *no_depth_only
+        && (&old.no_rotation, &old.inserted) == (no_rotation, inserted)
+        && same_lists(&old.sampled, sampled, same_sampled)
+        && same_lists(&old.storage, storage, same_storage)
+        && old.buffers == *buffers
+        && old.transfers == *transfers;
+    if !same {
+        return Structure;
+    }
+    let depth = match (&old.depth, depth) {
+        (None, None) => Nothing,
+        (Some(old), Some(new)) => depth_target(old, new),
+        _ => Structure,
+    };
+    let same_params = same_lists(&old.params, params, |old, new| same_name(&old.0, &new.0) && same_param(old.1, new.1));
+    unless(same_params, Values).max(works(&old.work, work)).max(of_lists(&old.color, color, color_target)).max(depth)
+}
+
+fn same_sampled(old: &Sampled, new: &Sampled) -> bool {
+    let Sampled { binding, image, range, frames_ago, span, eye, face, texture, own_pixel, sampler, stages } = new;
+    (old.image, old.range, old.frames_ago, old.span) == (*image, *range, *frames_ago, *span)
+        && (old.eye, old.face, old.own_pixel, old.sampler, old.stages) == (*eye, *face, *own_pixel, *sampler, *stages)
+        && old.texture == *texture
+        && same_name(&old.binding, binding)
+}
+
+fn same_storage(old: &Storage, new: &Storage) -> bool {
+    let Storage { binding, image, range, span, read, write, stages } = new;
+    (old.image, old.range, old.span) == (*image, *range, *span)
+        && (old.read, old.write, old.stages) == (*read, *write, *stages)
+        && same_name(&old.binding, binding)
+}
+
+fn works(old: &Work, new: &Work) -> Difference {
+    match (old, new) {
+        (Work::Dispatch { shader: a, groups: old }, Work::Dispatch { shader: b, groups: new }) if same_name(a, b) => {
+            match (old, new) {
+                (Groups::Count(_), Groups::Count(_)) | (Groups::Invocations(_), Groups::Invocations(_)) => {
+                    unless(old == new, Values)
+                }
+                _ => unless(old == new, Structure),
+            }
+        }
+        (Work::Fill { value: old }, Work::Fill { value: new }) => unless(same_fill(old, new), Values),
+        _ => unless(old == new, Structure),
+    }
+}
+
+fn color_target(old: &ColorTarget, new: &ColorTarget) -> Difference {
+    let ColorTarget { image, range, span, clear, blend } = new;
+    let same = (old.image, old.range, old.span, old.blend) == (*image, *range, *span, *blend);
+    if !same || old.clear.is_some() != clear.is_some() {
+        return Structure;
+    }
+    let bits = |clear: &Option<[f32; 4]>| clear.map(|clear| clear.map(f32::to_bits));
+    unless(bits(&old.clear) == bits(clear), Values)
+}
+
+fn depth_target(old: &DepthTarget, new: &DepthTarget) -> Difference {
+    let DepthTarget { image, range, span, clear, test, write, stencil } = new;
+    let same = (old.image, old.range, old.span, old.test, old.write) == (*image, *range, *span, *test, *write);
+    let kind = |stencil: &Option<StencilState>| {
+        stencil.map(|stencil| StencilState { clear: stencil.clear.map(|_| 0), ..stencil })
+    };
+    if !same || old.clear.is_some() != clear.is_some() || kind(&old.stencil) != kind(stencil) {
+        return Structure;
+    }
+    let bits = |clear: &Option<f32>| clear.map(f32::to_bits);
+    unless(bits(&old.clear) == bits(clear) && old.stencil == *stencil, Values)
+}
+
+/// Whether two values are the same, bit for bit: a Plan tells 0 from −0.
+fn same_fill(old: &FillValue, new: &FillValue) -> bool {
+    match (old, new) {
+        (FillValue::Color(old), FillValue::Color(new)) => old.map(f32::to_bits) == new.map(f32::to_bits),
+        (FillValue::Depth(old, a), FillValue::Depth(new, b)) => (old.to_bits(), a) == (new.to_bits(), b),
+        _ => old == new,
+    }
+}
+
+fn same_param(old: ParamValue, new: ParamValue) -> bool {
+    match (old, new) {
+        (ParamValue::Number(old), ParamValue::Number(new)) => old.to_bits() == new.to_bits(),
+        _ => old == new,
+    }
+}
+
+/// Whether a pass that is off forwards one image to another.
+pub(super) fn forwards(frame: &Frame) -> bool {
+    frame.passes.iter().any(|pass| matches!(pass.work, Work::Forward { .. }))
+}
+
+/// Whether images that had one size have one size again, and others have others.
+pub(super) fn keeps_proportions(old: &Frame, new: &Frame) -> bool {
+    let mut sizes: Vec<_> =
+        old.images.iter().zip(&new.images).map(|(old, new)| ((old.extent, old.room), (new.extent, new.room))).collect();
+    sizes.sort_unstable();
+    sizes.dedup();
+    let mut after: Vec<_> = sizes.iter().map(|(_, new)| *new).collect();
+    after.sort_unstable();
+    after.windows(2).all(|pair| pair[0] != pair[1]) && sizes.windows(2).all(|pair| pair[0].0 != pair[1].0)
+}

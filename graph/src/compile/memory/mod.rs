@@ -1,0 +1,8 @@
+//! Memory of transient resources: the heap and offset of each, and the alias edges between them.
+
+mod aliasing;
+mod pack;
+mod place;
+
+pub(super) use aliasing::{AliasEdge, Aliasing};
+pub(super) use place::{Placed, place};

@@ -1,0 +1,212 @@
+//! `place`: each transient image and buffer gets an offset in memory, which others that live at other times share.
+
+use super::pack::{Block, Measured, Packing};
+use crate::base::{Diagnostic, Span};
+use crate::compile::model::{Adapted, Kind, StoreIndex};
+use crate::compile::options::Options;
+use crate::compile::steps::NEVER;
+use crate::device::{ImageDescriptor, MemoryNeeds, MemoryProvider, Profile};
+use crate::plan::{Heap, Placement, StepId};
+use crate::vulkan::{Format, Usage};
+
+/// The heaps, and each resource's place.
+#[derive(Debug)]
+pub(in crate::compile) struct Placed {
+    pub(in crate::compile) heaps: Vec<Heap>,
+    /// For each physical resource its place, if it is transient.
+    pub(in crate::compile) placements: Vec<Option<Placement>>,
+    /// Bytes if each had memory of its own.
+    pub(in crate::compile) transient_bytes: u64,
+    /// Largest total alive at one step.
+    pub(in crate::compile) live_peak_bytes: u64,
+    /// Bytes of what outlives the frame.
+    pub(in crate::compile) kept_bytes: u64,
+    /// The images whose format the pipeline chose, rising, with the bytes that it takes beyond the usual format.
+    pub(in crate::compile) chosen: Vec<(StoreIndex, i64)>,
+}
+
+impl Placed {
+    /// All placed resources, in the order of first steps, then by index.
+    pub(super) fn by_first_step(&self, lifetimes: &[[u32; 2]]) -> Vec<StoreIndex> {
+        let placed =
+            self.placements.iter().zip(0_u32..).filter_map(|(placement, store)| placement.as_ref().map(|_| store));
+        let first = |store: &StoreIndex| lifetimes[*store as usize][0];
+        let mut order: Vec<StoreIndex> = Vec::with_capacity(self.placements.len());
+        order.extend(placed);
+        if order.is_sorted_by_key(first) {
+            return order;
+        }
+        // For each step the resources that begin there, as linked lists.
+        let mut heads = vec![NEVER; order.iter().map(first).max().map_or(0, |last| last as usize + 1)];
+        let mut next = vec![NEVER; self.placements.len()];
+        for store in order.iter().rev() {
+            next[*store as usize] = std::mem::replace(&mut heads[first(store) as usize], *store);
+        }
+        order.clear();
+        for head in heads {
+            let mut store = head;
+            while store != NEVER {
+                order.push(store);
+                store = next[store as usize];
+            }
+        }
+        order
+    }
+}
+
+/// The resources of a heap.
+struct Members {
+    /// Images don't share memory with buffers: they may need a distance (`bufferImageGranularity`).
+    images: bool,
+    count: usize,
+    /// In the order of their first steps.
+    stores: Vec<StoreIndex>,
+    blocks: Vec<Block>,
+}
+
+/// Finds a place for each transient resource. `spans` are longer than lifetimes where steps of several queues run side by side.
+pub(in crate::compile) fn place(
+    adapted: &Adapted,
+    lifetimes: &[[u32; 2]],
+    spans: Option<&[[u32; 2]]>,
+    device: &Profile,
+    memory: &mut dyn MemoryProvider,
+    options: &Options,
+) -> Result<Placed, Vec<Diagnostic>> {
+    let mut placed = Placed {
+        heaps: Vec::new(),
+        placements: Vec::with_capacity(adapted.stores.len()),
+        transient_bytes: 0,
+        live_peak_bytes: 0,
+        kept_bytes: 0,
+        chosen: Vec::new(),
+    };
+    let mut members: Vec<Members> = Vec::new();
+    let (overlaps, spans) = (spans.is_some(), spans.unwrap_or(lifetimes));
+    // Images often follow others of the same descriptor.
+    let mut last_needs: Option<(ImageDescriptor, MemoryNeeds)> = None;
+    for ((store, at), [first, last]) in adapted.stores.iter().zip(0..).zip(lifetimes) {
+        if *first == NEVER && store.is_transient() {
+            placed.placements.push(None);
+            continue;
+        }
+        let (needs, lazily) = match &store.kind {
+            Kind::Image(image) => {
+                let made = adapted.made(at, image);
+                let transient = image.usage.contains(Usage::TRANSIENT_ATTACHMENT);
+                let needs = match last_needs {
+                    Some((of, needs)) if of == made => needs,
+                    _ => memory.image(&made),
+                };
+                last_needs = Some((made, needs));
+                if let Some(usual) = store.usual {
+                    let usual = usual_needs(&made, usual, device, memory);
+                    placed.chosen.push((at, needs.bytes.cast_signed().saturating_sub(usual.bytes.cast_signed())));
+                }
+                (needs, device.lazily_allocated_memory && transient)
+            }
+            Kind::Buffer(buffer) => (memory.buffer(buffer), false),
+        };
+        if !store.is_transient() {
+            placed.kept_bytes = placed.kept_bytes.saturating_add(needs.bytes);
+            placed.placements.push(None);
+            continue;
+        }
+        let heap = choose_heap(&mut placed.heaps, &mut members, &needs, lazily, store.image().is_some());
+        placed.transient_bytes = placed.transient_bytes.saturating_add(needs.bytes);
+        placed.placements.push(Some(Placement {
+            heap: heap as u32,
+            offset: 0,
+            bytes: needs.bytes,
+            alignment: needs.alignment,
+            type_bits: needs.type_bits,
+            lifetime: [StepId(*first), StepId(*last)],
+        }));
+    }
+    // The offsets and the height of any packing stay below this sum, so none of them overflows.
+    let placements = placed.placements.iter().flatten();
+    let padding = placements.map(|placement| placement.alignment).fold(0, u64::saturating_add);
+    let most = placed.transient_bytes.saturating_add(padding).saturating_add(placed.kept_bytes);
+    if most > i64::MAX as u64 {
+        let message = "the frame's images and buffers take more memory than can be addressed".to_owned();
+        return Err(vec![Diagnostic::new(Span::NONE, message).help("make them smaller or fewer")]);
+    }
+    for Members { count, stores, blocks, .. } in &mut members {
+        (*stores, *blocks) = (Vec::with_capacity(*count), Vec::with_capacity(*count));
+    }
+    for store in placed.by_first_step(spans) {
+        if let Some(Placement { heap, bytes, alignment, .. }) = placed.placements[store as usize] {
+            let [first, last] = spans[store as usize];
+            let Members { stores, blocks, .. } = &mut members[heap as usize];
+            stores.push(store);
+            blocks.push(Block { first, last, bytes, alignment });
+        }
+    }
+    for (heap, Members { stores, blocks, .. }) in placed.heaps.iter_mut().zip(&members) {
+        let measured = Measured::of(blocks);
+        let packing = if options.alias { measured.pack() } else { side_by_side(blocks) };
+        heap.bytes = packing.height;
+        for (store, offset) in stores.iter().zip(packing.offsets) {
+            if let Some(placement) = &mut placed.placements[*store as usize] {
+                placement.offset = offset;
+            }
+        }
+        placed.live_peak_bytes = measured.live_peak();
+    }
+    if members.len() > 1 || overlaps {
+        let alive = |(store, block): (&StoreIndex, &Block)| {
+            let [first, last] = lifetimes[*store as usize];
+            Block { first, last, ..*block }
+        };
+        let all = members.iter().flat_map(|Members { stores, blocks, .. }| stores.iter().zip(blocks).map(alive));
+        placed.live_peak_bytes = Measured::of(&all.collect::<Vec<Block>>()).live_peak();
+    }
+    Ok(placed)
+}
+
+/// The memory needs of an image in the format `usual`: estimated if the device can't create it.
+fn usual_needs(
+    image: &ImageDescriptor,
+    usual: Format,
+    device: &Profile,
+    memory: &mut dyn MemoryProvider,
+) -> MemoryNeeds {
+    let descriptor = ImageDescriptor { format: usual, ..*image };
+    let support = device.format(usual);
+    let made =
+        support.is_some_and(|support| support.usage.contains(image.usage) && support.samples.contains(&image.samples));
+    if made { memory.image(&descriptor) } else { device.memory.image(&descriptor) }
+}
+
+/// The first heap whose memory types fit, narrowed to those that both accept; else a new heap.
+fn choose_heap(
+    heaps: &mut Vec<Heap>,
+    members: &mut Vec<Members>,
+    needs: &MemoryNeeds,
+    lazily: bool,
+    images: bool,
+) -> usize {
+    let fits = |(heap, members): (&Heap, &Members)| {
+        members.images == images && heap.lazily_allocated == lazily && heap.type_bits & needs.type_bits != 0
+    };
+    let at = heaps.iter().zip(members.iter()).position(fits).unwrap_or_else(|| {
+        heaps.push(Heap { bytes: 0, alignment: 1, type_bits: needs.type_bits, lazily_allocated: lazily });
+        members.push(Members { images, count: 0, stores: Vec::new(), blocks: Vec::new() });
+        heaps.len() - 1
+    });
+    members[at].count += 1;
+    heaps[at].type_bits &= needs.type_bits;
+    heaps[at].alignment = heaps[at].alignment.max(needs.alignment);
+    at
+}
+
+/// Memory of its own for each block.
+fn side_by_side(blocks: &[Block]) -> Packing {
+    let mut packing = Packing { offsets: Vec::with_capacity(blocks.len()), height: 0 };
+    for block in blocks {
+        let offset = packing.height.checked_next_multiple_of(block.alignment.max(1)).unwrap_or(u64::MAX);
+        packing.offsets.push(offset);
+        packing.height = offset.saturating_add(block.bytes);
+    }
+    packing
+}

@@ -1,0 +1,125 @@
+//! Eligible queues: which queues beside graphics can run a step.
+//!
+//! Drawing, blits and resolves need a graphics queue; so do copies and fills of depth, stencil and multisampled images.
+//! A transfer queue copies, and fills buffers. Filling an image needs a compute queue at least.
+
+use super::number::{QUEUES, number};
+use crate::compile::model::{Adapted, Home, OpKind, Use};
+use crate::compile::options::Options;
+use crate::compile::scope::Step;
+use crate::device::Profile;
+use crate::frame::{Frame, Work};
+use crate::plan::Queue;
+use crate::vulkan::Stages;
+
+/// Why a step can't leave graphics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Bound {
+    /// It is drawn, or inserted by the compiler.
+    Graphics,
+    /// It is a blit.
+    Scales,
+    /// The embedding program records it.
+    Recorded,
+    /// It has an effect that no image or buffer shows, in order with others.
+    Effect,
+    /// It copies or fills a depth, stencil or multisampled image.
+    Planes,
+    /// It uses an image or buffer that is imported or leaves the frame.
+    Outside,
+    /// The device has no other queue that can run it.
+    NoQueue,
+}
+
+impl Bound {
+    /// The words of the note; `None` where there is none.
+    pub(super) fn why(self) -> Option<&'static str> {
+        match self {
+            Bound::Graphics => None,
+            Bound::Scales => Some("blits need it"),
+            Bound::Recorded => Some("the embedding program records it"),
+            Bound::Effect => Some("its effect comes in order with others that no image or buffer shows"),
+            Bound::Planes => Some("copies and fills of depth, stencil or several samples need it"),
+            Bound::Outside => Some("what it touches is handed in or leaves the frame"),
+            Bound::NoQueue => Some("no other queue of the device can do it"),
+        }
+    }
+}
+
+/// The stages that a queue has.
+fn stages(queue: Queue) -> Stages {
+    let transfer = Stages::COPY.union(Stages::CLEAR).union(Stages::HOST);
+    match queue {
+        Queue::Graphics => Stages::all(),
+        Queue::Compute => transfer | Stages::COMPUTE_SHADER | Stages::DRAW_INDIRECT,
+        Queue::Transfer => transfer,
+    }
+}
+
+/// Finds the eligible queues of each step.
+pub(super) struct Eligible<'a> {
+    pub(super) frame: &'a Frame,
+    pub(super) adapted: &'a Adapted,
+    pub(super) device: &'a Profile,
+    pub(super) options: &'a Options,
+}
+
+impl Eligible<'_> {
+    /// The queues beside graphics that can run a step, by number.
+    pub(super) fn of(&self, step: &Step) -> Result<[bool; QUEUES], Bound> {
+        let Step::Single(op) = step else { return Err(Bound::Graphics) };
+        let kind = &self.adapted.ops[*op as usize];
+        let OpKind::Pass(pass) = kind.kind else { return Err(Bound::Graphics) };
+        let uses = self.adapted.uses(*op);
+        let work = &self.frame.passes[pass as usize].work;
+        let fills = matches!(work, Work::Fill { .. });
+        match work {
+            _ if kind.side_effect => return Err(Bound::Effect),
+            Work::Custom { .. } => return Err(Bound::Recorded),
+            Work::Blit { .. } => return Err(Bound::Scales),
+            Work::Copy | Work::Fill { .. } if uses.iter().any(|used| self.is_depth_or_multisampled(used)) => {
+                return Err(Bound::Planes);
+            }
+            Work::Draw { .. } | Work::Forward { .. } => return Err(Bound::Graphics),
+            Work::Dispatch { .. } | Work::Copy | Work::Fill { .. } => {}
+        }
+        if uses.iter().any(|used| self.is_outside(used)) {
+            return Err(Bound::Outside);
+        }
+        let images = || uses.iter().filter(|used| self.adapted.stores[used.store as usize].image().is_some());
+        // Poison fills images wherever they are used first.
+        let fills_images = (fills || self.options.poison) && images().next().is_some();
+        let mut eligible = [false; QUEUES];
+        let queues = [(Queue::Compute, self.device.queues.compute), (Queue::Transfer, self.device.queues.transfer)];
+        for (queue, has) in queues {
+            let has_stages = uses.iter().all(|used| stages(queue).contains(used.stages) && self.is_found(used, queue));
+            eligible[number(queue)] = has && has_stages && !(queue == Queue::Transfer && fills_images);
+        }
+        if eligible.contains(&true) { Ok(eligible) } else { Err(Bound::NoQueue) }
+    }
+
+    fn is_depth_or_multisampled(&self, used: &Use) -> bool {
+        let image = self.adapted.stores[used.store as usize].image();
+        image.is_some_and(|image| image.format.is_depth() || image.samples > 1)
+    }
+
+    /// Whether something outside of the frame uses the same image or buffer. Imported buffers can be used on any one queue.
+    fn is_outside(&self, used: &Use) -> bool {
+        let store = &self.adapted.stores[used.store as usize];
+        match store.home {
+            Home::Transient => false,
+            Home::Output => true,
+            Home::Imported { .. } => store.image().is_some() || store.after.is_some(),
+            // The reader of an output comes after one queue.
+            Home::Persistent { .. } => self.adapted.outputs.contains(&used.store),
+        }
+    }
+
+    /// Whether a queue can wait for what was done before the frame.
+    fn is_found(&self, used: &Use, queue: Queue) -> bool {
+        match self.adapted.stores[used.store as usize].home {
+            Home::Imported { before } => stages(queue).contains(before.stages),
+            _ => true,
+        }
+    }
+}

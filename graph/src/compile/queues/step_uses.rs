@@ -1,0 +1,11 @@
+//! The uses of a step.
+
+use crate::compile::model::{Adapted, Use};
+use crate::compile::scope::Step;
+
+/// Every use of a step, those of the resolves that its scope carries too.
+pub(super) fn uses_of<'a>(adapted: &'a Adapted, step: &'a Step) -> impl Iterator<Item = &'a Use> + 'a {
+    let carried = if let Step::Scope(scope) = step { Some(scope.carries()) } else { None };
+    let ops = step.ops().iter().copied().chain(carried.into_iter().flatten());
+    ops.flat_map(|op| adapted.uses(op))
+}

@@ -1,0 +1,102 @@
+//! Windows: the graphics steps that can run beside each step that may leave the graphics queue.
+
+use super::number::{QUEUES, number};
+use super::step_uses::uses_of;
+use crate::compile::model::{Adapted, Use};
+use crate::compile::parts::Grids;
+use crate::compile::scope::Step;
+use crate::plan::Queue;
+use crate::vulkan::{Layout, Sharing};
+
+/// The reaches of a cell in a walk in one direction. A reach is one more than the rank of the last graphics step that a use
+/// depends on.
+#[derive(Debug, Clone, Copy)]
+struct Reach {
+    /// The reach of the last write, or of reads in an earlier layout.
+    before: u32,
+    /// The reach of the reads since.
+    readers: u32,
+    /// The reach of all uses on graphics.
+    graphics: u32,
+    layout: Layout,
+}
+
+/// Steps in the order of submission with the queue that each is to run on.
+#[derive(Clone, Copy)]
+pub(super) struct Steps<'a> {
+    pub(super) grids: &'a Grids,
+    pub(super) adapted: &'a Adapted,
+    pub(super) steps: &'a [Step],
+    pub(super) queues: &'a [Queue],
+    /// How transient images are shared.
+    pub(super) sharing: Sharing,
+}
+
+impl Steps<'_> {
+    /// For each step its window `[from, to)`: it depends on no graphics step in it, and none of them depends on it.
+    pub(super) fn beside(&self) -> Vec<[u32; 2]> {
+        let count = self.steps.len() as u32;
+        let before = self.walk(0..count, |step| step + 1);
+        let behind = self.walk((0..count).rev(), |step| count - step);
+        let mut windows: Vec<[u32; 2]> =
+            before.into_iter().zip(behind).map(|(before, behind)| [before, count - behind]).collect();
+        // Steps of one queue follow each other.
+        let mut latest = [0; QUEUES];
+        for (window, queue) in windows.iter_mut().zip(self.queues) {
+            let latest = &mut latest[number(*queue)];
+            *latest = window[0].max(*latest);
+            window[0] = *latest;
+        }
+        windows
+    }
+
+    /// For each step its reach, in one direction.
+    fn walk(&self, order: impl Iterator<Item = u32>, rank: impl Fn(u32) -> u32) -> Vec<u32> {
+        let none = Reach { before: 0, readers: 0, graphics: 0, layout: Layout::Undefined };
+        let mut cells = vec![none; self.adapted.cells as usize];
+        let mut behind = vec![0; self.steps.len()];
+        for step in order {
+            let on_graphics = self.queues[step as usize] == Queue::Graphics;
+            let mut most = 0;
+            if !on_graphics {
+                self.for_each_use(step, |used| {
+                    let exclusive = self.is_exclusive_image(used);
+                    self.adapted.for_each_cell(self.grids, used, |cell| {
+                        let cell = &cells[cell as usize];
+                        let joins = !used.writes && cell.layout == used.layout;
+                        most = most.max(if joins { cell.before } else { cell.before.max(cell.readers) });
+                        most = if exclusive { most.max(cell.graphics) } else { most };
+                    });
+                });
+            }
+            behind[step as usize] = most;
+            let reach = if on_graphics { rank(step) } else { most };
+            self.for_each_use(step, |used| {
+                self.adapted.for_each_cell(self.grids, used, |cell| {
+                    let cell = &mut cells[cell as usize];
+                    if used.writes {
+                        (cell.before, cell.readers) = (cell.before.max(reach), 0);
+                    } else if cell.layout == used.layout {
+                        cell.readers = cell.readers.max(reach);
+                    } else {
+                        (cell.before, cell.readers) = (cell.before.max(cell.readers), reach);
+                    }
+                    cell.layout = used.layout;
+                    if on_graphics {
+                        cell.graphics = cell.graphics.max(reach);
+                    }
+                });
+            });
+        }
+        behind
+    }
+
+    fn is_exclusive_image(&self, used: &Use) -> bool {
+        let store = &self.adapted.stores[used.store as usize];
+        self.sharing == Sharing::Exclusive && store.is_transient() && store.image().is_some()
+    }
+
+    fn for_each_use(&self, step: u32, visit: impl FnMut(&Use)) {
+        uses_of(self.adapted, &self.steps[step as usize]).for_each(visit);
+    }
+}

@@ -1,0 +1,48 @@
+//! The accesses of all operations to cells, listed once because scheduling walks them often.
+
+use crate::compile::model::{Adapted, CellIndex};
+use crate::compile::parts::Grids;
+use crate::vulkan::Layout;
+
+/// An access of an operation to a cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Access {
+    pub(super) cell: CellIndex,
+    pub(super) writes: bool,
+    pub(super) layout: Layout,
+}
+
+/// The accesses of all operations.
+#[derive(Debug)]
+pub(super) struct Accesses {
+    list: Vec<Access>,
+    /// For each operation where its accesses begin, and where those of the last one end.
+    starts: Vec<u32>,
+    /// Number of cells.
+    pub(super) cells: usize,
+}
+
+impl Accesses {
+    pub(super) fn of(grids: &Grids, adapted: &Adapted) -> Accesses {
+        let mut list: Vec<Access> = Vec::with_capacity(adapted.uses.len());
+        let mut starts = Vec::with_capacity(adapted.ops.len() + 1);
+        for (op, number) in adapted.ops.iter().zip(0_u32..) {
+            starts.push(list.len() as u32);
+            for used in adapted.uses(number) {
+                let access = |cell| Access { cell, writes: used.writes, layout: used.layout };
+                adapted.for_each_cell(grids, used, |cell| list.push(access(cell)));
+            }
+            if op.side_effect {
+                // Effects that nothing shows are writes of a cell behind all others.
+                list.push(Access { cell: adapted.cells, writes: true, layout: Layout::Undefined });
+            }
+        }
+        starts.push(list.len() as u32);
+        Accesses { list, starts, cells: adapted.cells as usize + 1 }
+    }
+
+    /// Those of one operation.
+    pub(super) fn op(&self, op: u32) -> &[Access] {
+        &self.list[self.starts[op as usize] as usize..self.starts[op as usize + 1] as usize]
+    }
+}

@@ -1,0 +1,44 @@
+//! `barriers`: all barriers of the Plan, in calls.
+
+use super::aliasing_barriers::{self, AliasingBarrier};
+use super::batches::{self, Batched};
+use super::cell::CellBarrier;
+use super::timeline::Timeline;
+use super::{initial_barriers, redundant};
+use crate::compile::memory::AliasEdge;
+use crate::compile::model::Adapted;
+use crate::compile::parts::Grids;
+use crate::compile::queues::Queues;
+
+/// All barriers and waits.
+#[derive(Debug)]
+pub(in crate::compile) struct Barriers {
+    pub(in crate::compile) barriers: Vec<CellBarrier>,
+    /// Where they stand, in the order of steps.
+    pub(in crate::compile) batched: Vec<Batched>,
+    /// The memory barriers between owners of memory, each with its step, in the order of steps.
+    pub(in crate::compile) aliasing: Vec<(u32, AliasingBarrier)>,
+    /// The queues, with all waits.
+    pub(in crate::compile) queues: Queues,
+    /// The number of steps, with the one behind all others if barriers or waits stand before it.
+    pub(in crate::compile) steps: u32,
+}
+
+/// Completes `barriers`, which are those of the timeline, and puts them into calls. `steps`: the frame's own.
+pub(in crate::compile) fn barriers(
+    grids: &Grids,
+    adapted: &Adapted,
+    timeline: &Timeline,
+    barriers: Vec<CellBarrier>,
+    edges: &[AliasEdge],
+    steps: u32,
+) -> Barriers {
+    let mut initial = initial_barriers::complete(grids, adapted, timeline, barriers, edges);
+    let mut batched = batches::batch(&initial.queues, &adapted.stores, &initial.barriers);
+    redundant::take_out(adapted, timeline, &mut initial, &mut batched);
+    let initial_barriers::Initial { barriers, queues, aliased } = initial;
+    let exports = batched.last().is_some_and(|last| last.at == steps) || steps == 0 || !queues.waits(steps).is_empty();
+    let steps = steps + u32::from(exports);
+    let aliasing = aliasing_barriers::memory_barriers(&queues, &aliased, &barriers, &batched, steps as usize);
+    Barriers { barriers, batched, aliasing, queues, steps }
+}

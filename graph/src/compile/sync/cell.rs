@@ -1,0 +1,143 @@
+//! Cells while the steps are walked, and the barriers before their accesses.
+
+use crate::compile::model::{CellIndex, StoreIndex};
+use crate::compile::queues::LayoutChange;
+use crate::compile::steps::NEVER;
+use crate::plan::Hazard;
+use crate::vulkan::{Accesses, Layout, Stages};
+
+/// The accesses to a cell since the last barrier: one write, or reads in one layout.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CellState {
+    pub(super) stages: Stages,
+    pub(super) accesses: Accesses,
+    /// Usage bits of all steps, of an image or a buffer.
+    pub(super) usage: u32,
+    /// The barrier before the first access.
+    pub(super) first_barrier: u32,
+    /// The barrier after the accesses that the first one serves.
+    pub(super) second_barrier: u32,
+    /// The barrier before the last access.
+    pub(super) barrier: u32,
+    /// The last step that accesses it.
+    pub(super) last: u32,
+    /// Which access of that step it is.
+    pub(super) access: u32,
+    pub(super) layout: Layout,
+}
+
+impl CellState {
+    pub(super) const UNTOUCHED: CellState = CellState {
+        stages: Stages::empty(),
+        accesses: Accesses::empty(),
+        usage: 0,
+        first_barrier: NEVER,
+        second_barrier: NEVER,
+        barrier: NEVER,
+        last: NEVER,
+        access: NEVER,
+        layout: Layout::Undefined,
+    };
+
+    pub(super) fn is_touched(&self) -> bool {
+        self.last != NEVER
+    }
+
+    pub(super) fn writes(&self) -> bool {
+        !self.accesses.writes().is_empty()
+    }
+
+    /// Whether an access reads it in the same layout.
+    pub(super) fn is_read_on(&self, access: &CellAccess) -> bool {
+        self.is_touched() && !access.writes() && self.layout == access.layout
+    }
+
+    /// The hazard that an access after this one must be kept from.
+    pub(super) fn hazard(&self, access: &CellAccess) -> Hazard {
+        match (self.writes(), access.writes()) {
+            _ if !self.is_touched() => Hazard::FirstUse,
+            (true, false) => Hazard::ReadAfterWrite,
+            (true, true) => Hazard::WriteAfterWrite,
+            (false, true) => Hazard::WriteAfterRead,
+            (false, false) => Hazard::LayoutChange,
+        }
+    }
+}
+
+/// All accesses of one step to one cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CellAccess {
+    pub(super) cell: CellIndex,
+    pub(super) store: StoreIndex,
+    pub(super) stages: Stages,
+    pub(super) accesses: Accesses,
+    pub(super) layout: Layout,
+    /// Whether it needs the contents from before.
+    pub(super) keeps: bool,
+    pub(super) usage: u32,
+}
+
+impl CellAccess {
+    /// A change of layout alone.
+    pub(super) fn of_change(change: &LayoutChange) -> CellAccess {
+        let LayoutChange { cell, store, layout } = *change;
+        let (stages, accesses) = (Stages::empty(), Accesses::empty());
+        CellAccess { cell, store, stages, accesses, layout, keeps: true, usage: 0 }
+    }
+
+    pub(super) fn writes(&self) -> bool {
+        !self.accesses.writes().is_empty()
+    }
+}
+
+/// A barrier of one cell.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::compile) struct CellBarrier {
+    pub(in crate::compile) cell: CellIndex,
+    pub(in crate::compile) store: StoreIndex,
+    /// The step before which it must stand; `NEVER` if it is not needed after all.
+    pub(in crate::compile) step: u32,
+    /// The step behind which it must stand; `NEVER` if none of this frame.
+    pub(in crate::compile) after: u32,
+    pub(in crate::compile) src_stages: Stages,
+    pub(in crate::compile) src_accesses: Accesses,
+    pub(in crate::compile) dst_stages: Stages,
+    pub(in crate::compile) dst_accesses: Accesses,
+    pub(in crate::compile) old_layout: Layout,
+    pub(in crate::compile) new_layout: Layout,
+    pub(in crate::compile) hazard: Hazard,
+    /// Whether it keeps contents from before the frame.
+    pub(in crate::compile) keeps: bool,
+}
+
+impl CellBarrier {
+    /// A barrier before an access. `after`: the stages and writes that it waits for, and the step that they end with.
+    pub(super) fn before(
+        access: &CellAccess,
+        step: u32,
+        ((src_stages, src_accesses), after): ((Stages, Accesses), u32),
+        old_layout: Layout,
+        hazard: Hazard,
+    ) -> CellBarrier {
+        CellBarrier {
+            cell: access.cell,
+            store: access.store,
+            step,
+            after,
+            src_stages,
+            src_accesses,
+            dst_stages: access.stages,
+            dst_accesses: access.accesses,
+            old_layout,
+            new_layout: access.layout,
+            hazard,
+            keeps: access.keeps,
+        }
+    }
+
+    /// Lets it stand before these accesses too.
+    pub(super) fn widen(&mut self, stages: Stages, accesses: Accesses) {
+        self.dst_stages |= stages;
+        self.dst_accesses |= accesses;
+    }
+}

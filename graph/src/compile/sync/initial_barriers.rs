@@ -1,0 +1,201 @@
+//! Initial barriers: what the first access to each cell waits for.
+//!
+//! That is the state in which the cell is found, or the accesses of the resource that had its memory before. In the latter
+//! case the barrier names the *stages* of those accesses; their writes are named by a memory barrier (`aliasing_barriers`).
+//! Frames follow each other, so the first owner of memory comes after the last one.
+
+use super::aliasing_barriers::{AliasedWrite, Source};
+use super::cell::CellBarrier;
+use super::last_accesses::{LastAccess, LastAccesses};
+use super::timeline::{States, Timeline};
+use crate::compile::history_ring;
+use crate::compile::memory::AliasEdge;
+use crate::compile::model::{Adapted, CellIndex, Kind, StoreIndex};
+use crate::compile::parts::Grids;
+use crate::compile::queues::{QUEUES, QueueUse, Queues};
+use crate::compile::steps::NEVER;
+use std::ops::Range;
+
+/// All barriers and waits.
+pub(super) struct Initial {
+    pub(super) barriers: Vec<CellBarrier>,
+    pub(super) queues: Queues,
+    /// Writes that memory barriers have to name.
+    pub(super) aliased: Vec<AliasedWrite>,
+}
+
+/// Completes `barriers`, which are those of the timeline.
+pub(super) fn complete(
+    grids: &Grids,
+    adapted: &Adapted,
+    timeline: &Timeline,
+    barriers: Vec<CellBarrier>,
+    aliasing: &[AliasEdge],
+) -> Initial {
+    let initial = Initial { barriers, queues: timeline.queues.clone(), aliased: Vec::new() };
+    let mut completing = Completing { grids, adapted, timeline, initial };
+    for (at, states) in (0..).zip(&timeline.states) {
+        match states {
+            Some(states) if timeline.queues.is_crossed(at) => completing.find_crossed(at, states),
+            Some(states) => completing.find(at, states),
+            None => {}
+        }
+    }
+    aliasing.iter().for_each(|edge| completing.take_over(edge));
+    let mut initial = completing.initial;
+    if !initial.queues.is_one() {
+        follow_waits(adapted, &mut initial);
+        initial.queues.wait_for_earlier_frames();
+    }
+    initial
+}
+
+struct Completing<'c> {
+    grids: &'c Grids,
+    adapted: &'c Adapted,
+    timeline: &'c Timeline,
+    initial: Initial,
+}
+
+impl Completing<'_> {
+    fn cells(&self, store: StoreIndex) -> Range<CellIndex> {
+        self.adapted.stores[store as usize].cells(self.grids)
+    }
+
+    /// Completes the initial barriers of a resource that outlives the frame, from its state before the frame.
+    fn find(&mut self, store: StoreIndex, states: &States) {
+        let barriers = &mut self.initial.barriers;
+        for cell in self.adapted.stores[store as usize].cells(self.grids) {
+            let known = &self.timeline.cells[cell as usize];
+            let Some(barrier) = barriers.get_mut(known.first_barrier as usize) else { continue };
+            find(barrier, states, known.second_barrier == NEVER);
+            let is_needed = barrier.step != NEVER;
+            // Without it, nothing else waits for earlier reads.
+            if let Some(next) = barriers.get_mut(known.second_barrier as usize).filter(|_| !is_needed) {
+                next.src_stages |= states.before.stages;
+            }
+        }
+    }
+
+    /// Completes those of a resource that several queues use, from its last uses in earlier frames.
+    fn find_crossed(&mut self, store: StoreIndex, states: &States) {
+        let first_cell = self.adapted.stores[store as usize].first_cell;
+        for cell in self.cells(store) {
+            let number = self.timeline.cells[cell as usize].first_barrier;
+            let (frames_ago, used) = self.last_uses(store, cell - first_cell);
+            let Initial { barriers, queues, .. } = &mut self.initial;
+            let Some(barrier) = barriers.get_mut(number as usize) else { continue };
+            let queue = queues.at(barrier.step);
+            let own = used[queue];
+            let mut own_is_known = false;
+            for (other, used) in used.iter().enumerate().filter(|(other, used)| *other != queue && used.until > 0) {
+                queues.require_earlier(barrier.step, other, used.until - 1, frames_ago);
+                own_is_known |= queues.signal(used.until - 1)[queue] >= own.until;
+            }
+            let own = if own_is_known { QueueUse::default() } else { own };
+            (barrier.src_stages, barrier.src_accesses) = (own.stages, own.accesses.writes());
+            if barrier.keeps {
+                barrier.old_layout = states.before.layout;
+            }
+            queues.hold(number);
+            if own.until == 0 && barrier.old_layout == barrier.new_layout {
+                barrier.step = NEVER;
+            }
+        }
+    }
+
+    /// How queues used a part of a resource in the last frame that did, and how many frames ago that was.
+    fn last_uses(&self, store: StoreIndex, part: u32) -> (u32, [QueueUse; QUEUES]) {
+        let cell = |store: StoreIndex| self.adapted.stores[store as usize].first_cell + part;
+        let mut earlier = history_ring::earlier(self.adapted, store).map(|(ago, store)| (ago, cell(store)));
+        let used = earlier.find(|(_, cell)| self.timeline.cells[*cell as usize].is_touched());
+        used.map_or_else(|| (1, Default::default()), |(ago, cell)| (ago, self.timeline.queues.uses(cell).by))
+    }
+
+    /// Completes those of a resource that takes over memory, from the last accesses of the memory's previous owner.
+    fn take_over(&mut self, edge: &AliasEdge) {
+        let AliasEdge { store, from, this_frame } = *edge;
+        // A resource that had its memory in the frame before too waits cell by cell.
+        let again = store == from;
+        let mut accesses = if again { LastAccesses::default() } else { self.last_accesses(from, self.cells(from)) };
+        // A buffer's barrier covers all memory, an image's only the image.
+        let covers = again || self.adapted.stores[store as usize].image().is_none();
+        for cell in self.cells(store) {
+            if again {
+                accesses = self.last_accesses(store, cell..cell + 1);
+            }
+            let number = self.timeline.cells[cell as usize].first_barrier;
+            let Initial { barriers, queues, aliased } = &mut self.initial;
+            let Some(barrier) = barriers.get_mut(number as usize) else { continue };
+            let queue = queues.at(barrier.step);
+            for LastAccess { queue: other, stages, writes, last } in accesses.iter().copied() {
+                if this_frame {
+                    barrier.after = if barrier.after == NEVER { last } else { barrier.after.max(last) };
+                }
+                if other != queue {
+                    queues.require_earlier(barrier.step, other, last, u32::from(!this_frame));
+                    queues.hold(number);
+                    continue;
+                }
+                barrier.src_stages |= stages;
+                if covers {
+                    barrier.src_accesses |= writes;
+                } else if !writes.is_empty() {
+                    let source = Source { stages, accesses: writes };
+                    let stores = [from, store];
+                    aliased.push(AliasedWrite { stores, source, written: last, this_frame, barrier: number });
+                }
+            }
+        }
+    }
+
+    fn last_accesses(&self, store: StoreIndex, cells: Range<CellIndex>) -> LastAccesses {
+        let queues = &self.timeline.queues;
+        let is_crossed = queues.is_crossed(store);
+        let mut accesses = LastAccesses::default();
+        for cell in cells {
+            let known = &self.timeline.cells[cell as usize];
+            if is_crossed {
+                for (queue, used) in queues.uses(cell).by.iter().enumerate().filter(|(_, used)| used.until > 0) {
+                    accesses.add(queue, used.stages, used.accesses, used.until - 1);
+                }
+            } else if known.is_touched() {
+                accesses.add(queues.at(known.last), known.stages, known.accesses, known.last);
+            }
+        }
+        accesses
+    }
+}
+
+/// Completes the barrier before the first access to what outlives frames. `is_last`: there is no other barrier.
+fn find(barrier: &mut CellBarrier, States { before, after }: &States, is_last: bool) {
+    let covers = before.layout == barrier.new_layout
+        && before.stages.contains(barrier.dst_stages)
+        && before.accesses.contains(barrier.dst_accesses);
+    let reads = (barrier.dst_accesses | before.accesses).writes().is_empty();
+    barrier.src_stages = before.stages;
+    barrier.src_accesses = before.accesses.writes();
+    if barrier.keeps {
+        barrier.old_layout = before.layout;
+        // The next frame must wait for earlier readers too, if nothing in this one does.
+        let waits_later = !is_last || after.stages.contains(before.stages);
+        if covers && reads && waits_later {
+            barrier.step = NEVER;
+        }
+    }
+}
+
+/// Lets barriers without a first scope come after the waits of their steps.
+///
+/// Without one, a barrier wouldn't come after the semaphore. So it names the stages that it holds up, which the wait holds up
+/// too. A buffer takes no barrier beside the wait.
+fn follow_waits(adapted: &Adapted, Initial { barriers, queues, .. }: &mut Initial) {
+    for (barrier, number) in barriers.iter_mut().zip(0..) {
+        if barrier.src_stages.is_empty() && queues.is_held(number) {
+            match adapted.stores[barrier.store as usize].kind {
+                Kind::Image(_) => barrier.src_stages = barrier.dst_stages,
+                Kind::Buffer(_) => barrier.step = NEVER,
+            }
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! Synchronisation: from what steps do to the barriers before them.
+//!
+//! ```text
+//! timeline:  walk ─► final_states
+//! barriers:  initial_barriers ─► batches ─► redundant ─► aliasing_barriers
+//! ```
+//! `timeline` depends on no sizes. `barriers` needs alias edges, and so comes once everything has its place in memory. One
+//! queue is the case in which no cell is crossed.
+
+mod aliasing_barriers;
+mod barriers;
+mod batches;
+mod cell;
+mod crossed;
+mod final_states;
+mod initial_barriers;
+mod last_accesses;
+mod redundant;
+mod stage_order;
+mod timeline;
+mod walk;
+
+pub(super) use barriers::{Barriers, barriers};
+pub(super) use batches::Batched;
+pub(super) use cell::CellBarrier;
+pub(super) use final_states::timeline;
+pub(super) use timeline::{States, Timeline};

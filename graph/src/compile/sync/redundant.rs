@@ -1,0 +1,138 @@
+//! Redundant barriers: those before first accesses that wait for reads of earlier frames which other barriers wait for too.
+//!
+//! A persistent buffer may be written again several frames after it was read. The barriers of the frames in between may form
+//! an execution dependency chain from those reads to that write. The write before those reads must be visible to the new one
+//! too: by the memory barrier that made it visible to them, which serves all buffers of its call. An image barrier makes a
+//! write visible to its own destination only, so barriers of images stay.
+
+use super::batches::Batched;
+use super::cell::CellBarrier;
+use super::initial_barriers::Initial;
+use super::stage_order::{and_earlier, and_later};
+use super::timeline::Timeline;
+use crate::compile::history_ring;
+use crate::compile::model::{Adapted, Home};
+use crate::compile::steps::NEVER;
+use crate::plan::Hazard;
+use crate::vulkan::{Accesses, Stages};
+
+/// Takes redundant barriers out of the calls.
+pub(super) fn take_out(adapted: &Adapted, timeline: &Timeline, initial: &mut Initial, batched: &mut Vec<Batched>) {
+    let mut at = 0;
+    while let Some(it) = batched.get(at).copied() {
+        let barrier = &initial.barriers[it.barrier as usize];
+        let of_buffer = adapted.stores[barrier.store as usize].image().is_none();
+        let is_redundant = of_buffer
+            && waits_for_reads(barrier)
+            && !initial.queues.is_crossed(barrier.store)
+            && Calls { adapted, timeline, initial, batched }.make_redundant(it);
+        if is_redundant {
+            initial.barriers[it.barrier as usize].step = NEVER;
+            batched.remove(at);
+        } else {
+            at += 1;
+        }
+    }
+}
+
+/// Whether a barrier waits only for reads of earlier frames, in the layout of the access that needs it.
+fn waits_for_reads(barrier: &CellBarrier) -> bool {
+    barrier.hazard == Hazard::FirstUse
+        && barrier.after == NEVER
+        && barrier.src_accesses.is_empty()
+        && !barrier.src_stages.is_empty()
+        && barrier.old_layout == barrier.new_layout
+}
+
+/// Reads of an earlier frame.
+struct Reads {
+    /// The barrier between the write before these reads and the reads, if the write was in the same frame.
+    behind_write: Option<u32>,
+    stages: Stages,
+    /// The last step that reads.
+    step: u32,
+    frames_ago: u32,
+}
+
+/// The barriers of all calls.
+struct Calls<'c> {
+    adapted: &'c Adapted,
+    timeline: &'c Timeline,
+    initial: &'c Initial,
+    batched: &'c [Batched],
+}
+
+impl Calls<'_> {
+    fn barrier(&self, it: &Batched) -> &CellBarrier {
+        &self.initial.barriers[it.barrier as usize]
+    }
+
+    /// Whether the other barriers make this one redundant.
+    fn make_redundant(&self, it: Batched) -> bool {
+        let barrier = self.barrier(&it);
+        let reads = self.earlier_reads(barrier);
+        let known = reads.iter().fold(Stages::empty(), |all, reads| all | reads.stages);
+        let behind_write = reads.last().and_then(|reads| reads.behind_write);
+        known == barrier.src_stages
+            && behind_write.is_some_and(|shows| self.is_shown(shows, barrier))
+            && reads.iter().all(|reads| reads.stages.iter().all(|stage| self.is_followed(it, reads, stage)))
+    }
+
+    /// The reads of a cell since it was written last, in earlier frames.
+    fn earlier_reads(&self, barrier: &CellBarrier) -> Vec<Reads> {
+        let stores = &self.adapted.stores;
+        let Home::Persistent { .. } = stores[barrier.store as usize].home else { return Vec::new() };
+        let part = barrier.cell - stores[barrier.store as usize].first_cell;
+        let mut reads = Vec::new();
+        for (frames_ago, from) in history_ring::earlier(self.adapted, barrier.store) {
+            let cell = &self.timeline.cells[(stores[from as usize].first_cell + part) as usize];
+            if !cell.is_touched() {
+                continue;
+            }
+            if !cell.writes() {
+                let shows = self.initial.barriers.get(cell.second_barrier as usize);
+                let behind_write = shows.filter(|it| it.hazard == Hazard::ReadAfterWrite).map(|_| cell.second_barrier);
+                reads.push(Reads { behind_write, stages: cell.stages, step: cell.last, frames_ago });
+            }
+            if cell.writes() || cell.second_barrier != NEVER {
+                break;
+            }
+        }
+        reads
+    }
+
+    /// Whether the memory barrier that barrier number `shows` is part of makes the same write visible to the access behind
+    /// `barrier`.
+    fn is_shown(&self, shows: u32, barrier: &CellBarrier) -> bool {
+        let Some(call) = self.batched.iter().find(|it| it.barrier == shows).map(|it| it.at) else { return false };
+        let of_call = self.batched.iter().filter(|it| it.at == call).map(|it| self.barrier(it));
+        let of_buffers = of_call.filter(|it| self.adapted.stores[it.store as usize].image().is_none());
+        let (stages, accesses) = of_buffers.fold((Stages::empty(), Accesses::empty()), |(stages, accesses), it| {
+            (stages | it.dst_stages, accesses | it.dst_accesses)
+        });
+        stages.contains(barrier.dst_stages) && accesses.contains(barrier.dst_accesses)
+    }
+
+    /// Whether barriers form a chain from reads in `stage` to the stages before which the barrier `it` stands.
+    fn is_followed(&self, it: Batched, reads: &Reads, stage: Stages) -> bool {
+        let queues = &self.initial.queues;
+        let mut reach = Stages::empty();
+        for frames_ago in (0..=reads.frames_ago).rev() {
+            let comes_between = |other: &&Batched| {
+                other.barrier != it.barrier
+                    && queues.at(other.at) == queues.at(it.at)
+                    && (frames_ago < reads.frames_ago || other.at > reads.step)
+                    && (frames_ago > 0 || other.at < it.at)
+            };
+            for call in self.batched.chunk_by(|one, other| one.at == other.at) {
+                let waits = |other: &&CellBarrier| {
+                    let from = and_earlier(other.src_stages);
+                    from.contains(stage) || from.intersects(reach)
+                };
+                let leads = call.iter().filter(comes_between).map(|other| self.barrier(other)).filter(waits);
+                reach = leads.fold(reach, |reach, other| reach | and_later(other.dst_stages));
+            }
+        }
+        reach.contains(self.barrier(&it).dst_stages)
+    }
+}

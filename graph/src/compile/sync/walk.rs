@@ -1,0 +1,197 @@
+//! The walk through the steps: what each does to each cell.
+
+use super::cell::{CellAccess, CellState};
+use super::timeline::Timeline;
+use crate::compile::model::{Adapted, CellIndex, Role, Use};
+use crate::compile::parts::Grids;
+use crate::compile::queues::Queues;
+use crate::compile::retain::{AttachmentOps, Retained};
+use crate::compile::scope::{Scoped, Step, Target};
+use crate::compile::steps::NEVER;
+use crate::vulkan::{Accesses, BufferUsage, Layout, LoadOp, Stages};
+
+/// The accesses of all steps, and the barriers between them.
+pub(super) fn walk(grids: &Grids, adapted: &Adapted, scoped: &Scoped, retained: &Retained, queues: Queues) -> Timeline {
+    let mut walk = Walk {
+        grids,
+        adapted,
+        timeline: Timeline {
+            cells: vec![CellState::UNTOUCHED; adapted.cells as usize],
+            barriers: Vec::with_capacity(adapted.uses.len() + adapted.uses.len() / 4),
+            lifetimes: vec![[NEVER, 0]; adapted.stores.len()],
+            queues,
+            states: Vec::new(),
+            layouts: Vec::new(),
+        },
+        accesses: Vec::new(),
+        mixed: false,
+    };
+    for (step, number) in scoped.steps.iter().zip(0_u32..) {
+        walk.step(step, number, retained);
+    }
+    walk.timeline
+}
+
+struct Walk<'w> {
+    grids: &'w Grids,
+    adapted: &'w Adapted,
+    timeline: Timeline,
+    /// Accesses of the current step.
+    accesses: Vec<CellAccess>,
+    /// Whether the current step uses a cell in several layouts.
+    mixed: bool,
+}
+
+impl Walk<'_> {
+    fn step(&mut self, step: &Step, number: u32, retained: &Retained) {
+        let adapted = self.adapted;
+        self.accesses.clear();
+        self.mixed = false;
+        for op in step.ops() {
+            for used in adapted.uses(*op) {
+                match used.role {
+                    Role::Input => self.read_locally(used, retained.of(number)),
+                    _ => self.used(used),
+                }
+            }
+        }
+        if let Step::Scope(scope) = step {
+            for attachment in retained.of(number) {
+                let (stages, accesses) = attachment.load_access();
+                self.also(attachment.target, stages, accesses);
+                if let Some((stages, accesses)) = attachment.store_access() {
+                    self.also(attachment.target, stages, accesses);
+                }
+            }
+            for op in scope.carries() {
+                let [source, target] = adapted.uses(op) else { continue };
+                for (used, accesses) in
+                    [(source, Accesses::COLOR_ATTACHMENT_READ), (target, Accesses::COLOR_ATTACHMENT_WRITE)]
+                {
+                    self.resolved(used, accesses);
+                }
+            }
+        }
+        if !self.timeline.queues.is_one() {
+            let changes = self.timeline.queues.changes(number);
+            self.accesses.extend(changes.iter().map(|(_, change)| CellAccess::of_change(change)));
+        }
+        self.timeline.add(&self.accesses, number, true);
+        if self.mixed {
+            self.join_uses(step);
+        }
+    }
+
+    fn used(&mut self, used: &Use) {
+        let usage = usage_bits(used);
+        let access = |cell| CellAccess {
+            cell,
+            store: used.store,
+            stages: used.stages,
+            accesses: used.accesses,
+            layout: used.layout,
+            keeps: used.reads,
+            usage,
+        };
+        let Walk { grids, adapted, .. } = *self;
+        adapted.for_each_cell(grids, used, |cell| self.accessed(access(cell)));
+    }
+
+    /// A local read waits only for what its scope loads. What its scope draws is made visible within the scope.
+    fn read_locally(&mut self, used: &Use, attachments: &[AttachmentOps]) {
+        let target = Target::of(self.adapted, used);
+        let loads = attachments.iter().any(|ops| ops.target == target && ops.load == LoadOp::Load);
+        let (stages, accesses) = if loads { (used.stages, used.accesses) } else { Default::default() };
+        self.used(&Use { stages, accesses, ..*used });
+    }
+
+    /// The source or target of a resolve that a scope carries.
+    fn resolved(&mut self, used: &Use, accesses: Accesses) {
+        let Some(image) = self.adapted.stores[used.store as usize].image() else { return };
+        let (layout, role) = match image.format.is_depth() {
+            true => (Layout::DepthStencilAttachmentOptimal, Role::Depth),
+            false => (Layout::ColorAttachmentOptimal, Role::Color),
+        };
+        let carried = Use { stages: Stages::COLOR_ATTACHMENT_OUTPUT, accesses, layout, role, ..*used };
+        self.used(&carried);
+    }
+
+    /// Adds the accesses of load and store operations to those of the passes.
+    fn also(&mut self, target: Target, stages: Stages, accesses: Accesses) {
+        let store = &self.adapted.stores[target.store as usize];
+        let Walk { timeline, accesses: known, .. } = self;
+        let mut add = |cell: CellIndex| {
+            let at = timeline.cells[cell as usize].access as usize;
+            if let Some(access) = known.get_mut(at).filter(|access| access.cell == cell) {
+                access.stages |= stages;
+                access.accesses |= accesses;
+            }
+        };
+        match store.grid(self.grids) {
+            None => add(store.first_cell),
+            Some(grid) => grid.cover(target.range).for_each(|part| add(store.first_cell + part)),
+        }
+    }
+
+    /// Joins the accesses of one step to one cell. The first one says whether contents are kept.
+    fn accessed(&mut self, new: CellAccess) {
+        let cell = &mut self.timeline.cells[new.cell as usize];
+        // The index of an earlier step finds no access, or that of another cell.
+        let known = self.accesses.get_mut(cell.access as usize).filter(|known| known.cell == new.cell);
+        let Some(known) = known else {
+            cell.access = self.accesses.len() as u32;
+            return self.accesses.push(new);
+        };
+        known.stages |= new.stages;
+        known.accesses |= new.accesses;
+        known.usage |= new.usage;
+        if known.layout != new.layout {
+            self.mixed = true;
+            known.layout = join_layouts(known.layout, new.layout);
+        }
+    }
+
+    /// Notes the uses of a step that are in another layout, because of the step's other uses, than they ask for.
+    fn join_uses(&mut self, step: &Step) {
+        let Walk { grids, adapted, timeline: Timeline { cells, layouts, .. }, .. } = self;
+        for op in step.ops() {
+            for at in adapted.ops[*op as usize].uses.clone() {
+                let used = &adapted.uses[at as usize];
+                let mut layout = used.layout;
+                adapted.for_each_cell(grids, used, |cell| layout = cells[cell as usize].layout);
+                if layout != used.layout {
+                    layouts.push((at, layout));
+                }
+            }
+        }
+    }
+}
+
+/// The layout in which one step can use a cell that it uses in two.
+fn join_layouts(a: Layout, b: Layout) -> Layout {
+    let attached = |read_only, attachment| (a, b) == (read_only, attachment) || (a, b) == (attachment, read_only);
+    let planes = [
+        (Layout::DepthStencilReadOnlyOptimal, Layout::DepthStencilAttachmentOptimal),
+        (Layout::DepthReadOnlyOptimal, Layout::DepthAttachmentOptimal),
+        (Layout::StencilReadOnlyOptimal, Layout::StencilAttachmentOptimal),
+    ];
+    if attached(Layout::RenderingLocalReadKhr, Layout::ColorAttachmentOptimal) {
+        return Layout::RenderingLocalReadKhr;
+    }
+    planes.into_iter().find(|(read, write)| attached(*read, *write)).map_or(Layout::General, |(_, write)| write)
+}
+
+/// The usage that a use needs, as the bits of `VkImageUsageFlags` or `VkBufferUsageFlags`.
+fn usage_bits(used: &Use) -> u32 {
+    if used.role != Role::Buffer {
+        return used.role.usage().bits();
+    }
+    let usage = |access, usage| if used.accesses.intersects(access) { usage } else { BufferUsage::empty() };
+    let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
+    let all = usage(Accesses::UNIFORM_READ, BufferUsage::UNIFORM_BUFFER)
+        | usage(storage, BufferUsage::STORAGE_BUFFER)
+        | usage(Accesses::VERTEX_ATTRIBUTE_READ, BufferUsage::VERTEX_BUFFER)
+        | usage(Accesses::INDEX_READ, BufferUsage::INDEX_BUFFER)
+        | usage(Accesses::INDIRECT_COMMAND_READ, BufferUsage::INDIRECT_BUFFER);
+    all.bits()
+}

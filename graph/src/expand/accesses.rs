@@ -1,0 +1,90 @@
+//! The reads and writes of a pass, part by part, as far as its images and buffers are known.
+
+use super::parts::{self, Cells};
+use super::things::Things;
+use crate::base::Span;
+use crate::frame::{Access, AccessKind, Effect, Image, Pass, Resource};
+use crate::vulkan::{Aspects, Subresources};
+
+/// A read.
+pub(super) struct Read {
+    pub(super) resource: Resource,
+    pub(super) cells: Cells,
+    pub(super) frames_ago: u32,
+    pub(super) span: Span,
+}
+
+/// A write.
+pub(super) struct Write {
+    pub(super) resource: Resource,
+    pub(super) cells: Cells,
+    pub(super) span: Span,
+    /// How to clear it, if it may leave texels untouched: then it adds to what is there.
+    pub(super) continues: Option<&'static str>,
+}
+
+/// All of an image or buffer; `None` if nothing is known about it.
+pub(super) fn whole(things: &Things, resource: Resource) -> Option<Cells> {
+    part(things, resource, &Subresources::WHOLE)
+}
+
+fn image(things: &Things, resource: Resource) -> Option<&Image> {
+    match resource {
+        Resource::Image(index) => Some(&things.image(index)?.image),
+        Resource::Buffer(_) => None,
+    }
+}
+
+/// A part of an image, or a buffer.
+fn part(things: &Things, resource: Resource, range: &Subresources) -> Option<Cells> {
+    match resource {
+        Resource::Image(_) => Some(parts::cells(image(things, resource)?, range)),
+        Resource::Buffer(_) => Some(Cells { mips: 0..1, layers: 0..1, planes: Aspects::COLOR }),
+    }
+}
+
+/// What `pass` reads. What it only adds to stands among its writes.
+pub(super) fn reads(things: &Things, pass: &Pass) -> Vec<Read> {
+    let mut reads = Vec::new();
+    for access in pass.accesses().filter(|access| !access.attaches()) {
+        let Access { resource, frames_ago, span, .. } = access;
+        access.for_each_effect(pass, image(things, resource), |effect| {
+            if effect.reads
+                && let Some(cells) = part(things, resource, &effect.range)
+            {
+                reads.push(Read { resource, cells, frames_ago, span });
+            }
+        });
+    }
+    reads
+}
+
+/// What `pass` writes, and all that it draws into.
+pub(super) fn writes(things: &Things, pass: &Pass) -> Vec<Write> {
+    let mut writes = Vec::new();
+    for access in pass.accesses() {
+        let Access { resource, span, kind, .. } = access;
+        access.for_each_effect(pass, image(things, resource), |Effect { range, reads, writes: changes }| {
+            let clear = match kind {
+                AccessKind::Color(_) => Some("(image: \"…\", clear: (0.0, 0.0, 0.0, 1.0))"),
+                AccessKind::Depth(_) if range.aspects == Aspects::STENCIL => {
+                    Some("(image: \"…\", stencil: (clear: 0))")
+                }
+                AccessKind::Depth(_) => Some("(image: \"…\", clear: 0.0)"),
+                _ => None,
+            };
+            if (clear.is_some() || changes)
+                && let Some(cells) = part(things, resource, &range)
+            {
+                writes.push(Write { resource, cells, span, continues: clear.filter(|_| reads) });
+            }
+        });
+    }
+    writes
+}
+
+/// Images and buffers whose contents `pass` would make, were it on.
+pub(super) fn would_write(pass: &Pass) -> impl Iterator<Item = (Resource, Span)> {
+    let writes = |access: &Access<'_>| access.attaches() || access.writes(pass, None);
+    pass.accesses().filter(writes).map(|access| (access.resource, access.span))
+}

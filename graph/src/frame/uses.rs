@@ -1,0 +1,197 @@
+//! How a pass names the images and buffers that it uses: sampled, as storage, as attachment, as buffer, by transfer.
+
+use super::{BufferIndex, Eye, ImageIndex, Resource};
+use crate::base::Span;
+use crate::vulkan::{Aspects, CompareOp, Format, ImageShape, Sampler, Stages, StencilOp, Subresources};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// An image that a pass samples.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sampled {
+    /// The name by which the shader knows it.
+    pub binding: Arc<str>,
+    /// Which image.
+    pub image: ImageIndex,
+    /// Which part of it. Counts of mip levels and layers may be [`Subresources::REMAINING`]; shaders see one plane: no planes,
+    /// or all, mean depth where there is stencil beside it.
+    pub range: Subresources,
+    /// Of which frame: 0 is this one, 1 the one before. More than 0 only for images with history.
+    pub frames_ago: u32,
+    /// Where the image was named.
+    pub span: Span,
+    /// Whose part it is, of an image that holds both eyes'; `None`: that of the eye for which the pass draws, which is for
+    /// both.
+    pub eye: Option<Eye>,
+    /// What the shader reads of each texel.
+    pub face: Face,
+    /// As what the shader declares it, if the shader leaves that to the pass; single samples only if they are read. Where the
+    /// image comes to have one sample, it is declared without samples.
+    pub texture: Option<ImageShape>,
+    /// Whether each fragment reads only the texel at its own position: then, where the device has local reads, the pass
+    /// can share the rendering scope of the one that drew it.
+    pub own_pixel: bool,
+    /// How it is looked up between its texels and beyond its edges.
+    pub sampler: Sampler,
+    /// Shader stages that sample it.
+    pub stages: Stages,
+}
+
+/// What a shader reads of each texel of an image that it samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Face {
+    /// One value: where there are several samples, what [`Image::resolve`](super::Image::resolve) makes of them.
+    #[default]
+    Resolved,
+    /// Each sample by itself.
+    Samples,
+    /// One value of depth, and where there are several samples the one that drawing it again with one leaves, whatever the
+    /// image's `resolve` says.
+    DepthOnly,
+}
+
+/// An image that a pass accesses as storage.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Storage {
+    /// The name by which the shader knows it.
+    pub binding: Arc<str>,
+    /// Which image.
+    pub image: ImageIndex,
+    /// Which part of it. Counts of mip levels and layers may be [`Subresources::REMAINING`]; no planes mean all.
+    pub range: Subresources,
+    /// Where the image was named.
+    pub span: Span,
+    /// Whether earlier contents are read or kept. A storage write that is not `read` replaces the image whole.
+    pub read: bool,
+    /// Whether it is written.
+    pub write: bool,
+    /// Shader stages that access it.
+    pub stages: Stages,
+}
+
+/// A colour attachment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColorTarget {
+    /// Which image.
+    pub image: ImageIndex,
+    /// Which part of it. Counts of mip levels and layers may be [`Subresources::REMAINING`]; no planes mean all.
+    pub range: Subresources,
+    /// Where the image was named.
+    pub span: Span,
+    /// Clear value (linear), if the pass starts from a cleared image.
+    pub clear: Option<[f32; 4]>,
+    /// How new colour meets old.
+    pub blend: Blend,
+}
+
+/// How new colour meets old.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
+pub enum Blend {
+    /// New replaces old.
+    #[default]
+    Replace,
+    /// `new·a + old·(1 − a)`.
+    Alpha,
+    /// `new + old·(1 − a)`: colour that was multiplied by its alpha.
+    Premultiplied,
+    /// `new + old`.
+    Additive,
+}
+
+/// A depth attachment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DepthTarget {
+    /// Which image.
+    pub image: ImageIndex,
+    /// Which part of it. Counts of mip levels and layers may be [`Subresources::REMAINING`]; no planes mean all.
+    pub range: Subresources,
+    /// Where the image was named.
+    pub span: Span,
+    /// Clear value (reversed depth: 0 is infinitely far), if the pass starts from a cleared image.
+    pub clear: Option<f32>,
+    /// The comparison.
+    pub test: CompareOp,
+    /// Whether passing fragments write depth.
+    pub write: bool,
+    /// What happens to the stencil plane, if the pass uses it.
+    pub stencil: Option<StencilState>,
+}
+
+impl DepthTarget {
+    /// The planes of an image with the format `format` that it uses: each with whether the pass starts from a cleared
+    /// plane, and whether it writes it.
+    pub fn planes(&self, format: Format) -> impl Iterator<Item = (Aspects, bool, bool)> + use<> {
+        let depth = (Aspects::DEPTH, self.clear.is_some(), self.write || self.clear.is_some());
+        let stencil = self.stencil.filter(|_| format.aspects().contains(Aspects::STENCIL)).map(|stencil| {
+            (Aspects::STENCIL, stencil.clear.is_some(), stencil.clear.is_some() || stencil.pass != StencilOp::Keep)
+        });
+        std::iter::once(depth).chain(stencil)
+    }
+}
+
+/// Stencil test and update, the same for both faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StencilState {
+    /// Clear value, if the pass starts from a cleared plane.
+    pub clear: Option<u8>,
+    /// The comparison of the reference with what is there.
+    pub test: CompareOp,
+    /// The reference value.
+    pub reference: u8,
+    /// What is done where both tests pass; what fails keeps its value.
+    pub pass: StencilOp,
+}
+
+/// A buffer that a pass reads or writes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BufferUse {
+    /// The name by which the shader knows it; `None` for what no shader names (vertices, indices, indirect counts).
+    pub binding: Option<Arc<str>>,
+    /// Which buffer.
+    pub buffer: BufferIndex,
+    /// Of which frame: 0 is this one, 1 the one before. More than 0 only for buffers with history.
+    pub frames_ago: u32,
+    /// Where the buffer was named.
+    pub span: Span,
+    /// What for.
+    pub role: BufferRole,
+    /// Shader stages that access it; empty for what no shader names.
+    pub stages: Stages,
+}
+
+/// What a pass uses a buffer for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BufferRole {
+    /// A uniform block.
+    Uniform,
+    /// A storage block.
+    Storage {
+        /// Whether earlier contents are read or kept. A storage write that is not `read` replaces the buffer whole.
+        read: bool,
+        /// Whether it is written.
+        write: bool,
+    },
+    /// Vertex attributes.
+    Vertex,
+    /// Indices of 32 bits.
+    Index,
+    /// Counts of a draw or dispatch.
+    Indirect,
+}
+
+/// What a copy, blit, fill or custom pass reads or writes by transfer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TransferUse {
+    /// Image or buffer.
+    pub resource: Resource,
+    /// Which part of an image. Copies and blits take one mip level.
+    pub range: Subresources,
+    /// Of which frame: 0 is this one, 1 the one before. More than 0 only for what has history, and is read.
+    pub frames_ago: u32,
+    /// Where it was named.
+    pub span: Span,
+    /// Whether it is written, and whole; else it is read.
+    pub write: bool,
+}
