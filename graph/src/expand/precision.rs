@@ -218,8 +218,9 @@ impl Uses {
             }
         }
         let passes = running(states);
+        let format = |image: ImageIndex| things.image(image).map(|known| known.image.format);
         for pass in &passes {
-            for access in pass.accesses().filter(|access| pass.relies_on_format(access)) {
+            for access in pass.accesses().filter(|access| pass.relies_on_format(access, format)) {
                 if let Some(image) = access.image_index() {
                     let storage = matches!(access.kind, AccessKind::Storage(_));
                     let what = if storage { "uses it as a storage image" } else { "moves its bytes" };

@@ -8,7 +8,7 @@ use crate::base::Diagnostic;
 use crate::frame::{Image, Pass, TransferUse};
 use crate::language::{self, Fill, ImagePart, Part};
 use crate::ron::Spanned;
-use crate::vulkan::{Aspects, Filter, Format};
+use crate::vulkan::{Aspects, Filter};
 
 /// One side of a transfer that is an image.
 struct Side<'a> {
@@ -32,15 +32,6 @@ impl Side<'_> {
             several => format!(", {several} layers"),
         };
         format!("{width}×{height}{deep}{layers}")
-    }
-
-    /// Bytes of a texel of its planes, in a buffer.
-    fn texel_bytes(&self) -> u64 {
-        match (self.image.format, self.cells.planes) {
-            (_, planes) if planes == Aspects::STENCIL => 1,
-            (Format::D24_UNORM_S8_UINT | Format::D32_SFLOAT_S8_UINT, _) => 4,
-            (format, _) => format.texel_bytes(),
-        }
     }
 }
 
@@ -133,12 +124,7 @@ pub(super) fn copy(
 /// Texels have as many bytes, samples and planes, and lie in as large images.
 fn same_texels(chosen: &Chosen<'_>, from: &Side<'_>, to: &Side<'_>, errors: &mut Vec<Diagnostic>) {
     let (one, other) = (from.image, to.image);
-    let depth = one.format.is_depth() || other.format.is_depth();
-    let alike = if depth {
-        one.format == other.format && from.cells.planes == to.cells.planes
-    } else {
-        one.format.texel_bytes() == other.format.texel_bytes()
-    };
+    let alike = one.format.copies_to(other.format) && from.cells.planes == to.cells.planes;
     let formats = |span| (span, format!("{}", one.format));
     if !alike {
         let message = format!("`{}` can't be copied to `{}`: their texels differ", one.name, other.name);
@@ -200,7 +186,9 @@ fn rows_fit(
     let Some(there) = things.buffer(buffer.index) else { return };
     let [width, height, depth] = image.extent.map(u64::from);
     // At most 2^14 to the third, 2^11 layers and 2^4 bytes: no more than 2^57.
-    let bytes = width * height * depth * u64::from(image.layers()) * image.texel_bytes();
+    let format = image.image.format;
+    let texel = format.plane_bytes(image.cells.planes).or(format.plane_bytes(Aspects::DEPTH)).unwrap_or(0);
+    let bytes = width * height * depth * u64::from(image.layers()) * texel;
     let fits = if filled { bytes.next_multiple_of(4) == there.bytes } else { bytes <= there.bytes };
     if !fits {
         let wanted = bytes.next_multiple_of(4);
@@ -233,11 +221,8 @@ pub(super) fn blit(
             errors.push(Diagnostic::new(side.part.image.span, message).help(help));
         }
     }
-    let kinds = [&one, &other].map(|side| {
-        let format = side.image.format;
-        (format.is_integer(), format.is_depth().then_some(format))
-    });
-    if kinds[0] != kinds[1] {
+    let format = one.image.format;
+    if !format.blits_to(other.image.format) {
         let message = format!("`{}` can't be scaled into `{}`", one.image.name, other.image.name);
         errors.push(
             Diagnostic::new(other.part.image.span, message)
@@ -248,10 +233,10 @@ pub(super) fn blit(
     }
     if let Some(filter) = filter
         && filter.value == Filter::Linear
-        && (kinds[0].0 || kinds[0].1.is_some())
+        && (format.is_integer() || format.is_depth())
     {
-        let held = if kinds[0].0 { "integers" } else { "depth" };
-        let why = format!("`{}` holds {held} ({})", one.image.name, one.image.format);
+        let held = if format.is_integer() { "integers" } else { "depth" };
+        let why = format!("`{}` holds {held} ({format})", one.image.name);
         errors.push(Diagnostic::new(filter.span, format!("a linear filter can't be used: {why}")));
     }
     if one.layers() != other.layers() || (one.extent[2] > 1) != (other.extent[2] > 1) {

@@ -4,7 +4,7 @@ use super::{
     BufferRole, ColorTarget, DepthTarget, Image, ImageIndex, Pass, Resource, Sampled, Storage, TransferUse, Work,
 };
 use crate::base::Span;
-use crate::vulkan::Subresources;
+use crate::vulkan::{Format, Subresources};
 
 /// An image or a buffer that a pass names.
 #[derive(Debug, Clone, Copy)]
@@ -78,14 +78,13 @@ impl Pass {
     }
 
     /// Whether it relies on the very format of what it accesses: a shader or a program is told the layout of the texels, or
-    /// they are copied to or from a buffer.
-    pub(crate) fn relies_on_format(&self, access: &Access<'_>) -> bool {
+    /// they are copied to or from a buffer, or from one format into another. `format`: that of an image.
+    pub(crate) fn relies_on_format(&self, access: &Access<'_>, format: impl Fn(ImageIndex) -> Option<Format>) -> bool {
         let is_buffer = |used: &TransferUse| matches!(used.resource, Resource::Buffer(_));
-        match access.kind {
-            AccessKind::Storage(_) => true,
-            AccessKind::Transfer { .. } => {
-                matches!(self.work, Work::Custom { .. }) || self.transfers.iter().any(is_buffer)
-            }
+        let converts = || self.moved_images().is_some_and(|[from, to]| format(from) != format(to));
+        match (access.kind, &self.work) {
+            (AccessKind::Storage(_), _) | (AccessKind::Transfer { .. }, Work::Custom { .. }) => true,
+            (AccessKind::Transfer { .. }, Work::Copy) => self.transfers.iter().any(is_buffer) || converts(),
             _ => false,
         }
     }

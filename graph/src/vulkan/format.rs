@@ -110,6 +110,32 @@ impl Format {
         }
     }
 
+    /// Bytes that a texel of one plane takes in a buffer (Vulkan, "Copying Data Between Buffers and Images"); `None`: these
+    /// are several planes.
+    #[must_use]
+    pub fn plane_bytes(self, plane: Aspects) -> Option<u64> {
+        match plane {
+            _ if plane == Aspects::STENCIL => Some(1),
+            _ if plane == Aspects::DEPTH && self == Format::D16_UNORM => Some(2),
+            _ if plane == Aspects::DEPTH => Some(4),
+            _ => (plane == COLOR).then(|| self.texel_bytes()),
+        }
+    }
+
+    /// Whether a copy may take texels over into an image of another format, bit for bit.
+    #[must_use]
+    pub fn copies_to(self, other: Format) -> bool {
+        let color = !self.is_depth() && !other.is_depth();
+        self == other || color && self.texel_bytes() == other.texel_bytes()
+    }
+
+    /// Whether a blit may convert texels into those of another format.
+    #[must_use]
+    pub fn blits_to(self, other: Format) -> bool {
+        let color = !self.is_depth() && !other.is_depth();
+        self == other || color && self.is_integer() == other.is_integer()
+    }
+
     /// The format with Vulkan's name `name`.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Format> {

@@ -6,7 +6,7 @@ use crate::testing::raster::{self, Raster};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Compiler, Options};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
-use framewright_graph::frame::{Blend, Frame, ImageIndex, Lifetime, Storage};
+use framewright_graph::frame::{Blend, Frame, ImageIndex, Lifetime, Pass, Resource, Storage, TransferUse, Work};
 use framewright_graph::plan::{Plan, Stage};
 use framewright_graph::vulkan::Format::{self, *};
 use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Subresources, Usage};
@@ -96,7 +96,7 @@ fn what_is_promised_outside_keeps_its_format() {
         },
         |frame| {
             let mut output = frame.outputs[0].clone();
-            output.resource = framewright_graph::frame::Resource::Image(ImageIndex(0));
+            output.resource = Resource::Image(ImageIndex(0));
             frame.outputs.push(output);
         },
         |frame| {
@@ -197,4 +197,28 @@ fn what_is_inserted_and_the_format_cannot_do_is_refused_and_said() {
     // Outputs can be copied by whoever takes them.
     let refused = said(&again, &lacking(R8G8B8A8_SRGB, Usage::TRANSFER_SRC));
     assert!(refused[0].1.contains("outputs can be copied"), "{refused:?}");
+}
+
+#[test]
+fn a_copy_into_another_format_takes_texels_of_as_many_bytes_and_neither_format_falls_back() {
+    let mut raster = Raster::default();
+    let [from, to] = [("from", R16_SFLOAT), ("to", R8G8_UNORM)].map(|(name, format)| raster.image(name, format, 1));
+    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+    raster.full_screen("draw").color(from, Blend::Replace);
+    raster.full_screen("show").sample(to).color(screen, Blend::Replace);
+    let mut frame = raster.output(screen);
+    let side = |image, write| {
+        let (resource, range) = (Resource::Image(image), Subresources::WHOLE);
+        TransferUse { resource, range, frames_ago: 0, span: Span::NONE, write }
+    };
+    let copy = Pass { transfers: vec![side(from, false), side(to, true)], ..Pass::new("copy", Work::Copy) };
+    frame.passes.insert(1, copy);
+    let plan = planned(&frame, &raster::device()).expect("both have texels of 2 bytes");
+    assert_eq!((format(&plan, "from"), format(&plan, "to")), (R16_SFLOAT, R8G8_UNORM));
+    // R32_SFLOAT holds as much, but its texels have 4 bytes.
+    let refused = planned(&frame, &without(&[R16_SFLOAT])).expect_err("it can't be another one");
+    assert_eq!(
+        refused[0].message,
+        "`from` can't be R16_SFLOAT on `a device for tests`: no TRANSFER_SRC, COLOR_ATTACHMENT"
+    );
 }

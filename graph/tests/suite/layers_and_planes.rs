@@ -2,8 +2,11 @@
 
 use crate::testing::plans::planned;
 use crate::testing::raster::{self, Raster};
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, Order};
-use framewright_graph::frame::{Blend, Draw, DrawList, Frame, Lifetime, Pass, StencilState, Work};
+use framewright_graph::frame::{
+    Blend, Buffer, BufferIndex, Draw, DrawList, Frame, Lifetime, Pass, Resource, StencilState, TransferUse, Work,
+};
 use framewright_graph::plan::{self, Plan, Side};
 use framewright_graph::vulkan::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM};
 use framewright_graph::vulkan::{Aspects, CompareOp, FillValue, Layout, StencilOp, Subresources};
@@ -198,4 +201,39 @@ fn several_layers_of_multisampled_depth_are_not_resolved() {
         compiled(&frame).map(|plan| plan.tree()).expect_err("nothing could resolve it"),
         "`depth` is an output and has 4 samples; an image of several layers can't be resolved, whichever of them is read"
     );
+}
+
+#[test]
+fn one_plane_of_depth_with_stencil_is_copied_to_a_buffer() {
+    for (plane, bytes) in [(Aspects::DEPTH, 4), (Aspects::STENCIL, 1)] {
+        let mut raster = Raster::default();
+        let depth = raster.image("depth", D32_SFLOAT_S8_UINT, 1);
+        let mut frame = raster.output(depth);
+        let texels: u32 = frame.images[0].extent.iter().product();
+        let bytes = bytes * u64::from(texels);
+        let lifetime = Lifetime::Transient;
+        frame.buffers.push(Buffer { name: "rows".into(), span: Span::NONE, bytes, lifetime });
+        let side = |resource, aspects, write| {
+            let range = Subresources { aspects, ..Subresources::WHOLE };
+            TransferUse { resource, range, frames_ago: 0, span: Span::NONE, write }
+        };
+        let [image, rows] = [Resource::Image(depth), Resource::Buffer(BufferIndex(0))];
+        let fill = Work::Fill { value: FillValue::Depth(0.5, 1) };
+        let all = vec![side(image, Aspects::empty(), true)];
+        frame.passes.push(Pass { transfers: all, ..Pass::new("fill", fill) });
+        let both = vec![side(image, plane, false), side(rows, Aspects::empty(), true)];
+        frame.passes.push(Pass { transfers: both, ..Pass::new("copy", Work::Copy) });
+        frame.outputs.push(rows.into());
+        compiled(&frame).expect("the buffer holds the plane");
+        frame.buffers[0].bytes -= 1;
+        assert_eq!(
+            compiled(&frame).expect_err("it is too small"),
+            "`copy` copies between a buffer and an image that is larger"
+        );
+        frame.passes[1].transfers[0].range = Subresources::WHOLE;
+        assert_eq!(
+            compiled(&frame).expect_err("these are two planes"),
+            "`copy` copies depth with stencil to or from a buffer"
+        );
+    }
 }

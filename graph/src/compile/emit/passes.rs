@@ -76,7 +76,7 @@ pub(super) fn sides(parts: &Parts<'_>, number: u32) -> [Side; 2] {
 /// Bytes of the texels that a transfer moves from or to the image that is used here.
 fn texel_bytes(parts: &Parts<'_>, used: &Use, layers: u32, extent: [u32; 3]) -> u64 {
     let image = parts.adapted.stores[used.store as usize].image();
-    let bytes = image.map_or(0, |image| image.format.texel_bytes());
+    let bytes = image.and_then(|image| image.format.plane_bytes(parts.adapted.range(used).aspects)).unwrap_or(0);
     extent.iter().fold(bytes.saturating_mul(layers.into()), |all, side| all.saturating_mul((*side).into()))
 }
 

@@ -3,7 +3,7 @@
 use super::lifetimes::value_problem;
 use super::pass::Check;
 use crate::frame::{Image, Resource, TransferUse, Work};
-use crate::vulkan::{Aspects, Format, Subresources};
+use crate::vulkan::Subresources;
 
 impl Check<'_> {
     pub(super) fn transfers(&mut self) {
@@ -49,7 +49,7 @@ impl Check<'_> {
             (None, None) if buffers[0] > buffers[1] => Some("copies into a buffer that is too small"),
             (None, None) => None,
             (Some((from, size, format, count)), Some((to, other, target_format, samples))) => {
-                let same = format == target_format && size == other && from.layers == to.layers;
+                let same = format.copies_to(target_format) && size == other && from.layers == to.layers;
                 let counts = samples == 1 || samples == count;
                 let one = from.mips == 1 && to.mips == 1 && from.aspects == to.aspects && counts;
                 (!same || !one).then_some("copies between images that differ in format, size, layers or samples")
@@ -59,12 +59,11 @@ impl Check<'_> {
                 let size = buffers[0].max(buffers[1]);
                 if part.mips != 1 || samples > 1 && to.is_some() {
                     Some("copies several mip levels or samples at once")
-                } else if format.aspects().contains(Aspects::STENCIL) {
-                    Some("copies depth with stencil to or from a buffer")
-                } else if texels.saturating_mul(format.texel_bytes()) > size {
-                    Some("copies between a buffer and an image that is larger")
+                } else if let Some(texel) = format.plane_bytes(part.aspects) {
+                    let larger = texels.saturating_mul(texel) > size;
+                    larger.then_some("copies between a buffer and an image that is larger")
                 } else {
-                    None
+                    Some("copies depth with stencil to or from a buffer")
                 }
             }
         };
@@ -79,10 +78,8 @@ impl Check<'_> {
         let to = self.level(target).map(|(part, _, image)| (part, image.format, image.samples));
         let fits = match (from, to) {
             (Some((from, format, samples)), Some((to, target_format, target_samples))) => {
-                let kind = |format: Format| (format.is_integer(), format.is_depth());
-                let depth = format.is_depth() && format != target_format;
                 let counts = (from.mips, to.mips, samples, target_samples) == (1, 1, 1, 1);
-                counts && from.layers == to.layers && kind(format) == kind(target_format) && !depth
+                counts && from.layers == to.layers && format.blits_to(target_format)
             }
             _ => false,
         };
