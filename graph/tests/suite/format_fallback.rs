@@ -213,10 +213,10 @@ fn a_copy_into_another_format_takes_texels_of_as_many_bytes_and_neither_format_f
     };
     let copy = Pass { transfers: vec![side(from, false), side(to, true)], ..Pass::new("copy", Work::Copy) };
     frame.passes.insert(1, copy);
-    let plan = planned(&frame, &raster::device()).expect("both have texels of 2 bytes");
+    let plan = on(&frame, &raster::device()).expect("both have texels of 2 bytes");
     assert_eq!((format(&plan, "from"), format(&plan, "to")), (R16_SFLOAT, R8G8_UNORM));
     // R32_SFLOAT holds as much, but its texels have 4 bytes.
-    let refused = planned(&frame, &without(&[R16_SFLOAT])).expect_err("it can't be another one");
+    let refused = on(&frame, &without(&[R16_SFLOAT])).expect_err("it can't be another one");
     assert_eq!(
         refused[0].message,
         "`from` can't be R16_SFLOAT on `a device for tests`: no TRANSFER_SRC, COLOR_ATTACHMENT"
