@@ -242,6 +242,7 @@ impl Reader {
             }
         }
         self.paths.push(path);
-        self.paths.retain(|path| !path.is_empty());
+        // `pub(crate)` names no file.
+        self.paths.retain(|path| !path.is_empty() && *path != ["crate"]);
     }
 }
