@@ -8,7 +8,7 @@
 #[allow(dead_code, reason = "the command asks more of it")]
 mod picture;
 
-use crate::support::{self, Vulkan};
+use crate::testing::{self, Vulkan};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::encoding::Encoding;
 use framewright_graph::format::Format::{self, *};
@@ -115,8 +115,8 @@ fn on_both_drivers(test: &str) -> bool {
         let Some(variables) = vulkan.variables() else { continue };
         let mut command = std::process::Command::new(std::env::current_exe().expect("this test"));
         command.args([&format!("encodings::{test}"), "--exact", "--nocapture"]).envs(variables).env(CHILD, "1");
-        command.env("VK_LAYER_PATH", support::repository("tests/layer"));
-        let outcome = support::outcome(&mut command).exits(0);
+        command.env("VK_LAYER_PATH", testing::repository("tests/layer"));
+        let outcome = testing::outcome(&mut command).exits(0);
         assert!(outcome.out.contains("1 passed"), "{}", outcome.out);
     }
     false

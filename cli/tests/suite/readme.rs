@@ -1,6 +1,6 @@
 //! What the README shows is what the command prints.
 
-use crate::support::{Place, outcome, repository};
+use crate::testing::{Place, outcome, repository};
 use std::process::{Command, Stdio};
 
 /// Each command in a `console` block is run in a folder that holds the README's pipeline; what it prints must stand below

@@ -1,6 +1,6 @@
 //! Whole files in the reference can be copied: the command itself says that they are fine.
 
-use crate::support::{Place, repository};
+use crate::testing::{Place, repository};
 
 /// Each block of RON in the pages under `docs/`.
 fn examples() -> Vec<String> {
