@@ -1,22 +1,9 @@
 //! What is wrong is said in one clear message, with its place and the right exit code; nothing half-written stays behind.
 
-use crate::support::{self, Place, Vulkan, outcome};
+use crate::testing::{FORWARD, Place, Vulkan, check, forward_with, outcome};
 use std::process::Stdio;
 
-const FORWARD: &str = include_str!("../../../examples/pipelines/forward.ron");
 const SCENE: &str = "spheres_and_cubes";
-
-/// The shipped pipeline with one piece of text replaced.
-fn forward_with(old: &str, new: &str) -> String {
-    assert!(FORWARD.contains(old), "forward.ron no longer holds {old}");
-    FORWARD.replacen(old, new, 1)
-}
-
-fn check(contents: impl AsRef<[u8]>) -> support::Outcome {
-    let place = Place::new();
-    place.file("p.ron", contents);
-    place.run(&["check", "p.ron"])
-}
 
 #[test]
 fn a_missing_pipeline_is_said_with_the_names_of_shipped_ones() {

@@ -1,20 +1,6 @@
 //! Shaders that are missing, don't compile, or don't fit their pass: said once, with the place in the pipeline.
 
-use crate::support::{self, Place};
-
-const FORWARD: &str = include_str!("../../../examples/pipelines/forward.ron");
-
-/// The shipped pipeline with one piece of text replaced.
-fn forward_with(old: &str, new: &str) -> String {
-    assert!(FORWARD.contains(old), "forward.ron no longer holds {old}");
-    FORWARD.replacen(old, new, 1)
-}
-
-fn check(contents: impl AsRef<[u8]>) -> support::Outcome {
-    let place = Place::new();
-    place.file("p.ron", contents);
-    place.run(&["check", "p.ron"])
-}
+use crate::testing::{self, FORWARD, Place, check, forward_with};
 
 #[test]
 fn a_shader_that_is_missing_is_reported_once_however_many_passes_use_it() {
@@ -84,7 +70,7 @@ const PLAIN: &str = "layout(set = 0, binding = 0) uniform sampler2D source;\n\
 const LOCAL: &str = "layout(input_attachment_index = 0, set = 0, binding = 0) uniform subpassInput source;\n\
     #define HERE subpassLoad(source)\n";
 
-fn check_own_pixel(declarations: &str) -> support::Outcome {
+fn check_own_pixel(declarations: &str) -> testing::Outcome {
     let place = Place::new();
     place.file("p.ron", OWN_PIXEL);
     let main = "layout(location = 0) out vec4 color;\nvoid main() { color = HERE; }\n";

@@ -1,6 +1,6 @@
 //! A pipeline to begin with, and the schema of what it is written in.
 
-use crate::support::{Place, Vulkan};
+use crate::testing::{Place, Vulkan};
 
 #[test]
 fn a_new_pipeline_is_right_on_every_device_in_every_variant_and_draws() {

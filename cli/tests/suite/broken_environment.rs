@@ -1,7 +1,7 @@
 //! Files that the Vulkan loader reads, absent or broken: every command says which variable leads there and what mends it, and
 //! commands that need no device don't mind.
 
-use crate::support::{Place, Vulkan};
+use crate::testing::{Place, Vulkan};
 
 /// What the file of a driver or a layer may be, and the library that it names.
 const KINDS: [(&str, Option<&str>); 5] = [

@@ -1,6 +1,6 @@
 //! The shipped pipeline `deferred`: what its frame is made of, and what each part of it does to the picture.
 
-use crate::support::{Place, Vulkan};
+use crate::testing::{Place, Vulkan};
 use image::RgbImage;
 use serde_json::Value;
 

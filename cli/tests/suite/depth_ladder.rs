@@ -1,6 +1,6 @@
 //! A pass samples multisampled depth, one value a texel: what it finds, and what that takes (IQ-10 to IQ-15).
 
-use crate::support::{Place, Vulkan};
+use crate::testing::{Place, Vulkan};
 
 /// Three ways to draw depth: opaque, perforated and fading objects, and then what is there as a picture.
 const PIPELINE: &str = r#"Pipeline(

@@ -8,21 +8,21 @@
 #[allow(dead_code, reason = "the command asks more of it")]
 mod picture;
 
+<<<<<<< HEAD
 use crate::support::{self, Vulkan};
 use framewright_graph::base::Span;
+=======
+use crate::testing::{self, Vulkan};
+>>>>>>> h16-tests
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::frame::{
-    Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work,
-};
+use framewright_graph::frame::{Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vulkan::Format::{self, *};
 use framewright_graph::vulkan::{Encoding, Filter, Sampler, Stages, Subresources};
+use framewright_graph::vulkan::Format::{self, *};
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::twin::hdr10::{PQ_PEAK, decode_pq, encode_hdr10};
-use framewright_vulkan::{
-    Device, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary, Texels,
-};
+use framewright_vulkan::{Device, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary, Texels};
 use picture::{FileFormat, Picture};
 use std::io::Read;
 
@@ -114,8 +114,8 @@ fn on_both_drivers(test: &str) -> bool {
         let Some(variables) = vulkan.variables() else { continue };
         let mut command = std::process::Command::new(std::env::current_exe().expect("this test"));
         command.args([&format!("encodings::{test}"), "--exact", "--nocapture"]).envs(variables).env(CHILD, "1");
-        command.env("VK_LAYER_PATH", support::repository("tests/layer"));
-        let outcome = support::outcome(&mut command).exits(0);
+        command.env("VK_LAYER_PATH", testing::repository("tests/layer"));
+        let outcome = testing::outcome(&mut command).exits(0);
         assert!(outcome.out.contains("1 passed"), "{}", outcome.out);
     }
     false

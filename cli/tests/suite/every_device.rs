@@ -1,9 +1,7 @@
 //! `check --device all`, and what the command line says of how a Plan is made.
 
-use crate::support::{Place, shipped_pipelines};
+use crate::testing::{FORWARD, Place, shipped_pipelines};
 use framewright_graph::device::SHIPPED_PROFILES;
-
-const FORWARD: &str = include_str!("../../../examples/pipelines/forward.ron");
 
 fn json(place: &Place, arguments: &[&str], code: i32) -> serde_json::Value {
     let outcome = place.run(&[arguments, &["--format", "json"]].concat()).exits(code);

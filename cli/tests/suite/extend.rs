@@ -1,6 +1,6 @@
 //! Pipelines that extend others, and extensions that the user applies.
 
-use crate::support::{Outcome, Place, Vulkan};
+use crate::testing::{Outcome, Place, Vulkan};
 use serde_json::Value;
 
 const EXTENDING: &str = r#"Pipeline(

@@ -1,6 +1,6 @@
 //! `facts`: what conditions may ask of a scene, and what decided it (NU-6).
 
-use crate::support::Place;
+use crate::testing::Place;
 use serde_json::Value;
 
 #[test]

@@ -1,7 +1,7 @@
 //! Shaders that would mix up both eyes' pictures where they lie side by side are found before anything is drawn (ST-9), at the
 //! pass's place in the file; where each eye has an image or a layer of its own nothing is wrong with them.
 
-use crate::support::{self, Place};
+use crate::testing::{self, Place};
 
 const PIPELINE: &str = r#"Pipeline(
     version: 1,
@@ -42,7 +42,7 @@ void main() {{ color = {body}; }}
     )
 }
 
-fn check(place: &Place, stereo: &str, device: &str) -> support::Outcome {
+fn check(place: &Place, stereo: &str, device: &str) -> testing::Outcome {
     place.run(&["check", "p.ron", "--stereo", stereo, "--device", device])
 }
 

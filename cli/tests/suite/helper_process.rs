@@ -1,6 +1,6 @@
 //! Shaders are compiled and drivers tested in a helper process: what ends or fills that is an error of the file, or of the driver.
 
-use crate::support::{Place, Vulkan};
+use crate::testing::{Place, Vulkan};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::shader::Variant;
 use framewright_passes::draw::interface;

@@ -1,6 +1,6 @@
 //! `image_quality` on the command line: what its frames list, and choices that make no picture.
 
-use crate::support::{Place, Vulkan};
+use crate::testing::{Place, Vulkan};
 use serde_json::Value;
 
 /// What a frame did, in its order: passes with their draws, resolves in between.

@@ -1,6 +1,6 @@
 //! Files that a pipeline names: where they are looked for, and that nothing outside the root is read.
 
-use crate::support::{self, Outcome, Place};
+use crate::testing::{self, Outcome, Place};
 
 /// A pipeline that includes `file` and uses its fragment `fill`.
 fn pipeline(file: &str) -> String {
@@ -172,7 +172,7 @@ fn check_as_nobody(place: &Place, words: &[&str]) -> Outcome {
     if std::fs::File::open("/etc/shadow").is_ok() {
         command.uid(65534);
     }
-    support::outcome(&mut command)
+    testing::outcome(&mut command)
 }
 
 #[cfg(unix)]

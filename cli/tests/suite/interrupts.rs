@@ -1,7 +1,7 @@
 //! Ctrl-C: whatever a command waits for, it ends soon, with 130, and leaves nothing half-written.
 #![cfg(unix)]
 
-use crate::support::{Outcome, Place, Vulkan};
+use crate::testing::{Outcome, Place, Vulkan};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::{Pid, mkfifo};
 use std::io::{BufRead, BufReader};

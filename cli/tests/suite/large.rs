@@ -1,6 +1,6 @@
 //! Pipelines that are as large as anyone's.
 
-use crate::support::{self, Place};
+use crate::testing::{self, Place};
 use std::fmt::Write;
 
 /// Passes of a pipeline that draws back and forth between two images.
@@ -103,7 +103,7 @@ fn an_image_of_thirty_thousand_parts_takes_moderate_memory() {
         let check = "ulimit -v 4000000; exec \"$0\" check p.ron --device \"$1\"";
         let mut shell = std::process::Command::new("sh");
         shell.args(["-c", check, env!("CARGO_BIN_EXE_framewright"), device]).current_dir(place.path(""));
-        let outcome = support::outcome(&mut shell).exits(0);
+        let outcome = testing::outcome(&mut shell).exits(0);
         assert!(outcome.out.contains(": 2050 passes in 1 rendering scope, "), "{}", outcome.out);
     }
 }

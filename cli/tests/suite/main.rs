@@ -31,7 +31,7 @@ mod settings;
 mod shader_files;
 mod shipped_pictures;
 mod stereo;
-mod support;
+mod testing;
 mod texture_declarations;
 mod textures;
 mod variants;

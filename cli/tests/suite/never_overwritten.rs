@@ -1,7 +1,7 @@
 //! No file that a command read is written by it, whatever kind of file it is and by whatever name it is meant.
 #![cfg(unix)]
 
-use crate::support::{self, Outcome, Place, Vulkan};
+use crate::testing::{self, Outcome, Place, Vulkan};
 use std::os::unix::fs::symlink;
 
 /// It includes a fragment, reads a texture and draws with a shader that includes another file.
@@ -125,7 +125,7 @@ fn inspect_writes_over_no_file_that_it_read_by_whatever_name() {
             std::fs::remove_file(place.path(link)).expect("removed");
         }
     }
-    let profile = std::fs::read_to_string(support::repository("graph/src/device/profiles/lavapipe.ron")).expect("read");
+    let profile = std::fs::read_to_string(testing::repository("graph/src/device/profiles/lavapipe.ron")).expect("read");
     place.file("device.ron", &profile);
     command(&place, &[], &["inspect", "--device", "device.ron", "-o", "./device.ron"])
         .exits(2)

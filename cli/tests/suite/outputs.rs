@@ -1,6 +1,6 @@
 //! What leaves a frame, under its own names and with the encodings that the file says.
 
-use crate::support::{self, Outcome, Place, Vulkan};
+use crate::testing::{self, Outcome, Place, Vulkan};
 
 /// A picture, its light and the depth that it was drawn with.
 const OUTPUTS: [&str; 3] =
@@ -100,7 +100,7 @@ fn a_file_larger_than_the_user_may_write_is_an_error_that_leaves_nothing_behind(
     let limited = "ulimit -f 2; exec \"$0\" inspect forward --format json -o plan.json";
     let mut shell = std::process::Command::new("sh");
     shell.args(["-c", limited, env!("CARGO_BIN_EXE_framewright")]).current_dir(place.path(""));
-    let outcome = support::outcome(&mut shell).exits(3).mentions("`plan.json` can't be written: File too large");
+    let outcome = testing::outcome(&mut shell).exits(3).mentions("`plan.json` can't be written: File too large");
     outcome.mentions("help: allow larger files: ulimit -f unlimited");
     assert_eq!(place.names(), [""; 0]);
 }

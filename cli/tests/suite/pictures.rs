@@ -1,6 +1,6 @@
 //! `run`: pictures, reports and dumps from real drivers, under real validation layers.
 
-use crate::support::{Outcome, Place, Vulkan, shipped_pipelines};
+use crate::testing::{Outcome, Place, Vulkan, shipped_pipelines};
 use image::{GenericImageView, Rgb, RgbImage};
 use serde_json::Value;
 use std::path::Path;

@@ -1,9 +1,7 @@
 //! `check` and `inspect`: Plans without a GPU, the same bytes every time.
 
-use crate::support::{Place, outcome, repository, shipped_pipelines};
+use crate::testing::{FORWARD, Place, outcome, repository, shipped_pipelines};
 use framewright_tests::sweep;
-
-const FORWARD: &str = include_str!("../../../examples/pipelines/forward.ron");
 
 /// Each reachable combination of the settings of `forward.ron` that take part in its structure.
 fn settings() -> Vec<Vec<String>> {

@@ -1,6 +1,6 @@
 //! Device profiles: saved ones say what the device says, those that lie are refused where they lie.
 
-use crate::support::{self, Place, Vulkan, live_profile};
+use crate::testing::{self, Place, Vulkan, live_profile};
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
 
 /// The drivers of this machine, each with the name of its shipped profile.
@@ -44,7 +44,7 @@ fn shipped_profiles_of_drivers_that_are_here_are_what_they_say_themselves() {
         let shipped = Profile::from_ron(text).expect("a profile");
         let saved = Profile { name: name.to_owned(), ..saved };
         if std::env::var_os("FRAMEWRIGHT_UPDATE").is_some() {
-            let file = support::repository(&format!("graph/src/device/profiles/{name}.ron"));
+            let file = testing::repository(&format!("graph/src/device/profiles/{name}.ron"));
             std::fs::write(file, saved.to_ron().expect("text")).expect("written");
         } else if saved.source != shipped.source {
             eprintln!("skipped: the driver is {}, the profile {}", saved.source, shipped.source);

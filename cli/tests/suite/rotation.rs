@@ -1,6 +1,6 @@
 //! `--rotate`: frames drawn turned, and pictures that are upright all the same.
 
-use crate::support::{Outcome, Place, Vulkan};
+use crate::testing::{Outcome, Place, Vulkan};
 
 /// A depth that leaves the frame, and nothing for a screen.
 const UNSHOWN: &str = r#"Pipeline(

@@ -1,6 +1,6 @@
 //! What a scene says that isn't drawn is told by every command that reads it.
 
-use crate::support::{Place, Vulkan};
+use crate::testing::{Place, Vulkan};
 use serde_json::Value;
 
 const SCENE: &str = r#"{

@@ -1,6 +1,6 @@
 //! `--preset`, `--settings` and `--set`: which value is in force, and what is said about those that can't be.
 
-use crate::support::Place;
+use crate::testing::Place;
 use serde_json::Value;
 
 /// Wrong only where `scale` is 0.5, which only the preset `small` chooses: then images of two sizes are copied.

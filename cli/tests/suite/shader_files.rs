@@ -1,6 +1,6 @@
 //! Shaders: beside the file that names them, then beside the pipeline, then those that are shipped.
 
-use crate::support::{Outcome, Place, Vulkan};
+use crate::testing::{Outcome, Place, Vulkan};
 
 /// A full-screen shader whose one parameter is called `parameter`.
 fn shader(parameter: &str) -> String {

@@ -1,6 +1,6 @@
 //! The pictures in `docs/pictures` are what the shipped pipelines draw, by the settings that their names speak of.
 
-use crate::support::{Place, Vulkan, repository};
+use crate::testing::{Place, Vulkan, repository};
 use framewright_tests::sweep;
 use image::RgbImage;
 use std::collections::BTreeSet;

@@ -1,6 +1,6 @@
 //! `--stereo`: pictures of both eyes beside each other, on both drivers (ST-1).
 
-use crate::support::{Place, Vulkan, live_profile, shipped_pipelines};
+use crate::testing::{Place, Vulkan, live_profile, shipped_pipelines};
 use framewright_graph::device::{Profile, SHIPPED_PROFILES};
 use framewright_graph::frame::Stereo;
 use framewright_tests::sweep;

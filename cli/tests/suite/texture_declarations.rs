@@ -1,6 +1,6 @@
 //! A shader whose declaration is left to the pass is drawn with by the command, on both software drivers.
 
-use crate::support::{Place, Vulkan, repository};
+use crate::testing::{Place, Vulkan, repository};
 
 /// What the texels are is held against what was drawn in the workspace's own tests, on one driver.
 #[test]

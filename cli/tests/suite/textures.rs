@@ -1,6 +1,6 @@
 //! Textures of a pipeline: read from files beside it, checked without a GPU, sampled on real drivers as the file says.
 
-use crate::support::{Outcome, Place, Vulkan};
+use crate::testing::{Outcome, Place, Vulkan};
 use image::{ImageBuffer, Rgb, Rgba, RgbaImage};
 
 /// A picture of 5 × 3 texels that repeats and is mirrored over one of 16 × 8, and a table of 4 × 4 × 4.

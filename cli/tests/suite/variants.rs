@@ -1,6 +1,6 @@
 //! `check --all-variants`: every combination of settings, facts of the scene and devices.
 
-use crate::support::{Outcome, Place, shipped_pipelines};
+use crate::testing::{Outcome, Place, shipped_pipelines};
 use framewright_graph::device::SHIPPED_PROFILES;
 use framewright_tests::sweep;
 use serde_json::Value;

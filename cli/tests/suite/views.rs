@@ -1,6 +1,6 @@
 //! Several views of a real scene in one frame, each drawn as it would be alone.
 
-use crate::support::{Outcome, Place, Vulkan, repository};
+use crate::testing::{Outcome, Place, Vulkan, repository};
 
 /// What is drawn for each view, with what the view says.
 const FRAGMENT: &str = r#"

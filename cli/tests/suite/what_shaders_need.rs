@@ -1,6 +1,6 @@
 //! What a shader needs and a pass or a device can't give is said at the shader's line, with what to write instead.
 
-use crate::support::{Outcome, Place};
+use crate::testing::{Outcome, Place};
 use framewright_graph::device::SHIPPED_PROFILES;
 
 /// What `check` says of a pipeline with one pass that runs a shader of this text before `screen` is drawn.

@@ -1,6 +1,6 @@
 //! What a program that embeds the library would supply: `check` and `inspect` plan it, `run` says that nobody does.
 
-use crate::support::{Place, Vulkan};
+use crate::testing::{Place, Vulkan};
 
 const TITLE: &str = "images: [(name: \"screen\", format: Output, size: Output)";
 

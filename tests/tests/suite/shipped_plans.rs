@@ -6,7 +6,6 @@ use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};
 use framewright_graph::plan::Plan;
 use framewright_graph::verify::{Violation, verify};
 use framewright_tests::shipped::{self, ShippedFrame};
-use framewright_tests::sweep;
 
 /// A Plan and how it came about.
 struct Shipped {
@@ -47,7 +46,7 @@ fn names_both_steps_and_the_part(violation: &Violation) -> bool {
 fn every_shipped_pipeline_compiles_to_a_plan_without_violations_on_every_shipped_device() {
     for (name, text) in SHIPPED_PROFILES {
         assert!(frames().len() > 40, "{} frames", frames().len());
-        let plans = shipped_for(name, text, sweep::of(frames(), 50));
+        let plans = shipped_for(name, text, frames());
         for Shipped { how, plan } in plans {
             assert_eq!(verify(&plan), [], "{how}\n{}", plan.tree());
         }
@@ -58,7 +57,7 @@ fn every_shipped_pipeline_compiles_to_a_plan_without_violations_on_every_shipped
 fn no_barrier_of_a_shipped_pipeline_can_be_left_out_unseen() {
     let mut removed = 0;
     let (name, text) = SHIPPED_PROFILES[0];
-    for Shipped { how, plan } in shipped_for(name, text, sweep::of(frames(), 40)) {
+    for Shipped { how, plan } in shipped_for(name, text, frames()) {
         for step in 0..plan.steps.len() {
             let (images, memory) = (plan.steps[step].image_barriers.len(), plan.steps[step].memory_barriers.len());
             for barrier in 0..images + memory {
@@ -83,7 +82,7 @@ fn no_barrier_of_a_shipped_pipeline_can_be_left_out_unseen() {
         }
     }
     println!("{removed} barriers removed, each one missed");
-    assert!(removed > 100, "{removed}");
+    assert!(removed > 300, "{removed}");
 }
 
 /// Images whose lifetimes are disjoint share memory.

@@ -9,6 +9,7 @@ use framewright_passes::draw::{Eyes, SceneDrawSource};
 use framewright_passes::scene::{Scene, load};
 use framewright_tests::render::{Setup, Ways, device, in_repository, library, plan_for, silent};
 use framewright_tests::shapes::empty_scene;
+use framewright_tests::sweep;
 use framewright_vulkan::{Device, Executor, ExecutorOptions};
 use std::error::Error;
 
@@ -25,9 +26,8 @@ fn one_image_for_both_is_twice_as_wide_or_has_two_layers() -> Result<(), Box<dyn
     let Some(device) = device() else { return Ok(()) };
     let scene = load(&in_repository("examples/scenes/spheres_and_cubes.ron"))?;
     let modes = [&MODES[..], &at_once(device)].concat();
-    for (width, scale) in
-        [1, 2, 3, 96, 97, 161].into_iter().flat_map(|it| ["0.25", "0.77", "1", "1.5"].map(|s| (it, s)))
-    {
+    let cases = [1, 2, 3, 96, 97, 161].into_iter().flat_map(|it| ["0.25", "0.77", "1", "1.5"].map(|s| (it, s)));
+    for (width, scale) in sweep::of(cases.collect(), 4) {
         let set = &[("render_scale", scale), ("blur", "1")];
         let case = Case { pipeline: &shipped("image_quality"), set, scene: &scene, extent: [width, 61], frames: 1 };
         let alone = planned(device, &case, upright(Stereo::MultiPass))?;

@@ -6,6 +6,9 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+/// The text of the shipped pipeline `forward`.
+pub(crate) const FORWARD: &str = include_str!("../../../../examples/pipelines/forward.ron");
+
 /// What came of a command.
 #[derive(Debug)]
 pub(crate) struct Outcome {
@@ -94,6 +97,19 @@ impl Place {
     pub(crate) fn run_with<A: AsRef<OsStr>>(&self, variables: &[(&str, &str)], arguments: &[A]) -> Outcome {
         outcome(self.command(arguments).envs(variables.iter().copied()))
     }
+}
+
+/// The shipped pipeline `forward` with one piece of text replaced.
+pub(crate) fn forward_with(old: &str, new: &str) -> String {
+    assert!(FORWARD.contains(old), "forward.ron no longer holds {old}");
+    FORWARD.replacen(old, new, 1)
+}
+
+/// What `check` says of a pipeline file.
+pub(crate) fn check(contents: impl AsRef<[u8]>) -> Outcome {
+    let place = Place::new();
+    place.file("p.ron", contents);
+    place.run(&["check", "p.ron"])
 }
 
 /// What the command says of the driver that these variables lead to, as its saved profile.
