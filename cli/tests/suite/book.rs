@@ -1,6 +1,6 @@
 //! The README and the pages under `docs/`, which are an mdBook: all are listed, and all that they point to is there.
 
-use crate::support::{pages, repository};
+use crate::testing::{pages, repository};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

@@ -8,21 +8,21 @@
 #[allow(dead_code, reason = "the command asks more of it")]
 mod picture;
 
-<<<<<<< HEAD
-use crate::support::{self, Vulkan};
-use framewright_graph::base::Span;
-=======
 use crate::testing::{self, Vulkan};
->>>>>>> h16-tests
+use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::frame::{Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work};
+use framewright_graph::frame::{
+    Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Output, ParamValue, Pass, Resource, Sampled, Work,
+};
 use framewright_graph::verify::verify;
-use framewright_graph::vulkan::{Encoding, Filter, Sampler, Stages, Subresources};
 use framewright_graph::vulkan::Format::{self, *};
+use framewright_graph::vulkan::{Encoding, Filter, Sampler, Stages, Subresources};
 use framewright_passes::draw::interface;
 use framewright_passes::shipped::SHADERS;
 use framewright_passes::twin::hdr10::{PQ_PEAK, decode_pq, encode_hdr10};
-use framewright_vulkan::{Device, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary, Texels};
+use framewright_vulkan::{
+    Device, DeviceOptions, DrawSource, Error, Executor, ExecutorOptions, Message, Recorder, ShaderLibrary, Texels,
+};
 use picture::{FileFormat, Picture};
 use std::io::Read;
 

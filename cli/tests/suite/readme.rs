@@ -1,11 +1,7 @@
 //! Commands that the README and the pages under `docs/` show print what stands there.
 
-<<<<<<< HEAD
-use crate::support::{Place, Vulkan, outcome, pages, repository};
+use crate::testing::{Place, Vulkan, outcome, pages, repository};
 use std::path::PathBuf;
-=======
-use crate::testing::{Place, outcome, repository};
->>>>>>> h16-tests
 use std::process::{Command, Stdio};
 
 /// How a renewed page is seen and accepted.

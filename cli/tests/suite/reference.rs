@@ -1,11 +1,7 @@
 //! Whole files in the reference can be copied: the command itself says that they are fine.
 
-<<<<<<< HEAD
-use crate::support::{Place, pages, repository};
+use crate::testing::{Place, pages, repository};
 use std::collections::BTreeSet;
-=======
-use crate::testing::{Place, repository};
->>>>>>> h16-tests
 
 /// Each block of RON in the README and the pages under `docs/`.
 fn examples() -> Vec<String> {
