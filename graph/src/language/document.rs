@@ -14,13 +14,12 @@ use crate::language::compose::origins::Origins;
 use crate::language::compose::tables::{PIPELINE, Section, Sections};
 use crate::language::entries::body::{Body, Lists};
 use crate::language::entries::fragments::Fragments;
-use crate::language::entries::presets;
-use crate::language::entries::settings;
 use crate::language::entries::textures::Pictures;
-use crate::language::evaluate::lower::{Lowering, Whole};
+use crate::language::entries::{presets, settings};
+use crate::language::evaluate::{Declared, Purpose, evaluate};
 use crate::language::inputs::{Facts, Surroundings};
 use crate::language::model::{InForce, Pipeline, Preset, Setting, SettingsFile, in_force, unknown_preset};
-use crate::language::scope::{Given, Level, Parameter};
+use crate::language::scope::{DecidedValue, Parameter};
 use crate::ron::{Names, Reader, Tree};
 
 /// A pipeline file that was read. Made by [`super::read`], once; [`crate::expand::expand`] puts it together as
@@ -70,7 +69,7 @@ impl Document {
                 pictures: &loader.pictures,
                 removed_view: account.changes.iter().find(|change| change.removes(Kind::View)),
             };
-            lower(&mut reader, files, names, &settings, values, &surroundings, true);
+            pipeline(&mut reader, files, (names, &settings), values, &surroundings, Purpose::Check);
             let settings: Option<Vec<Setting>> = settings.into_iter().collect();
             document = settings.zip(presets.into_iter().collect()).map(|both| (both, included));
         }
@@ -154,7 +153,7 @@ impl Document {
                 pictures: &self.pictures,
                 removed_view: self.changes().iter().find(|change| change.removes(Kind::View)),
             };
-            lower(&mut reader, files, names, &settings, values, surroundings, false)
+            pipeline(&mut reader, files, (names, &settings), values, surroundings, Purpose::Pipeline)
         });
         match pipeline {
             Some(pipeline) if reader.errors.is_empty() => {
@@ -193,18 +192,16 @@ struct Files<'t> {
     removed_view: Option<&'t Change>,
 }
 
-/// Puts in values; `None` if errors were reported. `reading` if nothing is to be said about values.
-fn lower(
+/// Evaluates a pipeline for values of its settings. `None` if errors were reported.
+fn pipeline(
     reader: &mut Reader,
     Files { sections, included, pictures, removed_view }: Files<'_>,
-    names: Names,
-    settings: &[Option<Setting>],
+    (names, settings): (Names, &[Option<Setting>]),
     values: Vec<Option<Value>>,
     surroundings: &Surroundings<'_>,
-    reading: bool,
+    purpose: Purpose,
 ) -> Option<Pipeline> {
-    let parameters: Vec<Option<Parameter>> =
-        settings.iter().map(|setting| setting.as_ref().map(Parameter::from)).collect();
+    let parameters = settings.iter().map(|setting| setting.as_ref().map(Parameter::from)).collect();
     let included = included.iter().filter_map(|tree| tree.root().field("fragments"));
     let fragments = Fragments::read(reader, sections.get(Section::Fragments).into_iter().chain(included));
     let lists = Lists {
@@ -213,22 +210,18 @@ fn lower(
         buffers: sections.get(Section::Buffers),
         passes: sections.get(Section::Passes),
     };
-    let body = Body::read(reader, names, parameters, true, lists);
-    let given = values.into_iter().map(|value| value.map(|value| Given { value, decided: Vec::new() })).collect();
-    let level = Level { given, ..Level::default() };
-    let lowering = if reading {
-        Lowering::reading(surroundings, &fragments, pictures)
-    } else {
-        Lowering::new(surroundings, &fragments, pictures, false)
-    };
-    let whole = Whole {
+    let declared = Declared {
+        body: &Body::read(reader, names, parameters, true, lists),
+        fragments: &fragments,
+        pictures,
         settings,
         views: sections.get(Section::Views),
+        removed_view,
         depth: sections.get(Section::Depth),
         color: sections.get(Section::Color),
         depth_format: sections.get(Section::DepthFormat),
-        removed_view,
         outputs: sections.get(Section::Outputs)?,
     };
-    lowering.whole(reader, &body, level, whole)
+    let values = values.into_iter().map(|value| value.map(DecidedValue::from)).collect();
+    evaluate(reader, &declared, values, surroundings, purpose)
 }

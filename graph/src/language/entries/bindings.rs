@@ -1,12 +1,12 @@
 //! `sample`, `storage`, `uniform` and `params`: what a pass gives to its shader, by the shader's own names.
 
-use super::condition::{self, optional};
+use super::condition;
 use super::parts::{self, Selected};
-use super::values;
+use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::language::model::{Face, LeftOut, Param, Part, Sample, Storage, StorageAccess, Uniform};
-use crate::language::scope::Scope;
+use crate::language::scope::Context;
 use crate::ron::{Described, Form, Leaf, Name, Reader, Shape, Spanned, Takes, Word, Words, names};
 use crate::vulkan::{AddressMode, Filter};
 use std::collections::HashMap;
@@ -127,48 +127,129 @@ const ADDRESSES: [(&str, AddressMode); 3] =
 const ACCESSES: [(&str, StorageAccess); 3] =
     [("Read", StorageAccess::Read), ("Write", StorageAccess::Write), ("ReadWrite", StorageAccess::ReadWrite)];
 
-/// Images by the shader's names, and those that conditions leave out.
-pub(crate) fn samples<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'src>,
-) -> Option<(Vec<Sample>, Vec<LeftOut>)> {
-    let mut left_out = Vec::new();
-    let all = entries(reader, leaf, "`sample`", "a sampled image", |reader, binding, value| {
-        let fields = match value.shape() {
-            Shape::Parentheses => reader.read(value, "a sampled image")?,
-            _ => SampleFields::plain(value),
-        };
-        let off = optional(fields.when, |leaf| condition::when(reader, scope, leaf)).map(Option::flatten);
-        let is_off = matches!(off, Some(Some(_)));
-        let scope = &Scope { lenient: scope.lenient || is_off, ..*scope };
-        let before = reader.errors.len();
-        let sample = sample(reader, scope, binding.clone(), fields);
-        match off? {
-            None => sample.map(Some),
-            // What has no value because it is left out is no mistake.
-            Some(off) if reader.errors.len() == before => {
-                left_out.push(LeftOut { binding: binding?, sample, off });
-                Some(None)
+impl Context<'_, '_> {
+    /// Images by the shader's names, and those that conditions leave out.
+    pub(crate) fn sampled(&mut self, leaf: Leaf<'_>) -> Option<(Vec<Sample>, Vec<LeftOut>)> {
+        let mut left_out = Vec::new();
+        let all = self.entries(leaf, "`sample`", "a sampled image", |context, binding, value| {
+            let fields = match value.shape() {
+                Shape::Parentheses => context.reader.read(value, "a sampled image")?,
+                _ => SampleFields::plain(value),
+            };
+            let off = optional(fields.when, |leaf| context.when(leaf)).map(Option::flatten);
+            let is_off = matches!(off, Some(Some(_)));
+            let before = context.reader.errors.len();
+            let sample = context.leniently(is_off, |context| context.sampled_image(binding.clone(), fields));
+            match off? {
+                None => sample.map(Some),
+                // What has no value because it is left out is no mistake.
+                Some(off) if context.reader.errors.len() == before => {
+                    left_out.push(LeftOut { binding: binding?, sample, off });
+                    Some(None)
+                }
+                Some(_) => None,
             }
-            Some(_) => None,
-        }
-    })?;
-    Some((all.into_iter().flatten().collect(), left_out))
-}
+        })?;
+        Some((all.into_iter().flatten().collect(), left_out))
+    }
 
-fn sample(reader: &mut Reader, scope: &Scope<'_>, binding: Option<Name>, fields: SampleFields<'_>) -> Option<Sample> {
-    let SampleFields { image, mip, mips, layer, layers, plane, previous, .. } = fields;
-    let SampleFields { filter, mip_filter, address, own_pixel, .. } = fields;
-    let selected = Selected { mip, mips, layer, layers, plane, previous };
-    let image = face(reader, image).map(|(name, face)| (parts::image_part(reader, scope, name, selected), face));
-    let filter = sampler(reader, scope, filter, "a filter", &FILTERS);
-    let mip_filter = sampler(reader, scope, mip_filter, "a filter", &FILTERS);
-    let address = sampler(reader, scope, address, "an address mode", &ADDRESSES);
-    let own_pixel = optional(own_pixel, |leaf| values::truth(reader, scope, leaf).map(|own| leaf.spanned(own)));
-    let (part, face) = image?;
-    let (binding, part, own_pixel) = (binding?, part?, own_pixel?);
-    Some(Sample { binding, part, face, filter: filter?, mip_filter: mip_filter?, address: address?, own_pixel })
+    fn sampled_image(&mut self, binding: Option<Name>, fields: SampleFields<'_>) -> Option<Sample> {
+        let SampleFields { image, mip, mips, layer, layers, plane, previous, .. } = fields;
+        let SampleFields { filter, mip_filter, address, own_pixel, .. } = fields;
+        let selected = Selected { mip, mips, layer, layers, plane, previous };
+        let image = face(self.reader, image).map(|(name, face)| (self.selected_image(name, selected), face));
+        let filter = self.sampler_word(filter, "a filter", &FILTERS);
+        let mip_filter = self.sampler_word(mip_filter, "a filter", &FILTERS);
+        let address = self.sampler_word(address, "an address mode", &ADDRESSES);
+        let own_pixel = optional(own_pixel, |leaf| self.truth(leaf).map(|own| leaf.spanned(own)));
+        let (part, face) = image?;
+        let (binding, part, own_pixel) = (binding?, part?, own_pixel?);
+        Some(Sample { binding, part, face, filter: filter?, mip_filter: mip_filter?, address: address?, own_pixel })
+    }
+
+    /// A part of a sampler, if it is there: `None` if it is none of the words that it may be.
+    fn sampler_word<T: Copy>(
+        &mut self,
+        leaf: Option<Leaf<'_>>,
+        what: &str,
+        choices: &[(&'static str, T)],
+    ) -> Option<Option<Spanned<T>>> {
+        optional(leaf, |leaf| self.word(leaf, what, choices).map(|value| leaf.spanned(value)))
+    }
+
+    /// Images and buffers that the shader reads and writes, by its names.
+    pub(crate) fn storage(&mut self, leaf: Leaf<'_>) -> Option<Vec<Storage>> {
+        self.entries(leaf, "`storage`", "a storage image or buffer", |context, binding, value| {
+            let Shape::Parentheses = value.shape() else {
+                let part = context.part(value);
+                return Some(Storage { binding: binding?, part: part?, access: None });
+            };
+            let fields: StorageFields<'_> = context.reader.read(value, "a storage image or buffer")?;
+            let StorageFields { image, buffer, mip, layer, layers, previous, access } = fields;
+            let selected = Selected { mip, layer, layers, previous, ..Selected::default() };
+            let part = context.part_of_either(value, image, buffer, selected);
+            let access = values::optional_choice(context.reader, access, "an access", &ACCESSES);
+            let (part, access) = (part?, access?);
+            if let (Some(previous), Some(access)) = (part.previous(), access)
+                && access.value != StorageAccess::Read
+            {
+                let written = Diagnostic::new(access.span, "what an earlier frame left can only be read");
+                context.reader.report(written.label(previous.span, "an earlier frame"));
+                return None;
+            }
+            if let (Part::Image(image), Some(previous)) = (part, part.previous()) {
+                let sampled =
+                    Diagnostic::new(previous.span, "images of earlier frames can be sampled, not read as storage");
+                context.reader.report(sampled.label(image.image.span, "this image").help("name it in `sample`"));
+                return None;
+            }
+            Some(Storage { binding: binding?, part, access })
+        })
+    }
+
+    /// Buffers that the shader reads as uniform blocks, by its names.
+    pub(crate) fn uniforms(&mut self, leaf: Leaf<'_>) -> Option<Vec<Uniform>> {
+        self.entries(leaf, "`uniform`", "a uniform block", |context, binding, value| {
+            let part = context.buffer_part(value);
+            Some(Uniform { binding: binding?, part: part? })
+        })
+    }
+
+    /// Values by the names of the shader's parameters.
+    pub(crate) fn params(&mut self, leaf: Leaf<'_>) -> Option<Vec<Param>> {
+        self.entries(leaf, "`params`", "a parameter", |context, name, leaf| {
+            let (value, written) = context.param(leaf)?;
+            Some(Param { name: name?, value: leaf.spanned(value), written })
+        })
+    }
+
+    /// The entries of a map whose keys are names, each once.
+    fn entries<'src, T>(
+        &mut self,
+        leaf: Leaf<'src>,
+        map: &str,
+        what: &str,
+        mut lower: impl FnMut(&mut Self, Option<Name>, Leaf<'src>) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let mut names = HashMap::new();
+        let mut list = Vec::new();
+        let mut complete = true;
+        for (key, value) in self.reader.map(leaf, map)? {
+            let name = self.reader.reference(key, what);
+            if let Some(name) = &name
+                && let Some(first) = names.insert(name.text.clone(), name.span)
+            {
+                let twice = Diagnostic::new(name.span, format!("{map} names `{}` twice", name.text));
+                self.reader.report(twice.remark("again here").label(first, "first here"));
+                complete = false;
+            }
+            match lower(self, name, value) {
+                Some(value) => list.push(value),
+                None => complete = false,
+            }
+        }
+        complete.then_some(list)
+    }
 }
 
 impl<'src> SampleFields<'src> {
@@ -191,29 +272,6 @@ impl<'src> SampleFields<'src> {
     }
 }
 
-/// One of several words, if it is there: `None` if it is none of them.
-fn chosen<T: Copy>(
-    reader: &mut Reader,
-    leaf: Option<Leaf<'_>>,
-    what: &str,
-    choices: &[(&'static str, T)],
-) -> Option<Option<Spanned<T>>> {
-    let Some(leaf) = leaf else { return Some(None) };
-    values::choice(reader, leaf, what, choices).map(|value| Some(leaf.spanned(value)))
-}
-
-/// A part of a sampler, if it is there: `None` if it is none of the words that it may be.
-fn sampler<T: Copy>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Option<Leaf<'_>>,
-    what: &str,
-    choices: &[(&'static str, T)],
-) -> Option<Option<Spanned<T>>> {
-    let Some(leaf) = leaf else { return Some(None) };
-    values::word(reader, scope, leaf, what, choices).map(|value| Some(leaf.spanned(value)))
-}
-
 /// An image's name, and which of its faces is meant.
 fn face<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(Leaf<'src>, Face)> {
     if let Shape::Text | Shape::Word("Eye", _) = leaf.shape() {
@@ -227,78 +285,4 @@ fn face<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(Leaf<'src>, Face
         _ => Face::DepthOnly,
     };
     Some((inner, face))
-}
-
-/// Images and buffers that the shader reads and writes, by its names.
-pub(crate) fn storage<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Storage>> {
-    entries(reader, leaf, "`storage`", "a storage image or buffer", |reader, binding, value| {
-        let Shape::Parentheses = value.shape() else {
-            let part = parts::any(reader, scope, value);
-            return Some(Storage { binding: binding?, part: part?, access: None });
-        };
-        let fields: StorageFields<'_> = reader.read(value, "a storage image or buffer")?;
-        let StorageFields { image, buffer, mip, layer, layers, previous, access } = fields;
-        let selected = Selected { mip, layer, layers, previous, ..Selected::default() };
-        let part = parts::one_of(reader, scope, value, image, buffer, selected);
-        let access = chosen(reader, access, "an access", &ACCESSES);
-        let (part, access) = (part?, access?);
-        if let (Some(previous), Some(access)) = (part.previous(), access)
-            && access.value != StorageAccess::Read
-        {
-            let written = Diagnostic::new(access.span, "what an earlier frame left can only be read");
-            reader.report(written.label(previous.span, "an earlier frame"));
-            return None;
-        }
-        if let (Part::Image(image), Some(previous)) = (part, part.previous()) {
-            let sampled =
-                Diagnostic::new(previous.span, "images of earlier frames can be sampled, not read as storage");
-            reader.report(sampled.label(image.image.span, "this image").help("name it in `sample`"));
-            return None;
-        }
-        Some(Storage { binding: binding?, part, access })
-    })
-}
-
-/// Buffers that the shader reads as uniform blocks, by its names.
-pub(crate) fn uniforms<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Uniform>> {
-    entries(reader, leaf, "`uniform`", "a uniform block", |reader, binding, value| {
-        let part = parts::buffer(reader, scope, value);
-        Some(Uniform { binding: binding?, part: part? })
-    })
-}
-
-/// Values by the names of the shader's parameters.
-pub(crate) fn params<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Param>> {
-    entries(reader, leaf, "`params`", "a parameter", |reader, name, leaf| {
-        let (value, written) = values::param(reader, scope, leaf)?;
-        Some(Param { name: name?, value: leaf.spanned(value), written })
-    })
-}
-
-/// The entries of a map whose keys are names, each once.
-fn entries<'src, T>(
-    reader: &mut Reader,
-    leaf: Leaf<'src>,
-    map: &str,
-    what: &str,
-    mut lower: impl FnMut(&mut Reader, Option<Name>, Leaf<'src>) -> Option<T>,
-) -> Option<Vec<T>> {
-    let mut names = HashMap::new();
-    let mut list = Vec::new();
-    let mut complete = true;
-    for (key, value) in reader.map(leaf, map)? {
-        let name = reader.reference(key, what);
-        if let Some(name) = &name
-            && let Some(first) = names.insert(name.text.clone(), name.span)
-        {
-            let twice = Diagnostic::new(name.span, format!("{map} names `{}` twice", name.text));
-            reader.report(twice.remark("again here").label(first, "first here"));
-            complete = false;
-        }
-        match lower(reader, name, value) {
-            Some(value) => list.push(value),
-            None => complete = false,
-        }
-    }
-    complete.then_some(list)
 }

@@ -9,14 +9,14 @@ use super::textures::TextureFields;
 use super::uses::UseFields;
 use crate::base::Diagnostic;
 use crate::fields;
-use crate::language::scope::{Known, Parameter};
+use crate::language::scope::{Parameter, Symbols};
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader};
 use std::collections::HashMap;
 use std::sync::Arc;
 
 /// What stands in `textures`, `images`, `buffers` and `passes`; `None` where an entry couldn't be told apart.
 pub(crate) struct Body<'t> {
-    pub(crate) known: Known,
+    pub(crate) symbols: Symbols,
     pub(crate) images: Vec<Option<Entry<'t, AnyImage<'t>>>>,
     pub(crate) buffers: Vec<Option<Entry<'t, BufferFields<'t>>>>,
     pub(crate) items: Vec<Option<Entry<'t, Item<'t>>>>,
@@ -89,10 +89,10 @@ pub(crate) struct Lists<'t> {
 }
 
 impl<'t> Body<'t> {
-    /// Tells the entries apart. `given` are the settings or parameters.
+    /// Tells the entries apart. `names` are those of settings or parameters.
     pub(crate) fn read(
         reader: &mut Reader,
-        given: Names,
+        names: Names,
         parameters: Vec<Option<Parameter>>,
         settings: bool,
         lists: Lists<'t>,
@@ -114,8 +114,8 @@ impl<'t> Body<'t> {
             .map(|entry| entry.map(|Entry { repeat, fields }| Entry { repeat, fields: AnyImage::Made(fields) }));
         let image_entries: Vec<_> = textures.chain(made).collect();
         let buffer_entries = repeated(reader, buffer_entries, |fields| fields.repeat);
-        let known = Known {
-            given,
+        let symbols = Symbols {
+            names,
             parameters,
             settings,
             images,
@@ -123,16 +123,16 @@ impl<'t> Body<'t> {
             buffers,
             buffer_lists: lists_of(&buffer_entries),
         };
-        known.differ(reader);
+        symbols.differ(reader);
         let items = items(reader, lists.passes);
         let repeats = image_entries.iter().flatten().map(|entry| &entry.repeat);
         let repeats = repeats.chain(buffer_entries.iter().flatten().map(|entry| &entry.repeat));
         for repeat in repeats.chain(items.iter().flatten().map(|entry| &entry.repeat)) {
             if let Repeat::Times { index, .. } = repeat {
-                known.differs(reader, index);
+                symbols.differs(reader, index);
             }
         }
-        Body { known, images: image_entries, buffers: buffer_entries, items }
+        Body { symbols, images: image_entries, buffers: buffer_entries, items }
     }
 }
 

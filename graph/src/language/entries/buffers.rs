@@ -1,13 +1,13 @@
 //! `buffers`: how many bytes, and how long their contents live.
 
 use super::repeat::REPEAT;
-use super::values::{self, Decided};
+use super::values::Decided;
 use super::{lifetimes, parts, views};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::language::model::{Buffer, Bytes, Lifetime, SettingKind};
-use crate::language::scope::{Quoted, Scope};
-use crate::ron::{Form, Leaf, Plain, Reader, Shape, Spanned, Takes, Word, Words};
+use crate::language::scope::{Context, Quoted};
+use crate::ron::{Form, Leaf, Plain, Shape, Spanned, Takes, Word, Words};
 
 /// Most bytes that a buffer may have: 1 TiB.
 pub(crate) const LARGEST_BUFFER: i64 = 1 << 40;
@@ -58,67 +58,70 @@ static BYTES: Words = Words {
     ],
 };
 
-/// A buffer, once its fields are told apart.
-pub(crate) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &BufferFields<'src>) -> Option<Buffer> {
-    let name = reader.name(fields.name, "a buffer");
-    let bytes = bytes(reader, scope, fields.bytes);
-    let lifetime = match fields.lifetime {
-        Some(leaf) => lifetimes::lower(reader, scope, leaf, lifetimes::Of::Buffer),
-        None => Some(Spanned { value: Lifetime::Transient, span: fields.name.span() }),
-    };
-    let (bytes, bytes_because) = bytes?;
-    let bytes = fields.bytes.spanned(bytes);
-    Some(Buffer { name: name?, bytes, bytes_because, lifetime: lifetime?, instance: None })
-}
+impl Context<'_, '_> {
+    /// A buffer, once its fields are told apart.
+    pub(crate) fn buffer_entry(&mut self, fields: &BufferFields<'_>) -> Option<Buffer> {
+        let name = self.reader.name(fields.name, "a buffer");
+        let bytes = self.bytes(fields.bytes);
+        let lifetime =
+            fields.lifetime.map_or(Some(Spanned { value: Lifetime::Transient, span: fields.name.span() }), |leaf| {
+                self.lifetime(leaf, lifetimes::Of::Buffer)
+            });
+        let (bytes, bytes_because) = bytes?;
+        let bytes = fields.bytes.spanned(bytes);
+        Some(Buffer { name: name?, bytes, bytes_because, lifetime: lifetime?, instance: None })
+    }
 
-fn bytes<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<Bytes>> {
-    let what = "size of a buffer in bytes";
-    match leaf.shape() {
-        Shape::Text | Shape::Number => {
-            let (bytes, because): Decided<u64> = values::whole_because(reader, scope, leaf, what, 4..=LARGEST_BUFFER)?;
-            if matches!(leaf.shape(), Shape::Number) && !bytes.is_multiple_of(4) {
-                let help = format!("the next is {}", bytes.next_multiple_of(4));
-                reader.wrong(leaf, format!("a buffer has a multiple of 4 bytes, found {bytes}"), &help);
-                return None;
+    fn bytes(&mut self, leaf: Leaf<'_>) -> Option<Decided<Bytes>> {
+        let what = "size of a buffer in bytes";
+        match leaf.shape() {
+            Shape::Text | Shape::Number => {
+                let (bytes, because): Decided<u64> = self.whole_because(leaf, what, 4..=LARGEST_BUFFER)?;
+                if matches!(leaf.shape(), Shape::Number) && !bytes.is_multiple_of(4) {
+                    let help = format!("the next is {}", bytes.next_multiple_of(4));
+                    self.reader.wrong(leaf, format!("a buffer has a multiple of 4 bytes, found {bytes}"), &help);
+                    return None;
+                }
+                Some((Bytes::Count(bytes), because))
             }
-            Some((Bytes::Count(bytes), because))
-        }
-        _ => {
-            let (word, rest) = reader.one_of(leaf, &BYTES)?;
-            if word == "Like" {
-                let [other]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Like(\"buffer\")")?;
-                return scope.buffer(reader, other).map(|other| (Bytes::Like(other), None));
+            _ => {
+                let (word, rest) = self.reader.one_of(leaf, &BYTES)?;
+                if word == "Like" {
+                    let [other]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"buffer\")")?;
+                    return self.buffer(other).map(|other| (Bytes::Like(other), None));
+                }
+                let [each, of]: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, &format!("{word}(16, \"…\")"))?;
+                let each = self.whole(each, "number of bytes", 1..=LARGEST_BUFFER);
+                if word == "PerTexel" {
+                    let image = self.image(of);
+                    return Some((Bytes::PerTexel(each?, image?), None));
+                }
+                let (count, because) = self.bytes_times(of)?;
+                Some((Bytes::Times(each?, count), because))
             }
-            let [each, of]: [Leaf<'_>; 2] = reader.inside(leaf, rest, &format!("{word}(16, \"…\")"))?;
-            let each = values::whole(reader, scope, each, "number of bytes", 1..=LARGEST_BUFFER);
-            if word == "PerTexel" {
-                let image = scope.image(reader, of);
-                return Some((Bytes::PerTexel(each?, image?), None));
-            }
-            let (count, because) = times(reader, scope, of)?;
-            Some((Bytes::Times(each?, count), because))
         }
     }
-}
 
-/// How many things a buffer is for.
-fn times<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Decided<u64>> {
-    if let Shape::Text = leaf.shape()
-        && scope.known.settings
-        && let Quoted::Given(parameter, _) = scope.quoted(reader, leaf, SettingKind::is_whole, "a whole number")?
-        && let Some(least) = parameter.least().filter(|least| *least < 1.0)
-    {
-        let message = format!("this setting allows {least}, so that the buffer would be empty");
-        reader.wrong(leaf, message, "let the setting begin at 1");
-        return None;
-    }
-    let (count, because): Decided<i64> = values::whole_because(reader, scope, leaf, "count", i64::MIN..=i64::MAX)?;
-    match u64::try_from(count) {
-        Ok(count @ 1..) => Some((count, because)),
-        _ => {
-            let empty = Diagnostic::new(leaf.span(), format!("{count} of something leave the buffer empty"));
-            scope.fault(reader, leaf, empty.remark(because.as_deref().unwrap_or_default()));
-            None
+    /// How many things a buffer is for.
+    fn bytes_times(&mut self, leaf: Leaf<'_>) -> Option<Decided<u64>> {
+        if let Shape::Text = leaf.shape()
+            && self.scope.symbols.settings
+            && let Quoted::Parameter(parameter, _) =
+                self.quoted(leaf, SettingKind::is_whole, "a whole number", Some("a whole number"))?
+            && let Some(least) = parameter.least().filter(|least| *least < 1.0)
+        {
+            let message = format!("this setting allows {least}, so that the buffer would be empty");
+            self.reader.wrong(leaf, message, "let the setting begin at 1");
+            return None;
+        }
+        let (count, because): Decided<i64> = self.whole_because(leaf, "count", i64::MIN..=i64::MAX)?;
+        match u64::try_from(count) {
+            Ok(count @ 1..) => Some((count, because)),
+            _ => {
+                let empty = Diagnostic::new(leaf.span(), format!("{count} of something leave the buffer empty"));
+                self.fault(leaf, empty.remark(because.as_deref().unwrap_or_default()));
+                None
+            }
         }
     }
 }

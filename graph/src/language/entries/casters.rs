@@ -1,12 +1,11 @@
 //! `draw: Casters(…)`: what casts the sun's shadow.
 
-use super::condition::optional;
-use super::values;
+use super::values::{self, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Cascade, DrawList, Metres};
-use crate::language::scope::Scope;
-use crate::ron::{Described, Leaf, Reader, Table, names};
+use crate::language::scope::Context;
+use crate::ron::{Described, Leaf, Table, names};
 
 /// Draw lists, by name.
 pub(crate) const LISTS: [(&str, DrawList); 3] =
@@ -37,44 +36,41 @@ pub(crate) fn fields() -> Table {
 /// Those that light doesn't go through.
 const CASTERS: [(&str, DrawList); 2] = [LISTS[0], LISTS[1]];
 
-/// What casts the sun's shadow.
-pub(crate) fn lower<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'src>,
-    rest: Option<Leaf<'src>>,
-) -> Option<Cascade> {
-    let fields: CastersFields<'_> = reader.inside(leaf, rest, FORM)?;
-    let most = i64::from(Cascade::MOST);
-    let list = values::choice(reader, fields.list, "a list of casters", &CASTERS);
-    let index = values::whole(reader, scope, fields.cascade, "cascade", 0..=most - 1);
-    let of = values::whole(reader, scope, fields.of, "number of cascades", 1..=most);
-    let reach = optional(fields.reach, |leaf| reach(reader, scope, leaf)).map(Option::flatten);
-    let (list, index, of, reach) = (list?, index?, of?, reach?);
-    if index >= of {
-        let beyond = Diagnostic::new(fields.cascade.span(), format!("there is no cascade {index} of {of}"));
-        scope.fault(
-            reader,
-            fields.cascade,
-            beyond.label(fields.of.span(), "so many").help(format!("write a number from 0 to {}", of - 1)),
-        );
-        return None;
+impl Context<'_, '_> {
+    /// What casts the sun's shadow.
+    pub(crate) fn casters(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<Cascade> {
+        let fields: CastersFields<'_> = self.reader.inside(leaf, rest, FORM)?;
+        let most = i64::from(Cascade::MOST);
+        let list = values::choice(self.reader, fields.list, "a list of casters", &CASTERS);
+        let index = self.whole(fields.cascade, "cascade", 0..=most - 1);
+        let of = self.whole(fields.of, "number of cascades", 1..=most);
+        let reach = optional(fields.reach, |leaf| self.reach(leaf)).map(Option::flatten);
+        let (list, index, of, reach) = (list?, index?, of?, reach?);
+        if index >= of {
+            let beyond = Diagnostic::new(fields.cascade.span(), format!("there is no cascade {index} of {of}"));
+            self.fault(
+                fields.cascade,
+                beyond.label(fields.of.span(), "so many").help(format!("write a number from 0 to {}", of - 1)),
+            );
+            return None;
+        }
+        Some(Cascade { list, index, of, reach })
     }
-    Some(Cascade { list, index, of, reach })
-}
 
-/// How far shadows reach; `None`: through the whole scene.
-fn reach<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Option<Metres>> {
-    let (metres, because) = values::number_because(reader, scope, leaf, "how far shadows reach")?;
-    if metres == 0.0 {
-        return Some(None);
+    /// How far shadows reach; `None`: through the whole scene.
+    fn reach(&mut self, leaf: Leaf<'_>) -> Option<Option<Metres>> {
+        let (metres, because) = self.number_because(leaf, "how far shadows reach")?;
+        if metres == 0.0 {
+            return Some(None);
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "what becomes 0 or infinite is refused")]
+        let known = Metres::try_from(metres as f32);
+        if known.is_err() {
+            let wrong = Diagnostic::new(leaf.span(), "shadows can't reach that far");
+            let wrong =
+                wrong.help("write `0` for the whole scene, or a number of metres above 0 that 32 bits can hold");
+            self.fault(leaf, wrong.remark(because.as_deref().unwrap_or_default()));
+        }
+        known.ok().map(Some)
     }
-    #[allow(clippy::cast_possible_truncation, reason = "what becomes 0 or infinite is refused")]
-    let known = Metres::try_from(metres as f32);
-    if known.is_err() {
-        let wrong = Diagnostic::new(leaf.span(), "shadows can't reach that far");
-        let wrong = wrong.help("write `0` for the whole scene, or a number of metres above 0 that 32 bits can hold");
-        scope.fault(reader, leaf, wrong.remark(because.as_deref().unwrap_or_default()));
-    }
-    known.ok().map(Some)
 }

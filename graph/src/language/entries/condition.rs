@@ -1,29 +1,27 @@
 //! `when`: a condition that switches an entry off.
 
+use super::values::optional;
 use crate::language::model::Off;
-use crate::language::scope::Scope;
-use crate::ron::{Form, Leaf, Reader, Shape};
+use crate::language::scope::Context;
+use crate::ron::{Form, Leaf, Shape};
 
 /// What `when` takes.
 pub(crate) const CONDITION: Form = Form::Expression("a condition");
 
-/// Whether a pass runs: `Some(None)`, or why it doesn't.
-pub(crate) fn when<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Option<Off>> {
-    let Shape::Text = leaf.shape() else {
-        reader.expected(leaf, "a condition in quotes");
-        return None;
-    };
-    let outcome = scope.condition(reader, leaf)?;
-    Some(outcome.map(|because| Off { span: leaf.span(), because }))
-}
+impl Context<'_, '_> {
+    /// Why an entry with this condition is off, if it is, and in which view. `None` if the condition is wrong.
+    pub(crate) fn off(&mut self, when: Option<Leaf<'_>>) -> Option<Option<Off>> {
+        let off = optional(when, |leaf| self.when(leaf))?.flatten();
+        Some(off.map(|Off { span, because }| Off { span, because: self.scope.within_view(&because) }))
+    }
 
-/// A field that may be absent: `None` if it is there and wrong.
-pub(crate) fn optional<'src, T>(
-    leaf: Option<Leaf<'src>>,
-    lower: impl FnOnce(Leaf<'src>) -> Option<T>,
-) -> Option<Option<T>> {
-    match leaf {
-        Some(leaf) => lower(leaf).map(Some),
-        None => Some(None),
+    /// Whether a pass runs: `Some(None)`, or why it doesn't.
+    pub(crate) fn when(&mut self, leaf: Leaf<'_>) -> Option<Option<Off>> {
+        let Shape::Text = leaf.shape() else {
+            self.reader.expected(leaf, "a condition in quotes");
+            return None;
+        };
+        let outcome = self.condition(leaf)?;
+        Some(outcome.map(|because| Off { span: leaf.span(), because }))
     }
 }

@@ -1,10 +1,10 @@
 //! `dispatch`: how many workgroups a compute pass runs.
 
-use super::values::{self, MANY};
+use super::values::MANY;
 use super::{buffers, parts};
 use crate::language::model::{Groups, Work};
-use crate::language::scope::Scope;
-use crate::ron::{Form, Leaf, Reader, Takes, Word, Words};
+use crate::language::scope::Context;
+use crate::ron::{Form, Leaf, Takes, Word, Words};
 
 /// What `groups` takes.
 pub(crate) const WORKGROUPS: Form = Form::Words(&GROUPS);
@@ -49,84 +49,71 @@ const GROUP: Form = Form::Whole(1, MOST_GROUPS);
 /// Every device allows so many workgroups in x, y and z.
 pub(crate) const MOST_GROUPS: i64 = 65535;
 
-/// A compute shader and how often it runs.
-pub(crate) fn lower<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'src>,
-    groups_at: Option<Leaf<'src>>,
-    what: &str,
-) -> Option<Work> {
-    let shader = reader.outside_name(leaf, "a shader");
-    let Some(groups_at) = groups_at else {
-        reader.wrong(
-            leaf,
-            format!("{what} doesn't say how many workgroups run"),
-            "add `groups: Count(8, 8, 1)`, or another number",
-        );
-        return None;
-    };
-    let groups = groups(reader, scope, groups_at);
-    Some(Work::Dispatch { shader: shader?, groups: groups_at.spanned(groups?) })
-}
+impl Context<'_, '_> {
+    /// A compute shader and how often it runs.
+    pub(crate) fn dispatch_work(&mut self, leaf: Leaf<'_>, groups_at: Option<Leaf<'_>>, what: &str) -> Option<Work> {
+        let shader = self.reader.outside_name(leaf, "a shader");
+        let Some(groups_at) = groups_at else {
+            self.reader.wrong(
+                leaf,
+                format!("{what} doesn't say how many workgroups run"),
+                "add `groups: Count(8, 8, 1)`, or another number",
+            );
+            return None;
+        };
+        let groups = self.groups(groups_at);
+        Some(Work::Dispatch { shader: shader?, groups: groups_at.spanned(groups?) })
+    }
 
-fn groups<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Groups> {
-    let (word, rest) = reader.one_of(leaf, &GROUPS)?;
-    match word {
-        "Count" => three(reader, scope, leaf, rest, "number of workgroups", MOST_GROUPS).map(Groups::Count),
-        "Invocations" => {
-            three(reader, scope, leaf, rest, "number of invocations", i64::from(u32::MAX)).map(Groups::Invocations)
-        }
-        "Texels" => {
-            let image = match rest {
-                // `Texels(image: "x", mip: 1)` is the part itself, in the word's own parentheses.
-                Some(rest) if rest.tuple::<1>().is_none() => rest,
-                _ => reader.inside::<[Leaf<'_>; 1]>(leaf, rest, "Texels(\"image\")")?[0],
-            };
-            parts::image(reader, scope, image).map(Groups::Texels)
-        }
-        _ => {
-            let (buffer, offset) = match rest.and_then(Leaf::tuple) {
-                Some([buffer, offset]) => (buffer, Some(offset)),
-                None => (
-                    reader.inside::<[Leaf<'_>; 1]>(leaf, rest, "Indirect(\"buffer\")` or `Indirect(\"buffer\", 16)")?
-                        [0],
-                    None,
-                ),
-            };
-            let buffer = parts::buffer(reader, scope, buffer);
-            let offset = match offset {
-                Some(leaf) => values::whole(reader, scope, leaf, "offset in bytes", 0..=buffers::LARGEST_BUFFER),
-                None => Some(0),
-            };
-            Some(Groups::Indirect { buffer: buffer?, offset: offset? })
+    fn groups(&mut self, leaf: Leaf<'_>) -> Option<Groups> {
+        let (word, rest) = self.reader.one_of(leaf, &GROUPS)?;
+        match word {
+            "Count" => self.three_numbers(leaf, rest, "number of workgroups", MOST_GROUPS).map(Groups::Count),
+            "Invocations" => {
+                self.three_numbers(leaf, rest, "number of invocations", i64::from(u32::MAX)).map(Groups::Invocations)
+            }
+            "Texels" => {
+                let image = match rest {
+                    // `Texels(image: "x", mip: 1)` is the part itself, in the word's own parentheses.
+                    Some(rest) if rest.tuple::<1>().is_none() => rest,
+                    _ => self.reader.inside::<[Leaf<'_>; 1]>(leaf, rest, "Texels(\"image\")")?[0],
+                };
+                self.image_part(image).map(Groups::Texels)
+            }
+            _ => {
+                let (buffer, offset) = match rest.and_then(Leaf::tuple) {
+                    Some([buffer, offset]) => (buffer, Some(offset)),
+                    None => (
+                        self.reader.inside::<[Leaf<'_>; 1]>(
+                            leaf,
+                            rest,
+                            "Indirect(\"buffer\")` or `Indirect(\"buffer\", 16)",
+                        )?[0],
+                        None,
+                    ),
+                };
+                let buffer = self.buffer_part(buffer);
+                let offset =
+                    offset.map_or(Some(0), |leaf| self.whole(leaf, "offset in bytes", 0..=buffers::LARGEST_BUFFER));
+                Some(Groups::Indirect { buffer: buffer?, offset: offset? })
+            }
         }
     }
-}
 
-/// One to three whole numbers; those that are left out are 1.
-fn three<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'src>,
-    rest: Option<Leaf<'src>>,
-    what: &str,
-    most: i64,
-) -> Option<[u32; 3]> {
-    let probed = rest.and_then(|rest| {
-        let one = rest.tuple().map(|[x]| (x, None, None));
-        one.or_else(|| rest.tuple().map(|[x, y]| (x, Some(y), None)))
-    });
-    let (x, y, z) = match probed {
-        Some(few) => few,
-        None => {
-            let [x, y, z]: [Leaf<'_>; 3] = reader.inside(leaf, rest, "Count(8, 8, 1)")?;
-            (x, Some(y), Some(z))
-        }
-    };
-    let number = [Some(x), y, z].map(|leaf| match leaf {
-        Some(leaf) => values::whole(reader, scope, leaf, what, 1..=most),
-        None => Some(1),
-    });
-    Some([number[0]?, number[1]?, number[2]?])
+    /// One to three whole numbers; those that are left out are 1.
+    fn three_numbers(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>, what: &str, most: i64) -> Option<[u32; 3]> {
+        let probed = rest.and_then(|rest| {
+            let one = rest.tuple().map(|[x]| (x, None, None));
+            one.or_else(|| rest.tuple().map(|[x, y]| (x, Some(y), None)))
+        });
+        let (x, y, z) = match probed {
+            Some(few) => few,
+            None => {
+                let [x, y, z]: [Leaf<'_>; 3] = self.reader.inside(leaf, rest, "Count(8, 8, 1)")?;
+                (x, Some(y), Some(z))
+            }
+        };
+        let number = [Some(x), y, z].map(|leaf| leaf.map_or(Some(1), |leaf| self.whole(leaf, what, 1..=most)));
+        Some([number[0]?, number[1]?, number[2]?])
+    }
 }

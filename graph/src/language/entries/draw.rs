@@ -5,7 +5,7 @@ use super::parts;
 use super::values::{self, MANY};
 use crate::frame::DrawList;
 use crate::language::model::{Draw, Work};
-use crate::language::scope::Scope;
+use crate::language::scope::Context;
 use crate::ron::{Form, Leaf, Name, Plain, Reader, Takes, Word, Words, names};
 
 /// What `draw` takes.
@@ -58,72 +58,70 @@ pub(crate) struct Beside<'src> {
     pub(crate) index: Option<Leaf<'src>>,
 }
 
-/// What is drawn, by which shader.
-pub(crate) fn lower<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'src>,
-    Beside { shader, vertex, index }: Beside<'src>,
-    what: &str,
-) -> Option<Work> {
-    let (word, rest) = reader.one_of(leaf, &DRAWS)?;
-    if !matches!(word, "Vertices" | "Indirect") {
-        for (field, foreign) in [("vertex", vertex), ("index", index)] {
-            let Some(foreign) = foreign else { continue };
-            let message = format!("{what} has `{field}`, which means nothing beside `{word}`");
-            reader.wrong(
-                foreign,
-                message,
-                &format!("leave `{field}` out: buffers of vertices go with `Vertices(…)` and `Indirect(…)`"),
-            );
+impl Context<'_, '_> {
+    /// What is drawn, by which shader.
+    pub(crate) fn draw_work(
+        &mut self,
+        leaf: Leaf<'_>,
+        Beside { shader, vertex, index }: Beside<'_>,
+        what: &str,
+    ) -> Option<Work> {
+        let (word, rest) = self.reader.one_of(leaf, &DRAWS)?;
+        if !matches!(word, "Vertices" | "Indirect") {
+            for (field, foreign) in [("vertex", vertex), ("index", index)] {
+                let Some(foreign) = foreign else { continue };
+                let message = format!("{what} has `{field}`, which means nothing beside `{word}`");
+                self.reader.wrong(
+                    foreign,
+                    message,
+                    &format!("leave `{field}` out: buffers of vertices go with `Vertices(…)` and `Indirect(…)`"),
+                );
+            }
         }
+        let (draw, verb) = match word {
+            "FullScreen" => {
+                let [own]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "FullScreen(\"shader\")")?;
+                if let Some(second) = shader {
+                    self.reader.wrong(second, format!("{what} names its shader in `FullScreen(…)` already"), "");
+                    return None;
+                }
+                return Some(Work::Draw { draw: Draw::FullScreen, shader: self.reader.outside_name(own, "a shader")? });
+            }
+            "Sky" => {
+                self.reader.bare(word, rest)?;
+                if shader.is_none() {
+                    let shader = Name { text: "sky".into(), span: leaf.span() };
+                    return Some(Work::Draw { draw: Draw::Sky, shader });
+                }
+                (Draw::Sky, "draws the sky")
+            }
+            "Objects" => (Draw::Objects(list(self.reader, leaf, rest)?), "draws objects"),
+            "Casters" => (Draw::Casters(self.casters(leaf, rest)?), "draws objects"),
+            "Vertices" => {
+                let (count, instances) = match rest.and_then(Leaf::tuple) {
+                    Some([count, instances]) => (count, Some(instances)),
+                    None => {
+                        let [count]: [Leaf<'_>; 1] =
+                            self.reader.inside(leaf, rest, "Vertices(3)` or `Vertices(3, 100)")?;
+                        (count, None)
+                    }
+                };
+                let range = 1..=i64::from(u32::MAX);
+                let count = self.whole(count, "number of vertices", range.clone());
+                let instances = instances.map_or(Some(1), |leaf| self.whole(leaf, "number of instances", range));
+                (Draw::Vertices { count: count?, instances: instances? }, "draws vertices")
+            }
+            _ => {
+                let [buffer]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Indirect(\"buffer\")")?;
+                (Draw::Indirect(self.buffer_part(buffer)?), "draws vertices")
+            }
+        };
+        let Some(shader) = shader else {
+            self.reader.wrong(leaf, format!("{what} {verb} and needs a shader"), "add `shader: \"…\"`");
+            return None;
+        };
+        Some(Work::Draw { draw, shader: self.reader.outside_name(shader, "a shader")? })
     }
-    let (draw, verb) = match word {
-        "FullScreen" => {
-            let [own]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "FullScreen(\"shader\")")?;
-            if let Some(second) = shader {
-                reader.wrong(second, format!("{what} names its shader in `FullScreen(…)` already"), "");
-                return None;
-            }
-            return Some(Work::Draw { draw: Draw::FullScreen, shader: reader.outside_name(own, "a shader")? });
-        }
-        "Sky" => {
-            reader.bare(word, rest)?;
-            if shader.is_none() {
-                let shader = Name { text: "sky".into(), span: leaf.span() };
-                return Some(Work::Draw { draw: Draw::Sky, shader });
-            }
-            (Draw::Sky, "draws the sky")
-        }
-        "Objects" => (Draw::Objects(list(reader, leaf, rest)?), "draws objects"),
-        "Casters" => (Draw::Casters(casters::lower(reader, scope, leaf, rest)?), "draws objects"),
-        "Vertices" => {
-            let one = || Some(1);
-            let number = |reader: &mut Reader, leaf, what: &str| {
-                values::whole(reader, scope, leaf, what, 1..=i64::from(u32::MAX))
-            };
-            let form = "Vertices(3)` or `Vertices(3, 100)";
-            let (count, instances) = match rest.and_then(Leaf::tuple) {
-                Some([count, instances]) => {
-                    (number(reader, count, "number of vertices"), number(reader, instances, "number of instances"))
-                }
-                None => {
-                    let [count]: [Leaf<'_>; 1] = reader.inside(leaf, rest, form)?;
-                    (number(reader, count, "number of vertices"), one())
-                }
-            };
-            (Draw::Vertices { count: count?, instances: instances? }, "draws vertices")
-        }
-        _ => {
-            let [buffer]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Indirect(\"buffer\")")?;
-            (Draw::Indirect(parts::buffer(reader, scope, buffer)?), "draws vertices")
-        }
-    };
-    let Some(shader) = shader else {
-        reader.wrong(leaf, format!("{what} {verb} and needs a shader"), "add `shader: \"…\"`");
-        return None;
-    };
-    Some(Work::Draw { draw, shader: reader.outside_name(shader, "a shader")? })
 }
 
 /// One of the scene's draw lists.

@@ -1,15 +1,14 @@
 //! `images`: format, size, samples, mip levels, layers, shape and lifetime, most its own or another image's.
 
-use super::parts::{self, like};
 use super::repeat::REPEAT;
-use super::values::{self, Decided};
-use super::{lifetimes, parameters, resolves, sizes, views};
+use super::values::Decided;
+use super::{lifetimes, parameters, parts, resolves, sizes, views};
 use crate::base::Diagnostic;
 use crate::expression::{Value, Wanted};
 use crate::frame::ViewIndex;
 use crate::language::model::{Format, Image, ImageShape, LARGEST_SIZE, Layers, Lifetime, Mips, Samples, SettingKind};
-use crate::language::scope::{Quoted, Scope, joined};
-use crate::ron::{Described, Form, Leaf, Name, Plain, Reader, Shape, Spanned, Takes, Word, Words};
+use crate::language::scope::{Context, Evaluated, Parameter};
+use crate::ron::{Described, Form, Leaf, Name, Plain, Shape, Spanned, Takes, Word, Words};
 use crate::{fields, vulkan};
 use std::sync::Arc;
 
@@ -136,177 +135,169 @@ static SHAPES: Words = Words {
     ],
 };
 
-/// An image, once its fields are told apart.
-pub(crate) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, fields: &ImageFields<'src>) -> Option<Image> {
-    let name = reader.name(fields.name, "an image");
-    let format = format(reader, scope, fields.format);
-    let size = sizes::lower(reader, scope, fields.size);
-    let samples = match fields.samples {
-        Some(leaf) => samples(reader, scope, leaf, &name).map(|(samples, because)| (leaf.spanned(samples), because)),
-        None => name.as_ref().map(|name| (Spanned { value: Samples::Count(1), span: name.span }, None)),
-    };
-    let resolve = fields.resolve.map(|leaf| resolves::lower(reader, scope, leaf));
-    let mips = or(reader, fields.mips, &name, Mips::Count(1), |reader, leaf| mips(reader, scope, leaf));
-    let layers = or(reader, fields.layers, &name, Layers::Default, |reader, leaf| layers(reader, scope, leaf));
-    let shape = or(reader, fields.shape, &name, ImageShape::D2, |reader, leaf| shape(reader, scope, leaf));
-    let lifetime = match fields.lifetime {
-        Some(leaf) => lifetimes::lower(reader, scope, leaf, lifetimes::Of::Image),
-        None => name.as_ref().map(|name| Spanned { value: Lifetime::Transient, span: name.span }),
-    };
-    let per_eye = fields.per_eye.map(|leaf| values::truth(reader, scope, leaf).map(|own| leaf.spanned(own)));
-    let ((size, size_because), (samples, samples_because)) = (size?, samples?);
-    Some(Image {
-        name: name?,
-        format: fields.format.spanned(format?),
-        size: fields.size.spanned(size),
-        size_because,
-        samples,
-        samples_because,
-        resolve: match resolve {
-            Some(resolve) => Some(resolve?),
-            None => None,
-        },
-        mips: mips?,
-        layers: layers?,
-        shape: shape?,
-        lifetime: lifetime?,
-        eyes: None,
-        per_eye: match per_eye {
-            Some(per_eye) => Some(per_eye?),
-            None => None,
-        },
-        view: ViewIndex::default(),
-        instance: None,
-    })
-}
-
-/// The value of a field that may be absent; its place is then the image's name.
-fn or<'src, T>(
-    reader: &mut Reader,
-    leaf: Option<Leaf<'src>>,
-    name: &Option<Name>,
-    absent: T,
-    lower: impl FnOnce(&mut Reader, Leaf<'src>) -> Option<T>,
-) -> Option<Spanned<T>> {
-    match leaf {
-        Some(leaf) => lower(reader, leaf).map(|value| leaf.spanned(value)),
-        None => name.as_ref().map(|name| Spanned { value: absent, span: name.span }),
-    }
-}
-
-fn format<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Format> {
-    if let Shape::Text = leaf.shape() {
-        if let Some(word @ ("Depth" | "DepthStencil" | "Output")) = leaf.plain() {
-            reader.wrong(leaf, format!("`{word}` is no format of Vulkan's"), "it stands without quotes");
-            return None;
-        }
-        return values::format(reader, scope, leaf).map(Format::Named);
-    }
-    let (word, rest) = match leaf.shape() {
-        Shape::Word(word, rest) if vulkan::Format::from_name(word).is_some() => (word, rest),
-        _ => reader.one_of(leaf, &FORMATS)?,
-    };
-    match word {
-        "Color" => {
-            let hdr = match rest {
-                Some(_) => reader.inside::<ColorFormatFields<'_>>(leaf, rest, "Color(hdr: …)")?.hdr,
+impl Context<'_, '_> {
+    /// An image, once its fields are told apart.
+    pub(crate) fn image_entry(&mut self, fields: &ImageFields<'_>) -> Option<Image> {
+        let name = self.reader.name(fields.name, "an image");
+        let format = self.image_format(fields.format);
+        let size = self.size(fields.size);
+        let samples = match fields.samples {
+            Some(leaf) => self.samples(leaf, &name).map(|(samples, because)| (leaf.spanned(samples), because)),
+            None => name.as_ref().map(|name| (Spanned { value: Samples::Count(1), span: name.span }, None)),
+        };
+        let resolve = fields.resolve.map(|leaf| self.resolve(leaf));
+        let mips = self.or(fields.mips, &name, Mips::Count(1), Self::mips);
+        let layers = self.or(fields.layers, &name, Layers::Default, Self::layers);
+        let shape = self.or(fields.shape, &name, ImageShape::D2, Self::shape);
+        let lifetime = match fields.lifetime {
+            Some(leaf) => self.lifetime(leaf, lifetimes::Of::Image),
+            None => name.as_ref().map(|name| Spanned { value: Lifetime::Transient, span: name.span }),
+        };
+        let per_eye = fields.per_eye.map(|leaf| self.truth(leaf).map(|own| leaf.spanned(own)));
+        let ((size, size_because), (samples, samples_because)) = (size?, samples?);
+        let within = |because: Option<Arc<str>>| because.map(|because| self.scope.within_view(&because).into());
+        Some(Image {
+            name: name?,
+            format: fields.format.spanned(format?),
+            size: fields.size.spanned(size),
+            size_because: within(size_because),
+            samples,
+            samples_because: within(samples_because),
+            resolve: match resolve {
+                Some(resolve) => Some(resolve?),
                 None => None,
-            };
-            match hdr {
-                Some(hdr) => values::truth(reader, scope, hdr).map(|hdr| Format::Color { hdr }),
-                None => Some(Format::Color { hdr: false }),
-            }
-        }
-        "Depth" => reader.bare(word, rest).map(|()| Format::Depth),
-        "DepthStencil" => reader.bare(word, rest).map(|()| Format::DepthStencil),
-        "Output" => reader.bare(word, rest).map(|()| Format::Output),
-        "Like" => like(reader, scope, leaf, rest).map(Format::Like),
-        name => {
-            reader.bare(word, rest)?;
-            vulkan::Format::from_name(name).map(Format::Named)
+            },
+            mips: mips?,
+            layers: layers?,
+            shape: shape?,
+            lifetime: lifetime?,
+            eyes: None,
+            per_eye: match per_eye {
+                Some(per_eye) => Some(per_eye?),
+                None => None,
+            },
+            view: ViewIndex::default(),
+            instance: None,
+        })
+    }
+
+    /// The value of a field that may be absent; its place is then the image's name.
+    fn or<'src, T>(
+        &mut self,
+        leaf: Option<Leaf<'src>>,
+        name: &Option<Name>,
+        absent: T,
+        lower: impl FnOnce(&mut Self, Leaf<'src>) -> Option<T>,
+    ) -> Option<Spanned<T>> {
+        match leaf {
+            Some(leaf) => lower(self, leaf).map(|value| leaf.spanned(value)),
+            None => name.as_ref().map(|name| Spanned { value: absent, span: name.span }),
         }
     }
-}
 
-fn samples<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'src>,
-    image: &Option<Name>,
-) -> Option<Decided<Samples>> {
-    let (count, because): Decided<i64> = match leaf.shape() {
-        Shape::Text => match scope.quoted(reader, leaf, SettingKind::is_whole, "a whole number")? {
-            Quoted::Given(parameter, given) => {
-                if scope.known.settings
-                    && let Some(odd) = parameter.one_of().iter().find(|count| !SAMPLE_COUNTS.contains(count))
-                {
-                    reader.wrong(
-                        leaf,
-                        format!("this setting allows {odd}, which is no sample count"),
-                        &SAMPLES.forms(),
-                    );
-                    return None;
-                }
-                let Value::Integer(count) = given.value else { return None };
-                (count, scope.because(parameter, given))
-            }
-            Quoted::Expression => {
-                let outcome = scope.evaluate(reader, leaf, Wanted::INTEGER)?;
-                let Value::Integer(count) = outcome.value else { return None };
-                (count, joined(&outcome.decided))
-            }
-        },
-        Shape::Number => {
-            let count = reader.integer(leaf)?;
-            if !SAMPLE_COUNTS.contains(&count) {
-                reader.wrong(leaf, format!("{count} is no sample count"), &SAMPLES.forms());
+    fn image_format(&mut self, leaf: Leaf<'_>) -> Option<Format> {
+        if let Shape::Text = leaf.shape() {
+            if let Some(word @ ("Depth" | "DepthStencil" | "Output")) = leaf.plain() {
+                self.reader.wrong(leaf, format!("`{word}` is no format of Vulkan's"), "it stands without quotes");
                 return None;
             }
-            (count, None)
+            return self.format(leaf).map(Format::Named);
         }
-        _ => {
-            let (_, rest) = reader.one_of(leaf, &SAMPLES)?;
-            return like(reader, scope, leaf, rest).map(|of| (Samples::Like(of), None));
+        let (word, rest) = match leaf.shape() {
+            Shape::Word(word, rest) if vulkan::Format::from_name(word).is_some() => (word, rest),
+            _ => self.reader.one_of(leaf, &FORMATS)?,
+        };
+        match word {
+            "Color" => {
+                let hdr = match rest {
+                    Some(_) => self.reader.inside::<ColorFormatFields<'_>>(leaf, rest, "Color(hdr: …)")?.hdr,
+                    None => None,
+                };
+                match hdr {
+                    Some(hdr) => self.truth(hdr).map(|hdr| Format::Color { hdr }),
+                    None => Some(Format::Color { hdr: false }),
+                }
+            }
+            "Depth" => self.reader.bare(word, rest).map(|()| Format::Depth),
+            "DepthStencil" => self.reader.bare(word, rest).map(|()| Format::DepthStencil),
+            "Output" => self.reader.bare(word, rest).map(|()| Format::Output),
+            "Like" => self.like(leaf, rest).map(Format::Like),
+            name => {
+                self.reader.bare(word, rest)?;
+                vulkan::Format::from_name(name).map(Format::Named)
+            }
         }
-    };
-    if !SAMPLE_COUNTS.contains(&count) {
-        let why = because.map(|because: Arc<str>| format!(" ({})", scope.within_view(&because))).unwrap_or_default();
-        let name = image.as_ref().map_or("", |name| &*name.text);
-        let wrong = Diagnostic::new(leaf.span(), format!("image `{name}` can't have {count} samples{why}"));
-        let allowed = SAMPLE_COUNTS.map(|count| count.to_string()).join(", ");
-        scope.fault(reader, leaf, wrong.help(format!("sample counts are {allowed}")));
-        return None;
     }
-    u32::try_from(count).ok().map(|count| (Samples::Count(count), because))
-}
 
-fn mips<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Mips> {
-    if let Shape::Text | Shape::Number = leaf.shape() {
-        return values::whole(reader, scope, leaf, "number of mip levels", 1..=MOST_MIPS).map(Mips::Count);
+    fn samples(&mut self, leaf: Leaf<'_>, image: &Option<Name>) -> Option<Decided<Samples>> {
+        let (count, because): Decided<i64> = match leaf.shape() {
+            Shape::Text => {
+                let words = ("a whole number", Some("a whole number"));
+                let Evaluated { value, because, setting } =
+                    self.value(leaf, SettingKind::is_whole, Wanted::INTEGER, words)?;
+                let odd =
+                    |setting: &Parameter| setting.one_of().iter().copied().find(|count| !SAMPLE_COUNTS.contains(count));
+                if let Some(odd) = setting.and_then(odd) {
+                    let message = format!("this setting allows {odd}, which is no sample count");
+                    self.reader.wrong(leaf, message, &SAMPLES.forms());
+                    return None;
+                }
+                let Value::Integer(count) = value else { return None };
+                (count, because)
+            }
+            Shape::Number => {
+                let count = self.reader.integer(leaf)?;
+                if !SAMPLE_COUNTS.contains(&count) {
+                    self.reader.wrong(leaf, format!("{count} is no sample count"), &SAMPLES.forms());
+                    return None;
+                }
+                (count, None)
+            }
+            _ => {
+                let (_, rest) = self.reader.one_of(leaf, &SAMPLES)?;
+                return self.like(leaf, rest).map(|of| (Samples::Like(of), None));
+            }
+        };
+        if !SAMPLE_COUNTS.contains(&count) {
+            let why =
+                because.map(|because: Arc<str>| format!(" ({})", self.scope.within_view(&because))).unwrap_or_default();
+            let name = image.as_ref().map_or("", |name| &*name.text);
+            let wrong = Diagnostic::new(leaf.span(), format!("image `{name}` can't have {count} samples{why}"));
+            let allowed = SAMPLE_COUNTS.map(|count| count.to_string()).join(", ");
+            self.fault(leaf, wrong.help(format!("sample counts are {allowed}")));
+            return None;
+        }
+        u32::try_from(count).ok().map(|count| (Samples::Count(count), because))
     }
-    let (word, rest) = reader.one_of(leaf, &MIPS)?;
-    match word {
-        "Full" => reader.bare(word, rest).map(|()| Mips::Full),
-        _ => like(reader, scope, leaf, rest).map(Mips::Like),
-    }
-}
 
-fn layers<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Layers> {
-    if let Shape::Text | Shape::Number = leaf.shape() {
-        return values::whole(reader, scope, leaf, "number of layers", 1..=MOST_LAYERS).map(Layers::Count);
+    fn mips(&mut self, leaf: Leaf<'_>) -> Option<Mips> {
+        if let Shape::Text | Shape::Number = leaf.shape() {
+            return self.whole(leaf, "number of mip levels", 1..=MOST_MIPS).map(Mips::Count);
+        }
+        let (word, rest) = self.reader.one_of(leaf, &MIPS)?;
+        match word {
+            "Full" => self.reader.bare(word, rest).map(|()| Mips::Full),
+            _ => self.like(leaf, rest).map(Mips::Like),
+        }
     }
-    let (_, rest) = reader.one_of(leaf, &LAYERS)?;
-    like(reader, scope, leaf, rest).map(Layers::Like)
-}
 
-fn shape<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<ImageShape> {
-    let (word, rest) = reader.one_of(leaf, &SHAPES)?;
-    match word {
-        "D2" => reader.bare(word, rest).map(|()| ImageShape::D2),
-        "Cube" => reader.bare(word, rest).map(|()| ImageShape::Cube),
-        _ => {
-            let [depth]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "D3(64)")?;
-            values::whole(reader, scope, depth, "depth", 1..=i64::from(LARGEST_SIZE)).map(ImageShape::D3)
+    fn layers(&mut self, leaf: Leaf<'_>) -> Option<Layers> {
+        if let Shape::Text | Shape::Number = leaf.shape() {
+            return self.whole(leaf, "number of layers", 1..=MOST_LAYERS).map(Layers::Count);
+        }
+        let (_, rest) = self.reader.one_of(leaf, &LAYERS)?;
+        self.like(leaf, rest).map(Layers::Like)
+    }
+
+    fn shape(&mut self, leaf: Leaf<'_>) -> Option<ImageShape> {
+        let (word, rest) = self.reader.one_of(leaf, &SHAPES)?;
+        match word {
+            "D2" => self.reader.bare(word, rest).map(|()| ImageShape::D2),
+            "Cube" => self.reader.bare(word, rest).map(|()| ImageShape::Cube),
+            _ => {
+                let [depth]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "D3(64)")?;
+                self.whole(depth, "depth", 1..=i64::from(LARGEST_SIZE)).map(ImageShape::D3)
+            }
         }
     }
 }

@@ -1,10 +1,10 @@
 //! How long contents live, and in which state they come in and go out.
 
 use super::parts::{self, MOST_FRAMES};
-use super::values;
+use super::values::{self, optional};
 use crate::fields;
 use crate::language::model::{Fill, Lifetime, State, StateWord};
-use crate::language::scope::Scope;
+use crate::language::scope::Context;
 use crate::ron::{Described, Form, FromLeaf, Leaf, Reader, Shape, Spanned, Takes, Word, Words, names};
 use crate::vulkan::{self, Accesses, Layout, Stages};
 use bitflags::Flags;
@@ -128,44 +128,41 @@ pub(crate) enum Of {
     Buffer,
 }
 
-/// A lifetime.
-pub(crate) fn lower<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'src>,
-    of: Of,
-) -> Option<Spanned<Lifetime>> {
-    let (word, rest) = reader.one_of(leaf, &LIFETIMES)?;
-    let lifetime = match word {
-        "Transient" => reader.bare(word, rest).map(|()| Lifetime::Transient)?,
-        "Persistent" => {
-            let fields: PersistentFields<'_> = within(reader, leaf, rest, "Persistent(initial: …)")?;
-            Lifetime::Persistent { initial: initial(reader, scope, fields.initial)? }
-        }
-        "History" => {
-            let fields: HistoryFields<'_> = within(reader, leaf, rest, "History(frames: 1, initial: …)")?;
-            let frames = match fields.frames {
-                Some(frames) => values::whole(reader, scope, frames, "number of frames to look back", 1..=MOST_FRAMES),
-                None => Some(1),
-            };
-            let initial = initial(reader, scope, fields.initial);
-            Lifetime::History { frames: frames?, initial: initial? }
-        }
-        "Imported" => {
-            let fields: ImportedFields<'_> = reader.inside(leaf, rest, "Imported(before: …, after: …)")?;
-            let before = state(reader, fields.before, of);
-            let after = match fields.after {
-                Some(after) => state(reader, after, of).map(Some),
-                None => Some(None),
-            };
-            Lifetime::Imported { before: before?, after: after? }
-        }
-        _ => {
-            let [other]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Like(\"name\")")?;
-            Lifetime::Like(scope.resource(reader, other)?)
-        }
-    };
-    Some(leaf.spanned(lifetime))
+impl Context<'_, '_> {
+    /// A lifetime.
+    pub(crate) fn lifetime(&mut self, leaf: Leaf<'_>, of: Of) -> Option<Spanned<Lifetime>> {
+        let (word, rest) = self.reader.one_of(leaf, &LIFETIMES)?;
+        let lifetime = match word {
+            "Transient" => self.reader.bare(word, rest).map(|()| Lifetime::Transient)?,
+            "Persistent" => {
+                let fields: PersistentFields<'_> = within(self.reader, leaf, rest, "Persistent(initial: …)")?;
+                Lifetime::Persistent { initial: self.initial(fields.initial)? }
+            }
+            "History" => {
+                let fields: HistoryFields<'_> = within(self.reader, leaf, rest, "History(frames: 1, initial: …)")?;
+                let frames = fields
+                    .frames
+                    .map_or(Some(1), |frames| self.whole(frames, "number of frames to look back", 1..=MOST_FRAMES));
+                let initial = self.initial(fields.initial);
+                Lifetime::History { frames: frames?, initial: initial? }
+            }
+            "Imported" => {
+                let fields: ImportedFields<'_> = self.reader.inside(leaf, rest, "Imported(before: …, after: …)")?;
+                let before = state(self.reader, fields.before, of);
+                let after = optional(fields.after, |after| state(self.reader, after, of));
+                Lifetime::Imported { before: before?, after: after? }
+            }
+            _ => {
+                let [other]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"name\")")?;
+                Lifetime::Like(self.resource(other)?)
+            }
+        };
+        Some(leaf.spanned(lifetime))
+    }
+
+    fn initial(&mut self, leaf: Option<Leaf<'_>>) -> Option<Option<Spanned<Fill>>> {
+        optional(leaf, |leaf| self.fill(leaf).map(|fill| leaf.spanned(fill)))
+    }
 }
 
 /// What stands in parentheses, if there are any.
@@ -175,16 +172,7 @@ fn within<'src, T: FromLeaf<'src> + Default>(
     rest: Option<Leaf<'src>>,
     form: &str,
 ) -> Option<T> {
-    match rest {
-        Some(_) => reader.inside(leaf, rest, form),
-        None => Some(T::default()),
-    }
-}
-
-fn initial<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Option<Leaf<'src>>) -> Option<Option<Spanned<Fill>>> {
-    let Some(leaf) = leaf else { return Some(None) };
-    let value = values::fill(reader, scope, leaf)?;
-    Some(Some(leaf.spanned(value)))
+    rest.map_or(Some(T::default()), |_| reader.inside(leaf, rest, form))
 }
 
 const WORDS: [(&str, StateWord); 13] = [

@@ -1,12 +1,13 @@
 //! `outputs`: what leaves the frame, and in which state.
 
-use super::{lifetimes, parts, values};
+use super::values::{self, optional};
+use super::{lifetimes, parts};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::Resource;
 use crate::language::model::{Output, ResourceRef};
-use crate::language::scope::Scope;
-use crate::ron::{Described, Form, Leaf, Reader, Shape, names};
+use crate::language::scope::Context;
+use crate::ron::{Described, Form, Leaf, Shape, names};
 use crate::vulkan::Encoding;
 use std::collections::HashMap;
 
@@ -42,62 +43,61 @@ const ENCODINGS: [(&str, Encoding); 4] = [
 
 const NAME_ONE: &str = "name the image that is shown: `outputs: [\"…\"]`, in an extension `Insert(outputs: [\"…\"])`";
 
-/// The images and buffers that leave the frame, each once.
-pub(crate) fn lower<'src>(reader: &mut Reader, scope: &Scope<'_>, list: Leaf<'src>) -> Option<Vec<Output>> {
-    let leaves = reader.list(list, "`outputs`")?;
-    if leaves.is_empty() {
-        reader.wrong(list, "a frame without outputs shows nothing", NAME_ONE);
-        return None;
-    }
-    let outputs: Vec<Option<Output>> = leaves.into_iter().map(|leaf| output(reader, scope, leaf)).collect();
-    let mut first = HashMap::new();
-    for output in outputs.iter().flatten() {
-        let ResourceRef { resource, span } = output.resource;
-        if let Some(first) = first.insert(resource, span) {
-            let what = if matches!(resource, Resource::Image(_)) { "image" } else { "buffer" };
-            let twice = Diagnostic::new(span, format!("this {what} is an output twice"));
-            reader.report(twice.remark("again here").label(first, "first here"));
-        }
-    }
-    outputs.into_iter().collect()
-}
-
-fn output<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Output> {
-    let Shape::Parentheses = leaf.shape() else {
-        return Some(Output { resource: scope.resource(reader, leaf)?, after: None, encoding: None, eye: None });
-    };
-    let fields: OutputFields<'_> = reader.read(leaf, "an output")?;
-    let (resource, of) = match (fields.image, fields.buffer) {
-        (Some(image), None) => {
-            let image = scope.image(reader, image);
-            let resource = image.map(|image| ResourceRef { resource: Resource::Image(image.index), span: image.span });
-            (resource, lifetimes::Of::Image)
-        }
-        (None, Some(buffer)) => {
-            let buffer = scope.buffer(reader, buffer);
-            let resource =
-                buffer.map(|buffer| ResourceRef { resource: Resource::Buffer(buffer.index), span: buffer.span });
-            (resource, lifetimes::Of::Buffer)
-        }
-        _ => {
-            let help = "write `(image: \"…\", after: …)` or `(buffer: \"…\", after: …)`";
-            reader.wrong(leaf, "an output is one image or one buffer", help);
+impl Context<'_, '_> {
+    /// The images and buffers that leave the frame, each once.
+    pub(crate) fn outputs(&mut self, list: Leaf<'_>) -> Option<Vec<Output>> {
+        let leaves = self.reader.list(list, "`outputs`")?;
+        if leaves.is_empty() {
+            self.reader.wrong(list, "a frame without outputs shows nothing", NAME_ONE);
             return None;
         }
-    };
-    let after = match fields.after {
-        Some(after) => lifetimes::state(reader, after, of).map(Some),
-        None => Some(None),
-    };
-    let encoding = match (fields.encoding, of) {
-        (Some(leaf), lifetimes::Of::Image) => {
-            values::choice(reader, leaf, "an encoding", &ENCODINGS).map(|encoding| Some(leaf.spanned(encoding)))
+        let outputs: Vec<Option<Output>> = leaves.into_iter().map(|leaf| self.output(leaf)).collect();
+        let mut first = HashMap::new();
+        for output in outputs.iter().flatten() {
+            let ResourceRef { resource, span } = output.resource;
+            if let Some(first) = first.insert(resource, span) {
+                let what = if matches!(resource, Resource::Image(_)) { "image" } else { "buffer" };
+                let twice = Diagnostic::new(span, format!("this {what} is an output twice"));
+                self.reader.report(twice.remark("again here").label(first, "first here"));
+            }
         }
-        (Some(leaf), lifetimes::Of::Buffer) => {
-            reader.wrong(leaf, "the bytes of a buffer have no encoding", "leave `encoding` out");
-            None
-        }
-        (None, _) => Some(None),
-    };
-    Some(Output { resource: resource?, after: after?, encoding: encoding?, eye: None })
+        outputs.into_iter().collect()
+    }
+
+    fn output(&mut self, leaf: Leaf<'_>) -> Option<Output> {
+        let Shape::Parentheses = leaf.shape() else {
+            return Some(Output { resource: self.resource(leaf)?, after: None, encoding: None, eye: None });
+        };
+        let fields: OutputFields<'_> = self.reader.read(leaf, "an output")?;
+        let (resource, of) = match (fields.image, fields.buffer) {
+            (Some(image), None) => {
+                let image = self.image(image);
+                let resource =
+                    image.map(|image| ResourceRef { resource: Resource::Image(image.index), span: image.span });
+                (resource, lifetimes::Of::Image)
+            }
+            (None, Some(buffer)) => {
+                let buffer = self.buffer(buffer);
+                let resource =
+                    buffer.map(|buffer| ResourceRef { resource: Resource::Buffer(buffer.index), span: buffer.span });
+                (resource, lifetimes::Of::Buffer)
+            }
+            _ => {
+                let help = "write `(image: \"…\", after: …)` or `(buffer: \"…\", after: …)`";
+                self.reader.wrong(leaf, "an output is one image or one buffer", help);
+                return None;
+            }
+        };
+        let after = optional(fields.after, |after| lifetimes::state(self.reader, after, of));
+        let encoding = match (fields.encoding, of) {
+            (Some(leaf), lifetimes::Of::Image) => values::choice(self.reader, leaf, "an encoding", &ENCODINGS)
+                .map(|encoding| Some(leaf.spanned(encoding))),
+            (Some(leaf), lifetimes::Of::Buffer) => {
+                self.reader.wrong(leaf, "the bytes of a buffer have no encoding", "leave `encoding` out");
+                None
+            }
+            (None, _) => Some(None),
+        };
+        Some(Output { resource: resource?, after: after?, encoding: encoding?, eye: None })
+    }
 }

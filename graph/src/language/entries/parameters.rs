@@ -1,6 +1,7 @@
 //! `parameters`: what whoever uses a fragment gives it.
 
 use super::settings::{LISTED, default_on_step, listed, step};
+use super::values::optional;
 use crate::fields;
 use crate::language::model::SettingKind;
 use crate::language::scope::{Parameter, ParameterKind};
@@ -192,10 +193,7 @@ fn within<'src, T: crate::ron::FromLeaf<'src> + Default>(
     rest: Option<Leaf<'src>>,
     form: &str,
 ) -> Option<T> {
-    match rest {
-        Some(_) => reader.inside(leaf, rest, form),
-        None => Some(T::default()),
-    }
+    rest.map_or(Some(T::default()), |_| reader.inside(leaf, rest, form))
 }
 
 fn one_of<'src>(
@@ -235,10 +233,7 @@ fn range<'src, T: PartialOrd + Copy + std::fmt::Display>(
     read: impl Fn(&mut Reader, Leaf<'src>) -> Option<T>,
     whole: (T, T),
 ) -> Option<(Option<T>, T, T)> {
-    let mut value = |leaf: Option<Leaf<'src>>| match leaf {
-        Some(leaf) => read(reader, leaf).map(Some),
-        None => Some(None),
-    };
+    let mut value = |leaf: Option<Leaf<'src>>| optional(leaf, |leaf| read(reader, leaf));
     let (default, min, max) = (value(default_leaf), value(min_leaf), value(max_leaf));
     let (default, min, max) = (default?, min?.unwrap_or(whole.0), max?.unwrap_or(whole.1));
     if let Some(leaf) = min_leaf.or(max_leaf).filter(|_| min > max) {

@@ -1,11 +1,11 @@
 //! Parts of images and buffers, as passes name them: mip levels, layers, planes, earlier frames.
 
-use super::values;
+use super::values::{self, optional};
 use crate::fields;
 use crate::frame::{Eye, Resource};
 use crate::language::model::{BufferPart, BufferRef, ImagePart, ImageRef, Part, Selection};
-use crate::language::scope::Scope;
-use crate::ron::{Described, Form, Leaf, Reader, Shape, Spanned, Table, Takes, Word, Words, names};
+use crate::language::scope::Context;
+use crate::ron::{Described, Form, Leaf, Shape, Spanned, Table, Takes, Word, Words, names};
 use crate::vulkan::{Aspects, Subresources};
 
 /// An image or buffer can be read at most this many frames back.
@@ -115,180 +115,158 @@ pub(crate) struct Selected<'src> {
 
 const PLANES: [(&str, Aspects); 2] = [("Depth", Aspects::DEPTH), ("Stencil", Aspects::STENCIL)];
 
-/// `"name"` or `(image: "name", mip: 1, …)` or `(buffer: "name", …)`.
-pub(crate) fn any<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Part> {
-    match leaf.shape() {
-        Shape::Text => Some(match scope.resource(reader, leaf)?.resource {
-            Resource::Image(index) => Part::Image(ImagePart::whole(ImageRef { index, span: leaf.span() })),
-            Resource::Buffer(index) => Part::Buffer(whole_buffer(BufferRef { index, span: leaf.span() })),
-        }),
-        Shape::Word(..) => image_part(reader, scope, leaf, Selected::default()).map(Part::Image),
-        Shape::Parentheses => {
-            let fields: PartFields<'_> = reader.read(leaf, "a part of an image or buffer")?;
-            let PartFields { image, buffer, mip, mips, layer, layers, plane, previous } = fields;
-            let selected = Selected { mip, mips, layer, layers, plane, previous };
-            one_of(reader, scope, leaf, image, buffer, selected)
-        }
-        _ => {
-            reader
-                .expected(leaf, "an image or buffer: `\"name\"`, `(image: \"name\", mip: 1)` or `(buffer: \"name\")`");
-            None
-        }
-    }
-}
-
-/// All of a buffer.
-pub(crate) const fn whole_buffer(buffer: BufferRef) -> BufferPart {
-    BufferPart { buffer, previous: None }
-}
-
-/// The part of whichever of `image` and `buffer` is there.
-pub(crate) fn one_of<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    whole: Leaf<'src>,
-    image: Option<Leaf<'src>>,
-    buffer: Option<Leaf<'src>>,
-    selected: Selected<'src>,
-) -> Option<Part> {
-    match (image, buffer) {
-        (Some(image), None) => image_part(reader, scope, image, selected).map(Part::Image),
-        (None, Some(buffer)) => {
-            let Selected { mip, mips, layer, layers, plane, previous } = selected;
-            for foreign in [mip, mips, layer, layers, plane].into_iter().flatten() {
-                reader.wrong(foreign, "a buffer has no mip levels, layers and planes", "");
+impl Context<'_, '_> {
+    /// `"name"` or `(image: "name", mip: 1, …)` or `(buffer: "name", …)`.
+    pub(crate) fn part(&mut self, leaf: Leaf<'_>) -> Option<Part> {
+        match leaf.shape() {
+            Shape::Text => Some(match self.resource(leaf)?.resource {
+                Resource::Image(index) => Part::Image(ImagePart::whole(ImageRef { index, span: leaf.span() })),
+                Resource::Buffer(index) => Part::Buffer(BufferPart::whole(BufferRef { index, span: leaf.span() })),
+            }),
+            Shape::Word(..) => self.selected_image(leaf, Selected::default()).map(Part::Image),
+            Shape::Parentheses => {
+                let fields: PartFields<'_> = self.reader.read(leaf, "a part of an image or buffer")?;
+                let PartFields { image, buffer, mip, mips, layer, layers, plane, previous } = fields;
+                let selected = Selected { mip, mips, layer, layers, plane, previous };
+                self.part_of_either(leaf, image, buffer, selected)
             }
-            buffer_part(reader, scope, buffer, previous).map(Part::Buffer)
-        }
-        (Some(_), Some(buffer)) => {
-            reader.wrong(buffer, "an image and a buffer can't be named in one place", "");
-            None
-        }
-        (None, None) => {
-            reader.wrong(whole, "this names neither an image nor a buffer", "add `image: \"…\"` or `buffer: \"…\"`");
-            None
-        }
-    }
-}
-
-/// `"name"` or `(image: "name", mip: 1, …)`.
-pub(crate) fn image<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<ImagePart> {
-    if let Shape::Parentheses = leaf.shape() {
-        return match any(reader, scope, leaf)? {
-            Part::Image(part) => Some(part),
-            Part::Buffer(_) => {
-                reader.wrong(leaf, "an image is needed here", "");
+            _ => {
+                self.reader.expected(
+                    leaf,
+                    "an image or buffer: `\"name\"`, `(image: \"name\", mip: 1)` or `(buffer: \"name\")`",
+                );
                 None
             }
-        };
+        }
     }
-    image_part(reader, scope, leaf, Selected::default())
-}
 
-/// `"name"` or `(buffer: "name", previous: 1)`.
-pub(crate) fn buffer<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<BufferPart> {
-    if let Shape::Parentheses = leaf.shape() {
-        return match any(reader, scope, leaf)? {
-            Part::Buffer(part) => Some(part),
-            Part::Image(_) => {
-                reader.wrong(leaf, "a buffer is needed here", "");
+    /// The part of whichever of `image` and `buffer` is there.
+    pub(crate) fn part_of_either(
+        &mut self,
+        whole: Leaf<'_>,
+        image: Option<Leaf<'_>>,
+        buffer: Option<Leaf<'_>>,
+        selected: Selected<'_>,
+    ) -> Option<Part> {
+        match (image, buffer) {
+            (Some(image), None) => self.selected_image(image, selected).map(Part::Image),
+            (None, Some(buffer)) => {
+                let Selected { mip, mips, layer, layers, plane, previous } = selected;
+                for foreign in [mip, mips, layer, layers, plane].into_iter().flatten() {
+                    self.reader.wrong(foreign, "a buffer has no mip levels, layers and planes", "");
+                }
+                self.named_buffer(buffer, previous).map(Part::Buffer)
+            }
+            (Some(_), Some(buffer)) => {
+                self.reader.wrong(buffer, "an image and a buffer can't be named in one place", "");
                 None
             }
-        };
+            (None, None) => {
+                self.reader.wrong(
+                    whole,
+                    "this names neither an image nor a buffer",
+                    "add `image: \"…\"` or `buffer: \"…\"`",
+                );
+                None
+            }
+        }
     }
-    buffer_part(reader, scope, leaf, None)
-}
 
-fn buffer_part<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    buffer: Leaf<'src>,
-    previous: Option<Leaf<'src>>,
-) -> Option<BufferPart> {
-    let buffer = scope.buffer(reader, buffer);
-    let previous = frames(reader, scope, previous);
-    Some(BufferPart { buffer: buffer?, previous: previous? })
-}
-
-/// The part of the image that `name` names.
-pub(crate) fn image_part<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    name: Leaf<'src>,
-    selected: Selected<'src>,
-) -> Option<ImagePart> {
-    let image = match name.shape() {
-        Shape::Word(..) => one_eyes(reader, scope, name),
-        _ => scope.image(reader, name).map(|image| (image, None)),
-    };
-    let mips = selection(reader, scope, selected.mip, selected.mips, "mip level", "number of mip levels");
-    let layers = selection(reader, scope, selected.layer, selected.layers, "layer", "number of layers");
-    let plane = match selected.plane {
-        Some(plane) => values::choice(reader, plane, "a plane", &PLANES).map(|value| Some(plane.spanned(value))),
-        None => Some(None),
-    };
-    let previous = frames(reader, scope, selected.previous);
-    let (image, eye) = image?;
-    Some(ImagePart { image, mips: mips?, layers: layers?, plane: plane?, previous: previous?, eye })
-}
-
-/// `Eye(Left, "name")`.
-fn one_eyes<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'src>,
-) -> Option<(ImageRef, Option<Spanned<Eye>>)> {
-    let (_, rest) = reader.one_of(leaf, &EYES)?;
-    let [eye, name]: [Leaf<'_>; 2] = reader.inside(leaf, rest, "Eye(Left, \"image\")")?;
-    let image = scope.image(reader, name);
-    let chosen = values::choice(reader, eye, "an eye", &EYE_NAMES)?;
-    Some((image?, Some(eye.spanned(chosen))))
-}
-
-fn frames<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Option<Leaf<'src>>,
-) -> Option<Option<crate::ron::Spanned<u32>>> {
-    let Some(leaf) = leaf else { return Some(None) };
-    let frames = values::whole(reader, scope, leaf, "number of frames to look back", 1..=MOST_FRAMES)?;
-    Some(Some(leaf.spanned(frames)))
-}
-
-fn selection<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    first: Option<Leaf<'src>>,
-    count: Option<Leaf<'src>>,
-    one: &str,
-    several: &str,
-) -> Option<Selection> {
-    let first = first.map(|leaf| (leaf, values::whole(reader, scope, leaf, one, 0..=MOST_PARTS)));
-    let count = match count {
-        Some(leaf) if matches!(leaf.shape(), Shape::Word("Rest", None)) => Some((leaf, Some(Subresources::REMAINING))),
-        Some(leaf) if matches!(leaf.shape(), Shape::Number | Shape::Text) => {
-            Some((leaf, values::whole(reader, scope, leaf, several, 1..=MOST_PARTS)))
+    /// `"name"` or `(image: "name", mip: 1, …)`.
+    pub(crate) fn image_part(&mut self, leaf: Leaf<'_>) -> Option<ImagePart> {
+        if let Shape::Parentheses = leaf.shape() {
+            return match self.part(leaf)? {
+                Part::Image(part) => Some(part),
+                Part::Buffer(_) => {
+                    self.reader.wrong(leaf, "an image is needed here", "");
+                    None
+                }
+            };
         }
-        Some(leaf) => {
-            reader.expected(leaf, "a whole number, an expression in quotes or `Rest`");
-            return None;
-        }
-        None => None,
-    };
-    let spanned = |part: Option<(Leaf<'src>, Option<u32>)>| match part {
-        Some((leaf, value)) => value.map(|value| Some(leaf.spanned(value))),
-        None => Some(None),
-    };
-    Some(Selection { first: spanned(first)?, count: spanned(count)? })
-}
+        self.selected_image(leaf, Selected::default())
+    }
 
-/// `("image")`, what stands behind `Like`.
-pub(crate) fn like<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'src>,
-    rest: Option<Leaf<'src>>,
-) -> Option<ImageRef> {
-    let [image]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Like(\"image\")")?;
-    scope.image(reader, image)
+    /// `"name"` or `(buffer: "name", previous: 1)`.
+    pub(crate) fn buffer_part(&mut self, leaf: Leaf<'_>) -> Option<BufferPart> {
+        if let Shape::Parentheses = leaf.shape() {
+            return match self.part(leaf)? {
+                Part::Buffer(part) => Some(part),
+                Part::Image(_) => {
+                    self.reader.wrong(leaf, "a buffer is needed here", "");
+                    None
+                }
+            };
+        }
+        self.named_buffer(leaf, None)
+    }
+
+    fn named_buffer(&mut self, buffer: Leaf<'_>, previous: Option<Leaf<'_>>) -> Option<BufferPart> {
+        let buffer = self.buffer(buffer);
+        let previous = self.frames_back(previous);
+        Some(BufferPart { buffer: buffer?, previous: previous? })
+    }
+
+    /// The part of the image that `name` names.
+    pub(crate) fn selected_image(&mut self, name: Leaf<'_>, selected: Selected<'_>) -> Option<ImagePart> {
+        let image = match name.shape() {
+            Shape::Word(..) => self.eyes_image(name),
+            _ => self.image(name).map(|image| (image, None)),
+        };
+        let mips = self.selection(selected.mip, selected.mips, "mip level", "number of mip levels");
+        let layers = self.selection(selected.layer, selected.layers, "layer", "number of layers");
+        let plane = values::optional_choice(self.reader, selected.plane, "a plane", &PLANES);
+        let previous = self.frames_back(selected.previous);
+        let (image, eye) = image?;
+        Some(ImagePart { image, mips: mips?, layers: layers?, plane: plane?, previous: previous?, eye })
+    }
+
+    /// `Eye(Left, "name")`.
+    fn eyes_image(&mut self, leaf: Leaf<'_>) -> Option<(ImageRef, Option<Spanned<Eye>>)> {
+        let (_, rest) = self.reader.one_of(leaf, &EYES)?;
+        let [eye, name]: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, "Eye(Left, \"image\")")?;
+        let image = self.image(name);
+        let chosen = values::choice(self.reader, eye, "an eye", &EYE_NAMES)?;
+        Some((image?, Some(eye.spanned(chosen))))
+    }
+
+    fn frames_back(&mut self, leaf: Option<Leaf<'_>>) -> Option<Option<Spanned<u32>>> {
+        optional(leaf, |leaf| {
+            let frames = self.whole(leaf, "number of frames to look back", 1..=MOST_FRAMES);
+            frames.map(|frames| leaf.spanned(frames))
+        })
+    }
+
+    fn selection(
+        &mut self,
+        first: Option<Leaf<'_>>,
+        count: Option<Leaf<'_>>,
+        one: &str,
+        several: &str,
+    ) -> Option<Selection> {
+        let first = first.map(|leaf| (leaf, self.whole(leaf, one, 0..=MOST_PARTS)));
+        let count = match count {
+            Some(leaf) if matches!(leaf.shape(), Shape::Word("Rest", None)) => {
+                Some((leaf, Some(Subresources::REMAINING)))
+            }
+            Some(leaf) if matches!(leaf.shape(), Shape::Number | Shape::Text) => {
+                Some((leaf, self.whole(leaf, several, 1..=MOST_PARTS)))
+            }
+            Some(leaf) => {
+                self.reader.expected(leaf, "a whole number, an expression in quotes or `Rest`");
+                return None;
+            }
+            None => None,
+        };
+        let spanned = |part: Option<(Leaf<'_>, Option<u32>)>| match part {
+            Some((leaf, value)) => value.map(|value| Some(leaf.spanned(value))),
+            None => Some(None),
+        };
+        Some(Selection { first: spanned(first)?, count: spanned(count)? })
+    }
+
+    /// `("image")`, what stands behind `Like`.
+    pub(crate) fn like(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<ImageRef> {
+        let [image]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"image\")")?;
+        self.image(image)
+    }
 }

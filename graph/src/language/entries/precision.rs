@@ -1,9 +1,9 @@
 //! How exactly images hold what they are asked to: colour (`color`) and depth (`depth_format`).
 
-use super::values::{self, said};
+use super::values::said;
 use crate::language::model::{Precision, Precisions};
-use crate::language::scope::Scope;
-use crate::ron::{Form, Leaf, Reader, Word, Words};
+use crate::language::scope::Context;
+use crate::ron::{Form, Leaf, Word, Words};
 
 /// What `Color` becomes.
 pub(crate) const COLOR: Form = Form::Words(&COLORS);
@@ -47,24 +47,20 @@ static DEPTHS: Words = Words {
 const MEANINGS: [(&str, Precision); 3] =
     [("Smallest", Precision::Smallest), ("Balanced", Precision::Balanced), ("Exact", Precision::Exact)];
 
-/// What a pipeline's `color` says.
-pub(crate) fn color(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<Precisions> {
-    lower(reader, scope, leaf, "color", &COLORS)
-}
+impl Context<'_, '_> {
+    /// What a pipeline's `color` says.
+    pub(crate) fn color_policy(&mut self, leaf: Leaf<'_>) -> Option<Precisions> {
+        self.precision(leaf, "color", &COLORS)
+    }
 
-/// What a pipeline's `depth_format` says.
-pub(crate) fn depth(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<Precisions> {
-    lower(reader, scope, leaf, "depth_format", &DEPTHS)
-}
+    /// What a pipeline's `depth_format` says.
+    pub(crate) fn depth_format_policy(&mut self, leaf: Leaf<'_>) -> Option<Precisions> {
+        self.precision(leaf, "depth_format", &DEPTHS)
+    }
 
-fn lower(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'_>,
-    field: &str,
-    words: &'static Words,
-) -> Option<Precisions> {
-    let (word, because) = values::bare_word(reader, scope, leaf, words)?;
-    let (word, precision) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
-    Some(Precisions { precision, span: leaf.span(), said: said(field, word, because) })
+    fn precision(&mut self, leaf: Leaf<'_>, field: &str, words: &'static Words) -> Option<Precisions> {
+        let (word, because) = self.bare_word(leaf, words)?;
+        let (word, precision) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
+        Some(Precisions { precision, span: leaf.span(), said: said(field, word, because) })
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::list::entries;
 use super::settings;
+use super::values::optional;
 use crate::base::{Diagnostic, Span, suggestion};
 use crate::expression::Value;
 use crate::fields;
@@ -41,10 +42,7 @@ pub(crate) fn presets(
     let lower = |fields: Option<PresetFields<'_>>| {
         let fields = fields?;
         let name = reader.name(fields.name, "a preset");
-        let about = match fields.about {
-            Some(about) => reader.words(about, "a description").map(Some),
-            None => Some(None),
-        };
+        let about = optional(fields.about, |about| reader.words(about, "a description"));
         let set = set(reader, fields.set, settings);
         Some(Preset { name: name?, about: about?, set: set? })
     };

@@ -3,8 +3,8 @@
 use super::values;
 use crate::frame::ResolveWay;
 use crate::language::model::Resolves;
-use crate::language::scope::Scope;
-use crate::ron::{Form, Leaf, Reader, Spanned, Word, Words};
+use crate::language::scope::Context;
+use crate::ron::{Form, Leaf, Spanned, Word, Words};
 use crate::vulkan::ResolveMode;
 
 /// How several samples of an image become one value.
@@ -55,22 +55,24 @@ const MEANINGS: [(&str, ResolveWay); 6] = [
     ("Weighted", ResolveWay::Weighted),
 ];
 
-/// What an image's `resolve` says.
-pub(crate) fn lower(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<Resolves> {
-    let (word, because) = values::bare_word(reader, scope, leaf, &RESOLVES)?;
-    let (word, resolve) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
-    Some(Resolves {
-        resolve: Spanned { value: resolve, span: leaf.span() },
-        said: values::said("resolve", word, because),
-    })
-}
-
-/// What a pipeline's `depth` says; `None` for what is so without it.
-pub(crate) fn policy(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<Option<Resolves>> {
-    let (word, because) = values::bare_word(reader, scope, leaf, &POLICIES)?;
-    if word == "Exact" {
-        return Some(None);
+impl Context<'_, '_> {
+    /// What an image's `resolve` says.
+    pub(crate) fn resolve(&mut self, leaf: Leaf<'_>) -> Option<Resolves> {
+        let (word, because) = self.bare_word(leaf, &RESOLVES)?;
+        let (word, resolve) = MEANINGS.into_iter().find(|(known, _)| *known == word)?;
+        Some(Resolves {
+            resolve: Spanned { value: resolve, span: leaf.span() },
+            said: values::said("resolve", word, because),
+        })
     }
-    let resolve = Spanned { value: ResolveWay::By(ResolveMode::SampleZero), span: leaf.span() };
-    Some(Some(Resolves { resolve, said: values::said("depth", word, because) }))
+
+    /// What a pipeline's `depth` says; `None` for what is so without it.
+    pub(crate) fn depth_policy(&mut self, leaf: Leaf<'_>) -> Option<Option<Resolves>> {
+        let (word, because) = self.bare_word(leaf, &POLICIES)?;
+        if word == "Exact" {
+            return Some(None);
+        }
+        let resolve = Spanned { value: ResolveWay::By(ResolveMode::SampleZero), span: leaf.span() };
+        Some(Some(Resolves { resolve, said: values::said("depth", word, because) }))
+    }
 }

@@ -4,7 +4,7 @@ use super::{parts, values};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::language::model::{Forward, Pass, StandIn};
-use crate::language::scope::Scope;
+use crate::language::scope::Context;
 use crate::ron::{Described, Form, Leaf, Reader, Shape, Takes, Word, Words};
 use std::collections::HashMap;
 
@@ -52,26 +52,28 @@ fields! {
     }
 }
 
-/// What targets take when the pass is off: one or several.
-pub(crate) fn stand_ins<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<StandIn>> {
-    if let Shape::List = leaf.shape() {
-        let entries = reader.list(leaf, "`otherwise`")?;
-        let all: Vec<Option<StandIn>> = entries.into_iter().map(|entry| stand_in(reader, scope, entry)).collect();
-        return all.into_iter().collect();
+impl Context<'_, '_> {
+    /// What targets take when the pass is off: one or several.
+    pub(crate) fn stand_ins(&mut self, leaf: Leaf<'_>) -> Option<Vec<StandIn>> {
+        if let Shape::List = leaf.shape() {
+            let entries = self.reader.list(leaf, "`otherwise`")?;
+            let all: Vec<Option<StandIn>> = entries.into_iter().map(|entry| self.stand_in(entry)).collect();
+            return all.into_iter().collect();
+        }
+        self.stand_in(leaf).map(|one| vec![one])
     }
-    stand_in(reader, scope, leaf).map(|one| vec![one])
-}
 
-fn stand_in<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<StandIn> {
-    let (word, rest) = reader.one_of(leaf, &STAND_INS)?;
-    if word == "Clear" {
-        let fields: ClearFields<'_> = reader.inside(leaf, rest, "Clear(image: \"image\", value: 0)")?;
-        let (to, value) = (scope.image(reader, fields.image), values::fill(reader, scope, fields.value));
-        return Some(StandIn::Clear { to: to?, value: fields.value.spanned(value?) });
+    fn stand_in(&mut self, leaf: Leaf<'_>) -> Option<StandIn> {
+        let (word, rest) = self.reader.one_of(leaf, &STAND_INS)?;
+        if word == "Clear" {
+            let fields: ClearFields<'_> = self.reader.inside(leaf, rest, "Clear(image: \"image\", value: 0)")?;
+            let (to, value) = (self.image(fields.image), self.fill(fields.value));
+            return Some(StandIn::Clear { to: to?, value: fields.value.spanned(value?) });
+        }
+        let fields: ForwardFields<'_> = self.reader.inside(leaf, rest, "Forward(from: \"image\", to: \"image\")")?;
+        let (from, to) = (self.image(fields.from), self.image(fields.to));
+        Some(StandIn::Forward(Forward { from: from?, to: to? }))
     }
-    let fields: ForwardFields<'_> = reader.inside(leaf, rest, "Forward(from: \"image\", to: \"image\")")?;
-    let (from, to) = (scope.image(reader, fields.from), scope.image(reader, fields.to));
-    Some(StandIn::Forward(Forward { from: from?, to: to? }))
 }
 
 /// What `otherwise` is of.

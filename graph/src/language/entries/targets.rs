@@ -1,13 +1,13 @@
 //! `color` and `depth`: what a pass draws into, and how.
 
 use super::parts::{self, Selected};
-use super::values::{self, choice};
+use super::values::{self, choice, optional};
 use crate::base::Diagnostic;
 use crate::fields;
 use crate::frame::{Blend, StencilState};
 use crate::language::model::{Color, Depth};
-use crate::language::scope::Scope;
-use crate::ron::{Described, Form, Leaf, Reader, Shape, Spanned, names};
+use crate::language::scope::Context;
+use crate::ron::{Described, Form, Leaf, Shape, Spanned, names};
 use crate::vulkan::{CompareOp, StencilOp};
 
 fields! {
@@ -111,140 +111,118 @@ const OPERATIONS: [(&str, StencilOp); 6] = [
     ("Invert", StencilOp::Invert),
 ];
 
-/// The list of colour targets.
-pub(crate) fn color<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Vec<Color>> {
-    let entries = reader.list(leaf, "`color`")?;
-    let targets: Vec<Option<Color>> = entries.into_iter().map(|entry| color_target(reader, scope, entry)).collect();
-    targets.into_iter().collect()
-}
+impl Context<'_, '_> {
+    /// The list of colour targets.
+    pub(crate) fn color_targets(&mut self, leaf: Leaf<'_>) -> Option<Vec<Color>> {
+        let entries = self.reader.list(leaf, "`color`")?;
+        let targets: Vec<Option<Color>> = entries.into_iter().map(|entry| self.color_target(entry)).collect();
+        targets.into_iter().collect()
+    }
 
-fn color_target<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Color> {
-    let replace = leaf.spanned(Blend::Replace);
-    match leaf.shape() {
-        Shape::Text | Shape::Word(..) => {
-            Some(Color { part: parts::image(reader, scope, leaf)?, clear: None, blend: replace })
-        }
-        Shape::Parentheses => {
-            let fields: ColorTargetFields<'_> = reader.read(leaf, "a colour target")?;
-            let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
-            let part =
-                parts::image_part(reader, scope, fields.image, Selected { mip, layer, layers, ..Selected::default() });
-            let clear = match fields.clear {
-                Some(clear) => clear_color(reader, scope, clear).map(Some),
-                None => Some(None),
-            };
-            let blend = match fields.blend {
-                Some(blend) => choice(reader, blend, "a blend", &BLENDS).map(|value| blend.spanned(value)),
-                None => Some(replace),
-            };
-            Some(Color { part: part?, clear: clear?, blend: blend? })
-        }
-        _ => {
-            reader
-                .expected(leaf, "a colour target: `\"image\"` or `(image: \"image\", clear: (r, g, b, a), blend: …)`");
-            None
+    fn color_target(&mut self, leaf: Leaf<'_>) -> Option<Color> {
+        let replace = leaf.spanned(Blend::Replace);
+        match leaf.shape() {
+            Shape::Text | Shape::Word(..) => Some(Color { part: self.image_part(leaf)?, clear: None, blend: replace }),
+            Shape::Parentheses => {
+                let fields: ColorTargetFields<'_> = self.reader.read(leaf, "a colour target")?;
+                let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
+                let part = self.selected_image(fields.image, Selected { mip, layer, layers, ..Selected::default() });
+                let clear = optional(fields.clear, |clear| self.clear_color(clear));
+                let blend = fields.blend.map_or(Some(replace), |blend| {
+                    choice(self.reader, blend, "a blend", &BLENDS).map(|value| blend.spanned(value))
+                });
+                Some(Color { part: part?, clear: clear?, blend: blend? })
+            }
+            _ => {
+                self.reader.expected(
+                    leaf,
+                    "a colour target: `\"image\"` or `(image: \"image\", clear: (r, g, b, a), blend: …)`",
+                );
+                None
+            }
         }
     }
-}
 
-/// The depth target.
-pub(crate) fn depth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Depth> {
-    let (test, write) = (CompareOp::GreaterOrEqual, true);
-    match leaf.shape() {
-        Shape::Text | Shape::Word(..) => {
-            let part = parts::image(reader, scope, leaf)?;
-            Some(Depth { part, clear: None, test, write, stencil: None })
-        }
-        Shape::Parentheses => {
-            let fields: DepthTargetFields<'_> = reader.read(leaf, "a depth target")?;
-            let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
-            let part =
-                parts::image_part(reader, scope, fields.image, Selected { mip, layer, layers, ..Selected::default() });
-            let clear = match fields.clear {
-                Some(clear) => clear_depth(reader, scope, clear).map(Some),
-                None => Some(None),
-            };
-            let test = match fields.test {
-                Some(test) => choice(reader, test, "a depth test", &TESTS),
-                None => Some(test),
-            };
-            let write = match fields.write {
-                Some(write) => values::truth(reader, scope, write),
-                None => Some(write),
-            };
-            let stencil = match fields.stencil {
-                Some(leaf) => stencil(reader, scope, leaf).map(Some),
-                None => Some(None),
-            };
-            Some(Depth { part: part?, clear: clear?, test: test?, write: write?, stencil: stencil? })
-        }
-        _ => {
-            reader.expected(leaf, "a depth target: `\"image\"` or `(image: \"image\", clear: 0.0, test: …, write: …)`");
-            None
+    /// The depth target.
+    pub(crate) fn depth_target(&mut self, leaf: Leaf<'_>) -> Option<Depth> {
+        let (test, write) = (CompareOp::GreaterOrEqual, true);
+        match leaf.shape() {
+            Shape::Text | Shape::Word(..) => {
+                let part = self.image_part(leaf)?;
+                Some(Depth { part, clear: None, test, write, stencil: None })
+            }
+            Shape::Parentheses => {
+                let fields: DepthTargetFields<'_> = self.reader.read(leaf, "a depth target")?;
+                let (mip, layer, layers) = (fields.mip, fields.layer, fields.layers);
+                let part = self.selected_image(fields.image, Selected { mip, layer, layers, ..Selected::default() });
+                let clear = optional(fields.clear, |clear| self.clear_depth(clear));
+                let test = fields.test.map_or(Some(test), |test| choice(self.reader, test, "a depth test", &TESTS));
+                let write = fields.write.map_or(Some(write), |write| self.truth(write));
+                let stencil = optional(fields.stencil, |leaf| self.stencil(leaf));
+                Some(Depth { part: part?, clear: clear?, test: test?, write: write?, stencil: stencil? })
+            }
+            _ => {
+                self.reader.expected(
+                    leaf,
+                    "a depth target: `\"image\"` or `(image: \"image\", clear: 0.0, test: …, write: …)`",
+                );
+                None
+            }
         }
     }
-}
 
-/// What happens to the stencil plane.
-fn stencil<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Spanned<StencilState>> {
-    let Shape::Parentheses = leaf.shape() else {
-        reader.expected(leaf, "a stencil state: `(clear: 0, test: Equal, reference: 1, pass: Replace)`");
-        return None;
-    };
-    let fields: StencilFields<'_> = reader.read(leaf, "a stencil state")?;
-    let byte = |reader: &mut Reader, leaf| values::whole::<u8>(reader, scope, leaf, "stencil value", 0..=255);
-    let clear = match fields.clear {
-        Some(clear) => byte(reader, clear).map(Some),
-        None => Some(None),
-    };
-    let test = match fields.test {
-        Some(test) => choice(reader, test, "a stencil test", &TESTS),
-        None => Some(CompareOp::Always),
-    };
-    let reference = match fields.reference {
-        Some(reference) => byte(reader, reference),
-        None => Some(0),
-    };
-    let pass = match fields.pass {
-        Some(pass) => choice(reader, pass, "a stencil operation", &OPERATIONS),
-        None => Some(StencilOp::Keep),
-    };
-    let state = StencilState { clear: clear?, test: test?, reference: reference?, pass: pass? };
-    Some(leaf.spanned(state))
-}
-
-fn clear_color<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<[f32; 4]> {
-    if !matches!(leaf.shape(), Shape::Parentheses) {
-        reader.expected(leaf, "a colour `(red, green, blue, alpha)`");
-        return None;
+    /// What happens to the stencil plane.
+    fn stencil(&mut self, leaf: Leaf<'_>) -> Option<Spanned<StencilState>> {
+        let Shape::Parentheses = leaf.shape() else {
+            self.reader.expected(leaf, "a stencil state: `(clear: 0, test: Equal, reference: 1, pass: Replace)`");
+            return None;
+        };
+        let fields: StencilFields<'_> = self.reader.read(leaf, "a stencil state")?;
+        let byte = |context: &mut Self, leaf| context.whole::<u8>(leaf, "stencil value", 0..=255);
+        let clear = optional(fields.clear, |clear| byte(self, clear));
+        let test =
+            fields.test.map_or(Some(CompareOp::Always), |test| choice(self.reader, test, "a stencil test", &TESTS));
+        let reference = fields.reference.map_or(Some(0), |reference| byte(self, reference));
+        let pass = fields
+            .pass
+            .map_or(Some(StencilOp::Keep), |pass| choice(self.reader, pass, "a stencil operation", &OPERATIONS));
+        let state = StencilState { clear: clear?, test: test?, reference: reference?, pass: pass? };
+        Some(leaf.spanned(state))
     }
-    let parts: [Leaf<'_>; 4] = reader.read(leaf, "a colour `(red, green, blue, alpha)`")?;
-    let parts = parts.map(|part| component(reader, scope, part));
-    Some([parts[0]?, parts[1]?, parts[2]?, parts[3]?])
-}
 
-fn component<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<f32> {
-    let (number, because) = values::number_because(reader, scope, leaf, "a channel of a colour")?;
-    #[allow(clippy::cast_possible_truncation, reason = "a colour is stored in single precision")]
-    let component = number as f32;
-    if component.is_finite() {
-        return Some(component);
+    fn clear_color(&mut self, leaf: Leaf<'_>) -> Option<[f32; 4]> {
+        if !matches!(leaf.shape(), Shape::Parentheses) {
+            self.reader.expected(leaf, "a colour `(red, green, blue, alpha)`");
+            return None;
+        }
+        let parts: [Leaf<'_>; 4] = self.reader.read(leaf, "a colour `(red, green, blue, alpha)`")?;
+        let parts = parts.map(|part| self.color_component(part));
+        Some([parts[0]?, parts[1]?, parts[2]?, parts[3]?])
     }
-    let wrong = format!("{} is too large for a colour", crate::base::shown_number(number));
-    let wrong = Diagnostic::new(leaf.span(), wrong).remark(because.as_deref().unwrap_or_default());
-    scope.fault(reader, leaf, wrong.help("32-bit floating point reaches about 3.4e38"));
-    None
-}
 
-fn clear_depth<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<f32> {
-    let (depth, because) = values::number_because(reader, scope, leaf, "depth")?;
-    if !(0.0..=1.0).contains(&depth) {
-        let help = "write a depth from 0 to 1: 0 is infinitely far, 1 is nearest";
-        let wrong = format!("depth lies from 0 to 1, found {}", crate::base::shown_number(depth));
+    fn color_component(&mut self, leaf: Leaf<'_>) -> Option<f32> {
+        let (number, because) = self.number_because(leaf, "a channel of a colour")?;
+        #[allow(clippy::cast_possible_truncation, reason = "a colour is stored in single precision")]
+        let component = number as f32;
+        if component.is_finite() {
+            return Some(component);
+        }
+        let wrong = format!("{} is too large for a colour", crate::base::shown_number(number));
         let wrong = Diagnostic::new(leaf.span(), wrong).remark(because.as_deref().unwrap_or_default());
-        scope.fault(reader, leaf, wrong.help(help));
-        return None;
+        self.fault(leaf, wrong.help("32-bit floating point reaches about 3.4e38"));
+        None
     }
-    #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]
-    Some(depth as f32)
+
+    fn clear_depth(&mut self, leaf: Leaf<'_>) -> Option<f32> {
+        let (depth, because) = self.number_because(leaf, "depth")?;
+        if !(0.0..=1.0).contains(&depth) {
+            let help = "write a depth from 0 to 1: 0 is infinitely far, 1 is nearest";
+            let wrong = format!("depth lies from 0 to 1, found {}", crate::base::shown_number(depth));
+            let wrong = Diagnostic::new(leaf.span(), wrong).remark(because.as_deref().unwrap_or_default());
+            self.fault(leaf, wrong.help(help));
+            return None;
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "depth is stored in single precision")]
+        Some(depth as f32)
+    }
 }

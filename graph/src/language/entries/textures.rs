@@ -4,7 +4,7 @@ use super::{parameters, values};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{ColorSpace, TextureFile, TextureInfo, ViewIndex, format_problem};
 use crate::language::model::{Format, Image, ImageShape, Layers, Lifetime, Mips, Samples, Size};
-use crate::language::scope::Scope;
+use crate::language::scope::Context;
 use crate::ron::{Described, Form, Leaf, Name, Plain, Reader, Spanned, names};
 use crate::{fields, vulkan};
 use std::collections::HashMap;
@@ -50,44 +50,39 @@ pub(crate) struct Picture {
     pub(crate) info: TextureInfo,
 }
 
-/// A texture, once its fields are told apart.
-pub(crate) fn lower<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    pictures: &Pictures,
-    fields: &TextureFields<'src>,
-) -> Option<Image> {
-    let name = reader.name(fields.name, "a texture");
-    let path = reader.words(fields.file, "the path of a file");
-    let color_space = color_space(reader, fields.color_space);
-    let shape = match fields.shape {
-        Some(leaf) => values::choice(reader, leaf, "the shape of a texture", &SHAPES),
-        None => Some(vulkan::Shape::D2),
-    };
-    let format = match fields.format.map(|leaf| (leaf, leaf.shape())) {
-        Some((leaf, crate::ron::Shape::Text)) => {
-            values::format(reader, scope, leaf).map(|format| Some(leaf.spanned(format)))
-        }
-        Some((leaf, _)) => parameters::format(reader, leaf).map(|format| Some(leaf.spanned(format))),
-        None => Some(None),
-    };
-    let (name, path, _, shape, format) = (name?, path?, color_space?, shape?, format?);
-    let Picture { file, info } = pictures.get(&fields.file.span())?.as_ref()?;
-    if let Some(Spanned { value, span }) = format
-        && let Some(why) = format_problem(file, value)
-    {
-        reader.report(Diagnostic::new(span, format!("texture `{}` can't be {value}: {why}", name.text)));
-        return None;
-    }
-    let extent = match info.image_extent(shape) {
-        Ok(extent) => extent,
-        Err(problem) => {
-            let at = fields.shape.map_or(fields.file.span(), Leaf::span);
-            reader.report(Diagnostic::new(at, format!("`{path}` {problem}")).label(fields.file.span(), "this file"));
+impl Context<'_, '_> {
+    /// A texture, once its fields are told apart.
+    pub(crate) fn texture(&mut self, pictures: &Pictures, fields: &TextureFields<'_>) -> Option<Image> {
+        let name = self.reader.name(fields.name, "a texture");
+        let path = self.reader.words(fields.file, "the path of a file");
+        let color_space = color_space(self.reader, fields.color_space);
+        let shape = fields.shape.map_or(Some(vulkan::Shape::D2), |leaf| {
+            values::choice(self.reader, leaf, "the shape of a texture", &SHAPES)
+        });
+        let format = match fields.format.map(|leaf| (leaf, leaf.shape())) {
+            Some((leaf, crate::ron::Shape::Text)) => self.format(leaf).map(|format| Some(leaf.spanned(format))),
+            Some((leaf, _)) => parameters::format(self.reader, leaf).map(|format| Some(leaf.spanned(format))),
+            None => Some(None),
+        };
+        let (name, path, _, shape, format) = (name?, path?, color_space?, shape?, format?);
+        let Picture { file, info } = pictures.get(&fields.file.span())?.as_ref()?;
+        if let Some(Spanned { value, span }) = format
+            && let Some(why) = format_problem(file, value)
+        {
+            self.reader.report(Diagnostic::new(span, format!("texture `{}` can't be {value}: {why}", name.text)));
             return None;
         }
-    };
-    Some(image(name, file, format.map_or(info.format, |format| format.value), extent, shape, fields))
+        let extent = match info.image_extent(shape) {
+            Ok(extent) => extent,
+            Err(problem) => {
+                let at = fields.shape.map_or(fields.file.span(), Leaf::span);
+                self.reader
+                    .report(Diagnostic::new(at, format!("`{path}` {problem}")).label(fields.file.span(), "this file"));
+                return None;
+            }
+        };
+        Some(image(name, file, format.map_or(info.format, |format| format.value), extent, shape, fields))
+    }
 }
 
 fn image(
@@ -120,8 +115,5 @@ fn image(
 }
 
 pub(crate) fn color_space(reader: &mut Reader, leaf: Option<Leaf<'_>>) -> Option<ColorSpace> {
-    match leaf {
-        Some(leaf) => values::choice(reader, leaf, "a colour space", &COLOR_SPACES),
-        None => Some(ColorSpace::default()),
-    }
+    leaf.map_or(Some(ColorSpace::default()), |leaf| values::choice(reader, leaf, "a colour space", &COLOR_SPACES))
 }

@@ -1,11 +1,12 @@
 //! `copy`, `blit` and `fill`, and what `custom` reads and writes by transfer.
 
 use super::bindings::{self, FILTERS};
-use super::{parts, values};
+use super::parts;
+use super::values::{self};
 use crate::fields;
 use crate::language::model::{Part, Work};
-use crate::language::scope::Scope;
-use crate::ron::{Described, Form, Leaf, Reader, Shape};
+use crate::language::scope::Context;
+use crate::ron::{Described, Form, Leaf, Shape};
 
 fields! {
     /// A copy: bits as they are.
@@ -60,44 +61,38 @@ pub(crate) const FILL: Form = Form::Fields(FillFields::<'static>::table);
 /// What `reads` and `writes` take.
 pub(crate) const TRANSFERRED: Form = Form::Either(&[parts::WHOLE_RESOURCE, Form::List(&parts::ANY)]);
 
-/// `copy: (from: …, to: …)`
-pub(crate) fn copy<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Work> {
-    let fields: CopyFields<'_> = reader.read(leaf, "a copy")?;
-    let (from, to) = (parts::any(reader, scope, fields.from), parts::any(reader, scope, fields.to));
-    Some(Work::Copy { from: from?, to: to? })
-}
+impl Context<'_, '_> {
+    /// `copy: (from: …, to: …)`
+    pub(crate) fn copy_work(&mut self, leaf: Leaf<'_>) -> Option<Work> {
+        let fields: CopyFields<'_> = self.reader.read(leaf, "a copy")?;
+        let (from, to) = (self.part(fields.from), self.part(fields.to));
+        Some(Work::Copy { from: from?, to: to? })
+    }
 
-/// `blit: (from: …, to: …)`
-pub(crate) fn blit<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Work> {
-    let fields: BlitFields<'_> = reader.read(leaf, "a blit")?;
-    let (from, to) = (parts::image(reader, scope, fields.from), parts::image(reader, scope, fields.to));
-    let filter = match fields.filter {
-        Some(leaf) => values::choice(reader, leaf, "a filter", &FILTERS).map(|filter| Some(leaf.spanned(filter))),
-        None => Some(None),
-    };
-    Some(Work::Blit { from: Part::Image(from?), to: Part::Image(to?), filter: filter? })
-}
+    /// `blit: (from: …, to: …)`
+    pub(crate) fn blit_work(&mut self, leaf: Leaf<'_>) -> Option<Work> {
+        let fields: BlitFields<'_> = self.reader.read(leaf, "a blit")?;
+        let (from, to) = (self.image_part(fields.from), self.image_part(fields.to));
+        let filter = values::optional_choice(self.reader, fields.filter, "a filter", &FILTERS);
+        Some(Work::Blit { from: Part::Image(from?), to: Part::Image(to?), filter: filter? })
+    }
 
-/// `fill: (to: …, value: …)`
-pub(crate) fn fill<'src>(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'src>) -> Option<Work> {
-    let fields: FillFields<'_> = reader.read(leaf, "a fill")?;
-    let to = parts::any(reader, scope, fields.to);
-    let value = values::fill(reader, scope, fields.value).map(|value| fields.value.spanned(value));
-    Some(Work::Fill { to: to?, value: value? })
-}
+    /// `fill: (to: …, value: …)`
+    pub(crate) fn fill_work(&mut self, leaf: Leaf<'_>) -> Option<Work> {
+        let fields: FillFields<'_> = self.reader.read(leaf, "a fill")?;
+        let to = self.part(fields.to);
+        let value = self.fill(fields.value).map(|value| fields.value.spanned(value));
+        Some(Work::Fill { to: to?, value: value? })
+    }
 
-/// Parts of images and buffers in a list.
-pub(crate) fn listed<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Option<Leaf<'src>>,
-    field: &str,
-) -> Option<Vec<Part>> {
-    let Some(leaf) = leaf else { return Some(Vec::new()) };
-    let entries = match leaf.shape() {
-        Shape::List => reader.list(leaf, field)?,
-        _ => vec![leaf],
-    };
-    let parts: Vec<Option<Part>> = entries.into_iter().map(|entry| parts::any(reader, scope, entry)).collect();
-    parts.into_iter().collect()
+    /// Parts of images and buffers in a list.
+    pub(crate) fn listed_parts(&mut self, leaf: Option<Leaf<'_>>, field: &str) -> Option<Vec<Part>> {
+        let Some(leaf) = leaf else { return Some(Vec::new()) };
+        let entries = match leaf.shape() {
+            Shape::List => self.reader.list(leaf, field)?,
+            _ => vec![leaf],
+        };
+        let parts: Vec<Option<Part>> = entries.into_iter().map(|entry| self.part(entry)).collect();
+        parts.into_iter().collect()
+    }
 }

@@ -8,7 +8,7 @@ use crate::base::{Diagnostic, enumerated};
 use crate::expression::{Outcome, Type, Value, Wanted};
 use crate::fields;
 use crate::language::model::SettingKind;
-use crate::language::scope::{Given, Known, Parameter, ParameterKind, Scope, joined};
+use crate::language::scope::{Context, DecidedValue, Parameter, ParameterKind, Symbols, joined};
 use crate::ron::{Form, Leaf, Name, Plain, Reader, Shape};
 use std::collections::{HashMap, HashSet};
 
@@ -43,102 +43,133 @@ const ARGUMENT: Form = Form::Either(&[
     Form::Expression("an image, a buffer, or an expression"),
 ]);
 
-/// Values for the parameters of the fragment `called` so, in their order; `None` where there is none, which was reported.
-/// Images and buffers of arguments come with the places where they are named.
-pub(crate) fn arguments<'t>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    fields: &UseFields<'t>,
-    (called, known): (&str, &Known),
-) -> Vec<Option<(Given, Option<Leaf<'t>>)>> {
-    let mut leaves: HashMap<usize, Leaf<'t>> = HashMap::new();
-    let entries: Vec<(Leaf<'t>, Leaf<'t>)> =
-        fields.with.and_then(|with| reader.map(with, "`with`")).into_iter().flatten().collect();
-    let given: HashSet<&str> = entries.iter().filter_map(|(key, _)| key.plain()).collect();
-    for (key, value) in entries {
-        let Some(name) = reader.reference(key, "a parameter") else { continue };
-        let Some(at) = known.given.at(&name.text) else {
-            if known.given.complete() {
-                let unknown = format!("fragment `{called}` has no parameter named `{}`", name.text);
-                let open = known.given.in_order().filter(|name| !given.contains(name));
-                let other = if known.given.in_order().next().is_some() { "other " } else { "" };
-                let none = format!("fragment `{called}` has no {other}parameters");
-                let help = reader.known(&name.text, open).or(Some(none));
-                reader.report(Diagnostic { help, ..Diagnostic::new(name.span, unknown) });
-            }
-            continue;
-        };
-        if leaves.insert(at, value).is_some() {
-            reader.report(Diagnostic::new(name.span, format!("`with` names `{}` twice", name.text)));
-        }
-    }
-    let mut missing = Vec::new();
-    let mut values = Vec::with_capacity(known.parameters.len());
-    for (at, parameter) in known.parameters.iter().enumerate() {
-        let Some(parameter) = parameter else {
-            values.push(None);
-            continue;
-        };
-        values.push(match leaves.get(&at) {
-            Some(leaf) => argument(reader, scope, *leaf, parameter).map(|given| (given, Some(*leaf))),
-            None => {
-                let default = parameter.default();
-                if default.is_none() {
-                    missing.push(parameter);
+impl Context<'_, '_> {
+    /// Values for the parameters of the fragment `called` so, in their order; `None` where there is none, which was reported.
+    /// Images and buffers of arguments come with the places where they are named.
+    pub(crate) fn arguments<'t>(
+        &mut self,
+        fields: &UseFields<'t>,
+        (called, symbols): (&str, &Symbols),
+    ) -> Vec<Option<(DecidedValue, Option<Leaf<'t>>)>> {
+        let mut leaves: HashMap<usize, Leaf<'t>> = HashMap::new();
+        let entries: Vec<(Leaf<'t>, Leaf<'t>)> =
+            fields.with.and_then(|with| self.reader.map(with, "`with`")).into_iter().flatten().collect();
+        let given: HashSet<&str> = entries.iter().filter_map(|(key, _)| key.plain()).collect();
+        for (key, value) in entries {
+            let Some(name) = self.reader.reference(key, "a parameter") else { continue };
+            let Some(at) = symbols.names.at(&name.text) else {
+                if symbols.names.complete() {
+                    let unknown = format!("fragment `{called}` has no parameter named `{}`", name.text);
+                    let open = symbols.names.in_order().filter(|name| !given.contains(name));
+                    let other = if symbols.names.in_order().next().is_some() { "other " } else { "" };
+                    let none = format!("fragment `{called}` has no {other}parameters");
+                    let help = self.reader.known(&name.text, open).or(Some(none));
+                    self.reader.report(Diagnostic { help, ..Diagnostic::new(name.span, unknown) });
                 }
-                default.map(|value| (Given { value, decided: Vec::new() }, None))
-            }
-        });
-    }
-    if let Some(first) = missing.first() {
-        let example = |parameter: &&&Parameter| {
-            let value = match parameter.kind.ty() {
-                Type::Image => "\"an_image\"",
-                Type::Buffer => "\"a_buffer\"",
-                _ => "…",
+                continue;
             };
-            format!("\"{}\": {value}", parameter.name.text)
-        };
-        let examples: Vec<String> = missing.iter().map(|it| example(&it)).collect();
-        let names = enumerated(missing.iter().map(|parameter| format!("`{}`", parameter.name.text)));
-        let what = if missing.len() == 1 { "parameter" } else { "parameters" };
-        let message = format!("fragment `{called}` needs the {what} {names}");
-        let wrong =
-            Diagnostic::new(fields.r#use.span(), message).label(first.name.span, "declared here, without default");
-        reader.report(wrong.help(format!("add `with: {{{}}}`", examples.join(", "))));
+            if leaves.insert(at, value).is_some() {
+                self.reader.report(Diagnostic::new(name.span, format!("`with` names `{}` twice", name.text)));
+            }
+        }
+        let mut missing = Vec::new();
+        let mut values = Vec::with_capacity(symbols.parameters.len());
+        for (at, parameter) in symbols.parameters.iter().enumerate() {
+            let Some(parameter) = parameter else {
+                values.push(None);
+                continue;
+            };
+            values.push(match leaves.get(&at) {
+                Some(leaf) => self.argument(*leaf, parameter).map(|given| (given, Some(*leaf))),
+                None => {
+                    let default = parameter.default();
+                    if default.is_none() {
+                        missing.push(parameter);
+                    }
+                    default.map(|value| (value.into(), None))
+                }
+            });
+        }
+        if let Some(first) = missing.first() {
+            let example = |parameter: &&&Parameter| {
+                let value = match parameter.kind.ty() {
+                    Type::Image => "\"an_image\"",
+                    Type::Buffer => "\"a_buffer\"",
+                    _ => "…",
+                };
+                format!("\"{}\": {value}", parameter.name.text)
+            };
+            let examples: Vec<String> = missing.iter().map(|it| example(&it)).collect();
+            let names = enumerated(missing.iter().map(|parameter| format!("`{}`", parameter.name.text)));
+            let what = if missing.len() == 1 { "parameter" } else { "parameters" };
+            let message = format!("fragment `{called}` needs the {what} {names}");
+            let wrong =
+                Diagnostic::new(fields.r#use.span(), message).label(first.name.span, "declared here, without default");
+            self.reader.report(wrong.help(format!("add `with: {{{}}}`", examples.join(", "))));
+        }
+        values
     }
-    values
-}
 
-fn argument(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>, parameter: &Parameter) -> Option<Given> {
-    let given = |outcome: Outcome| Given { value: outcome.value, decided: outcome.decided };
-    match &parameter.kind {
-        ParameterKind::Image => {
-            let image = scope.image(reader, leaf)?;
-            Some(Given { value: Value::Image(image.index), decided: Vec::new() })
-        }
-        ParameterKind::Buffer => {
-            let buffer = scope.buffer(reader, leaf)?;
-            Some(Given { value: Value::Buffer(buffer.index), decided: Vec::new() })
-        }
-        ParameterKind::Format { .. } => match leaf.shape() {
-            Shape::Text => scope.evaluate(reader, leaf, Wanted::FORMAT).map(given),
-            _ => {
-                let format = parameters::format(reader, leaf)?;
-                Some(Given { value: Value::Format(format), decided: Vec::new() })
+    fn argument(&mut self, leaf: Leaf<'_>, parameter: &Parameter) -> Option<DecidedValue> {
+        let given = |outcome: Outcome| DecidedValue { value: outcome.value, decided: outcome.decided };
+        match &parameter.kind {
+            ParameterKind::Image => {
+                let image = self.image(leaf)?;
+                Some(DecidedValue::from(Value::Image(image.index)))
             }
-        },
-        ParameterKind::Value(kind) => {
-            let given = match leaf.shape() {
-                Shape::Text => {
-                    unquoted(reader, scope, leaf, kind)?;
-                    scope.evaluate(reader, leaf, wanted(kind)).map(given)?
+            ParameterKind::Buffer => {
+                let buffer = self.buffer(leaf)?;
+                Some(DecidedValue::from(Value::Buffer(buffer.index)))
+            }
+            ParameterKind::Format { .. } => match leaf.shape() {
+                Shape::Text => self.evaluate(leaf, Wanted::FORMAT).map(given),
+                _ => {
+                    let format = parameters::format(self.reader, leaf)?;
+                    Some(DecidedValue::from(Value::Format(format)))
                 }
-                _ => Given { value: plain(reader, leaf, parameter, kind)?, decided: Vec::new() },
-            };
-            allowed(reader, scope, leaf, parameter, kind, &given)?;
-            Some(given)
+            },
+            ParameterKind::Value(kind) => {
+                let given = match leaf.shape() {
+                    Shape::Text => {
+                        self.unquoted(leaf, kind)?;
+                        self.evaluate(leaf, wanted(kind)).map(given)?
+                    }
+                    _ => DecidedValue::from(plain(self.reader, leaf, parameter, kind)?),
+                };
+                self.allowed(leaf, parameter, kind, &given)?;
+                Some(given)
+            }
         }
+    }
+
+    /// Reports a word that stands where an expression is wanted, and is meant for a text: nothing is called so.
+    fn unquoted(&mut self, leaf: Leaf<'_>, kind: &SettingKind) -> Option<()> {
+        let SettingKind::Choice { of, .. } = kind else { return Some(()) };
+        let Some(word) = leaf.plain().filter(|word| self.scope.names_nothing(word)) else { return Some(()) };
+        let known = of.iter().any(|text| **text == *word);
+        let meant: Vec<_> = of.iter().filter(|text| !known || ***text == *word).collect();
+        let all = enumerated(meant.iter().map(|text| format!("`\"'{text}'\"`")));
+        let message = format!("texts in expressions stand in single quotes, found `{word}`");
+        self.reader.wrong(leaf, message, &format!("write it in single quotes inside the quotes: {all}"));
+        None
+    }
+
+    fn allowed(
+        &mut self,
+        leaf: Leaf<'_>,
+        parameter: &Parameter,
+        kind: &SettingKind,
+        given: &DecidedValue,
+    ) -> Option<()> {
+        if kind.allows(&given.value) {
+            return Some(());
+        }
+        let because = joined(&given.decided);
+        let Name { text, span } = &parameter.name;
+        let message = format!("parameter `{text}` doesn't allow `{}`", given.value);
+        let wrong = Diagnostic::new(leaf.span(), message).remark(because.as_deref().unwrap_or_default());
+        self.fault(leaf, wrong.label(*span, "declared here").help(format!("it is {}", kind.allowed())));
+        None
     }
 }
 
@@ -165,35 +196,4 @@ fn plain(reader: &mut Reader, leaf: Leaf<'_>, parameter: &Parameter, kind: &Sett
             None
         }
     }
-}
-
-/// Reports a word that stands where an expression is wanted, and is meant for a text: nothing is called so.
-fn unquoted(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>, kind: &SettingKind) -> Option<()> {
-    let SettingKind::Choice { of, .. } = kind else { return Some(()) };
-    let Some(word) = leaf.plain().filter(|word| scope.names_nothing(word)) else { return Some(()) };
-    let known = of.iter().any(|text| **text == *word);
-    let meant: Vec<_> = of.iter().filter(|text| !known || ***text == *word).collect();
-    let all = enumerated(meant.iter().map(|text| format!("`\"'{text}'\"`")));
-    let message = format!("texts in expressions stand in single quotes, found `{word}`");
-    reader.wrong(leaf, message, &format!("write it in single quotes inside the quotes: {all}"));
-    None
-}
-
-fn allowed(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    leaf: Leaf<'_>,
-    parameter: &Parameter,
-    kind: &SettingKind,
-    given: &Given,
-) -> Option<()> {
-    if kind.allows(&given.value) {
-        return Some(());
-    }
-    let because = joined(&given.decided);
-    let Name { text, span } = &parameter.name;
-    let message = format!("parameter `{text}` doesn't allow `{}`", given.value);
-    let wrong = Diagnostic::new(leaf.span(), message).remark(because.as_deref().unwrap_or_default());
-    scope.fault(reader, leaf, wrong.label(*span, "declared here").help(format!("it is {}", kind.allowed())));
-    None
 }

@@ -1,15 +1,15 @@
 //! `views`: from where, how large and with what the parts of a frame are drawn.
 
-use super::{list, presets, sizes, values};
+use super::values::optional;
+use super::{list, presets, sizes};
 use crate::base::{Diagnostic, Label, OutsideChoice, shown_number};
 use crate::fields;
 use crate::frame::change::{Action, Change};
 use crate::frame::{self, Allowances, Jitter, ViewIndex};
 use crate::language::inputs::Surroundings;
 use crate::language::model::{Choice, LARGEST_SIZE, Setting, View, times};
-use crate::language::scope::{Given, Scope};
+use crate::language::scope::{Context, DecidedValue, Scope};
 use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader, Takes, Word, Words};
-use std::sync::Arc;
 
 fields! {
     /// A view: what is seen from one place, at a size and with values of settings of its own.
@@ -68,17 +68,17 @@ static SIZES: Words = Words {
 };
 
 /// What expressions see that stand in a view.
-pub(crate) struct Seen<'a> {
+pub(crate) struct ViewInputs<'a> {
     pub(crate) surroundings: Surroundings<'a>,
     /// Values of settings.
-    pub(crate) given: Vec<Option<Given>>,
+    pub(crate) values: Vec<Option<DecidedValue>>,
 }
 
 /// The views of a pipeline, the main one first; none if the file names none.
 pub(crate) struct Views<'a> {
     names: Names,
     /// `None` where one couldn't be read.
-    list: Vec<Option<(View, Seen<'a>)>>,
+    list: Vec<Option<(View, ViewInputs<'a>)>>,
 }
 
 impl<'a> Views<'a> {
@@ -87,25 +87,25 @@ impl<'a> Views<'a> {
         Views { names: Names::new("view"), list: Vec::new() }
     }
 
-    /// Reads a list of views. `scope` is the frame's, `settings` are those that views may set.
+    /// Reads a list of views in the context of the frame; `settings` are those that views may set.
     pub(crate) fn read(
-        reader: &mut Reader,
-        scope: &Scope<'_>,
+        context: &mut Context<'_, '_>,
         surroundings: &Surroundings<'a>,
         settings: &[Option<Setting>],
         list: Leaf<'_>,
         removed: Option<&Change>,
     ) -> Views<'a> {
-        let (mut names, before) = (Names::new("view"), reader.errors.len());
-        let fields: Vec<Option<ViewFields<'_>>> = list::entries(reader, Some(list), "`views`", "view", &mut names);
-        if fields.is_empty() && reader.errors.is_empty() {
-            reader.wrong(list, "a frame without views shows nothing", "leave `views` out: there is one then");
+        let (mut names, before) = (Names::new("view"), context.reader.errors.len());
+        let fields: Vec<Option<ViewFields<'_>>> =
+            list::entries(context.reader, Some(list), "`views`", "view", &mut names);
+        if fields.is_empty() && context.reader.errors.is_empty() {
+            context.reader.wrong(list, "a frame without views shows nothing", "leave `views` out: there is one then");
         }
         let mut views = Vec::with_capacity(fields.len());
         for (number, fields) in fields.into_iter().enumerate() {
-            views.push(fields.and_then(|fields| view(reader, scope, surroundings, settings, number == 0, &fields)));
+            views.push(fields.and_then(|fields| context.view(surroundings, settings, number == 0, &fields)));
             if number == 0 {
-                since_removed(&mut reader.errors[before..], removed);
+                since_removed(&mut context.reader.errors[before..], removed);
             }
         }
         Views { names, list: views }
@@ -126,19 +126,14 @@ impl<'a> Views<'a> {
     }
 
     /// What expressions see within a view; `None`: what they see of the frame.
-    pub(crate) fn seen(&self, view: ViewIndex) -> Option<&Seen<'a>> {
-        self.list.get(view.0 as usize)?.as_ref().map(|(_, seen)| seen)
+    pub(crate) fn inputs(&self, view: ViewIndex) -> Option<&ViewInputs<'a>> {
+        self.list.get(view.0 as usize)?.as_ref().map(|(_, inputs)| inputs)
     }
 
     /// The name of a view, unless it is the main one.
     pub(crate) fn name(&self, view: ViewIndex) -> Option<&Name> {
         let (view, _) = self.list.get(view.0 as usize).filter(|_| view != ViewIndex::default())?.as_ref()?;
         Some(&view.name)
-    }
-
-    /// `because` of something within a view: of the main one as it is, else with the view's name.
-    pub(crate) fn within(&self, view: ViewIndex, because: Arc<str>) -> Arc<str> {
-        self.name(view).map_or_else(|| because.clone(), |name| format!("{because} in view `{}`", name.text).into())
     }
 
     /// All of them. `None` if one couldn't be read.
@@ -158,93 +153,89 @@ fn since_removed(errors: &mut [Diagnostic], removed: Option<&Change>) {
 /// Said of a first view with a size.
 const FIRST_IS_THE_FRAMES: &str = "the first view has the size of the frame";
 
-fn view<'a>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    surroundings: &Surroundings<'a>,
-    settings: &[Option<Setting>],
-    main: bool,
-    fields: &ViewFields<'_>,
-) -> Option<(View, Seen<'a>)> {
-    let name = reader.name(fields.name, "a view");
-    if let Some(about) = fields.about {
-        reader.words(about, "a description");
-    }
-    let extent = match fields.size {
-        Some(leaf) if main => {
-            if !leaf.is_broken() {
-                let wrong = Diagnostic::new(leaf.span(), FIRST_IS_THE_FRAMES).help("leave `size` out");
-                reader.report(wrong.choice(OutsideChoice::OutputSize));
-            }
-            None
+impl Context<'_, '_> {
+    fn view<'a>(
+        &mut self,
+        surroundings: &Surroundings<'a>,
+        settings: &[Option<Setting>],
+        main: bool,
+        fields: &ViewFields<'_>,
+    ) -> Option<(View, ViewInputs<'a>)> {
+        let name = self.reader.name(fields.name, "a view");
+        if let Some(about) = fields.about {
+            self.reader.words(about, "a description");
         }
-        Some(leaf) => size(reader, scope, leaf),
-        None => Some(surroundings.extent),
-    };
-    let camera = match fields.camera {
-        Some(leaf) => reader.reference(leaf, "a camera").map(Some),
-        None => Some(None),
-    };
-    let mut allowed = |leaf: Option<Leaf<'_>>, frame: bool| match leaf {
-        Some(leaf) => values::truth(reader, scope, leaf),
-        None => Some(frame),
-    };
-    let all = surroundings.allows;
-    let (msaa, hdr) = (allowed(fields.allows_msaa, all.msaa), allowed(fields.allows_hdr, all.hdr));
-    let scale = allowed(fields.allows_scale, all.scale);
-    let set = fields.set.map_or_else(|| Some(Vec::new()), |leaf| presets::set(reader, leaf, settings));
-    let mut given = scope.given.to_vec();
-    for Choice { setting, value, .. } in set.iter().flatten() {
-        if let Some(given) = given.get_mut(*setting) {
-            *given = Some(Given { value: value.clone(), decided: Vec::new() });
-        }
-    }
-    // Read even where something else is wrong, so that all mistakes are told.
-    let seen = Surroundings { extent: extent.unwrap_or(surroundings.extent), ..*surroundings };
-    let jitter = jitter(reader, &Scope { given: &given, surroundings: &seen, ..*scope }, fields);
-    set?;
-    let allows = Allowances { msaa: msaa?, hdr: hdr?, scale: scale? };
-    let view = View { name: name?, extent: extent?, camera: camera?, allows, jitter: jitter?, eye: None };
-    let surroundings = Surroundings { extent: view.extent, allows, ..*surroundings };
-    Some((view, Seen { surroundings, given }))
-}
-
-/// How what a view's camera sees is shifted. `scope` is the view's own.
-fn jitter(reader: &mut Reader, scope: &Scope<'_>, fields: &ViewFields<'_>) -> Option<Option<Jitter>> {
-    let range = 1..=i64::from(frame::LONGEST_JITTER);
-    let length = |leaf| values::whole::<u16>(reader, scope, leaf, "number of shifts", range);
-    let length = fields.jitter.map_or(Some(1), length);
-    let extent = fields.jitter_size.map_or(Some(scope.surroundings.extent), |leaf| size(reader, scope, leaf));
-    let (length, extent) = (length?, extent?);
-    Some((length > 1).then(|| Jitter::halton(length, extent)))
-}
-
-fn size(reader: &mut Reader, scope: &Scope<'_>, leaf: Leaf<'_>) -> Option<[u32; 2]> {
-    let (word, rest) = reader.one_of(leaf, &SIZES)?;
-    let frame = scope.surroundings.extent;
-    match word {
-        "Output" => reader.bare(word, rest).map(|()| frame),
-        "Fixed" => {
-            let [width, height]: [Leaf<'_>; 2] = reader.inside(leaf, rest, "Fixed(width, height)")?;
-            let (width, height) = (sizes::extent(reader, scope, width), sizes::extent(reader, scope, height));
-            Some([width?, height?])
-        }
-        _ => {
-            let [by]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Scaled(0.5)")?;
-            let (factor, because) = sizes::scale(reader, scope, by)?;
-            match times(frame, factor) {
-                Ok(extent) => Some(extent),
-                // No frame is known yet, or none of this.
-                Err(_) if scope.lenient => {
-                    scope.forgave.set(true);
-                    None
+        let extent = match fields.size {
+            Some(leaf) if main => {
+                if !leaf.is_broken() {
+                    let wrong = Diagnostic::new(leaf.span(), FIRST_IS_THE_FRAMES).help("leave `size` out");
+                    self.reader.report(wrong.choice(OutsideChoice::OutputSize));
                 }
-                Err([width, height]) => {
-                    let message = format!("the view would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
-                    let because = because.map_or_else(|| shown_number(factor), |because| because.to_string());
-                    let wrong = Diagnostic::new(by.span(), message);
-                    reader.report(wrong.remark(format!("{because} times {}×{}", frame[0], frame[1])));
-                    None
+                None
+            }
+            Some(leaf) => self.view_size(leaf),
+            None => Some(surroundings.extent),
+        };
+        let camera = optional(fields.camera, |leaf| self.reader.reference(leaf, "a camera"));
+        let mut allowed = |leaf: Option<Leaf<'_>>, frame: bool| leaf.map_or(Some(frame), |leaf| self.truth(leaf));
+        let all = surroundings.allows;
+        let (msaa, hdr) = (allowed(fields.allows_msaa, all.msaa), allowed(fields.allows_hdr, all.hdr));
+        let scale = allowed(fields.allows_scale, all.scale);
+        let set = fields.set.map_or_else(|| Some(Vec::new()), |leaf| presets::set(self.reader, leaf, settings));
+        let mut values = self.scope.values.to_vec();
+        for Choice { setting, value, .. } in set.iter().flatten() {
+            if let Some(slot) = values.get_mut(*setting) {
+                *slot = Some(value.clone().into());
+            }
+        }
+        // Read even where something else is wrong, so that all mistakes are told.
+        let seen = Surroundings { extent: extent.unwrap_or(surroundings.extent), ..*surroundings };
+        let scope = Scope { values: &values, surroundings: &seen, ..self.scope };
+        let jitter = Context::new(self.reader, scope).jitter(fields);
+        set?;
+        let allows = Allowances { msaa: msaa?, hdr: hdr?, scale: scale? };
+        let view = View { name: name?, extent: extent?, camera: camera?, allows, jitter: jitter?, eye: None };
+        let surroundings = Surroundings { extent: view.extent, allows, ..*surroundings };
+        Some((view, ViewInputs { surroundings, values }))
+    }
+
+    /// How what a view's camera sees is shifted. The context is the view's own.
+    fn jitter(&mut self, fields: &ViewFields<'_>) -> Option<Option<Jitter>> {
+        let range = 1..=i64::from(frame::LONGEST_JITTER);
+        let length = |leaf| self.whole::<u16>(leaf, "number of shifts", range);
+        let length = fields.jitter.map_or(Some(1), length);
+        let extent = fields.jitter_size.map_or(Some(self.scope.surroundings.extent), |leaf| self.view_size(leaf));
+        let (length, extent) = (length?, extent?);
+        Some((length > 1).then(|| Jitter::halton(length, extent)))
+    }
+
+    fn view_size(&mut self, leaf: Leaf<'_>) -> Option<[u32; 2]> {
+        let (word, rest) = self.reader.one_of(leaf, &SIZES)?;
+        let frame = self.scope.surroundings.extent;
+        match word {
+            "Output" => self.reader.bare(word, rest).map(|()| frame),
+            "Fixed" => {
+                let [width, height]: [Leaf<'_>; 2] = self.reader.inside(leaf, rest, "Fixed(width, height)")?;
+                let (width, height) = (self.extent(width), self.extent(height));
+                Some([width?, height?])
+            }
+            _ => {
+                let [by]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Scaled(0.5)")?;
+                let (factor, because) = self.scale(by)?;
+                match times(frame, factor) {
+                    Ok(extent) => Some(extent),
+                    // No frame is known yet, or none of this.
+                    Err(_) if self.scope.lenient => {
+                        self.forgave = true;
+                        None
+                    }
+                    Err([width, height]) => {
+                        let message = format!("the view would be {width}×{height}; {LARGEST_SIZE} texels are allowed");
+                        let because = because.map_or_else(|| shown_number(factor), |because| because.to_string());
+                        let wrong = Diagnostic::new(by.span(), message);
+                        self.reader.report(wrong.remark(format!("{because} times {}×{}", frame[0], frame[1])));
+                        None
+                    }
                 }
             }
         }

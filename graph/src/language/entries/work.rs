@@ -1,11 +1,9 @@
 //! What a pass does: `draw`, `dispatch`, `copy`, `blit`, `fill` or `custom`, exactly one of them.
 
-use super::dispatch;
-use super::draw::{self, Beside};
+use super::draw::Beside;
 use super::pass_fields::PassFields;
-use super::transfer::{self, listed};
 use crate::language::model::Work;
-use crate::language::scope::Scope;
+use crate::language::scope::Context;
 use crate::ron::{Reader, Shape};
 
 /// Fields of a pass that have a meaning beside some kinds of work alone.
@@ -25,54 +23,51 @@ pub(crate) const GOES_WITH: [(&str, &[&str]); 13] = [
     ("writes", &["custom"]),
 ];
 
-/// The one thing that the pass does. `what` names the pass.
-pub(crate) fn lower<'src>(
-    reader: &mut Reader,
-    scope: &Scope<'_>,
-    fields: &PassFields<'src>,
-    what: &str,
-) -> Option<Work> {
-    let PassFields { draw, dispatch, copy, blit, fill, custom, .. } = fields;
-    let named = [
-        ("draw", *draw),
-        ("dispatch", *dispatch),
-        ("copy", *copy),
-        ("blit", *blit),
-        ("fill", *fill),
-        ("custom", *custom),
-    ];
-    let mut given = named.into_iter().filter_map(|(word, leaf)| Some((word, leaf?)));
-    let Some((word, leaf)) = given.next() else {
-        let help = "give it one of `draw`, `dispatch`, `copy`, `blit`, `fill` and `custom`";
-        reader.wrong(fields.name, format!("{what} does nothing"), help);
-        return None;
-    };
-    if let Some((second, more)) = given.next() {
-        let twice = crate::base::Diagnostic::new(more.span(), format!("{what} has both `{word}` and `{second}`"));
-        let twice = twice.label(leaf.span(), format!("`{word}` stands here"));
-        reader.report(twice.help("a pass does one thing: make it two passes"));
-        return None;
-    }
-    fits(reader, fields, what, word);
-    if matches!(word, "copy" | "blit" | "fill") && !matches!(leaf.shape(), Shape::Parentheses) {
-        let form = if word == "fill" { "`(to: …, value: …)`" } else { "`(from: …, to: …)`" };
-        reader.expected(leaf, form);
-        return None;
-    }
-    match word {
-        "draw" => {
-            let beside = Beside { shader: fields.shader, vertex: fields.vertex, index: fields.index };
-            draw::lower(reader, scope, leaf, beside, what)
+impl Context<'_, '_> {
+    /// The one thing that the pass does. `what` names the pass.
+    pub(crate) fn work(&mut self, fields: &PassFields<'_>, what: &str) -> Option<Work> {
+        let PassFields { draw, dispatch, copy, blit, fill, custom, .. } = fields;
+        let named = [
+            ("draw", *draw),
+            ("dispatch", *dispatch),
+            ("copy", *copy),
+            ("blit", *blit),
+            ("fill", *fill),
+            ("custom", *custom),
+        ];
+        let mut given = named.into_iter().filter_map(|(word, leaf)| Some((word, leaf?)));
+        let Some((word, leaf)) = given.next() else {
+            let help = "give it one of `draw`, `dispatch`, `copy`, `blit`, `fill` and `custom`";
+            self.reader.wrong(fields.name, format!("{what} does nothing"), help);
+            return None;
+        };
+        if let Some((second, more)) = given.next() {
+            let twice = crate::base::Diagnostic::new(more.span(), format!("{what} has both `{word}` and `{second}`"));
+            let twice = twice.label(leaf.span(), format!("`{word}` stands here"));
+            self.reader.report(twice.help("a pass does one thing: make it two passes"));
+            return None;
         }
-        "dispatch" => dispatch::lower(reader, scope, leaf, fields.groups, what),
-        "copy" => transfer::copy(reader, scope, leaf),
-        "blit" => transfer::blit(reader, scope, leaf),
-        "fill" => transfer::fill(reader, scope, leaf),
-        _ => {
-            let callback = reader.outside_name(leaf, "what the program records");
-            let reads = listed(reader, scope, fields.reads, "`reads`");
-            let writes = listed(reader, scope, fields.writes, "`writes`");
-            Some(Work::Custom { callback: callback?, reads: reads?, writes: writes? })
+        fits(self.reader, fields, what, word);
+        if matches!(word, "copy" | "blit" | "fill") && !matches!(leaf.shape(), Shape::Parentheses) {
+            let form = if word == "fill" { "`(to: …, value: …)`" } else { "`(from: …, to: …)`" };
+            self.reader.expected(leaf, form);
+            return None;
+        }
+        match word {
+            "draw" => {
+                let beside = Beside { shader: fields.shader, vertex: fields.vertex, index: fields.index };
+                self.draw_work(leaf, beside, what)
+            }
+            "dispatch" => self.dispatch_work(leaf, fields.groups, what),
+            "copy" => self.copy_work(leaf),
+            "blit" => self.blit_work(leaf),
+            "fill" => self.fill_work(leaf),
+            _ => {
+                let callback = self.reader.outside_name(leaf, "what the program records");
+                let reads = self.listed_parts(fields.reads, "`reads`");
+                let writes = self.listed_parts(fields.writes, "`writes`");
+                Some(Work::Custom { callback: callback?, reads: reads?, writes: writes? })
+            }
         }
     }
 }

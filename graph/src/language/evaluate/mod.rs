@@ -1,9 +1,15 @@
 //! A document becomes the flat lists of a pipeline, for one choice of settings, scene, view and device.
 
-pub(crate) mod circles;
-pub(crate) mod lower;
-pub(crate) mod previous;
-pub(crate) mod properties;
-pub(crate) mod put_in;
-pub(crate) mod unused;
-pub(crate) mod views;
+mod circles;
+mod evaluation;
+mod lists;
+mod passes;
+mod pipeline;
+mod previous;
+mod properties;
+mod put_in;
+mod resources;
+mod unused;
+
+pub(crate) use evaluation::Purpose;
+pub(crate) use pipeline::{Declared, evaluate};

@@ -23,7 +23,7 @@ pub struct Surroundings<'a> {
 
 /// A name that every pipeline may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Known {
+enum Input {
     Fact(Fact),
     View(View),
     Device(Device),
@@ -79,17 +79,17 @@ const DEVICE: [(&str, Device, Type, &str); 8] = [
 ];
 
 /// All of them, by number.
-fn all() -> impl Iterator<Item = (&'static str, Known, Type, Origin)> {
+fn all() -> impl Iterator<Item = (&'static str, Input, Type, Origin)> {
     let facts = Fact::ALL.into_iter().map(|fact| {
         let ty = match fact.ty() {
             FactType::Bool => Type::Bool,
             FactType::Integer => Type::Integer,
             FactType::Number => Type::Number,
         };
-        (fact.name(), Known::Fact(fact), ty, Origin::Fact)
+        (fact.name(), Input::Fact(fact), ty, Origin::Fact)
     });
-    let view = VIEW.into_iter().map(|(name, view, ty, _)| (name, Known::View(view), ty, Origin::View));
-    let device = DEVICE.into_iter().map(|(name, device, ty, _)| (name, Known::Device(device), ty, Origin::Device));
+    let view = VIEW.into_iter().map(|(name, view, ty, _)| (name, Input::View(view), ty, Origin::View));
+    let device = DEVICE.into_iter().map(|(name, device, ty, _)| (name, Input::Device(device), ty, Origin::Device));
     facts.chain(view).chain(device)
 }
 
@@ -123,18 +123,18 @@ impl Surroundings<'_> {
     pub(crate) fn value(&self, number: u32) -> Option<Value> {
         let (_, known, ..) = all().nth(number as usize)?;
         Some(match known {
-            Known::Fact(fact) => match self.facts.value(fact) {
+            Input::Fact(fact) => match self.facts.value(fact) {
                 FactValue::Bool(value) => Value::Bool(value),
                 FactValue::Integer(value) => Value::Integer(value),
                 FactValue::Number(value) => Value::Number(value),
             },
-            Known::View(View::Width) => Value::Integer(self.extent[0].into()),
-            Known::View(View::Height) => Value::Integer(self.extent[1].into()),
-            Known::View(View::Eyes) => Value::Integer(self.eyes.into()),
-            Known::View(View::AllowsMsaa) => Value::Bool(self.allows.msaa),
-            Known::View(View::AllowsHdr) => Value::Bool(self.allows.hdr),
-            Known::View(View::AllowsScale) => Value::Bool(self.allows.scale),
-            Known::Device(device) => self.of_device(device),
+            Input::View(View::Width) => Value::Integer(self.extent[0].into()),
+            Input::View(View::Height) => Value::Integer(self.extent[1].into()),
+            Input::View(View::Eyes) => Value::Integer(self.eyes.into()),
+            Input::View(View::AllowsMsaa) => Value::Bool(self.allows.msaa),
+            Input::View(View::AllowsHdr) => Value::Bool(self.allows.hdr),
+            Input::View(View::AllowsScale) => Value::Bool(self.allows.scale),
+            Input::Device(device) => self.of_device(device),
         })
     }
 

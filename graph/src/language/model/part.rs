@@ -50,6 +50,14 @@ pub struct Selection {
     pub count: Option<Spanned<u32>>,
 }
 
+impl BufferPart {
+    /// All of a buffer.
+    #[must_use]
+    pub const fn whole(buffer: BufferRef) -> BufferPart {
+        BufferPart { buffer, previous: None }
+    }
+}
+
 impl ImagePart {
     /// All of an image.
     #[must_use]

@@ -1,9 +1,9 @@
 //! What names in expressions stand for at one level, and their values.
 
-use super::level::Block;
+use super::level::Elements;
+use super::lookup::Scope;
 use super::parameter::{Parameter, ParameterKind};
-use super::quoted::Scope;
-use super::symbols::Known;
+use super::symbols::Symbols;
 use crate::base::Span;
 use crate::expression::{Decision, Declarations, Found, Missing, Origin, Property, Symbol, Type, Value, Values};
 use crate::frame::{BufferIndex, ImageIndex};
@@ -14,7 +14,7 @@ use crate::ron::Names;
 // An identifier is a kind and the number of a name of that kind.
 const KIND: u32 = 0xF000_0000;
 
-const GIVEN: u32 = 0;
+const PARAMETER: u32 = 0;
 
 const IMAGE: u32 = 0x1000_0000;
 
@@ -34,18 +34,19 @@ const fn split(id: u32) -> (u32, usize) {
 
 impl Declarations for Scope<'_> {
     fn find(&self, name: &str) -> Found {
-        let Known { given, parameters, images, image_lists, buffers, buffer_lists, settings } = self.known;
+        let Symbols { names: parameter_names, parameters, images, image_lists, buffers, buffer_lists, settings } =
+            self.symbols;
         let found = |symbol: Option<Symbol>| symbol.map_or(Found::Reported, Found::Symbol);
         if let Some((index, _)) = self.index.filter(|(index, _)| *index.text == *name) {
             let declared = index.span;
             let symbol = Symbol { id: INDEX, ty: Type::Integer, list: false, origin: Origin::Index, declared };
             return Found::Symbol(symbol);
         }
-        if let Some(at) = given.at(name) {
+        if let Some(at) = parameter_names.at(name) {
             let origin = if *settings { Origin::Setting } else { Origin::Parameter };
             let declared = |parameter: &Parameter| {
                 let (ty, declared) = (parameter.kind.ty(), parameter.name.span);
-                Some(Symbol { id: GIVEN | number(at)?, ty, list: false, origin, declared })
+                Some(Symbol { id: PARAMETER | number(at)?, ty, list: false, origin, declared })
             };
             return found(parameters.get(at).and_then(Option::as_ref).and_then(declared));
         }
@@ -68,12 +69,13 @@ impl Declarations for Scope<'_> {
             return Found::Symbol(Symbol { id: SURROUNDINGS | at, ty, list: false, origin, declared });
         }
         // It may be one of those that couldn't be read.
-        if self.known.complete() { Found::Unknown } else { Found::Reported }
+        if self.symbols.complete() { Found::Unknown } else { Found::Reported }
     }
 
     fn names(&self) -> Vec<&str> {
         let index = self.index.map(|(index, _)| &*index.text);
-        let own = self.known.given.in_order().chain(self.known.images.in_order()).chain(self.known.buffers.in_order());
+        let own =
+            self.symbols.names.in_order().chain(self.symbols.images.in_order()).chain(self.symbols.buffers.in_order());
         let mut names: Vec<&str> = index.into_iter().chain(own).collect();
         for name in inputs::names() {
             names.push(name);
@@ -82,8 +84,8 @@ impl Declarations for Scope<'_> {
     }
 
     fn choices(&self, id: u32) -> Option<Vec<&str>> {
-        let (GIVEN, at) = split(id) else { return None };
-        match &self.known.parameters.get(at)?.as_ref()?.kind {
+        let (PARAMETER, at) = split(id) else { return None };
+        match &self.symbols.parameters.get(at)?.as_ref()?.kind {
             ParameterKind::Value(SettingKind::Choice { of, .. }) => Some(of.iter().map(|text| &**text).collect()),
             _ => None,
         }
@@ -94,13 +96,13 @@ impl Scope<'_> {
     fn block(&self, id: u32) -> Result<(u32, u32), Missing> {
         let (kind, at) = split(id);
         let (blocks, names) = match kind {
-            IMAGE => (&self.level.images, &self.known.images),
-            _ => (&self.level.buffers, &self.known.buffers),
+            IMAGE => (&self.level.images, &self.symbols.images),
+            _ => (&self.level.buffers, &self.symbols.buffers),
         };
         match blocks.get(at).copied() {
-            Some(Block::At { first, count }) => Ok((first, count)),
-            Some(Block::Below) => Err(Missing::Below(names.span(at))),
-            Some(Block::Failed) | None => Err(Missing::Reported),
+            Some(Elements::At { first, count }) => Ok((first, count)),
+            Some(Elements::Below) => Err(Missing::Below(names.span(at))),
+            Some(Elements::Failed) | None => Err(Missing::Reported),
         }
     }
 }
@@ -117,8 +119,8 @@ impl Values for Scope<'_> {
     fn value(&self, id: u32) -> Result<Value, Missing> {
         let (kind, at) = split(id);
         match kind {
-            GIVEN => match self.given.get(at) {
-                Some(Some(given)) => Ok(given.value.clone()),
+            PARAMETER => match self.values.get(at) {
+                Some(Some(value)) => Ok(value.value.clone()),
                 _ => Err(Missing::Reported),
             },
             INDEX => self.index.map(|(_, at)| Value::Integer(at.into())).ok_or(Missing::Reported),
@@ -138,12 +140,10 @@ impl Values for Scope<'_> {
     }
 
     fn property(&self, image: ImageIndex, property: Property) -> Result<i64, Missing> {
-        if self.early {
-            return Err(Missing::Reported);
-        }
+        let Some(properties) = self.properties else { return Err(Missing::Reported) };
         let at = image.0 as usize;
-        let below = || Missing::Below(self.known.images.span(self.declaration(image)));
-        let Some(known) = self.properties.get(at) else { return Err(below()) };
+        let below = || Missing::Below(self.symbols.images.span(self.declaration(image)));
+        let Some(known) = properties.get(at) else { return Err(below()) };
         let Some(known) = known else { return Err(Missing::Reported) };
         let value = match property {
             Property::Width => known.area.map(|area| area.extent[0]),
@@ -157,7 +157,7 @@ impl Values for Scope<'_> {
 
     fn decided_by(&self, id: u32) -> &[Decision] {
         match split(id) {
-            (GIVEN, at) => self.given.get(at).and_then(Option::as_ref).map_or(&[], |given| &given.decided),
+            (PARAMETER, at) => self.values.get(at).and_then(Option::as_ref).map_or(&[], |value| &value.decided),
             _ => &[],
         }
     }
@@ -166,7 +166,7 @@ impl Values for Scope<'_> {
 impl Scope<'_> {
     /// Which declaration of this level an image comes from; of an image from elsewhere, one that there is not.
     fn declaration(&self, image: ImageIndex) -> usize {
-        let within = |block: &Block| matches!(block, Block::At { first, count } if (*first..first.saturating_add(*count)).contains(&image.0));
+        let within = |block: &Elements| matches!(block, Elements::At { first, count } if (*first..first.saturating_add(*count)).contains(&image.0));
         self.level.images.iter().position(within).unwrap_or(usize::MAX)
     }
 }

@@ -5,15 +5,22 @@ use crate::language::model::Area;
 
 /// The value of a setting or parameter, and what decided it.
 #[derive(Debug, Clone)]
-pub(crate) struct Given {
+pub(crate) struct DecidedValue {
     pub(crate) value: Value,
     /// Of a parameter: what its argument read. A setting decides by itself.
     pub(crate) decided: Vec<Decision>,
 }
 
+impl From<Value> for DecidedValue {
+    /// A value that nothing decided.
+    fn from(value: Value) -> DecidedValue {
+        DecidedValue { value, decided: Vec::new() }
+    }
+}
+
 /// Where in the pipeline a declared image, buffer or list of them stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Block {
+pub(crate) enum Elements {
     /// Not known yet: it stands further below.
     Below,
     /// A mistake in it was reported.
@@ -24,11 +31,11 @@ pub(crate) enum Block {
 
 /// The values of one level's names.
 #[derive(Debug, Default)]
-pub(crate) struct Level {
+pub(crate) struct LevelValues {
     /// Settings or parameters; `None` where one has no value, which was reported.
-    pub(crate) given: Vec<Option<Given>>,
-    pub(crate) images: Vec<Block>,
-    pub(crate) buffers: Vec<Block>,
+    pub(crate) values: Vec<Option<DecidedValue>>,
+    pub(crate) images: Vec<Elements>,
+    pub(crate) buffers: Vec<Elements>,
 }
 
 /// What is known of an image that was lowered; `None`: it follows something further below.

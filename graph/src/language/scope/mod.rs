@@ -1,12 +1,15 @@
 //! The names of one level of a file, and the values of what stands in quotes.
 
+mod context;
 mod expressions;
 mod level;
+mod lookup;
 mod parameter;
-mod quoted;
+mod references;
 mod symbols;
 
-pub(crate) use level::{Block, Given, Level, Properties};
+pub(crate) use context::{Context, Evaluated, Quoted};
+pub(crate) use level::{DecidedValue, Elements, LevelValues, Properties};
+pub(crate) use lookup::{Checked, Scope, joined};
 pub(crate) use parameter::{Parameter, ParameterKind};
-pub(crate) use quoted::{Checked, Quoted, Scope, joined};
-pub(crate) use symbols::Known;
+pub(crate) use symbols::Symbols;

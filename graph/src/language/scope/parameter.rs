@@ -4,6 +4,7 @@ use crate::expression::{Type, Value};
 use crate::language::model::{Setting, SettingKind};
 use crate::ron::Name;
 use crate::vulkan::Format;
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// A setting, or a parameter of a fragment.
@@ -43,6 +44,11 @@ impl Parameter {
     /// The least number that it allows, if it is a number.
     pub(crate) fn least(&self) -> Option<f64> {
         if let ParameterKind::Value(kind) = &self.kind { kind.least() } else { None }
+    }
+
+    /// A whole number that it allows and that lies outside of `range`.
+    pub(crate) fn whole_beyond(&self, range: &RangeInclusive<i64>) -> Option<i64> {
+        if let ParameterKind::Value(kind) = &self.kind { kind.whole_beyond(range) } else { None }
     }
 
     /// The whole numbers that it allows, if there are only some.

@@ -7,9 +7,9 @@ use crate::expression::Type;
 use crate::ron::{Name, Names, Reader};
 
 /// Settings or parameters, images and buffers of one level.
-pub(crate) struct Known {
+pub(crate) struct Symbols {
     /// Settings, or parameters of a fragment.
-    pub(crate) given: Names,
+    pub(crate) names: Names,
     /// What they are; `None` where one couldn't be read.
     pub(crate) parameters: Vec<Option<Parameter>>,
     /// Whether they are settings.
@@ -24,15 +24,15 @@ pub(crate) struct Known {
     pub(crate) buffer_lists: Vec<bool>,
 }
 
-impl Known {
+impl Symbols {
     /// What settings or parameters are called.
-    pub(crate) const fn given_word(&self) -> &'static str {
+    pub(crate) const fn parameter_word(&self) -> &'static str {
         if self.settings { "setting" } else { "parameter" }
     }
 
     /// Whether every name could be read.
     pub(crate) const fn complete(&self) -> bool {
-        self.given.complete() && self.images.complete() && self.buffers.complete()
+        self.names.complete() && self.images.complete() && self.buffers.complete()
     }
 
     /// Names of images or of buffers, parameters included.
@@ -50,7 +50,7 @@ impl Known {
     /// Reports names that two kinds of things have, the second time that they stand there. A setting may have the name of
     /// an image or buffer: values mean the setting, references the other.
     pub(crate) fn differ(&self, reader: &mut Reader) {
-        let lists = [(&self.given, "a parameter"), (&self.images, "an image"), (&self.buffers, "a buffer")];
+        let lists = [(&self.names, "a parameter"), (&self.images, "an image"), (&self.buffers, "a buffer")];
         let lists = if self.settings { &lists[1..] } else { &lists };
         for (at, (names, what)) in lists.iter().enumerate() {
             for name in names.all() {
@@ -66,7 +66,7 @@ impl Known {
 
     /// Reports an index that has the name of something else.
     pub(crate) fn differs(&self, reader: &mut Reader, index: &Name) {
-        let what = [(&self.given, self.given_word()), (&self.images, "image"), (&self.buffers, "buffer")];
+        let what = [(&self.names, self.parameter_word()), (&self.images, "image"), (&self.buffers, "buffer")];
         for (names, what) in what {
             if let Some(first) = names.find_name(&index.text) {
                 let article = if what == "image" { "an" } else { "a" };

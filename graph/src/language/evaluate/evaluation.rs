@@ -1,0 +1,229 @@
+//! An evaluation: what it is made for, and how far it has come.
+
+use super::lists::Flat;
+use crate::base::{Diagnostic, Span};
+use crate::frame::ViewIndex;
+use crate::language::entries::body::Body;
+use crate::language::entries::fragments::Fragments;
+use crate::language::entries::repeat::{MOST_THINGS, Repeat};
+use crate::language::entries::textures::Pictures;
+use crate::language::entries::views::Views;
+use crate::language::inputs::Surroundings;
+use crate::language::scope::{Checked, Context, DecidedValue, Elements, LevelValues, Scope};
+use crate::ron::{Leaf, Name, Reader};
+use std::collections::HashSet;
+use std::sync::Arc;
+
+/// What an evaluation is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// The pipeline for one choice of values.
+    Pipeline,
+    /// To find what is wrong with a file whatever the values. What is repeated never, or nobody knows how often, is looked
+    /// at once.
+    Check,
+    /// To find what is wrong with fragments that are never used. What they make is thrown away.
+    CheckUnused,
+}
+
+/// A pipeline that is being evaluated.
+pub(super) struct Evaluation<'a, 't> {
+    pub(super) purpose: Purpose,
+    pub(super) surroundings: &'a Surroundings<'a>,
+    pub(super) fragments: &'a Fragments<'t>,
+    pub(super) pictures: &'a Pictures,
+    pub(super) views: Views<'a>,
+    pub(super) flat: Flat,
+    /// Fragments that are being put in, by number, and where.
+    pub(super) path: Vec<(usize, Name)>,
+    /// Mistakes in fragments that were reported: place and message.
+    pub(super) reported: HashSet<(Span, String)>,
+    /// Fragments that were put in, by number.
+    pub(super) used: HashSet<usize>,
+    checked: Checked,
+    /// How many images, buffers, passes and uses of fragments were made.
+    made: u32,
+    /// Whether more were asked for than a pipeline may have.
+    pub(super) is_full: bool,
+}
+
+/// A level that is being evaluated: the pipeline itself, or a fragment that is put in.
+pub(super) struct Level<'b, 't> {
+    pub(super) body: &'b Body<'t>,
+    pub(super) values: LevelValues,
+    /// What stands before the names of what it makes.
+    pub(super) prefix: Arc<str>,
+    /// The view that it is for.
+    pub(super) view: ViewIndex,
+    /// The fragment's instance: a number in the list of them.
+    pub(super) instance: Option<u32>,
+    /// Whether it is off, so that what has no value is no mistake.
+    pub(super) off: bool,
+}
+
+/// How often something stands there.
+pub(super) enum Count {
+    Known(u32),
+    /// It depends on images whose properties aren't known yet.
+    Later,
+    /// That was reported.
+    Failed,
+}
+
+impl<'b, 't> Level<'b, 't> {
+    /// The pipeline itself, or a fragment by itself: for the main view.
+    pub(super) fn top(body: &'b Body<'t>, values: Vec<Option<DecidedValue>>) -> Level<'b, 't> {
+        Level {
+            body,
+            values: below(body, values),
+            prefix: "".into(),
+            view: ViewIndex::default(),
+            instance: None,
+            off: false,
+        }
+    }
+
+    /// A fragment that is put in under the name `whole`.
+    pub(super) fn within(
+        outer: &Level<'_, 't>,
+        (body, values): (&'b Body<'t>, Vec<Option<DecidedValue>>),
+        (whole, view, instance): (&Name, ViewIndex, Option<u32>),
+        off: bool,
+    ) -> Level<'b, 't> {
+        let prefix = format!("{}.", whole.text).into();
+        Level { body, values: below(body, values), prefix, view, instance, off: outer.off || off }
+    }
+
+    /// A whole name: `glow.down[0]`.
+    pub(super) fn full(&self, name: &Name, number: Option<u32>) -> Name {
+        let prefix = &self.prefix;
+        let text = match number {
+            None if prefix.is_empty() => return name.clone(),
+            None => format!("{prefix}{}", name.text),
+            Some(number) => format!("{prefix}{}[{number}]", name.text),
+        };
+        Name { text: text.into(), span: name.span }
+    }
+}
+
+/// Values of a level of which no image or buffer is evaluated yet.
+fn below(body: &Body<'_>, values: Vec<Option<DecidedValue>>) -> LevelValues {
+    let [images, buffers] = [body.images.len(), body.buffers.len()].map(|count| vec![Elements::Below; count]);
+    LevelValues { values, images, buffers }
+}
+
+impl<'a, 't> Evaluation<'a, 't> {
+    pub(super) fn new(
+        purpose: Purpose,
+        surroundings: &'a Surroundings<'a>,
+        fragments: &'a Fragments<'t>,
+        pictures: &'a Pictures,
+    ) -> Self {
+        Evaluation {
+            purpose,
+            surroundings,
+            fragments,
+            pictures,
+            views: Views::none(),
+            flat: Flat::default(),
+            path: Vec::new(),
+            reported: HashSet::new(),
+            used: HashSet::new(),
+            checked: Checked::default(),
+            made: 0,
+            is_full: false,
+        }
+    }
+
+    /// Where the values of an entry of a level are evaluated that is for `view`.
+    pub(super) fn context<'s>(
+        &'s self,
+        reader: &'s mut Reader,
+        level: &'s Level<'_, 't>,
+        view: ViewIndex,
+        index: Option<(&'s Name, u32)>,
+    ) -> Context<'s, 's> {
+        let inputs = self.views.inputs(view);
+        let scope = Scope {
+            symbols: &level.body.symbols,
+            level: &level.values,
+            values: inputs
+                .filter(|_| level.body.symbols.settings)
+                .map_or(&level.values.values, |inputs| &inputs.values),
+            surroundings: inputs.map_or(self.surroundings, |inputs| &inputs.surroundings),
+            properties: Some(&self.flat.properties),
+            index,
+            checked: &self.checked,
+            lenient: level.off || self.purpose != Purpose::Pipeline,
+            view: self.views.name(view),
+        };
+        Context::new(reader, scope)
+    }
+
+    /// The view that an entry names, else the one that everything on the level is for.
+    pub(super) fn view(&self, reader: &mut Reader, level: &Level<'_, 't>, leaf: Option<Leaf<'t>>) -> Option<ViewIndex> {
+        match leaf {
+            None => Some(level.view),
+            Some(leaf) if level.body.symbols.settings => self.views.find(reader, leaf),
+            Some(leaf) => {
+                let help = "leave it out; the use of the fragment may have a `view`";
+                reader.wrong(leaf, "all that a fragment makes is for the view of its use", help);
+                None
+            }
+        }
+    }
+
+    /// How often something stands there; `early` puts off what depends on images.
+    pub(super) fn count(
+        &mut self,
+        reader: &mut Reader,
+        level: &Level<'_, 't>,
+        view: ViewIndex,
+        repeat: Option<&Repeat<'t>>,
+        early: bool,
+    ) -> Count {
+        let is_check = self.purpose != Purpose::Pipeline;
+        let (count, span) = match repeat {
+            None | Some(Repeat::Once) => (1, None),
+            Some(Repeat::Broken) => return Count::Failed,
+            Some(Repeat::Times { count, .. }) => {
+                let before = reader.errors.len();
+                let mut context = self.context(reader, level, view, None);
+                context.scope.properties = context.scope.properties.filter(|_| !early);
+                match context.whole::<u32>(*count, "number of repetitions", 0..=i64::from(MOST_THINGS)) {
+                    Some(number) => (number.max(u32::from(is_check)), Some(count.span())),
+                    None if reader.errors.len() > before => return Count::Failed,
+                    None if early => return Count::Later,
+                    None if is_check => (1, Some(count.span())),
+                    None => return Count::Failed,
+                }
+            }
+        };
+        if self.makes(reader, count, span.unwrap_or(Span::NONE)) { Count::Known(count) } else { Count::Failed }
+    }
+
+    /// Whether there is room for so many more.
+    fn makes(&mut self, reader: &mut Reader, count: u32, span: Span) -> bool {
+        let made = self.made.saturating_add(count);
+        if made <= MOST_THINGS {
+            self.made = made;
+            return true;
+        }
+        let was_full = std::mem::replace(&mut self.is_full, true);
+        if !was_full && self.purpose != Purpose::CheckUnused {
+            let message = "this makes more than 1000000 images, buffers, passes and uses of fragments";
+            let used = self.path.last().map(|(_, name)| name.span);
+            let at = if span == Span::NONE { used.unwrap_or(span) } else { span };
+            reader.report(Diagnostic::new(at, message).help("repeat less, or let fragments use each other less often"));
+        }
+        false
+    }
+}
+
+/// The index and its value, if something is repeated.
+pub(super) fn indexed<'r>(repeat: &'r Repeat<'_>, number: u32) -> Option<(&'r Name, u32)> {
+    match repeat {
+        Repeat::Times { index, .. } => Some((index, number)),
+        Repeat::Once | Repeat::Broken => None,
+    }
+}

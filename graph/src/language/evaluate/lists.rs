@@ -1,0 +1,54 @@
+//! What was evaluated so far: the flat lists that become a pipeline.
+
+use crate::language::model::{Buffer, Image, Instance, Pass};
+use crate::language::scope::Properties;
+
+/// Flat lists of what a pipeline makes; `None` where a mistake was reported.
+#[derive(Default)]
+pub(super) struct Flat {
+    pub(super) images: Vec<Option<Image>>,
+    /// Properties of images.
+    pub(super) properties: Vec<Option<Properties>>,
+    pub(super) buffers: Vec<Option<Buffer>>,
+    pub(super) passes: Vec<Option<Pass>>,
+    pub(super) instances: Vec<Instance>,
+}
+
+/// How long the lists are: of images, buffers, passes and instances.
+#[derive(Clone, Copy)]
+pub(super) struct Lengths {
+    images: usize,
+    buffers: usize,
+    pub(super) passes: usize,
+    instances: usize,
+}
+
+impl Flat {
+    /// Lists with so many images and buffers of which nothing is known.
+    pub(super) fn nothing_known(images: u32, buffers: u32) -> Flat {
+        let mut flat = Flat::default();
+        flat.images.resize_with(images as usize, || None);
+        flat.properties.resize_with(images as usize, || None);
+        flat.buffers.resize_with(buffers as usize, || None);
+        flat
+    }
+
+    pub(super) const fn lengths(&self) -> Lengths {
+        let Flat { images, buffers, passes, instances, .. } = self;
+        Lengths { images: images.len(), buffers: buffers.len(), passes: passes.len(), instances: instances.len() }
+    }
+
+    /// Takes back what was made since the lists had these lengths.
+    pub(super) fn truncate(&mut self, to: Lengths) {
+        self.images.truncate(to.images);
+        self.properties.truncate(to.images);
+        self.buffers.truncate(to.buffers);
+        self.passes.truncate(to.passes);
+        self.instances.truncate(to.instances);
+    }
+
+    /// A pass that was reported stands for what can't be made: without it there is no pipeline.
+    pub(super) fn fail(&mut self) {
+        self.passes.push(None);
+    }
+}

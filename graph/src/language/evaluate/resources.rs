@@ -1,0 +1,120 @@
+//! Images and buffers of a level: how many there are, then what each is like.
+
+use super::evaluation::{Count, Evaluation, Level, indexed};
+use super::properties;
+use crate::language::entries::body::AnyImage;
+use crate::language::model::{Buffer, Image};
+use crate::language::scope::Elements;
+use crate::ron::Reader;
+use std::ops::Range;
+
+impl<'t> Evaluation<'_, 't> {
+    /// Numbers images and buffers, and evaluates them. A number of repetitions that depends on images waits until those
+    /// above are evaluated; what stands below isn't known to them then.
+    pub(super) fn resources(&mut self, reader: &mut Reader, level: &mut Level<'_, 't>) {
+        let body = level.body;
+        let images = body.images.len();
+        let mut evaluated = 0;
+        let [mut next_image, mut next_buffer] = [self.flat.images.len(), self.flat.buffers.len()];
+        for at in 0..images + body.buffers.len() {
+            let (repeat, view) = match at.checked_sub(images) {
+                None => body.images[at].as_ref().map(|entry| (&entry.repeat, entry.fields.view())),
+                Some(at) => body.buffers[at].as_ref().map(|entry| (&entry.repeat, entry.fields.view)),
+            }
+            .unzip();
+            let view = self.view(reader, level, view.flatten()).unwrap_or_default();
+            let mut count = self.count(reader, level, view, repeat, true);
+            if let Count::Later = count {
+                self.each(reader, level, evaluated..at);
+                evaluated = at;
+                count = self.count(reader, level, view, repeat, false);
+            }
+            let next = if at < images { &mut next_image } else { &mut next_buffer };
+            let elements = match (count, u32::try_from(*next)) {
+                (Count::Known(count), Ok(first)) => {
+                    *next += count as usize;
+                    Elements::At { first, count }
+                }
+                _ => Elements::Failed,
+            };
+            match at.checked_sub(images) {
+                None => level.values.images[at] = elements,
+                Some(at) => level.values.buffers[at] = elements,
+            }
+        }
+        self.each(reader, level, evaluated..images + body.buffers.len());
+    }
+
+    /// Evaluates those of a range: images, then buffers.
+    fn each(&mut self, reader: &mut Reader, level: &Level<'_, 't>, range: Range<usize>) {
+        let images = level.body.images.len();
+        for at in range {
+            let elements = match at.checked_sub(images) {
+                None => level.values.images[at],
+                Some(at) => level.values.buffers[at],
+            };
+            match (elements, at.checked_sub(images)) {
+                (Elements::At { count, .. }, None) => self.image(reader, level, at, count),
+                (Elements::At { count, .. }, Some(at)) => self.buffer(reader, level, at, count),
+                (Elements::Below | Elements::Failed, _) => self.flat.fail(),
+            }
+        }
+    }
+
+    fn image(&mut self, reader: &mut Reader, level: &Level<'_, 't>, at: usize, count: u32) {
+        let entry = level.body.images[at].as_ref();
+        let view = self.view(reader, level, entry.and_then(|entry| entry.fields.view()));
+        let mut right = view.is_some();
+        let view = view.unwrap_or_default();
+        for number in 0..count {
+            let before = reader.errors.len();
+            let image = entry.filter(|_| right).and_then(|entry| {
+                let mut context = self.context(reader, level, view, indexed(&entry.repeat, number));
+                let image = match &entry.fields {
+                    AnyImage::Made(fields) => context.image_entry(fields),
+                    AnyImage::Texture(fields) => context.texture(self.pictures, fields),
+                }?;
+                let known = properties::of(&image, &self.flat.properties, context.scope.surroundings.extent);
+                let lenient = context.scope.lenient;
+                Some((
+                    image,
+                    known
+                        .map_err(|wrong| {
+                            if !lenient {
+                                reader.report(wrong)
+                            }
+                        })
+                        .ok(),
+                ))
+            });
+            let (image, known) = image.unzip();
+            self.flat.properties.push(known.flatten());
+            let number = level.body.symbols.image_lists[at].then_some(number);
+            self.flat.images.push(image.map(|image| {
+                let name = level.full(&image.name, number);
+                Image { name, view, instance: level.instance, ..image }
+            }));
+            // What is wrong with one is wrong with all.
+            right = reader.errors.len() == before;
+        }
+    }
+
+    fn buffer(&mut self, reader: &mut Reader, level: &Level<'_, 't>, at: usize, count: u32) {
+        let entry = level.body.buffers[at].as_ref();
+        let view = self.view(reader, level, entry.and_then(|entry| entry.fields.view));
+        let mut right = view.is_some();
+        let view = view.unwrap_or_default();
+        for number in 0..count {
+            let before = reader.errors.len();
+            let buffer = entry.filter(|_| right).and_then(|entry| {
+                self.context(reader, level, view, indexed(&entry.repeat, number)).buffer_entry(&entry.fields)
+            });
+            let number = level.body.symbols.buffer_lists[at].then_some(number);
+            self.flat.buffers.push(buffer.map(|buffer| {
+                let name = level.full(&buffer.name, number);
+                Buffer { name, instance: level.instance, ..buffer }
+            }));
+            right = reader.errors.len() == before;
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! References to images and buffers: plain names, or expressions.
+
+use super::context::Context;
+use crate::base::Diagnostic;
+use crate::expression::{Type, Value, Wanted};
+use crate::frame::Resource;
+use crate::language::model::{BufferRef, ImageRef, ResourceRef};
+use crate::ron::{Leaf, Name};
+
+impl Context<'_, '_> {
+    /// An image that is referred to.
+    pub(crate) fn image(&mut self, leaf: Leaf<'_>) -> Option<ImageRef> {
+        match self.reference(leaf, Wanted::IMAGE, "an image")?.resource {
+            Resource::Image(index) => Some(ImageRef { index, span: leaf.span() }),
+            Resource::Buffer(_) => None,
+        }
+    }
+
+    /// A buffer that is referred to.
+    pub(crate) fn buffer(&mut self, leaf: Leaf<'_>) -> Option<BufferRef> {
+        match self.reference(leaf, Wanted::BUFFER, "a buffer")?.resource {
+            Resource::Buffer(index) => Some(BufferRef { index, span: leaf.span() }),
+            Resource::Image(_) => None,
+        }
+    }
+
+    /// An image or buffer that is referred to.
+    pub(crate) fn resource(&mut self, leaf: Leaf<'_>) -> Option<ResourceRef> {
+        self.reference(leaf, Wanted::RESOURCE, "an image or buffer")
+    }
+
+    fn reference(&mut self, leaf: Leaf<'_>, wanted: Wanted<'_>, what: &str) -> Option<ResourceRef> {
+        let span = leaf.span();
+        if let Some(resource) = leaf.plain().and_then(|plain| self.scope.plain_reference(plain, wanted)) {
+            return Some(ResourceRef { resource, span });
+        }
+        if !self.scope.refers_by_expression(leaf, wanted) {
+            let name = self.reader.reference(leaf, what)?;
+            self.unknown(&name, wanted);
+            return None;
+        }
+        match self.evaluate(leaf, wanted)?.value {
+            Value::Image(index) => Some(ResourceRef { resource: Resource::Image(index), span }),
+            Value::Buffer(index) => Some(ResourceRef { resource: Resource::Buffer(index), span }),
+            _ => None,
+        }
+    }
+
+    /// Reports a name of another kind, or that nothing has.
+    fn unknown(&mut self, name: &Name, wanted: Wanted<'_>) {
+        let (image, buffer) = (wanted.types.contains(&Type::Image), wanted.types.contains(&Type::Buffer));
+        let others =
+            if image { (&self.scope.symbols.buffers, "a buffer") } else { (&self.scope.symbols.images, "an image") };
+        if image != buffer
+            && let Some(other) = others.0.find_name(&name.text)
+        {
+            let message = format!("`{}` is {}; {} is needed here", name.text, others.1, wanted.words);
+            self.reader.report(Diagnostic::new(name.span, message).label(other.span, "declared here"));
+            return;
+        }
+        if !(self.scope.symbols.images.complete() && self.scope.symbols.buffers.complete()) {
+            return;
+        }
+        let no_buffers = self.scope.symbols.buffers.in_order().next().is_none();
+        let what = match (image, buffer) {
+            (true, true) if !no_buffers => "image or buffer",
+            (true, _) => "image",
+            _ => "buffer",
+        };
+        let images = if image { Some(self.scope.symbols.all_of(Type::Image)) } else { None };
+        let buffers = if buffer { Some(self.scope.symbols.all_of(Type::Buffer)) } else { None };
+        let known = images.into_iter().flatten().chain(buffers.into_iter().flatten());
+        let help = self.reader.known(&name.text, known);
+        let unknown = Diagnostic::new(name.span, format!("there is no {what} named `{}`", name.text));
+        self.reader.report(Diagnostic { help, ..unknown });
+    }
+}
