@@ -35,8 +35,15 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         return Err(errors);
     }
     views(frame, &mut errors);
+    let has_files = frame.images.iter().any(|image| matches!(image.lifetime, Lifetime::File(_)));
     for pass in &frame.passes {
-        if (Check { frame, pass, errors: &mut errors }).all() {
+        let mut check = Check { frame, pass, errors: &mut errors };
+        if check.resources() {
+            check.work();
+            check.storage();
+            if has_files {
+                check.files();
+            }
             eyes::pass(frame, pass, &mut errors);
         }
     }

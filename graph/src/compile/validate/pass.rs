@@ -19,22 +19,11 @@ impl Check<'_> {
         self.errors.push(Diagnostic::new(span, format!("`{}` {what}", self.pass.name)));
     }
 
-    /// Reports all that is wrong with it but for how it is drawn for two eyes. Returns whether what it names exists.
-    pub(super) fn all(&mut self) -> bool {
-        let exists = self.resources();
-        if exists {
-            self.work();
-            self.storage();
-            self.files();
-        }
-        exists
-    }
-
     /// Whether all images and buffers exist, and the parts of them that are named.
-    fn resources(&mut self) -> bool {
+    pub(super) fn resources(&mut self) -> bool {
         let before = self.errors.len();
         let pass = self.pass;
-        for access in pass.accesses() {
+        pass.accesses().for_each(|access| {
             match access.resource {
                 Resource::Image(image) => self.image(image, &access),
                 Resource::Buffer(buffer) => self.buffer(buffer.0, access.frames_ago, access.span),
@@ -42,12 +31,12 @@ impl Check<'_> {
             if access.frames_ago > 0 && matches!(access.kind, AccessKind::Transfer { write: true }) {
                 self.wrong(access.span, "writes into an earlier frame");
             }
-        }
+        });
         self.errors.len() == before
     }
 
     /// What comes from a file is only sampled.
-    fn files(&mut self) {
+    pub(super) fn files(&mut self) {
         if let Some((span, what)) = lifetimes::misused_file(self.frame, self.pass) {
             self.wrong(span, &what);
             if let Some(error) = self.errors.last_mut() {
@@ -113,7 +102,7 @@ impl Check<'_> {
         }
     }
 
-    fn work(&mut self) {
+    pub(super) fn work(&mut self) {
         let pass = self.pass;
         let attached = !pass.color.is_empty() || pass.depth.is_some();
         let shaded = match pass.work {
@@ -154,7 +143,7 @@ impl Check<'_> {
     }
 
     /// A part that is accessed as storage is accessed in no other way, but for being sampled as it was before.
-    fn storage(&mut self) {
+    pub(super) fn storage(&mut self) {
         let pass = self.pass;
         for (at, storage) in pass.storage.iter().enumerate() {
             if !storage.read && !storage.write {
