@@ -9,7 +9,7 @@
 //! | ST-2 | `packed::one_image_for_both_is_twice_as_wide_or_has_two_layers` | `plan/part.rs`: `made` a texel wider |
 //! | ST-2 | `packed::a_pass_draws_for_both_eyes_what_two_draw_for_each` | `eyes/at_once.rs`: `at_once` is false |
 //! | ST-2 | `packed::what_is_handed_in_for_both_eyes_is_just_as_large_as_both` | `execute/exchange.rs`: any number of bytes |
-//! | ST-3 | `packed::shared_culling_shows_the_same` | `draw/seen.rs`: both see what the left eye sees |
+//! | ST-3 | `packed::shared_culling_shows_the_same` | `draw/view_draws.rs`: both see what the left eye sees |
 //! | ST-3 | `packed::shared_culling_shows_the_same` | `draw/source.rs`: `culls_once` is ignored |
 //! | ST-3 | `passes/tests/suite/eyes.rs`, rays at random | `draw/eyes.rs`: no step back |
 //! | ST-3 | `cameras::what_both_eyes_share_is_drawn_once` | `expand/eyes.rs`: `For::Both` runs for each |
