@@ -3,7 +3,7 @@
 //!
 //! | row | tests | what turns it red |
 //! |---|---|---|
-//! | PR-1 | `graph/tests/rotation.rs`, `pictures::every_shipped_pipeline_shows_the_same_rotated` | `compile/rotate.rs`: extents not turned |
+//! | PR-1 | `graph/tests/rotation.rs`, `pictures::every_shipped_pipeline_shows_the_same_rotated` | `compile/rotate/mod.rs`: extents not turned |
 //! | PR-2 | `graph/tests/random_frames.rs`, `pictures::what_is_resolved_into_the_screen_is_rotated_with_it` | `compile/rotate/together.rs`: no depth in `beside` |
 //! | PR-2 | `graph/tests/rotation.rs` | `compile/rotate/together.rs`: what is sampled is no hindrance |
 //! | PR-3 | `recorded::viewports_and_scissors_are_those_of_the_upright_picture`, `pictures` | `objects.vert`: `rotate_clip` left out |
