@@ -53,7 +53,9 @@ impl Check<'_> {
         let Some(image) = self.frame.images.get(index.0 as usize) else {
             return self.wrong(span, &format!("names image number {}, which does not exist", index.0));
         };
-        self.history(&image.lifetime, access.frames_ago, &image.name, span);
+        if access.frames_ago > 0 {
+            self.history(&image.lifetime, access.frames_ago, &image.name, span);
+        }
         if range != Subresources::WHOLE {
             self.inside(image, range, span);
         }
