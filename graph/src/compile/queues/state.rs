@@ -39,7 +39,6 @@ impl Queues {
     }
 
     /// Whether all steps are on graphics.
-    #[inline]
     pub(in crate::compile) fn is_one(&self) -> bool {
         self.of.is_empty()
     }
@@ -50,13 +49,11 @@ impl Queues {
     }
 
     /// The number of the queue of a step.
-    #[inline]
     pub(in crate::compile) fn at(&self, step: u32) -> usize {
         number(self.of(step))
     }
 
     /// How several queues share a physical resource; `None` if only one uses it.
-    #[inline]
     pub(in crate::compile) fn crossing(&self, store: StoreIndex) -> Option<Crossing> {
         self.crossings.get(store as usize).copied().flatten()
     }
@@ -106,7 +103,6 @@ impl Queues {
     }
 
     /// Whether a barrier must stand directly before its step.
-    #[inline]
     pub(in crate::compile) fn is_held(&self, barrier: u32) -> bool {
         self.held.get(barrier as usize).copied().unwrap_or(false)
     }
@@ -144,7 +140,6 @@ impl Queues {
     }
 
     /// The waits of a step.
-    #[inline]
     pub(in crate::compile) fn waits(&self, step: u32) -> Vec<Wait> {
         if self.is_one() { Vec::new() } else { self.clocks.waits(step) }
     }

@@ -112,7 +112,6 @@ pub(in crate::compile) struct CellBarrier {
 
 impl CellBarrier {
     /// A barrier before an access. `after`: the stages and writes that it waits for, and the step that they end with.
-    #[inline]
     pub(super) fn before(
         access: &CellAccess,
         step: u32,

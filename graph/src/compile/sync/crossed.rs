@@ -29,7 +29,6 @@ pub(super) struct Crossed {
 
 impl Crossed {
     /// The cell of an access, if it is crossed.
-    #[inline]
     pub(super) fn of(queues: &Queues, access: &CellAccess, step: u32) -> Option<Crossed> {
         let crossing = queues.crossing(access.store)?;
         Some(Crossed { crossing, queue: queues.at(step) })
