@@ -2,12 +2,12 @@
 //!
 //! The members of a ring have neighbouring indices, the youngest first. A resource that doesn't rotate is a ring of one.
 
-use super::model::{Adapted, Home, StoreIndex};
+use super::model::{Adapted, MemorySource, StoreIndex};
 
 /// The oldest member of the ring that `member` is in.
 pub(super) fn last_of_ring(adapted: &Adapted, member: StoreIndex) -> StoreIndex {
-    let rotates = |store: &StoreIndex| match adapted.stores[*store as usize].home {
-        Home::Persistent { becomes, .. } => becomes > *store,
+    let rotates = |store: &StoreIndex| match adapted.stores[*store as usize].memory {
+        MemorySource::Persistent { becomes, .. } => becomes > *store,
         _ => false,
     };
     (member..).find(|store| !rotates(store)).unwrap_or(member)

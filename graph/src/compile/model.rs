@@ -26,7 +26,7 @@ pub(super) struct Store {
     pub(super) kind: Kind,
     /// The format that it would have if the pipeline hadn't chosen another one.
     pub(super) usual: Option<Format>,
-    pub(super) home: Home,
+    pub(super) memory: MemorySource,
     /// The state in which it is to be left, if one was asked for.
     pub(super) after: Option<State>,
     /// The first of its cells: what is tracked by itself.
@@ -40,16 +40,17 @@ pub(super) enum Kind {
     Buffer(BufferDescriptor),
 }
 
-/// Where its memory comes from.
+/// Where the memory and the contents of a physical resource come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Home {
+pub(super) enum MemorySource {
     /// It shares memory with others.
     Transient,
     /// Memory of its own, without contents from before the frame.
     Output,
-    /// Its contents stay, and are found as those of `becomes` in the next frame; at first those of its file, or `initial`.
+    /// Memory of its own, with contents that stay: the next frame finds them in `becomes`. The first frame finds `initial`, or
+    /// the contents of its file.
     Persistent { becomes: StoreIndex, initial: Option<FillValue> },
-    /// It is handed in in this state.
+    /// The embedding program hands it in, in this state.
     Imported { before: State },
 }
 
@@ -122,7 +123,7 @@ impl Store {
     }
 
     pub(super) fn is_transient(&self) -> bool {
-        self.home == Home::Transient
+        self.memory == MemorySource::Transient
     }
 }
 

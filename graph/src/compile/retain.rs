@@ -1,6 +1,6 @@
 //! `retain`: load and store operations of attachments. Contents are kept only where somebody needs them.
 
-use super::model::{Adapted, Home, OpKind, Role, Start, Use};
+use super::model::{Adapted, MemorySource, OpKind, Role, Start, Use};
 use super::parts::Grids;
 use super::scope::{Scope, Scoped, Step, Target};
 use crate::frame::Frame;
@@ -224,7 +224,7 @@ impl Walk<'_> {
     fn after(&mut self) {
         for (store, next) in self.adapted.stores.iter().zip(self.adapted.stores.iter().skip(1).map(Some).chain([None]))
         {
-            if store.home != Home::Transient {
+            if store.memory != MemorySource::Transient {
                 let end = next.map_or(self.adapted.cells, |next| next.first_cell);
                 (store.first_cell..end).for_each(|cell| self.needed(cell, Next::After));
             }

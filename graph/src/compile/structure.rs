@@ -107,9 +107,8 @@ impl Structure {
         Ok(Structure { grids, live, notes, adapted, uses, scheduled, same_areas, scoped, retained, timeline, spans })
     }
 
-    /// Whether a legal frame that differs from the one it was found for in nothing but sizes and values, and forwards between
-    /// images of the same proportions, has the same structure. Takes over the sizes; if it says no, nothing here is of use
-    /// any more.
+    /// Whether it holds for another valid frame, which differs only in sizes and values, and forwards only between images of
+    /// the same proportions. Takes over the sizes. If it doesn't hold, it must not be used any more.
     pub(super) fn still_holds(&mut self, frame: &Frame, device: &Profile, options: &Options) -> bool {
         if !fit::still_holds(frame, &self.live.passes, device) {
             return false;

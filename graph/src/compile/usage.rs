@@ -2,7 +2,7 @@
 //! states before and after the frame.
 
 use super::history_ring::last_of_ring;
-use super::model::{Adapted, Home, Kind, StoreIndex};
+use super::model::{Adapted, Kind, MemorySource, StoreIndex};
 use super::options::Options;
 use super::parts::Grids;
 use super::retain::{AttachmentOps, Retained};
@@ -37,9 +37,9 @@ pub(super) fn usages(
                 for state in timeline.states[at as usize].iter().flat_map(|states| [states.before, states.after]) {
                     usage |= usage_for(state.layout);
                 }
-                (usage | of_image(usage, store.home, image.mips, options.poison, || stays_in_scope(at))).bits()
+                (usage | of_image(usage, store.memory, image.mips, options.poison, || stays_in_scope(at))).bits()
             }
-            Kind::Buffer(_) => (BufferUsage::from_bits_truncate(bits) | of_buffer(store.home, options.poison)).bits(),
+            Kind::Buffer(_) => (BufferUsage::from_bits_truncate(bits) | of_buffer(store.memory, options.poison)).bits(),
         });
     }
     share_usages(adapted, &mut usages);
@@ -47,26 +47,28 @@ pub(super) fn usages(
 }
 
 /// The usage that follows from the lifetime of an image, which has `usage` already.
-fn of_image(usage: Usage, home: Home, mips: u32, poison: bool, stays_in_scope: impl Fn() -> bool) -> Usage {
+fn of_image(usage: Usage, memory: MemorySource, mips: u32, poison: bool, stays_in_scope: impl Fn() -> bool) -> Usage {
     let attachments_only = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT | Usage::INPUT_ATTACHMENT;
-    match home {
-        Home::Transient if poison => Usage::TRANSFER_DST,
-        Home::Transient if attachments_only.contains(usage) && stays_in_scope() => Usage::TRANSIENT_ATTACHMENT,
-        Home::Transient => Usage::empty(),
+    match memory {
+        MemorySource::Transient if poison => Usage::TRANSFER_DST,
+        MemorySource::Transient if attachments_only.contains(usage) && stays_in_scope() => Usage::TRANSIENT_ATTACHMENT,
+        MemorySource::Transient => Usage::empty(),
         // A file is copied into it, and mip levels are made one from the other.
-        Home::Persistent { initial: None, .. } if mips == 1 => Usage::TRANSFER_DST,
-        Home::Persistent { .. } | Home::Imported { .. } => Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
-        Home::Output => Usage::TRANSFER_SRC,
+        MemorySource::Persistent { initial: None, .. } if mips == 1 => Usage::TRANSFER_DST,
+        MemorySource::Persistent { .. } | MemorySource::Imported { .. } => Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
+        MemorySource::Output => Usage::TRANSFER_SRC,
     }
 }
 
 /// The usage that follows from the lifetime of a buffer.
-fn of_buffer(home: Home, poison: bool) -> BufferUsage {
-    match home {
-        Home::Transient if poison => BufferUsage::TRANSFER_DST,
-        Home::Transient => BufferUsage::empty(),
-        Home::Persistent { .. } | Home::Imported { .. } => BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
-        Home::Output => BufferUsage::TRANSFER_SRC,
+fn of_buffer(memory: MemorySource, poison: bool) -> BufferUsage {
+    match memory {
+        MemorySource::Transient if poison => BufferUsage::TRANSFER_DST,
+        MemorySource::Transient => BufferUsage::empty(),
+        MemorySource::Persistent { .. } | MemorySource::Imported { .. } => {
+            BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST
+        }
+        MemorySource::Output => BufferUsage::TRANSFER_SRC,
     }
 }
 

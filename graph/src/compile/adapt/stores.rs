@@ -2,7 +2,7 @@
 
 use super::adapter::Adapter;
 use super::demote::copies_samples;
-use crate::compile::model::{Home, Kind, Store, StoreIndex, Use};
+use crate::compile::model::{Kind, MemorySource, Store, StoreIndex, Use};
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
 use crate::plan::Inserted;
@@ -112,10 +112,11 @@ impl Adapter<'_> {
         mut add: impl FnMut(&mut Self) -> StoreIndex,
     ) -> StoreIndex {
         let first = add(self);
-        let home = |initial: FillValue, becomes: StoreIndex| Home::Persistent { becomes, initial: Some(initial) };
+        let persistent =
+            |initial: FillValue, becomes: StoreIndex| MemorySource::Persistent { becomes, initial: Some(initial) };
         match *lifetime {
             Lifetime::Transient => {}
-            Lifetime::Persistent { initial } => self.adapted.stores[first as usize].home = home(initial, first),
+            Lifetime::Persistent { initial } => self.adapted.stores[first as usize].memory = persistent(initial, first),
             Lifetime::History { frames, initial } => {
                 for ago in 1..=frames {
                     let older = add(self);
@@ -125,15 +126,15 @@ impl Adapter<'_> {
                 }
                 for store in first..=first + frames {
                     let becomes = if store == first + frames { first } else { store + 1 };
-                    self.adapted.stores[store as usize].home = home(initial, becomes);
+                    self.adapted.stores[store as usize].memory = persistent(initial, becomes);
                 }
             }
             Lifetime::File(_) => {
-                self.adapted.stores[first as usize].home = Home::Persistent { becomes: first, initial: None };
+                self.adapted.stores[first as usize].memory = MemorySource::Persistent { becomes: first, initial: None };
             }
             Lifetime::Imported { before, after } => {
                 let store = &mut self.adapted.stores[first as usize];
-                (store.home, store.after) = (Home::Imported { before }, after);
+                (store.memory, store.after) = (MemorySource::Imported { before }, after);
             }
         }
         debug_assert_eq!(self.adapted.stores[first as usize].of, of);
@@ -199,7 +200,7 @@ impl Adapter<'_> {
             inserted: None,
             kind,
             usual: None,
-            home: Home::Transient,
+            memory: MemorySource::Transient,
             after: None,
             first_cell: self.adapted.cells,
         });
@@ -253,7 +254,7 @@ impl Adapter<'_> {
     fn leaves(&mut self, store: StoreIndex, output: &Output) {
         let leaving = &mut self.adapted.stores[store as usize];
         if leaving.is_transient() {
-            leaving.home = Home::Output;
+            leaving.memory = MemorySource::Output;
         }
         leaving.after = output.after.or(leaving.after);
         self.adapted.outputs.push(store);

@@ -8,15 +8,15 @@ use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryB
 use crate::vulkan::Accesses;
 
 /// Hands out the barriers step by step.
-pub(super) struct Barriers<'p, 'a> {
+pub(super) struct StepBarriers<'p, 'a> {
     parts: &'p Parts<'a>,
     batched: &'p [Batched],
     memory: usize,
 }
 
-impl<'p, 'a> Barriers<'p, 'a> {
-    pub(super) fn new(parts: &'p Parts<'a>) -> Barriers<'p, 'a> {
-        Barriers { parts, batched: &parts.sync.batched, memory: 0 }
+impl<'p, 'a> StepBarriers<'p, 'a> {
+    pub(super) fn new(parts: &'p Parts<'a>) -> StepBarriers<'p, 'a> {
+        StepBarriers { parts, batched: &parts.sync.batched, memory: 0 }
     }
 
     /// The barriers of step number `step`; steps are asked for in order.

@@ -1,10 +1,11 @@
 //! A whole Plan.
 
+use super::barriers::StepBarriers;
 use super::ownership::Transfer;
 use super::parts::Parts;
 use super::resources::Resources;
 use super::values::{changes, settings, views, with_bytes};
-use super::{attachments, barriers, notes, outputs, ownership, passes};
+use super::{attachments, notes, outputs, ownership, passes};
 use crate::compile::scope::Step as Grouped;
 use crate::compile::sync::Barriers;
 use crate::plan::{DeviceUsed, FORMAT_VERSION, Plan, Step, Totals, Work};
@@ -32,7 +33,7 @@ pub(in crate::compile) fn emit(parts: &Parts<'_>, (images, buffers): Resources) 
 fn steps(parts: &Parts<'_>) -> Vec<Step> {
     let Barriers { queues, steps: count, .. } = parts.sync;
     let mut steps = Vec::with_capacity(*count as usize);
-    let mut barriers = barriers::Barriers::new(parts);
+    let mut barriers = StepBarriers::new(parts);
     let grouped = parts.scoped.steps.iter().chain([&Grouped::Export]);
     for (step, number) in grouped.zip(0..*count) {
         let (memory_barriers, image_barriers) = barriers.of(number);

@@ -1,6 +1,6 @@
 //! Images and buffers of the Plan.
 
-use crate::compile::model::{Adapted, Home, Kind, Store};
+use crate::compile::model::{Adapted, Kind, MemorySource, Store};
 use crate::compile::scope::store_name;
 use crate::compile::structure::{Settled, Structure};
 use crate::compile::sync::States;
@@ -79,13 +79,15 @@ fn role(
 ) -> Role {
     let nothing = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
     let States { before, after } = states.unwrap_or(States { before: nothing, after: nothing });
-    match (store.home, placement) {
-        (Home::Persistent { becomes, initial }, _) => {
+    match (store.memory, placement) {
+        (MemorySource::Persistent { becomes, initial }, _) => {
             let initial = initial.map_or_else(|| file(frame, store), Initial::Value);
             Role::Persistent { becomes: adapted.stores[becomes as usize].id, initial, before, after }
         }
-        (Home::Transient, Some(placement)) => Role::Transient(placement.clone()),
-        (Home::Transient | Home::Output | Home::Imported { .. }, _) => Role::External { before, after },
+        (MemorySource::Transient, Some(placement)) => Role::Transient(placement.clone()),
+        (MemorySource::Transient | MemorySource::Output | MemorySource::Imported { .. }, _) => {
+            Role::External { before, after }
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Brings a Plan up to date where the structure is the same: new values, or new sizes too.
 
-use super::barriers::Barriers;
+use super::barriers::StepBarriers;
 use super::parts::{Parts, frame_work};
 use super::values::{settings, views, with_bytes};
 use super::{attachments, passes};
@@ -100,7 +100,7 @@ pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
 
 /// Brings barriers up to date. Steps are the same, but memory is aliased in another way.
 pub(in crate::compile) fn barriers(parts: &Parts<'_>, plan: &mut Plan) {
-    let mut barriers = Barriers::new(parts);
+    let mut barriers = StepBarriers::new(parts);
     for (step, number) in plan.steps.iter_mut().zip(0..) {
         (step.memory_barriers, step.image_barriers) = barriers.of(number);
     }

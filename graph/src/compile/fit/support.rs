@@ -2,7 +2,7 @@
 //! (`samples`); here it is about resolves, copies and draws that the compiler inserted, and about initial and final states.
 
 use crate::base::{Diagnostic, Span};
-use crate::compile::model::{Adapted, Home, OpKind, Role, Store, StoreIndex};
+use crate::compile::model::{Adapted, MemorySource, OpKind, Role, Store, StoreIndex};
 use crate::compile::scope::{Scoped, Step, store_name};
 use crate::device::{ImageDescriptor, Profile};
 use crate::frame::{Frame, Resource};
@@ -76,10 +76,12 @@ fn why<'a>(adapted: &'a Adapted, store: &'a Store, at: StoreIndex) -> &'a str {
         adapted.uses(number).iter().any(|used| used.store == at).then_some(why)
     };
     let because = (0..adapted.ops.len() as u32).find_map(inserted).or(store.inserted.as_deref());
-    match (because, store.home) {
+    match (because, store.memory) {
         (Some(reason), _) => &reason.because,
-        (None, Home::Transient) => "memory that is shared may be filled before it is used",
-        (None, Home::Output) => "outputs can be copied",
-        (None, Home::Persistent { .. } | Home::Imported { .. }) => "what outlives the frame can be copied and filled",
+        (None, MemorySource::Transient) => "memory that is shared may be filled before it is used",
+        (None, MemorySource::Output) => "outputs can be copied",
+        (None, MemorySource::Persistent { .. } | MemorySource::Imported { .. }) => {
+            "what outlives the frame can be copied and filled"
+        }
     }
 }

@@ -13,7 +13,7 @@ use super::state::Queues;
 use super::step_uses::uses_of;
 use super::windows::Steps;
 use crate::compile::history_ring::last_of_ring;
-use crate::compile::model::{Adapted, Home, Kind, OpKind, StoreIndex};
+use crate::compile::model::{Adapted, Kind, MemorySource, OpKind, StoreIndex};
 use crate::compile::options::Options;
 use crate::compile::parts::Grids;
 use crate::compile::scope::{Scoped, Step, op_name, store_name};
@@ -133,7 +133,8 @@ fn beside(bound: &[Result<[bool; QUEUES], Bound>], [from, to]: [u32; 2]) -> impl
 
 /// What is imported is used on one queue, or on graphics: its state before the frame names the stages of one queue.
 fn split_users(adapted: &Adapted, scoped: &Scoped, queues: &[Queue], stays: &mut [bool]) {
-    let is_imported = |store: StoreIndex| matches!(adapted.stores[store as usize].home, Home::Imported { .. });
+    let is_imported =
+        |store: StoreIndex| matches!(adapted.stores[store as usize].memory, MemorySource::Imported { .. });
     let mut user: Vec<Option<Queue>> = vec![None; adapted.stores.len()];
     let mut split = vec![false; adapted.stores.len()];
     for (step, at) in scoped.steps.iter().zip(0..) {
@@ -239,7 +240,7 @@ fn share(
         let beside = users[at][1..].contains(&true);
         let several = users[at].iter().filter(|uses| **uses).count() > 1;
         let transient = store.is_transient();
-        let persistent = matches!(store.home, Home::Persistent { .. });
+        let persistent = matches!(store.memory, MemorySource::Persistent { .. });
         // What outlives the frame is prepared and read on graphics.
         let shared = match (transient, &store.kind) {
             (true, Kind::Image(_)) if several => device.queues.sharing,

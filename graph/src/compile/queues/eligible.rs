@@ -4,7 +4,7 @@
 //! A transfer queue copies, and fills buffers. Filling an image needs a compute queue at least.
 
 use super::number::{QUEUES, number};
-use crate::compile::model::{Adapted, Home, OpKind, Use};
+use crate::compile::model::{Adapted, MemorySource, OpKind, Use};
 use crate::compile::options::Options;
 use crate::compile::scope::Step;
 use crate::device::Profile;
@@ -106,19 +106,19 @@ impl Eligible<'_> {
     /// Whether something outside of the frame uses the same image or buffer. Imported buffers can be used on any one queue.
     fn is_outside(&self, used: &Use) -> bool {
         let store = &self.adapted.stores[used.store as usize];
-        match store.home {
-            Home::Transient => false,
-            Home::Output => true,
-            Home::Imported { .. } => store.image().is_some() || store.after.is_some(),
+        match store.memory {
+            MemorySource::Transient => false,
+            MemorySource::Output => true,
+            MemorySource::Imported { .. } => store.image().is_some() || store.after.is_some(),
             // The reader of an output comes after one queue.
-            Home::Persistent { .. } => self.adapted.outputs.contains(&used.store),
+            MemorySource::Persistent { .. } => self.adapted.outputs.contains(&used.store),
         }
     }
 
     /// Whether a queue can wait for what was done before the frame.
     fn is_found(&self, used: &Use, queue: Queue) -> bool {
-        match self.adapted.stores[used.store as usize].home {
-            Home::Imported { before } => stages(queue).contains(before.stages),
+        match self.adapted.stores[used.store as usize].memory {
+            MemorySource::Imported { before } => stages(queue).contains(before.stages),
             _ => true,
         }
     }

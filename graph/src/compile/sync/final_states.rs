@@ -8,7 +8,7 @@ use super::cell::CellState;
 use super::timeline::{States, Timeline};
 use super::walk;
 use crate::compile::history_ring::last_of_ring;
-use crate::compile::model::{Adapted, Home, Store, StoreIndex};
+use crate::compile::model::{Adapted, MemorySource, Store, StoreIndex};
 use crate::compile::parts::Grids;
 use crate::compile::queues::Queues;
 use crate::compile::retain::Retained;
@@ -44,17 +44,17 @@ fn states(grids: &Grids, adapted: &Adapted, timeline: &mut Timeline, export: u32
         if store.is_transient() {
             continue;
         }
-        let imported = if let Home::Imported { before } = store.home { Some(before) } else { None };
+        let imported = if let MemorySource::Imported { before } = store.memory { Some(before) } else { None };
         let crossed = timeline.queues.is_crossed(ring.start);
         let mut ring = Ring { grids, adapted, timeline, stores: ring, imported, crossed, layouts: Vec::new() };
         let after = ring.leave(export);
         let from = after.iter().cycle().skip(after.len() - 1);
         for ((store, after), from) in ring.stores.zip(&after).zip(from) {
-            let before = match adapted.stores[store as usize].home {
-                Home::Imported { before } => before,
-                Home::Persistent { .. } => *from,
+            let before = match adapted.stores[store as usize].memory {
+                MemorySource::Imported { before } => before,
+                MemorySource::Persistent { .. } => *from,
                 // Its contents are not kept, but the frame before used it too.
-                Home::Output | Home::Transient => {
+                MemorySource::Output | MemorySource::Transient => {
                     State { accesses: after.accesses.writes(), layout: Layout::Undefined, ..*after }
                 }
             };

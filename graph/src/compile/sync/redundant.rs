@@ -11,7 +11,7 @@ use super::initial_barriers::Initial;
 use super::stage_order::{and_earlier, and_later};
 use super::timeline::Timeline;
 use crate::compile::history_ring;
-use crate::compile::model::{Adapted, Home};
+use crate::compile::model::{Adapted, MemorySource};
 use crate::compile::steps::NEVER;
 use crate::plan::Hazard;
 use crate::vulkan::{Accesses, Stages};
@@ -81,7 +81,7 @@ impl Calls<'_> {
     /// The reads of a cell since it was written last, in earlier frames.
     fn earlier_reads(&self, barrier: &CellBarrier) -> Vec<Reads> {
         let stores = &self.adapted.stores;
-        let Home::Persistent { .. } = stores[barrier.store as usize].home else { return Vec::new() };
+        let MemorySource::Persistent { .. } = stores[barrier.store as usize].memory else { return Vec::new() };
         let part = barrier.cell - stores[barrier.store as usize].first_cell;
         let mut reads = Vec::new();
         for (frames_ago, from) in history_ring::earlier(self.adapted, barrier.store) {
