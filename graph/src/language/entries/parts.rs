@@ -102,7 +102,7 @@ pub(crate) const PLANE: Form = Form::Choice("a plane", || names(&PLANES));
 /// How many frames to look back.
 pub(crate) const PREVIOUS: Form = Form::Whole(1, MOST_FRAMES);
 
-/// What is said about a part besides the image's name.
+/// The fields of a part besides the image's name.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Selected<'src> {
     pub(crate) mip: Option<Leaf<'src>>,
@@ -264,7 +264,7 @@ impl Context<'_, '_> {
         Some(Selection { first: spanned(first)?, count: spanned(count)? })
     }
 
-    /// `("image")`, what stands behind `Like`.
+    /// The image of `Like("image")`.
     pub(crate) fn like(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<ImageRef> {
         let [image]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"image\")")?;
         self.image(image)
