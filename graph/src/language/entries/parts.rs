@@ -243,25 +243,19 @@ impl Context<'_, '_> {
         one: &str,
         several: &str,
     ) -> Option<Selection> {
-        let first = first.map(|leaf| (leaf, self.whole(leaf, one, 0..=MOST_PARTS)));
-        let count = match count {
-            Some(leaf) if matches!(leaf.shape(), Shape::Word("Rest", None)) => {
-                Some((leaf, Some(Subresources::REMAINING)))
-            }
-            Some(leaf) if matches!(leaf.shape(), Shape::Number | Shape::Text) => {
-                Some((leaf, self.whole(leaf, several, 1..=MOST_PARTS)))
-            }
-            Some(leaf) => {
-                self.reader.expected(leaf, "a whole number, an expression in quotes or `Rest`");
-                return None;
-            }
-            None => None,
-        };
-        let spanned = |part: Option<(Leaf<'_>, Option<u32>)>| match part {
-            Some((leaf, value)) => value.map(|value| Some(leaf.spanned(value))),
-            None => Some(None),
-        };
-        Some(Selection { first: spanned(first)?, count: spanned(count)? })
+        let first = optional(first, |leaf| self.whole(leaf, one, 0..=MOST_PARTS).map(|number| leaf.spanned(number)));
+        let count = optional(count, |leaf| {
+            let number = match leaf.shape() {
+                Shape::Word("Rest", None) => Some(Subresources::REMAINING),
+                Shape::Number | Shape::Text => self.whole(leaf, several, 1..=MOST_PARTS),
+                _ => {
+                    self.reader.expected(leaf, "a whole number, an expression in quotes or `Rest`");
+                    None
+                }
+            };
+            number.map(|number| leaf.spanned(number))
+        });
+        Some(Selection { first: first?, count: count? })
     }
 
     /// The image of `Like("image")`.
