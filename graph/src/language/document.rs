@@ -1,4 +1,4 @@
-//! A pipeline file that was read: what a user may choose, and all that is needed to put the rest together for a choice.
+//! A document: the files of a pipeline, read. It is evaluated for each choice of settings, scene, view and device.
 
 use super::mistakes::{in_order, never_none};
 use super::settings_file;
@@ -11,7 +11,7 @@ use crate::language::compose::extend::Composed;
 use crate::language::compose::includes::{self, Wanted};
 use crate::language::compose::loader::{self, Loader};
 use crate::language::compose::origins::Origins;
-use crate::language::compose::tables::{PIPELINE, Section, Sections};
+use crate::language::compose::tables::{self, PIPELINE, Sections};
 use crate::language::entries::body::{Body, Lists};
 use crate::language::entries::fragments::Fragments;
 use crate::language::entries::textures::Pictures;
@@ -31,12 +31,20 @@ pub struct Document {
     /// What a user may choose at once, in file order.
     pub presets: Vec<Preset>,
     in_force: Vec<InForce>,
+    files: Read,
+    origins: Origins,
+}
+
+/// What was read of the files of a pipeline.
+#[derive(Debug, Clone)]
+struct Read {
+    /// The pipeline.
     tree: Tree,
     /// Files of fragments.
     included: Vec<Tree>,
-    origins: Origins,
     /// The pictures that textures name.
     pictures: Pictures,
+    /// What files did to the pipeline that they extend.
     account: Account,
 }
 
@@ -49,43 +57,38 @@ impl Document {
         relative: &FilePath,
         Composed { tree, mut wanted, account }: Composed,
     ) -> Result<Document, Vec<Diagnostic>> {
-        let mut document = None;
+        let mut choices = None;
+        let mut included = Vec::new();
         if let Some(sections) = Sections::read(&mut reader, tree.root(), "the pipeline", &PIPELINE) {
-            let (names, settings) = settings::list(&mut reader, sections.get(Section::Settings));
-            let presets = presets::presets(&mut reader, sections.get(Section::Presets), &settings);
-            let paths = loader::paths(&mut reader, sections.get(Section::Include), "`include`");
+            let (names, settings) = settings::list(&mut reader, sections.get(&tables::SETTINGS));
+            let presets = presets::presets(&mut reader, sections.get(&tables::PRESETS), &settings);
+            let paths = loader::paths(&mut reader, sections.get(&tables::INCLUDE), "`include`");
             wanted.push(Wanted { from: relative.clone(), paths });
-            let included = includes::read(&mut reader, loader, wanted);
-            loader.look(&mut reader, sections.get(Section::Textures));
+            included = includes::read(&mut reader, loader, wanted);
+            loader.look(&mut reader, sections.get(&tables::TEXTURES));
             loader.look_in_fragments(&mut reader, tree.root());
+            choices = Some((names, settings, presets));
+        }
+        let origins = std::mem::take(&mut loader.origins);
+        let files = Read { tree, included, pictures: std::mem::take(&mut loader.pictures), account };
+        if let Some((names, settings, presets)) = choices {
             let values =
                 settings.iter().map(|setting| setting.as_ref().map(|setting| setting.kind.default())).collect();
             let allows = Allowances::default();
             let surroundings =
                 Surroundings { facts: Facts::UNKNOWN, extent: [1920, 1080], eyes: 1, allows, device: None };
-            let files = Files {
-                sections,
-                included: &included,
-                pictures: &loader.pictures,
-                removed_view: account.changes.iter().find(|change| change.removes(Kind::View)),
-            };
-            pipeline(&mut reader, files, (names, &settings), values, &surroundings, Purpose::Check);
+            files.evaluate(&mut reader, (names, &settings), values, &surroundings, Purpose::Check);
             let settings: Option<Vec<Setting>> = settings.into_iter().collect();
-            document = settings.zip(presets.into_iter().collect()).map(|both| (both, included));
-        }
-        let origins = std::mem::take(&mut loader.origins);
-        let pictures = std::mem::take(&mut loader.pictures);
-        match document {
-            Some(((settings, presets), included)) if reader.errors.is_empty() => {
+            if let (Some(settings), Some(presets)) = (settings, presets.into_iter().collect())
+                && reader.errors.is_empty()
+            {
                 let in_force = in_force(&settings, None, &[]);
-                Ok(Document { settings, presets, in_force, tree, included, origins, pictures, account })
-            }
-            _ => {
-                account.tell(&tree, &mut reader.errors);
-                origins.tell(&mut reader.errors);
-                Err(never_none(reader.errors))
+                return Ok(Document { settings, presets, in_force, files, origins });
             }
         }
+        files.account.tell(&files.tree, &mut reader.errors);
+        origins.tell(&mut reader.errors);
+        Err(never_none(reader.errors))
     }
 
     /// Reads a settings file's text, which is added to `sources`: those that this document was read into. `shown` and
@@ -127,10 +130,10 @@ impl Document {
         &self.in_force
     }
 
-    /// Whether what it comes to may depend on the device.
+    /// Whether an expression may ask for a property of the device.
     #[must_use]
     pub fn asks_device(&self) -> bool {
-        [&self.tree].into_iter().chain(&self.included).any(|tree| tree.mentions("device."))
+        [&self.files.tree].into_iter().chain(&self.files.included).any(|tree| tree.mentions("device."))
     }
 
     /// Puts in the values of settings, in their order, and what the pipeline is made for.
@@ -145,19 +148,9 @@ impl Document {
         }
         let settings: Vec<Option<Setting>> = self.settings.iter().cloned().map(Some).collect();
         let values = values.iter().cloned().map(Some).collect();
-        let sections = Sections::read(&mut reader, self.tree.root(), "the pipeline", &PIPELINE);
-        let pipeline = sections.and_then(|sections| {
-            let files = Files {
-                sections,
-                included: &self.included,
-                pictures: &self.pictures,
-                removed_view: self.changes().iter().find(|change| change.removes(Kind::View)),
-            };
-            pipeline(&mut reader, files, (names, &settings), values, surroundings, Purpose::Pipeline)
-        });
-        match pipeline {
+        match self.files.evaluate(&mut reader, (names, &settings), values, surroundings, Purpose::Pipeline) {
             Some(pipeline) if reader.errors.is_empty() => {
-                let removed = self.account.removed_passes().collect();
+                let removed = self.files.account.removed_passes().collect();
                 Ok(Pipeline { removed, ..pipeline })
             }
             _ => {
@@ -170,58 +163,49 @@ impl Document {
     /// What files did to the pipeline that they extend, in the order in which they did it.
     #[must_use]
     pub fn changes(&self) -> &[Change] {
-        &self.account.changes
+        &self.files.account.changes
     }
 
     /// Adds the other place to mistakes in what was changed, and to those in files that others brought in.
     pub(crate) fn tell_origins(&self, errors: &mut [Diagnostic]) {
-        self.account.tell(&self.tree, errors);
+        self.files.account.tell(&self.files.tree, errors);
         self.origins.tell(errors);
     }
 }
 
-/// What is read of the files of a pipeline.
-#[derive(Clone, Copy)]
-struct Files<'t> {
-    /// The fields of the pipeline.
-    sections: Sections<'t>,
-    /// Files of fragments.
-    included: &'t [Tree],
-    /// The pictures that textures name.
-    pictures: &'t Pictures,
-    removed_view: Option<&'t Change>,
-}
-
-/// Evaluates a pipeline for values of its settings. `None` if errors were reported.
-fn pipeline(
-    reader: &mut Reader,
-    Files { sections, included, pictures, removed_view }: Files<'_>,
-    (names, settings): (Names, &[Option<Setting>]),
-    values: Vec<Option<Value>>,
-    surroundings: &Surroundings<'_>,
-    purpose: Purpose,
-) -> Option<Pipeline> {
-    let parameters = settings.iter().map(|setting| setting.as_ref().map(Parameter::from)).collect();
-    let included = included.iter().filter_map(|tree| tree.root().field("fragments"));
-    let fragments = Fragments::read(reader, sections.get(Section::Fragments).into_iter().chain(included));
-    let lists = Lists {
-        textures: sections.get(Section::Textures),
-        images: sections.get(Section::Images),
-        buffers: sections.get(Section::Buffers),
-        passes: sections.get(Section::Passes),
-    };
-    let declared = Declared {
-        body: &Body::read(reader, names, parameters, true, lists),
-        fragments: &fragments,
-        pictures,
-        settings,
-        views: sections.get(Section::Views),
-        removed_view,
-        depth: sections.get(Section::Depth),
-        color: sections.get(Section::Color),
-        depth_format: sections.get(Section::DepthFormat),
-        outputs: sections.get(Section::Outputs)?,
-    };
-    let values = values.into_iter().map(|value| value.map(DecidedValue::from)).collect();
-    evaluate(reader, &declared, values, surroundings, purpose)
+impl Read {
+    /// Evaluates the pipeline for values of its settings. `None` if errors were reported.
+    fn evaluate(
+        &self,
+        reader: &mut Reader,
+        (names, settings): (Names, &[Option<Setting>]),
+        values: Vec<Option<Value>>,
+        surroundings: &Surroundings<'_>,
+        purpose: Purpose,
+    ) -> Option<Pipeline> {
+        let sections = Sections::read(reader, self.tree.root(), "the pipeline", &PIPELINE)?;
+        let parameters = settings.iter().map(|setting| setting.as_ref().map(Parameter::from)).collect();
+        let included = self.included.iter().filter_map(|tree| tree.root().field("fragments"));
+        let fragments = Fragments::read(reader, sections.get(&tables::FRAGMENTS).into_iter().chain(included));
+        let lists = Lists {
+            textures: sections.get(&tables::TEXTURES),
+            images: sections.get(&tables::IMAGES),
+            buffers: sections.get(&tables::BUFFERS),
+            passes: sections.get(&tables::PASSES),
+        };
+        let declared = Declared {
+            body: &Body::read(reader, names, parameters, true, lists),
+            fragments: &fragments,
+            pictures: &self.pictures,
+            settings,
+            views: sections.get(&tables::VIEWS),
+            removed_view: self.account.changes.iter().find(|change| change.removes(Kind::View)),
+            depth: sections.get(&tables::DEPTH),
+            color: sections.get(&tables::COLOR),
+            depth_format: sections.get(&tables::DEPTH_FORMAT),
+            outputs: sections.get(&tables::OUTPUTS)?,
+        };
+        let values = values.into_iter().map(|value| value.map(DecidedValue::from)).collect();
+        evaluate(reader, &declared, values, surroundings, purpose)
+    }
 }

@@ -8,7 +8,7 @@ pub(crate) fn in_order(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
     errors
 }
 
-/// What is to be said if something went wrong and nothing says what.
+/// The mistakes, or one that says that none was reported although the pipeline is wrong.
 pub(crate) fn never_none(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
     if errors.is_empty() {
         let message = "this pipeline can't be put together, and why was not found out: a mistake of framewright itself";

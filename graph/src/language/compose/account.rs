@@ -1,4 +1,4 @@
-//! What files did to a pipeline: for those who look into it, and for messages that would make no sense otherwise.
+//! Changes that files made to a pipeline that they extend. Messages name the change that led to a mistake.
 
 use crate::base::{Diagnostic, Label, Span};
 use crate::frame::change::{Action, Change, Kind};
@@ -84,7 +84,7 @@ impl Account {
         }
     }
 
-    /// The other place of a mistake that is in a change, or in what is changed.
+    /// The second place of a mistake: of one in a change the changed entry, and of one in a changed entry the change.
     fn beside(&self, places: &Places, error: &Diagnostic) -> Option<Label> {
         let is_in = |within: Span| error.labels.iter().any(|label| holds(within, label.span));
         let in_changes = error.labels.iter().flat_map(|label| places.changes(&self.changed, label.span));

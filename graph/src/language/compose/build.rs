@@ -2,17 +2,15 @@
 
 use super::draft::{Draft, LISTS, REPLACED};
 use super::entry::{Entry, Value};
-use super::tables::section_names;
 use crate::ron::node::{Kind as NodeKind, Node, Text};
 use crate::ron::{Leaf, Shape, Tree};
 use std::collections::HashMap;
 
-/// The word that a pipeline begins with.
-const PIPELINE: &str = "Pipeline";
-
 /// A tree whose nodes stand in several texts.
 struct Builder {
+    /// The first holds `words`.
     texts: Vec<Text>,
+    words: String,
     /// Texts by their file's number.
     numbers: HashMap<u32, u16>,
     nodes: Vec<Node>,
@@ -20,11 +18,10 @@ struct Builder {
 
 /// The tree of a pipeline that says what `draft` holds; `base` is the one that it began with.
 pub(crate) fn tree(draft: &Draft<'_>, base: Leaf<'_>) -> Tree {
-    let names: Vec<&str> = [PIPELINE].into_iter().chain(section_names()).collect();
-    let words = Text { file: u32::MAX, text: names.join(" ").into() };
-    let mut builder = Builder { texts: vec![words], numbers: HashMap::new(), nodes: Vec::new() };
+    let own = Text { file: u32::MAX, text: "".into() };
+    let mut builder = Builder { texts: vec![own], words: String::new(), numbers: HashMap::new(), nodes: Vec::new() };
     let pipeline = builder.open(NodeKind::Named, base);
-    builder.word(PIPELINE);
+    builder.word("Pipeline");
     let fields = builder.open(NodeKind::Fields, base);
     if let Some(version) = base.field("version") {
         builder.word("version");
@@ -34,7 +31,7 @@ pub(crate) fn tree(draft: &Draft<'_>, base: Leaf<'_>) -> Tree {
         if let Some(list) = draft.list(kind)
             && let Some(of) = list.written
         {
-            builder.list(section.name(), of, list.entries.iter().flatten());
+            builder.list(section.name, of, list.entries.iter().flatten());
         }
     }
     if let Some(of) = draft.passes_written {
@@ -45,12 +42,13 @@ pub(crate) fn tree(draft: &Draft<'_>, base: Leaf<'_>) -> Tree {
     }
     for (section, leaf) in REPLACED.into_iter().zip(draft.replaced) {
         if let Some(leaf) = leaf {
-            builder.word(section.name());
+            builder.word(section.name);
             builder.copy(leaf);
         }
     }
     builder.close(fields);
     builder.close(pipeline);
+    builder.texts[0].text = builder.words.into();
     Tree { texts: builder.texts, nodes: builder.nodes }
 }
 
@@ -78,9 +76,10 @@ impl Builder {
         self.nodes[node].after = place(self.nodes.len());
     }
 
-    /// A word that no file need hold: it stands in the first text.
+    /// A word that no file need hold: it stands in a text of its own, the first.
     fn word(&mut self, word: &str) {
-        let start = self.texts[0].text.find(word).unwrap_or_default();
+        let start = self.words.len();
+        self.words.push_str(word);
         let [start, end, after] = [start, start + word.len(), self.nodes.len() + 1].map(place);
         self.nodes.push(Node { start, end, after, text: 0, kind: NodeKind::Word });
     }

@@ -4,7 +4,7 @@ use super::account::Account;
 use super::entry::{Called, Entry};
 use super::layers::Role;
 use super::order::Order;
-use super::tables::{Section, Sections};
+use super::tables::{self, Section, Sections};
 use crate::base::Diagnostic;
 use crate::frame::change::{Action, Kind, Where};
 use crate::ron::{Leaf, Name, Reader, Shape};
@@ -13,17 +13,17 @@ use std::sync::Arc;
 
 /// Lists whose entries several files add, in the order in which a pipeline has them.
 pub(crate) const LISTS: [(Kind, Section); 7] = [
-    (Kind::Setting, Section::Settings),
-    (Kind::Preset, Section::Presets),
-    (Kind::View, Section::Views),
-    (Kind::Fragment, Section::Fragments),
-    (Kind::Texture, Section::Textures),
-    (Kind::Image, Section::Images),
-    (Kind::Buffer, Section::Buffers),
+    (Kind::Setting, tables::SETTINGS),
+    (Kind::Preset, tables::PRESETS),
+    (Kind::View, tables::VIEWS),
+    (Kind::Fragment, tables::FRAGMENTS),
+    (Kind::Texture, tables::TEXTURES),
+    (Kind::Image, tables::IMAGES),
+    (Kind::Buffer, tables::BUFFERS),
 ];
 
 /// Values of which a later file's takes the place of an earlier one's.
-pub(crate) const REPLACED: [Section; 3] = [Section::Depth, Section::Color, Section::DepthFormat];
+pub(crate) const REPLACED: [Section; 3] = [tables::DEPTH, tables::COLOR, tables::DEPTH_FORMAT];
 
 /// All lists of a pipeline.
 #[derive(Default)]
@@ -86,8 +86,8 @@ impl<'t> Draft<'t> {
     /// Adds what a file says.
     pub(crate) fn add(&mut self, reader: &mut Reader, sections: &Sections<'t>, role: Role, account: &mut Account) {
         for (kind, section) in LISTS {
-            let Some(leaf) = sections.get(section) else { continue };
-            let Some(entries) = reader.list(leaf, &format!("`{}`", section.name())) else { continue };
+            let Some(leaf) = sections.get(&section) else { continue };
+            let Some(entries) = reader.list(leaf, &format!("`{}`", section.name)) else { continue };
             let list = self.list_mut(kind);
             list.written.get_or_insert(leaf);
             let mut names = Vec::new();
@@ -106,9 +106,10 @@ impl<'t> Draft<'t> {
             }
         }
         for (old, section) in self.replaced.iter_mut().zip(REPLACED) {
-            *old = sections.get(section).or(*old);
+            *old = sections.get(&section).or(*old);
         }
-        if let Some(leaf) = sections.get(Section::Passes)
+        // Passes of one that extends another were reported.
+        if let Some(leaf) = sections.get(&tables::PASSES).filter(|_| role == Role::Whole)
             && let Some(entries) = reader.list(leaf, "`passes`")
         {
             self.passes_written.get_or_insert(leaf);
@@ -116,7 +117,7 @@ impl<'t> Draft<'t> {
                 self.passes.insert(&Where::End, Entry::of(entry));
             }
         }
-        if let Some(leaf) = sections.get(Section::Outputs)
+        if let Some(leaf) = sections.get(&tables::OUTPUTS)
             && let Some(entries) = reader.list(leaf, "`outputs`")
         {
             self.outputs_written = Some(leaf);

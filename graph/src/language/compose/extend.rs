@@ -3,8 +3,8 @@
 //! ```text
 //! files ─► Layers (their turns) ─► Draft: lists of entries (add, then apply changes) ─► one Tree (build) ─► Document
 //! ```
-//! Trees are put together before anything in them is understood: what comes of it is a pipeline as if it had been written
-//! so, except that each value still stands where it was written.
+//! Trees are merged before their entries are read. The result is the tree of one pipeline, except that each value keeps its
+//! place in the file where it was written.
 //!
 //! The order: the pipeline that is extended, then extensions as they are listed, then the file's own lists and changes.
 
@@ -14,7 +14,7 @@ use super::files::Found;
 use super::includes::Wanted;
 use super::layers::{self, Layer, Layers, Role, Turn};
 use super::loader::{self, Loader};
-use super::tables::{Section, Sections};
+use super::tables::{self, Sections};
 use super::{apply, build, unset};
 use crate::ron::{Reader, Tree};
 
@@ -52,11 +52,11 @@ fn compose(reader: &mut Reader, layers: &Layers) -> Option<Composed> {
             account.did(*named, layer.action());
         }
         if *adds {
-            let paths = loader::paths(reader, sections.get(Section::Include), "`include`");
+            let paths = loader::paths(reader, sections.get(&tables::INCLUDE), "`include`");
             wanted.push(Wanted { from: layer.relative.clone(), paths });
             draft.add(reader, sections, layer.role, &mut account);
         }
-        if let Some(list) = sections.get(Section::Changes).filter(|_| *changes) {
+        if let Some(list) = sections.get(&tables::CHANGES).filter(|_| *changes) {
             apply::changes(reader, &mut draft, list, &mut account);
         }
     }

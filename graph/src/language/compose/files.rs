@@ -1,4 +1,4 @@
-//! Where files come from that a pipeline names.
+//! The files that a pipeline names: where they come from, and why one can't be read.
 
 use crate::base::{Diagnostic, FilePath, OutsideChoice, Span};
 use crate::frame::{TextureFile, TextureInfo, TextureProblem};
@@ -9,7 +9,7 @@ pub const LANGUAGE_VERSION: i64 = 1;
 /// A pipeline file has at most this many bytes (16 MiB).
 pub const LARGEST_FILE: usize = 16 << 20;
 
-/// Where files come from that a pipeline names. Whoever implements it decides which may be read.
+/// Provides the files that a pipeline names. An implementation decides which files may be read.
 pub trait Files {
     /// Reads a file. `from` is the [`Found::relative`] of the file that names it, and `path` what stands there.
     ///

@@ -4,7 +4,7 @@ use crate::ron::Leaf;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-/// Fields, or the entries of a map. What is written twice stays twice: that is still to be reported.
+/// Fields, or the entries of a map. A key that is written twice stays twice: the mistake is reported later.
 pub(crate) struct Keyed<'t, V> {
     /// `None`: it was taken away.
     pairs: Vec<Option<(Leaf<'t>, V)>>,

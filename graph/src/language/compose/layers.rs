@@ -2,19 +2,19 @@
 
 use super::files::Found;
 use super::loader::{self, Loader};
-use super::tables::{EXTENDING, EXTENSION, PIPELINE, Section, Sections};
+use super::tables::{self, EXTENDING, EXTENSION, PIPELINE, Sections};
 use crate::base::{Diagnostic, FilePath, OutsideChoice, Span};
 use crate::frame::change::Action;
 use crate::ron::{Reader, Shape, Tree};
 
-/// What a file is to the others.
+/// The role of a file among the files of a pipeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Role {
     /// A pipeline that stands by itself.
     Whole,
     /// A pipeline that begins with what another says.
     Extending,
-    /// What is added to pipelines.
+    /// An extension, which is added to pipelines.
     Extension,
 }
 
@@ -71,7 +71,7 @@ impl Layer {
         self.tree
     }
 
-    /// What naming it comes to.
+    /// The action that naming the file stands for.
     pub(crate) fn action(&self) -> Action {
         let file = self.relative.to_string().into();
         match self.role {
@@ -87,16 +87,16 @@ impl Layer {
             Role::Extending => ("the pipeline", &EXTENDING),
             Role::Extension => ("the extension", &EXTENSION),
         };
-        let mut sections = Sections::read(reader, self.tree.root(), what, table)?;
+        let sections = Sections::read(reader, self.tree.root(), what, table)?;
         if self.role == Role::Extending
-            && let Some(passes) = sections.take(Section::Passes)
+            && let Some(passes) = sections.get(&tables::PASSES)
         {
             let wrong = Diagnostic::new(passes.start(), "a pipeline that extends another has no `passes` of its own");
             reader.report(
                 wrong.help("move them to where they belong, such as `changes: [Insert(at: End, passes: […])]`"),
             );
         }
-        if let Some(about) = sections.get(Section::About) {
+        if let Some(about) = sections.get(&tables::ABOUT) {
             reader.words(about, "a description");
         }
         Some(sections)

@@ -1,90 +1,71 @@
 //! What a file as a whole is: a pipeline, one that extends another, an extension, a file of fragments.
 
-use super::changes::CHANGES;
+use super::changes;
 use crate::fields;
-use crate::language::entries::fragments::FRAGMENTS;
-use crate::language::entries::{body, outputs, precision, presets, resolves, settings, textures, views};
+use crate::language::entries::{body, fragments, outputs, precision, presets, resolves, settings, textures, views};
 use crate::ron::{Field, Form, Leaf, Plain, Reader, Row, Table, slots};
 
 /// A field of a pipeline, of one that extends another or of an extension.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Section {
-    Version,
-    Extends,
-    Extensions,
-    About,
-    Include,
-    Settings,
-    Presets,
-    Views,
-    Fragments,
-    Textures,
-    Images,
-    Buffers,
-    Passes,
-    Outputs,
-    Depth,
-    Color,
-    DepthFormat,
-    Changes,
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Section {
+    /// As it is written.
+    pub(crate) name: &'static str,
+    form: Form,
 }
 
 /// Files that are named.
-const INCLUDE: Form = Form::List(&Form::Plain(Plain::Text));
-
-/// All of them, with their names and what may stand there, in the order in which they are declared.
-const SECTIONS: [(&str, Form); 18] = [
-    ("version", VERSION),
-    ("extends", Form::Plain(Plain::Text)),
-    ("extensions", INCLUDE),
-    ("about", Form::Plain(Plain::Text)),
-    ("include", INCLUDE),
-    ("settings", settings::SETTINGS),
-    ("presets", presets::PRESETS),
-    ("views", views::VIEWS),
-    ("fragments", FRAGMENTS),
-    ("textures", textures::TEXTURES),
-    ("images", body::IMAGES),
-    ("buffers", body::BUFFERS),
-    ("passes", body::ITEMS),
-    ("outputs", outputs::OUTPUTS),
-    ("depth", resolves::DEPTH),
-    ("color", precision::COLOR),
-    ("depth_format", precision::DEPTH),
-    ("changes", CHANGES),
-];
+const INCLUDES: Form = Form::List(&Form::Plain(Plain::Text));
 
 /// The version of a file.
 pub(crate) const VERSION: Form = Form::Plain(Plain::Whole);
 
+pub(crate) const ABOUT: Section = Section { name: "about", form: Form::Plain(Plain::Text) };
+const EXTENDS: Section = Section { name: "extends", form: Form::Plain(Plain::Text) };
+const EXTENSIONS: Section = Section { name: "extensions", form: INCLUDES };
+pub(crate) const INCLUDE: Section = Section { name: "include", form: INCLUDES };
+pub(crate) const SETTINGS: Section = Section { name: "settings", form: settings::SETTINGS };
+pub(crate) const PRESETS: Section = Section { name: "presets", form: presets::PRESETS };
+pub(crate) const VIEWS: Section = Section { name: "views", form: views::VIEWS };
+pub(crate) const FRAGMENTS: Section = Section { name: "fragments", form: fragments::FRAGMENTS };
+pub(crate) const TEXTURES: Section = Section { name: "textures", form: textures::TEXTURES };
+pub(crate) const IMAGES: Section = Section { name: "images", form: body::IMAGES };
+pub(crate) const BUFFERS: Section = Section { name: "buffers", form: body::BUFFERS };
+pub(crate) const PASSES: Section = Section { name: "passes", form: body::ITEMS };
+pub(crate) const OUTPUTS: Section = Section { name: "outputs", form: outputs::OUTPUTS };
+pub(crate) const DEPTH: Section = Section { name: "depth", form: resolves::DEPTH };
+pub(crate) const COLOR: Section = Section { name: "color", form: precision::COLOR };
+pub(crate) const DEPTH_FORMAT: Section = Section { name: "depth_format", form: precision::DEPTH };
+pub(crate) const CHANGES: Section = Section { name: "changes", form: changes::CHANGES };
+
 impl Section {
-    /// As it is written.
-    pub(crate) const fn name(self) -> &'static str {
-        SECTIONS[self as usize].0
-    }
-
-    const fn row(self, needed: bool, about: &'static [&'static str]) -> Row {
-        let (name, form) = SECTIONS[self as usize];
-        Row { name, needed, about, form }
-    }
-
     /// A field that has to be there.
     const fn needed(self, about: &'static [&'static str]) -> Row {
-        self.row(true, about)
+        Row { name: self.name, needed: true, about, form: self.form }
     }
 
     /// A field that may be left out.
     const fn optional(self, about: &'static [&'static str]) -> Row {
-        self.row(false, about)
+        Row { name: self.name, needed: false, about, form: self.form }
     }
 }
 
-/// The names of all fields.
-pub(crate) fn section_names() -> impl Iterator<Item = &'static str> {
-    SECTIONS.iter().map(|(name, _)| *name)
+/// Several lists of rows as one.
+const fn rows<const N: usize>(lists: &[&[Row]]) -> [Row; N] {
+    let mut all = [VERSION_ROW; N];
+    let (mut list, mut at, mut next) = (0, 0, 0);
+    while list < lists.len() {
+        if at < lists[list].len() {
+            all[next] = lists[list][at];
+            (at, next) = (at + 1, next + 1);
+        } else {
+            (list, at) = (list + 1, 0);
+        }
+    }
+    all
 }
 
-const VERSION_ROW: Row = Section::Version.needed(&["The version of the language: 1."]);
+const VERSION_ROW: Row =
+    Row { name: "version", needed: true, about: &["The version of the language: 1."], form: VERSION };
 
 /// A pipeline that stands by itself.
 pub(crate) const PIPELINE: Table = Table {
@@ -103,27 +84,27 @@ pub(crate) const PIPELINE: Table = Table {
     ],
     rows: &[
         VERSION_ROW,
-        Section::Extensions.optional(&["Files of extensions, which are applied in their order."]),
-        Section::Include.optional(&["Files with fragments, each read once however often it is named."]),
-        Section::Settings.optional(&["What a user may choose."]),
-        Section::Presets.optional(&["Values of several settings under one name."]),
-        Section::Views.optional(&["What the frame shows, from where and how large, the main view first; one view of the frame's size if left out."]),
-        Section::Fragments.optional(&["What is written once and used often."]),
-        Section::Textures.optional(&["Images that come from files."]),
-        Section::Images.needed(&["Images that passes make."]),
-        Section::Buffers.optional(&["The buffers."]),
-        Section::Passes.needed(&["The passes. Their order gives them their meaning: each reads what those above it wrote."]),
-        Section::Outputs.needed(&["The images and buffers that leave the frame."]),
-        Section::Depth.optional(&[
+        EXTENSIONS.optional(&["Files of extensions, which are applied in their order."]),
+        INCLUDE.optional(&["Files with fragments, each read once however often it is named."]),
+        SETTINGS.optional(&["What a user may choose."]),
+        PRESETS.optional(&["Values of several settings under one name."]),
+        VIEWS.optional(&["What the frame shows, from where and how large, the main view first; one view of the frame's size if left out."]),
+        FRAGMENTS.optional(&["What is written once and used often."]),
+        TEXTURES.optional(&["Images that come from files."]),
+        IMAGES.needed(&["Images that passes make."]),
+        BUFFERS.optional(&["The buffers."]),
+        PASSES.needed(&["The passes. Their order gives them their meaning: each reads what those above it wrote."]),
+        OUTPUTS.needed(&["The images and buffers that leave the frame."]),
+        DEPTH.optional(&[
             "How several samples of depth become one value where a pass samples it, of images that don't say it; `Exact` if left",
             "out.",
         ]),
-        Section::Color.optional(&["What images of the format `Color` become that passes of the frame alone draw and sample; `Balanced` if left out."]),
-        Section::DepthFormat.optional(&[
+        COLOR.optional(&["What images of the format `Color` become that passes of the frame alone draw and sample; `Balanced` if left out."]),
+        DEPTH_FORMAT.optional(&[
             "What images of the formats `Depth` and `DepthStencil` become that passes of the frame alone draw and sample; `Exact`",
             "if left out.",
         ]),
-        Section::Changes.optional(&["What is changed of all that, after the extensions."]),
+        CHANGES.optional(&["What is changed of all that, after the extensions."]),
     ],
 };
 
@@ -138,25 +119,20 @@ pub(crate) const EXTENDING: Table = Table {
         " Pipeline(version: 1, extends: \"forward.ron\", changes: [Remove(pass: \"transparent\")])",
         " ```",
     ],
-    rows: &[
-        VERSION_ROW,
-        Section::Extends.needed(&["The file of the pipeline that it begins with."]),
-        Section::Extensions.optional(&["Files of extensions, which are applied in their order."]),
-        ADDED[0],
-        ADDED[1],
-        ADDED[2],
-        ADDED[3],
-        ADDED[4],
-        ADDED[5],
-        ADDED[6],
-        ADDED[7],
-        Section::Passes.optional(&["None: passes are inserted by `changes`."]),
-        Section::Outputs.optional(&["Outputs in place of those that there are."]),
-        REPLACED[0],
-        REPLACED[1],
-        REPLACED[2],
-        Section::Changes.optional(&["What is changed of all that."]),
-    ],
+    rows: &rows::<17>(&[
+        &[
+            VERSION_ROW,
+            EXTENDS.needed(&["The file of the pipeline that it begins with."]),
+            EXTENSIONS.optional(&["Files of extensions, which are applied in their order."]),
+        ],
+        &ADDED,
+        &[
+            PASSES.optional(&["None: passes are inserted by `changes`."]),
+            OUTPUTS.optional(&["Outputs in place of those that there are."]),
+        ],
+        &REPLACED,
+        &[CHANGES.optional(&["What is changed of all that."])],
+    ]),
 };
 
 /// What may be added to pipelines.
@@ -170,68 +146,55 @@ pub(crate) const EXTENSION: Table = Table {
         " Extension(version: 1, about: \"without glass\", changes: [Remove(pass: \"transparent\")])",
         " ```",
     ],
-    rows: &[
-        VERSION_ROW,
-        Section::About.optional(&["A description for people."]),
-        ADDED[0],
-        ADDED[1],
-        ADDED[2],
-        ADDED[3],
-        ADDED[4],
-        ADDED[5],
-        ADDED[6],
-        ADDED[7],
-        REPLACED[0],
-        REPLACED[1],
-        REPLACED[2],
-        Section::Changes.optional(&["What is changed."]),
-    ],
+    rows: &rows::<14>(&[
+        &[VERSION_ROW, ABOUT.optional(&["A description for people."])],
+        &ADDED,
+        &REPLACED,
+        &[CHANGES.optional(&["What is changed."])],
+    ]),
 };
 
 /// What a file adds to another.
 const ADDED: [Row; 8] = [
-    Section::Include.optional(&["Files with fragments."]),
-    Section::Settings.optional(&["Settings that are added."]),
-    Section::Presets.optional(&["Presets that are added."]),
-    Section::Views.optional(&["Views that are added."]),
-    Section::Fragments.optional(&["Fragments that are added."]),
-    Section::Textures.optional(&["Textures that are added."]),
-    Section::Images.optional(&["Images that are added."]),
-    Section::Buffers.optional(&["Buffers that are added."]),
+    INCLUDE.optional(&["Files with fragments."]),
+    SETTINGS.optional(&["Settings that are added."]),
+    PRESETS.optional(&["Presets that are added."]),
+    VIEWS.optional(&["Views that are added."]),
+    FRAGMENTS.optional(&["Fragments that are added."]),
+    TEXTURES.optional(&["Textures that are added."]),
+    IMAGES.optional(&["Images that are added."]),
+    BUFFERS.optional(&["Buffers that are added."]),
 ];
 
 /// What a file says in place of what another said.
 const REPLACED: [Row; 3] = [
-    Section::Depth.optional(&["How several samples of depth become one value, in place of what there is."]),
-    Section::Color.optional(&["What `Color` becomes, in place of what there is."]),
-    Section::DepthFormat.optional(&["What `Depth` and `DepthStencil` become, in place of what there is."]),
+    DEPTH.optional(&["How several samples of depth become one value, in place of what there is."]),
+    COLOR.optional(&["What `Color` becomes, in place of what there is."]),
+    DEPTH_FORMAT.optional(&["What `Depth` and `DepthStencil` become, in place of what there is."]),
 ];
 
-/// The fields of a file, once they are told apart.
+/// The values of the fields of a file.
 #[derive(Clone, Copy)]
-pub(crate) struct Sections<'t>([Option<Leaf<'t>>; SECTIONS.len()]);
+pub(crate) struct Sections<'t> {
+    rows: &'static [Row],
+    found: [Option<Leaf<'t>>; MOST_ROWS],
+}
+
+/// No table has more.
+const MOST_ROWS: usize = EXTENDING.rows.len();
 
 impl<'t> Sections<'t> {
-    /// Tells the fields of a file apart; `what` names it in messages: "the pipeline".
+    /// Reads the fields of a file; `what` names it in messages: "the pipeline".
     pub(crate) fn read(reader: &mut Reader, root: Leaf<'t>, what: &str, table: &Table) -> Option<Sections<'t>> {
-        let mut found = [None; SECTIONS.len()];
+        let mut found = [None; MOST_ROWS];
         slots(root, what, table, &mut found[..table.rows.len()], &mut reader.errors)?;
-        let mut sections = [None; SECTIONS.len()];
-        for (row, leaf) in table.rows.iter().zip(found) {
-            let at = SECTIONS.iter().position(|(name, _)| *name == row.name)?;
-            sections[at] = Field::of(leaf)?;
-        }
-        Some(Sections(sections))
+        Some(Sections { rows: table.rows, found })
     }
 
-    /// Takes out what stands in a field.
-    pub(crate) const fn take(&mut self, section: Section) -> Option<Leaf<'t>> {
-        self.0[section as usize].take()
-    }
-
-    /// What stands in a field.
-    pub(crate) const fn get(&self, section: Section) -> Option<Leaf<'t>> {
-        self.0[section as usize]
+    /// The value of a field.
+    pub(crate) fn get(&self, section: &Section) -> Option<Leaf<'t>> {
+        let at = self.rows.iter().position(|row| row.name == section.name)?;
+        Field::of(self.found[at])?
     }
 }
 
@@ -248,9 +211,9 @@ fields! {
         #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
         version: Leaf<'src> => VERSION,
         /// Files with further fragments.
-        pub(crate) include: Option<Leaf<'src>> => INCLUDE,
+        pub(crate) include: Option<Leaf<'src>> => INCLUDES,
         /// The fragments.
         #[expect(dead_code, reason = "read for each choice of settings")]
-        fragments: Leaf<'src> => FRAGMENTS,
+        fragments: Leaf<'src> => fragments::FRAGMENTS,
     }
 }

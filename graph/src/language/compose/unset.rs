@@ -8,7 +8,7 @@ use crate::ron::Leaf;
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// Takes those of the settings that nobody has declared again out of `set` of all presets and views.
+/// Takes removed settings, unless they are declared again, out of `set` of all presets and views.
 pub(crate) fn everywhere(draft: &mut Draft<'_>, removed: &HashSet<Arc<str>>) {
     let settings = draft.list_mut(Kind::Setting);
     let gone: HashSet<Arc<str>> = removed.iter().filter(|name| settings.find(name).is_none()).cloned().collect();
@@ -21,7 +21,7 @@ pub(crate) fn everywhere(draft: &mut Draft<'_>, removed: &HashSet<Arc<str>>) {
 }
 
 fn within(entry: &mut Entry<'_>, gone: &HashSet<Arc<str>>) {
-    // What is no preset stays what it is, for messages.
+    // An entry that is no preset stays as it is: the mistake is reported later.
     if entry.leaf.fields().is_none() {
         return;
     }

@@ -229,7 +229,7 @@ impl Context<'_, '_> {
         leaf: Leaf<'src>,
         map: &str,
         what: &str,
-        mut lower: impl FnMut(&mut Self, Option<Name>, Leaf<'src>) -> Option<T>,
+        mut read: impl FnMut(&mut Self, Option<Name>, Leaf<'src>) -> Option<T>,
     ) -> Option<Vec<T>> {
         let mut names = HashMap::new();
         let mut list = Vec::new();
@@ -243,7 +243,7 @@ impl Context<'_, '_> {
                 self.reader.report(twice.remark("again here").label(first, "first here"));
                 complete = false;
             }
-            match lower(self, name, value) {
+            match read(self, name, value) {
                 Some(value) => list.push(value),
                 None => complete = false,
             }

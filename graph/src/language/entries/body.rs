@@ -1,4 +1,4 @@
-//! One level of a file with its entries told apart: the pipeline's own, or a fragment's.
+//! The body of a pipeline or of a fragment: its textures, images, buffers and passes, field by field.
 
 use super::buffers::BufferFields;
 use super::images::ImageFields;
@@ -14,7 +14,7 @@ use crate::ron::{Described, Form, Leaf, Name, Names, Plain, Reader};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What stands in `textures`, `images`, `buffers` and `passes`; `None` where an entry couldn't be told apart.
+/// The entries of `textures`, `images`, `buffers` and `passes`; `None` where one couldn't be read.
 pub(crate) struct Body<'t> {
     pub(crate) symbols: Symbols,
     pub(crate) images: Vec<Option<Entry<'t, AnyImage<'t>>>>,
@@ -28,7 +28,7 @@ pub(crate) struct Entry<'t, T> {
     pub(crate) fields: T,
 }
 
-/// What stands in `textures` and `images`.
+/// An entry of `textures` or `images`.
 pub(crate) enum AnyImage<'t> {
     /// An image that passes make.
     Made(ImageFields<'t>),
@@ -36,7 +36,7 @@ pub(crate) enum AnyImage<'t> {
     Texture(TextureFields<'t>),
 }
 
-/// What stands in `passes`.
+/// An entry of `passes`.
 pub(crate) enum Item<'t> {
     /// A pass.
     Pass(Box<PassFields<'t>>),

@@ -59,7 +59,7 @@ static BYTES: Words = Words {
 };
 
 impl Context<'_, '_> {
-    /// A buffer, once its fields are told apart.
+    /// A buffer.
     pub(crate) fn buffer_entry(&mut self, fields: &BufferFields<'_>) -> Option<Buffer> {
         let name = self.reader.name(fields.name, "a buffer");
         let bytes = self.bytes(fields.bytes);

@@ -59,7 +59,7 @@ pub(crate) struct Beside<'src> {
 }
 
 impl Context<'_, '_> {
-    /// What is drawn, by which shader.
+    /// `draw: …`, with the shader.
     pub(crate) fn draw_work(
         &mut self,
         leaf: Leaf<'_>,

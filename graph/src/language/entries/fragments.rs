@@ -1,4 +1,4 @@
-//! `fragments`: images, buffers and passes that belong together, made for whoever uses them.
+//! `fragments`: images, buffers and passes that each use of a fragment makes anew.
 
 use super::body::{self, Body, Lists};
 use super::list::entries;
@@ -36,7 +36,7 @@ fields! {
 /// A list of fragments.
 pub(crate) const FRAGMENTS: Form = Form::List(&Form::Fields(FragmentFields::<'static>::table));
 
-/// A fragment with its entries told apart.
+/// A fragment with the fields of its entries.
 pub(crate) struct Fragment<'t> {
     pub(crate) name: Option<Name>,
     pub(crate) body: Body<'t>,
@@ -77,8 +77,8 @@ fn fragment<'t>(reader: &mut Reader, fields: &FragmentFields<'t>) -> Fragment<'t
     let mut names = Names::new("parameter");
     let given: Vec<Option<ParameterFields<'t>>> =
         entries(reader, fields.parameters, "`parameters`", "parameter", &mut names);
-    let lower = |fields: Option<ParameterFields<'t>>| fields.and_then(|fields| parameters::lower(reader, &fields));
-    let parameters: Vec<Option<Parameter>> = given.into_iter().map(lower).collect();
+    let read = |fields: Option<ParameterFields<'t>>| fields.and_then(|fields| parameters::parameter(reader, &fields));
+    let parameters: Vec<Option<Parameter>> = given.into_iter().map(read).collect();
     let FragmentFields { textures, images, buffers, passes, .. } = *fields;
     let lists = Lists { textures, images, buffers, passes: Some(passes) };
     Fragment { name, body: Body::read(reader, names, parameters, false, lists) }

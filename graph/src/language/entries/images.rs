@@ -1,7 +1,7 @@
 //! `images`: format, size, samples, mip levels, layers, shape and lifetime, most its own or another image's.
 
 use super::repeat::REPEAT;
-use super::values::Decided;
+use super::values::{Decided, optional};
 use super::{lifetimes, parameters, parts, resolves, sizes, views};
 use crate::base::Diagnostic;
 use crate::expression::{Value, Wanted};
@@ -136,7 +136,7 @@ static SHAPES: Words = Words {
 };
 
 impl Context<'_, '_> {
-    /// An image, once its fields are told apart.
+    /// An image.
     pub(crate) fn image_entry(&mut self, fields: &ImageFields<'_>) -> Option<Image> {
         let name = self.reader.name(fields.name, "an image");
         let format = self.image_format(fields.format);
@@ -145,7 +145,7 @@ impl Context<'_, '_> {
             Some(leaf) => self.samples(leaf, &name).map(|(samples, because)| (leaf.spanned(samples), because)),
             None => name.as_ref().map(|name| (Spanned { value: Samples::Count(1), span: name.span }, None)),
         };
-        let resolve = fields.resolve.map(|leaf| self.resolve(leaf));
+        let resolve = optional(fields.resolve, |leaf| self.resolve(leaf));
         let mips = self.or(fields.mips, &name, Mips::Count(1), Self::mips);
         let layers = self.or(fields.layers, &name, Layers::Default, Self::layers);
         let shape = self.or(fields.shape, &name, ImageShape::D2, Self::shape);
@@ -153,7 +153,7 @@ impl Context<'_, '_> {
             Some(leaf) => self.lifetime(leaf, lifetimes::Of::Image),
             None => name.as_ref().map(|name| Spanned { value: Lifetime::Transient, span: name.span }),
         };
-        let per_eye = fields.per_eye.map(|leaf| self.truth(leaf).map(|own| leaf.spanned(own)));
+        let per_eye = optional(fields.per_eye, |leaf| self.truth(leaf).map(|own| leaf.spanned(own)));
         let ((size, size_because), (samples, samples_because)) = (size?, samples?);
         let within = |because: Option<Arc<str>>| because.map(|because| self.scope.within_view(&because).into());
         Some(Image {
@@ -163,19 +163,13 @@ impl Context<'_, '_> {
             size_because: within(size_because),
             samples,
             samples_because: within(samples_because),
-            resolve: match resolve {
-                Some(resolve) => Some(resolve?),
-                None => None,
-            },
+            resolve: resolve?,
             mips: mips?,
             layers: layers?,
             shape: shape?,
             lifetime: lifetime?,
             eyes: None,
-            per_eye: match per_eye {
-                Some(per_eye) => Some(per_eye?),
-                None => None,
-            },
+            per_eye: per_eye?,
             view: ViewIndex::default(),
             instance: None,
         })
@@ -187,10 +181,10 @@ impl Context<'_, '_> {
         leaf: Option<Leaf<'src>>,
         name: &Option<Name>,
         absent: T,
-        lower: impl FnOnce(&mut Self, Leaf<'src>) -> Option<T>,
+        read: impl FnOnce(&mut Self, Leaf<'src>) -> Option<T>,
     ) -> Option<Spanned<T>> {
         match leaf {
-            Some(leaf) => lower(self, leaf).map(|value| leaf.spanned(value)),
+            Some(leaf) => read(self, leaf).map(|value| leaf.spanned(value)),
             None => name.as_ref().map(|name| Spanned { value: absent, span: name.span }),
         }
     }

@@ -1,11 +1,12 @@
 //! How long contents live, and in which state they come in and go out.
 
+use super::list;
 use super::parts::{self, MOST_FRAMES};
 use super::values::{self, optional};
 use crate::fields;
 use crate::language::model::{Fill, Lifetime, State, StateWord};
 use crate::language::scope::Context;
-use crate::ron::{Described, Form, FromLeaf, Leaf, Reader, Shape, Spanned, Takes, Word, Words, names};
+use crate::ron::{Described, Form, Leaf, Reader, Shape, Spanned, Takes, Word, Words, names};
 use crate::vulkan::{self, Accesses, Layout, Stages};
 use bitflags::Flags;
 
@@ -135,11 +136,12 @@ impl Context<'_, '_> {
         let lifetime = match word {
             "Transient" => self.reader.bare(word, rest).map(|()| Lifetime::Transient)?,
             "Persistent" => {
-                let fields: PersistentFields<'_> = within(self.reader, leaf, rest, "Persistent(initial: …)")?;
+                let fields: PersistentFields<'_> = list::within(self.reader, leaf, rest, "Persistent(initial: …)")?;
                 Lifetime::Persistent { initial: self.initial(fields.initial)? }
             }
             "History" => {
-                let fields: HistoryFields<'_> = within(self.reader, leaf, rest, "History(frames: 1, initial: …)")?;
+                let fields: HistoryFields<'_> =
+                    list::within(self.reader, leaf, rest, "History(frames: 1, initial: …)")?;
                 let frames = fields
                     .frames
                     .map_or(Some(1), |frames| self.whole(frames, "number of frames to look back", 1..=MOST_FRAMES));
@@ -163,16 +165,6 @@ impl Context<'_, '_> {
     fn initial(&mut self, leaf: Option<Leaf<'_>>) -> Option<Option<Spanned<Fill>>> {
         optional(leaf, |leaf| self.fill(leaf).map(|fill| leaf.spanned(fill)))
     }
-}
-
-/// What stands in parentheses, if there are any.
-fn within<'src, T: FromLeaf<'src> + Default>(
-    reader: &mut Reader,
-    leaf: Leaf<'src>,
-    rest: Option<Leaf<'src>>,
-    form: &str,
-) -> Option<T> {
-    rest.map_or(Some(T::default()), |_| reader.inside(leaf, rest, form))
 }
 
 const WORDS: [(&str, StateWord); 13] = [

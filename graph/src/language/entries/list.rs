@@ -1,4 +1,4 @@
-//! Lists of entries: the fields of each are told apart, and its name taken down.
+//! Lists of entries: the fields of each, and the names of all.
 
 use crate::ron::{FromLeaf, Leaf, Name, Names, Reader, Shape};
 
@@ -35,4 +35,14 @@ pub(crate) fn entry<'t, T: FromLeaf<'t>>(
         return None;
     }
     reader.read(leaf, &known)
+}
+
+/// The fields in the parentheses after a word; the defaults if there are no parentheses.
+pub(crate) fn within<'src, T: FromLeaf<'src> + Default>(
+    reader: &mut Reader,
+    leaf: Leaf<'src>,
+    rest: Option<Leaf<'src>>,
+    form: &str,
+) -> Option<T> {
+    rest.map_or(Some(T::default()), |_| reader.inside(leaf, rest, form))
 }

@@ -70,18 +70,8 @@ impl Context<'_, '_> {
         };
         let fields: OutputFields<'_> = self.reader.read(leaf, "an output")?;
         let (resource, of) = match (fields.image, fields.buffer) {
-            (Some(image), None) => {
-                let image = self.image(image);
-                let resource =
-                    image.map(|image| ResourceRef { resource: Resource::Image(image.index), span: image.span });
-                (resource, lifetimes::Of::Image)
-            }
-            (None, Some(buffer)) => {
-                let buffer = self.buffer(buffer);
-                let resource =
-                    buffer.map(|buffer| ResourceRef { resource: Resource::Buffer(buffer.index), span: buffer.span });
-                (resource, lifetimes::Of::Buffer)
-            }
+            (Some(image), None) => (self.image(image).map(ResourceRef::from), lifetimes::Of::Image),
+            (None, Some(buffer)) => (self.buffer(buffer).map(ResourceRef::from), lifetimes::Of::Buffer),
             _ => {
                 let help = "write `(image: \"…\", after: …)` or `(buffer: \"…\", after: …)`";
                 self.reader.wrong(leaf, "an output is one image or one buffer", help);

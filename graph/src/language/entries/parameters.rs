@@ -1,5 +1,6 @@
 //! `parameters`: what whoever uses a fragment gives it.
 
+use super::list;
 use super::settings::{LISTED, default_on_step, listed, step};
 use super::values::optional;
 use crate::fields;
@@ -127,8 +128,8 @@ fields! {
     }
 }
 
-/// A parameter, once its fields are told apart.
-pub(crate) fn lower<'src>(reader: &mut Reader, fields: &ParameterFields<'src>) -> Option<Parameter> {
+/// A parameter.
+pub(crate) fn parameter<'src>(reader: &mut Reader, fields: &ParameterFields<'src>) -> Option<Parameter> {
     let name = reader.name(fields.name, "a parameter");
     if let Some(about) = fields.about {
         reader.words(about, "a description")?;
@@ -144,7 +145,7 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(ParameterKind, b
         "Image" => return reader.bare(word, rest).map(|()| (ParameterKind::Image, true)),
         "Buffer" => return reader.bare(word, rest).map(|()| (ParameterKind::Buffer, true)),
         "Format" => {
-            let fields = within::<ParameterFormatFields<'_>>(reader, leaf, rest, "Format(default: …)")?;
+            let fields = list::within::<ParameterFormatFields<'_>>(reader, leaf, rest, "Format(default: …)")?;
             let default = match fields.default {
                 Some(default) => Some(format(reader, default)?),
                 None => None,
@@ -152,7 +153,7 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(ParameterKind, b
             return Some((ParameterKind::Format { default }, default.is_none()));
         }
         "Bool" => {
-            let fields = within::<ParameterBoolFields<'_>>(reader, leaf, rest, "Bool(default: …)")?;
+            let fields = list::within::<ParameterBoolFields<'_>>(reader, leaf, rest, "Bool(default: …)")?;
             let default = match fields.default {
                 Some(default) => reader.truth(default)?,
                 None => false,
@@ -161,7 +162,8 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(ParameterKind, b
         }
         "OneOf" => one_of(reader, leaf, rest)?,
         "Number" => {
-            let fields = within::<ParameterNumberFields<'_>>(reader, leaf, rest, "Number(default: …, min: …, max: …)")?;
+            let fields =
+                list::within::<ParameterNumberFields<'_>>(reader, leaf, rest, "Number(default: …, min: …, max: …)")?;
             let read = |reader: &mut Reader, leaf| reader.number(leaf);
             let (default, min, max) =
                 range(reader, [fields.default, fields.min, fields.max], read, (f64::MIN, f64::MAX))?;
@@ -171,7 +173,7 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(ParameterKind, b
         }
         _ => {
             let fields =
-                within::<ParameterIntegerFields<'_>>(reader, leaf, rest, "Integer(default: …, min: …, max: …)")?;
+                list::within::<ParameterIntegerFields<'_>>(reader, leaf, rest, "Integer(default: …, min: …, max: …)")?;
             let read = |reader: &mut Reader, leaf| reader.integer(leaf);
             let (default, min, max) =
                 range(reader, [fields.default, fields.min, fields.max], read, (i64::MIN, i64::MAX))?;
@@ -184,16 +186,6 @@ fn kind<'src>(reader: &mut Reader, leaf: Leaf<'src>) -> Option<(ParameterKind, b
         default_on_step(reader, default, &kind)?;
     }
     Some((ParameterKind::Value(kind), default_at.is_none()))
-}
-
-/// What stands in parentheses, if there are any.
-fn within<'src, T: crate::ron::FromLeaf<'src> + Default>(
-    reader: &mut Reader,
-    leaf: Leaf<'src>,
-    rest: Option<Leaf<'src>>,
-    form: &str,
-) -> Option<T> {
-    rest.map_or(Some(T::default()), |_| reader.inside(leaf, rest, form))
 }
 
 fn one_of<'src>(

@@ -102,7 +102,7 @@ pub(crate) const PLANE: Form = Form::Choice("a plane", || names(&PLANES));
 /// How many frames to look back.
 pub(crate) const PREVIOUS: Form = Form::Whole(1, MOST_FRAMES);
 
-/// What is said about a part besides the image's name.
+/// The fields of a part besides the image's name.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Selected<'src> {
     pub(crate) mip: Option<Leaf<'src>>,
@@ -243,28 +243,22 @@ impl Context<'_, '_> {
         one: &str,
         several: &str,
     ) -> Option<Selection> {
-        let first = first.map(|leaf| (leaf, self.whole(leaf, one, 0..=MOST_PARTS)));
-        let count = match count {
-            Some(leaf) if matches!(leaf.shape(), Shape::Word("Rest", None)) => {
-                Some((leaf, Some(Subresources::REMAINING)))
-            }
-            Some(leaf) if matches!(leaf.shape(), Shape::Number | Shape::Text) => {
-                Some((leaf, self.whole(leaf, several, 1..=MOST_PARTS)))
-            }
-            Some(leaf) => {
-                self.reader.expected(leaf, "a whole number, an expression in quotes or `Rest`");
-                return None;
-            }
-            None => None,
-        };
-        let spanned = |part: Option<(Leaf<'_>, Option<u32>)>| match part {
-            Some((leaf, value)) => value.map(|value| Some(leaf.spanned(value))),
-            None => Some(None),
-        };
-        Some(Selection { first: spanned(first)?, count: spanned(count)? })
+        let first = optional(first, |leaf| self.whole(leaf, one, 0..=MOST_PARTS).map(|number| leaf.spanned(number)));
+        let count = optional(count, |leaf| {
+            let number = match leaf.shape() {
+                Shape::Word("Rest", None) => Some(Subresources::REMAINING),
+                Shape::Number | Shape::Text => self.whole(leaf, several, 1..=MOST_PARTS),
+                _ => {
+                    self.reader.expected(leaf, "a whole number, an expression in quotes or `Rest`");
+                    None
+                }
+            };
+            number.map(|number| leaf.spanned(number))
+        });
+        Some(Selection { first: first?, count: count? })
     }
 
-    /// `("image")`, what stands behind `Like`.
+    /// The image of `Like("image")`.
     pub(crate) fn like(&mut self, leaf: Leaf<'_>, rest: Option<Leaf<'_>>) -> Option<ImageRef> {
         let [image]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"image\")")?;
         self.image(image)

@@ -1,4 +1,4 @@
-//! `passes`: what each does, when, and what stands in for it when it is off.
+//! A pass: its work, bindings and targets, and what fills its targets when it is off.
 
 use super::pass_fields::PassFields;
 use super::stand_ins::{Of, stand_ins_make_sense};
@@ -10,7 +10,7 @@ use crate::ron::{Name, Reader};
 use std::collections::HashMap;
 
 impl Context<'_, '_> {
-    /// A pass, once its fields are told apart. What has no value because the pass is off is no mistake.
+    /// A pass. An expression that has no value is no mistake if the pass is off.
     pub(crate) fn pass(&mut self, fields: &PassFields<'_>) -> Option<Pass> {
         let name = self.reader.name(fields.name, "a pass");
         let off = self.off(fields.when);

@@ -39,14 +39,14 @@ pub(crate) fn presets(
     settings: &[Option<Setting>],
 ) -> Vec<Option<Preset>> {
     let list: Vec<Option<PresetFields<'_>>> = entries(reader, list, "`presets`", "preset", &mut Names::new("preset"));
-    let lower = |fields: Option<PresetFields<'_>>| {
+    let read = |fields: Option<PresetFields<'_>>| {
         let fields = fields?;
         let name = reader.name(fields.name, "a preset");
         let about = optional(fields.about, |about| reader.words(about, "a description"));
         let set = set(reader, fields.set, settings);
         Some(Preset { name: name?, about: about?, set: set? })
     };
-    list.into_iter().map(lower).collect()
+    list.into_iter().map(read).collect()
 }
 
 /// `{"setting": value, …}`

@@ -66,7 +66,7 @@ impl Context<'_, '_> {
         })
     }
 
-    /// What a pipeline's `depth` says; `None` for what is so without it.
+    /// A pipeline's `depth`; `None`: `Exact`, the default.
     pub(crate) fn depth_policy(&mut self, leaf: Leaf<'_>) -> Option<Option<Resolves>> {
         let (word, because) = self.bare_word(leaf, &POLICIES)?;
         if word == "Exact" {

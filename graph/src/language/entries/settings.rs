@@ -115,12 +115,12 @@ pub(crate) const SETTINGS: Form = Form::List(&Form::Fields(SettingFields::<'stat
 pub(crate) fn list(reader: &mut Reader, list: Option<Leaf<'_>>) -> (Names, Vec<Option<Setting>>) {
     let mut names = Names::new("setting");
     let listed: Vec<Option<SettingFields<'_>>> = entries(reader, list, "`settings`", "setting", &mut names);
-    let lower = |fields: &Option<SettingFields<'_>>| fields.as_ref().and_then(|fields| lower(reader, fields));
-    (names, listed.iter().map(lower).collect())
+    let read = |fields: &Option<SettingFields<'_>>| fields.as_ref().and_then(|fields| setting(reader, fields));
+    (names, listed.iter().map(read).collect())
 }
 
-/// A setting, once its fields are told apart.
-fn lower<'src>(reader: &mut Reader, fields: &SettingFields<'src>) -> Option<Setting> {
+/// A setting.
+fn setting<'src>(reader: &mut Reader, fields: &SettingFields<'src>) -> Option<Setting> {
     let name = reader.name(fields.name, "a setting");
     let about = match fields.about {
         Some(about) => Some(reader.words(about, "a description")?),

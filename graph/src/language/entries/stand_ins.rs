@@ -3,6 +3,7 @@
 use super::{parts, values};
 use crate::base::Diagnostic;
 use crate::fields;
+use crate::frame::Resource;
 use crate::language::model::{Forward, Pass, StandIn};
 use crate::language::scope::Context;
 use crate::ron::{Described, Form, Leaf, Reader, Shape, Takes, Word, Words};
@@ -84,7 +85,7 @@ pub(crate) enum Of {
 }
 
 impl Of {
-    /// What is said of a stand-in for an image that is not written, and what to do.
+    /// The message and the help for a stand-in of an image that is not written.
     const fn foreign(self) -> (&'static str, &'static str) {
         match self {
             Of::Pass => (
@@ -116,7 +117,7 @@ pub(crate) fn stand_ins_make_sense(reader: &mut Reader, conditional: bool, leaf:
             reader.report(same.label(forward.from.span, "the same image"));
             continue;
         }
-        if !pass.written().any(|image| image.index == to.index) {
+        if !pass.written().any(|written| written == Resource::Image(to.index)) {
             let (message, help) = of.foreign();
             reader.report(Diagnostic::new(to.span, message).help(help));
         } else if let Some(first) = first.insert(to.index, to.span) {

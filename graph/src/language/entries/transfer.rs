@@ -2,7 +2,7 @@
 
 use super::bindings::{self, FILTERS};
 use super::parts;
-use super::values::{self};
+use super::values;
 use crate::fields;
 use crate::language::model::{Part, Work};
 use crate::language::scope::Context;

@@ -113,20 +113,11 @@ impl Context<'_, '_> {
     fn argument(&mut self, leaf: Leaf<'_>, parameter: &Parameter) -> Option<DecidedValue> {
         let given = |outcome: Outcome| DecidedValue { value: outcome.value, decided: outcome.decided };
         match &parameter.kind {
-            ParameterKind::Image => {
-                let image = self.image(leaf)?;
-                Some(DecidedValue::from(Value::Image(image.index)))
-            }
-            ParameterKind::Buffer => {
-                let buffer = self.buffer(leaf)?;
-                Some(DecidedValue::from(Value::Buffer(buffer.index)))
-            }
+            ParameterKind::Image => self.image(leaf).map(|image| Value::Image(image.index).into()),
+            ParameterKind::Buffer => self.buffer(leaf).map(|buffer| Value::Buffer(buffer.index).into()),
             ParameterKind::Format { .. } => match leaf.shape() {
                 Shape::Text => self.evaluate(leaf, Wanted::FORMAT).map(given),
-                _ => {
-                    let format = parameters::format(self.reader, leaf)?;
-                    Some(DecidedValue::from(Value::Format(format)))
-                }
+                _ => parameters::format(self.reader, leaf).map(|format| Value::Format(format).into()),
             },
             ParameterKind::Value(kind) => {
                 let given = match leaf.shape() {

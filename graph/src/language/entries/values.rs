@@ -215,10 +215,10 @@ fn constant<'src, T: TryFrom<i64>>(
 /// A field that may be absent: `None` if it is there and wrong.
 pub(crate) fn optional<'src, T>(
     leaf: Option<Leaf<'src>>,
-    lower: impl FnOnce(Leaf<'src>) -> Option<T>,
+    read: impl FnOnce(Leaf<'src>) -> Option<T>,
 ) -> Option<Option<T>> {
     match leaf {
-        Some(leaf) => lower(leaf).map(Some),
+        Some(leaf) => read(leaf).map(Some),
         None => Some(None),
     }
 }

@@ -1,4 +1,4 @@
-//! An evaluation: what it is made for, and how far it has come.
+//! The state of an evaluation: its inputs, its purpose, and the lists that it has made so far.
 
 use super::lists::Flat;
 use crate::base::{Diagnostic, Span};
@@ -19,10 +19,10 @@ use std::sync::Arc;
 pub(crate) enum Purpose {
     /// The pipeline for one choice of values.
     Pipeline,
-    /// To find what is wrong with a file whatever the values. What is repeated never, or nobody knows how often, is looked
-    /// at once.
+    /// A check of a file that was read: only mistakes are reported that don't depend on values. Entries that are repeated
+    /// 0 times, or an unknown number of times, are evaluated once.
     Check,
-    /// To find what is wrong with fragments that are never used. What they make is thrown away.
+    /// A check of fragments that are never used. Their images, buffers and passes are thrown away.
     CheckUnused,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct Evaluation<'a, 't> {
 pub(super) struct Level<'b, 't> {
     pub(super) body: &'b Body<'t>,
     pub(super) values: LevelValues,
-    /// What stands before the names of what it makes.
+    /// The beginning of the names of what it makes: `glow.`.
     pub(super) prefix: Arc<str>,
     /// The view that it is for.
     pub(super) view: ViewIndex,
@@ -61,7 +61,7 @@ pub(super) struct Level<'b, 't> {
     pub(super) off: bool,
 }
 
-/// How often something stands there.
+/// How often an entry is repeated.
 pub(super) enum Count {
     Known(u32),
     /// It depends on images whose properties aren't known yet.
@@ -135,7 +135,7 @@ impl<'a, 't> Evaluation<'a, 't> {
         }
     }
 
-    /// Where the values of an entry of a level are evaluated that is for `view`.
+    /// The context of an entry of a level that is for `view`.
     pub(super) fn context<'s>(
         &'s self,
         reader: &'s mut Reader,
@@ -173,7 +173,7 @@ impl<'a, 't> Evaluation<'a, 't> {
         }
     }
 
-    /// How often something stands there; `early` puts off what depends on images.
+    /// How often an entry is repeated; `early` puts off a number that depends on properties of images.
     pub(super) fn count(
         &mut self,
         reader: &mut Reader,
@@ -202,7 +202,7 @@ impl<'a, 't> Evaluation<'a, 't> {
         if self.makes(reader, count, span.unwrap_or(Span::NONE)) { Count::Known(count) } else { Count::Failed }
     }
 
-    /// Whether there is room for so many more.
+    /// Counts `count` more; `false` if that is more than a pipeline may have, which is reported once.
     fn makes(&mut self, reader: &mut Reader, count: u32, span: Span) -> bool {
         let made = self.made.saturating_add(count);
         if made <= MOST_THINGS {

@@ -1,9 +1,9 @@
-//! What was evaluated so far: the flat lists that become a pipeline.
+//! The flat lists of images, buffers and passes that become a pipeline.
 
 use crate::language::model::{Buffer, Image, Instance, Pass};
 use crate::language::scope::Properties;
 
-/// Flat lists of what a pipeline makes; `None` where a mistake was reported.
+/// Images, buffers, passes and instances that were evaluated so far; `None` where a mistake was reported.
 #[derive(Default)]
 pub(super) struct Flat {
     pub(super) images: Vec<Option<Image>>,
@@ -24,7 +24,7 @@ pub(super) struct Lengths {
 }
 
 impl Flat {
-    /// Lists with so many images and buffers of which nothing is known.
+    /// Lists of images and buffers of which only the number is known.
     pub(super) fn nothing_known(images: u32, buffers: u32) -> Flat {
         let mut flat = Flat::default();
         flat.images.resize_with(images as usize, || None);
@@ -47,7 +47,7 @@ impl Flat {
         self.instances.truncate(to.instances);
     }
 
-    /// A pass that was reported stands for what can't be made: without it there is no pipeline.
+    /// Takes down that something was reported that has no place in the lists: there is no pipeline then.
     pub(super) fn fail(&mut self) {
         self.passes.push(None);
     }

@@ -1,4 +1,4 @@
-//! A document becomes the flat lists of a pipeline, for one choice of settings, scene, view and device.
+//! Entries become the flat lists of a pipeline, for one choice of settings, scene, view and device.
 
 mod circles;
 mod evaluation;

@@ -18,7 +18,8 @@ pub(crate) fn check(
                 kept(images, buffers, part.resource(), previous, errors);
             }
         }
-        for part in written(pass) {
+        // Targets have no field `previous`.
+        for part in pass.work.transferred() {
             if let Some(previous) = part.previous() {
                 let message = "what an earlier frame left can't be written";
                 errors.push(Diagnostic::new(previous.span, message).help("remove `previous`: it is for reading"));
@@ -43,15 +44,6 @@ fn read(pass: &Pass) -> Vec<Part> {
         Work::Draw { .. } | Work::Dispatch { .. } | Work::Fill { .. } => {}
     }
     parts
-}
-
-/// Parts that a pass writes by transfer; targets have no field `previous`.
-fn written(pass: &Pass) -> &[Part] {
-    match &pass.work {
-        Work::Copy { to, .. } | Work::Blit { to, .. } | Work::Fill { to, .. } => std::slice::from_ref(to),
-        Work::Custom { writes, .. } => writes,
-        Work::Draw { .. } | Work::Dispatch { .. } => &[],
-    }
 }
 
 fn kept(

@@ -1,10 +1,10 @@
-//! What expressions may ask of an image: its size, mip levels, layers and samples, as soon as it is lowered.
+//! What expressions may ask of an image: its size, mip levels, layers and samples, as soon as it is evaluated.
 
 use crate::base::Diagnostic;
 use crate::language::model::{Image, ImageRef, ImageShape, Layers, Mips, Samples, Size, area};
 use crate::language::scope::Properties;
 
-/// Properties of an image that is lowered after those whose properties are `known`. `frame` is the size of the frame.
+/// Properties of an image that is evaluated after those whose properties are `known`. `frame` is the size of the frame.
 pub(crate) fn of(image: &Image, known: &[Option<Properties>], frame: [u32; 2]) -> Result<Properties, Diagnostic> {
     let followed = |of: &ImageRef| known.get(of.index.0 as usize).copied().flatten().unwrap_or_default();
     let follows = match &image.size.value {

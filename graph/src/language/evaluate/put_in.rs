@@ -1,4 +1,4 @@
-//! A fragment is put in: its images, buffers and passes, under the name of its use.
+//! A use of a fragment: the fragment's images, buffers and passes are made under the name of the use.
 
 use super::evaluation::{Evaluation, Level, Purpose};
 use crate::base::{Diagnostic, Span};
@@ -105,8 +105,7 @@ impl<'t> Evaluation<'_, 't> {
     fn written_since(&self, start: usize, arguments: &[(Resource, Span)]) -> Vec<Part> {
         let mut written = std::collections::HashSet::new();
         for pass in self.flat.passes.iter().skip(start).flatten() {
-            written.extend(pass.written().map(|image| Resource::Image(image.index)));
-            written.extend(pass.written_buffers().map(|buffer| Resource::Buffer(buffer.index)));
+            written.extend(pass.written());
         }
         let parts = arguments.iter().filter(|(resource, _)| written.contains(resource));
         parts
@@ -143,7 +142,7 @@ impl<'t> Evaluation<'_, 't> {
             return false;
         }
         if self.path.len() >= MOST_NESTED {
-            // What nobody uses is not deep yet; what is left out here is tried by itself.
+            // An unused fragment is not within another; those that it uses are checked by themselves.
             if self.purpose != Purpose::CheckUnused {
                 let message = format!("uses of fragments stand at most {MOST_NESTED} deep in each other");
                 reader.report(Diagnostic::new(name.span, message));

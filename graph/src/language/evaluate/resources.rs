@@ -9,8 +9,8 @@ use crate::ron::Reader;
 use std::ops::Range;
 
 impl<'t> Evaluation<'_, 't> {
-    /// Numbers images and buffers, and evaluates them. A number of repetitions that depends on images waits until those
-    /// above are evaluated; what stands below isn't known to them then.
+    /// Gives images and buffers their indices, then evaluates them. A number of repetitions that depends on images waits until
+    /// the images above are evaluated; those can't refer to images below then.
     pub(super) fn resources(&mut self, reader: &mut Reader, level: &mut Level<'_, 't>) {
         let body = level.body;
         let images = body.images.len();
@@ -94,7 +94,7 @@ impl<'t> Evaluation<'_, 't> {
                 let name = level.full(&image.name, number);
                 Image { name, view, instance: level.instance, ..image }
             }));
-            // What is wrong with one is wrong with all.
+            // The other elements have the same mistake.
             right = reader.errors.len() == before;
         }
     }

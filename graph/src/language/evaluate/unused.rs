@@ -1,5 +1,4 @@
-//! Fragments that nobody uses are checked too: what is wrong with them whatever they are given is said before anybody
-//! uses them.
+//! Unused fragments are checked too: mistakes that don't depend on arguments are reported before a fragment is used.
 
 use super::evaluation::{Evaluation, Level, Purpose};
 use super::lists::Flat;
@@ -13,8 +12,8 @@ use crate::ron::{Name, Reader};
 use crate::vulkan::Format;
 
 impl Evaluation<'_, '_> {
-    /// Evaluates the bodies of fragments that were never put in. Values of which nothing is known stand for what they would
-    /// be given, so that only what is wrong with any is reported.
+    /// Evaluates the bodies of fragments that were never put in. Their arguments are images and buffers of which nothing is
+    /// known, and default values, so that only mistakes are reported that don't depend on arguments.
     pub(super) fn unused(&mut self, reader: &mut Reader) {
         self.purpose = Purpose::CheckUnused;
         let fragments = self.fragments;

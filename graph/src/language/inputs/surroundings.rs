@@ -2,6 +2,7 @@
 
 use super::facts::{Fact, FactType, FactValue, Facts};
 use crate::device::Profile;
+use crate::expression::Type::{Bool, Integer};
 use crate::expression::{Origin, Type, Value};
 use crate::frame::Allowances;
 use crate::vulkan::Format;
@@ -21,88 +22,76 @@ pub struct Surroundings<'a> {
     pub device: Option<&'a Profile>,
 }
 
-/// A name that every pipeline may use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Input {
-    Fact(Fact),
-    View(View),
-    Device(Device),
+/// A name that every pipeline may use, besides facts of the scene.
+struct Input {
+    name: &'static str,
+    ty: Type,
+    origin: Origin,
+    about: &'static str,
+    value: fn(&Surroundings<'_>) -> Value,
 }
 
-/// A property of the view.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum View {
-    Width,
-    Height,
-    Eyes,
-    AllowsMsaa,
-    AllowsHdr,
-    AllowsScale,
+const fn view(name: &'static str, ty: Type, about: &'static str, value: fn(&Surroundings<'_>) -> Value) -> Input {
+    Input { name, ty, origin: Origin::View, about, value }
 }
 
-/// A property of the device.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Device {
-    MaxSamples,
-    MaxSize,
-    MaxLayers,
-    MaxColorTargets,
-    LocalRead,
-    LazilyAllocatedMemory,
-    ComputeQueue,
-    TransferQueue,
+const fn device(name: &'static str, ty: Type, about: &'static str, value: fn(&Surroundings<'_>) -> Value) -> Input {
+    Input { name, ty, origin: Origin::Device, about, value }
 }
 
-const VIEW: [(&str, View, Type, &str); 6] = [
-    ("view.width", View::Width, Type::Integer, "width of the view in texels"),
-    ("view.height", View::Height, Type::Integer, "height of the view in texels"),
-    ("view.eyes", View::Eyes, Type::Integer, "how many eyes see it: 1 or 2"),
-    ("view.allows_msaa", View::AllowsMsaa, Type::Bool, "whether it allows several samples"),
-    ("view.allows_hdr", View::AllowsHdr, Type::Bool, "whether it allows high dynamic range"),
-    ("view.allows_scale", View::AllowsScale, Type::Bool, "whether it allows another size than its own"),
-];
-
-const DEVICE: [(&str, Device, Type, &str); 8] = [
-    ("device.max_samples", Device::MaxSamples, Type::Integer, "most samples that colour and depth both can have"),
-    ("device.max_size", Device::MaxSize, Type::Integer, "most texels of width and height"),
-    ("device.max_layers", Device::MaxLayers, Type::Integer, "most layers of an image"),
-    ("device.max_color_targets", Device::MaxColorTargets, Type::Integer, "most colour targets of a pass"),
-    ("device.local_read", Device::LocalRead, Type::Bool, "whether a pass can read what its own rendering scope draws"),
-    (
+/// Without a device, its properties are the limits of the Vulkan 1.3 specification ("Required Limits", "Feature
+/// Requirements").
+const INPUTS: [Input; 14] = [
+    view("view.width", Integer, "width of the view in texels", |of| Value::Integer(of.extent[0].into())),
+    view("view.height", Integer, "height of the view in texels", |of| Value::Integer(of.extent[1].into())),
+    view("view.eyes", Integer, "how many eyes see it: 1 or 2", |of| Value::Integer(of.eyes.into())),
+    view("view.allows_msaa", Bool, "whether it allows several samples", |of| Value::Bool(of.allows.msaa)),
+    view("view.allows_hdr", Bool, "whether it allows high dynamic range", |of| Value::Bool(of.allows.hdr)),
+    view("view.allows_scale", Bool, "whether it allows another size than its own", |of| Value::Bool(of.allows.scale)),
+    device("device.max_samples", Integer, "most samples that colour and depth both can have", |of| {
+        of.limit(4, max_samples)
+    }),
+    device("device.max_size", Integer, "most texels of width and height", |of| {
+        of.limit(4096, |device| device.max_attachment_extent)
+    }),
+    device("device.max_layers", Integer, "most layers of an image", |of| of.limit(256, |device| device.max_layers)),
+    device("device.max_color_targets", Integer, "most colour targets of a pass", |of| {
+        of.limit(4, |device| device.max_color_attachments)
+    }),
+    device("device.local_read", Bool, "whether a pass can read what its own rendering scope draws", |of| {
+        of.feature(|device| device.local_read)
+    }),
+    device(
         "device.lazily_allocated_memory",
-        Device::LazilyAllocatedMemory,
-        Type::Bool,
+        Bool,
         "whether images that never leave their scope take no memory",
+        |of| of.feature(|device| device.lazily_allocated_memory),
     ),
-    ("device.compute_queue", Device::ComputeQueue, Type::Bool, "whether it has a queue for compute alone"),
-    ("device.transfer_queue", Device::TransferQueue, Type::Bool, "whether it has a queue for transfer alone"),
+    device("device.compute_queue", Bool, "whether it has a queue for compute alone", |of| {
+        of.feature(|device| device.queues.compute)
+    }),
+    device("device.transfer_queue", Bool, "whether it has a queue for transfer alone", |of| {
+        of.feature(|device| device.queues.transfer)
+    }),
 ];
 
-/// All of them, by number.
-fn all() -> impl Iterator<Item = (&'static str, Input, Type, Origin)> {
+/// The name, type, kind and meaning of all of them, by number: facts first.
+fn all() -> impl Iterator<Item = (&'static str, Type, Origin, &'static str)> {
     let facts = Fact::ALL.into_iter().map(|fact| {
         let ty = match fact.ty() {
-            FactType::Bool => Type::Bool,
-            FactType::Integer => Type::Integer,
+            FactType::Bool => Bool,
+            FactType::Integer => Integer,
             FactType::Number => Type::Number,
         };
-        (fact.name(), Input::Fact(fact), ty, Origin::Fact)
+        (fact.name(), ty, Origin::Fact, fact.about())
     });
-    let view = VIEW.into_iter().map(|(name, view, ty, _)| (name, Input::View(view), ty, Origin::View));
-    let device = DEVICE.into_iter().map(|(name, device, ty, _)| (name, Input::Device(device), ty, Origin::Device));
-    facts.chain(view).chain(device)
+    facts.chain(INPUTS.iter().map(|input| (input.name, input.ty, input.origin, input.about)))
 }
 
 /// Every name that begins with `prefix`: "scene", "view" or "device", with its type and what it says.
 pub fn names_of(prefix: &str) -> impl Iterator<Item = (&'static str, Type, &'static str)> {
-    let about = |name: &str| {
-        let facts = Fact::ALL.into_iter().map(|fact| (fact.name(), fact.about()));
-        let view = VIEW.into_iter().map(|(name, _, _, about)| (name, about));
-        let device = DEVICE.into_iter().map(|(name, _, _, about)| (name, about));
-        facts.chain(view).chain(device).find(|(known, _)| *known == name).map_or("", |(_, about)| about)
-    };
     let of_it = move |name: &str| name.split_once('.').is_some_and(|(first, _)| first == prefix);
-    all().filter(move |(name, ..)| of_it(name)).map(move |(name, _, ty, _)| (name, ty, about(name)))
+    all().filter(move |(name, ..)| of_it(name)).map(|(name, ty, _, about)| (name, ty, about))
 }
 
 /// Every such name.
@@ -115,44 +104,29 @@ pub(crate) fn find(name: &str) -> Option<(u32, Type, Origin)> {
     if !name.contains('.') {
         return None;
     }
-    (0..).zip(all()).find(|(_, (known, ..))| *known == name).map(|(at, (_, _, ty, origin))| (at, ty, origin))
+    (0..).zip(all()).find(|(_, (known, ..))| *known == name).map(|(at, (_, ty, origin, _))| (at, ty, origin))
 }
 
 impl Surroundings<'_> {
     /// The value of the name with this number.
     pub(crate) fn value(&self, number: u32) -> Option<Value> {
-        let (_, known, ..) = all().nth(number as usize)?;
-        Some(match known {
-            Input::Fact(fact) => match self.facts.value(fact) {
-                FactValue::Bool(value) => Value::Bool(value),
-                FactValue::Integer(value) => Value::Integer(value),
-                FactValue::Number(value) => Value::Number(value),
-            },
-            Input::View(View::Width) => Value::Integer(self.extent[0].into()),
-            Input::View(View::Height) => Value::Integer(self.extent[1].into()),
-            Input::View(View::Eyes) => Value::Integer(self.eyes.into()),
-            Input::View(View::AllowsMsaa) => Value::Bool(self.allows.msaa),
-            Input::View(View::AllowsHdr) => Value::Bool(self.allows.hdr),
-            Input::View(View::AllowsScale) => Value::Bool(self.allows.scale),
-            Input::Device(device) => self.of_device(device),
+        let number = number as usize;
+        let Some(fact) = Fact::ALL.get(number) else {
+            return INPUTS.get(number - Fact::ALL.len()).map(|input| (input.value)(self));
+        };
+        Some(match self.facts.value(*fact) {
+            FactValue::Bool(value) => Value::Bool(value),
+            FactValue::Integer(value) => Value::Integer(value),
+            FactValue::Number(value) => Value::Number(value),
         })
     }
 
-    /// Where there is no device, the limits of the Vulkan 1.3 specification ("Required Limits", "Feature Requirements").
-    fn of_device(&self, asked: Device) -> Value {
-        let device = self.device;
-        let count = |value: Option<u32>, least: u32| Value::Integer(value.unwrap_or(least).into());
-        let has = |value: Option<bool>| Value::Bool(value.unwrap_or(false));
-        match asked {
-            Device::MaxSamples => count(device.map(max_samples), 4),
-            Device::MaxSize => count(device.map(|device| device.max_attachment_extent), 4096),
-            Device::MaxLayers => count(device.map(|device| device.max_layers), 256),
-            Device::MaxColorTargets => count(device.map(|device| device.max_color_attachments), 4),
-            Device::LocalRead => has(device.map(|device| device.local_read)),
-            Device::LazilyAllocatedMemory => has(device.map(|device| device.lazily_allocated_memory)),
-            Device::ComputeQueue => has(device.map(|device| device.queues.compute)),
-            Device::TransferQueue => has(device.map(|device| device.queues.transfer)),
-        }
+    fn limit(&self, least: u32, of: impl Fn(&Profile) -> u32) -> Value {
+        Value::Integer(self.device.map_or(least, of).into())
+    }
+
+    fn feature(&self, of: impl Fn(&Profile) -> bool) -> Value {
+        Value::Bool(self.device.is_some_and(of))
     }
 }
 

@@ -49,7 +49,7 @@ pub struct InForce {
 /// Who chose a setting's value, from the weakest to the strongest.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ChosenBy {
-    /// Nobody: it is the default.
+    /// It is the default, which was not changed.
     Default,
     /// The preset of that name.
     Preset(Arc<str>),

@@ -1,4 +1,4 @@
-//! A pipeline as data, and what a user may choose of it.
+//! A pipeline as data: images, buffers, passes, views, outputs and settings.
 
 mod area;
 mod choices;

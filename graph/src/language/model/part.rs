@@ -70,11 +70,10 @@ impl ImagePart {
 impl Part {
     /// Which image or buffer, and where it was named.
     #[must_use]
-    pub const fn resource(&self) -> ResourceRef {
-        use crate::frame::Resource::{Buffer, Image};
+    pub fn resource(&self) -> ResourceRef {
         match self {
-            Part::Image(part) => ResourceRef { resource: Image(part.image.index), span: part.image.span },
-            Part::Buffer(part) => ResourceRef { resource: Buffer(part.buffer.index), span: part.buffer.span },
+            Part::Image(part) => part.image.into(),
+            Part::Buffer(part) => part.buffer.into(),
         }
     }
 

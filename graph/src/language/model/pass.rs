@@ -1,10 +1,10 @@
 //! What a pipeline file says of a pass: what it does, with which parts of which images and buffers, and when.
 
 use super::part::{BufferPart, ImagePart, Part};
-use super::references::{BufferRef, ImageRef};
+use super::references::ImageRef;
 use super::resources::Fill;
 use crate::base::Span;
-use crate::frame::{Blend, Cascade, DrawList, ParamValue, StencilState, ViewIndex};
+use crate::frame::{Blend, Cascade, DrawList, ParamValue, Resource, StencilState, ViewIndex};
 use crate::ron::{Name, Spanned};
 use crate::vulkan::{AddressMode, CompareOp, Filter};
 use std::sync::Arc;
@@ -130,7 +130,7 @@ pub enum Draw {
     Sky,
     /// One triangle that covers every pixel.
     FullScreen,
-    /// So many vertices (or indices) of triangles.
+    /// A number of vertices (or indices) of triangles.
     Vertices {
         /// How many.
         count: u32,
@@ -144,9 +144,9 @@ pub enum Draw {
 /// How many workgroups a dispatch has.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Groups {
-    /// So many in x, y and z.
+    /// A number in x, y and z.
     Count([u32; 3]),
-    /// As many as cover so many invocations in x, y and z.
+    /// As many as cover a number of invocations in x, y and z.
     Invocations([u32; 3]),
     /// As many as cover one invocation for each texel of an image, its layers or depth in z.
     Texels(ImagePart),
@@ -293,6 +293,17 @@ impl StandIn {
     }
 }
 
+impl Work {
+    /// Parts that it writes by transfer.
+    pub(crate) const fn transferred(&self) -> &[Part] {
+        match self {
+            Work::Copy { to, .. } | Work::Blit { to, .. } | Work::Fill { to, .. } => std::slice::from_ref(to),
+            Work::Custom { writes, .. } => writes.as_slice(),
+            Work::Draw { .. } | Work::Dispatch { .. } => &[],
+        }
+    }
+}
+
 impl Pass {
     /// One that does nothing.
     pub(crate) fn idle(name: Name) -> Pass {
@@ -318,34 +329,12 @@ impl Pass {
         }
     }
 
-    /// Images that it may write.
-    pub(crate) fn written(&self) -> impl Iterator<Item = ImageRef> {
+    /// Images and buffers that it may write.
+    pub(crate) fn written(&self) -> impl Iterator<Item = Resource> {
         let targets = self.color.iter().map(|color| color.part).chain(self.depth.as_ref().map(|depth| depth.part));
         let storage = self.storage.iter().map(|storage| storage.part);
-        let transferred = match &self.work {
-            Work::Copy { to, .. } | Work::Blit { to, .. } | Work::Fill { to, .. } => std::slice::from_ref(to),
-            Work::Custom { writes, .. } => writes,
-            Work::Draw { .. } | Work::Dispatch { .. } => &[],
-        };
-        let parts = storage.chain(transferred.iter().copied()).filter_map(|part| match part {
-            Part::Image(part) => Some(part),
-            Part::Buffer(_) => None,
-        });
-        targets.chain(parts).map(|part| part.image)
-    }
-
-    /// Buffers that it may write.
-    pub(crate) fn written_buffers(&self) -> impl Iterator<Item = BufferRef> {
-        let storage = self.storage.iter().map(|storage| storage.part);
-        let transferred = match &self.work {
-            Work::Copy { to, .. } | Work::Fill { to, .. } => std::slice::from_ref(to),
-            Work::Custom { writes, .. } => writes,
-            Work::Blit { .. } | Work::Draw { .. } | Work::Dispatch { .. } => &[],
-        };
-        storage.chain(transferred.iter().copied()).filter_map(|part| match part {
-            Part::Buffer(part) => Some(part.buffer),
-            Part::Image(_) => None,
-        })
+        let parts = targets.map(Part::Image).chain(storage).chain(self.work.transferred().iter().copied());
+        parts.map(|part| part.resource().resource)
     }
 
     /// The name of its shader, or of what the embedding program records; copies, blits and fills have none.

@@ -39,7 +39,7 @@ pub struct Pipeline {
     pub removed: Vec<RemovedPass>,
 }
 
-/// A pass that is no longer there: whoever misses what it wrote is told so.
+/// A pass that was removed. Messages about images that are not written name it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RemovedPass {
     /// Its name.
@@ -53,7 +53,7 @@ pub struct RemovedPass {
 /// A fragment that was put in.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Instance {
-    /// The whole name, which what is in it has before its own: `glow`, `effects.glow[1]`.
+    /// The whole name: `glow`, `effects.glow[1]`. The names of what it makes begin with it.
     pub name: Arc<str>,
     /// Where its use is named.
     pub span: Span,

@@ -29,3 +29,15 @@ pub struct ResourceRef {
     /// Where it was named.
     pub span: Span,
 }
+
+impl From<ImageRef> for ResourceRef {
+    fn from(ImageRef { index, span }: ImageRef) -> ResourceRef {
+        ResourceRef { resource: Resource::Image(index), span }
+    }
+}
+
+impl From<BufferRef> for ResourceRef {
+    fn from(BufferRef { index, span }: BufferRef) -> ResourceRef {
+        ResourceRef { resource: Resource::Buffer(index), span }
+    }
+}

@@ -114,7 +114,7 @@ pub enum Size {
         /// Of which image; `None`: of the view.
         of: Option<ImageRef>,
     },
-    /// So many texels, 1 to 16384 each.
+    /// Width and height in texels, 1 to 16384 each.
     Fixed([u32; 2]),
     /// That of another image.
     Like(ImageRef),
@@ -123,7 +123,7 @@ pub enum Size {
 /// Samples a texel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Samples {
-    /// So many: 1, 2, 4, 8 or 16.
+    /// A number: 1, 2, 4, 8 or 16.
     Count(u32),
     /// As another image has.
     Like(ImageRef),
@@ -132,7 +132,7 @@ pub enum Samples {
 /// Mip levels of an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Mips {
-    /// So many.
+    /// A number.
     Count(u32),
     /// Down to a single texel.
     Full,
@@ -145,7 +145,7 @@ pub enum Mips {
 pub enum Layers {
     /// One, or the six of a cube: the file says nothing.
     Default,
-    /// So many; of a cube a multiple of 6.
+    /// A number; of a cube a multiple of 6.
     Count(u32),
     /// As another image has.
     Like(ImageRef),
@@ -156,7 +156,7 @@ pub enum Layers {
 pub enum Shape {
     /// Two-dimensional, or an array of such layers.
     D2,
-    /// Three-dimensional, so many texels deep.
+    /// Three-dimensional, with this depth in texels.
     D3(u32),
     /// Six square layers that may be sampled as a cube, or several times six.
     Cube,
@@ -180,11 +180,11 @@ pub struct Buffer {
 /// Size of a buffer, in bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bytes {
-    /// So many, a multiple of 4.
+    /// A number, a multiple of 4.
     Count(u64),
-    /// So many for each of so many things; rounded up to a multiple of 4.
+    /// Bytes of one element, times a number of elements; rounded up to a multiple of 4.
     Times(u64, u64),
-    /// So many for each texel of an image's first mip level, layers and depth included; rounded up to a multiple of 4.
+    /// Bytes of one texel, times the number of texels of an image's first mip level, layers and depth included; rounded up to a multiple of 4.
     PerTexel(u64, ImageRef),
     /// As another buffer has.
     Like(BufferRef),

@@ -10,12 +10,12 @@ use crate::ron::{Leaf, Reader, Shape};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// What a method needs that reads a value: where mistakes are reported, and what names stand for. The files of `entries`
-/// add methods to it.
+/// The context of an entry: the reader that mistakes are reported to, and the scope that names are looked up in. The files
+/// of `entries` add methods to it, one for each kind of value: `samples(leaf)`, `size(leaf)`, `lifetime(leaf)`.
 pub(crate) struct Context<'c, 'a> {
     pub(crate) reader: &'c mut Reader,
     pub(crate) scope: Scope<'a>,
-    /// Whether any value was missing leniently.
+    /// Whether an expression had no value, and that was no mistake.
     pub(crate) forgave: bool,
 }
 
@@ -41,7 +41,7 @@ impl<'c, 'a> Context<'c, 'a> {
         Context { reader, scope, forgave: false }
     }
 
-    /// Evaluates what is off, if it is: values that there are not are no mistake then.
+    /// Evaluates something that may be `off`: then an expression without a value is no mistake.
     pub(crate) fn leniently<T>(&mut self, off: bool, evaluate: impl FnOnce(&mut Self) -> T) -> T {
         let lenient = self.scope.lenient;
         self.scope.lenient |= off;
@@ -130,7 +130,7 @@ impl<'c, 'a> Context<'c, 'a> {
         expression
     }
 
-    /// Reports what is wrong with a value, unless an expression says one for something that is off.
+    /// Reports a mistake in a value, unless the value is an expression of something that is off.
     pub(crate) fn fault(&mut self, leaf: Leaf<'_>, diagnostic: Diagnostic) {
         if self.scope.lenient && matches!(leaf.shape(), Shape::Text) {
             self.forgave = true;

@@ -25,7 +25,7 @@ pub(crate) enum Elements {
     Below,
     /// A mistake in it was reported.
     Failed,
-    /// From `first` on, so many.
+    /// `count` of them, from the index `first` on.
     At { first: u32, count: u32 },
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct LevelValues {
     pub(crate) buffers: Vec<Elements>,
 }
 
-/// What is known of an image that was lowered; `None`: it follows something further below.
+/// Properties of an image that was evaluated; `None`: it follows an image further below.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Properties {
     pub(crate) area: Option<Area>,

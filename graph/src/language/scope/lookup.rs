@@ -1,4 +1,4 @@
-//! What the names at one place of a file stand for.
+//! The scope of an entry: settings or parameters, images, buffers, the scene, the view and the device.
 
 use super::level::{DecidedValue, Elements, LevelValues, Properties};
 use super::parameter::Parameter;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// Expressions that were checked, by their place; `None` where a mistake was reported.
 pub(crate) type Checked = RefCell<HashMap<Span, Option<Rc<Expression>>>>;
 
-/// Everything that a name in quotes may stand for. A handle, copied freely.
+/// Everything that a name in quotes may refer to. A handle, copied freely.
 #[derive(Clone, Copy)]
 pub(crate) struct Scope<'a> {
     pub(crate) symbols: &'a Symbols,
@@ -29,7 +29,7 @@ pub(crate) struct Scope<'a> {
     /// The index of the repetition at hand.
     pub(crate) index: Option<(&'a Name, u32)>,
     pub(crate) checked: &'a Checked,
-    /// Whether values that there are not are no mistake: what they are for is off.
+    /// Whether an expression without a value is no mistake, because it belongs to something that is off.
     pub(crate) lenient: bool,
     /// The view that the entry is for, unless it is the main one.
     pub(crate) view: Option<&'a Name>,

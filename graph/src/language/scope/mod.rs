@@ -1,4 +1,4 @@
-//! The names of one level of a file, and the values of what stands in quotes.
+//! The names of one level of a file, and the values of texts in quotes: references and expressions.
 
 mod context;
 mod expressions;

@@ -14,7 +14,7 @@ pub(crate) struct Parameter {
     pub(crate) name: Name,
     /// What it may be.
     pub(crate) kind: ParameterKind,
-    /// Whether whoever uses the fragment has to give it. What settings are is chosen elsewhere.
+    /// Whether a use of the fragment has to give it. Settings have values anyway.
     pub(crate) required: bool,
 }
 

@@ -146,6 +146,22 @@ fn a_pass_that_is_off_needs_no_values() {
 }
 
 #[test]
+fn a_use_that_is_off_needs_no_number_of_repetitions() {
+    let text = r#"Pipeline(version: 1,
+        settings: [(name: "levels", value: Integer(default: 0, min: 0, max: 8))],
+        fragments: [(name: "chain", parameters: [(name: "target", value: Image), (name: "count", value: Integer)],
+            images: [(name: "down", repeat: ("i", "count - 1"), format: Color, size: Output)],
+            passes: [(name: "clear", fill: (to: "target", value: 0))])],
+        images: [(name: "screen", format: Output, size: Output)],
+        passes: [(name: "sky", draw: Sky, color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]),
+            (use: "chain", name: "chain", when: "levels > 0", with: {"target": "screen", "count": "levels"})],
+        outputs: ["screen"])"#;
+    assert_eq!(right(text, &INPUTS).switched_off[0].because, "levels = 0");
+    let set = [("levels".to_owned(), "2".to_owned())];
+    assert_eq!(names(&right(text, &Inputs { set: &set, ..INPUTS })).1, ["sky", "chain.clear"]);
+}
+
+#[test]
 fn steps_and_texts_are_kept_by_settings() {
     let text = CHAIN.replace("Integer(default: 3, min: 0, max: 8)", "Integer(default: 3, min: 1, max: 8, step: 2)");
     let chosen = |value: &str| [("levels".to_owned(), value.to_owned())];

@@ -56,7 +56,7 @@ fn a_plan_survives_its_json_form() {
 /// Nothing but the words that a Plan is written in, and every file is part of it.
 #[test]
 fn the_checker_shares_nothing_with_the_compiler() {
-    const WORDS: [&str; 8] = ["format", "frame", "interface", "plan", "rotation", "texture", "view", "vocabulary"];
+    const WORDS: [&str; 4] = ["frame", "plan", "shader", "vulkan"];
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/verify");
     let modules = std::fs::read_to_string(folder.join("mod.rs")).unwrap();
     let mut files = 0;
