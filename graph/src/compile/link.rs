@@ -110,9 +110,11 @@ struct Linker<'f> {
 
 impl Linker<'_> {
     fn pass(&mut self, pass: &Pass) {
-        pass.accesses().filter(|access| access.frames_ago == 0).for_each(|access| {
-            let image = access.image_index().map(|image| &self.frame.images[image.0 as usize]);
-            access.for_each_effect(pass, image, |effect| self.effect(pass, &access, image, effect));
+        pass.accesses().for_each(|access| {
+            if access.frames_ago() == 0 {
+                let image = access.image_index().map(|image| &self.frame.images[image.0 as usize]);
+                access.for_each_effect(pass, image, |effect| self.effect(pass, &access, image, effect));
+            }
         });
     }
 
@@ -150,12 +152,12 @@ impl Linker<'_> {
 
     /// Notes one access. Later passes alone can read its writes ([`Linker::commit`]).
     fn access(&mut self, pass: &Pass, access: &Access<'_>, part: u32, effect: Effect) {
-        let (Access { resource, span, .. }, Effect { reads, writes, .. }) = (*access, effect);
+        let (resource, Effect { reads, writes, .. }) = (access.resource(), effect);
         let part = self.first_part[self.number(resource)] + part;
         if reads && !self.written[part as usize] {
             // Reported once for each part.
             self.written[part as usize] = true;
-            let (name, pass) = (self.name(resource), &pass.name);
+            let (name, pass, span) = (self.name(resource), &pass.name, access.span());
             let message = if writes {
                 format!("`{pass}` is the first to write `{name}`, and may leave parts of it untouched")
             } else {

@@ -40,11 +40,13 @@ impl Grids {
             }
         }
         for pass in &frame.passes {
-            for access in pass.accesses().filter(|access| access.range != Subresources::WHOLE) {
-                if let Some(image) = access.image_index() {
-                    grids.cut(frame, image, access.range);
+            pass.accesses().for_each(|access| {
+                if let (Some(image), range) = (access.image_index(), access.range())
+                    && range != Subresources::WHOLE
+                {
+                    grids.cut(frame, image, range);
                 }
-            }
+            });
             grids.cut_copies(frame, pass);
         }
         grids

@@ -3,7 +3,7 @@
 use super::parts::{self, Cells};
 use super::things::Things;
 use crate::base::Span;
-use crate::frame::{Access, AccessKind, Effect, Image, Pass, Resource};
+use crate::frame::{Access, Effect, Image, Pass, Resource};
 use crate::vulkan::{Aspects, Subresources};
 
 /// A read.
@@ -47,7 +47,7 @@ fn part(things: &Things, resource: Resource, range: &Subresources) -> Option<Cel
 pub(super) fn reads(things: &Things, pass: &Pass) -> Vec<Read> {
     let mut reads = Vec::new();
     for access in pass.accesses().filter(|access| !access.attaches()) {
-        let Access { resource, frames_ago, span, .. } = access;
+        let (resource, frames_ago, span) = (access.resource(), access.frames_ago(), access.span());
         access.for_each_effect(pass, image(things, resource), |effect| {
             if effect.reads
                 && let Some(cells) = part(things, resource, &effect.range)
@@ -63,14 +63,12 @@ pub(super) fn reads(things: &Things, pass: &Pass) -> Vec<Read> {
 pub(super) fn writes(things: &Things, pass: &Pass) -> Vec<Write> {
     let mut writes = Vec::new();
     for access in pass.accesses() {
-        let Access { resource, span, kind, .. } = access;
+        let (resource, span) = (access.resource(), access.span());
         access.for_each_effect(pass, image(things, resource), |Effect { range, reads, writes: changes }| {
-            let clear = match kind {
-                AccessKind::Color(_) => Some("(image: \"…\", clear: (0.0, 0.0, 0.0, 1.0))"),
-                AccessKind::Depth(_) if range.aspects == Aspects::STENCIL => {
-                    Some("(image: \"…\", stencil: (clear: 0))")
-                }
-                AccessKind::Depth(_) => Some("(image: \"…\", clear: 0.0)"),
+            let clear = match access {
+                Access::Color(_) => Some("(image: \"…\", clear: (0.0, 0.0, 0.0, 1.0))"),
+                Access::Depth(_) if range.aspects == Aspects::STENCIL => Some("(image: \"…\", stencil: (clear: 0))"),
+                Access::Depth(_) => Some("(image: \"…\", clear: 0.0)"),
                 _ => None,
             };
             if (clear.is_some() || changes)
@@ -86,5 +84,5 @@ pub(super) fn writes(things: &Things, pass: &Pass) -> Vec<Write> {
 /// Images and buffers whose contents `pass` would make, were it on.
 pub(super) fn would_write(pass: &Pass) -> impl Iterator<Item = (Resource, Span)> {
     let writes = |access: &Access<'_>| access.attaches() || access.writes(pass, None);
-    pass.accesses().filter(writes).map(|access| (access.resource, access.span))
+    pass.accesses().filter(writes).map(|access| (access.resource(), access.span()))
 }

@@ -10,7 +10,7 @@ use super::state::State;
 use super::things::Things;
 use super::variant;
 use crate::base::Span;
-use crate::frame::{AccessKind, Blend, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
+use crate::frame::{Access, Blend, ChosenFormat, Draw, ImageIndex, Lifetime, Output, Pass, Remark, Resource, Work};
 use crate::language::{self, Format as Described, Precision, Precisions};
 use crate::shader::AlphaUse;
 use crate::vulkan::Format;
@@ -222,9 +222,9 @@ impl Uses {
         for pass in &passes {
             for access in pass.accesses().filter(|access| pass.relies_on_format(access, format)) {
                 if let Some(image) = access.image_index() {
-                    let storage = matches!(access.kind, AccessKind::Storage(_));
+                    let storage = matches!(access, Access::Storage(_));
                     let what = if storage { "uses it as a storage image" } else { "moves its bytes" };
-                    uses.fix(image, format!("`{}` {what}", pass.name), access.span);
+                    uses.fix(image, format!("`{}` {what}", pass.name), access.span());
                 }
             }
         }

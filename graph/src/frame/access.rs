@@ -1,35 +1,23 @@
 //! What a pass accesses: its images and buffers, which part of each, and whether that is read and written.
 
 use super::{
-    BufferRole, ColorTarget, DepthTarget, Image, ImageIndex, Pass, Resource, Sampled, Storage, TransferUse, Work,
+    BufferRole, BufferUse, ColorTarget, DepthTarget, Image, ImageIndex, Pass, Resource, Sampled, Storage, TransferUse,
+    Work,
 };
 use crate::base::Span;
 use crate::vulkan::{Format, Subresources};
 
-/// An image or a buffer that a pass names.
+/// An image or a buffer that a pass names, by the role in which it does.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Access<'p> {
-    pub(crate) resource: Resource,
-    /// The part of an image, as the pass names it; of depth attachments without planes.
-    pub(crate) range: Subresources,
-    /// Of which frame: 0 is this one, 1 the one before.
-    pub(crate) frames_ago: u32,
-    /// Where it is named.
-    pub(crate) span: Span,
-    pub(crate) kind: AccessKind<'p>,
-}
-
-/// The role in which a pass names an image or a buffer.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum AccessKind<'p> {
+pub(crate) enum Access<'p> {
     Sampled(&'p Sampled),
     Storage(&'p Storage),
     Color(&'p ColorTarget),
     Depth(&'p DepthTarget),
-    Buffer(BufferRole),
-    Transfer { write: bool },
-    ForwardSource,
-    ForwardTarget,
+    Buffer(&'p BufferUse),
+    Transfer(&'p TransferUse),
+    ForwardSource(ImageIndex, Span),
+    ForwardTarget(ImageIndex, Span),
 }
 
 /// What an access does with one part.
@@ -45,36 +33,18 @@ pub(crate) struct Effect {
 
 impl Pass {
     /// All that it accesses: what is sampled, storage images, attachments, buffers, transfers, then what is forwarded.
+    #[inline]
     pub(crate) fn accesses(&self) -> impl Iterator<Item = Access<'_>> {
-        let image =
-            |image, range, span, kind| Access { resource: Resource::Image(image), range, frames_ago: 0, span, kind };
-        let sampled = self.sampled.iter().map(move |it| {
-            let kind = AccessKind::Sampled(it);
-            Access { frames_ago: it.frames_ago, ..image(it.image, it.range, it.span, kind) }
-        });
-        let storage = self.storage.iter().map(move |it| image(it.image, it.range, it.span, AccessKind::Storage(it)));
-        let color = self.color.iter().map(move |it| image(it.image, it.range, it.span, AccessKind::Color(it)));
-        let depth = self.depth.iter().map(move |it| {
-            let range = Subresources { aspects: Subresources::WHOLE.aspects, ..it.range };
-            image(it.image, range, it.span, AccessKind::Depth(it))
-        });
-        let buffers = self.buffers.iter().map(|it| {
-            let (resource, kind) = (Resource::Buffer(it.buffer), AccessKind::Buffer(it.role));
-            Access { resource, range: Subresources::WHOLE, frames_ago: it.frames_ago, span: it.span, kind }
-        });
-        let transfers = self.transfers.iter().map(|it| {
-            let TransferUse { resource, range, frames_ago, span, write } = *it;
-            Access { resource, range, frames_ago, span, kind: AccessKind::Transfer { write } }
-        });
+        let images = self.sampled.iter().map(Access::Sampled).chain(self.storage.iter().map(Access::Storage));
+        let attachments = self.color.iter().map(Access::Color).chain(self.depth.iter().map(Access::Depth));
+        let others = self.buffers.iter().map(Access::Buffer).chain(self.transfers.iter().map(Access::Transfer));
         let forwarded = match self.work {
             Work::Forward { from, to, .. } => {
-                Some([(from, AccessKind::ForwardSource), (to, AccessKind::ForwardTarget)])
+                Some([Access::ForwardSource(from, self.span), Access::ForwardTarget(to, self.span)])
             }
             _ => None,
         };
-        let forwarded = forwarded.into_iter().flatten();
-        let forwarded = forwarded.map(move |(it, kind)| image(it, Subresources::WHOLE, self.span, kind));
-        sampled.chain(storage).chain(color).chain(depth).chain(buffers).chain(transfers).chain(forwarded)
+        images.chain(attachments).chain(others).chain(forwarded.into_iter().flatten())
     }
 
     /// Whether it relies on the very format of what it accesses: a shader or a program is told the layout of the texels, or
@@ -82,9 +52,9 @@ impl Pass {
     pub(crate) fn relies_on_format(&self, access: &Access<'_>, format: impl Fn(ImageIndex) -> Option<Format>) -> bool {
         let is_buffer = |used: &TransferUse| matches!(used.resource, Resource::Buffer(_));
         let converts = || self.moved_images().is_some_and(|[from, to]| format(from) != format(to));
-        match (access.kind, &self.work) {
-            (AccessKind::Storage(_), _) | (AccessKind::Transfer { .. }, Work::Custom { .. }) => true,
-            (AccessKind::Transfer { .. }, Work::Copy) => self.transfers.iter().any(is_buffer) || converts(),
+        match (access, &self.work) {
+            (Access::Storage(_), _) | (Access::Transfer(_), Work::Custom { .. }) => true,
+            (Access::Transfer(_), Work::Copy) => self.transfers.iter().any(is_buffer) || converts(),
             _ => false,
         }
     }
@@ -109,9 +79,61 @@ impl Pass {
 }
 
 impl Access<'_> {
+    /// The image or buffer.
+    #[inline]
+    pub(crate) fn resource(&self) -> Resource {
+        match *self {
+            Access::Sampled(it) => Resource::Image(it.image),
+            Access::Storage(it) => Resource::Image(it.image),
+            Access::Color(it) => Resource::Image(it.image),
+            Access::Depth(it) => Resource::Image(it.image),
+            Access::Buffer(it) => Resource::Buffer(it.buffer),
+            Access::Transfer(it) => it.resource,
+            Access::ForwardSource(image, _) | Access::ForwardTarget(image, _) => Resource::Image(image),
+        }
+    }
+
+    /// The part of an image, as the pass names it; of depth attachments without planes.
+    #[inline]
+    pub(crate) fn range(&self) -> Subresources {
+        match *self {
+            Access::Sampled(it) => it.range,
+            Access::Storage(it) => it.range,
+            Access::Color(it) => it.range,
+            Access::Depth(it) => Subresources { aspects: Subresources::WHOLE.aspects, ..it.range },
+            Access::Transfer(it) => it.range,
+            Access::Buffer(_) | Access::ForwardSource(..) | Access::ForwardTarget(..) => Subresources::WHOLE,
+        }
+    }
+
+    /// Of which frame: 0 is this one, 1 the one before.
+    #[inline]
+    pub(crate) fn frames_ago(&self) -> u32 {
+        match *self {
+            Access::Sampled(it) => it.frames_ago,
+            Access::Buffer(it) => it.frames_ago,
+            Access::Transfer(it) => it.frames_ago,
+            _ => 0,
+        }
+    }
+
+    /// Where it is named.
+    pub(crate) fn span(&self) -> Span {
+        match *self {
+            Access::Sampled(it) => it.span,
+            Access::Storage(it) => it.span,
+            Access::Color(it) => it.span,
+            Access::Depth(it) => it.span,
+            Access::Buffer(it) => it.span,
+            Access::Transfer(it) => it.span,
+            Access::ForwardSource(_, span) | Access::ForwardTarget(_, span) => span,
+        }
+    }
+
     /// Its image; `None`: it is a buffer.
+    #[inline]
     pub(crate) fn image_index(&self) -> Option<ImageIndex> {
-        match self.resource {
+        match self.resource() {
             Resource::Image(image) => Some(image),
             Resource::Buffer(_) => None,
         }
@@ -119,32 +141,31 @@ impl Access<'_> {
 
     /// Whether it is an attachment.
     pub(crate) fn attaches(&self) -> bool {
-        matches!(self.kind, AccessKind::Color(_) | AccessKind::Depth(_))
+        matches!(self, Access::Color(_) | Access::Depth(_))
     }
 
     /// Calls `visit` with what `pass`, whose access it is, does with each part. `image`: the one of an access to an image.
     #[inline]
     pub(crate) fn for_each_effect(&self, pass: &Pass, image: Option<&Image>, mut visit: impl FnMut(Effect)) {
-        let range = self.range;
-        let (reads, writes) = match (self.kind, image) {
-            (AccessKind::Sampled(_), Some(image)) => {
-                return visit(Effect { range: image.sampled_part(range), reads: true, writes: false });
+        let (reads, writes) = match (*self, image) {
+            (Access::Sampled(it), Some(image)) => {
+                return visit(Effect { range: image.sampled_part(it.range), reads: true, writes: false });
             }
-            (AccessKind::Color(target), Some(image)) => (pass.keeps_color(target, image), true),
-            (AccessKind::Depth(target), Some(image)) => {
+            (Access::Color(target), Some(image)) => (pass.keeps_color(target, image), true),
+            (Access::Depth(target), Some(image)) => {
                 return target.planes(image.format).for_each(|(plane, _, writes)| {
                     let reads = pass.keeps_plane(target, plane, image);
-                    visit(Effect { range: Subresources { aspects: plane, ..range }, reads, writes });
+                    visit(Effect { range: Subresources { aspects: plane, ..target.range }, reads, writes });
                 });
             }
-            (AccessKind::Sampled(_) | AccessKind::Color(_) | AccessKind::Depth(_), None) => return,
-            (AccessKind::Storage(storage), _) => (storage.read, storage.write),
-            (AccessKind::Buffer(role), _) => (role.reads(), role.writes()),
-            (AccessKind::Transfer { write }, _) => (!write, write),
-            (AccessKind::ForwardSource, _) => (true, false),
-            (AccessKind::ForwardTarget, _) => (false, true),
+            (Access::Sampled(_) | Access::Color(_) | Access::Depth(_), None) => return,
+            (Access::Storage(storage), _) => (storage.read, storage.write),
+            (Access::Buffer(used), _) => (used.role.reads(), used.role.writes()),
+            (Access::Transfer(used), _) => (!used.write, used.write),
+            (Access::ForwardSource(..), _) => (true, false),
+            (Access::ForwardTarget(..), _) => (false, true),
         };
-        visit(Effect { range, reads, writes });
+        visit(Effect { range: self.range(), reads, writes });
     }
 
     /// Whether it changes any part of its image or buffer.

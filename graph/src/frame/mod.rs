@@ -16,7 +16,7 @@ mod texture;
 mod uses;
 mod view;
 
-pub(crate) use access::{Access, AccessKind, Effect};
+pub(crate) use access::{Access, Effect};
 pub use index::{BufferIndex, ImageIndex, Resource};
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use output::Output;

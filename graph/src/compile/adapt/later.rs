@@ -21,11 +21,11 @@ impl Later {
                     later.write[image.0 as usize] = Some(*number);
                 }
             };
-            for access in pass.accesses() {
+            pass.accesses().for_each(|access| {
                 if let Some(index) = access.image_index() {
                     touch(index, access.writes(pass, Some(&frame.images[index.0 as usize])));
                 }
-            }
+            });
         }
         later
     }

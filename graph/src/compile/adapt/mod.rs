@@ -38,7 +38,7 @@ pub(super) fn adapt(input: Input<'_>) -> Result<Adapted, Vec<Diagnostic>> {
     adapter.demotions = demote::find(&input, &mut adapter.adapted.notes);
     adapter.adapted.stores.reserve(frame.images.len());
     adapter.adapted.ops.reserve(live.passes.len());
-    adapter.adapted.uses.reserve(live.passes.len() * 4);
+    adapter.adapted.uses.reserve(live.passes.len() * 4 + frame.images.len());
     for pass in &live.passes {
         adapter.pass(*pass);
     }

@@ -10,7 +10,7 @@ use crate::compile::fit::drawn_together;
 use crate::compile::model::{OpKind, ResolveShader, StoreIndex, Use};
 use crate::compile::parts::join;
 use crate::device::Profile;
-use crate::frame::{AccessKind, EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource};
+use crate::frame::{Access, EyeForm, Face, Frame, ImageIndex, Resolve, ResolveWay, Resource};
 use crate::plan::Inserted;
 use crate::vulkan::{Aspects, ResolveMode, Subresources, name_of};
 
@@ -190,11 +190,11 @@ impl Adapter<'_> {
         }
         for pass in &input.frame.passes {
             for access in pass.accesses().filter(|access| access.image_index() == Some(image)) {
-                match access.kind {
-                    AccessKind::Sampled(_) if access.frames_ago == 0 => reads(declared.sampled_part(access.range)),
-                    AccessKind::Transfer { write: false } if access.frames_ago == 0 => reads(access.range),
+                match access {
+                    Access::Sampled(used) if used.frames_ago == 0 => reads(declared.sampled_part(used.range)),
+                    Access::Transfer(used) if !used.write && used.frames_ago == 0 => reads(used.range),
                     // Another image may take its contents or give it its own, whose readers aren't those of this one.
-                    AccessKind::ForwardSource | AccessKind::ForwardTarget => reads(access.range),
+                    Access::ForwardSource(..) | Access::ForwardTarget(..) => reads(access.range()),
                     _ => {}
                 }
             }

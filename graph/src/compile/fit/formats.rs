@@ -135,7 +135,7 @@ fn fixed<'f>(frame: &Frame, passes: impl Iterator<Item = &'f Pass>) -> Vec<bool>
     let outputs = frame.outputs.iter().filter(|output| output.encoding != Some(Encoding::Hdr10));
     let format = |image: ImageIndex| frame.images.get(image.0 as usize).map(|image| image.format);
     let relied = passes.flat_map(|pass| pass.accesses().filter(|access| pass.relies_on_format(access, format)));
-    for resource in outputs.map(|output| output.resource).chain(relied.map(|access| access.resource)) {
+    for resource in outputs.map(|output| output.resource).chain(relied.map(|access| access.resource())) {
         if let Resource::Image(image) = resource {
             fixed[image.0 as usize] = true;
         }

@@ -1,7 +1,7 @@
 //! What passes ask of the formats of images, and what a device can do with formats.
 
 use crate::device::{FormatSupport, Profile};
-use crate::frame::{AccessKind, Blend, Frame, ImageIndex, Lifetime, Pass, Resource, Work};
+use crate::frame::{Access, Blend, Frame, ImageIndex, Lifetime, Pass, Resource, Work};
 use crate::vulkan::states::usage_for;
 use crate::vulkan::{Format, State, Usage};
 
@@ -35,8 +35,8 @@ impl Needs {
         let mut needs = vec![Needs::default(); frame.images.len()];
         for pass in passes {
             pass.accesses().for_each(|access| {
-                if let Resource::Image(image) = access.resource {
-                    needs[image.0 as usize].add(access.kind);
+                if let Resource::Image(image) = access.resource() {
+                    needs[image.0 as usize].add(access);
                 }
             });
             if let Work::Forward { from, to, .. } = pass.work
@@ -50,18 +50,18 @@ impl Needs {
         needs
     }
 
-    fn add(&mut self, kind: AccessKind<'_>) {
-        self.usage |= match kind {
-            AccessKind::Sampled(_) => Usage::SAMPLED,
-            AccessKind::Storage(_) => Usage::STORAGE,
-            AccessKind::Color(_) => Usage::COLOR_ATTACHMENT,
-            AccessKind::Depth(_) => Usage::DEPTH_STENCIL_ATTACHMENT,
-            AccessKind::Transfer { write: true } => Usage::TRANSFER_DST,
-            AccessKind::Transfer { write: false } => Usage::TRANSFER_SRC,
-            AccessKind::Buffer(_) | AccessKind::ForwardSource | AccessKind::ForwardTarget => Usage::empty(),
+    fn add(&mut self, access: Access<'_>) {
+        self.usage |= match access {
+            Access::Sampled(_) => Usage::SAMPLED,
+            Access::Storage(_) => Usage::STORAGE,
+            Access::Color(_) => Usage::COLOR_ATTACHMENT,
+            Access::Depth(_) => Usage::DEPTH_STENCIL_ATTACHMENT,
+            Access::Transfer(used) if used.write => Usage::TRANSFER_DST,
+            Access::Transfer(_) => Usage::TRANSFER_SRC,
+            Access::Buffer(_) | Access::ForwardSource(..) | Access::ForwardTarget(..) => Usage::empty(),
         };
-        self.linear_filter |= matches!(kind, AccessKind::Sampled(sampled) if sampled.sampler.is_linear());
-        self.blend |= matches!(kind, AccessKind::Color(target) if target.blend != Blend::Replace);
+        self.linear_filter |= matches!(access, Access::Sampled(sampled) if sampled.sampler.is_linear());
+        self.blend |= matches!(access, Access::Color(target) if target.blend != Blend::Replace);
     }
 
     /// Whether a format with this support does.

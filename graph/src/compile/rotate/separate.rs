@@ -1,7 +1,7 @@
 //! An output that passes read becomes two images: one that stays upright and is read, and one that leaves the frame turned.
 
 use crate::base::Span;
-use crate::frame::{Access, AccessKind, Frame, Image, ImageIndex, Lifetime, Pass, Resource, Work};
+use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Pass, Resource, Work};
 use std::sync::Arc;
 
 /// The frame with an upright image in place of `image` up to where it is drawn anew, and not read after that; `None`: there is
@@ -69,9 +69,9 @@ fn reads(pass: &Pass, image: ImageIndex) -> bool {
 /// Whether a pass reads it otherwise than by sampling it, or needs it upright.
 fn reads_otherwise(pass: &Pass, image: ImageIndex) -> bool {
     let copies = matches!(pass.work, Work::Copy | Work::Blit { .. });
-    accesses(pass, image).any(|access| match access.kind {
-        AccessKind::Storage(_) | AccessKind::ForwardSource => true,
-        AccessKind::Transfer { write } => copies || !write,
+    accesses(pass, image).any(|access| match access {
+        Access::Storage(_) | Access::ForwardSource(..) => true,
+        Access::Transfer(used) => copies || !used.write,
         _ => false,
     })
 }
@@ -90,7 +90,7 @@ fn writes(frame: &Frame, pass: &Pass, image: ImageIndex) -> bool {
 }
 
 fn accesses(pass: &Pass, image: ImageIndex) -> impl Iterator<Item = Access<'_>> {
-    pass.accesses().filter(move |access| access.resource == Resource::Image(image))
+    pass.accesses().filter(move |access| access.resource() == Resource::Image(image))
 }
 
 /// Has a pass use `to` in place of `from`.

@@ -1,7 +1,7 @@
 //! Which images are turned together, since they are drawn in the same passes.
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{AccessKind, Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource, Work};
+use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource, Work};
 use crate::vulkan::{Rotation, Shape};
 use std::collections::BTreeSet;
 
@@ -90,16 +90,16 @@ impl Together<'_> {
     /// Whether a pass leaves it free to turn: it may draw into it and replace it whole, but not read it.
     fn is_only_drawn(&self, pass: &Pass, image: ImageIndex, all: &BTreeSet<ImageIndex>) -> Result<(), Hindrance> {
         let whole = matches!(pass.work, Work::Fill { .. } | Work::Custom { .. });
-        for access in pass.accesses().filter(|access| access.resource == Resource::Image(image)) {
-            let verb = match access.kind {
-                AccessKind::Sampled(_) => "samples",
-                AccessKind::Storage(_) => "accesses as storage",
-                AccessKind::Transfer { write } if !whole || !write => "copies",
-                AccessKind::ForwardSource if !self.passes_on_turned(pass, all) => "passes on",
+        for access in pass.accesses().filter(|access| access.resource() == Resource::Image(image)) {
+            let verb = match access {
+                Access::Sampled(_) => "samples",
+                Access::Storage(_) => "accesses as storage",
+                Access::Transfer(used) if !whole || !used.write => "copies",
+                Access::ForwardSource(..) if !self.passes_on_turned(pass, all) => "passes on",
                 _ => continue,
             };
             let what = format!("`{}` {verb} `{}`", pass.name, self.name(image));
-            return Err(Hindrance::Upright(what, access.span));
+            return Err(Hindrance::Upright(what, access.span()));
         }
         Ok(())
     }

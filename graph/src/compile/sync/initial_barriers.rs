@@ -117,12 +117,16 @@ impl Completing<'_> {
         let AliasEdge { store, from, this_frame } = *edge;
         // A resource that had its memory in the frame before too waits cell by cell.
         let again = store == from;
-        let mut accesses = if again { LastAccesses::default() } else { self.last_accesses(from, self.cells(from)) };
+        let mut accesses = LastAccesses::default();
+        if !again {
+            self.add_last_accesses(from, self.cells(from), &mut accesses);
+        }
         // A buffer's barrier covers all memory, an image's only the image.
         let covers = again || self.adapted.stores[store as usize].image().is_none();
         for cell in self.cells(store) {
             if again {
-                accesses = self.last_accesses(store, cell..cell + 1);
+                accesses.clear();
+                self.add_last_accesses(store, cell..cell + 1, &mut accesses);
             }
             let number = self.timeline.cells[cell as usize].first_barrier;
             let Initial { barriers, queues, aliased } = &mut self.initial;
@@ -149,10 +153,11 @@ impl Completing<'_> {
         }
     }
 
-    fn last_accesses(&self, store: StoreIndex, cells: Range<CellIndex>) -> LastAccesses {
+    /// Adds the last accesses to some cells of a resource.
+    #[inline]
+    fn add_last_accesses(&self, store: StoreIndex, cells: Range<CellIndex>, accesses: &mut LastAccesses) {
         let queues = &self.timeline.queues;
         let is_crossed = queues.is_crossed(store);
-        let mut accesses = LastAccesses::default();
         for cell in cells {
             let known = &self.timeline.cells[cell as usize];
             if is_crossed {
@@ -163,7 +168,6 @@ impl Completing<'_> {
                 accesses.add(queues.at(known.last), known.stages, known.accesses, known.last);
             }
         }
-        accesses
     }
 }
 

@@ -39,6 +39,11 @@ impl LastAccesses {
         }
     }
 
+    pub(super) fn clear(&mut self) {
+        self.first = None;
+        self.others.clear();
+    }
+
     pub(super) fn iter(&self) -> impl Iterator<Item = &LastAccess> {
         self.first.iter().chain(&self.others)
     }

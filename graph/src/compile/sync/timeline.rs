@@ -45,10 +45,15 @@ impl Timeline {
 
     /// Adds the accesses of a step. `lasts`: it is one of the frame's own steps, not the one behind all of them.
     pub(super) fn add(&mut self, accesses: &[CellAccess], step: u32, lasts: bool) {
-        if !self.queues.is_one() {
-            crossed::wait(&self.cells, &mut self.queues, accesses, step);
+        if self.queues.is_one() {
+            accesses.iter().for_each(|access| self.access(access, None, step, lasts));
+            return;
         }
-        accesses.iter().for_each(|access| self.access(access, step, lasts));
+        crossed::wait(&self.cells, &mut self.queues, accesses, step);
+        for access in accesses {
+            let crossed = Crossed::of(&self.queues, access, step);
+            self.access(access, crossed, step, lasts);
+        }
     }
 
     /// Leaves a cell in a state, in the step behind all others.
@@ -72,8 +77,8 @@ impl Timeline {
 
     /// Puts a barrier before an access, or widens the one before earlier reads. A final state (not `lasts`) waits for the
     /// stages that it names, and for no others.
-    fn access(&mut self, access: &CellAccess, step: u32, lasts: bool) {
-        let crossed = Crossed::of(&self.queues, access, step);
+    #[inline(always)]
+    fn access(&mut self, access: &CellAccess, crossed: Option<Crossed>, step: u32, lasts: bool) {
         let Timeline { cells, barriers, lifetimes, queues, .. } = self;
         let cell = &mut cells[access.cell as usize];
         cell.usage |= access.usage;

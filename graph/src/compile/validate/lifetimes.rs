@@ -1,7 +1,7 @@
 //! How long contents live: from which values they start, how far back they are kept, in which states they come and go.
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{AccessKind, Frame, Lifetime, Pass, TextureFile, format_problem};
+use crate::frame::{Access, Frame, Lifetime, Pass, TextureFile, format_problem};
 use crate::vulkan::states::{Subject, When, contradiction};
 use crate::vulkan::{FillValue, Format, Layout, State};
 
@@ -43,8 +43,8 @@ fn file_problem(file: &TextureFile, of: Subject<'_>) -> Option<String> {
 
 /// Where a pass uses an image that comes from a file for anything but sampling it.
 pub(super) fn misused_file(frame: &Frame, pass: &Pass) -> Option<(Span, String)> {
-    let others = pass.accesses().filter(|access| !matches!(access.kind, AccessKind::Sampled(_)));
-    let images = others.filter_map(|access| Some((&frame.images[access.image_index()?.0 as usize], access.span)));
+    let others = pass.accesses().filter(|access| !matches!(access, Access::Sampled(_)));
+    let images = others.filter_map(|access| Some((&frame.images[access.image_index()?.0 as usize], access.span())));
     let mut files = images.filter(|(image, _)| matches!(image.lifetime, Lifetime::File(_)));
     files
         .next()

@@ -2,9 +2,7 @@
 
 use super::lifetimes;
 use crate::base::{Diagnostic, Span};
-use crate::frame::{
-    Access, AccessKind, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Work,
-};
+use crate::frame::{Access, BufferRole, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Work};
 use crate::vulkan::{Shape, Stages, Subresources};
 
 /// The check of a pass.
@@ -24,12 +22,12 @@ impl Check<'_> {
         let before = self.errors.len();
         let pass = self.pass;
         pass.accesses().for_each(|access| {
-            match access.resource {
+            match access.resource() {
                 Resource::Image(image) => self.image(image, &access),
-                Resource::Buffer(buffer) => self.buffer(buffer.0, access.frames_ago, access.span),
+                Resource::Buffer(buffer) => self.buffer(buffer.0, access.frames_ago(), access.span()),
             }
-            if access.frames_ago > 0 && matches!(access.kind, AccessKind::Transfer { write: true }) {
-                self.wrong(access.span, "writes into an earlier frame");
+            if access.frames_ago() > 0 && matches!(access, Access::Transfer(used) if used.write) {
+                self.wrong(access.span(), "writes into an earlier frame");
             }
         });
         self.errors.len() == before
@@ -49,20 +47,20 @@ impl Check<'_> {
     }
 
     fn image(&mut self, index: ImageIndex, access: &Access<'_>) {
-        let Access { range, span, .. } = *access;
+        let (range, span) = (access.range(), access.span());
         let Some(image) = self.frame.images.get(index.0 as usize) else {
             return self.wrong(span, &format!("names image number {}, which does not exist", index.0));
         };
-        if access.frames_ago > 0 {
-            self.history(&image.lifetime, access.frames_ago, &image.name, span);
+        if access.frames_ago() > 0 {
+            self.history(&image.lifetime, access.frames_ago(), &image.name, span);
         }
         if range != Subresources::WHOLE {
             self.inside(image, range, span);
         }
-        if access.attaches() || matches!(access.kind, AccessKind::ForwardSource | AccessKind::ForwardTarget) {
+        if access.attaches() || matches!(access, Access::ForwardSource(..) | Access::ForwardTarget(..)) {
             self.one_mip(image, range, span);
         }
-        if matches!(access.kind, AccessKind::Depth(_)) && !image.format.is_depth() {
+        if matches!(access, Access::Depth(_)) && !image.format.is_depth() {
             self.wrong(span, "tests depth in an image that has none");
         }
     }
