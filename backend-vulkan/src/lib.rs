@@ -9,7 +9,8 @@
 //! - [`ShaderLibrary`] finds, compiles and reflects shaders. It needs no device.
 //! - [`Device`] is opened by choice, default or name; it lists what it can do ([`Device::profile`]) and what images take of
 //!   its memory ([`Device::memory`]), which is all that compiling a Plan needs. Everything made from a device keeps it open.
-//! - [`Executor`] verifies a Plan, refuses it if it was made for other memory needs, and draws its frames one at a time.
+//! - [`Executor`] verifies a Plan, refuses it if it was made for other memory needs, and draws its frames one after
+//!   another; several may be in flight.
 //! - Errors are data ([`Error`]), and say whether files, machine or program are to blame ([`Error::blame`]). A device that is
 //!   lost or doesn't answer is an error like any other. [`Device::cancel_when`] gives up waits before they are over.
 //!

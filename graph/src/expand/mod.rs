@@ -1,7 +1,7 @@
 //! Settings, facts, the view and the device are put in: a pipeline becomes one flat frame.
 //!
 //! ```text
-//! Document ─► settings ─► language::lower ─► images and buffers ─► passes (parts, shaders) ─► order ─► Frame
+//! Document ─► settings ─► Document::lower ─► images and buffers ─► passes (parts, shaders) ─► order ─► Frame
 //! ```
 //! Every stage goes on past mistakes, so that all independent ones are reported at once.
 

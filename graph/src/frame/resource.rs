@@ -36,7 +36,7 @@ pub struct Image {
     pub mips: u32,
     /// Array layers, at least 1; of a cube 6 for each.
     pub layers: u32,
-    /// Samples a texel that were asked for, one of [`SAMPLE_COUNTS`]. `adapt` lowers it to what the device has.
+    /// Samples a texel that were asked for, one of [`SAMPLE_COUNTS`]. `fit` lowers it to what the device has.
     pub samples: u32,
     /// How several samples of it become one value, if the pipeline says so. Without a word colour is averaged, integers are
     /// sample zero, and depth is drawn again for passes that sample it and sample zero where it is copied or leaves the
