@@ -92,7 +92,7 @@ impl Document {
     }
 
     /// Reads a settings file's text, which is added to `sources`: those that this document was read into. `shown` and
-    /// `relative` are as in [`describe::read`](super::read).
+    /// `relative` are as in [`read`](super::read).
     ///
     /// # Errors
     /// Everything that is wrong with the file by itself, and with it for this pipeline.

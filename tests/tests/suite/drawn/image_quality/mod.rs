@@ -11,7 +11,7 @@
 //! | IQ-3 | `plans::a_view_brings_effects_of_its_own_or_takes_the_users` | `entries/views.rs`: `set.iter().flatten().take(0)` |
 //! | IQ-4 | `pictures::scale_two_is_the_mean_of_two_by_two_pixels`, `scale` | `scale.glsl`: `end = begin + pixels` |
 //! | IQ-4 | `pictures::light_is_averaged_before_tone_mapping_or_what_is_shown_after_it` | size of `scaled` for `mapped != 'pixels'` |
-//! | IQ-5 | `graph/tests/suite/compile_raster.rs`, `graph/tests/suite/shipped_devices.rs`, `cli/tests/suite/every_device.rs`, `cli/tests/suite/plans.rs` | `fit/samples.rs`: `chosen` is what was wanted |
+//! | IQ-5 | `graph/tests/suite/compile_raster.rs`, `graph/tests/suite/shipped_devices.rs`, `cli/tests/suite/every_device.rs`, `cli/tests/suite/plans.rs` | `compile/fit/samples.rs`: `chosen` is what was wanted |
 //! | IQ-4, IQ-6 | `samples::pictures_of_256_samples_show_what_rays_meet` | `scene/model/camera.rs`: `vertical_fov` times 0.51 |
 //! | IQ-6 | `samples::a_fragment_shader_runs_once_a_texel_whatever_the_samples` | `backend-vulkan/src/pipeline/graphics.rs`: `sample_shading_enable(true)`, with a share of 1 |
 //! | IQ-6 | `samples::edges_improve_with_samples_and_with_scale` | samples of `color` 1 |
@@ -19,9 +19,9 @@
 //! | IQ-7 | `plans::multisampled_colour_is_resolved_before_what_samples_it`, `texture_declarations` | samples of `color` 1 |
 //! | IQ-8 | `plans::a_resolve_serves_every_reader_until_the_next_write` | `post.ron`: objects are drawn before `show_light` |
 //! | IQ-9 | `plans::a_blur_of_five_draws_takes_one_resolve_where_the_file_asks_for_three` | `shown` with one sample |
-//! | IQ-7, IQ-9, IQ-16, IQ-22 | `frames_by_hand` | `compile/adapt/demote.rs`: nothing moves; `scope/builder.rs`: nothing folds |
+//! | IQ-7, IQ-9, IQ-16, IQ-22 | `frames_by_hand` | `compile/adapt/demote.rs`: nothing moves; `compile/scope/builder.rs`: nothing folds |
 //! | IQ-10 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/resolve.rs`: depth without a word is averaged where it is sampled, or where it leaves the frame |
-//! | IQ-11 | `graph/tests/suite/depth_ladder.rs` | `adapt/pass.rs`: depth is resolved whatever its samples |
+//! | IQ-11 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/resolve.rs`: depth is resolved whatever its samples |
 //! | IQ-11 | `graph/tests/suite/language/samplers.rs` | `expand/sampled.rs`: depth is filtered as colour is |
 //! | IQ-12 | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `writers` are cleared whatever `start`, so that one is left |
 //! | IQ-12: refused | `graph/tests/suite/depth_ladder.rs` | `compile/adapt/depth_only.rs`: `Draw::Custom` is let through |
@@ -34,7 +34,7 @@
 //! | IQ-16 | `plans::stripes_take_one_resolve_as_a_blend_and_two_as_a_copy`, `depth_stripes` | `stripes_back` off |
 //! | IQ-16 | `pictures::both_forms_of_the_stripes_draw_the_same_picture` | `depth_stripes.ron`: `blend` left out |
 //! | IQ-17 | `plans::a_blur_takes_as_many_draws_as_its_strength_and_works_on_8_bits`, `effects` | format of `shown` `Like("color")` |
-//! | IQ-18 | `plans::nothing_is_loaded_that_was_not_kept_or_is_drawn_over` | `adapt/adapter.rs`: `Start::Discard` only of images that nobody wrote before |
+//! | IQ-18 | `plans::nothing_is_loaded_that_was_not_kept_or_is_drawn_over` | `compile/adapt/pass.rs`: `Start::Discard` only of images that nobody wrote before |
 //! | IQ-19 | `plans::colour_is_floating_point_only_where_something_makes_use_of_it` | `scene.peak_radiance` left out |
 //! | IQ-20 | `samples::a_lamp_does_not_spoil_edges_where_bright_samples_weigh_less`, `resolves` | `weighted_resolve.glsl`: weight 1 |
 //! | IQ-20 | `resolves` | `resolves.ron`: `resolve` left out |
