@@ -32,7 +32,7 @@ pub struct Inputs<'a> {
 }
 
 /// What is wrong with `inputs` themselves: settings that the pipeline doesn't have or values that they don't allow, a size
-/// that no frame has, names of no image. [`expand`] reports these too; a program that tells its user's command line from
+/// that no frame has, names of no image. [`expand`](super::expand()) reports these too; a program that tells its user's command line from
 /// its user's files asks here first.
 #[must_use]
 pub fn check_inputs(document: &Document, inputs: &Inputs<'_>) -> Vec<Diagnostic> {

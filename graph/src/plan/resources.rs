@@ -125,7 +125,7 @@ pub enum Initial {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Placement {
-    /// Index into [`Plan::heaps`].
+    /// Index into [`Plan::heaps`](super::Plan::heaps).
     pub heap: u32,
     /// Offset in bytes.
     pub offset: u64,

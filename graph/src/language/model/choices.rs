@@ -20,7 +20,7 @@ pub struct Preset {
 /// A value that is chosen for a setting, which allows it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
-    /// The setting: an index into [`Document::settings`](super::Document::settings).
+    /// The setting: an index into [`Document::settings`](crate::language::Document::settings).
     pub setting: usize,
     /// The value.
     pub value: Value,
@@ -31,7 +31,7 @@ pub struct Choice {
 /// What a settings file says to a pipeline: `Settings(version: 1, preset: "low", set: {"msaa": 2})`.
 #[derive(Debug, Clone, Default)]
 pub struct SettingsFile {
-    /// The preset that it chooses: an index into [`Document::presets`](super::Document::presets).
+    /// The preset that it chooses: an index into [`Document::presets`](crate::language::Document::presets).
     pub preset: Option<usize>,
     /// What it chooses; no setting twice.
     pub set: Vec<Choice>,

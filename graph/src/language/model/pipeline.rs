@@ -11,16 +11,16 @@ use crate::vulkan::Encoding;
 use std::sync::Arc;
 
 /// A pipeline with all that it was made for put in: flat lists, names unique, every reference found, every expression
-/// evaluated, nothing follows itself. Made by [`Document::lower`](super::Document::lower).
+/// evaluated, nothing follows itself. Made by [`Document::lower`](crate::language::Document::lower).
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Pipeline {
     /// Views, the main one first; none: one that has the frame's size. A [`ViewIndex`](crate::frame::ViewIndex) is an index
     /// into this list.
     pub views: Vec<View>,
-    /// Images; an [`ImageIndex`] is an index into this list.
+    /// Images; an [`ImageIndex`](crate::frame::ImageIndex) is an index into this list.
     pub images: Vec<Image>,
-    /// Buffers; a [`BufferIndex`] is an index into this list.
+    /// Buffers; a [`BufferIndex`](crate::frame::BufferIndex) is an index into this list.
     pub buffers: Vec<Buffer>,
     /// Passes in the order that gives them meaning.
     pub passes: Vec<Pass>,

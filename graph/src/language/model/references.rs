@@ -6,7 +6,7 @@ use crate::frame::{BufferIndex, ImageIndex, Resource};
 /// An image that is referred to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ImageRef {
-    /// Index into [`Pipeline::images`].
+    /// Index into [`Pipeline::images`](super::Pipeline::images).
     pub index: ImageIndex,
     /// Where it was named.
     pub span: Span,
@@ -15,7 +15,7 @@ pub struct ImageRef {
 /// A buffer that is referred to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BufferRef {
-    /// Index into [`Pipeline::buffers`].
+    /// Index into [`Pipeline::buffers`](super::Pipeline::buffers).
     pub index: BufferIndex,
     /// Where it was named.
     pub span: Span,
@@ -24,7 +24,7 @@ pub struct BufferRef {
 /// An image or buffer that is referred to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ResourceRef {
-    /// Index into [`Pipeline::images`] or [`Pipeline::buffers`].
+    /// Index into [`Pipeline::images`](super::Pipeline::images) or [`Pipeline::buffers`](super::Pipeline::buffers).
     pub resource: Resource,
     /// Where it was named.
     pub span: Span,
