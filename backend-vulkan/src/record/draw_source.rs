@@ -5,7 +5,7 @@ use super::recorder::Recorder;
 use crate::base::Error;
 use framewright_graph::frame::Draw;
 
-/// Whoever draws the objects and the sky, and records custom passes. An engine supplies its own.
+/// Draws the objects and the sky, and records custom passes. An engine supplies its own.
 pub trait DrawSource {
     /// Records the draws of `draw` and returns how many draw calls it made.
     ///

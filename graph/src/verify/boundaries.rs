@@ -46,7 +46,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         }
     }
 
-    /// Whoever relies on the stated state finds it so.
+    /// The next user of an image or buffer finds it in its stated state.
     pub(super) fn end_frame(&mut self) {
         let last = StepId(self.program.steps() - 1);
         for resource in 0..self.program.used.len() as u32 {

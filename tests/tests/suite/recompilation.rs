@@ -6,7 +6,7 @@ use framewright_graph::frame::{Frame, Groups, ParamValue, Work};
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::FillValue;
 use framewright_tests::random_pipelines::{frame, passes};
-use framewright_tests::{shipped, sweep};
+use framewright_tests::shipped;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -136,13 +136,12 @@ fn follow(held: &mut Held, first: Frame, other: Frame, what: &str) {
 
 #[test]
 fn random_frames_of_other_values_and_sizes_give_what_compiling_anew_gives() {
-    let seeds = sweep::row(0..400, 60);
     let mut reused = BTreeMap::new();
     let of = |order, several| (order, Queues { compute: several, transfer: several, ..Queues::default() });
     let kinds = [Order::Default, Order::File, Order::LowMemory].map(|order| of(order, false));
     for (number, (order, queues)) in kinds.into_iter().chain([of(Order::Default, true)]).enumerate() {
         let mut held = Held::new(Profile { queues, ..device() }, Options { order, ..Options::default() });
-        for seed in seeds.clone().filter(|seed| *seed as usize % 4 == number) {
+        for seed in (0..400).filter(|seed| *seed as usize % 4 == number) {
             let other = frame(seed + 1000, passes(seed + 1000, 20));
             follow(&mut held, frame(seed, passes(seed, 30)), other, &format!("seed {seed}, {order:?}, {queues:?}"));
         }
@@ -150,14 +149,13 @@ fn random_frames_of_other_values_and_sizes_give_what_compiling_anew_gives() {
     }
     let count = |reuse| reused.get(&reuse).copied().unwrap_or(0);
     let (structures, barriers) = (count(Reuse::Structure), count(Reuse::Barriers));
-    let enough = if sweep::is_long() { [51, 3001] } else { [0, 201] };
-    assert!(structures >= enough[0] && barriers >= enough[1], "too little served too seldom: {reused:?}");
+    assert!(structures > 50 && barriers > 3000, "too little served too seldom: {reused:?}");
 }
 
 #[test]
 fn shipped_frames_of_other_values_and_sizes_give_what_compiling_anew_gives() {
     let frames = shipped::frames([640, 360]);
-    for (at, shipped) in sweep::of(frames.iter().enumerate().collect(), 60) {
+    for (at, shipped) in frames.iter().enumerate() {
         // Every other device has more than one queue.
         let several = at % 2 == 1;
         let queues = Queues { compute: several, transfer: several, ..Queues::default() };

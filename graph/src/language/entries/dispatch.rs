@@ -46,7 +46,7 @@ static GROUPS: Words = Words {
 
 const GROUP: Form = Form::Whole(1, MOST_GROUPS);
 
-/// Every device allows so many workgroups in x, y and z.
+/// The most workgroups in x, y and z that every device allows.
 pub(crate) const MOST_GROUPS: i64 = 65535;
 
 impl Context<'_, '_> {

@@ -1,4 +1,4 @@
-//! Sizes of images: so many texels, or a share of what a view or another image has.
+//! Sizes of images: a number of texels, or a share of the size of a view or another image.
 
 use super::parts;
 use super::values::Decided;

@@ -193,7 +193,7 @@ impl<'ast> Visit<'ast> for Reader {
         }
     }
 
-    /// A name that is only handed on is no use of it: whoever names it uses the file that defines it.
+    /// A re-export is no use of the file: the files that name the item use it.
     fn visit_item_use(&mut self, item: &'ast ItemUse) {
         let mut found = Vec::new();
         flatten(&item.tree, &mut Names::new(), &mut found);
