@@ -6,7 +6,7 @@
 layout(location = 0) in vec3 now;
 layout(location = 1) in vec3 before;
 
-// Where it was less where it is, as a share of the picture's width and height.
+// Last place minus place, as a share of the picture's width and height.
 layout(location = 0) out vec2 moved;
 
 // By how much opaque objects moved since the frame before, as seen by the camera.

@@ -14,7 +14,7 @@ layout(location = 3) flat in uint object_index;
 layout(location = 0) in vec3 now;
 layout(location = 1) in vec3 before;
 
-// Where it was less where it is.
+// Last place minus place.
 layout(location = 0) out vec2 moved;
 #endif
 

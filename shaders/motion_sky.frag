@@ -5,7 +5,7 @@
 
 layout(location = 0) in vec3 direction;
 
-// Where it was less where it is, as a share of the picture's width and height.
+// Last place minus place, as a share of the picture's width and height.
 layout(location = 0) out vec2 moved;
 
 // By how much the sky moved since the frame before, as seen by the camera. It is infinitely far away, so only turns move it.

@@ -11,13 +11,13 @@ layout(set = 0, binding = 0) uniform sampler2D now;
 layout(set = 0, binding = 1) uniform sampler2D before;
 // Depth of this frame, as large as its radiance.
 layout(set = 0, binding = 2) uniform sampler2D depth;
-// Where everything was less where it is, as `motion` and `motion_sky` draw it; as large.
+// Motion vectors, as `motion` and `motion_sky` draw them: last place minus place. As large.
 layout(set = 0, binding = 3) uniform sampler2D motion;
 layout(set = 0, binding = 4) uniform Params {
     // How much this frame counts, more than 0 to 1: less is smoother, and follows changes more slowly.
     float share;
-    // How many standard deviations from the 3 × 3 texels around history may be, 0 or more: more is smoother, and leaves more
-    // of what isn't there any more.
+    // How many standard deviations from the 3 × 3 texels around history may be, 0 or more: more is smoother, and leaves longer
+    // trails.
     float deviations;
 } params;
 

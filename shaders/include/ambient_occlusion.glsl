@@ -5,13 +5,13 @@
 #ifndef FRAMEWRIGHT_AMBIENT_OCCLUSION
 #define FRAMEWRIGHT_AMBIENT_OCCLUSION
 
-// Places that are looked at, on a spiral of so many turns.
+// The number of samples, on a spiral of this many turns.
 const int OCCLUDERS = 16;
 const float TURNS = 7.0;
-// What rises less than this above the surface, as a share of the radius and of the distance, may be rounding.
+// A smaller rise above the surface than this counts as rounding: a share of the radius and of the distance.
 const float RISE_OF_RADIUS = 0.012;
 const float RISE_OF_DISTANCE = 0.001;
-// Keeps what nearly touches from counting without end; a share of the radius, squared.
+// Bounds how much a very near surface counts: a share of the radius, squared.
 const float NEARLY_TOUCHING = 0.0001;
 
 // By how much each texel of a square of 4 × 4 turns its spiral, in sixteenths of a full turn: B. E. Bayer, "An optimum method

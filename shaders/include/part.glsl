@@ -36,14 +36,14 @@ vec2 uv_unadjust(vec2 uv, vec4 st) {
     return (uv - st.zw) / st.xy;
 }
 
-// The place of the part, in an image (or a mip level of it) of so many texels, that is nearest to a place in that image: no
-// further out than the middle of the outermost texels, so that a linear filter mixes in nothing that lies beyond. A little further
-// in, since the middle is met up to rounding only: what lies beyond may be anything, and a trace of it may be too much. Of a single
-// texel it is its middle.
+// The place within the part that is nearest to a place in the image (or a mip level of it), whose extent is `texels`. It lies no
+// further out than the centres of the outermost texels, so that a linear filter mixes in no texel beyond the part. A small margin
+// covers rounding, as texels beyond may hold anything. In a part of a single texel it is the
+// centre.
 vec2 uv_clamp(vec2 uv, vec4 st, ivec2 texels) {
     const vec2 margin = min((0.5 + 1.0 / 512.0) / vec2(texels), 0.5 * st.xy);
     const vec2 within = clamp(uv, st.zw + margin, st.zw + st.xy - margin);
-    // Along an axis of which all is seen nothing lies beyond.
+    // No texel lies beyond the part along an axis that is seen whole.
     return is_whole(st) ? uv : vec2(st.x == 1.0 ? uv.x : within.x, st.y == 1.0 ? uv.y : within.y);
 }
 
@@ -52,12 +52,12 @@ vec4 uv_clamp(vec4 uvs, vec4 st, ivec2 texels) {
     return is_whole(st) ? uvs : vec4(uv_clamp(uvs.xy, st, texels), uv_clamp(uvs.zw, st, texels));
 }
 
-// The first texel of the part, in an image of so many.
+// The first texel of the part, in an image whose extent is `texels`.
 ivec2 part_origin(ivec2 texels, vec4 st) {
     return is_whole(st) ? ivec2(0) : ivec2(round(vec2(texels) * st.zw));
 }
 
-// How many texels wide and high the part is, in an image of so many.
+// The extent of the part in texels, in an image whose extent is `texels`.
 ivec2 part_extent(ivec2 texels, vec4 st) {
     return is_whole(st) ? texels : ivec2(round(vec2(texels) * st.xy));
 }

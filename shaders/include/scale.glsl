@@ -6,8 +6,8 @@
 #include "include/radiance.glsl"
 #include "include/texture.glsl"
 
-// The mean of what a pixel of a target of so many covers of the part `st` of the source: each texel counts by how much of it lies
-// within.
+// The mean of the texels that one pixel of a target covers, of the part `st` of the source. `target` is the target's extent.
+// Each texel counts by the area of it that the pixel covers.
 vec4 area_mean(sampler2D source, vec4 st, ivec2 pixel, ivec2 target) {
     const uvec2 texels = uvec2(used_of(source, st));
     const uvec2 pixels = uvec2(target);
@@ -34,9 +34,9 @@ float catmull_rom(float distance) {
     return x < 1.0 ? (1.5 * x - 2.5) * x * x + 1.0 : x < 2.0 ? ((-0.5 * x + 2.5) * x - 4.0) * x + 2.0 : 0.0;
 }
 
-// What lies at a place of the part `st` of the source, 0 to 1 from its upper left corner, by Catmull and Rom's curve along rows
-// and columns.
-// Beyond its edges lie the outermost texels.
+// Catmull-Rom interpolation at a place of the part `st` of the source, 0 to 1 from the part's upper left corner, along rows and
+// columns.
+// Beyond the edges the outermost texels are repeated.
 vec4 curve_at(sampler2D source, vec4 st, vec2 place) {
     const ivec2 texels = used_of(source, st);
     const vec2 from_first = place * vec2(texels) - 0.5;
@@ -54,9 +54,9 @@ vec4 curve_at(sampler2D source, vec4 st, vec2 place) {
     return sum;
 }
 
-// The part `st` of the source at the middle of a pixel of a target of so many, by Catmull and Rom's curve along rows and columns;
-// where the target is the smaller one the curve is as much wider, so that every texel counts. It is sharper than a mean, and
-// swings over at edges: what falls below 0 there is cut off.
+// Catmull-Rom interpolation at the centre of a target pixel, of the part `st` of the source. `target` is the target's extent.
+// Where the target is smaller, the curve is wider by the same factor, so that every texel counts. It is sharper than a mean and
+// overshoots at edges: values below 0 are cut off.
 vec4 sharpened(sampler2D source, vec4 st, ivec2 pixel, ivec2 target) {
     const ivec2 texels = used_of(source, st);
     // The middle of the pixel, in texels from the middle of the first one and half a texel: whole and share.

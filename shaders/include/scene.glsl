@@ -34,7 +34,7 @@ struct PointLight {
     vec3 intensity;
 };
 
-// What an eye sees, or whoever else looks at the scene.
+// A view of the scene: the camera's, or that of one eye.
 struct Sight {
     // Reversed depth: 1 at the near plane, 0 infinitely far.
     mat4 world_to_clip;

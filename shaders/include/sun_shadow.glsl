@@ -50,7 +50,7 @@ float sunlit(vec3 position, vec3 normal) {
     if (facing <= 0.0 || distance_share >= 1.0) {
         return 1.0;
     }
-    // A texel that is looked up lies at most so many texels from the place, and the surface rises by so much on the way.
+    // The rise of the surface between the place and the farthest texel that is looked up, in texels.
     const float rise = sqrt(2.0) * 0.5 * float(taps + 1) * sqrt(max(1.0 - facing * facing, 0.0));
     const ivec2 extent = extent_of(sun_shadow);
     for (int layer = 0; layer < int(cascades.count); ++layer) {

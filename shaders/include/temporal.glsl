@@ -33,9 +33,9 @@ vec3 shown(vec3 color) {
     return guard_radiance(small / max(1.0 - most, 1.0 / 65505.0));
 }
 
-// History as far as the 3 × 3 texels around allow it: where it is further from their mean than so many standard deviations it is
-// brought nearer along a straight line (M. Salvi, "An Excursion in Temporal Supersampling", GDC 2016; the line: L. J. F.
-// Pedersen, "Temporal Reprojection Anti-Aliasing in INSIDE", GDC 2016).
+// History, clipped to the colours of the 3 × 3 texels around. Where it is further from their mean than `deviations` standard
+// deviations, it is moved nearer along a straight line (M. Salvi, "An Excursion in Temporal Supersampling", GDC 2016; the line:
+// L. J. F. Pedersen, "Temporal Reprojection Anti-Aliasing in INSIDE", GDC 2016).
 vec3 allowed_history(vec3 history, vec3 around[9], float deviations) {
     vec3 mean = vec3(0.0);
     for (int at = 0; at < 9; ++at) {
