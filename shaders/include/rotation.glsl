@@ -1,6 +1,6 @@
 // Pictures that are drawn turned, as a screen wants them that is mounted so. `uv` of full-screen draws, images that are
 // sampled, and all that is not said here are those of the upright picture. Where the target isn't turned the constant is 0, and
-// nothing is left of these functions. What stands for it on the CPU: graph/src/rotation.rs.
+// nothing is left of these functions. What stands for it on the CPU: graph/src/vulkan/rotation.rs.
 #ifndef FRAMEWRIGHT_ROTATION
 #define FRAMEWRIGHT_ROTATION
 
