@@ -70,7 +70,7 @@ fn hold(vulkan: Vulkan, one_in: [usize; 2], update: bool) {
     let all = &names("examples/pipelines", ".ron") | &names("docs/pictures", ".png");
     // Those of lavapipe are the ones that are shown: all of them are drawn.
     let few = if vulkan.is_lavapipe() { all.len() } else { 8 };
-    for name in sweep::of(all.into_iter().collect(), few) {
+    for name in sweep::of("shipped pictures", all.into_iter().collect(), few) {
         let (pipeline, set) = set(&name);
         let run = ["run", pipeline, "--scene", scene(pipeline), "-o", DRAWN];
         place.run_with(&variables, &[&run[..], &HOW, &set].concat()).exits(0);
