@@ -1,4 +1,4 @@
-//! Small frames after what users of other render graphs reported; `tests/incidents` holds each against its report.
+//! Small frames after what users of other render graphs reported; `tests/suite/drawn/incidents` holds each against its report.
 
 use crate::frames::{Added, Builder};
 use framewright_graph::frame::{Blend, Face, Frame, ImageIndex, Lifetime, Resolve, ResolveWay};
