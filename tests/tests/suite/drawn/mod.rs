@@ -5,6 +5,7 @@ mod alpha_coverage;
 mod ambient_occlusion;
 mod auto_exposure;
 mod bloom;
+mod copies;
 mod cross_fade;
 mod culling;
 mod deferred;
