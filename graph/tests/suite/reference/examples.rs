@@ -1,7 +1,7 @@
 //! Every example of the reference is right: those of whole files, those of each form, and those of each word.
 
 use crate::reference::catalogue;
-use crate::testing::table::Pictures;
+use crate::testing::pipelines::Pictures;
 use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::language;
 
