@@ -13,6 +13,8 @@
 mod changed;
 #[path = "../tests/suite/testing/graphs.rs"]
 mod graphs;
+#[path = "../tests/suite/testing/parts.rs"]
+mod parts;
 
 use framewright_graph::compile::{Compiler, Options, Reuse};
 use framewright_graph::device::Estimated;

@@ -149,7 +149,7 @@ pub fn memory_shared() -> Frame {
     builder.outputs(&[images[5]])
 }
 
-/// An image is made from itself as it was so many frames ago, beside transient images of its size.
+/// An image is made from itself as it was `frames` frames ago, beside transient images of its size.
 #[must_use]
 pub fn history(frames: u32) -> Frame {
     let mut builder = Builder::default();

@@ -33,7 +33,7 @@ const TREACHEROUS: &str = r#"Pipeline(
 /// A scene in which nothing is transparent.
 const SOLID: &str = r##"Scene(version: 1, materials: [(name: "stone", color: "#808080")], objects: [Cube(material: "stone", size: 1)])"##;
 
-/// A pipeline with so many switches, each of which turns a pass on.
+/// A pipeline with `count` switches, each of which turns a pass on.
 fn switches(count: usize) -> String {
     let (mut settings, mut passes) = (String::new(), String::new());
     for at in 0..count {

@@ -175,7 +175,7 @@ fn pass(number: u32, work: Work) -> Pass {
     Pass { number, work, side_effect: false }
 }
 
-/// What an image of 2 × 1 words holds after each frame.
+/// The contents of an image of 2 × 1 words after each frame.
 fn held(pipeline: &Pipeline, image: usize, frames: u32) -> Vec<[u32; 2]> {
     let after = expected(pipeline, frames);
     after.iter().map(|state| [0, 1].map(|x| state.images[image][0].texel(0, [x, 0, 0], 0).words[0])).collect()

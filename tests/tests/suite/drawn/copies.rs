@@ -8,8 +8,16 @@ use std::error::Error;
 
 const TEXELS: u32 = 64;
 
-/// What `tests/pipelines/copies.ron` leaves: its images in their order, and the depth and stencil that were copied back.
-fn copied(packed: bool) -> Result<Option<(Vec<Vec<u8>>, Vec<u32>, Vec<u8>)>, Box<dyn Error>> {
+/// The outputs of `tests/pipelines/copies.ron`.
+struct Copied {
+    /// The images, in the file's order.
+    images: Vec<Vec<u8>>,
+    /// Depth and stencil that were copied back.
+    depths: Vec<u32>,
+    marks: Vec<u8>,
+}
+
+fn copied(packed: bool) -> Result<Option<Copied>, Box<dyn Error>> {
     let Some(device) = device() else { return Ok(None) };
     if packed && !device.profile().formats.iter().any(|support| support.format == Format::D24_UNORM_S8_UINT) {
         return Ok(None);
@@ -24,7 +32,7 @@ fn copied(packed: bool) -> Result<Option<(Vec<Vec<u8>>, Vec<u32>, Vec<u8>)>, Box
     let depths = words(&executor.read_buffer("depths_back")?);
     let marks = executor.read_buffer("marks_back")?;
     silent(device)?;
-    Ok(Some((images, depths, marks)))
+    Ok(Some(Copied { images, depths, marks }))
 }
 
 fn words(bytes: &[u8]) -> Vec<u32> {
@@ -33,7 +41,7 @@ fn words(bytes: &[u8]) -> Vec<u32> {
 
 #[test]
 fn texels_are_copied_bit_for_bit_into_other_formats_of_their_size() -> Result<(), Box<dyn Error>> {
-    let Some((images, ..)) = copied(false)? else { return Ok(()) };
+    let Some(Copied { images, .. }) = copied(false)? else { return Ok(()) };
     let expected: Vec<u8> = (0..TEXELS).flat_map(|at| [0, 71, 142, 213].map(|more| (37 * at + more) as u8)).collect();
     for (image, format) in
         images.iter().zip(["R8G8B8A8_UNORM", "R32_UINT", "A2B10G10R10", "R32_SFLOAT", "B8G8R8A8_SRGB"])
@@ -48,7 +56,7 @@ fn texels_are_copied_bit_for_bit_into_other_formats_of_their_size() -> Result<()
 #[test]
 fn one_plane_is_copied_from_a_buffer_and_to_one() -> Result<(), Box<dyn Error>> {
     for packed in [false, true] {
-        let Some((images, depths, marks)) = copied(packed)? else { continue };
+        let Some(Copied { images, depths, marks }) = copied(packed)? else { continue };
         let seen = words(&images[5]);
         for (at, [depth, mark]) in (0..TEXELS).zip(seen.as_chunks::<2>().0) {
             let (word, depth_there) = match packed {

@@ -27,7 +27,7 @@ fn yard() -> Scene {
     )
 }
 
-/// What a frame showed and counted.
+/// The picture and the counts of a frame.
 type Shown = (Vec<u8>, Vec<u8>);
 
 /// Transient images are full of conspicuous values before they are drawn into.

@@ -1,4 +1,4 @@
-//! What is drawn through the library, on whichever driver the environment names.
+//! Pictures that the library draws, on the driver that the environment names.
 
 mod agreement;
 mod alpha_coverage;

@@ -91,7 +91,7 @@ fn a_saved_profile_knows_what_memory_the_device_asks_for() {
     }
 }
 
-/// Images of all formats, in shapes and sizes that nobody has thought of.
+/// Images of all formats, in random shapes and sizes.
 fn images(profile: &Profile) -> impl Iterator<Item = ImageDescriptor> {
     let mut state = 12345_u64;
     let mut below = move |most: u32| {

@@ -1,4 +1,4 @@
-//! Which file of a crate uses which: its `use` declarations and paths, with re-exports followed to the file that defines the name.
+//! The files that each file of a crate uses: its `use` declarations and paths, with re-exports followed to the file that defines the name.
 
 use proc_macro2::{TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -16,9 +16,9 @@ pub(super) type Arrows = BTreeMap<String, BTreeSet<String>>;
 #[derive(Default)]
 struct Module {
     file: String,
-    /// What `use` brings in, by the name that it gets.
+    /// Paths that `use` brings in, by the names that they get.
     imports: HashMap<String, Names>,
-    /// What `use` brings in all of.
+    /// Modules of which `use` brings in everything.
     globs: Vec<Names>,
     /// Names that are defined in it.
     defines: BTreeSet<String>,
@@ -151,7 +151,7 @@ impl Module {
     }
 }
 
-/// What is found in a file.
+/// Reads the modules of a file.
 struct Reader {
     name: Names,
     module: Module,

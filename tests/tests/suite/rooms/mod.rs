@@ -42,7 +42,7 @@ fn no_file_uses_one_above_it_and_no_circle_is_wide() {
     assert!(breaches.is_empty(), "{}", breaches.join("\n"));
 }
 
-/// What is found wrong with a crate of these files.
+/// The breaches in a crate of these files.
 fn found(sources: &[(&str, &str)], order: &[&str]) -> Vec<String> {
     let order: Vec<String> = order.iter().map(|room| (*room).to_owned()).collect();
     rules::breaches(&arrows::of_sources(sources.iter().copied()), &order)

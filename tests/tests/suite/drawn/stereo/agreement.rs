@@ -1,4 +1,4 @@
-//! What is drawn for both eyes at once, pixel by pixel against one eye after the other.
+//! Pictures that are drawn for both eyes at once, compared pixel by pixel with one eye after the other.
 
 use super::{Case, EVEN, EXTENT, Pair, apart_within, at_once, drawn, form, shipped, upright};
 use framewright_graph::frame::{EyeForm, Stereo};

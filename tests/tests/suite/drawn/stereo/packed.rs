@@ -1,4 +1,4 @@
-//! What both eyes' pictures take: images, passes and draws.
+//! The cost of both eyes' pictures: images, passes and draws.
 
 use super::{Case, Drawn, EXTENT, apart_within, at_once, casters, drawn, form, read, rendered, shipped, upright};
 use framewright_graph::compile::Options;
