@@ -3,9 +3,7 @@
 use crate::command_line::options;
 use crate::picture::data::EncodingError;
 use crate::system::{Exit, links, text};
-
 use framewright_graph::base;
-
 use framewright_graph::base::{Diagnostic, NoFile, Sources, for_shell};
 use framewright_graph::shader::ShaderProblem;
 use framewright_graph::vulkan::Format;
@@ -131,13 +129,13 @@ pub(crate) enum Error {
     ReadAndWritten {
         /// Its role as an input.
         what: &'static str,
-        /// Which file, as it was named for writing.
+        /// The file, as it was named for writing.
         path: PathBuf,
     },
     /// Two names for files that are written lead to the same.
     #[error("`{}` would be written twice: another name leads to the same file", text::path(path))]
     WrittenTwice {
-        /// Which file, by its later name.
+        /// The file, by its later name.
         path: PathBuf,
     },
     /// A file that is to be new is there already.
@@ -250,7 +248,7 @@ fn no_output(name: &str, outputs: &[String], image: bool) -> String {
     format!("the pipeline has no output named `{name}`\nhelp: {help}")
 }
 
-/// What to do about a device that refuses.
+/// Help for a device that refuses.
 fn remedy(problem: &framewright_vulkan::Error) -> String {
     match problem {
         framewright_vulkan::Error::OutOfMemory { .. } => {
@@ -270,7 +268,7 @@ fn remedy(problem: &framewright_vulkan::Error) -> String {
     }
 }
 
-/// What to do about a file that can't be read.
+/// Help for a file that can't be read.
 fn allow(problem: &io::Error, file: &Path) -> String {
     match problem.kind() {
         io::ErrorKind::PermissionDenied => format!("\nhelp: chmod u+r {}", text::escape(&for_shell(file))),
@@ -278,7 +276,7 @@ fn allow(problem: &io::Error, file: &Path) -> String {
     }
 }
 
-/// What to do about a file, if it is one, that can't be written.
+/// Help for a file, or standard output, that can't be written.
 fn mend(problem: &io::Error, file: Option<&Path>) -> String {
     match problem.kind() {
         io::ErrorKind::NotFound => match file.map(links::destination).as_deref().and_then(Path::parent) {

@@ -4,6 +4,8 @@
 #[allow(dead_code, reason = "the other bench uses more of it")]
 #[path = "../tests/suite/testing/graphs.rs"]
 mod graphs;
+#[path = "../tests/suite/testing/parts.rs"]
+mod parts;
 
 use framewright_graph::compile::{Compiler, Options, compile};
 use framewright_graph::device::Estimated;

@@ -41,7 +41,7 @@ enum Texels {
 type Decoder = Box<dyn ImageDecoder>;
 
 impl TextureFiles {
-    /// Those that `root` lets be read.
+    /// Files that `root` lets be read.
     #[must_use]
     pub fn new(root: Root) -> TextureFiles {
         TextureFiles { root }

@@ -16,9 +16,9 @@ const COLOR_TOLERANCE: f64 = 3.0;
 pub struct Tally {
     /// How many there are.
     pub interior: usize,
-    /// Those on which both see the same object.
+    /// Pixels on which both see the same object.
     pub same_object: usize,
-    /// Those on which the drawn base colour lies among the ray-cast ones of the pixel and its neighbours.
+    /// Pixels on which the drawn base colour lies among the ray-cast ones of the pixel and its neighbours.
     pub same_color: usize,
 }
 
@@ -31,7 +31,7 @@ impl Tally {
     }
 }
 
-/// What a comparison found.
+/// The result of a comparison.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Agreement {
     /// Pixels that show an object.

@@ -21,7 +21,7 @@ pub const CURRENT_LAYER: &str = "/usr/lib/chromium/libVkLayer_khronos_validation
 /// The folder of the distribution's own validation layer, from `vulkan-validationlayers`.
 pub const DISTRIBUTION_LAYERS: &str = "/usr/share/vulkan/explicit_layer.d";
 
-/// Where distributions install drivers.
+/// The folder in which distributions install drivers.
 const DRIVERS: &str = "/usr/share/vulkan/icd.d";
 
 impl Driver {

@@ -1,56 +1,19 @@
 //! Small frames built in memory, and a device for them.
 
+use crate::parts;
 use framewright_graph::base::Span;
-use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
+use framewright_graph::device::Profile;
 use framewright_graph::frame::{
-    Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled,
-    Storage, Work,
+    Blend, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image, ImageIndex, Pass, Resource, Work,
 };
-use framewright_graph::vulkan::{CompareOp, Filter, Format, ResolveMode, Sampler, Stages, Subresources, Usage};
+use framewright_graph::vulkan::{CompareOp, Format, Stages, Subresources};
 
 /// A device that has every format at 1, 2, 4 and 8 samples, adds nothing to an image's bytes, and has one queue.
 #[must_use]
 pub fn device() -> Profile {
-    let support = |format: &Format| FormatSupport {
-        format: *format,
-        usage: Usage::all().difference(Usage::TRANSIENT_ATTACHMENT),
-        linear_filter: true,
-        blend: true,
-        samples: vec![1, 2, 4, 8],
-    };
-    Profile {
-        name: "a device for tests".to_owned(),
-        source: "built in memory".to_owned(),
-        max_attachment_extent: 16384,
-        max_extent_3d: 2048,
-        max_layers: 2048,
-        max_color_attachments: 8,
-        lazily_allocated_memory: false,
-        queues: Queues::default(),
-        local_read: false,
-        max_multiview_views: 6,
-        refuted_multiview: false,
-        untested_multiview: false,
-        vertex_layer: true,
-        max_clip_distances: Some(8),
-        depth_resolve: vec![ResolveMode::SampleZero],
-        refuted_depth_resolve: Vec::new(),
-        refuted_layered_depth_resolve: Vec::new(),
-        untested_depth_resolve: Vec::new(),
-        formats: Format::ALL.iter().map(support).collect(),
-        memory: MemoryModel {
-            alignment: 256,
-            row_texels: 1,
-            row_bytes: 1,
-            rows: 1,
-            separate_stencil: false,
-            buffer_alignment: 256,
-            type_bits: 1,
-            heap_bytes: None,
-        },
-        known_needs: Vec::new(),
-        unknown: Vec::new(),
-    }
+    let mut device = Profile { max_layers: 2048, ..parts::device() };
+    device.formats.iter_mut().for_each(|format| format.samples = vec![1, 2, 4, 8]);
+    device
 }
 
 /// Builds a frame pass by pass.
@@ -136,33 +99,14 @@ impl Added<'_> {
     /// It samples an image, one value a texel.
     pub fn sample(self, image: ImageIndex) -> Self {
         let compute = matches!(self.0.work, Work::Dispatch { .. });
-        self.0.sampled.push(Sampled {
-            binding: format!("source{}", self.0.sampled.len()).into(),
-            image,
-            range: Subresources::WHOLE,
-            frames_ago: 0,
-            span: Span::NONE,
-            eye: None,
-            face: Face::Resolved,
-            texture: None,
-            own_pixel: false,
-            sampler: Sampler::new(Filter::Nearest),
-            stages: if compute { Stages::COMPUTE_SHADER } else { Stages::FRAGMENT_SHADER },
-        });
+        let stages = if compute { Stages::COMPUTE_SHADER } else { Stages::FRAGMENT_SHADER };
+        self.0.sampled.push(parts::sampled(format!("source{}", self.0.sampled.len()), image, stages));
         self
     }
 
     /// It writes an image as storage: whole, or on top of what it reads.
     pub fn store(self, image: ImageIndex, read: bool) -> Self {
-        self.0.storage.push(Storage {
-            binding: format!("target{}", self.0.storage.len()).into(),
-            image,
-            range: Subresources::WHOLE,
-            span: Span::NONE,
-            read,
-            write: true,
-            stages: Stages::COMPUTE_SHADER,
-        });
+        self.0.storage.push(parts::stored(format!("target{}", self.0.storage.len()), image, read));
         self
     }
 }

@@ -1,4 +1,4 @@
-//! Small frames after what users of other render graphs reported; `tests/incidents` holds each against its report.
+//! Small frames after what users of other render graphs reported; `tests/suite/drawn/incidents` holds each against its report.
 
 use crate::frames::{Added, Builder};
 use framewright_graph::frame::{Blend, Face, Frame, ImageIndex, Lifetime, Resolve, ResolveWay};
@@ -149,7 +149,7 @@ pub fn memory_shared() -> Frame {
     builder.outputs(&[images[5]])
 }
 
-/// An image is made from itself as it was so many frames ago, beside transient images of its size.
+/// An image is made from itself as it was `frames` frames ago, beside transient images of its size.
 #[must_use]
 pub fn history(frames: u32) -> Frame {
     let mut builder = Builder::default();

@@ -1,17 +1,17 @@
-//! What the tests of the whole share. The tests themselves are in `tests/tests/suite`.
+//! Code that the tests of the whole share. The tests themselves are in `tests/tests/suite`.
 //!
 //! - [`frames`]: small frames built in memory.
 //! - [`happens_before`]: a brute-force judge of Plans.
 //! - [`mutation`]: Plans with one mistake each, and who notices.
-//! - [`random_pipelines`]: pipelines from a seed, and what they mean.
+//! - [`random_pipelines`]: pipelines from a seed, and their meaning.
 //! - [`incidents`]: frames after what users of other graphs reported.
 //! - [`raycast`]: a second, slow and simple way to a picture.
 //! - [`render`]: a pipeline file and a scene become pictures.
 //! - [`shapes`]: simple scenes.
-//! - [`optima`]: what small frames cost at least.
+//! - [`optima`]: the least cost of small frames.
 //! - [`sweep`]: all cases of a sweep, or a sample.
 //! - [`shipped`]: the shipped pipelines, as frames.
-//! - [`agreement`]: what the GPU drew, held against it.
+//! - [`agreement`]: compares it with the GPU's picture.
 //! - [`drivers`]: the software drivers and validation layers of this machine.
 
 pub mod agreement;
@@ -21,6 +21,8 @@ pub mod happens_before;
 pub mod incidents;
 pub mod mutation;
 pub mod optima;
+#[path = "../../graph/tests/suite/testing/parts.rs"]
+mod parts;
 pub mod random_pipelines;
 pub mod raycast;
 pub mod render;

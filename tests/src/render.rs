@@ -47,7 +47,7 @@ pub fn own_device() -> Option<Device> {
     }
 }
 
-/// What is rendered.
+/// A pipeline with its settings, scene and size.
 pub struct Setup<'a> {
     /// The pipeline file, relative to the repository.
     pub pipeline: &'a str,
@@ -87,7 +87,7 @@ pub struct Ways {
     pub rotation: Rotation,
 }
 
-/// The same of a frame that is drawn so.
+/// The Plan for `setup` on `device`, drawn in one of the [`Ways`].
 ///
 /// # Errors
 /// Those of [`plan`].
@@ -167,7 +167,7 @@ pub fn draw_rotated(
     Ok((plan, executor))
 }
 
-/// What draws frames by the Plan of `options`, before the first one.
+/// The executor and draw source of the Plan of `options`, before the first frame.
 ///
 /// # Errors
 /// Whatever keeps frames from being drawn.
@@ -208,10 +208,10 @@ pub fn rgb(texels: &Texels) -> Vec<[f64; 3]> {
     rgba(texels).into_iter().map(|[r, g, b, _]| [r, g, b]).collect()
 }
 
-/// That the validation layer found nothing.
+/// Checks that the validation layer found nothing.
 ///
 /// # Errors
-/// What it found.
+/// The layer's findings.
 pub fn silent(device: &Device) -> Result<(), Box<dyn Error>> {
     let findings: Vec<_> = device.messages().list().into_iter().filter(Message::is_finding).collect();
     if findings.is_empty() { Ok(()) } else { Err(format!("{findings:#?}").into()) }

@@ -1,54 +1,58 @@
 //! Sweeps over more cases than a person waits for. With `FRAMEWRIGHT_LONG` set, as `./test --long` does, every case is tested.
-//! Otherwise a sample is, chosen by the number in `FRAMEWRIGHT_SEED`, or by 1.
+//! Otherwise a sample is, chosen by the number in `FRAMEWRIGHT_SEED`, or by 1, and by the name of the sweep: sweeps of equally
+//! many cases test different places of their lists.
 
+use std::ffi::OsStr;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
 
 /// Whether every case is to be tested.
 #[must_use]
 pub fn is_long() -> bool {
-    std::env::var_os("FRAMEWRIGHT_LONG").is_some()
+    asks(std::env::var_os("FRAMEWRIGHT_LONG").as_deref())
 }
 
-/// The number that chooses samples.
-///
-/// # Panics
-/// If `FRAMEWRIGHT_SEED` is no whole number.
-#[must_use]
-pub fn seed() -> u64 {
-    std::env::var("FRAMEWRIGHT_SEED").map_or(1, |seed| seed.parse().expect("FRAMEWRIGHT_SEED is a whole number"))
+/// Whether a variable asks for something: one that is set, and not empty, as in the script `test`.
+fn asks(variable: Option<&OsStr>) -> bool {
+    variable.is_some_and(|value| !value.is_empty())
 }
 
-/// All of these cases, or `few` of them in their order.
+/// All of these cases, or `few` of them in their order. `name` tells this sweep from others.
 #[must_use]
-pub fn of<T>(cases: Vec<T>, few: usize) -> Vec<T> {
-    let chosen = chosen(cases.len(), few);
+pub fn of<T>(name: &str, cases: Vec<T>, few: usize) -> Vec<T> {
+    let count = cases.len();
+    if is_long() || few >= count {
+        return cases;
+    }
+    let chosen = sample(count, few, seed(name, few as u64, count as u64));
     cases.into_iter().enumerate().filter(|(at, _)| chosen.binary_search(at).is_ok()).map(|(_, case)| case).collect()
 }
 
-/// All of these numbers, or `few` of them that follow each other.
+/// All of these numbers, or `few` of them that follow each other. `name` tells this sweep from others.
 #[must_use]
-pub fn row(all: Range<u64>, few: u64) -> Range<u64> {
+pub fn row(name: &str, all: Range<u64>, few: u64) -> Range<u64> {
     let count = all.end - all.start;
     if is_long() || few >= count {
         return all;
     }
-    say(few, count);
-    part(all, few, seed())
+    part(all, few, seed(name, few, count))
 }
 
-/// Places of the cases that are tested, in rising order.
-fn chosen(count: usize, few: usize) -> Vec<usize> {
-    if is_long() || few >= count {
-        return (0..count).collect();
-    }
-    say(few as u64, count as u64);
-    sample(count, few, seed())
+/// The number that chooses the cases of a sweep. Tests that fail show what is printed here: how to test the same cases again.
+fn seed(name: &str, few: u64, count: u64) -> u64 {
+    let seed = std::env::var("FRAMEWRIGHT_SEED").ok().filter(|seed| !seed.is_empty());
+    let seed = seed.map_or(1, |seed| seed.parse().expect("FRAMEWRIGHT_SEED is a whole number"));
+    println!(
+        "{few} of {count} cases of {name}: set FRAMEWRIGHT_SEED={seed} to test them again, FRAMEWRIGHT_LONG=1 to test all"
+    );
+    of_name(seed, name)
 }
 
-/// Tells how the same cases are tested again. Tests that fail show it.
-fn say(few: u64, count: u64) {
-    let seed = seed();
-    println!("{few} of {count} cases: set FRAMEWRIGHT_SEED={seed} to test them again, FRAMEWRIGHT_LONG=1 to test all");
+/// The seed of one sweep.
+fn of_name(seed: u64, name: &str) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    (seed, name).hash(&mut hasher);
+    hasher.finish()
 }
 
 /// `few` of the numbers below `count`, in rising order: those whose places a seed mixes to the least values.
@@ -84,6 +88,21 @@ mod tests {
         let samples: BTreeSet<_> = (0..50).map(|seed| sample(1000, 10, seed)).collect();
         assert_eq!(samples.len(), 50);
         assert_eq!(sample(1000, 10, 7), sample(1000, 10, 7));
+    }
+
+    #[test]
+    fn sweeps_of_equally_many_cases_test_different_ones() {
+        let names = ["scales", "eyes", "profiles", "settings"];
+        let samples: BTreeSet<_> = names.iter().map(|name| sample(1000, 10, of_name(1, name))).collect();
+        assert_eq!(samples.len(), names.len());
+        let rows: BTreeSet<_> = names.iter().map(|name| part(0..1000, 10, of_name(1, name)).start).collect();
+        assert_eq!(rows.len(), names.len());
+        assert_ne!(of_name(1, "eyes"), of_name(2, "eyes"));
+    }
+
+    #[test]
+    fn an_empty_variable_asks_for_nothing() {
+        assert_eq!([None, Some(""), Some("1")].map(|value| asks(value.map(OsStr::new))), [false, false, true]);
     }
 
     #[test]

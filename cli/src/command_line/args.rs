@@ -51,7 +51,6 @@ pub(crate) enum Command {
 /// `framewright check`.
 #[derive(Debug, Args)]
 pub(crate) struct CheckArguments {
-    /// Pipeline and settings.
     #[command(flatten)]
     pub(crate) pipeline: PipelineArguments,
     /// Device to compile for: the name of a shipped profile, a profile file, or `all` for every shipped one.
@@ -67,7 +66,6 @@ pub(crate) struct CheckArguments {
     /// Variants that are checked at the same time; by default as many as there are processors.
     #[arg(long, value_name = "N", requires = "all_variants", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// How the Plan is made.
     #[command(flatten)]
     pub(crate) planning: PlanningArguments,
     /// Form of the answer.
@@ -78,7 +76,6 @@ pub(crate) struct CheckArguments {
 /// `framewright inspect`.
 #[derive(Debug, Args)]
 pub(crate) struct InspectArguments {
-    /// Pipeline and settings.
     #[command(flatten)]
     pub(crate) pipeline: PipelineArguments,
     /// Scene whose facts conditions see; without one they see a scene that holds everything.
@@ -90,7 +87,6 @@ pub(crate) struct InspectArguments {
     /// Device to compile for: the name of a shipped profile, or a profile file.
     #[arg(long, value_name = "NAME|PROFILE.ron")]
     pub(crate) device: Option<OsString>,
-    /// How the Plan is made.
     #[command(flatten)]
     pub(crate) planning: PlanningArguments,
     /// Form of the Plan.
@@ -104,7 +100,6 @@ pub(crate) struct InspectArguments {
 /// `framewright run`.
 #[derive(Debug, Args)]
 pub(crate) struct RunArguments {
-    /// Pipeline and settings.
     #[command(flatten)]
     pub(crate) pipeline: PipelineArguments,
     /// Scene to draw: a .glb or .gltf file, or a scene of our own in RON.
@@ -129,7 +124,6 @@ pub(crate) struct RunArguments {
     /// File for the report: device, memory, barriers, passes and every validation message, as JSON.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
-    /// How the Plan is made.
     #[command(flatten)]
     pub(crate) planning: PlanningArguments,
     /// Device to draw on: its number or name in `framewright devices`, or a part of its name.
@@ -219,7 +213,6 @@ pub(crate) struct PipelineArguments {
     /// with commas between them the first that the device can draw, `auto`: the fastest. Pictures of both stand side by side.
     #[arg(long, value_name = "off|auto|MODE[,MODE]", default_value = "off", value_parser = stereo)]
     pub(crate) stereo: Modes,
-    /// What shaders may take.
     #[command(flatten)]
     pub(crate) limits: ShaderLimits,
 }
@@ -265,7 +258,7 @@ pub(crate) struct PlanningArguments {
 }
 
 impl PlanningArguments {
-    /// The same for the compiler.
+    /// The compiler's options.
     #[must_use]
     pub(crate) fn options(self) -> Options {
         Options {
@@ -278,7 +271,7 @@ impl PlanningArguments {
     }
 }
 
-/// What a Plan may do without.
+/// A saving that a Plan may do without.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Saving {
     /// Full-screen draws, which gain nothing from several samples, stay in multisampled images, so that more is resolved.
@@ -319,7 +312,7 @@ pub(crate) fn parse(arguments: impl Iterator<Item = OsString>) -> Result<Command
     })
 }
 
-/// What no single argument shows: images dumped twice, files written twice, a stack that memory doesn't hold.
+/// Checks what no single argument shows: images dumped twice, files written twice, a stack that memory doesn't hold.
 fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
     let conflict = |message: String| {
         Err(<CommandLine as clap::CommandFactory>::command().error(clap::error::ErrorKind::ArgumentConflict, message))

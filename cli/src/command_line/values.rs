@@ -1,9 +1,10 @@
-//! Values of single arguments, and how they are read.
+//! Values of single arguments, and how they are read. The error of each reader says what was expected, in words.
 
 use crate::picture::FileFormat;
 use framewright_graph::compile::Order;
 use framewright_graph::frame::Stereo;
 use framewright_graph::vulkan::Rotation;
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Width and height of the output where the command line says none, in pixels.
@@ -20,11 +21,11 @@ pub(crate) struct Size {
 }
 
 /// `NAME=VALUE`.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct Assignment {
-    /// The setting.
+    /// The setting, or the fact.
     pub(crate) name: String,
-    /// Its value, not yet read.
+    /// Its value, as text.
     pub(crate) value: String,
 }
 
@@ -69,9 +70,6 @@ impl std::str::FromStr for Size {
 }
 
 /// Reads `NAME=VALUE`.
-///
-/// # Errors
-/// What was expected, in words.
 pub(crate) fn assignment(text: &str) -> Result<Assignment, String> {
     match text.split_once('=') {
         Some((name, value)) if !name.is_empty() => Ok(Assignment { name: name.to_owned(), value: value.to_owned() }),
@@ -80,9 +78,6 @@ pub(crate) fn assignment(text: &str) -> Result<Assignment, String> {
 }
 
 /// Reads an order of execution.
-///
-/// # Errors
-/// What was expected, in words.
 pub(crate) fn order(text: &str) -> Result<Order, String> {
     match text.strip_prefix("random:") {
         Some(seed) if !seed.is_empty() && seed.bytes().all(|byte| byte.is_ascii_digit()) => match seed.parse() {
@@ -100,9 +95,6 @@ pub(crate) fn order(text: &str) -> Result<Order, String> {
 }
 
 /// Reads `0`, `90`, `180` or `270`.
-///
-/// # Errors
-/// What was expected, in words.
 pub(crate) fn rotation(text: &str) -> Result<Rotation, String> {
     let degrees = text.parse().ok().filter(|_| text.bytes().all(|byte| byte.is_ascii_digit()));
     degrees.and_then(Rotation::from_degrees).ok_or_else(|| "expected 0, 90, 180 or 270".to_owned())
@@ -113,9 +105,6 @@ pub(crate) fn rotation(text: &str) -> Result<Rotation, String> {
 pub(crate) struct Modes(pub(crate) Vec<Stereo>);
 
 /// Reads ways of drawing for two eyes.
-///
-/// # Errors
-/// What was expected, in words.
 pub(crate) fn stereo(text: &str) -> Result<Modes, String> {
     if text == "auto" {
         return Ok(Modes(Stereo::FASTEST_FIRST.into()));
@@ -131,9 +120,6 @@ pub(crate) fn stereo(text: &str) -> Result<Modes, String> {
 }
 
 /// Reads `IMAGE=FILE.png`.
-///
-/// # Errors
-/// What was expected, in words.
 pub(crate) fn dump(text: &str) -> Result<Dump, String> {
     match text.split_once('=') {
         Some((image, file)) if !image.is_empty() => Ok(Dump { image: image.to_owned(), file: picture(file)? }),
@@ -142,9 +128,6 @@ pub(crate) fn dump(text: &str) -> Result<Dump, String> {
 }
 
 /// Reads `FILE.png` or `NAME=FILE.png`. What has a `/` before its first `=` is no name: `./a=b.png` is a file.
-///
-/// # Errors
-/// What was expected, in words.
 pub(crate) fn output_file(text: &str) -> Result<OutputFile, String> {
     match text.split_once('=') {
         Some((name, file)) if !name.is_empty() && !name.contains('/') => {
@@ -155,9 +138,6 @@ pub(crate) fn output_file(text: &str) -> Result<OutputFile, String> {
 }
 
 /// Reads the name of a picture's file.
-///
-/// # Errors
-/// What was expected, in words.
 pub(crate) fn picture(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match FileFormat::of(&path) {

@@ -1,6 +1,7 @@
 //! `framewright devices`: the Vulkan devices of this machine, and the profile of one.
 
 use crate::command_line::args::{AnswerFormat, DevicesArguments};
+use crate::commands::run::DeviceUsed;
 use crate::error::Error;
 use crate::files::outputs;
 use crate::planning::{device, helper};
@@ -21,10 +22,8 @@ struct Answer<'a> {
 #[derive(Debug, Serialize)]
 struct Entry<'a> {
     index: usize,
-    name: &'a str,
-    driver: &'a str,
-    kind: &'a str,
-    vulkan: &'a str,
+    #[serde(flatten)]
+    summary: DeviceUsed,
     /// Kinds of queues that it has.
     queues: &'a [&'static str],
     /// Whether passes can read attachments of their own rendering scope.
@@ -110,10 +109,7 @@ fn answer(devices: &[(Opened, DeviceSummary)]) -> Answer<'_> {
 fn entry<'a>(device: &'a DeviceSummary, opened: &'a Opened) -> Entry<'a> {
     Entry {
         index: device.index,
-        name: &device.name,
-        driver: &device.driver,
-        kind: device.kind,
-        vulkan: &device.vulkan,
+        summary: device.into(),
         queues: &device.queues,
         local_read: device.local_read,
         usable: device.missing.is_empty() && opened.is_ok(),

@@ -20,18 +20,10 @@ struct Entry<'a> {
     name: &'static str,
     #[serde(rename = "type")]
     ty: String,
-    value: Value,
+    value: serde_json::Value,
     about: &'static str,
     /// The reason for the value, or nothing.
     because: &'a str,
-}
-
-#[derive(Debug, Serialize)]
-#[serde(untagged)]
-enum Value {
-    Bool(bool),
-    Integer(i64),
-    Number(f64),
 }
 
 /// Prints the facts of a scene.
@@ -59,9 +51,9 @@ fn entry(found: &ExplainedFact) -> Entry<'_> {
         name: found.fact.name(),
         ty: found.fact.ty().to_string(),
         value: match found.value {
-            FactValue::Bool(value) => Value::Bool(value),
-            FactValue::Integer(value) => Value::Integer(value),
-            FactValue::Number(value) => Value::Number(value),
+            FactValue::Bool(value) => value.into(),
+            FactValue::Integer(value) => value.into(),
+            FactValue::Number(value) => value.into(),
         },
         about: found.fact.about(),
         because: &found.because,

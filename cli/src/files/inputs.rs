@@ -16,7 +16,7 @@ use std::path::Path;
 pub(crate) struct FileRole {
     /// Its name in messages.
     pub(crate) name: &'static str,
-    /// FileRole it is recorded as when it is read.
+    /// The words by which it is recorded when it is read.
     pub(crate) recorded: &'static str,
 }
 
@@ -40,11 +40,11 @@ impl FileRole {
 pub(crate) struct PipelineFile {
     /// Name to show: as the user gave it.
     pub(crate) shown: String,
-    /// Which file it is, counted from its own folder.
+    /// Its path, counted from its own folder.
     pub(crate) path: FilePath,
-    /// Where the files come from that it names; `None`: the binary carries it, and them.
+    /// The folder of the files that it names; `None`: the binary carries it, and them.
     pub(crate) root: Option<Root>,
-    /// FileRole it holds.
+    /// Its contents.
     pub(crate) bytes: Vec<u8>,
 }
 
@@ -85,7 +85,7 @@ pub(crate) fn expect(arguments: &args::PipelineArguments, read: &ReadFiles) {
     }
 }
 
-/// Where a pipeline's files come from: its own folder, or what the user says.
+/// The folder that a pipeline's files come from: its own, or the one that the user names.
 fn limited(arguments: &args::PipelineArguments, own: Root) -> Result<Root, Error> {
     if arguments.allow_outside {
         return Ok(own.allow_outside());

@@ -33,7 +33,7 @@ pub(crate) struct Picture<'t> {
     /// Width and height in texels.
     pub(crate) extent: [u32; 2],
     /// Rows from the top without padding, in the machine's byte order. Of depth-stencil formats they hold the depth alone.
-    /// Those of further layers and slices are left out.
+    /// Rows of further layers and slices are left out.
     pub(crate) bytes: &'t [u8],
 }
 

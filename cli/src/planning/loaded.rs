@@ -7,7 +7,6 @@ use crate::files::inputs::{self, FileRole, PipelineFile};
 use crate::files::shipped;
 use crate::planning::helper;
 use crate::system::Exit;
-
 use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, Root, Sources};
 use framewright_graph::compile::{self, Options, heap_size};
 use framewright_graph::device::{MemoryProvider, Profile};
@@ -31,7 +30,7 @@ pub(crate) struct Loaded {
     pub(crate) sources: Arc<Sources>,
     /// Shaders beside the pipeline file, then shipped ones.
     pub(crate) shaders: ShaderLibrary,
-    /// Where they are compiled.
+    /// The process that compiles them.
     pub(crate) helper: Helper,
     /// Pictures beside the pipeline file.
     pub(crate) textures: TextureFiles,
@@ -174,7 +173,7 @@ impl Loaded {
     pub(crate) fn frame(&mut self, view: View<'_>, device: &Profile) -> Result<Frame, Error> {
         self.check_command_line(view)?;
         let stereo = Stereo::first_fit(&self.stereo.0, device).map_err(|why| Error::Stereo { why })?;
-        let inputs = Inputs { device: Some(device), ..inputs(&self.set, stereo, view) };
+        let inputs = inputs(&self.set, stereo, view, Some(device));
         expand::expand(&self.pipeline, Arc::clone(&self.sources), &inputs, &mut self.shaders)
             .map_err(|diagnostics| wrong(&self.sources, diagnostics))
     }
@@ -184,7 +183,7 @@ impl Loaded {
     /// # Errors
     /// The mistakes of the command line.
     pub(crate) fn check_command_line(&self, view: View<'_>) -> Result<(), Error> {
-        let diagnostics = expand::check_inputs(&self.pipeline, &inputs(&self.set, self.stereo.0[0], view));
+        let diagnostics = expand::check_inputs(&self.pipeline, &inputs(&self.set, self.stereo.0[0], view, None));
         if diagnostics.is_empty() {
             return Ok(());
         }
@@ -218,7 +217,13 @@ impl Loaded {
     }
 }
 
-fn inputs<'a>(set: &'a [(String, String)], stereo: Stereo, view: View<'a>) -> Inputs<'a> {
+/// The inputs of a frame that is drawn so, with these settings.
+pub(crate) fn inputs<'a>(
+    set: &'a [(String, String)],
+    stereo: Stereo,
+    view: View<'a>,
+    device: Option<&'a Profile>,
+) -> Inputs<'a> {
     Inputs {
         set,
         facts: view.facts.unwrap_or(Facts::UNKNOWN),
@@ -226,7 +231,7 @@ fn inputs<'a>(set: &'a [(String, String)], stereo: Stereo, view: View<'a>) -> In
         output_extent: [view.size.width, view.size.height],
         rotation: view.rotation,
         dump: view.dump,
-        device: None,
+        device,
         stereo,
     }
 }

@@ -6,4 +6,4 @@ mod loaded;
 pub(crate) mod notes;
 pub(crate) mod totals;
 
-pub(crate) use loaded::{Loaded, Planned, View, load};
+pub(crate) use loaded::{Loaded, Planned, View, inputs, load};

@@ -4,7 +4,7 @@ use crate::system::text;
 use framewright_graph::plan::{Note, Stage};
 use std::collections::HashMap;
 
-/// So many notes of one kind are all shown; of more only the first few are.
+/// Up to this many notes of one kind are all shown; of more only the first [`FEW`].
 const MANY: usize = 20;
 const FEW: usize = 3;
 

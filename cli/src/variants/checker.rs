@@ -5,11 +5,11 @@ use super::identity::{Identities, Identity};
 use super::shaders::SharedShaders;
 use super::space::Choice;
 use crate::command_line::values::Modes;
-use crate::planning::View;
+use crate::planning::{self, View};
 use framewright_graph::base::{Diagnostic, Sources};
 use framewright_graph::compile::{Compiler, Options, heap_size};
 use framewright_graph::device::{Estimated, Profile};
-use framewright_graph::expand::{self, Inputs};
+use framewright_graph::expand;
 use framewright_graph::frame::{Frame, Stereo};
 use framewright_graph::language::Document;
 use framewright_graph::plan::Totals;
@@ -103,16 +103,8 @@ impl<'a> VariantChecker<'a> {
         let device = self.subject.devices.get(axes::device(choice)).map(|device| &**device);
         let stereo = device.map_or(Ok(Stereo::Off), |device| Stereo::first_fit(&self.subject.stereo.0, device));
         let stereo = stereo.map_err(|why| vec![Diagnostic::nowhere(why)])?;
-        let inputs = Inputs {
-            set: &axes.settings(choice),
-            facts: axes.facts(choice),
-            facts_known: true,
-            output_extent: [view.size.width, view.size.height],
-            rotation: view.rotation,
-            dump: view.dump,
-            stereo,
-            device,
-        };
+        let (set, view) = (axes.settings(choice), View { facts: Some(axes.facts(choice)), ..*view });
+        let inputs = planning::inputs(&set, stereo, view, device);
         expand::expand(pipeline, Arc::clone(sources), &inputs, &mut self.shaders)
     }
 }

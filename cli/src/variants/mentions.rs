@@ -12,7 +12,7 @@ pub(crate) struct Mentions<'a> {
     pieces: HashMap<&'a str, usize>,
     /// Strings with numbers in them.
     numbers: Vec<&'a str>,
-    /// Whether a string is not read as it is written, and may hold any name.
+    /// Whether a string has escapes, which aren't read: it may hold any name.
     hidden: bool,
 }
 

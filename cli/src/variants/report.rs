@@ -8,13 +8,14 @@ use super::run::Findings;
 use super::space::{Choice, Space};
 use crate::command_line::args::CheckArguments;
 use crate::command_line::options;
+use crate::command_line::values::Assignment;
 use framewright_graph::base::{self, Diagnostic, Sources};
 use framewright_graph::plan::Totals;
 use serde::Serialize;
 use serde_json::Value;
 
 /// The answer.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub(crate) struct Report {
     pub(crate) format_version: u32,
     /// The file, as it was named.
@@ -24,7 +25,7 @@ pub(crate) struct Report {
     /// Mistakes that every variant has; then none was checked.
     pub(crate) diagnostics: Value,
     /// Settings that the command line chose, itself or by a preset or settings files.
-    pub(crate) chosen: Vec<NamedValue>,
+    pub(crate) chosen: Vec<Assignment>,
     pub(crate) axes: Vec<AxisEntry>,
     /// Presets that are among the variants, as they are on each device.
     pub(crate) presets: Vec<String>,
@@ -48,30 +49,23 @@ pub(crate) struct Report {
     pub(crate) plans: Vec<PlanEntry>,
 }
 
-/// A setting or fact with a value.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(crate) struct NamedValue {
-    pub(crate) name: String,
-    pub(crate) value: String,
-}
-
 /// An axis with its values, the default first.
 #[derive(Debug, Serialize)]
 pub(crate) struct AxisEntry {
     /// `setting`, `fact` or `device`.
     pub(crate) kind: &'static str,
-    /// Of a setting or fact its name.
+    /// The name of a setting or fact; a device has none.
     pub(crate) name: Option<String>,
     pub(crate) values: Vec<String>,
 }
 
 /// A variant by its departures from the defaults.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub(crate) struct Variant {
     /// Settings that don't have their defaults, but for those that the command line chose.
-    pub(crate) settings: Vec<NamedValue>,
+    pub(crate) settings: Vec<Assignment>,
     /// Facts that are not as they are without a scene.
-    pub(crate) facts: Vec<NamedValue>,
+    pub(crate) facts: Vec<Assignment>,
     /// The device, if it isn't the first.
     pub(crate) device: Option<String>,
 }
@@ -81,7 +75,7 @@ pub(crate) struct Variant {
 pub(crate) struct FailureEntry {
     /// The mistake as in the answers of `check`, in the variant `breaks_with`.
     pub(crate) diagnostic: Value,
-    /// The same for people.
+    /// The mistake as people read it.
     #[serde(skip)]
     pub(crate) shown: String,
     /// Variants that have it.
@@ -103,7 +97,7 @@ pub(crate) struct PlanEntry {
     pub(crate) example: Variant,
     /// The Plan's sums.
     pub(crate) totals: Totals,
-    /// The same for Plans that differ in values alone.
+    /// A hash that is equal for Plans that differ in values alone.
     #[serde(skip)]
     pub(crate) shape: u64,
 }
@@ -112,24 +106,13 @@ impl Report {
     /// The report when no variant was checked.
     #[must_use]
     pub(crate) fn of_nothing(arguments: &CheckArguments) -> Report {
-        let set = arguments.pipeline.set.iter();
         Report {
             format_version: 1,
             pipeline: arguments.pipeline.file.to_string_lossy().into_owned(),
-            fine: false,
             diagnostics: Value::Array(Vec::new()),
-            chosen: set.map(|one| NamedValue { name: one.name.clone(), value: one.value.clone() }).collect(),
-            axes: Vec::new(),
-            presets: Vec::new(),
+            chosen: arguments.pipeline.set.clone(),
             pairwise: arguments.pairwise,
-            variants: 0,
-            checked: 0,
-            interrupted: false,
-            failing: 0,
-            failures: Vec::new(),
-            further_failures: 0,
-            distinct_plans: 0,
-            plans: Vec::new(),
+            ..Report::default()
         }
     }
 
@@ -155,7 +138,7 @@ impl Report {
         let plans: Vec<PlanEntry> = told.collect();
         Report {
             fine: failing == 0,
-            chosen: axes.fixed.iter().cloned().map(|(name, value)| NamedValue { name, value }).collect(),
+            chosen: axes.fixed.iter().cloned().map(|(name, value)| Assignment { name, value }).collect(),
             axes: axes.list.iter().map(|axis| axis_entry(&axis.varied, &axis.values[..axis.combined])).collect(),
             presets: axes.presets.iter().map(|(name, _)| name.clone()).collect(),
             variants: space.len(),
@@ -172,9 +155,9 @@ impl Report {
 
 impl Variant {
     fn of(axes: &Axes, choice: &Choice) -> Variant {
-        let mut variant = Variant { settings: Vec::new(), facts: Vec::new(), device: None };
+        let mut variant = Variant::default();
         for (varied, value) in axes.departures(choice) {
-            let chosen = |name: &str| NamedValue { name: name.to_owned(), value: value.to_owned() };
+            let chosen = |name: &str| Assignment { name: name.to_owned(), value: value.to_owned() };
             match varied {
                 Varied::Setting(name) => variant.settings.push(chosen(name)),
                 Varied::Fact(fact) => variant.facts.push(chosen(fact.name())),

@@ -25,7 +25,7 @@ const BATCHES: usize = 8;
 pub(crate) struct Findings {
     /// Variants that were judged.
     pub(crate) checked: usize,
-    /// Those of them that are wrong.
+    /// Judged variants that are wrong.
     pub(crate) failing: usize,
     /// Distinct Plans.
     pub(crate) plans: HashMap<Identity, DistinctPlan>,

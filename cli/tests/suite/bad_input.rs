@@ -1,4 +1,4 @@
-//! What is wrong is said in one clear message, with its place and the right exit code; nothing half-written stays behind.
+//! Mistakes are told in one clear message, with their place and the right exit code; nothing half-written stays behind.
 
 use crate::testing::{FORWARD, Place, Vulkan, check, forward_with, outcome};
 use std::process::Stdio;

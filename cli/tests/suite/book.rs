@@ -39,7 +39,7 @@ fn every_link_leads_somewhere() {
     assert!(links_of_all > 150, "{links_of_all} links");
 }
 
-/// What is wrong with a link of a page.
+/// The mistake of a link of a page.
 fn problem(page: &Path, link: &str) -> Option<&'static str> {
     if link.starts_with("https://") {
         return None;

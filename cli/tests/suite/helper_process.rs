@@ -167,7 +167,7 @@ fn the_shader_after_one_that_ended_its_process_is_compiled_by_a_new_one() {
         .mentions("'nothing' : undeclared identifier");
 }
 
-/// A command that ends with the test, whatever becomes of that.
+/// A command that ends with the test, even if that fails.
 struct Started(Child);
 
 impl Drop for Started {
@@ -185,7 +185,7 @@ fn children(of: &Child) -> Vec<String> {
     text.split_whitespace().map(str::to_owned).collect()
 }
 
-/// Whether a process runs: one that nobody waits for is no more than its number.
+/// Whether a process runs. One that ended, and that no parent waited for, doesn't.
 fn runs(id: &str) -> bool {
     let state = std::fs::read_to_string(format!("/proc/{id}/stat")).unwrap_or_default();
     state.rsplit_once(')').is_some_and(|(_, rest)| !rest.trim_start().starts_with(['Z', 'X']))

@@ -59,10 +59,8 @@ fn a_file_is_counted_from_the_one_that_names_it_and_shown_with_its_folder() {
         .mentions("included here");
 }
 
-#[test]
-fn a_shipped_file_is_taken_where_there_is_none_beside() {
-    let place = Place::new();
-    let bloom = r#"Pipeline(
+/// A pipeline that includes the shipped bloom.
+pub(crate) const WITH_BLOOM: &str = r#"Pipeline(
     version: 1,
     include: ["library/bloom.ron"],
     images: [
@@ -75,10 +73,14 @@ fn a_shipped_file_is_taken_where_there_is_none_beside() {
     ],
     outputs: ["screen"],
 )"#;
-    place.file("p.ron", bloom);
+
+#[test]
+fn a_shipped_file_is_taken_where_there_is_none_beside() {
+    let place = Place::new();
+    place.file("p.ron", WITH_BLOOM);
     let plan = place.run(&["inspect", "p.ron"]).exits(0).out;
     assert!(plan.contains("(shipped:library/bloom.ron:"), "{plan}");
-    let near = place.file("near.ron", bloom.replace("library/bloom", "library/blom"));
+    let near = place.file("near.ron", WITH_BLOOM.replace("library/bloom", "library/blom"));
     place
         .run(&["check".as_ref(), near.as_os_str()])
         .exits(1)
@@ -161,7 +163,7 @@ fn the_user_may_choose_another_root_or_none() {
     check(&place, &["--root", "."]).exits(1).mentions("leads out of `.`");
 }
 
-/// Runs the command as somebody who may not read everything, whoever runs the test.
+/// Runs the command as a user who may not read everything, even where root runs the test.
 #[cfg(unix)]
 fn check_as_nobody(place: &Place, words: &[&str]) -> Outcome {
     use std::os::unix::fs::PermissionsExt;

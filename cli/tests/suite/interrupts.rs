@@ -1,4 +1,4 @@
-//! Ctrl-C: whatever a command waits for, it ends soon, with 130, and leaves nothing half-written.
+//! Ctrl-C ends a command soon, whatever it waits for, with 130, and leaves nothing half-written.
 #![cfg(unix)]
 
 use crate::testing::{Outcome, Place, Vulkan};

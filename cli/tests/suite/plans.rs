@@ -34,7 +34,7 @@ fn every_shipped_pipeline_is_fine_as_it_comes() {
 
 #[test]
 fn forward_is_fine_in_every_combination_of_settings() {
-    for set in sweep::of(settings(), 6) {
+    for set in sweep::of("settings of forward", settings(), 6) {
         let mut arguments = vec!["check".to_owned(), "forward".to_owned()];
         arguments.extend(set);
         let outcome = Place::new().run(&arguments).exits(0);

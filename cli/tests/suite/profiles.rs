@@ -97,7 +97,7 @@ fn the_list_of_devices_tells_queues_and_local_reads() {
     }
 }
 
-/// What is replaced in lavapipe's profile, with what, and what is said.
+/// A text of lavapipe's profile, its replacement, and the answer to that.
 const LIES: [(&str, &str, &str); 9] = [
     ("max_attachment_extent: 16384", "max_attachment_extent: 0", ":4:28: this is 0, and must be 1 to 65536"),
     ("max_attachment_extent: 16384", "max_attachment_extent: NaN", ":4:27: Expected integer"),

@@ -1,5 +1,6 @@
 //! Shaders: beside the file that names them, then beside the pipeline, then those that are shipped.
 
+use crate::included_files::WITH_BLOOM;
 use crate::testing::{Outcome, Place, Vulkan};
 
 /// A full-screen shader whose one parameter is called `parameter`.
@@ -95,22 +96,7 @@ fn a_shipped_fragment_keeps_the_shipped_shader_whatever_lies_beside_the_pipeline
     let place = Place::new();
     place.file("bloom_shrink.frag", "this is no shader");
     place.file("full_screen.vert", "nor is this");
-    place.file(
-        "p.ron",
-        r#"Pipeline(
-    version: 1,
-    include: ["library/bloom.ron"],
-    images: [
-        (name: "color", format: Color(hdr: true), size: Output),
-        (name: "screen", format: Output, size: Output),
-    ],
-    passes: [
-        (name: "sky", draw: Sky, color: [(image: "color", clear: (0.0, 0.0, 0.0, 1.0))]),
-        (use: "bloom", name: "glow", with: {"source": "color", "target": "screen"}),
-    ],
-    outputs: ["screen"],
-)"#,
-    );
+    place.file("p.ron", WITH_BLOOM);
     check(&place).exits(0);
     let plan = place.run(&["inspect", "p.ron"]).exits(0).out;
     assert!(plan.contains("with shader `shipped:bloom_shrink` (shipped:library/bloom.ron:"), "{plan}");

@@ -44,7 +44,7 @@ fn picture(path: &Path) -> RgbImage {
     image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).into_rgb8()
 }
 
-/// Pixels of which a channel is further apart than so many 8-bit steps.
+/// Pixels of which a channel is further apart than `steps` 8-bit steps.
 fn apart(ours: &RgbImage, theirs: &RgbImage, steps: u8) -> usize {
     let far =
         |(a, b): (&image::Rgb<u8>, &image::Rgb<u8>)| (0..3).any(|channel| a[channel].abs_diff(b[channel]) > steps);
@@ -61,8 +61,8 @@ fn the_other_driver_draws_the_same_pictures() {
     hold(Vulkan::SWIFTSHADER, [20, 200], false);
 }
 
-/// Draws every shipped pipeline, and takes its picture for the one that is shown or holds it against that: one pixel in so many
-/// may be further away than 2/255, and one in so many further than 24/255. Another driver, or a processor with other vector
+/// Draws every shipped pipeline, and takes its picture for the one that is shown or holds it against that: one pixel in `one_in[0]`
+/// may be further away than 2/255, and one in `one_in[1]` further than 24/255. Another driver, or a processor with other vector
 /// instructions, rounds otherwise: an edge may fall on the other side of a pixel's middle.
 fn hold(vulkan: Vulkan, one_in: [usize; 2], update: bool) {
     let Some(variables) = vulkan.variables() else { return };
@@ -70,7 +70,7 @@ fn hold(vulkan: Vulkan, one_in: [usize; 2], update: bool) {
     let all = &names("examples/pipelines", ".ron") | &names("docs/pictures", ".png");
     // Those of lavapipe are the ones that are shown: all of them are drawn.
     let few = if vulkan.is_lavapipe() { all.len() } else { 8 };
-    for name in sweep::of(all.into_iter().collect(), few) {
+    for name in sweep::of("shipped pictures", all.into_iter().collect(), few) {
         let (pipeline, set) = set(&name);
         let run = ["run", pipeline, "--scene", scene(pipeline), "-o", DRAWN];
         place.run_with(&variables, &[&run[..], &HOW, &set].concat()).exits(0);

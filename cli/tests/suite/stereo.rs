@@ -143,7 +143,7 @@ fn of_several_modes_the_first_that_the_device_has_is_taken() {
 #[test]
 fn every_shipped_pipeline_is_fine_in_every_mode_on_every_device_that_has_it() {
     let cases = shipped_pipelines().into_iter().flat_map(|pipeline| MODES.map(|mode| (pipeline.clone(), mode)));
-    for (pipeline, mode) in sweep::of(cases.collect(), 8) {
+    for (pipeline, mode) in sweep::of("modes of pipelines", cases.collect(), 8) {
         // Devices that lack it draw one eye after the other.
         let modes = format!("{mode},multi-pass");
         let out = Place::new().run(&["check", &pipeline, "--device", "all", "--stereo", &modes]).exits(0).out;

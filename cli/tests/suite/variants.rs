@@ -33,7 +33,7 @@ const TREACHEROUS: &str = r#"Pipeline(
 /// A scene in which nothing is transparent.
 const SOLID: &str = r##"Scene(version: 1, materials: [(name: "stone", color: "#808080")], objects: [Cube(material: "stone", size: 1)])"##;
 
-/// A pipeline with so many switches, each of which turns a pass on.
+/// A pipeline with `count` switches, each of which turns a pass on.
 fn switches(count: usize) -> String {
     let (mut settings, mut passes) = (String::new(), String::new());
     for at in 0..count {
@@ -154,7 +154,7 @@ const IN_PAIRS: [&str; 3] = ["deferred", "deferred_mobile", "image_quality"];
 #[test]
 fn every_shipped_pipeline_is_fine_in_every_variant_on_every_shipped_device() {
     let place = Place::new();
-    for name in sweep::of(shipped_pipelines(), 4) {
+    for name in sweep::of("variants of pipelines", shipped_pipelines(), 4) {
         let pipeline = &*name;
         let all = [pipeline, "--device", "all"];
         let too_many = IN_PAIRS.contains(&pipeline);

@@ -2,7 +2,7 @@
 
 use crate::testing::{Outcome, Place, Vulkan, repository};
 
-/// What is drawn for each view, with what the view says.
+/// The settings of the pipeline, and the fragment that each view draws.
 const FRAGMENT: &str = r#"
     settings: [
         (name: "msaa", value: OneOf(default: 4, of: [1, 4])),

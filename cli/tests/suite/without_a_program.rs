@@ -1,4 +1,5 @@
-//! What a program that embeds the library would supply: `check` and `inspect` plan it, `run` says that nobody does.
+//! Custom passes and imported images, which an embedding program would supply: `check` and `inspect` plan them, `run` says
+//! that they are missing.
 
 use crate::testing::{Place, Vulkan};
 

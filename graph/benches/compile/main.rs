@@ -10,6 +10,8 @@
 mod changed;
 #[path = "../../tests/suite/testing/graphs.rs"]
 mod graphs;
+#[path = "../../tests/suite/testing/parts.rs"]
+mod parts;
 mod reading;
 mod recompiling;
 mod table;

@@ -1,7 +1,7 @@
 //! Alpha that says how many samples are covered: where there are several, and nowhere else.
 
+use crate::testing::pipelines::{INPUTS, right, set};
 use crate::testing::plans::{on, scopes, shipped};
-use crate::testing::table::{INPUTS, right, set};
 use framewright_graph::device::Profile;
 use framewright_graph::expand::Inputs;
 use framewright_graph::plan::{Pass, Plan, Work};

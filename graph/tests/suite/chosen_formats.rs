@@ -1,7 +1,7 @@
 //! Formats that a pipeline chose: what they come to in bytes, and what is taken where the device can't use them so.
 
+use crate::testing::pipelines::{INPUTS, right};
 use crate::testing::plans::{image, on, shipped};
-use crate::testing::table::{INPUTS, right};
 use framewright_graph::compile::{Compiler, Options};
 use framewright_graph::device::{Estimated, FormatSupport, Profile};
 use framewright_graph::expand::Inputs;

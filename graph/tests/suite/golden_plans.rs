@@ -2,8 +2,9 @@
 //! alternative of each setting, and over a scene of opaque objects alone. The texts under `golden_plans/` are there to be
 //! reviewed: a change of the compiler shows as a change of theirs.
 
+use crate::testing::pipelines::{INPUTS, shipped};
 use crate::testing::plans::shipped as shipped_device;
-use crate::testing::table::{INPUTS, Table, shipped};
+use crate::testing::table::Table;
 use framewright_graph::base::{self, Root, Sources};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile, Queues};

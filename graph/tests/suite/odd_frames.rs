@@ -1,8 +1,8 @@
 //! Frames that were built in memory and can't be made: each is refused in words, whatever their numbers.
 
+use crate::testing::parts::stored;
 use crate::testing::plans::refused_on;
 use crate::testing::raster::{self, Raster};
-use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::frame::{Blend, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Storage, Work};
@@ -24,18 +24,8 @@ fn frame() -> Frame {
 }
 
 fn dispatch(name: &str, image: ImageIndex) -> Pass {
-    let stages = Stages::COMPUTE_SHADER;
-    let target = Storage {
-        binding: "target".into(),
-        image,
-        range: Subresources::WHOLE,
-        span: Span::NONE,
-        read: false,
-        write: true,
-        stages,
-    };
     let work = Work::Dispatch { shader: name.into(), groups: Groups::Count([1; 3]) };
-    Pass { storage: vec![target], ..Pass::new(name, work) }
+    Pass { storage: vec![stored("target", image, false)], ..Pass::new(name, work) }
 }
 
 type Change = fn(&mut Frame);

@@ -3,8 +3,9 @@
 
 mod json;
 
+use crate::testing::pipelines::{INPUTS, shipped};
 use crate::testing::plans::shipped as shipped_device;
-use crate::testing::table::{INPUTS, Table, shipped};
+use crate::testing::table::Table;
 use framewright_graph::base::{self, Root, Sources};
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{BufferDescriptor, ImageDescriptor, MemoryNeeds, MemoryProvider, Profile, Queues};

@@ -1,17 +1,17 @@
 //! Which passes run on the queues for compute and transfer, what waits for what, and how images change hands.
 
-use crate::testing::graphs;
+use crate::testing::parts::{self, sampled, stored};
 use crate::testing::plans::planned;
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile, Queues};
 use framewright_graph::frame::{
-    Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Face, Frame, Groups, Image, ImageIndex,
-    Lifetime, Pass, Resource, Sampled, Storage, TransferUse, Work,
+    Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Frame, Groups, Image, ImageIndex, Lifetime,
+    Pass, Resource, TransferUse, Work,
 };
 use framewright_graph::plan::{self, Plan, Queue, Role};
 use framewright_graph::vulkan::{
-    Accesses, Aspects, FillValue, Filter, Format, Layout, Sampler, Sharing, Stages, State, Subresources,
+    Accesses, Aspects, FillValue, Filter, Format, Layout, Sharing, Stages, State, Subresources,
 };
 
 const EXCLUSIVE: Queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive };
@@ -33,7 +33,7 @@ impl Builder {
     }
 
     fn pass(&mut self, mut pass: Pass, stages: Stages, reads: &[ImageIndex], buffers: &[(BufferIndex, bool)]) {
-        pass.sampled = reads.iter().map(|image| sampled(*image, stages)).collect();
+        pass.sampled = reads.iter().map(|image| sampled(format!("source{}", image.0), *image, stages)).collect();
         pass.buffers = buffers.iter().map(|(buffer, write)| used(*buffer, *write, stages)).collect();
         self.0.passes.push(pass);
     }
@@ -57,15 +57,7 @@ impl Builder {
     ) {
         let (stages, groups) = (Stages::COMPUTE_SHADER, Groups::Count([8, 8, 1]));
         let mut pass = Pass::new(name, Work::Dispatch { shader: name.into(), groups });
-        pass.storage.extend(target.into().map(|image| Storage {
-            binding: "target".into(),
-            image,
-            range: Subresources::WHOLE,
-            span: Span::NONE,
-            read: false,
-            write: true,
-            stages,
-        }));
+        pass.storage.extend(target.into().map(|image| stored("target", image, false)));
         self.pass(pass, stages, reads, buffers);
     }
 
@@ -81,22 +73,6 @@ impl Builder {
     }
 }
 
-fn sampled(image: ImageIndex, stages: Stages) -> Sampled {
-    Sampled {
-        binding: format!("source{}", image.0).into(),
-        image,
-        range: Subresources::WHOLE,
-        frames_ago: 0,
-        span: Span::NONE,
-        eye: None,
-        face: Face::Resolved,
-        texture: None,
-        own_pixel: false,
-        sampler: Sampler::new(Filter::Nearest),
-        stages,
-    }
-}
-
 /// A storage block that is read, and perhaps written.
 fn used(buffer: BufferIndex, write: bool, stages: Stages) -> BufferUse {
     let (role, binding) = (BufferRole::Storage { read: true, write }, format!("block{}", buffer.0));
@@ -108,7 +84,7 @@ fn transferred(resource: Resource, write: bool) -> TransferUse {
 }
 
 fn device(queues: Queues) -> Profile {
-    Profile { queues, ..graphs::device() }
+    Profile { queues, ..parts::device() }
 }
 
 fn compiled(frame: &Frame, queues: Queues) -> Plan {

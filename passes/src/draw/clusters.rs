@@ -34,7 +34,7 @@ pub struct Clusters {
     pub order: Vec<u32>,
     /// The number of lights that all clusters read.
     pub everywhere: u32,
-    /// Of each cluster the lights that reach it, as places in `order`, rising; by tile along a row, row and slice.
+    /// The lights that reach each cluster, as places in `order`, rising; by tile along a row, row and slice.
     lists: Vec<Vec<u32>>,
     to_cluster: DMat4,
     grid: [usize; 3],

@@ -86,7 +86,7 @@ impl Eyes {
 }
 
 impl EyeSight {
-    /// Where it is, seen from between the eyes, metres along the axes of the world.
+    /// Its place, seen from between the eyes, metres along the axes of the world.
     pub(super) fn offset(&self, camera: &Camera) -> DVec3 {
         DMat3::from_mat4(camera.transform) * self.place
     }

@@ -28,7 +28,7 @@ pub(super) fn shifted(world_to_clip: DMat4, [right, down]: [f64; 2]) -> DMat4 {
 pub(super) struct ViewTransform {
     /// Clip space from the shaders' world space, whose origin is at the camera.
     pub(super) world_to_clip: DMat4,
-    /// Where in world space the eye is.
+    /// The eye's place in world space.
     pub(super) eye: DVec3,
 }
 

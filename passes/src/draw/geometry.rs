@@ -11,7 +11,7 @@ pub(super) struct Geometry {
     meshes: Vec<Part>,
 }
 
-/// Where a mesh lies in the buffers.
+/// The place of a mesh in the buffers.
 struct Part {
     indices: Range<u32>,
     base_vertex: i32,

@@ -1,4 +1,4 @@
-//! Which objects each draw list holds, and in which order.
+//! The objects of each draw list, and their order.
 
 use crate::scene::{Camera, Scene};
 use framewright_graph::frame::DrawList;

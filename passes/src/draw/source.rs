@@ -247,6 +247,7 @@ impl SceneDrawSource {
     /// The bind group of a pass, and by object whether it may be visible.
     fn group_and_visible(&self, recorder: &Recorder<'_>) -> Result<(&BindGroup, &[bool]), Error> {
         let (seen, eye) = self.view_draws_and_eye(recorder)?;
+        let seen = &seen.jittered;
         let both = seen.by_eye.as_ref().and_then(|by_eye| by_eye.both.as_ref());
         let each = seen.by_eye.as_ref().and_then(|by_eye| by_eye.each.as_ref());
         Ok(match (both, each.zip(eye)) {

@@ -34,7 +34,7 @@ pub(super) struct Viewpoint {
 }
 
 impl Viewpoint {
-    /// That of one eye, which doesn't shift.
+    /// The viewpoint of one eye, without jitter.
     pub(super) fn of_one(camera: Camera, extent: [u32; 2], maps: Vec<CascadeMap>) -> Viewpoint {
         let (at_once, one_by_one, culls_by_eye) = (false, false, true);
         Viewpoint { camera, eyes: None, at_once, one_by_one, culls_by_eye, extent, maps, jitter: None }
@@ -79,14 +79,11 @@ impl Viewpoint {
 
 /// The bind groups and draw lists of a view.
 pub(super) struct ViewDraws {
-    pub(super) frame: BindGroup,
-    /// By object, whether it may be seen.
-    pub(super) visible: Vec<bool>,
-    pub(super) by_eye: Option<EyeDraws>,
+    pub(super) jittered: JitteredDraws,
     pub(super) transparent: Vec<ObjectDraw>,
     /// By cascade, the nearest first.
     pub(super) cascades: Vec<CascadeDraws>,
-    /// The buffers of `frame` that jitter doesn't change.
+    /// The buffers that jitter doesn't change.
     buffers: Buffers,
 }
 
@@ -152,11 +149,8 @@ impl ViewDraws {
             let transform = ViewTransform { world_to_clip: sun.world_to_clip, eye: DVec3::ZERO };
             Ok::<_, Error>(CascadeDraws { frame: group(device, &camera, [transform; 2], &buffers)?, casts })
         };
-        let JitteredDraws { frame, visible, by_eye } = JitteredDraws::new(device, scene, view, frame, &buffers)?;
         Ok(ViewDraws {
-            frame,
-            visible,
-            by_eye,
+            jittered: JitteredDraws::new(device, scene, view, frame, &buffers)?,
             transparent: draws(scene, &camera, DrawList::Transparent),
             cascades: by_sun.iter().map(cascade).collect::<Result<_, _>>()?,
             buffers,
@@ -181,17 +175,17 @@ impl ViewDraws {
 
     /// Prepares the jitter of `view` at the frame that it is for already.
     pub(super) fn shift(&mut self, device: &Device, scene: &Scene, view: &Viewpoint, frame: u64) -> Result<(), Error> {
-        let sights = JitteredDraws::new(device, &scene.at(frame), view, frame, &self.buffers)?;
-        (self.frame, self.visible, self.by_eye) = (sights.frame, sights.visible, sights.by_eye);
+        self.jittered = JitteredDraws::new(device, &scene.at(frame), view, frame, &self.buffers)?;
         Ok(())
     }
 }
 
 /// The parts that jitter changes.
-struct JitteredDraws {
-    frame: BindGroup,
-    visible: Vec<bool>,
-    by_eye: Option<EyeDraws>,
+pub(super) struct JitteredDraws {
+    pub(super) frame: BindGroup,
+    /// By object, whether it may be seen.
+    pub(super) visible: Vec<bool>,
+    pub(super) by_eye: Option<EyeDraws>,
 }
 
 impl JitteredDraws {

@@ -15,7 +15,7 @@ pub fn luminance([red, green, blue]: [f64; 3]) -> f64 {
     0.2126 * red + 0.7152 * green + 0.0722 * blue
 }
 
-/// Where a luminance lies among the bins: the whole part is its bin.
+/// The place of a luminance among the bins: the whole part is its bin.
 #[must_use]
 pub fn place_of(luminance: f64) -> f64 {
     let stop = luminance.max(DARKEST_STOP.exp2()).log2();

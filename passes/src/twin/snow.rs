@@ -13,11 +13,11 @@ const SWAY_RATE: f64 = 2.5;
 /// A snowflake between camera and scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flake {
-    /// In the picture, from −1 at its left and upper border to 1 at its right and lower.
+    /// Its place in the picture, from −1 at its left and upper border to 1 at its right and lower.
     pub position: [f64; 2],
     /// From the camera, 1 for the nearest flakes, 4 for the farthest.
     pub distance: f64,
-    /// Of its swaying, 0 to 2π.
+    /// The phase of its swaying, 0 to 2π.
     pub phase: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What each part of each image holds, in which layout, and which queue owns it: followed through the steps in order.
+//! The contents, layout and owning queue of each part of each image, followed through the steps in order.
 
 use super::uses::{self, Kind, Use};
 use super::world::{World, role};
@@ -7,7 +7,7 @@ use framewright_graph::plan::{Attachment, ImageBarrier, Pass, Queue, RenderScope
 use framewright_graph::vulkan::{Accesses, CompareOp, Layout, LoadOp, Sharing, Stages, StoreOp};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// What a part holds; `None`: nothing that is defined.
+/// The contents of a part; `None`: nothing that is defined.
 type Value = Option<u64>;
 
 fn number(of: impl Hash) -> u64 {

@@ -42,7 +42,7 @@ fn shown(world: &World, touch: &Touch) -> String {
     }
 }
 
-/// What is missing between two touches; `None` if nothing is, or nothing need be there.
+/// The dependency that is missing between two touches; `None` if there is none to miss.
 fn missing(timeline: &Timeline, earlier: &Touch, later: &Touch) -> Option<Missing> {
     let conflict = (earlier.what.writes() || later.what.writes())
         && earlier.what != What::After
@@ -80,7 +80,7 @@ fn missing(timeline: &Timeline, earlier: &Touch, later: &Touch) -> Option<Missin
     parts.map(|cell| lost_between(timeline, (earlier, later), *cell)).find(Option::is_some).flatten()
 }
 
-/// What is missing between a write of one part and a later touch of it that it happens before.
+/// The dependency that is missing between a write of one part and a later touch of it that it happens before.
 fn lost_between(timeline: &Timeline, (earlier, later): (&Touch, &Touch), cell: usize) -> Option<Missing> {
     let available: Vec<usize> = available_at(timeline, earlier, cell).collect();
     let before = &timeline.before[later.node];

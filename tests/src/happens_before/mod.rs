@@ -26,7 +26,7 @@ mod world;
 
 use framewright_graph::plan::{Plan, Role};
 
-/// What is missing between two operations on the same bytes.
+/// A dependency that is missing between two operations on the same bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Missing {
     /// Nothing makes the earlier one happen before the later one.
@@ -42,7 +42,7 @@ pub enum Missing {
 pub enum Harm {
     /// Two operations on the same bytes, of which one writes.
     Hazard {
-        /// What is missing between them.
+        /// The dependency that is missing between them.
         missing: Missing,
         /// The one submitted first.
         earlier: String,
@@ -53,10 +53,10 @@ pub enum Harm {
     Wrong(String),
 }
 
-/// What a Plan does.
+/// The judgement of a Plan.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Verdict {
-    /// Every harm, as it is found.
+    /// Every harm, in the order of finding.
     pub harms: Vec<Harm>,
     /// What outputs, imported resources, persistent ones and custom passes see, frame by frame: numbers that stand for how
     /// it was made; `None`: undefined.

@@ -1,4 +1,4 @@
-//! What masks of stages and accesses take in.
+//! The stages and accesses that masks take in.
 
 use framewright_graph::vulkan::{Accesses, Stages};
 

@@ -332,7 +332,7 @@ impl Timeline {
             show(queue, stages, accesses);
         }
         if external && !stages.is_empty() {
-            // A wait alone says stages without accesses: whoever changes the image must wait for them.
+            // A wait alone says stages without accesses: the next change of the image must wait for them.
             let accesses = if accesses.is_empty() { Accesses::MEMORY_READ } else { accesses };
             for (stage, access) in each(stages, accesses) {
                 let node = self.made(queue, Nodes::default());

@@ -43,7 +43,7 @@ pub(super) struct Touch {
     pub(super) of: Option<(usize, Use)>,
 }
 
-/// What a touch is.
+/// The kind of a touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum What {
     /// One access in one stage.
@@ -69,9 +69,9 @@ impl What {
 #[derive(Debug)]
 pub(super) struct MemoryOperation {
     pub(super) queue: Queue,
-    /// Where writes become available: masks and node.
+    /// Writes become available: masks and node.
     pub(super) from: Option<(Stages, Accesses, usize)>,
-    /// Where they become visible: masks and node.
+    /// They become visible: masks and node.
     pub(super) to: Option<(Stages, Accesses, usize)>,
     /// `None`: all memory; else one image or buffer, in these parts.
     pub(super) part: Option<(usize, Vec<usize>)>,

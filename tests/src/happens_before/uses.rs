@@ -1,4 +1,4 @@
-//! What the work of a step does to images and buffers, use by use, as the Plan's module documentation says.
+//! The uses that the work of a step makes of images and buffers, as the Plan's module documentation says.
 
 use framewright_graph::frame::Draw;
 use framewright_graph::plan::{Attachment, BindingKind, Pass, RenderScope, Resource, Side, Work};
@@ -14,11 +14,11 @@ pub(super) struct Use {
     pub(super) stages: Stages,
     pub(super) accesses: Accesses,
     pub(super) kind: Kind,
-    /// Which pass of a rendering scope makes it.
+    /// The pass of a rendering scope that makes it.
     pub(super) pass: usize,
 }
 
-/// What keeps uses of one step apart.
+/// The barriers and scopes that keep uses of one step apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A shader's, a transfer's, a fixed function's outside of attachments: nothing.

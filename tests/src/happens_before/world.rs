@@ -15,7 +15,7 @@ pub(super) struct Physical {
     layers: u32,
 }
 
-/// All of them, over so many frames.
+/// All of them, over a number of frames.
 pub(super) struct World<'p> {
     pub(super) plan: &'p Plan,
     pub(super) frames: usize,

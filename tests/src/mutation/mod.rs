@@ -12,7 +12,7 @@ use framewright_graph::verify::verify;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
 
-/// What is done to a Plan.
+/// A change of a Plan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Kind {
     /// An image barrier is left out.
@@ -74,9 +74,9 @@ impl Kind {
 /// A Plan with a mistake.
 #[derive(Debug, Clone)]
 pub struct Mutant {
-    /// What kind of mistake.
+    /// The kind of mistake.
     pub kind: Kind,
-    /// Where it is.
+    /// Its place.
     pub change: String,
     /// The Plan.
     pub plan: Plan,
@@ -128,9 +128,9 @@ pub fn shown(mutant: &Plan, original: &Verdict) -> Noticed {
 #[derive(Debug, Default)]
 pub struct Tally {
     counts: BTreeMap<Kind, [usize; 3]>,
-    /// Those that were missed, with the Plan they are of and what they do.
+    /// Mistakes that were missed, with their Plan and their harm.
     pub missed: Vec<String>,
-    /// Those that do no harm.
+    /// Mistakes that do no harm.
     pub harmless: Vec<(Kind, String)>,
 }
 

@@ -16,7 +16,7 @@ impl Numbers {
     }
 }
 
-/// What is known of an image while a frame is made.
+/// An image while a frame is made.
 #[derive(Clone, Copy)]
 struct Known {
     image: ImageIndex,
@@ -41,7 +41,7 @@ pub fn frame(seed: u64, most: usize) -> Frame {
             _ => full_screen(&mut numbers, &mut builder, &mut known, &name),
         }
     }
-    // What nobody has sampled by now comes together in the last pass.
+    // Images that no pass has sampled by now come together in the last pass.
     let sampled: BTreeSet<ImageIndex> =
         builder.0.passes.iter().flat_map(|pass| pass.sampled.iter().map(|sampled| sampled.image)).collect();
     let left: Vec<ImageIndex> =

@@ -1,8 +1,8 @@
-//! What one order costs at least.
+//! The least cost of one order.
 //!
-//! **Resolves.** Each version of a multisampled image of which somebody wants one value a texel is resolved once, whoever
-//! and however many want it. Not so if the version comes from full-screen draws alone since one that covers: then all its
-//! samples are equal, and it may as well live in an image of one sample.
+//! **Resolves.** Each version of a multisampled image of which a pass wants one value a texel is resolved once, for all passes
+//! that want it. Not so if the version comes from full-screen draws alone since one that covers: then all its samples are
+//! equal, and it may as well live in an image of one sample.
 //!
 //! **Image barriers.** Each image takes one when it is first used. After that it takes one wherever a write and any other
 //! access follow each other in different rendering scopes, and none between reads. Neighbouring draws share a scope if
@@ -17,7 +17,7 @@ use framewright_graph::frame::{Blend, Draw, Frame, ImageIndex, Pass, Resource, W
 use framewright_graph::vulkan::CompareOp;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What an order costs.
+/// The cost of an order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cost {
     /// Resolves.
@@ -28,7 +28,7 @@ pub struct Cost {
     pub bytes: u64,
 }
 
-/// What holds a version of an image: the image as declared, or one of a single sample instead of it.
+/// The holder of a version of an image: the image as declared, or one of a single sample instead of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Home {
     image: ImageIndex,
@@ -197,7 +197,7 @@ fn barriers(
             touch(Home { image: storage.image, single: false }, steps[number], true, true);
         }
     }
-    // A resolved copy is written, and then read if anybody samples it.
+    // A resolved copy is written, and then read if a pass samples it.
     let sampled = |(by, image): &(usize, ImageIndex)| {
         let next = writers(frame, *image).into_iter().find(|writer| writer > by).unwrap_or(frame.passes.len());
         let reads = |pass: &Pass| pass.sampled.iter().any(|sampled| sampled.image == *image);

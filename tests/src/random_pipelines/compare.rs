@@ -1,4 +1,4 @@
-//! What an output holds, held against what it should.
+//! Compares the contents of an output with the expected ones.
 
 use super::meaning::{Filled, State};
 use super::pipeline::{Extent, Pipeline, Plane, Thing};
@@ -8,11 +8,11 @@ use framewright_graph::vulkan::Format;
 /// The first place at which an output holds something else.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
-    /// Which frame, from 0.
+    /// The frame, from 0.
     pub frame: u32,
-    /// Which output.
+    /// The output.
     pub thing: Thing,
-    /// Where in it.
+    /// The place in it.
     pub place: String,
     /// The bytes that it should hold.
     pub expected: Vec<u8>,
@@ -81,7 +81,7 @@ pub(super) fn texels_of(contents: &Filled, mip: u32) -> impl Iterator<Item = Ext
     (0..width * height * depth).map(move |line| [line % width, line / width % height, line / width / height])
 }
 
-/// What is read and written at once: the mip levels and planes of an image.
+/// The parts that are read and written at once: mip levels and planes of an image.
 pub(super) fn levels(mips: u32, format: Format) -> impl Iterator<Item = (u32, Plane)> {
     (0..mips).flat_map(move |mip| texels::planes(format).iter().map(move |plane| (mip, *plane)))
 }

@@ -16,7 +16,7 @@ use framewright_graph::vulkan::{Aspects, CompareOp, Shape, StencilOp};
 /// How often a pass of one kind is proposed before another kind has its turn.
 const PROPOSALS: u32 = 60;
 
-/// A pipeline of about so many passes, always the same for the same seed, with only what is `allowed`.
+/// A pipeline of about `passes` passes, always the same for the same seed, with only what is `allowed`.
 #[must_use]
 pub fn pipeline(seed: u64, passes: u32, allowed: &Allowed) -> Pipeline {
     let mut rng = Rng::new(seed ^ 0x5EED_0F0F);
@@ -52,7 +52,7 @@ struct Maker<'a> {
     written: Written,
     rng: Rng,
     allowed: &'a Allowed,
-    /// Of the attachments of the draw that is being made.
+    /// The extent of the attachments of the draw that is being made.
     extent: Extent,
 }
 
@@ -68,7 +68,7 @@ impl Maker<'_> {
         self.rng.pick(&of).copied()
     }
 
-    /// Some part of an image, of at most so many mip levels and layers.
+    /// Some part of an image, of at most `most_mips` mip levels and `most_layers` layers.
     fn part(&mut self, image: usize, most_mips: u32, most_layers: u32) -> Part {
         let Image { mips, layers, shape, format, .. } = self.pipeline.images[image];
         let planes = [Plane::All, Plane::Depth, Plane::Depth, Plane::Stencil];

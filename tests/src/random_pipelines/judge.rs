@@ -37,11 +37,11 @@ pub struct Judge {
     shaders: ShaderLibrary,
     known: HashSet<String>,
     findings: usize,
-    /// What is spoiled in Plans before they are executed, to see that it is noticed.
+    /// The change that spoils Plans before they are executed, to see that it is noticed.
     pub spoil: Option<Spoil>,
 }
 
-/// What is wrong with the way from a pipeline to its outputs.
+/// A mistake on the way from a pipeline to its outputs.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Fault {
     /// It is legal, and was refused.
@@ -114,7 +114,7 @@ pub fn frames(pipeline: &Pipeline) -> u32 {
     each.max().unwrap_or(2)
 }
 
-/// How a pipeline is compiled: with poison, so that whoever reads what is not its own shows it.
+/// How a pipeline is compiled: with poison, so that a pass that reads memory of another image shows it.
 #[must_use]
 pub fn options(order: Order, seed: u64) -> Options {
     Options { alias: true, poison: true, order, demote: seed & 1 == 0, queues: true }
@@ -270,7 +270,7 @@ impl Judge {
 fn hand_in(pipeline: &Pipeline, plan: &Plan, executor: &mut Executor, frame: u32) -> Result<(), Error> {
     for (number, image) in pipeline.images.iter().enumerate().filter(|(_, image)| image.life == Life::Imported) {
         let name = format!("i{number}");
-        // What nobody needs isn't in the Plan.
+        // Images that no pass needs aren't in the Plan.
         if plan.images.iter().any(|planned| *planned.name == *name) {
             let contents = imported_image(image, number, frame);
             for (mip, plane) in levels(image.mips, image.format) {
@@ -309,7 +309,7 @@ fn read(plan: &Plan, executor: &mut Executor, output: usize) -> Result<Vec<u8>, 
     }
 }
 
-/// What a panic said.
+/// The message of a panic.
 fn words(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<String>().map(String::as_str).or(payload.downcast_ref::<&str>().copied());
     text.unwrap_or("without words").to_owned()

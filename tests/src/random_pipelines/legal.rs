@@ -1,4 +1,4 @@
-//! What a pass may do, given what passes before it wrote: the rules of pipeline files, part by part.
+//! The rules of pipeline files, part by part: which accesses a pass may make after the passes before it.
 
 mod accesses;
 mod fits;
@@ -13,7 +13,7 @@ use framewright_graph::frame::Blend;
 pub(super) use accesses::{shader, things};
 pub(super) use fits::size;
 
-/// What earlier passes of the frame wrote.
+/// The parts that earlier passes of the frame wrote.
 #[derive(Debug, Clone)]
 pub struct Written {
     /// By image, mip level, layer and plane: stencil is the second.
@@ -51,7 +51,7 @@ pub(super) fn is_touched(pipeline: &Pipeline, thing: Thing) -> bool {
     })
 }
 
-/// What is read of earlier frames, and not written whole in each.
+/// Images and buffers that are read from earlier frames, and not written whole in each.
 pub(super) fn unwritten_history(pipeline: &Pipeline, written: &Written) -> Vec<Thing> {
     let earlier = |read: &Read| match *read {
         Read::Sampled { part, frames_ago: 1.., .. } => Some(Thing::Image(part.image)),
@@ -75,7 +75,7 @@ fn plain(image: &Image) -> u64 {
     texels::mask(image.format, Blend::Replace).into()
 }
 
-/// Where the subresources of a part are noted.
+/// The places at which the subresources of a part are noted.
 fn slots(image: &Image, part: Part) -> Vec<usize> {
     let planes: &[u32] = match part.plane {
         Plane::All => &[0, 1],
@@ -225,7 +225,7 @@ impl Written {
             _ => {}
         }
         let exact = pipeline.images.iter().zip(&greatest).all(|(image, greatest)| {
-            // What is kept from frame to frame would grow for ever.
+            // Numbers that are kept from frame to frame would grow for ever.
             let kept = image.life != Life::Transient;
             *greatest <= if kept { plain(image) } else { texels::limit(image.format).max(plain(image)) }
         });

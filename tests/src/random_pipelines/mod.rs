@@ -26,7 +26,7 @@ use allowed::Allowed;
 use framewright_graph::frame::Frame;
 use rng::Rng;
 
-/// The frame of a random pipeline of so many passes, always the same for the same seed.
+/// The frame of a random pipeline of `passes` passes, always the same for the same seed.
 #[must_use]
 pub fn frame(seed: u64, passes: u32) -> Frame {
     to_frame::to_frame(&generate::pipeline(seed, passes, &Allowed::today()))

@@ -1,4 +1,4 @@
-//! What a random pipeline says: less than a pipeline file can, in a form that is easy to make, to evaluate and to shrink.
+//! A random pipeline. It says less than a pipeline file can, in a form that is easy to make, to evaluate and to shrink.
 
 use framewright_graph::frame::{Blend, StencilState};
 use framewright_graph::vulkan::{Aspects, CompareOp, Format, ResolveMode, Shape};
@@ -24,7 +24,7 @@ pub struct Pipeline {
     pub buffers: Vec<Buffer>,
     /// Passes in order.
     pub passes: Vec<Pass>,
-    /// What leaves the frame.
+    /// The outputs.
     pub outputs: Vec<Thing>,
 }
 
@@ -73,7 +73,7 @@ pub enum Life {
     Transient,
     /// From frame to frame; the first finds this value in every component (of depth: this many 256ths).
     Persistent(u8),
-    /// Written anew each frame, and read for so many frames more; before the first they hold this value.
+    /// Written anew each frame, and read for this many frames more; before the first they hold this value.
     History(u32, u8),
     /// An image that the embedding program hands in without contents.
     Target,
@@ -222,7 +222,7 @@ pub enum Work {
     Copy {
         /// From here.
         from: Region,
-        /// Of so many frames before.
+        /// How many frames before.
         frames_ago: u32,
         /// To there.
         to: Region,
@@ -234,9 +234,9 @@ pub enum Work {
         /// To there.
         to: Part,
     },
-    /// Sets every component of an image, or every word of a buffer (of depth: so many 256ths).
+    /// Sets every component of an image, or every word of a buffer (of depth: a number of 256ths).
     Fill {
-        /// What is set.
+        /// The target.
         to: Region,
         /// The value.
         value: u8,
@@ -271,7 +271,7 @@ pub enum Region {
 /// A draw.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draw {
-    /// What is drawn.
+    /// The geometry.
     pub geometry: Geometry,
     /// Whether the embedding program records it.
     pub custom: bool,

@@ -371,7 +371,7 @@ impl Text {
         let start = "const uvec3 at = gl_GlobalInvocationID, grid = uvec3(grid_x, grid_y, grid_z);\n    \
             if (any(greaterThanEqual(at, grid))) return;\n    uvec3 place, size;\n    int level;\n    \
             const uint line = (at.z * grid.y + at.y) * grid.x + at.x;\n    ";
-        // What is made together reads at one position.
+        // Values that are made together are read at one position.
         let group = if self.structured { "at.x - at.x % together" } else { "at.x" };
         let state = format!(
             "const uvec3 here = uvec3({group}, at.yz);\n    \
@@ -407,7 +407,7 @@ vec3 towards(uvec3 place, int size) {
 
 ";
 
-/// The dimension of so many layers of an image in GLSL.
+/// The dimension of an image with this many layers in GLSL.
 fn dimension(image: &Image, layers: u32) -> &'static str {
     match (image.shape, layers) {
         (Shape::D3, _) => "3D",

@@ -4,7 +4,7 @@ use framewright_graph::frame::Blend;
 use framewright_graph::plan::{Initial, Pass, Plan, RenderScope, Role, Work};
 use framewright_graph::vulkan::{CompareOp, FillValue, LoadOp, StencilOp};
 
-/// What is spoiled, in the first place where it can be.
+/// The part of a Plan that is spoiled, in the first place where it can be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spoil {
     /// The value of a fill.
@@ -13,13 +13,13 @@ pub enum Spoil {
     Clear,
     /// A load of a colour attachment, which becomes a clear.
     Load,
-    /// What images are filled with before the first frame.
+    /// The value that images are filled with before the first frame.
     Initial,
     /// A blend, which becomes a replacement.
     Blend,
     /// A depth test, which lets all pass.
     Depth,
-    /// What a pass does to stencil, which becomes nothing.
+    /// The stencil operation of a pass, which is left out.
     Stencil,
     /// The first pass of a scope of several, which is left out.
     Pass,

@@ -1,4 +1,4 @@
-//! What the components of a texel are, in each format that random pipelines use.
+//! The components of a texel, in each format that random pipelines use.
 //!
 //! A component is a word: of integer formats its value, of UNORM formats its value in 255ths, of others the bits of a
 //! 32-bit float. All that is ever written can be represented exactly, averages of four samples included.
@@ -91,7 +91,7 @@ pub fn seen(format: Format, plane: Plane, words: Words) -> (Format, Words) {
     }
 }
 
-/// A texel of which some planes are replaced.
+/// A texel with some planes replaced.
 #[must_use]
 pub fn merged(plane: Plane, old: Words, new: Words) -> Words {
     match plane {

@@ -5,9 +5,10 @@ use super::pipeline::{
     Work,
 };
 use super::{legal, shader, texels};
+use crate::parts;
 use framewright_graph::base::Span;
 use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Face, Frame, ImageIndex, Lifetime, Resource};
-use framewright_graph::vulkan::{Accesses, FillValue, Filter, Format, Layout, Sampler, Stages, State, Subresources};
+use framewright_graph::vulkan::{Accesses, FillValue, Filter, Format, Layout, Stages, State, Subresources};
 
 /// The frame that `pipeline` says.
 #[must_use]
@@ -176,7 +177,7 @@ fn work(pipeline: &Pipeline, pass: &Pass, shader: &str) -> frame::Work {
     }
 }
 
-/// What a fill sets its target to.
+/// The value that a fill sets its target to.
 #[must_use]
 pub fn fill(pipeline: &Pipeline, to: Region, value: u8) -> FillValue {
     match to {
@@ -208,19 +209,8 @@ fn add_read(pipeline: &Pipeline, made: &mut frame::Pass, binding: &str, read: Re
 }
 
 fn sampled(pipeline: &Pipeline, binding: &str, part: Part, stages: Stages) -> frame::Sampled {
-    frame::Sampled {
-        binding: binding.into(),
-        image: ImageIndex(part.image as u32),
-        range: range(pipeline.images[part.image].format, part),
-        frames_ago: 0,
-        span: Span::NONE,
-        eye: None,
-        face: Face::Resolved,
-        texture: None,
-        own_pixel: false,
-        sampler: Sampler::new(Filter::Nearest),
-        stages,
-    }
+    let range = range(pipeline.images[part.image].format, part);
+    frame::Sampled { range, ..parts::sampled(binding, ImageIndex(part.image as u32), stages) }
 }
 
 fn add_store(
@@ -232,15 +222,11 @@ fn add_store(
     stages: Stages,
 ) {
     match region {
-        Region::Image(part) => made.storage.push(frame::Storage {
-            binding: binding.into(),
-            image: ImageIndex(part.image as u32),
-            range: range(pipeline.images[part.image].format, part),
-            span: Span::NONE,
-            read,
-            write,
-            stages,
-        }),
+        Region::Image(part) => {
+            let range = range(pipeline.images[part.image].format, part);
+            let stored = parts::stored(binding, ImageIndex(part.image as u32), read);
+            made.storage.push(frame::Storage { range, write, stages, ..stored });
+        }
         Region::Buffer(buffer) => {
             let role = BufferRole::Storage { read, write };
             made.buffers.push(BufferUse { binding: Some(binding.into()), stages, ..fixed(buffer, role) });

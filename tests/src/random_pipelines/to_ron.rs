@@ -224,7 +224,7 @@ fn groups(compute: &Compute) -> String {
     }
 }
 
-/// What is given to the shader by its names.
+/// The images and buffers that the shader is given, by its names.
 fn bindings(pass: &Pass, fields: &mut Vec<String>) {
     let (reads, stores) = legal::shader(pass);
     let (mut sample, mut storage, mut uniform) = (Vec::new(), Vec::new(), Vec::new());

@@ -12,7 +12,7 @@ use framewright_passes::scene::{AlphaMode, Scene};
 use glam::{DVec2, DVec3};
 use triangle::{Meeting, Ray, meet, meet_plane};
 
-/// What a ray meets first.
+/// The first surface that a ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
     /// Index of the object in the scene.
@@ -29,7 +29,7 @@ pub struct Hit {
 #[derive(Debug)]
 pub struct RayCaster<'scene> {
     scene: &'scene Scene,
-    /// In world space.
+    /// Their corners in world space.
     triangles: Vec<[DVec3; 3]>,
     /// Object of each triangle, and where its indices begin in the mesh.
     origins: Vec<(u32, usize)>,
@@ -74,7 +74,7 @@ impl<'scene> RayCaster<'scene> {
         Ray { origin, direction: right * across + up * upwards - back, spread: [right * pixel, up * -pixel] }
     }
 
-    /// What `ray` meets first from the near plane on: front faces, back faces of double-sided materials, and no holes of
+    /// The first surface that `ray` meets from the near plane on: front faces, back faces of double-sided materials, and no holes of
     /// masked ones. Transparent objects count as whole.
     #[must_use]
     pub fn cast(&self, ray: &Ray) -> Option<Hit> {
@@ -91,7 +91,7 @@ impl<'scene> RayCaster<'scene> {
         nearest
     }
 
-    /// What a triangle shows where it is met, unless that side or place of it shows nothing.
+    /// The colours of a triangle where it is met, unless that side or place of it shows nothing.
     fn shown(&self, ray: &Ray, triangle: u32, meeting: &Meeting) -> Option<Hit> {
         let (object_index, _) = self.origins[triangle as usize];
         let object = &self.scene.objects[object_index as usize];

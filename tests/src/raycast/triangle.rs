@@ -5,9 +5,9 @@ use glam::DVec3;
 /// A half line. The direction need not have length 1: distances count in its lengths.
 #[derive(Debug, Clone, Copy)]
 pub struct Ray {
-    /// Where it starts.
+    /// Its start.
     pub origin: DVec3,
-    /// Where it goes.
+    /// Its direction.
     pub direction: DVec3,
     /// What the directions of the pixel to the right and of the pixel below have more; zero for a ray without width.
     /// (H. Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.)
@@ -22,7 +22,7 @@ impl Ray {
     }
 }
 
-/// Where a ray meets a triangle.
+/// The place at which a ray meets a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Meeting {
     /// Distance along the ray, in lengths of its direction; above 0.
@@ -33,7 +33,7 @@ pub struct Meeting {
     pub counter_clockwise: bool,
 }
 
-/// Where `ray` meets the triangle `corners`, seen from either side.
+/// The place at which `ray` meets the triangle `corners`, seen from either side.
 #[must_use]
 pub fn meet(ray: &Ray, corners: &[DVec3; 3]) -> Option<Meeting> {
     meet_plane(ray, corners).filter(|meeting| {
@@ -42,7 +42,7 @@ pub fn meet(ray: &Ray, corners: &[DVec3; 3]) -> Option<Meeting> {
     })
 }
 
-/// Where the line of `ray` meets the plane of the triangle `corners`, inside the triangle or not, ahead or behind.
+/// The place at which the line of `ray` meets the plane of the triangle `corners`, inside the triangle or not, ahead or behind.
 ///
 /// Source: T. Möller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of Graphics Tools 2(1), 1997.
 #[must_use]

@@ -29,14 +29,15 @@ fn undeclared(folder: &Path) -> Vec<PathBuf> {
 
 #[test]
 fn every_file_of_a_test_program_is_a_module_of_it() {
-    for program in [
-        "backend-vulkan/tests/features",
-        "backend-vulkan/tests/suite",
-        "cli/tests/suite",
-        "graph/tests/suite",
-        "passes/tests/suite",
-        "tests/tests/suite",
-    ] {
-        assert_eq!(undeclared(&in_repository(program)), [] as [PathBuf; 0], "declare them by `mod`");
+    let folders = |folder: &Path| {
+        let entries = folder.read_dir().into_iter().flatten().map(|entry| entry.expect("an entry").path());
+        entries.filter(|path| path.is_dir()).collect::<Vec<_>>()
+    };
+    let packages = folders(&in_repository("")).into_iter().filter(|folder| folder.join("Cargo.toml").exists());
+    let programs = packages.flat_map(|package| folders(&package.join("tests")));
+    let programs: Vec<_> = programs.filter(|folder| folder.join("main.rs").exists()).collect();
+    assert!(programs.contains(&in_repository("tests/tests/suite")), "{programs:?}");
+    for program in programs {
+        assert_eq!(undeclared(&program), [] as [PathBuf; 0], "declare them by `mod`");
     }
 }

@@ -175,7 +175,7 @@ fn pass(number: u32, work: Work) -> Pass {
     Pass { number, work, side_effect: false }
 }
 
-/// What an image of 2 × 1 words holds after each frame.
+/// The contents of an image of 2 × 1 words after each frame.
 fn held(pipeline: &Pipeline, image: usize, frames: u32) -> Vec<[u32; 2]> {
     let after = expected(pipeline, frames);
     after.iter().map(|state| [0, 1].map(|x| state.images[image][0].texel(0, [x, 0, 0], 0).words[0])).collect()
@@ -264,12 +264,12 @@ fn agree(driver: Driver, seeds: Range<u64>, passes: &str) {
 
 #[test]
 fn lavapipe_draws_bit_for_bit_what_random_pipelines_mean() {
-    agree(Driver::Lavapipe, sweep::row(1..251, 40), "24");
+    agree(Driver::Lavapipe, sweep::row("pipelines on lavapipe", 1..251, 40), "24");
 }
 
 #[test]
 fn swiftshader_draws_bit_for_bit_what_random_pipelines_mean() {
-    agree(Driver::SwiftShader, sweep::row(1001..1251, 40), "24");
+    agree(Driver::SwiftShader, sweep::row("pipelines on SwiftShader", 1001..1251, 40), "24");
 }
 
 #[test]
@@ -278,7 +278,7 @@ fn a_plan_that_does_something_else_is_noticed() {
         return;
     }
     let all = ["Fill", "Clear", "Load", "Initial", "Blend", "Depth", "Stencil", "Pass"];
-    for what in sweep::of(all.to_vec(), 2) {
+    for what in sweep::of("spoilt Plans", all.to_vec(), 2) {
         let mut command = Command::new(env!("CARGO_BIN_EXE_random_pipelines"));
         command.args(["--driver", "lavapipe", "--order", "default", "--failures", "1", "--spoil", what]);
         let output = command.args(["--write", env!("CARGO_TARGET_TMPDIR")]).output().expect("the command starts");
@@ -293,8 +293,8 @@ fn a_plan_that_does_something_else_is_noticed() {
 
 #[test]
 fn drivers_draw_long_random_pipelines_too() {
-    agree(Driver::Lavapipe, sweep::row(2001..2009, 2), "200");
-    agree(Driver::SwiftShader, sweep::row(2101..2109, 2), "200");
+    agree(Driver::Lavapipe, sweep::row("long pipelines on lavapipe", 2001..2009, 2), "200");
+    agree(Driver::SwiftShader, sweep::row("long pipelines on SwiftShader", 2101..2109, 2), "200");
 }
 
 #[test]

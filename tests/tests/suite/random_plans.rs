@@ -27,7 +27,7 @@ fn options(seed: u64) -> Options {
     }
 }
 
-/// What is wrong with the Plan of a frame.
+/// The mistakes in the Plan of a frame.
 fn fault(frame: &Frame, options: &Options, seed: u64) -> Option<String> {
     let sharing = if seed % 5 == 1 { Sharing::Concurrent } else { Sharing::Exclusive };
     let queues = Queues { compute: seed % 5 < 3, transfer: seed % 5 < 2, sharing };
@@ -107,7 +107,7 @@ fn vary(frame: &mut Frame, seed: u64) {
     }
 }
 
-/// Frames of so many seeds and up to so many passes, under options that differ from seed to seed.
+/// Checks frames of all `seeds` and up to `most` passes, under options that differ from seed to seed.
 fn check(seeds: Range<u64>, most: u32) {
     let mut faults = Vec::new();
     for seed in seeds {

@@ -1,4 +1,4 @@
-//! What a compiler that remembers the last frame gives is, byte for byte, what compiling anew gives.
+//! A compiler that remembers the last frame gives the same Plan, byte for byte, as compiling anew.
 
 use framewright_graph::compile::{Compiler, Options, Order, Reuse, compile};
 use framewright_graph::device::{Estimated, Profile, Queues, SHIPPED_PROFILES};
@@ -49,7 +49,7 @@ fn device() -> Profile {
     Profile::from_ron(SHIPPED_PROFILES[0].1).expect("a shipped profile")
 }
 
-/// The same frame with everything so many times as large.
+/// The same frame with everything `by` times as large.
 fn scaled(frame: &Frame, by: u32) -> Frame {
     let mut frame = frame.clone();
     for image in &mut frame.images {

@@ -1,4 +1,4 @@
-//! What the compiler makes of small frames, held against the least that any order and any placement cost.
+//! The Plans of small frames, compared with the least cost of any order and any placement.
 //!
 //! For each frame every legal order is tried: an exhaustive search says what that order costs at least, and the compiler
 //! is made to take that order (the passes are put in it and compiled with `Order::File`). Resolves and image barriers must
@@ -73,7 +73,7 @@ impl Line {
     }
 }
 
-/// Where the table is published.
+/// The page with the table.
 const PUBLISHED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/small-optima.md");
 
 /// How a changed table is accepted.

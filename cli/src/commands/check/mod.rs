@@ -14,8 +14,7 @@ use std::ffi::OsStr;
 /// Checks a pipeline on one device, on every device that has a shipped profile, or in all variants.
 ///
 /// # Errors
-/// In the form for people everything that is wrong is an error; in the form for programs the mistakes of the pipeline are
-/// its answer.
+/// Everything that is wrong, in the form for people. In the form for programs the mistakes of the pipeline are its answer.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, Error> {
     if arguments.all_variants {
         variants::check(arguments)

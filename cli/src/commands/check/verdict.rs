@@ -9,7 +9,7 @@ use framewright_graph::plan::{Note, Plan, Totals};
 use serde::Serialize;
 
 /// The verdict on one device.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Default, Serialize)]
 pub(crate) struct Verdict {
     /// The device's own name.
     pub(crate) device: String,
@@ -30,14 +30,7 @@ pub(crate) struct Verdict {
 /// # Errors
 /// Errors that aren't the pipeline's, such as files that can't be read.
 pub(crate) fn verdict(device: String, result: Result<Plan, Error>) -> Result<Verdict, Error> {
-    let mut verdict = Verdict {
-        device,
-        fine: false,
-        diagnostics: serde_json::Value::Array(Vec::new()),
-        violations: Vec::new(),
-        notes: Vec::new(),
-        totals: None,
-    };
+    let mut verdict = Verdict { device, diagnostics: serde_json::Value::Array(Vec::new()), ..Verdict::default() };
     match result {
         Ok(plan) => {
             verdict.fine = true;

@@ -2,7 +2,6 @@
 
 use crate::error::Error;
 use crate::system::Exit;
-
 use framewright_graph::base::{Diagnostic, Sources};
 use framewright_graph::frame::Frame;
 use framewright_passes::scene::Scene;
@@ -26,7 +25,7 @@ pub(crate) fn cameras(frame: &Frame, scene: &Scene) -> Result<(), Error> {
     if diagnostics.is_empty() { Ok(()) } else { Err(wrong(frame, diagnostics)) }
 }
 
-/// A damaged texture file as a mistake of the pipeline, with its place; any other problem as it is.
+/// Turns the problem of a damaged texture file into a mistake of the pipeline, with its place. Other problems stay.
 pub(crate) fn texture(frame: &Frame, problem: framewright_vulkan::Error) -> Error {
     if let framewright_vulkan::Error::Texture { image, path, problem } = &problem
         && let Some(declared) = frame.images.iter().find(|it| *it.name == **image)

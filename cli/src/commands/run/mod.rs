@@ -20,8 +20,10 @@ use framewright_passes::draw::SceneDrawSource;
 use framewright_passes::scene::Scene;
 use framewright_vulkan::{Device, DeviceOptions, Executor, ExecutorOptions, FrameReport};
 use pictures::{EncodedPicture, PictureRequest};
-use report::{Report, Setting, Validation};
+use report::{Report, Validation};
 use std::path::Path;
+
+pub(crate) use report::DeviceUsed;
 
 /// Draws a scene.
 ///
@@ -74,12 +76,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
         format_version: 2,
         pipeline: shown(&arguments.pipeline.file),
         scene: shown(&arguments.scene),
-        settings: planned
-            .plan
-            .settings
-            .iter()
-            .map(|one| Setting { name: one.name.to_string(), value: one.value.clone() })
-            .collect(),
+        settings: planned.plan.settings.clone(),
         size: [arguments.size.width, arguments.size.height],
         frames: arguments.frames,
         device: device.summary().into(),

@@ -4,7 +4,7 @@ use crate::commands::run::timings::{Row, WorkKind};
 use crate::system::text;
 use comfy_table::presets::ASCII_MARKDOWN;
 use comfy_table::{CellAlignment, Table};
-use framewright_graph::plan::{Note, Totals};
+use framewright_graph::plan::{Note, SettingUsed, Totals};
 use framewright_vulkan::{Canary, DeviceSummary, Message, MessageKind, Severity};
 use serde::Serialize;
 
@@ -18,7 +18,7 @@ pub(crate) struct Report {
     /// The scene, as it was named.
     pub(crate) scene: String,
     /// Settings in force, by name.
-    pub(crate) settings: Vec<Setting>,
+    pub(crate) settings: Vec<SettingUsed>,
     /// Width and height of the output in pixels.
     pub(crate) size: [u32; 2],
     /// How many times the frame was drawn.
@@ -43,13 +43,6 @@ pub(crate) struct Report {
     pub(crate) files: Vec<String>,
 }
 
-/// A setting in force.
-#[derive(Debug, Serialize)]
-pub(crate) struct Setting {
-    pub(crate) name: String,
-    pub(crate) value: String,
-}
-
 /// A device.
 #[derive(Debug, Serialize)]
 pub(crate) struct DeviceUsed {
@@ -65,13 +58,13 @@ pub(crate) struct DeviceUsed {
 /// Bytes of images and buffers.
 #[derive(Debug, Serialize)]
 pub(crate) struct Memory {
-    /// Of all transient ones, if each had memory of its own.
+    /// The bytes of all transient ones, if each had memory of its own.
     pub(crate) sum_bytes: u64,
-    /// Of the heaps that they share.
+    /// The bytes of the heaps that they share.
     pub(crate) placed_bytes: u64,
     /// Alive at the worst moment: no placement can need less.
     pub(crate) live_peak_bytes: u64,
-    /// Of those that outlive the frame: outputs, imported and persistent ones.
+    /// The bytes of those that outlive the frame: outputs, imported and persistent ones.
     pub(crate) kept_bytes: u64,
 }
 

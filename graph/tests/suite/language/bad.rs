@@ -1,7 +1,8 @@
 //! Every file under `bad/` is wrong, its name says how, and the whole answer stands beside it.
 
+use crate::testing::pipelines::{INPUTS, Pictures};
 use crate::testing::plans::shipped;
-use crate::testing::table::{INPUTS, Pictures, Table};
+use crate::testing::table::Table;
 use framewright_graph::base::{self, Diagnostic, FilePath, Sources};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};

@@ -1,6 +1,6 @@
 //! Small files that would make a great deal: each ends at a limit that its answer names, soon and in bounded memory.
 
-use crate::testing::table::{INPUTS, frame};
+use crate::testing::pipelines::{INPUTS, frame};
 use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::expand::Inputs;
 use framewright_graph::language::{self, Files, Found, Unread};

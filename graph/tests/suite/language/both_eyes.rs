@@ -1,8 +1,8 @@
 //! What both eyes have is in one image where they are drawn at once, and what draws it runs once (ST-2, ST-4); what can't be so
 //! is drawn for one eye after the other, and the frame says why.
 
+use crate::testing::pipelines::{INPUTS, frame, right, wrong};
 use crate::testing::plans::shipped;
-use crate::testing::table::{INPUTS, frame, right, wrong};
 use framewright_graph::device::Profile;
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Eye, EyeForm, Frame, Pass, Resource, Stereo};

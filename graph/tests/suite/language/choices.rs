@@ -1,7 +1,8 @@
 //! Presets and settings files: which values they come to, and what is wrong with them. Every file under `bad_settings/`
 //! is wrong, its name says how, and the whole answer stands beside it.
 
-use crate::testing::table::{INPUTS, Table, set};
+use crate::testing::pipelines::{INPUTS, set};
+use crate::testing::table::Table;
 use framewright_graph::base::{self, Diagnostic, Sources};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::expression::Value;

@@ -1,8 +1,8 @@
 //! Who writes an image first covers it or clears it: the rule by which files are read is the one by which frames are
 //! compiled.
 
+use crate::testing::pipelines::{INPUTS, frame};
 use crate::testing::plans::{on, shipped};
-use crate::testing::table::{INPUTS, frame};
 use framewright_graph::plan::{Plan, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::LoadOp;

@@ -1,7 +1,7 @@
 //! Sizes that change from frame to frame, and the Plans that come of them.
 
+use crate::testing::pipelines::{INPUTS, right, set};
 use crate::testing::plans::{on, shipped};
-use crate::testing::table::{INPUTS, right, set};
 use framewright_graph::base::render;
 use framewright_graph::compile::{Compiler, Options, Reuse, compile};
 use framewright_graph::device::{Estimated, Profile};

@@ -1,6 +1,6 @@
 //! What a file says that the numbers of its outputs mean.
 
-use crate::testing::table::{INPUTS, frame, right};
+use crate::testing::pipelines::{INPUTS, frame, right};
 use framewright_graph::vulkan::Encoding::{self, *};
 use framewright_graph::vulkan::Format;
 

@@ -1,7 +1,8 @@
 //! Pipelines that begin with what others say: what is set, removed and inserted, and in which order.
 
+use crate::testing::pipelines::{INPUTS, right, unnamed};
 use crate::testing::plans::{on, shipped};
-use crate::testing::table::{INPUTS, Table, right, unnamed};
+use crate::testing::table::Table;
 use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::Frame;

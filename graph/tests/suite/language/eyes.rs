@@ -1,6 +1,6 @@
 //! What each eye has of its own is drawn for each, and all else once (ST-1).
 
-use crate::testing::table::{INPUTS, right, wrong};
+use crate::testing::pipelines::{INPUTS, right, wrong};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Eye, Frame, Resource, Stereo, ViewEye, ViewIndex};
 

@@ -1,6 +1,7 @@
 //! Fragments: images, buffers and passes that are put in under a name of their own, with arguments.
 
-use crate::testing::table::{INPUTS, Table, right, unnamed, wrong};
+use crate::testing::pipelines::{INPUTS, right, unnamed, wrong};
+use crate::testing::table::Table;
 use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::expand::{Inputs, expand};
 use framewright_graph::frame::{Frame, ImageIndex, ParamValue, Work};

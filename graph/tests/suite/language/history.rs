@@ -1,7 +1,7 @@
 //! History is kept as far back as a pass reads it that something needs.
 
+use crate::testing::pipelines::{INPUTS, frame, set};
 use crate::testing::plans::{on, shipped};
-use crate::testing::table::{INPUTS, frame, set};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Frame, Lifetime};
 

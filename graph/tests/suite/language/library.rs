@@ -1,6 +1,7 @@
 //! The shipped library of fragments: what its fragments come to for images of any size.
 
-use crate::testing::table::{INPUTS, Table};
+use crate::testing::pipelines::INPUTS;
+use crate::testing::table::Table;
 use framewright_graph::base::{self, Root, Sources};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};

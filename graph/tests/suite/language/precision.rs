@@ -1,6 +1,6 @@
 //! What `Color` and `Depth` become: what the file says comes to the frame.
 
-use crate::testing::table::{INPUTS, right, set};
+use crate::testing::pipelines::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{ChosenFormat, Frame};
 use framewright_graph::language::Facts;

@@ -1,6 +1,7 @@
 //! Whatever a file holds, reading it ends in a pipeline or in mistakes that can be shown.
 
-use crate::testing::table::{INPUTS, Table, shipped};
+use crate::testing::pipelines::{INPUTS, shipped};
+use crate::testing::table::Table;
 use framewright_graph::base::{self, Sources};
 use framewright_graph::expand::expand;
 use framewright_graph::language;

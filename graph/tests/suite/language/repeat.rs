@@ -1,6 +1,6 @@
 //! Images, buffers and passes that are repeated, and references to them.
 
-use crate::testing::table::{INPUTS, right, wrong};
+use crate::testing::pipelines::{INPUTS, right, wrong};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Frame, ImageIndex, ParamValue, Resource};
 
@@ -70,8 +70,8 @@ fn what_is_repeated_is_the_same_as_what_is_written_out() {
         outputs: ["screen"],
     )"#;
     assert_eq!(
-        crate::testing::table::unnamed(&right(CHAIN, &INPUTS)),
-        crate::testing::table::unnamed(&right(written, &INPUTS))
+        crate::testing::pipelines::unnamed(&right(CHAIN, &INPUTS)),
+        crate::testing::pipelines::unnamed(&right(written, &INPUTS))
     );
 }
 

@@ -1,6 +1,6 @@
 //! How several samples become one value: what the file says comes to the frame (IQ-10, IQ-12, IQ-14).
 
-use crate::testing::table::{INPUTS, right, set};
+use crate::testing::pipelines::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Face, Frame, Resolve, ResolveWay};
 use framewright_graph::vulkan::ResolveMode;
@@ -112,7 +112,7 @@ fn a_way_that_a_format_does_not_have_is_refused_with_those_that_it_has() {
                     ],
                     outputs: ["screen"])"#
             );
-            match crate::testing::table::frame(&text, &INPUTS) {
+            match crate::testing::pipelines::frame(&text, &INPUTS) {
                 Ok(frame) => {
                     assert!(possible.contains(&way), "{format} resolved by {way}");
                     assert!(frame.images[0].resolve.is_some());

@@ -1,6 +1,6 @@
 //! What a file says of images and buffers beyond formats and sizes: mip levels, layers, shapes, bytes, lifetimes, states.
 
-use crate::testing::table::{INPUTS, right, set};
+use crate::testing::pipelines::{INPUTS, right, set};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{Buffer, Image, Lifetime, Resource};
 use framewright_graph::vulkan::{Accesses, FillValue, Format, Layout, Shape, Stages, State};

@@ -1,6 +1,6 @@
 //! How a pass looks up what it samples: filters between texels and mip levels, and what lies beyond the edges.
 
-use crate::testing::table::{INPUTS, right};
+use crate::testing::pipelines::{INPUTS, right};
 use framewright_graph::vulkan::{AddressMode, Filter, Sampler};
 
 /// The sampler of a pass that samples an image of this format, with these fields beside its name.

@@ -1,6 +1,6 @@
 //! The shipped pipelines under their settings and over scenes.
 
-use crate::testing::table::{INPUTS, frame, set, shipped};
+use crate::testing::pipelines::{INPUTS, frame, set, shipped};
 use framewright_graph::expand::{Facts, Inputs};
 use framewright_graph::frame::{Face, Frame, Image, ParamValue, Work};
 use framewright_graph::vulkan::Format;

@@ -1,7 +1,7 @@
 //! A shader may leave to the pass as what it declares an image: the pass's own image says it, and the Plan.
 
+use crate::testing::pipelines::{INPUTS, frame, right, set};
 use crate::testing::plans::{on, shipped};
-use crate::testing::table::{INPUTS, frame, right, set};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::expand::Inputs;

@@ -1,6 +1,7 @@
 //! Textures: images whose texels come from files.
 
-use crate::testing::table::{INPUTS, Pictures, Table, right};
+use crate::testing::pipelines::{INPUTS, Pictures, right};
+use crate::testing::table::Table;
 use framewright_graph::base::{FilePath, Sources};
 use framewright_graph::expand::expand;
 use framewright_graph::frame::{ColorSpace, Frame, Image, Lifetime, TextureFile, TextureInfo, TextureProblem};

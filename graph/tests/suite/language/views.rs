@@ -1,7 +1,7 @@
 //! Views: parts of a frame that have their own size, camera, allowances and values of settings.
 
+use crate::testing::pipelines::{INPUTS, right, set, wrong};
 use crate::testing::plans::shipped;
-use crate::testing::table::{INPUTS, right, set, wrong};
 use framewright_graph::compile::{Compiler, Options, compile};
 use framewright_graph::device::Estimated;
 use framewright_graph::expand::Inputs;

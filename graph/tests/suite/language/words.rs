@@ -1,6 +1,6 @@
 //! What the words of the language come to in a frame.
 
-use crate::testing::table::{INPUTS, right, set};
+use crate::testing::pipelines::{INPUTS, right, set};
 use framewright_graph::expand::{Facts, Inputs};
 use framewright_graph::frame::{Blend, Face, Image, ImageIndex, ParamValue, Resource, Work};
 use framewright_graph::vulkan::{CompareOp, Filter, Format};
@@ -267,7 +267,7 @@ fn a_pass_that_only_adds_to_its_target_goes_without_a_trace() {
 #[test]
 fn extensions_of_ron_that_a_file_turns_on_change_nothing() {
     for extension in ["implicit_some", "unwrap_newtypes", "unwrap_variant_newtypes"] {
-        let text = format!("#![enable({extension})]\n{}", crate::testing::table::shipped("forward.ron"));
+        let text = format!("#![enable({extension})]\n{}", crate::testing::pipelines::shipped("forward.ron"));
         assert_eq!(right(&text, &INPUTS).passes.len(), 5, "{extension}");
     }
 }

@@ -1,7 +1,7 @@
 //! What passes do besides drawing the scene: dispatches, transfers, draws of their own, what the program records; and with
 //! which parts of which images and buffers.
 
-use crate::testing::table::{INPUTS, frame, set};
+use crate::testing::pipelines::{INPUTS, frame, set};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{
     BufferIndex, BufferRole, Draw, Frame, Groups, ImageIndex, ParamValue, Pass, Resource, StencilState, Work,

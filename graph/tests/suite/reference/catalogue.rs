@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 
 /// Tables, words and choices by name.
 #[derive(Default)]
-#[allow(dead_code, reason = "each test uses a part")]
 pub(crate) struct Catalogue {
     /// Tables of fields, without `Fields` at the end of their names.
     pub(crate) tables: BTreeMap<&'static str, Table>,
@@ -24,7 +23,6 @@ pub(crate) fn called(table: &Table) -> &'static str {
 }
 
 /// The example in a table's documentation.
-#[allow(dead_code, reason = "each test uses a part")]
 pub(crate) fn example(table: &Table) -> String {
     let lines = table.about.iter().map(|line| line.strip_prefix(' ').unwrap_or(line));
     let inside = lines.skip_while(|line| *line != "```ron").skip(1).take_while(|line| *line != "```");

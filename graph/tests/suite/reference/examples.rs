@@ -1,7 +1,7 @@
 //! Every example of the reference is right: those of whole files, those of each form, and those of each word.
 
 use crate::reference::catalogue;
-use crate::testing::table::Pictures;
+use crate::testing::pipelines::Pictures;
 use framewright_graph::base::{self, FilePath, Sources};
 use framewright_graph::language;
 
@@ -72,7 +72,7 @@ pub(crate) fn whole(form: &str, example: &str) -> String {
             "images",
             &format!("(name: \"it\", format: Output, size: Output, lifetime: Imported(before: {example}))"),
         ),
-        _ => panic!("say in tests/reference/examples.rs where an example of {form} stands"),
+        _ => panic!("say in tests/suite/reference/examples.rs where an example of {form} stands"),
     }
 }
 
@@ -137,7 +137,7 @@ pub(crate) fn whole_word(words: &str, word: &str) -> String {
         "Count" => whole("Part", &format!("(image: \"image\", mip: 0, mips: {word})")),
         "Face" => whole("Sample", word),
         "EyeImage" => whole("ColorTarget", word).replace("mips: 3,", "mips: 3, per_eye: true,"),
-        _ => panic!("say in tests/reference/examples.rs where a word of {words} stands"),
+        _ => panic!("say in tests/suite/reference/examples.rs where a word of {words} stands"),
     }
 }
 

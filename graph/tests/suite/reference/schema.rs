@@ -2,7 +2,7 @@
 
 use crate::reference::catalogue;
 use crate::reference::examples::{whole, whole_word};
-use crate::testing::table::Pictures;
+use crate::testing::pipelines::Pictures;
 use boon::{Compiler, SchemaIndex, Schemas};
 use framewright_graph::base::Sources;
 use framewright_graph::language::{self, schema};

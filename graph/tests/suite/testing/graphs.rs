@@ -1,55 +1,10 @@
-//! The graphs that the compiler is measured on, built in memory, and a device that has everything.
+//! The graphs that the compiler is measured on, built in memory.
 
-use framewright_graph::base::Span;
-use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
-use framewright_graph::frame::{Face, Frame, Groups, Image, ImageIndex, Pass, Resource, Sampled, Storage, Work};
-use framewright_graph::vulkan::{Filter, Format, ResolveMode, Sampler, Stages, Subresources, Usage};
+pub(crate) use super::parts::device;
+use super::parts::{sampled, stored};
+use framewright_graph::frame::{Frame, Groups, Image, ImageIndex, Pass, Resource, Work};
+use framewright_graph::vulkan::{Format, Stages};
 use std::sync::Arc;
-
-/// A device that has every format at 1, 4 and 8 samples and adds nothing to an image's bytes.
-pub(crate) fn device() -> Profile {
-    let everything = Usage::all().difference(Usage::TRANSIENT_ATTACHMENT);
-    let support = |format: &Format| FormatSupport {
-        format: *format,
-        usage: everything,
-        linear_filter: true,
-        blend: true,
-        samples: vec![1, 4, 8],
-    };
-    Profile {
-        name: "a device for tests".to_owned(),
-        source: "built in memory".to_owned(),
-        max_attachment_extent: 16384,
-        max_color_attachments: 8,
-        lazily_allocated_memory: false,
-        formats: Format::ALL.iter().map(support).collect(),
-        max_extent_3d: 2048,
-        max_layers: u32::MAX,
-        queues: Queues::default(),
-        local_read: false,
-        max_multiview_views: 6,
-        refuted_multiview: false,
-        untested_multiview: false,
-        vertex_layer: true,
-        max_clip_distances: Some(8),
-        depth_resolve: vec![ResolveMode::SampleZero],
-        refuted_depth_resolve: Vec::new(),
-        refuted_layered_depth_resolve: Vec::new(),
-        untested_depth_resolve: Vec::new(),
-        memory: MemoryModel {
-            alignment: 256,
-            row_texels: 1,
-            row_bytes: 1,
-            rows: 1,
-            separate_stencil: false,
-            buffer_alignment: 256,
-            type_bits: 1,
-            heap_bytes: None,
-        },
-        known_needs: Vec::new(),
-        unknown: Vec::new(),
-    }
-}
 
 /// Builds a frame of compute passes.
 #[derive(Default)]
@@ -69,35 +24,12 @@ impl Builder {
 
     /// A compute pass that samples `reads`, and writes `writes` as storage: whole, or on top of what is there.
     pub(crate) fn pass(&mut self, name: &str, reads: &[ImageIndex], writes: &[(ImageIndex, bool)]) {
-        let sampled = self.sampled.get_or_insert_with(|| "source".into()).clone();
-        let stored = self.stored.get_or_insert_with(|| "target".into()).clone();
-        let stages = Stages::COMPUTE_SHADER;
-        let sample = |image: &ImageIndex| Sampled {
-            binding: sampled.clone(),
-            image: *image,
-            range: Subresources::WHOLE,
-            frames_ago: 0,
-            span: Span::NONE,
-            eye: None,
-            face: Face::Resolved,
-            texture: None,
-            own_pixel: false,
-            sampler: Sampler::new(Filter::Nearest),
-            stages,
-        };
-        let store = |(image, read): &(ImageIndex, bool)| Storage {
-            binding: stored.clone(),
-            image: *image,
-            range: Subresources::WHOLE,
-            span: Span::NONE,
-            read: *read,
-            write: true,
-            stages,
-        };
-        let work = Work::Dispatch { shader: sampled.clone(), groups: Groups::Invocations([256, 256, 1]) };
+        let source = self.sampled.get_or_insert_with(|| "source".into()).clone();
+        let target = self.stored.get_or_insert_with(|| "target".into()).clone();
+        let work = Work::Dispatch { shader: source.clone(), groups: Groups::Invocations([256, 256, 1]) };
         self.frame.passes.push(Pass {
-            sampled: reads.iter().map(sample).collect(),
-            storage: writes.iter().map(store).collect(),
+            sampled: reads.iter().map(|image| sampled(source.clone(), *image, Stages::COMPUTE_SHADER)).collect(),
+            storage: writes.iter().map(|(image, read)| stored(target.clone(), *image, *read)).collect(),
             ..Pass::new(name, work)
         });
     }

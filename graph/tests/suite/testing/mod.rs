@@ -2,6 +2,8 @@
 
 pub(crate) mod graphs;
 pub(crate) mod hand_written_plans;
+pub(crate) mod parts;
+pub(crate) mod pipelines;
 pub(crate) mod plans;
 pub(crate) mod raster;
 pub(crate) mod symbolic;

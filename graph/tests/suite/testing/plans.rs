@@ -1,6 +1,6 @@
 //! From a frame to its Plan, and what tests look up there.
 
-use super::graphs::device;
+use super::parts::device;
 use framewright_graph::base::Diagnostic;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Estimated, Profile, SHIPPED_PROFILES};

@@ -1,6 +1,7 @@
 //! Raster frames built in memory.
 
-pub(crate) use super::graphs::device;
+pub(crate) use super::parts::device;
+use super::parts::sampled;
 use framewright_graph::base::Span;
 use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, DrawList, Face, Frame, Image, ImageIndex, Pass, Resource, Sampled, Work,
@@ -132,19 +133,8 @@ impl Added<'_> {
     }
 
     fn sampled(self, image: ImageIndex, face: Face, filter: Filter) -> Self {
-        self.0.sampled.push(Sampled {
-            binding: format!("source{}", self.0.sampled.len()).into(),
-            image,
-            range: Subresources::WHOLE,
-            frames_ago: 0,
-            span: Span::NONE,
-            eye: None,
-            face,
-            texture: None,
-            own_pixel: false,
-            sampler: Sampler::new(filter),
-            stages: Stages::FRAGMENT_SHADER,
-        });
+        let sampled = sampled(format!("source{}", self.0.sampled.len()), image, Stages::FRAGMENT_SHADER);
+        self.0.sampled.push(Sampled { face, sampler: Sampler::new(filter), ..sampled });
         self
     }
 }

@@ -1,17 +1,14 @@
-//! What the tests of the language share: shader interfaces out of a table, and the way from a file to a frame.
+//! Shader interfaces out of a table.
 
-use framewright_graph::base::{self, Diagnostic, FilePath, Quote, Sources};
-use framewright_graph::expand::{Facts, Inputs, expand};
-use framewright_graph::frame::{Draw, Frame, Stereo, TextureFile, TextureInfo, TextureProblem};
-use framewright_graph::language::{self, Files, Found, NoFiles, Unread};
+use framewright_graph::base::Quote;
+use framewright_graph::frame::Draw;
 use framewright_graph::shader::{
     AlphaUse, Attribute, Binding, BindingKind, Block, DrawInterface, FragmentOutput, Member, ShaderInterface,
     ShaderInterfaces, ShaderMessage, ShaderProblem, Supplied, SuppliedKind, Unbindable, Variant, VertexInput,
 };
-use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Rotation, Stages};
-use std::sync::Arc;
+use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
 
-/// Shader interfaces out of a table.
+/// The table.
 pub(crate) struct Table;
 
 fn texture(name: &str, binding: u32, multisampled: bool, component: Component) -> Binding {
@@ -430,82 +427,4 @@ impl ShaderInterfaces for Table {
             Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => DrawInterface::default(),
         }
     }
-}
-
-/// What a test puts a pipeline together with.
-pub(crate) const INPUTS: Inputs<'static> = Inputs {
-    set: &[],
-    facts: Facts::UNKNOWN,
-    facts_known: false,
-    output_extent: [640, 360],
-    dump: &[],
-    device: None,
-    stereo: Stereo::Off,
-    rotation: Rotation::Identity,
-};
-
-/// The text of a shipped pipeline.
-pub(crate) fn shipped(name: &str) -> String {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/pipelines").join(name);
-    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-/// Expands a pipeline's text; if it fails, with the mistakes as they are shown.
-pub(crate) fn frame(text: &str, inputs: &Inputs<'_>) -> Result<Frame, String> {
-    let mut sources = Sources::default();
-    let pipeline = language::read_with(&mut sources, &mut Pictures, "test.ron", "test.ron", text.to_owned());
-    let sources = Arc::new(sources);
-    let expanded = pipeline.and_then(|pipeline| expand(&pipeline, sources.clone(), inputs, &mut Table));
-    expanded.map_err(|errors: Vec<Diagnostic>| base::render(&sources, &errors))
-}
-
-/// Pictures out of a table.
-pub(crate) struct Pictures;
-
-impl Pictures {
-    /// What the file holds, if it is one of the table.
-    pub(crate) fn info(file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
-        let (extent, format) = match &*file.path {
-            "grain.png" | "looks/grain.png" => ([64, 32], Format::R8G8B8A8_UNORM),
-            "photo.png" => ([800, 600], Format::R8G8B8A8_SRGB),
-            "strip.png" => ([256, 16], Format::R16G16B16A16_UNORM),
-            "damaged.png" => return Err(TextureProblem::Damaged { reason: "unexpected end of file".to_owned() }),
-            _ => {
-                return Err(TextureProblem::Unreadable { reason: "No such file or directory (os error 2)".to_owned() });
-            }
-        };
-        Ok(TextureInfo { extent, format })
-    }
-}
-
-impl Files for Pictures {
-    fn read(&mut self, from: &FilePath, path: &str) -> Result<Found, Unread> {
-        NoFiles.read(from, path)
-    }
-
-    fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
-        Pictures::info(file)
-    }
-}
-
-/// `--set` values.
-pub(crate) fn set(values: &[(&str, &str)]) -> Vec<(String, String)> {
-    values.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect()
-}
-
-/// The frame of a pipeline that is right.
-pub(crate) fn right(text: &str, inputs: &Inputs<'_>) -> Frame {
-    frame(text, inputs).unwrap_or_else(|answer| panic!("{answer}"))
-}
-
-/// What is said about a pipeline that is wrong.
-pub(crate) fn wrong(text: &str, inputs: &Inputs<'_>) -> String {
-    frame(text, inputs).expect_err("the pipeline is wrong")
-}
-
-/// All that a frame says, but for names and places.
-pub(crate) fn unnamed(frame: &Frame) -> String {
-    let all = format!("{:#?}", (&frame.images, &frame.buffers, &frame.passes, &frame.outputs));
-    let said = |line: &&str| !["name: ", "file: ", "start: ", "end: "].iter().any(|it| line.trim().starts_with(it));
-    all.lines().filter(said).collect::<Vec<_>>().join("\n")
 }

@@ -1,9 +1,10 @@
 //! What the compiler makes of frames is accepted, and none of its barriers can be left out.
 
 use crate::testing::graphs;
+use crate::testing::hand_written_plans::names_all;
 use crate::testing::raster::{self, Raster, forward};
 use crate::verify::accepts::accept;
-use crate::verify::mutations::{names_all, without_a_barrier};
+use crate::verify::mutations::without_a_barrier;
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Estimated, Profile};
 use framewright_graph::frame::{Blend, Frame};

@@ -7,10 +7,10 @@ mod barriers;
 mod memory;
 mod queues;
 
-use crate::testing::hand_written_plans::{self, recount};
+use crate::testing::hand_written_plans::{self, names_all, recount};
 pub(crate) use barriers::without_a_barrier;
 use framewright_graph::plan::{Plan, Step};
-use framewright_graph::verify::{Violation, verify};
+use framewright_graph::verify::verify;
 
 /// A changed Plan, and what was changed.
 pub(crate) struct Mutant {
@@ -36,20 +36,6 @@ fn mutants(plan: &Plan, change: impl Fn(&mut Plan, usize) -> Option<String>) -> 
 fn nth<T>(plan: &Plan, place: usize, of: impl Fn(&Step) -> &Vec<T>) -> Option<(usize, usize)> {
     let steps = plan.steps.iter().enumerate();
     steps.flat_map(|(step, described)| (0..of(described).len()).map(move |index| (step, index))).nth(place)
-}
-
-/// Whether it names both steps and the part of an image or the bytes of a buffer, in its data and in its sentence.
-pub(crate) fn names_all(violation: &Violation) -> bool {
-    let Violation { step: Some(step), other: Some(other), resource: Some(resource), .. } = violation else {
-        return false;
-    };
-    let part = match (violation.range, violation.bytes) {
-        (Some(range), _) => range.to_string(),
-        (None, Some([start, end])) => format!("bytes {start}–{end}"),
-        (None, None) => return false,
-    };
-    let sentence = violation.to_string();
-    [step.to_string(), other.to_string(), format!("`{resource}`"), part].iter().all(|part| sentence.contains(part))
 }
 
 /// Checks all mutants of all Plans; those named in `harmless` must be accepted, all others caught.

@@ -2,7 +2,7 @@
 
 use super::document::{Document, SparsePart, follow};
 use super::external::External;
-use super::problem::{GltfError, Problem};
+use super::problem::{GltfError, Problem, at_most};
 use crate::scene::limits;
 use framewright_graph::base::Root;
 use std::cell::OnceCell;
@@ -164,9 +164,7 @@ impl<'a> Data<'a> {
         }
         // Elements without a view are zeros that the file needn't hold.
         let is = accessor.count.saturating_mul(size);
-        if is > limits::FILE_BYTES {
-            return Err(Problem::TooMuch { what: "bytes", is, limit: limits::FILE_BYTES }.at(&at));
-        }
+        at_most("bytes", is, limits::FILE_BYTES, &at)?;
         let mut bytes = match accessor.buffer_view {
             Some(view) => self.packed(view, accessor.byte_offset, accessor.count, size, &at)?,
             None => vec![0; is as usize],
@@ -183,14 +181,12 @@ impl<'a> Data<'a> {
         Ok((element, bytes))
     }
 
-    /// Where sparse values go: ascending, each less than `count`.
+    /// The places of sparse values: ascending, each less than `count`.
     fn sparse_indices(&self, part: &SparsePart, len: u64, count: u64, at: &str) -> Result<Vec<u32>, GltfError> {
         if len == 0 {
             return Err(Problem::NoElements.at(at));
         }
-        if len > count {
-            return Err(Problem::TooMuch { what: "sparse elements", is: len, limit: count }.at(at));
-        }
+        at_most("sparse elements", len, count, at)?;
         let code = part.component_type.unwrap_or_default();
         let component = Component::from_code(code)
             .filter(|component| matches!(component, Component::U8 | Component::U16 | Component::U32))
@@ -242,7 +238,7 @@ fn integers(bytes: &[u8], component: Component) -> Vec<u32> {
     bytes.chunks_exact(component.bytes() as usize).map(integer).collect()
 }
 
-/// `length` bytes from `start`, or what they are outside of.
+/// `length` bytes from `start`; or a mistake that names the holder which they are outside of.
 fn range<'b>(
     bytes: &'b [u8],
     start: u64,

@@ -1,6 +1,6 @@
 //! The GLB container (glTF 2.0, section 4): a header, a JSON chunk, perhaps a binary chunk.
 
-use super::problem::{GltfError, Problem};
+use super::problem::{GltfError, Problem, at_most};
 use crate::scene::limits;
 
 /// The two chunks that matter.
@@ -28,10 +28,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<Container<'_>, GltfError> {
     if json.kind != *b"JSON" {
         return Err(Problem::NoJson.at(""));
     }
-    if json.data.len() > limits::JSON_BYTES {
-        let (is, limit) = (json.data.len() as u64, limits::JSON_BYTES as u64);
-        return Err(Problem::TooMuch { what: "bytes", is, limit }.at("JSON chunk"));
-    }
+    at_most("bytes", json.data.len() as u64, limits::JSON_BYTES as u64, "JSON chunk")?;
     let binary = chunk(rest, "binary chunk")?.filter(|(chunk, _)| chunk.kind == *b"BIN\0").map(|(chunk, _)| chunk.data);
     Ok(Container { json: json.data, binary })
 }

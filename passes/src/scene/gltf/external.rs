@@ -1,6 +1,6 @@
 //! Data outside the binary chunk: in the file itself as a `data:` URI (RFC 2397), or in a file beside it.
 
-use super::problem::{GltfError, Problem};
+use super::problem::{GltfError, Problem, at_most};
 use crate::scene::limits;
 use base64::Engine;
 use base64::alphabet::STANDARD;
@@ -9,7 +9,7 @@ use framewright_graph::base::{FilePath, NoFile, Root};
 use percent_encoding::percent_decode_str;
 use std::cell::Cell;
 
-/// Where URIs lead to.
+/// The data behind URIs.
 #[derive(Debug)]
 pub(super) struct External<'a> {
     /// The folder that files are read from; `None`: none are.
@@ -52,9 +52,8 @@ impl<'a> External<'a> {
             }
         };
         self.taken.set(self.taken.get() + bytes.len() as u64);
-        let (is, limit) = (self.taken.get(), limits::FILE_BYTES);
-        let problem = Problem::TooMuch { what: "bytes of all files and data URIs up to here", is, limit };
-        if is > limit { Err(problem.at(at)) } else { Ok(bytes) }
+        at_most("bytes of all files and data URIs up to here", self.taken.get(), limits::FILE_BYTES, at)?;
+        Ok(bytes)
     }
 
     /// The bytes of a file beside this one.

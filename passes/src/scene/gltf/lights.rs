@@ -2,7 +2,7 @@
 
 use super::document::{Document, follow};
 use super::nodes::Placed;
-use super::problem::{GltfError, Problem};
+use super::problem::{GltfError, Problem, at_most, within};
 use crate::scene::model::{PointLight, Sun};
 use crate::scene::notes::Notes;
 use crate::scene::{defaults, limits};
@@ -22,11 +22,7 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
         let Some(reference) = &node.extensions.light else { continue };
         let light = follow(&document.lights, reference.light, "light", &format!("node {number}"))?;
         let at = format!("light {}", reference.light);
-        let within = |what, is: f64| {
-            let problem = Problem::OutOfRange { what, is: is.to_string(), expected: "0 to 1e9" };
-            let fits = (0.0..=limits::RADIANCE).contains(&is);
-            if fits { Ok(is) } else { Err(problem.at(&at)) }
-        };
+        let within = |what, is: f64| within(what, is, 0.0..=limits::RADIANCE, "0 to 1e9", &at);
         let mut color = light.color.unwrap_or([1.0; 3]);
         for part in &mut color {
             *part = within("its colour", *part)?;
@@ -71,10 +67,7 @@ pub(super) fn read(document: &Document, placed: &[Placed<'_>], notes: &mut Notes
             }
         }
     }
-    if points.len() > limits::POINT_LIGHTS {
-        let (is, limit) = (points.len() as u64, limits::POINT_LIGHTS as u64);
-        return Err(Problem::TooMuch { what: "point lights", is, limit }.at(""));
-    }
+    at_most("point lights", points.len() as u64, limits::POINT_LIGHTS as u64, "")?;
     let dark = Sun { direction: defaults::SUN.direction, color: [0.0; 3], shadows: false };
     let sun = sun.unwrap_or(if points.is_empty() { defaults::SUN } else { dark });
     Ok(Lights { sun, points })

@@ -3,7 +3,7 @@
 use super::accessor::Data;
 use super::document;
 use super::picture::Textures;
-use super::problem::{GltfError, Problem};
+use super::problem::{GltfError, Problem, within};
 use crate::scene::limits;
 use crate::scene::model::{AlphaMode, Material};
 use crate::scene::notes::Notes;
@@ -16,12 +16,7 @@ pub(super) fn read(
     notes: &mut Notes,
 ) -> Result<Material, GltfError> {
     let pbr = &material.pbr_metallic_roughness;
-    let within = |what, is: f64, most: f64, expected| {
-        if (0.0..=most).contains(&is) {
-            return Ok(is as f32);
-        }
-        Err(Problem::OutOfRange { what, is: is.to_string(), expected }.at(at))
-    };
+    let within = |what, is, most, expected| within(what, is, 0.0..=most, expected, at).map(|is| is as f32);
     let mut base_color = [1.0; 4];
     for (place, factor) in base_color.iter_mut().zip(pbr.base_color_factor.unwrap_or([1.0; 4])) {
         *place = within("a base colour factor", factor, 1.0, "0 to 1")?;

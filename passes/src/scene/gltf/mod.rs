@@ -42,6 +42,7 @@ use framewright_graph::base::Root;
 use glam::{DMat4, DVec3};
 use nodes::Placed;
 use picture::Textures;
+use problem::{at_most, within};
 
 /// Reads a scene from the bytes of a GLB file. Files that it names are read from `beside`, and without that not at all.
 ///
@@ -152,11 +153,7 @@ fn objects(
         if node.skin.is_some() {
             notes.add(format!("{at}: its skin is ignored; the mesh stands as it was modelled"));
         }
-        let is = objects.len() + parts.len();
-        if is > limits::OBJECTS {
-            let (is, limit) = (is as u64, limits::OBJECTS as u64);
-            return Err(Problem::TooMuch { what: "objects up to here", is, limit }.at(&at));
-        }
+        at_most("objects up to here", (objects.len() + parts.len()) as u64, limits::OBJECTS as u64, &at)?;
         let mesh_name = document.meshes.get(group as usize).and_then(|mesh| mesh.name.clone());
         let name = node.name.clone().or(mesh_name).unwrap_or_else(|| at.clone());
         for (index, part) in parts.iter().enumerate() {
@@ -197,14 +194,9 @@ fn cameras(document: &Document, placed: &[Placed<'_>], notes: &mut Notes) -> Res
                 continue;
             }
         };
-        let check = |what, is: f64, ok: bool, expected| {
-            let problem = Problem::OutOfRange { what, is: is.to_string(), expected };
-            if ok { Ok(is as f32) } else { Err(problem.at(&at)) }
-        };
-        let (fov, near) = (perspective.yfov, perspective.znear);
-        let fov = check("the vertical field of view", fov, Camera::allows_fov(fov), "1e-4 to 3.1 radians")?;
-        let near = check("the near distance", near, Camera::allows_near(near), "1e-6 to 1e9 m")?;
-        match looking(*to_world, fov, near) {
+        let fov = within("the vertical field of view", perspective.yfov, 1e-4..3.1, "1e-4 to 3.1 radians", &at)?;
+        let near = within("the near distance", perspective.znear, 1e-6..=1e9, "1e-6 to 1e9 m", &at)?;
+        match looking(*to_world, fov as f32, near as f32) {
             Some(camera) => {
                 let name = node.name.clone().unwrap_or_else(|| at.clone());
                 cameras.push(NamedCamera { name, camera });

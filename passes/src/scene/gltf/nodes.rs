@@ -63,7 +63,7 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, GltfError> {
     Ok(parents)
 }
 
-/// Where a walk over the nodes begins.
+/// The nodes at which a walk begins.
 struct Roots {
     /// Nodes without parents.
     tops: Vec<usize>,
@@ -125,7 +125,7 @@ fn local(node: &Node, at: &str) -> Result<DMat4, GltfError> {
         return Err(Problem::MatrixAndParts.at(at));
     }
     let mut matrix = DMat4::from_cols_array(&matrix);
-    // Exporters round; what they meant is exact.
+    // Exporters round what was exact.
     if !matrix.row(3).abs_diff_eq(glam::DVec4::W, 1e-4) {
         return Err(Problem::NotAffine.at(at));
     }

@@ -2,7 +2,7 @@
 
 use super::accessor::Data;
 use super::document::{self, follow};
-use super::problem::{GltfError, Problem};
+use super::problem::{GltfError, Problem, at_most};
 use crate::scene::limits;
 use crate::scene::model::{Sampler, Texture, Wrap};
 use framewright_graph::vulkan::Filter;
@@ -79,17 +79,9 @@ impl Textures {
             |error: image::ImageError| Problem::Image(error.to_string().escape_debug().to_string()).at(at);
         let (width, height) =
             ImageReader::with_format(Cursor::new(&bytes), format).into_dimensions().map_err(undecodable)?;
-        let side = width.max(height);
-        let limit = limits::TEXTURE_SIDE;
-        if side > limit {
-            let problem = Problem::TooMuch { what: "texels along a side", is: side.into(), limit: limit.into() };
-            return Err(problem.at(at));
-        }
+        at_most("texels along a side", width.max(height).into(), limits::TEXTURE_SIDE.into(), at)?;
         self.bytes += u64::from(width) * u64::from(height) * 4;
-        if self.bytes > limits::TEXTURE_BYTES {
-            let (is, limit) = (self.bytes, limits::TEXTURE_BYTES);
-            return Err(Problem::TooMuch { what: "bytes of all pictures up to here", is, limit }.at(at));
-        }
+        at_most("bytes of all pictures up to here", self.bytes, limits::TEXTURE_BYTES, at)?;
         ImageReader::with_format(Cursor::new(&bytes), format).decode().map_err(undecodable)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::accessor::{Data, TEXTURE_COORDINATES};
 use super::document::{Document, Primitive};
-use super::problem::{GltfError, Problem};
+use super::problem::{GltfError, Problem, at_most};
 use crate::scene::limits;
 use crate::scene::model::{Bounds, Mesh, flat_shaded};
 use crate::scene::notes::Notes;
@@ -18,10 +18,7 @@ impl Budget {
     fn take(&mut self, vertices: usize, indices: usize, at: &str) -> Result<(), GltfError> {
         self.vertices = self.vertices.saturating_add(vertices);
         self.indices = self.indices.saturating_add(indices);
-        let fits = |what, is: usize, limit: usize| {
-            let problem = Problem::TooMuch { what, is: is as u64, limit: limit as u64 };
-            if is > limit { Err(problem.at(at)) } else { Ok(()) }
-        };
+        let fits = |what, is: usize, limit: usize| at_most(what, is as u64, limit as u64, at);
         fits("vertices of all meshes up to here", self.vertices, limits::VERTICES)?;
         fits("indices of all meshes up to here", self.indices, limits::INDICES)
     }

@@ -2,6 +2,7 @@
 
 use framewright_graph::base::NoFile;
 use std::fmt;
+use std::ops::RangeBounds;
 
 /// A mistake in a glTF file. Written `accessor 3: …`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,6 +20,22 @@ impl fmt::Display for GltfError {
 }
 
 impl std::error::Error for GltfError {}
+
+/// Makes sure that there is no more than is allowed.
+pub(super) fn at_most(what: &'static str, is: u64, limit: u64, at: &str) -> Result<(), GltfError> {
+    if is > limit { Err(Problem::TooMuch { what, is, limit }.at(at)) } else { Ok(()) }
+}
+
+/// Makes sure that a number is in its range, which `expected` tells.
+pub(super) fn within(
+    what: &'static str,
+    is: f64,
+    range: impl RangeBounds<f64>,
+    expected: &'static str,
+    at: &str,
+) -> Result<f64, GltfError> {
+    if range.contains(&is) { Ok(is) } else { Err(Problem::OutOfRange { what, is: is.to_string(), expected }.at(at)) }
+}
 
 impl Problem {
     /// The problem of an element of the file, such as "accessor 3"; of the file as a whole without a name.
@@ -58,7 +75,7 @@ pub enum Problem {
     /// Something is larger than the loader takes.
     #[error("{what}: {is}; at most {limit} is allowed")]
     TooMuch {
-        /// What is counted.
+        /// The thing that is counted.
         what: &'static str,
         /// How much there is.
         is: u64,
@@ -77,7 +94,7 @@ pub enum Problem {
     /// Something refers to a thing that isn't there.
     #[error("refers to {kind} {index}, but there are only {count}")]
     Missing {
-        /// What kind of thing.
+        /// The kind of thing.
         kind: &'static str,
         /// Its number.
         index: u64,
@@ -95,7 +112,7 @@ pub enum Problem {
     DataUri {
         /// Its beginning; escaped.
         uri: String,
-        /// What is wrong with it.
+        /// The mistake in it.
         reason: String,
     },
     /// A file beside this one that can't be read.
@@ -118,7 +135,7 @@ pub enum Problem {
         start: u64,
         /// One past the last byte, saturating.
         end: u64,
-        /// What should hold them.
+        /// The thing that should hold them.
         holder: String,
         /// Bytes that it has.
         has: u64,
@@ -137,11 +154,11 @@ pub enum Problem {
     /// An accessor of the wrong type.
     #[error("{role} are {found}, which is not supported; expected {expected}")]
     ElementType {
-        /// What it is used for.
+        /// Its use.
         role: &'static str,
-        /// What it is; escaped.
+        /// Its type; escaped.
         found: String,
-        /// What it should be.
+        /// The type that its use needs.
         expected: &'static str,
     },
     /// An accessor with another number of elements than the positions.
@@ -155,7 +172,7 @@ pub enum Problem {
     /// An index beyond the vertices.
     #[error("index number {at} is {index}, but there are only {vertices} vertices")]
     Index {
-        /// Which of the indices.
+        /// Its place among the indices.
         at: usize,
         /// Its value.
         index: u32,
@@ -165,7 +182,7 @@ pub enum Problem {
     /// A sparse accessor's indices don't ascend or are too large.
     #[error("sparse index number {at} is {index}; they must ascend and be less than {count}")]
     SparseIndex {
-        /// Which of the sparse indices.
+        /// Its place among the sparse indices.
         at: usize,
         /// Its value.
         index: u32,
@@ -184,7 +201,7 @@ pub enum Problem {
     /// A number is outside its range.
     #[error("{what} is {is}; expected {expected}")]
     OutOfRange {
-        /// What the number is.
+        /// The number's meaning.
         what: &'static str,
         /// Its value.
         is: String,
@@ -194,11 +211,11 @@ pub enum Problem {
     /// A word that the specification doesn't know; escaped.
     #[error("{what} `{is}` is not known; expected {expected}")]
     Word {
-        /// What the word is.
+        /// The word's meaning.
         what: &'static str,
         /// The word.
         is: String,
-        /// What it may be.
+        /// The words that it may be.
         expected: &'static str,
     },
     /// An image that can't be decoded; the decoder's words, escaped.

@@ -1,4 +1,4 @@
-//! Where a scene is seen from.
+//! The cameras of a scene.
 
 use super::bounds::Bounds;
 use super::movement::Movement;
@@ -65,19 +65,7 @@ impl Camera {
         }
     }
 
-    /// Whether a vertical field of view in radians can be drawn: 10⁻⁴ to 3.1 (177.6°).
-    #[must_use]
-    pub fn allows_fov(radians: f64) -> bool {
-        (1e-4..3.1).contains(&radians)
-    }
-
-    /// Whether a near distance in metres can be drawn: 10⁻⁶ to 10⁹.
-    #[must_use]
-    pub fn allows_near(metres: f64) -> bool {
-        (1e-6..=1e9).contains(&metres)
-    }
-
-    /// Where the camera stands, in the world.
+    /// The camera's place in the world.
     #[must_use]
     pub fn position(&self) -> DVec3 {
         self.transform.w_axis.truncate()

@@ -21,7 +21,7 @@ impl Movement {
         *self == Movement::default()
     }
 
-    /// Where a thing with this transform is at a frame; at frame 0 it is where it was.
+    /// The place at a frame of a thing with this transform; at frame 0 the transform itself.
     #[must_use]
     pub fn at(&self, frame: u64, transform: DMat4) -> DMat4 {
         let seconds = frame as f64 * FRAME_SECONDS;

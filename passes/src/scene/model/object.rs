@@ -56,7 +56,7 @@ impl Object {
         (cofactors * scale).as_mat3()
     }
 
-    /// Where it is at a frame: [`Object::transform`] then.
+    /// Its place at a frame: [`Object::transform`] then.
     #[must_use]
     pub fn transform_at(&self, frame: u64) -> DMat4 {
         self.movement.at(frame, self.transform)

@@ -87,8 +87,7 @@ impl Scene {
         scene
     }
 
-    /// Where things are and how they look from afar: the scene without vertices, texels and names. Its materials still name
-    /// textures.
+    /// The scene without vertices, texels and names: places of things, and materials, which still name textures.
     #[must_use]
     pub(crate) fn outline(&self) -> Scene {
         let empty = |mesh: &Mesh| Mesh {

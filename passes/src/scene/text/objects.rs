@@ -44,7 +44,7 @@ pub(super) struct Objects {
     pub(super) objects: Vec<Object>,
     /// Whether there were too many: reading on would only take time.
     pub(super) full: bool,
-    /// Which shape each mesh is.
+    /// The shape of each mesh.
     shapes: Vec<&'static str>,
 }
 
@@ -175,7 +175,7 @@ fields! {
     }
 }
 
-/// Where copies stand, relative to the object's position.
+/// The places of copies, relative to the object's position.
 fn repeat<'s>(reader: &mut Reader, leaf: Leaf<'s>) -> Option<Vec<DMat4>> {
     const GRID: &str = "Grid(count: (3, 1, 3), step: (2, 0, 2))";
     const RING: &str = "Ring(count: 12, radius: 4, start: 0)";

@@ -18,7 +18,7 @@ fn the_committed_files_are_what_the_code_makes() {
         let committed = std::fs::read(&path).unwrap_or_default();
         assert!(
             committed == made,
-            "{} differs from what passes/tests/scene/fixtures makes; to accept the new one:\n  \
+            "{} differs from what passes/tests/suite/scene/fixtures makes; to accept the new one:\n  \
              {ACCEPT}=1 cargo test -p framewright-passes --test suite scene",
             path.display()
         );

@@ -112,7 +112,7 @@ fn folder(uri: &Value) -> tempfile::TempDir {
     folder
 }
 
-/// What is said about a buffer with this URI, its folder called `FOLDER`.
+/// The message about a buffer with this URI, its folder called `FOLDER`.
 fn said(uri: &str) -> String {
     let folder = folder(&json!(uri));
     let answer = load(&folder.path().join("scene.gltf"));

@@ -5,7 +5,7 @@ use framewright_graph::base::{Sources, render};
 use framewright_passes::scene::{Scene, gltf, text};
 use proptest::prelude::*;
 
-/// What a scene promises to whoever draws it.
+/// The promises of a scene to its draw source.
 fn is_sound(scene: &Scene) {
     for mesh in &scene.meshes {
         let vertices = mesh.positions.len();

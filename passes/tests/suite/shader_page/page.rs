@@ -45,7 +45,7 @@ pub(crate) fn make(text: &str) -> String {
         page.push('\n');
     }
     let without: Vec<_> = shaders.iter().map(|shader| shader.name).filter(|name| !filled.contains(name)).collect();
-    assert!(without.is_empty(), "tests/shader_page/shaders.md has no place for {without:?}");
+    assert!(without.is_empty(), "tests/suite/shader_page/shaders.md has no place for {without:?}");
     page
 }
 
@@ -138,7 +138,7 @@ fn rows(shader: &Shader, binding: &Binding) -> Vec<[String; 4]> {
             };
             row("storage", format!("a buffer that is {access}"))
         }
-        other => panic!("{}: say in tests/shader_page/page.rs what {other:?} is", shader.name),
+        other => panic!("{}: say in tests/suite/shader_page/page.rs what {other:?} is", shader.name),
     }
 }
 

@@ -12,7 +12,7 @@ fn placement(plan: &Plan, resource: Resource) -> Option<&Placement> {
     if let Role::Transient(placement) = role { Some(placement) } else { None }
 }
 
-/// Everything transient, moved onto whatever lives at the same time.
+/// Each transient image or buffer, moved onto others that live at the same time.
 pub(super) fn allocations(plan: &Plan, edits: &mut Vec<Edit>) {
     let images = plan.images.iter().map(|image| (Resource::Image(image.id), image.name.clone()));
     let buffers = plan.buffers.iter().map(|buffer| (Resource::Buffer(buffer.id), buffer.name.clone()));

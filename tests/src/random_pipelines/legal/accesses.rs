@@ -1,4 +1,4 @@
-//! What a pass reads and writes.
+//! The accesses of a pass.
 
 use crate::random_pipelines::pipeline::{
     Compute, Count, DepthTarget, Draw, Geometry, Groups, Part, Pass, Plane, Read, Region, Store, StoreAccess, Thing,
@@ -86,7 +86,7 @@ pub(super) fn accesses(pass: &Pass) -> Vec<Access> {
     all
 }
 
-/// What a copy or a custom pass reads and writes.
+/// The accesses of a copy or a custom pass.
 fn copied(pass: &Pass) -> (Option<Region>, Option<Region>) {
     match pass.work {
         Work::Copy { from, frames_ago, to } => ((frames_ago == 0).then_some(from), Some(to)),
@@ -95,7 +95,7 @@ fn copied(pass: &Pass) -> (Option<Region>, Option<Region>) {
     }
 }
 
-/// What a pass's shaders read and write beside attachments.
+/// The accesses of a pass's shaders beside attachments.
 pub(in crate::random_pipelines) fn shader(pass: &Pass) -> (&[Read], &[Store]) {
     match &pass.work {
         Work::Draw(Draw { reads, stores, .. }) | Work::Compute(Compute { reads, stores, .. }) => (reads, stores),

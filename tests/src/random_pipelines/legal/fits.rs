@@ -1,4 +1,4 @@
-//! What kinds of passes ask of the images and buffers that they name.
+//! The demands of each kind of pass on the images and buffers that it names.
 
 use super::Written;
 use super::accesses::shader;
@@ -10,7 +10,7 @@ use crate::random_pipelines::texels;
 use framewright_graph::frame::Blend;
 use framewright_graph::vulkan::{Aspects, Format, Numeric, Shape};
 
-/// Whether what a pass does fits what it names, whatever stands there.
+/// Whether the work of a pass fits the images and buffers that it names, whatever their contents.
 pub(super) fn fits(written: &Written, pipeline: &Pipeline, pass: &Pass) -> bool {
     let (reads, stores) = shader(pass);
     reads.iter().all(|read| read_fits(written, pipeline, *read))
@@ -58,7 +58,7 @@ pub(super) fn draws_again(pass: &Pass) -> bool {
     plain && !draw.custom && !tests_stencil && reads.is_empty() && stores.is_empty()
 }
 
-/// Whether what lives so can be read so many frames later.
+/// Whether something with this lifetime can be read this many frames later.
 fn lasts(life: Life, frames_ago: u32) -> bool {
     frames_ago == 0 || matches!(life, Life::History(frames, _) if frames_ago <= frames)
 }
@@ -202,7 +202,7 @@ pub(in crate::random_pipelines) fn size(image: &Image, part: Part) -> Extent {
     [width, height, if image.shape == Shape::D3 { depth } else { part.layers }]
 }
 
-/// What has a structure is written alone, by a row of invocations.
+/// A buffer with a structure is written alone, by a row of invocations.
 fn structure_fits(pipeline: &Pipeline, compute: &Compute) -> bool {
     let contents = |store: &Store| match store.region {
         Region::Buffer(buffer) => pipeline.buffers[buffer].contents,

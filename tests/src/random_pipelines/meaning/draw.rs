@@ -1,4 +1,4 @@
-//! What a draw leaves in its attachments.
+//! The contents that a draw leaves in its attachments.
 
 use super::{Evaluator, shade};
 use crate::random_pipelines::hash::{Quarter, hash};
@@ -107,7 +107,7 @@ impl Evaluator<'_> {
         nearer && stencil
     }
 
-    /// What a sample that passed all tests leaves in depth and stencil.
+    /// The depth and stencil that a sample leaves which passed all tests.
     fn update(&mut self, target: &DepthTarget, depth: u32, at: [u32; 3], sample: u32) {
         let part = target.part;
         let place = [at[0], at[1], part.layer];
@@ -161,7 +161,7 @@ fn compares(test: CompareOp, new: f32, old: f32) -> bool {
     }
 }
 
-/// What a fragment shader writes to a colour target.
+/// The value that a fragment shader writes to a colour target.
 fn color(format: Format, blend: Blend, state: u32, number: u32) -> Words {
     let mut words = shade::values(state, 4 * number, format, blend);
     if matches!(blend, Blend::Alpha | Blend::Premultiplied) {

@@ -1,4 +1,4 @@
-//! What a random pipeline means, evaluated on the CPU: pass after pass in the order in which they stand, each as a whole.
+//! Evaluates a random pipeline on the CPU: pass after pass in the order of the file, each as a whole.
 //!
 //! Nothing here knows of Plans, or of anything that a compiler does. A pass reads the state that the passes above it left,
 //! also of what it writes itself.
@@ -246,7 +246,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// Little-endian integers of so many bytes.
+/// Little-endian integers of this many bytes.
 fn integers(bytes: &[u8], each: usize) -> texels::Words {
     let mut words = [0; 4];
     for (word, bytes) in words.iter_mut().zip(bytes.chunks(each)) {

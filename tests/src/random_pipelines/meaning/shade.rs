@@ -1,4 +1,4 @@
-//! What one invocation of a shader reads and makes of it.
+//! One invocation of a shader: its reads, and its results.
 
 use super::Evaluator;
 use crate::random_pipelines::hash::{hash, hash_all, hashes};

@@ -75,7 +75,7 @@ impl Filled {
     }
 }
 
-/// What all images and buffers hold.
+/// The contents of all images and buffers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct State {
     /// By image: this frame's contents, then those of the frames before, as far as they can be read.
@@ -84,7 +84,7 @@ pub struct State {
     pub buffers: Vec<Vec<Arc<Vec<Word>>>>,
 }
 
-/// What is not written yet: legal pipelines never read it.
+/// The value of parts that are not written yet: legal pipelines never read it.
 const JUNK: u32 = 0xDEAD_BEEF;
 
 impl State {
@@ -141,7 +141,7 @@ impl State {
     }
 }
 
-/// What the embedding program hands in for an image.
+/// The contents that the embedding program hands in for an image.
 #[must_use]
 pub fn imported_image(image: &Image, number: usize, frame: u32) -> Filled {
     let mask = texels::mask(image.format, Blend::Replace);
@@ -151,7 +151,7 @@ pub fn imported_image(image: &Image, number: usize, frame: u32) -> Filled {
     })
 }
 
-/// What the embedding program hands in for a buffer of [`super::super::pipeline::Contents::Words`].
+/// The contents that the embedding program hands in for a buffer of [`super::super::pipeline::Contents::Words`].
 #[must_use]
 pub fn imported_buffer(buffer: &Buffer, number: usize, frame: u32) -> Vec<u32> {
     (0..buffer.words).map(|at| hash_all(0x2222, [number as u32, frame, at])).collect()

@@ -1,4 +1,4 @@
-//! What masked materials cover of a pixel is held against its twin, and drawn (NU-5, IQ-6).
+//! The coverage of pixels by masked materials: compared with its twin, and drawn (NU-5, IQ-6).
 
 use framewright_passes::twin::alpha_coverage::covered_by;
 use framewright_tests::render::{Setup, device, render, rgba};

@@ -15,7 +15,7 @@ const SECONDS: f64 = 0.1;
 const ADAPTATION: f64 = 0.4;
 const USED_TO: f64 = 2.0;
 
-/// What some frames leave.
+/// The contents that some frames leave.
 struct Left {
     noise: Vec<[f64; 4]>,
     shown: Vec<[f64; 4]>,

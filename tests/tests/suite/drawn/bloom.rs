@@ -1,27 +1,15 @@
 //! Bloom and the Gaussian blur are held against their twins, texel by texel (NU-5), and against every value that an image can
 //! hold (NU-4).
 
+use crate::drawn::filters::Image;
 use framewright_passes::twin::bloom::{mixed, shrunk, tent};
 use framewright_passes::twin::filters::gauss;
 use framewright_passes::twin::radiance::LARGEST_HALF;
-use framewright_tests::render::{Setup, device, floats, render};
+use framewright_tests::render::{Setup, device, render};
 use framewright_tests::shapes::empty_scene;
 use std::error::Error;
 
-/// One output, as 32-bit floats.
-struct Image {
-    width: i32,
-    height: i32,
-    channels: Vec<f64>,
-}
-
 impl Image {
-    /// A channel of a texel; beyond the border that of the border.
-    fn at(&self, x: i32, y: i32, channel: usize) -> f64 {
-        let texel = y.clamp(0, self.height - 1) * self.width + x.clamp(0, self.width - 1);
-        self.channels[4 * texel as usize + channel]
-    }
-
     /// Light at a place in texels, between the middles of texels mixed linearly along both axes.
     fn light(&self, x: f64, y: f64) -> [f64; 3] {
         let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
@@ -51,12 +39,7 @@ fn filtered(radius: &str, share: &str) -> Result<Option<Filtered>, Box<dyn Error
     let set = [("radius", radius), ("share", share)];
     let scene = empty_scene();
     let setup = Setup { pipeline: "tests/pipelines/bloom.ron", set: &set, scene: &scene, extent: [8, 8] };
-    let images = render(device, &setup)?.into_iter().map(|output| {
-        let channels = floats(&output);
-        let [width, height, _] = output.extent.map(u32::cast_signed);
-        Image { width, height, channels }
-    });
-    let images: Vec<Image> = images.collect();
+    let images: Vec<Image> = render(device, &setup)?.iter().map(Image::of).collect();
     let [noise, plain, calm, grown, mixed, blurred, shrunk_values, grown_values] =
         images.try_into().map_err(|_| "not eight outputs")?;
     Ok(Some(Filtered { noise, plain, calm, grown, mixed, blurred, shrunk_values, grown_values }))

@@ -27,7 +27,7 @@ fn yard() -> Scene {
     )
 }
 
-/// What a frame showed and counted.
+/// The picture and the counts of a frame.
 type Shown = (Vec<u8>, Vec<u8>);
 
 /// Transient images are full of conspicuous values before they are drawn into.
@@ -80,7 +80,7 @@ fn a_part_shows_what_an_image_of_its_size_would_and_nothing_of_what_lies_beyond(
     let yard = yard();
     let filters = [("nearest", "false"), ("area", "false"), ("catmull_rom", "false"), ("bilinear", "true")];
     let cases = SCALES.iter().flat_map(|scale| filters.map(|filter| (*scale, filter)));
-    for (scale, (filter, soft)) in sweep::of(cases.collect(), 10) {
+    for (scale, (filter, soft)) in sweep::of("parts of images", cases.collect(), 10) {
         let set = |largest| [("scale", scale), ("largest", largest), ("filter", filter), ("soft", soft)];
         let part = alone(device, &yard, &set("1.2"))?;
         let whole = alone(device, &yard, &set(scale))?;

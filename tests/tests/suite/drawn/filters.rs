@@ -3,21 +3,27 @@
 use framewright_passes::twin::filters::{blur, downsample};
 use framewright_tests::render::{Setup, device, floats, render};
 use framewright_tests::shapes::empty_scene;
+use framewright_vulkan::Texels;
 use std::error::Error;
 
 /// Width and height of the filtered image.
 const EXTENT: [i32; 2] = [64, 48];
 
 /// One output, as 32-bit floats.
-struct Image {
-    width: i32,
-    height: i32,
-    channels: Vec<f64>,
+pub(super) struct Image {
+    pub(super) width: i32,
+    pub(super) height: i32,
+    pub(super) channels: Vec<f64>,
 }
 
 impl Image {
+    pub(super) fn of(output: &Texels) -> Image {
+        let [width, height, _] = output.extent.map(u32::cast_signed);
+        Image { width, height, channels: floats(output) }
+    }
+
     /// A channel of a texel; beyond the border that of the border.
-    fn at(&self, x: i32, y: i32, channel: usize) -> f64 {
+    pub(super) fn at(&self, x: i32, y: i32, channel: usize) -> f64 {
         let texel = y.clamp(0, self.height - 1) * self.width + x.clamp(0, self.width - 1);
         self.channels[4 * texel as usize + channel]
     }
@@ -38,12 +44,7 @@ fn filtered(strength: &str) -> Result<Option<Filtered>, Box<dyn Error>> {
     let set = [("strength", strength)];
     let scene = empty_scene();
     let setup = Setup { pipeline: "tests/pipelines/filters.ron", set: &set, scene: &scene, extent: [8, 8] };
-    let images = render(device, &setup)?.into_iter().map(|output| {
-        let channels = floats(&output);
-        let [width, height, _] = output.extent.map(u32::cast_signed);
-        Image { width, height, channels }
-    });
-    let images: Vec<Image> = images.collect();
+    let images: Vec<Image> = render(device, &setup)?.iter().map(Image::of).collect();
     let [noise, half, across, down, mixed, copied] = images.try_into().map_err(|_| "not six outputs")?;
     Ok(Some(Filtered { noise, half, across, down, mixed, copied }))
 }

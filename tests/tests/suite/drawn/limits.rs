@@ -1,4 +1,4 @@
-//! What the scene's draw source refuses.
+//! Scenes that the draw source refuses.
 
 use framewright_passes::draw::{MOST_POINT_LIGHTS, SceneDrawSource};
 use framewright_passes::scene::PointLight;

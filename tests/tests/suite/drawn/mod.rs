@@ -1,10 +1,11 @@
-//! What is drawn through the library, on whichever driver the environment names.
+//! Pictures that the library draws, on the driver that the environment names.
 
 mod agreement;
 mod alpha_coverage;
 mod ambient_occlusion;
 mod auto_exposure;
 mod bloom;
+mod copies;
 mod cross_fade;
 mod culling;
 mod deferred;

@@ -30,7 +30,7 @@ fn a_saved_profile_gives_the_plans_of_its_device() {
     let (live, saved) = (device.profile(), saved(device));
     let mut plans = 0;
     for size in SIZES {
-        for shipped in sweep::of(frames(size).iter().collect(), 20) {
+        for shipped in sweep::of(&format!("frames at {size:?}"), frames(size).iter().collect(), 20) {
             for order in [Order::Default, Order::LowMemory] {
                 let options = Options { order, ..Options::default() };
                 let plan = |profile: &Profile, memory: &mut dyn MemoryProvider| -> Plan {
@@ -91,7 +91,7 @@ fn a_saved_profile_knows_what_memory_the_device_asks_for() {
     }
 }
 
-/// Images of all formats, in shapes and sizes that nobody has thought of.
+/// Images of all formats, in random shapes and sizes.
 fn images(profile: &Profile) -> impl Iterator<Item = ImageDescriptor> {
     let mut state = 12345_u64;
     let mut below = move |most: u32| {

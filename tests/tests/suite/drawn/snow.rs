@@ -11,7 +11,7 @@ use std::error::Error;
 const SECONDS: f64 = 0.05;
 const WIND: f64 = -0.7;
 
-/// What some frames leave.
+/// The contents that some frames leave.
 struct Left {
     flakes: Vec<Flake>,
     seen: Vec<u32>,

@@ -22,7 +22,7 @@ struct Frame {
     steady: Picture,
 }
 
-/// So many frames, of which the last `kept` are kept.
+/// A number of frames, of which the last `kept` are kept.
 fn frames(
     device: &Device,
     scene: &Scene,

@@ -1,14 +1,12 @@
 //! Plans built by hand, step by step.
 
-use framewright_graph::frame::{Groups, Stereo};
+use crate::hand_written_plans::build;
+use framewright_graph::frame::Stereo;
 use framewright_graph::plan::{
-    Access, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap, Image, ImageBarrier, ImageId,
-    Initial, MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Step, StepId, Subresources, Totals, Wait,
-    Work,
+    Access, Binding, BindingKind, DeviceUsed, FORMAT_VERSION, Hazard, Heap, Image, ImageBarrier, ImageId, Initial,
+    Placement, Plan, Resource, Role, Step, StepId, Subresources, Totals, Work,
 };
-use framewright_graph::vulkan::{
-    Accesses, FillValue, Filter, Format, Layout, Rotation, Sampler, Shape, Sharing, Stages, State, Usage,
-};
+use framewright_graph::vulkan::{Accesses, FillValue, Filter, Format, Layout, Sampler, Stages, State, Usage};
 
 pub(crate) const R: Accesses = Accesses::SHADER_SAMPLED_READ;
 pub(crate) const W: Accesses = Accesses::SHADER_STORAGE_WRITE;
@@ -37,26 +35,10 @@ pub(crate) fn empty() -> Plan {
 }
 
 fn image(plan: &mut Plan, name: &str, role: Role) -> ImageId {
-    let id = ImageId(plan.images.len() as u32);
-    plan.images.push(Image {
-        id,
-        name: name.into(),
-        cause: Cause::Written(None),
-        format: FORMAT,
-        chosen: None,
-        shape: Shape::D2,
-        extent: [16, 16, 1],
-        room: None,
-        rotation: Rotation::Identity,
-        eyes: None,
-        mips: 1,
-        layers: 1,
-        samples: 1,
-        usage: Usage::STORAGE | Usage::SAMPLED,
-        sharing: Sharing::Exclusive,
-        role,
-    });
-    id
+    let id = plan.images.len() as u32;
+    let output = build::output(id, name, FORMAT, Usage::STORAGE | Usage::SAMPLED);
+    plan.images.push(Image { extent: [16, 16, 1], role, ..output });
+    ImageId(id)
 }
 
 /// A transient image in a place of its heap.
@@ -98,33 +80,7 @@ pub(crate) fn access(image: ImageId, accesses: Accesses) -> Access {
 
 /// A dispatch with these accesses.
 pub(crate) fn dispatch(name: &str, accesses: Vec<Access>) -> Step {
-    let pass = Pass {
-        name: name.into(),
-        cause: Cause::Written(None),
-        view: None,
-        draw: None,
-        groups: Some(Groups::Count([1; 3])),
-        shader: name.into(),
-        redraws: None,
-        alpha_to_coverage: false,
-        discards: false,
-        blend: Vec::new(),
-        depth: None,
-        stencil: None,
-        params: Vec::new(),
-        accesses,
-        buffers: Vec::new(),
-        local_barrier: false,
-        merged: None,
-    };
-    Step {
-        queue: Queue::Graphics,
-        waits: Vec::new(),
-        memory_barriers: Vec::new(),
-        image_barriers: Vec::new(),
-        work: Work::Dispatch(pass),
-        releases: Vec::new(),
-    }
+    build::step(Vec::new(), Work::Dispatch(build::dispatch(name, 1, accesses)))
 }
 
 /// A barrier that brings an image from one layout to another.
@@ -149,17 +105,4 @@ pub(crate) fn barrier(
         after: None,
         needed_by: Some(StepId(0)),
     }
-}
-
-/// A memory barrier.
-pub(crate) fn memory(
-    (src_stages, src_accesses): (Stages, Accesses),
-    (dst_stages, dst_accesses): (Stages, Accesses),
-) -> MemoryBarrier {
-    MemoryBarrier { src_stages, src_accesses, dst_stages, dst_accesses, hand_overs: Vec::new(), buffers: Vec::new() }
-}
-
-/// A wait for a step of this frame, or of one before.
-pub(crate) fn wait(step: u32, frames_ago: u32, stages: Stages) -> Wait {
-    Wait { step: StepId(step), frames_ago, stages }
 }

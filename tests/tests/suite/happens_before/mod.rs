@@ -4,8 +4,9 @@
 mod build;
 
 use crate::hand_written_plans;
+use crate::hand_written_plans::build::{memory, wait};
 use Layout::{General, ShaderReadOnlyOptimal, TransferDstOptimal, Undefined};
-use build::{CS, NONE, R, W, access, barrier, dispatch, empty, memory, output, persistent, transient, wait};
+use build::{CS, NONE, R, W, access, barrier, dispatch, empty, output, persistent, transient};
 use framewright_graph::plan::{Plan, Queue, Step, Work};
 use framewright_graph::vulkan::{Accesses, Layout, Stages};
 use framewright_tests::happens_before::{Harm, Missing, judge};
@@ -19,7 +20,7 @@ fn fine(plan: &Plan) {
     assert_eq!(harms(plan), []);
 }
 
-/// What is missing, the same thing once.
+/// The kinds of missing dependencies, each once.
 fn missing(plan: &Plan) -> Vec<Missing> {
     let mut missing = Vec::new();
     for harm in harms(plan) {

@@ -1,4 +1,4 @@
-//! Which file of a crate uses which: its `use` declarations and paths, with re-exports followed to the file that defines the name.
+//! The files that each file of a crate uses: its `use` declarations and paths, with re-exports followed to the file that defines the name.
 
 use proc_macro2::{TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -12,15 +12,20 @@ type Names = Vec<String>;
 /// For each file of a crate, the other files that it uses. Files are named by their paths below `src`.
 pub(super) type Arrows = BTreeMap<String, BTreeSet<String>>;
 
-/// One module: a file of its own.
+/// One module: a file, or a module inside one.
+#[derive(Default)]
 struct Module {
     file: String,
-    /// What `use` brings in, by the name that it gets.
+    /// Paths that `use` brings in, by the names that they get.
     imports: HashMap<String, Names>,
+    /// Modules of which `use` brings in everything.
+    globs: Vec<Names>,
     /// Names that are defined in it.
     defines: BTreeSet<String>,
     /// Paths that it names.
     paths: Vec<Names>,
+    /// Paths that it exports again.
+    exports: Vec<Names>,
 }
 
 /// The arrows of the crate whose sources lie in `src`.
@@ -49,11 +54,11 @@ pub(super) fn of_sources<'s>(sources: impl IntoIterator<Item = (&'s str, &'s str
     let mut macros: Vec<(String, Names)> = Vec::new();
     for (file, text) in sources {
         let parsed = syn::parse_file(text).unwrap_or_else(|error| panic!("{file}: {error}"));
-        let mut reader = Reader { module: module_of(file), ..Reader::default() };
+        let mut reader = Reader::new(module_of(file), file);
         reader.visit_file(&parsed);
-        let Reader { module, imports, defines, paths, exported } = reader;
-        macros.extend(exported.into_iter().map(|name| (name, module.clone())));
-        modules.insert(module, Module { file: file.to_owned(), imports, defines, paths });
+        macros.extend(reader.macros.into_iter().map(|name| (name, reader.name.clone())));
+        modules.extend(reader.inner);
+        modules.insert(reader.name, reader.module);
     }
     // Exported macros are named from the crate's root, wherever they are defined.
     if let Some(face) = modules.get_mut(&Names::new()) {
@@ -63,7 +68,11 @@ pub(super) fn of_sources<'s>(sources: impl IntoIterator<Item = (&'s str, &'s str
         };
         face.imports.extend(macros.into_iter().map(path));
     }
-    modules.iter().map(|(name, module)| (module.file.clone(), used_by(&modules, name, module))).collect()
+    let mut arrows = Arrows::new();
+    for (name, module) in &modules {
+        arrows.entry(module.file.clone()).or_default().extend(used_by(&modules, name, module));
+    }
+    arrows
 }
 
 /// `a/b.rs` and `a/b/mod.rs` are the module `a::b`.
@@ -75,15 +84,13 @@ fn module_of(file: &str) -> Names {
     names
 }
 
+/// The other files that a module uses. A module that exports again what lies below it doesn't use that: the files that name the
+/// item do.
 fn used_by(modules: &HashMap<Names, Module>, name: &Names, module: &Module) -> BTreeSet<String> {
-    let mut files = BTreeSet::new();
-    for path in &module.paths {
-        let Some(path) = rooted(modules, name, module, path) else { continue };
-        if let Some(file) = defining(modules, &path, 0).filter(|file| **file != module.file) {
-            files.insert(file.clone());
-        }
-    }
-    files
+    let file = |path: &Names| defining(modules, &rooted(modules, name, module, path)?, 0);
+    let used = module.paths.iter().filter_map(file);
+    let exported = module.exports.iter().filter_map(file).filter(|file| !module_of(file).starts_with(name));
+    used.chain(exported).filter(|file| **file != module.file).cloned().collect()
 }
 
 /// The path from the crate's root, of a path that a module names; `None` if it leads out of the crate.
@@ -116,26 +123,42 @@ fn rooted(modules: &HashMap<Names, Module>, name: &Names, module: &Module, path:
 /// The file in which what a path names is defined.
 fn defining<'m>(modules: &'m HashMap<Names, Module>, path: &[String], depth: u32) -> Option<&'m String> {
     let (at, module) = (0..=path.len()).rev().find_map(|at| Some((at, modules.get(&path[..at])?)))?;
-    let Some(next) = path.get(at) else { return Some(&module.file) };
-    if depth < 8
-        && !module.defines.contains(next)
-        && let Some(import) = module.imports.get(next)
-        && let Some(root) = rooted(modules, &path[..at].to_vec(), module, import)
-        && root != path[..at + 1]
-    {
-        return defining(modules, &root, depth + 1);
+    let Some(next) = path.get(at).filter(|next| depth < 8 && !module.defines.contains(*next)) else {
+        return Some(&module.file);
+    };
+    let (name, rest) = (path[..at].to_vec(), &path[at + 1..]);
+    let imported = |import: &Names| {
+        let root = rooted(modules, &name, module, import)?;
+        (root != path[..at + 1]).then(|| [&root, rest].concat())
+    };
+    let named = module.imports.get(next).and_then(imported);
+    let globbed = || {
+        module.globs.iter().find_map(|glob| {
+            let root = rooted(modules, &name, module, glob).filter(|root| *root != name)?;
+            modules.get(&root)?.has(next).then(|| [&root, &path[at..]].concat())
+        })
+    };
+    match named.or_else(globbed) {
+        Some(root) => defining(modules, &root, depth + 1),
+        None => Some(&module.file),
     }
-    Some(&module.file)
 }
 
-#[derive(Default)]
+impl Module {
+    /// Whether it defines a name or brings it in by this name.
+    fn has(&self, name: &str) -> bool {
+        self.defines.contains(name) || self.imports.contains_key(name)
+    }
+}
+
+/// Reads the modules of a file.
 struct Reader {
-    module: Names,
-    imports: HashMap<String, Names>,
-    defines: BTreeSet<String>,
-    paths: Vec<Names>,
+    name: Names,
+    module: Module,
+    /// The modules inside it.
+    inner: Vec<(Names, Module)>,
     /// Macros that `#[macro_export]` puts into the crate's root.
-    exported: Vec<String>,
+    macros: Vec<String>,
 }
 
 /// Whether something is compiled for tests alone.
@@ -144,6 +167,10 @@ fn is_test(attributes: &[Attribute]) -> bool {
     attributes.iter().any(test)
 }
 
+/// Stands for all names.
+const GLOB: &str = "*";
+
+/// Each name that `use` brings in, with its path.
 fn flatten(tree: &UseTree, prefix: &mut Names, found: &mut Vec<(String, Names)>) {
     let with = |prefix: &Names, name: &Ident| prefix.iter().cloned().chain([name.to_string()]).collect::<Names>();
     match tree {
@@ -157,7 +184,7 @@ fn flatten(tree: &UseTree, prefix: &mut Names, found: &mut Vec<(String, Names)>)
         }
         UseTree::Name(name) => found.push((name.ident.to_string(), with(prefix, &name.ident))),
         UseTree::Rename(renamed) => found.push((renamed.rename.to_string(), with(prefix, &renamed.ident))),
-        UseTree::Glob(_) => found.push(("*".to_owned(), prefix.clone())),
+        UseTree::Glob(_) => found.push((GLOB.to_owned(), prefix.clone())),
         UseTree::Group(group) => group.items.iter().for_each(|tree| flatten(tree, prefix, found)),
     }
 }
@@ -175,33 +202,43 @@ impl<'ast> Visit<'ast> for Reader {
             Item::Impl(it) => (&it.attrs, None),
             Item::Macro(it) => {
                 if it.attrs.iter().any(|attribute| attribute.path().is_ident("macro_export")) {
-                    self.exported.extend(it.ident.iter().map(Ident::to_string));
+                    self.macros.extend(it.ident.iter().map(Ident::to_string));
                 }
                 (&it.attrs, it.ident.as_ref())
             }
             _ => return visit::visit_item(self, item),
         };
         if !is_test(attributes) {
-            self.defines.extend(name.map(Ident::to_string));
+            self.module.defines.extend(name.map(Ident::to_string));
             visit::visit_item(self, item);
         }
     }
 
     fn visit_item_mod(&mut self, module: &'ast ItemMod) {
-        if !is_test(&module.attrs) {
-            visit::visit_item_mod(self, module);
+        if !is_test(&module.attrs)
+            && let Some((_, items)) = &module.content
+        {
+            let name = [&self.name[..], &[module.ident.to_string()]].concat();
+            let mut reader = Reader::new(name, &self.module.file);
+            items.iter().for_each(|item| reader.visit_item(item));
+            self.macros.extend(reader.macros);
+            self.inner.extend(reader.inner);
+            self.inner.push((reader.name, reader.module));
         }
     }
 
-    /// A re-export is no use of the file: the files that name the item use it.
     fn visit_item_use(&mut self, item: &'ast ItemUse) {
         let mut found = Vec::new();
         flatten(&item.tree, &mut Names::new(), &mut found);
         for (name, path) in found {
-            if matches!(item.vis, Visibility::Inherited) {
-                self.paths.push(path.clone());
+            match item.vis {
+                Visibility::Inherited => self.module.paths.push(path.clone()),
+                _ => self.module.exports.push(path.clone()),
             }
-            self.imports.insert(name, path);
+            match &*name {
+                GLOB => self.module.globs.push(path),
+                _ => drop(self.module.imports.insert(name, path)),
+            }
         }
     }
 
@@ -209,7 +246,7 @@ impl<'ast> Visit<'ast> for Reader {
     fn visit_visibility(&mut self, _: &'ast Visibility) {}
 
     fn visit_path(&mut self, path: &'ast syn::Path) {
-        self.paths.push(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
+        self.module.paths.push(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
         visit::visit_path(self, path);
     }
 
@@ -220,6 +257,11 @@ impl<'ast> Visit<'ast> for Reader {
 }
 
 impl Reader {
+    fn new(name: Names, file: &str) -> Self {
+        let module = Module { file: file.to_owned(), ..Module::default() };
+        Self { name, module, inner: Vec::new(), macros: Vec::new() }
+    }
+
     /// Paths in what a macro is given.
     fn tokens(&mut self, tokens: TokenStream) {
         let mut path = Names::new();
@@ -228,21 +270,21 @@ impl Reader {
             match token {
                 TokenTree::Ident(ident) => {
                     if colons != 2 {
-                        self.paths.push(std::mem::take(&mut path));
+                        self.module.paths.push(std::mem::take(&mut path));
                     }
                     path.push(ident.to_string());
                     colons = 0;
                 }
                 TokenTree::Punct(punct) if punct.as_char() == ':' => colons += 1,
                 TokenTree::Group(group) => {
-                    self.paths.push(std::mem::take(&mut path));
+                    self.module.paths.push(std::mem::take(&mut path));
                     self.tokens(group.stream());
                 }
                 _ => colons = 0,
             }
         }
-        self.paths.push(path);
+        self.module.paths.push(path);
         // `pub(crate)` names no file.
-        self.paths.retain(|path| !path.is_empty() && *path != ["crate"]);
+        self.module.paths.retain(|path| !path.is_empty() && *path != ["crate"]);
     }
 }

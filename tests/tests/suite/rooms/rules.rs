@@ -1,4 +1,4 @@
-//! What must hold of the arrows between files: rooms in order, no two folders that use each other, no wide circle of files.
+//! The rules for the arrows between files: rooms in order, no two folders that use each other, no wide circle of files.
 
 use super::arrows::Arrows;
 use petgraph::algo::tarjan_scc;

@@ -13,6 +13,7 @@ mod stencil;
 mod two_queues;
 
 use framewright_graph::plan::{Placement, Plan, Role, StepId, Totals};
+use framewright_graph::verify::Violation;
 
 /// All of them.
 pub(crate) fn all() -> [(&'static str, Plan); 10] {
@@ -53,6 +54,20 @@ pub(crate) fn placed(role: &Role) -> Option<&Placement> {
         Role::Transient(placement) => Some(placement),
         Role::External { .. } | Role::Persistent { .. } => None,
     }
+}
+
+/// Whether a violation names both steps and the part of an image or the bytes of a buffer, in its data and in its sentence.
+pub(crate) fn names_all(violation: &Violation) -> bool {
+    let Violation { step: Some(step), other: Some(other), resource: Some(resource), .. } = violation else {
+        return false;
+    };
+    let part = match (violation.range, violation.bytes) {
+        (Some(range), _) => range.to_string(),
+        (None, Some([start, end])) => format!("bytes {start}–{end}"),
+        (None, None) => return false,
+    };
+    let sentence = violation.to_string();
+    [step.to_string(), other.to_string(), format!("`{resource}`"), part].iter().all(|part| sentence.contains(part))
 }
 
 pub(crate) fn lifetime(first: u32, last: u32) -> [StepId; 2] {

@@ -1,4 +1,4 @@
-//! What the ways to see depth of several samples do to stripes: held against pictures of 256 samples a pixel.
+//! The ways to see depth of several samples, and their effect on stripes: compared with pictures of 256 samples a pixel.
 
 use crate::drawn::image_quality::{MANY, Picture, Set, picture};
 use framewright_passes::scene::{Material, Scene};

@@ -1,4 +1,4 @@
-//! What the precision of colour and depth does to the picture, and to memory.
+//! The effect of the precision of colour and depth on the picture, and on memory.
 
 use crate::drawn::image_quality::{Set, picture, plan, shining_behind_glass};
 use framewright_graph::plan::Plan;

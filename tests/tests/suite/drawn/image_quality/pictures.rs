@@ -1,4 +1,4 @@
-//! What is shown, pixel by pixel.
+//! The shown picture, pixel by pixel.
 
 use crate::drawn::image_quality::{DIRECT, Set, picture, shining, shining_behind_glass};
 use std::error::Error;

@@ -1,4 +1,4 @@
-//! What becomes of the file: which draws, resolves and images there are.
+//! The draws, resolves and images that the file becomes.
 
 use crate::drawn::image_quality::{DIRECT, PIPELINE, drawn_by, listing, plan, plan_of, shining, shining_behind_glass};
 use framewright_graph::frame::{Blend, Draw};
@@ -57,7 +57,7 @@ fn a_view_that_allows_nothing_takes_the_direct_path() -> Result<(), Box<dyn Erro
     Ok(())
 }
 
-/// IQ-3: whatever the user chose, or just that.
+/// IQ-3: for every choice of the user's, or for one alone.
 #[test]
 fn a_view_brings_effects_of_its_own_or_takes_the_users() -> Result<(), Box<dyn Error>> {
     let (set, scene) = ([("blur", "5"), ("depth_stripes", "blended")], shining_behind_glass([4.0; 3]));
@@ -146,7 +146,7 @@ fn a_blur_takes_as_many_draws_as_its_strength_and_works_on_8_bits() -> Result<()
     Ok(())
 }
 
-/// IQ-18: whoever writes an image first finds nothing in it; whoever loads finds what was stored, and shows some of it.
+/// IQ-18: the first pass that writes an image finds nothing in it; a pass that loads finds what was stored, and shows some of it.
 #[test]
 fn nothing_is_loaded_that_was_not_kept_or_is_drawn_over() -> Result<(), Box<dyn Error>> {
     let choices: [&[(&str, &str)]; 5] = [

@@ -1,4 +1,4 @@
-//! What samples do for edges, and what they cost: held against pictures of 256 samples a pixel.
+//! The effect of samples on edges, and their cost: compared with pictures of 256 samples a pixel.
 
 use crate::drawn::image_quality::{DIRECT, MANY, Picture, Set, picture, shining};
 use framewright_graph::compile::Options;
@@ -10,7 +10,7 @@ use glam::{DVec2, Mat4, Vec3};
 use std::error::Error;
 
 const EXTENT: [u32; 2] = [32, 24];
-/// What is shown with one sample at so many times the size, averaged.
+/// The picture with one sample at a multiple of the size, averaged.
 fn converged(set: Set<'_>, light: f32) -> Result<Option<Picture>, Box<dyn Error>> {
     let large = picture(&[set, &[("msaa", "1")]].concat(), &shining([light; 3]), EXTENT.map(|side| side * MANY))?;
     Ok(large.map(|large| large.shrunk(MANY as usize)))

@@ -1,4 +1,4 @@
-//! What users of other render graphs have suffered from, made impossible here: each test carries the name of the report that
+//! Mistakes of other render graphs that users reported, made impossible here: each test carries the name of the report that
 //! tells of it.
 //!
 //! Reports that concern no graph have no test here:

@@ -1,4 +1,4 @@
-//! What only a picture shows: drawn on a real driver.
+//! Reports that only a picture shows: drawn on a real driver.
 
 use framewright_passes::scene::Material;
 use framewright_tests::render::{Setup, device, render};

@@ -1,4 +1,4 @@
-//! Orders that nobody looked at, graphs that were none, errors without a place, scenes too large.
+//! Bad orders, graphs that were lists, errors without a place, scenes too large.
 
 use super::right;
 use framewright_graph::base::{self, Sources};

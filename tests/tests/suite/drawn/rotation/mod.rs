@@ -39,7 +39,7 @@ const EXTENT: [u32; 2] = [97, 61];
 /// The Plan of a pipeline whose outputs all leave the frame rotated.
 ///
 /// # Errors
-/// What is wrong with it, as people read it.
+/// Its mistakes, as people read them.
 fn planned(device: &Device, text: &str, rotation: Rotation) -> Result<Plan, String> {
     let mut sources = Sources::default();
     let read = language::read(&mut sources, "test.ron", "test.ron", text.to_owned());
@@ -63,7 +63,7 @@ fn planned(device: &Device, text: &str, rotation: Rotation) -> Result<Plan, Stri
     if violations.is_empty() { Ok(plan) } else { Err(violations.join("\n")) }
 }
 
-/// What its outputs hold, read back, and whether the layer was silent.
+/// The contents of its outputs, read back, and whether the layer was silent.
 fn drawn(device: &Device, plan: &Plan, source: &mut dyn DrawSource) -> Result<Vec<Texels>, Box<dyn Error>> {
     let mut executor = Executor::new(device, plan, &mut library(), &ExecutorOptions::default())?;
     executor.frame(source)?;

@@ -1,4 +1,4 @@
-//! What who records draws and custom passes is told of a rotation.
+//! The rotation, as draw sources and custom passes are told of it.
 
 use super::{EXTENT, drawn, planned};
 use framewright_graph::frame::Draw;
@@ -9,7 +9,7 @@ use framewright_tests::shapes::{material, scene, square};
 use framewright_vulkan::{CustomRecorder, DrawSource, Error, Recorder};
 use glam::{Mat4, Vec3};
 
-/// Draws a scene within a rectangle, and notes what it is told.
+/// Draws a scene within a rectangle, and notes the rotation that it is told.
 struct Noting {
     scene: SceneDrawSource,
     told: Vec<(Rotation, [u32; 2], [u32; 2])>,

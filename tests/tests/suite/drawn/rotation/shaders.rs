@@ -1,4 +1,4 @@
-//! What shaders see of a rotation, and which of them break.
+//! Rotations as shaders see them, and the shaders that they break.
 
 use super::{EXTENT, drawn, floats, planned};
 use framewright_graph::frame::Draw;

@@ -1,4 +1,4 @@
-//! What is drawn for both eyes at once, pixel by pixel against one eye after the other.
+//! Pictures that are drawn for both eyes at once, compared pixel by pixel with one eye after the other.
 
 use super::{Case, EVEN, EXTENT, Pair, apart_within, at_once, drawn, form, shipped, upright};
 use framewright_graph::frame::{EyeForm, Stereo};
@@ -109,7 +109,7 @@ fn every_shipped_pipeline_shows_each_eye_what_it_sees_alone() -> Result<(), Box<
     let even = even.filter(|(at, case)| *at == 0 || CASES[at - 1].0 != case.0 || case.4 == BY_PLACE);
     let even = even.map(|(_, case)| (*case, EVEN, if case.4 == BY_PLACE { 6 } else { case.4 }));
     let cases = CASES.iter().map(|case| (*case, EXTENT, case.4)).chain(even);
-    agree(device, sweep::of(cases.collect(), 8), 0)
+    agree(device, sweep::of("each eye alone", cases.collect(), 8), 0)
 }
 
 /// ST-14: of pictures with 39 times as many pixels, by the settings that differ most. docs/stereo.md has the numbers of all.
@@ -187,7 +187,7 @@ fn nothing_bleeds_from_one_eye_into_the_other() -> Result<(), Box<dyn Error>> {
     ];
     let modes = [at_once(device), vec![Stereo::MultiPass]].concat();
     let cases = modes.into_iter().flat_map(|stereo| looks.map(|look| (stereo, look)));
-    for (stereo, (scale, filter, dynamic, extent)) in sweep::of(cases.collect(), 8) {
+    for (stereo, (scale, filter, dynamic, extent)) in sweep::of("blurs of both eyes", cases.collect(), 8) {
         let set = &[("scale", scale), ("filter", filter), ("dynamic", dynamic)];
         let case = Case { pipeline: "tests/pipelines/eyes_blurred.ron", set, scene: &scene, extent, frames: 1 };
         let found = drawn(device, &case, upright(stereo), &Eyes::default())?;

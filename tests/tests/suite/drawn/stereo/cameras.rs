@@ -1,4 +1,4 @@
-//! What two eyes see, held against what one sees that stands where they are.
+//! The pictures of two eyes, compared with those of one eye in the same places.
 
 use super::{Case, EXTENT, apart, casters, drawn, shipped};
 use framewright_graph::frame::Stereo;

@@ -1,4 +1,4 @@
-//! What shaders are told of eyes, what both see alike, and what is done for one after the other.
+//! The eye as shaders are told of it, passes that both eyes share, and passes that run for each eye.
 
 use super::{Case, Drawn, EVEN, EXTENT, at_once, drawn, floats, form, read, rendered, upright};
 use framewright_graph::compile::Options;

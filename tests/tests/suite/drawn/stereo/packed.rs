@@ -1,4 +1,4 @@
-//! What both eyes' pictures take: images, passes and draws.
+//! The cost of both eyes' pictures: images, passes and draws.
 
 use super::{Case, Drawn, EXTENT, apart_within, at_once, casters, drawn, form, read, rendered, shipped, upright};
 use framewright_graph::compile::Options;
@@ -27,7 +27,7 @@ fn one_image_for_both_is_twice_as_wide_or_has_two_layers() -> Result<(), Box<dyn
     let scene = load(&in_repository("examples/scenes/spheres_and_cubes.ron"))?;
     let modes = [&MODES[..], &at_once(device)].concat();
     let cases = [1, 2, 3, 96, 97, 161].into_iter().flat_map(|it| ["0.25", "0.77", "1", "1.5"].map(|s| (it, s)));
-    for (width, scale) in sweep::of(cases.collect(), 4) {
+    for (width, scale) in sweep::of("widths of both eyes", cases.collect(), 4) {
         let set = &[("render_scale", scale), ("blur", "1")];
         let case = Case { pipeline: &shipped("image_quality"), set, scene: &scene, extent: [width, 61], frames: 1 };
         let alone = planned(device, &case, upright(Stereo::MultiPass))?;

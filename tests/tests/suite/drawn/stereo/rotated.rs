@@ -33,7 +33,9 @@ fn at_every_scale_and_number_of_samples_each_eye_sees_the_same_turned() -> Resul
     scene.camera.transform.w_axis.x += 0.013;
     let (mut found, mut wrong) = (Vec::new(), false);
     let extents = [EXTENT, EVEN, EXTENT, EXTENT, EVEN];
-    for ((set, from_upright, from_alone), extent) in sweep::of(CASES.into_iter().zip(extents).collect(), 2) {
+    for ((set, from_upright, from_alone), extent) in
+        sweep::of("rotated eyes", CASES.into_iter().zip(extents).collect(), 2)
+    {
         let case = Case { pipeline: &shipped("image_quality"), set, scene: &scene, extent, frames: 1 };
         let shown = |stereo, rotation| drawn(device, &case, Ways { stereo, rotation }, &Eyes::default());
         let turned: Vec<_> = TURNED.iter().map(|it| shown(Stereo::MultiPass, *it)).collect::<Result<_, _>>()?;
