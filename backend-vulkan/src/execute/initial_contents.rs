@@ -1,7 +1,9 @@
 //! Contents from outside: what persists begins with its initial value, and the host may write what outlives the frame.
 
 use crate::base::{Error, convert};
-use crate::commands::{TransferSide, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change};
+use crate::commands::{
+    Barriers, TransferSide, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change,
+};
 use crate::gpu::{Gpu, QueueFamily};
 use crate::memory::Image;
 use crate::prepare::{InitialOwner, PhysicalResources, ResourceUses, StagedTexture, initial_owners, initial_queue};
@@ -103,24 +105,24 @@ impl OwnershipTransfers<'_> {
     fn record(&self, commands: vk::CommandBuffer, here: QueueFamily) {
         let families = &self.gpu.queues.families;
         let graphics = families.graphics;
-        let mut recorded = Vec::new();
+        let (mut released, mut acquired) = (Vec::new(), Vec::new());
         for it in self.owners {
             let owner = families.family(it.owner);
             if owner != graphics && (here == graphics || here == owner) {
                 // Released by the one, acquired by the other.
-                recorded.push(self.transfer(it, [graphics, owner], [None; 2]));
+                released.push(self.transfer(it, [graphics, owner], [None; 2]));
             }
         }
-        barriers(self.gpu, commands, &[], &recorded);
-        recorded.clear();
         for it in self.owners.iter().filter(|it| families.family(it.owner) == here) {
             let Some((barrier, [from, to])) = it.acquired.and_then(|it| Some((it, it.ownership?))) else { continue };
             let pair = [families.family(from), families.family(to)];
             if pair[0] != pair[1] {
-                recorded.push(self.transfer(it, pair, [Some(barrier.old_layout), Some(barrier.new_layout)]));
+                acquired.push(self.transfer(it, pair, [Some(barrier.old_layout), Some(barrier.new_layout)]));
             }
         }
-        barriers(self.gpu, commands, &[], &recorded);
+        for images in [released, acquired] {
+            Barriers::new(self.gpu, Vec::new(), images).record(self.gpu, commands);
+        }
     }
 
     /// One half of an ownership transfer; without layouts the image stays in its own.

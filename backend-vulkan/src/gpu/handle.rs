@@ -128,8 +128,8 @@ impl Gpu {
 
     /// Notes that the device didn't finish its work in time. It may still be using anything, so nothing is freed from now
     /// on.
-    pub(crate) fn abandon(&self, unfinished: PendingWork) {
-        self.abandoned.get_or_init(|| unfinished);
+    pub(crate) fn abandon(&self, unfinished: &PendingWork) {
+        self.abandoned.get_or_init(|| unfinished.clone());
     }
 
     /// Whether things may still be in use although nobody waits for them.

@@ -113,16 +113,17 @@ impl<T> RingCache<T> {
         self.made.get(self.slot(frame))?.as_ref()
     }
 
-    /// Makes what frame `frame` needs, unless it is there.
-    pub(crate) fn prepare(&mut self, frame: u64, make: impl FnOnce() -> Result<T, Error>) -> Result<(), Error> {
-        if self.at(frame).is_none() {
-            let (slot, made) = (self.slot(frame), make()?);
-            if self.made.len() <= slot {
-                self.made.resize_with(slot + 1, || None);
-            }
-            self.made[slot] = Some(made);
+    /// What frame `frame` needs, which is made unless it is there.
+    pub(crate) fn prepare(&mut self, frame: u64, make: impl FnOnce() -> Result<T, Error>) -> Result<&T, Error> {
+        let slot = self.slot(frame);
+        if self.made.len() <= slot {
+            self.made.resize_with(slot + 1, || None);
         }
-        Ok(())
+        let made = &mut self.made[slot];
+        Ok(match made {
+            Some(made) => made,
+            None => made.insert(make()?),
+        })
     }
 
     /// Forgets everything: other images or buffers stand for the Plan's now. Nothing of it may be in use.

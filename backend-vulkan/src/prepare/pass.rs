@@ -1,11 +1,12 @@
-//! A pass's pipeline, and the template of its descriptor set.
+//! A pass's pipeline, the template of its descriptor set, and what it records.
 
+use super::frame::Frame;
 use super::history::RingCache;
 use super::pass_set::{PassSet, SetTemplate};
 use super::physical::PhysicalResources;
 use super::variant::{variant, view_mask};
 use crate::base::Error;
-use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants};
+use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants, c_string};
 use crate::pipeline::{
     brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
 };
@@ -16,21 +17,38 @@ use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
 use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
 use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterfaces, ShaderProblem};
 use framewright_graph::vulkan::Accesses;
+use std::ffi::CString;
 use std::sync::Arc;
 
 /// The objects of a pass of a rendering scope.
 pub(crate) struct PreparedDraw {
+    /// What debuggers call it.
+    pub(crate) label: CString,
     pub(crate) draw: Draw,
     pub(crate) template: SetTemplate,
     pub(crate) sets: RingCache<PassSet>,
     /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
     pub(crate) pipeline: Option<vk::Pipeline>,
+    /// How the pass sees the scope's colour attachments; `None` where no pass of the scope reads them locally.
     pub(crate) local: Option<LocalRead>,
     pub(crate) state: PassState,
     /// The pass's own vertex buffers.
-    pub(crate) vertices: Vec<BufferId>,
-    pub(crate) indices: Option<BufferId>,
-    pub(crate) indirect: Option<BufferId>,
+    vertices: Vec<BufferId>,
+    indices: Option<BufferId>,
+    indirect: Option<BufferId>,
+}
+
+/// What a pass of a rendering scope records in a frame.
+pub(crate) struct DrawCommands {
+    pub(crate) set: vk::DescriptorSet,
+    /// Push constants: which parts of images are in use.
+    pub(crate) parts: Vec<u8>,
+    /// The pass's own vertex buffers, and where each begins.
+    pub(crate) vertices: Vec<vk::Buffer>,
+    pub(crate) offsets: Vec<vk::DeviceSize>,
+    pub(crate) indices: Option<vk::Buffer>,
+    /// Holds the counts of an indirect draw.
+    pub(crate) counts: Option<vk::Buffer>,
 }
 
 /// What a recorder must know of the pass's pipeline.
@@ -58,17 +76,61 @@ pub(crate) struct PreparedDispatch {
     pub(crate) sets: RingCache<PassSet>,
     pub(crate) pipeline: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
-    pub(crate) groups: WorkgroupCount,
     /// Invocations of a workgroup.
-    pub(crate) size: [u32; 3],
+    size: [u32; 3],
+}
+
+/// What a dispatch records in a frame.
+pub(crate) struct DispatchCommands {
+    pub(crate) set: vk::DescriptorSet,
+    /// As in [`DrawCommands`].
+    pub(crate) parts: Vec<u8>,
+    pub(crate) groups: WorkgroupCount<vk::Buffer>,
 }
 
 /// How many workgroups.
-pub(crate) enum WorkgroupCount {
+pub(crate) enum WorkgroupCount<B> {
     /// So many.
     Direct([u32; 3]),
     /// As many as that buffer says at that offset.
-    Indirect(BufferId, u64),
+    Indirect(B, u64),
+}
+
+impl PreparedDraw {
+    /// What the pass records in a frame.
+    pub(super) fn commands(&mut self, frame: &Frame<'_>, pass: &plan::Pass) -> Result<DrawCommands, Error> {
+        let buffer = |id: BufferId| frame.buffer(id).raw;
+        Ok(DrawCommands {
+            set: self.sets.prepare(frame.number, || self.template.fill(frame))?.set.raw,
+            parts: parts(frame.plan, pass),
+            vertices: self.vertices.iter().copied().map(buffer).collect(),
+            offsets: vec![0; self.vertices.len()],
+            indices: self.indices.map(buffer),
+            counts: self.indirect.map(buffer),
+        })
+    }
+}
+
+impl PreparedDispatch {
+    /// What the dispatch records in a frame.
+    pub(super) fn commands(&mut self, frame: &Frame<'_>, pass: &plan::Pass) -> Result<DispatchCommands, Error> {
+        let groups = match self.groups(frame.gpu, frame.plan, pass)? {
+            WorkgroupCount::Direct(count) => WorkgroupCount::Direct(count),
+            WorkgroupCount::Indirect(buffer, offset) => WorkgroupCount::Indirect(frame.buffer(buffer).raw, offset),
+        };
+        let set = self.sets.prepare(frame.number, || self.template.fill(frame))?.set.raw;
+        Ok(DispatchCommands { set, parts: parts(frame.plan, pass), groups })
+    }
+
+    /// How many workgroups it takes.
+    pub(crate) fn groups(&self, gpu: &Gpu, plan: &Plan, pass: &plan::Pass) -> Result<WorkgroupCount<BufferId>, Error> {
+        groups(gpu, plan, pass, self.size).map_err(|what| Error::Mismatch { pass: pass.name.to_string(), what })
+    }
+}
+
+/// What the pass's shaders are told of the parts of images that are in use.
+fn parts(plan: &Plan, pass: &plan::Pass) -> Vec<u8> {
+    plan.parts(pass).flat_map(|(_, part)| part.map(f32::to_ne_bytes)).flatten().collect()
 }
 
 /// The buffers of a pass that have this role.
@@ -105,19 +167,19 @@ pub(crate) fn prepare_dispatch(
     check_supplied(&shader.interface, &nothing).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     check_workgroup(gpu, size).map_err(mismatch)?;
-    let groups = groups(gpu, plan, pass, size).map_err(mismatch)?;
+    groups(gpu, plan, pass, size).map_err(mismatch)?;
     let template = SetTemplate::new(gpu, plan, pass, &shader.interface.bindings)?;
     let layout = gpu.pipeline_layout(vec![template.layout])?;
     let pipeline = gpu.compute_pipeline(&pass.name, shader.compute, layout)?;
     let sets = RingCache::new(physical.period(template.resources()));
-    Ok(PreparedDispatch { template, sets, pipeline, layout, groups, size })
+    Ok(PreparedDispatch { template, sets, pipeline, layout, size })
 }
 
 /// How many workgroups of `size` invocations a dispatch takes.
 ///
 /// # Errors
 /// In words: if they are too many, or nothing says how many they are.
-pub(crate) fn groups(gpu: &Gpu, plan: &Plan, pass: &plan::Pass, size: [u32; 3]) -> Result<WorkgroupCount, String> {
+fn groups(gpu: &Gpu, plan: &Plan, pass: &plan::Pass, size: [u32; 3]) -> Result<WorkgroupCount<BufferId>, String> {
     let count = match pass.groups {
         None => return Err("a dispatch doesn't say how many workgroups".to_owned()),
         Some(Groups::Count(count)) => count,
@@ -155,6 +217,7 @@ pub(crate) fn prepare_draw(
         _ => None,
     };
     let nothing = |template| PreparedDraw {
+        label: c_string(&pass.name),
         draw,
         template,
         sets: RingCache::new(1),

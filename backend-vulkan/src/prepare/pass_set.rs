@@ -1,7 +1,7 @@
 //! The set that belongs to a pass: its images and buffers by the shader's names, and the block `params`.
 
 use super::descriptions::part;
-use super::physical::PhysicalResources;
+use super::frame::Frame;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, LayoutBinding};
 use crate::memory::{MemoryUse, RawBuffer, View, ViewShape};
@@ -103,8 +103,8 @@ impl SetTemplate {
         })
     }
 
-    /// The set for frame `frame`.
-    pub(crate) fn fill(&self, gpu: &Arc<Gpu>, physical: &PhysicalResources, frame: u64) -> Result<PassSet, Error> {
+    /// The set for a frame.
+    pub(crate) fn fill(&self, frame: &Frame<'_>) -> Result<PassSet, Error> {
         let (mut views, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
         for (binding, bound) in &self.bindings {
             let target = match bound {
@@ -116,12 +116,12 @@ impl SetTemplate {
                     None => continue,
                 },
                 BoundResource::Buffer(buffer) => {
-                    let buffer = physical.buffer(*buffer, frame);
+                    let buffer = frame.buffer(*buffer);
                     buffers.push(buffer.clone());
                     DescriptorTarget::Buffer(buffer.raw)
                 }
                 BoundResource::Image { image, range, shape, layout, sampler } => {
-                    let view = View::new(physical.image(*image, frame), *range, *shape)?;
+                    let view = View::new(frame.image(*image), *range, *shape)?;
                     let target = DescriptorTarget::Image(view.raw, *layout, *sampler);
                     views.push(view);
                     target
@@ -129,7 +129,7 @@ impl SetTemplate {
             };
             targets.push((*binding, target));
         }
-        let set = DescriptorSet::new(gpu, &targets)?;
+        let set = DescriptorSet::new(frame.gpu, &targets)?;
         Ok(PassSet { set, _views: views, _buffers: buffers })
     }
 }

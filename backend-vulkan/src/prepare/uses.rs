@@ -53,7 +53,7 @@ impl StepSpan {
 }
 
 /// Calls `touch` for everything that a step touches.
-fn touched(step: &Step, touch: &mut impl FnMut(Resource)) {
+pub(super) fn touched(step: &Step, touch: &mut impl FnMut(Resource)) {
     for barrier in step.image_barriers.iter().chain(&step.releases) {
         touch(Resource::Image(barrier.image));
     }

@@ -1,8 +1,8 @@
 //! How custom passes are recorded.
 
-use super::frame::Frame;
 use crate::base::convert;
-use crate::commands::{TransferSide, copy_between, fill};
+use crate::commands::{Transfer, TransferSide, fill};
+use crate::prepare::{Frame, part};
 use ash::vk;
 use framewright_graph::frame::ParamValue;
 use framewright_graph::plan::{self, Access, BufferAccess, Subresources};
@@ -123,7 +123,7 @@ impl<'f> CustomRecorder<'f> {
         if !self.agree(&from, &to) {
             return self.misused(|| format!("`{source}` and `{target}` differ in format, extent or rotation"));
         }
-        copy_between(self.frame.gpu, self.commands, self.side(&from), self.side(&to));
+        Transfer::copy(self.side(&from), self.side(&to)).record(self.frame.gpu, self.commands);
         self.recorded += 1;
     }
 
@@ -136,8 +136,8 @@ impl<'f> CustomRecorder<'f> {
         };
         let access = self.pass.accesses.iter().find(is_named)?;
         Some(CustomImage {
-            raw: self.frame.prepared.physical.image(access.image, self.frame.number).raw,
-            range: crate::prepare::part(plan.image(access.image), access.range),
+            raw: self.frame.image(access.image).raw,
+            range: part(plan.image(access.image), access.range),
             extent: self.extent(access),
             rotation: plan.image(access.image).rotation,
             layout: convert::layout(access.layout),
@@ -152,7 +152,7 @@ impl<'f> CustomRecorder<'f> {
             *self.frame.plan.buffers[it.buffer.0 as usize].name == *name || it.binding.as_deref() == Some(name)
         };
         let access = self.pass.buffers.iter().find(is_named)?;
-        Some(self.frame.prepared.physical.buffer(access.buffer, self.frame.number).raw)
+        Some(self.frame.buffer(access.buffer).raw)
     }
 
     /// The command buffer, recording outside of rendering scopes, for commands of the program's own. To record is unsafe:
@@ -194,10 +194,7 @@ impl<'f> CustomRecorder<'f> {
             }
             NamedResource::Buffer(access) => {
                 let bytes = self.frame.plan.buffers[access.buffer.0 as usize].bytes;
-                TransferSide::Buffer {
-                    buffer: self.frame.prepared.physical.buffer(access.buffer, self.frame.number).raw,
-                    bytes,
-                }
+                TransferSide::Buffer { buffer: self.frame.buffer(access.buffer).raw, bytes }
             }
         }
     }
@@ -207,7 +204,7 @@ impl<'f> CustomRecorder<'f> {
         let plan = self.frame.plan;
         let texels = |access: &Access| {
             let image = plan.image(access.image);
-            let range = crate::prepare::part(image, access.range);
+            let range = part(image, access.range);
             (image.format, image.samples, self.extent(access), range.layers, range.aspects)
         };
         let rotation = |access: &Access| plan.image(access.image).rotation;

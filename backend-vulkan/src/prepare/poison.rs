@@ -10,7 +10,7 @@
 
 use super::frame::Frame;
 use crate::base::{Clear, convert};
-use crate::commands::{TransferSide, barriers, fill, memory_barriers};
+use crate::commands::{Barriers, Command, Transfer, TransferSide, memory_barrier};
 use ash::vk;
 use framewright_graph::plan::{Buffer, ImageBarrier, Resource, Role, Step, Work};
 use framewright_graph::vulkan::{Aspects, Format, Layout, Numeric};
@@ -22,19 +22,21 @@ const CLEAR_LAYOUT: vk::ImageLayout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
 /// What a buffer is filled with.
 const WORD: u32 = 0xDEAD_BEEF;
 
-/// Records the barriers of the step number `index` with the poison between their scopes.
-pub(crate) fn record(frame: &Frame<'_>, commands: vk::CommandBuffer, index: usize, step: &Step) {
+/// The barriers of the step number `index` with the poison between their scopes.
+pub(super) fn poisoned_barriers(frame: &Frame<'_>, index: usize, step: &Step) -> Vec<Command> {
     let images: Vec<_> = step.image_barriers.iter().filter(|barrier| takes_into_use(frame, barrier)).collect();
     let buffers: Vec<_> = frame.plan.buffers.iter().filter(|buffer| begins(buffer, index)).collect();
-    let mut memory = memory_barriers(&step.memory_barriers);
-    for (recorded, barrier) in memory.iter_mut().zip(&step.memory_barriers) {
+    let memory = step.memory_barriers.iter().map(|barrier| {
+        let recorded = memory_barrier(barrier);
         // Memory that changes hands is poisoned right after.
         let is_poisoned = |next: &Resource| images.iter().any(|it| Resource::Image(it.image) == *next);
         if barrier.hand_overs.iter().any(|[_, next]| is_poisoned(next)) {
-            recorded.dst_stage_mask |= CLEAR_STAGE;
-            recorded.dst_access_mask |= CLEAR_ACCESS;
+            let (stages, accesses) = (recorded.dst_stage_mask, recorded.dst_access_mask);
+            recorded.dst_stage_mask(stages | CLEAR_STAGE).dst_access_mask(accesses | CLEAR_ACCESS)
+        } else {
+            recorded
         }
-    }
+    });
     let before = step.image_barriers.iter().map(|barrier| {
         let recorded = frame.image_barrier(barrier);
         if takes_into_use(frame, barrier) {
@@ -47,27 +49,26 @@ pub(crate) fn record(frame: &Frame<'_>, commands: vk::CommandBuffer, index: usiz
         let recorded = frame.image_barrier(barrier);
         recorded.src_stage_mask(CLEAR_STAGE).src_access_mask(CLEAR_ACCESS).old_layout(CLEAR_LAYOUT)
     });
-    barriers(frame.gpu, commands, &memory, &before.collect::<Vec<_>>());
-    for barrier in &images {
-        let image = frame.plan.image(barrier.image);
+    let barriers = |memory, images| Command::Barriers(Barriers::new(frame.gpu, memory, images));
+    let mut commands = vec![barriers(memory.collect(), before.collect())];
+    commands.extend(images.iter().filter_map(|barrier| {
         let place = TransferSide::Image {
-            image: frame.prepared.physical.image(barrier.image, frame.number).raw,
+            image: frame.image(barrier.image).raw,
             range: barrier.range,
             extent: vk::Extent3D::default(),
             layout: CLEAR_LAYOUT,
         };
-        fill(frame.gpu, commands, place, pattern(image.format));
-    }
+        Transfer::fill(place, pattern(frame.plan.image(barrier.image).format)).map(Command::Transfer)
+    }));
     let first_uses: Vec<_> = buffers.iter().map(|buffer| first_use(step, buffer)).collect();
     // A barrier of its own call, so that it goes on from where the Plan's barriers lead.
-    let from: Vec<_> = first_uses.iter().map(until_filled).collect();
-    barriers(frame.gpu, commands, &from, &[]);
-    for buffer in &buffers {
-        let raw = frame.prepared.physical.buffer(buffer.id, frame.number).raw;
-        fill(frame.gpu, commands, TransferSide::Buffer { buffer: raw, bytes: buffer.bytes }, Clear::Word(WORD));
-    }
-    let until: Vec<_> = first_uses.iter().map(until_used).collect();
-    barriers(frame.gpu, commands, &until, &after.collect::<Vec<_>>());
+    commands.push(barriers(first_uses.iter().map(until_filled).collect(), Vec::new()));
+    commands.extend(buffers.iter().filter_map(|buffer| {
+        let place = TransferSide::Buffer { buffer: frame.buffer(buffer.id).raw, bytes: buffer.bytes };
+        Transfer::fill(place, Clear::Word(WORD)).map(Command::Transfer)
+    }));
+    commands.push(barriers(first_uses.iter().map(until_used).collect(), after.collect()));
+    commands
 }
 
 /// Whether the barrier begins an image's life in the frame.

@@ -1,0 +1,172 @@
+//! A step turned into what recording walks.
+
+use super::descriptions::name_and_role;
+use super::frame::Frame;
+use super::history::RingCache;
+use super::pass::{DispatchCommands, PreparedDispatch, prepare_dispatch};
+use super::physical::PhysicalResources;
+use super::poison::poisoned_barriers;
+use super::scope::{PreparedScope, ScopeCommands};
+use super::uses::touched;
+use crate::base::{Error, convert};
+use crate::commands::{Barriers, Command, Transfer, memory_barrier};
+use crate::gpu::{Gpu, c_string};
+use crate::memory::RawBuffer;
+use crate::shaders::ShaderLibrary;
+use framewright_graph::plan::{Plan, Resource, Step, Work};
+use framewright_graph::vulkan::Filter;
+use std::ffi::CString;
+use std::sync::Arc;
+
+/// A step, with its objects.
+pub(crate) struct PreparedStep {
+    /// What debuggers call it.
+    pub(crate) label: CString,
+    pub(crate) work: PreparedWork,
+    pub(crate) commands: RingCache<StepCommands>,
+}
+
+/// The objects of a step's work.
+pub(crate) enum PreparedWork {
+    /// Of a rendering scope.
+    Render(PreparedScope),
+    /// Of a dispatch.
+    Dispatch(PreparedDispatch),
+    /// Of anything else: none.
+    Plain,
+}
+
+/// What a step records in a frame, as Vulkan's own structures.
+pub(crate) struct StepCommands {
+    /// The barriers, and the step's work where that is a transfer.
+    pub(crate) before: Vec<Command>,
+    pub(crate) work: WorkCommands,
+    pub(crate) releases: Barriers,
+}
+
+/// What a step's work records.
+pub(crate) enum WorkCommands {
+    /// A rendering scope.
+    Render(ScopeCommands),
+    /// A dispatch.
+    Dispatch(DispatchCommands),
+    /// Nothing of its own.
+    Plain,
+}
+
+impl PreparedStep {
+    /// The objects of the step number `index`, as far as they are the same in all frames.
+    pub(super) fn new(
+        gpu: &Arc<Gpu>,
+        plan: &Plan,
+        physical: &PhysicalResources,
+        (index, step): (usize, &Step),
+        shaders: &mut ShaderLibrary,
+    ) -> Result<PreparedStep, Error> {
+        let work = match &step.work {
+            Work::Render(scope) => PreparedWork::Render(PreparedScope::new(gpu, plan, physical, scope, shaders)?),
+            Work::Dispatch(pass) => PreparedWork::Dispatch(prepare_dispatch(gpu, plan, physical, pass, shaders)?),
+            _ => PreparedWork::Plain,
+        };
+        let mut resources = Vec::new();
+        touched(step, &mut |resource| resources.push(resource));
+        let label = c_string(&format!("step {index}: {}", title(plan, step)));
+        Ok(PreparedStep { label, work, commands: RingCache::new(physical.period(resources)) })
+    }
+
+    /// Makes what the step number `index` records in a frame, unless it is there.
+    pub(super) fn prepare(
+        &mut self,
+        frame: &Frame<'_>,
+        (index, step): (usize, &Step),
+        poison: bool,
+    ) -> Result<(), Error> {
+        let PreparedStep { work, commands, .. } = self;
+        let make = || StepCommands::new(frame, (index, step), work, poison);
+        commands.prepare(frame.number, make).map(drop)
+    }
+
+    /// Puts other parameters in place of those of the pass number `pass`. Nothing that was filled with them may be in use.
+    pub(crate) fn take_params(&mut self, pass: usize, filled: Arc<RawBuffer>) {
+        let (template, sets) = match &mut self.work {
+            PreparedWork::Render(scope) => {
+                let pass = &mut scope.passes[pass];
+                (&mut pass.template, &mut pass.sets)
+            }
+            PreparedWork::Dispatch(pass) => (&mut pass.template, &mut pass.sets),
+            PreparedWork::Plain => return,
+        };
+        template.take(filled);
+        sets.forget();
+        self.commands.forget();
+    }
+
+    /// Forgets views, sets and what is recorded.
+    pub(super) fn forget(&mut self) {
+        self.commands.forget();
+        match &mut self.work {
+            PreparedWork::Render(scope) => scope.forget(),
+            PreparedWork::Dispatch(pass) => pass.sets.forget(),
+            PreparedWork::Plain => {}
+        }
+    }
+}
+
+impl StepCommands {
+    fn new(
+        frame: &Frame<'_>,
+        (index, step): (usize, &Step),
+        made: &mut PreparedWork,
+        poison: bool,
+    ) -> Result<StepCommands, Error> {
+        let mut before = if poison {
+            poisoned_barriers(frame, index, step)
+        } else {
+            let memory = step.memory_barriers.iter().map(memory_barrier);
+            let images = step.image_barriers.iter().map(|it| frame.image_barrier(it));
+            vec![Command::Barriers(Barriers::new(frame.gpu, memory.collect(), images.collect()))]
+        };
+        before.extend(transfer(frame, &step.work).map(Command::Transfer));
+        let work = match (&step.work, made) {
+            (Work::Render(scope), PreparedWork::Render(made)) => WorkCommands::Render(made.commands(frame, scope)?),
+            (Work::Dispatch(pass), PreparedWork::Dispatch(made)) => WorkCommands::Dispatch(made.commands(frame, pass)?),
+            _ => WorkCommands::Plain,
+        };
+        let releases = step.releases.iter().map(|it| frame.image_barrier(it));
+        Ok(StepCommands { before, work, releases: Barriers::new(frame.gpu, Vec::new(), releases.collect()) })
+    }
+}
+
+/// The transfer that a step is, if it is one.
+fn transfer(frame: &Frame<'_>, work: &Work) -> Option<Transfer> {
+    match work {
+        Work::Resolve(it) => Transfer::resolve(frame.side(&it.source), frame.side(&it.target)),
+        Work::Copy(it) => Some(Transfer::copy(frame.side(&it.source), frame.side(&it.target))),
+        Work::Blit(it) => {
+            let filter = convert::filter(it.filter.unwrap_or(Filter::Nearest));
+            Transfer::blit(frame.side(&it.source), frame.side(&it.target), filter)
+        }
+        Work::Fill(fill) => {
+            let format = match fill.target.resource() {
+                Resource::Image(image) => Some(frame.plan.image(image).format),
+                Resource::Buffer(_) => None,
+            };
+            Transfer::fill(frame.side(&fill.target), convert::clear(format, fill.value))
+        }
+        Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => None,
+    }
+}
+
+/// What a debugger shows for a step.
+fn title(plan: &Plan, step: &Step) -> String {
+    let name = |resource: Resource| name_and_role(plan, resource).0;
+    match &step.work {
+        Work::Render(scope) => scope.passes.iter().map(|pass| &*pass.name).collect::<Vec<_>>().join(", "),
+        Work::Dispatch(pass) | Work::Custom(pass) => pass.name.to_string(),
+        Work::Resolve(transfer) => format!("resolve {}", name(transfer.source.resource())),
+        Work::Copy(transfer) => format!("copy {}", name(transfer.source.resource())),
+        Work::Blit(transfer) => format!("blit {}", name(transfer.source.resource())),
+        Work::Fill(fill) => format!("fill {}", name(fill.target.resource())),
+        Work::Export => "export".to_owned(),
+    }
+}
