@@ -146,6 +146,7 @@ pub(crate) fn clear_color(format: Format, value: [f32; 4]) -> vk::ClearColorValu
 }
 
 /// What a clear by transfer writes.
+#[derive(Clone, Copy)]
 pub(crate) enum Clear {
     /// Into an image of colours.
     Color(vk::ClearColorValue),

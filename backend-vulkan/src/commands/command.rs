@@ -1,14 +1,18 @@
-//! A command that was prepared.
+//! Commands that were prepared.
 
 use super::barriers::Barriers;
-use super::transfer::Transfer;
+use super::transfer::{TransferSide, blit, copy_between, fill, resolve};
+use crate::base::Clear;
 use crate::gpu::Gpu;
 use ash::vk;
 
 /// A command outside of scopes, ready to be recorded as often as needed.
 pub(crate) enum Command {
     Barriers(Barriers),
-    Transfer(Transfer),
+    Copy(TransferSide, TransferSide),
+    Resolve(TransferSide, TransferSide),
+    Blit(TransferSide, TransferSide, vk::Filter),
+    Fill(TransferSide, Clear),
 }
 
 impl Command {
@@ -16,7 +20,10 @@ impl Command {
     pub(crate) fn record(&self, gpu: &Gpu, commands: vk::CommandBuffer) {
         match self {
             Command::Barriers(barriers) => barriers.record(gpu, commands),
-            Command::Transfer(transfer) => transfer.record(gpu, commands),
+            Command::Copy(source, target) => copy_between(gpu, commands, *source, *target),
+            Command::Resolve(source, target) => resolve(gpu, commands, *source, *target),
+            Command::Blit(source, target, filter) => blit(gpu, commands, *source, *target, *filter),
+            Command::Fill(target, value) => fill(gpu, commands, *target, *value),
         }
     }
 }

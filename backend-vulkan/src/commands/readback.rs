@@ -2,7 +2,7 @@
 
 use super::barriers::{barriers, memory_change, state_change};
 use super::rotate_texels;
-use super::transfer::{Transfer, TransferSide};
+use super::transfer::{TransferSide, copy_between};
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
 use crate::memory::{Image, MemoryUse, RawBuffer};
@@ -74,15 +74,14 @@ impl Readback {
             extent: convert::extent(mip_extent(&descriptor, self.mip)),
             layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
         };
-        Transfer::copy(source, self.place()).record(gpu, commands);
+        copy_between(gpu, commands, source, self.place());
         barriers(gpu, commands, &[to_host()], &[state_change(image.raw, whole, COPIED, state)]);
     }
 
     /// Copies from `buffer`, which is in the state `state` and stays in it.
     pub(crate) fn record_buffer(&self, gpu: &Gpu, commands: vk::CommandBuffer, buffer: &RawBuffer, state: State) {
         barriers(gpu, commands, &[memory_change(state, COPIED)], &[]);
-        let source = TransferSide::Buffer { buffer: buffer.raw, bytes: self.bytes };
-        Transfer::copy(source, self.place()).record(gpu, commands);
+        copy_between(gpu, commands, TransferSide::Buffer { buffer: buffer.raw, bytes: self.bytes }, self.place());
         barriers(gpu, commands, &[to_host(), memory_change(COPIED, state)], &[]);
     }
 

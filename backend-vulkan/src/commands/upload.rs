@@ -2,7 +2,7 @@
 
 use super::barriers::{barriers, memory_change, state_change};
 use super::readback::mip_extent;
-use super::transfer::{Transfer, TransferSide};
+use super::transfer::{TransferSide, copy_between};
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
 use crate::memory::{Image, MemoryUse, RawBuffer};
@@ -122,7 +122,7 @@ pub(crate) fn write_image(
         barriers(gpu, commands, &[], &[state_change(image.raw, whole, state, WRITTEN)]);
         let range = Subresources { aspects: plane, base_mip: mip, mips: 1, ..whole };
         let source = TransferSide::Buffer { buffer: staging.raw, bytes: bytes.len() as u64 };
-        Transfer::copy(source, image_side(image, range, mip)).record(gpu, commands);
+        copy_between(gpu, commands, source, image_side(image, range, mip));
         barriers(gpu, commands, &[], &[state_change(image.raw, whole, WRITTEN, state)]);
     })
 }
@@ -140,7 +140,7 @@ pub(crate) fn write_buffer(
         barriers(gpu, commands, &[memory_change(state, WRITTEN)], &[]);
         let bytes = bytes.len() as u64;
         let source = TransferSide::Buffer { buffer: staging.raw, bytes };
-        Transfer::copy(source, TransferSide::Buffer { buffer: buffer.raw, bytes }).record(gpu, commands);
+        copy_between(gpu, commands, source, TransferSide::Buffer { buffer: buffer.raw, bytes });
         barriers(gpu, commands, &[memory_change(WRITTEN, state)], &[]);
     })
 }

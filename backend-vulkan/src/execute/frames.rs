@@ -28,7 +28,7 @@ pub(crate) struct Frames {
     submitted: u64,
     /// Memory for the waits of a batch.
     waits: Vec<vk::SemaphoreSubmitInfo<'static>>,
-    /// Memory for what is waited for.
+    /// What is waited for: every timeline, with the values of [`Frames::expect`].
     pending: PendingWork,
 }
 
@@ -66,6 +66,8 @@ impl Frames {
         for queue in batches.iter().filter(|batch| batch.last).map(|batch| batch.queue) {
             timelines.push((queue, Timeline::new(gpu)?));
         }
+        let semaphores: Vec<_> = timelines.iter().map(|(_, timeline)| timeline.raw).collect();
+        let pending = PendingWork { values: vec![0; semaphores.len()], semaphores };
         let slots = (0..in_flight.max(1)).map(|_| FrameSlot::new(gpu, plan, &batches));
         Ok(Frames {
             gpu: gpu.clone(),
@@ -76,7 +78,7 @@ impl Frames {
             batches,
             submitted: 0,
             waits: Vec::new(),
-            pending: PendingWork::default(),
+            pending,
         })
     }
 
@@ -180,16 +182,12 @@ impl Frames {
 
     /// Notes as pending what the timelines reach when the first `batches` batches of `frame` are done.
     fn expect(&mut self, batches: usize, frame: u64) {
-        let mut pending = std::mem::take(&mut self.pending);
-        pending.semaphores.clear();
-        pending.values.clear();
-        for (queue, timeline) in &self.timelines {
-            let own = self.batches[..batches].iter().filter(|batch| batch.queue == *queue);
+        for number in 0..self.timelines.len() {
+            let queue = self.timelines[number].0;
+            let own = self.batches[..batches].iter().filter(|batch| batch.queue == queue);
             let value = own.filter_map(|batch| self.signalled(batch, frame)).max();
-            pending.semaphores.push(timeline.raw);
-            pending.values.push(value.unwrap_or(frame * self.values_per_frame));
+            self.pending.values[number] = value.unwrap_or(frame * self.values_per_frame);
         }
-        self.pending = pending;
     }
 
     /// Waits until a frame that was submitted is done.

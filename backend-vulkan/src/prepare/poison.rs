@@ -10,7 +10,7 @@
 
 use super::frame::Frame;
 use crate::base::{Clear, convert};
-use crate::commands::{Barriers, Command, Transfer, TransferSide, memory_barrier};
+use crate::commands::{Barriers, Command, TransferSide, memory_barrier};
 use ash::vk;
 use framewright_graph::plan::{Buffer, ImageBarrier, Resource, Role, Step, Work};
 use framewright_graph::vulkan::{Aspects, Format, Layout, Numeric};
@@ -51,21 +51,21 @@ pub(super) fn poisoned_barriers(frame: &Frame<'_>, index: usize, step: &Step) ->
     });
     let barriers = |memory, images| Command::Barriers(Barriers::new(frame.gpu, memory, images));
     let mut commands = vec![barriers(memory.collect(), before.collect())];
-    commands.extend(images.iter().filter_map(|barrier| {
+    commands.extend(images.iter().map(|barrier| {
         let place = TransferSide::Image {
             image: frame.image(barrier.image).raw,
             range: barrier.range,
             extent: vk::Extent3D::default(),
             layout: CLEAR_LAYOUT,
         };
-        Transfer::fill(place, pattern(frame.plan.image(barrier.image).format)).map(Command::Transfer)
+        Command::Fill(place, pattern(frame.plan.image(barrier.image).format))
     }));
     let first_uses: Vec<_> = buffers.iter().map(|buffer| first_use(step, buffer)).collect();
     // A barrier of its own call, so that it goes on from where the Plan's barriers lead.
     commands.push(barriers(first_uses.iter().map(until_filled).collect(), Vec::new()));
-    commands.extend(buffers.iter().filter_map(|buffer| {
+    commands.extend(buffers.iter().map(|buffer| {
         let place = TransferSide::Buffer { buffer: frame.buffer(buffer.id).raw, bytes: buffer.bytes };
-        Transfer::fill(place, Clear::Word(WORD)).map(Command::Transfer)
+        Command::Fill(place, Clear::Word(WORD))
     }));
     commands.push(barriers(first_uses.iter().map(until_used).collect(), after.collect()));
     commands

@@ -9,7 +9,7 @@ use super::poison::poisoned_barriers;
 use super::scope::{PreparedScope, ScopeCommands};
 use super::uses::touched;
 use crate::base::{Error, convert};
-use crate::commands::{Barriers, Command, Transfer, memory_barrier};
+use crate::commands::{Barriers, Command, memory_barrier};
 use crate::gpu::{Gpu, c_string};
 use crate::memory::RawBuffer;
 use crate::shaders::ShaderLibrary;
@@ -126,7 +126,7 @@ impl StepCommands {
             let images = step.image_barriers.iter().map(|it| frame.image_barrier(it));
             vec![Command::Barriers(Barriers::new(frame.gpu, memory.collect(), images.collect()))]
         };
-        before.extend(transfer(frame, &step.work).map(Command::Transfer));
+        before.extend(transfer(frame, &step.work));
         let work = match (&step.work, made) {
             (Work::Render(scope), PreparedWork::Render(made)) => WorkCommands::Render(made.commands(frame, scope)?),
             (Work::Dispatch(pass), PreparedWork::Dispatch(made)) => WorkCommands::Dispatch(made.commands(frame, pass)?),
@@ -138,23 +138,23 @@ impl StepCommands {
 }
 
 /// The transfer that a step is, if it is one.
-fn transfer(frame: &Frame<'_>, work: &Work) -> Option<Transfer> {
-    match work {
-        Work::Resolve(it) => Transfer::resolve(frame.side(&it.source), frame.side(&it.target)),
-        Work::Copy(it) => Some(Transfer::copy(frame.side(&it.source), frame.side(&it.target))),
+fn transfer(frame: &Frame<'_>, work: &Work) -> Option<Command> {
+    Some(match work {
+        Work::Resolve(it) => Command::Resolve(frame.side(&it.source), frame.side(&it.target)),
+        Work::Copy(it) => Command::Copy(frame.side(&it.source), frame.side(&it.target)),
         Work::Blit(it) => {
             let filter = convert::filter(it.filter.unwrap_or(Filter::Nearest));
-            Transfer::blit(frame.side(&it.source), frame.side(&it.target), filter)
+            Command::Blit(frame.side(&it.source), frame.side(&it.target), filter)
         }
         Work::Fill(fill) => {
             let format = match fill.target.resource() {
                 Resource::Image(image) => Some(frame.plan.image(image).format),
                 Resource::Buffer(_) => None,
             };
-            Transfer::fill(frame.side(&fill.target), convert::clear(format, fill.value))
+            Command::Fill(frame.side(&fill.target), convert::clear(format, fill.value))
         }
-        Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => None,
-    }
+        Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => return None,
+    })
 }
 
 /// What a debugger shows for a step.

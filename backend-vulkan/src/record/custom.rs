@@ -1,7 +1,7 @@
 //! How custom passes are recorded.
 
 use crate::base::convert;
-use crate::commands::{Transfer, TransferSide, fill};
+use crate::commands::{TransferSide, copy_between, fill};
 use crate::prepare::{Frame, part};
 use ash::vk;
 use framewright_graph::frame::ParamValue;
@@ -123,7 +123,7 @@ impl<'f> CustomRecorder<'f> {
         if !self.agree(&from, &to) {
             return self.misused(|| format!("`{source}` and `{target}` differ in format, extent or rotation"));
         }
-        Transfer::copy(self.side(&from), self.side(&to)).record(self.frame.gpu, self.commands);
+        copy_between(self.frame.gpu, self.commands, self.side(&from), self.side(&to));
         self.recorded += 1;
     }
 

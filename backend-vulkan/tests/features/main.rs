@@ -5,6 +5,7 @@ mod frames;
 #[path = "../testing/mod.rs"]
 mod testing;
 
+mod allocations;
 mod blending;
 mod compute;
 mod depth;
