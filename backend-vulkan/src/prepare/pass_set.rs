@@ -4,7 +4,7 @@ use super::descriptions::part;
 use super::frame::Frame;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, LayoutBinding};
-use crate::memory::{MemoryUse, RawBuffer, View, ViewShape};
+use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
 use crate::pipeline::{DescriptorSet, DescriptorTarget, PARAMS, parameters};
 use ash::vk;
 use framewright_graph::frame::EyeForm;
@@ -30,7 +30,7 @@ enum BoundResource {
 /// A pass's own descriptor set with all that it points to. Fields are dropped in this order.
 pub(crate) struct PassSet {
     pub(crate) set: DescriptorSet,
-    _views: Vec<View>,
+    _images: Vec<Arc<Image>>,
     _buffers: Vec<Arc<RawBuffer>>,
 }
 
@@ -105,7 +105,7 @@ impl SetTemplate {
 
     /// The set for a frame.
     pub(crate) fn fill(&self, frame: &Frame<'_>) -> Result<PassSet, Error> {
-        let (mut views, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut images, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
         for (binding, bound) in &self.bindings {
             let target = match bound {
                 BoundResource::Params => match &self.params {
@@ -121,16 +121,15 @@ impl SetTemplate {
                     DescriptorTarget::Buffer(buffer.raw)
                 }
                 BoundResource::Image { image, range, shape, layout, sampler } => {
-                    let view = View::new(frame.image(*image), *range, *shape)?;
-                    let target = DescriptorTarget::Image(view.raw, *layout, *sampler);
-                    views.push(view);
-                    target
+                    let image = frame.image(*image);
+                    images.push(image.clone());
+                    DescriptorTarget::Image(image.view(*range, *shape)?, *layout, *sampler)
                 }
             };
             targets.push((*binding, target));
         }
         let set = DescriptorSet::new(frame.gpu, &targets)?;
-        Ok(PassSet { set, _views: views, _buffers: buffers })
+        Ok(PassSet { set, _images: images, _buffers: buffers })
     }
 }
 

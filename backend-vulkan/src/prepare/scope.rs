@@ -1,40 +1,24 @@
-//! A rendering scope's objects: views of its attachments, and what its passes need.
+//! What a rendering scope records, and the objects that its passes need.
 
 use super::descriptions::part;
 use super::frame::Frame;
-use super::history::RingCache;
 use super::pass::{DrawCommands, PreparedDraw, prepare_draw};
 use super::physical::PhysicalResources;
 use super::variant::view_mask;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, LocalRead};
-use crate::memory::{View, ViewShape};
+use crate::memory::ViewShape;
 use crate::pipeline::or_unused;
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::{EyeForm, Stereo};
-use framewright_graph::plan::{Attachment, ImageId, Plan, RenderScope, Resource};
+use framewright_graph::plan::{Attachment, ImageId, Plan, RenderScope};
 use framewright_graph::vulkan::{Aspects, LoadOp, Rotation, Subresources};
 use std::sync::Arc;
 
 /// A rendering scope's objects.
 pub(crate) struct PreparedScope {
-    views: RingCache<ScopeViews>,
     pub(crate) passes: Vec<PreparedDraw>,
-}
-
-/// A rendering scope's attachments.
-struct ScopeViews {
-    color: Vec<AttachmentViews>,
-    depth: Option<Arc<AttachmentViews>>,
-    /// Depth and stencil of one image share a view.
-    stencil: Option<Arc<AttachmentViews>>,
-}
-
-/// An attachment's view and that of its resolve target.
-struct AttachmentViews {
-    attachment: View,
-    resolve: Option<View>,
 }
 
 /// What a rendering scope records.
@@ -60,7 +44,7 @@ pub(crate) struct DrawTarget {
 }
 
 impl PreparedScope {
-    /// The objects of `scope`; views and sets are made by [`PreparedScope::commands`].
+    /// The objects of `scope`; sets are made by [`PreparedScope::commands`].
     pub(super) fn new(
         gpu: &Arc<Gpu>,
         plan: &Plan,
@@ -80,24 +64,21 @@ impl PreparedScope {
                 pass.local.get_or_insert_with(back);
             }
         }
-        let attachments = scope.color.iter().chain(&scope.depth).chain(&scope.stencil);
-        let images = attachments.flat_map(|it| [Some(it.image), it.resolve.as_ref().map(|resolve| resolve.image)]);
-        let period = physical.period(images.flatten().map(Resource::Image));
-        Ok(PreparedScope { views: RingCache::new(period), passes })
+        Ok(PreparedScope { passes })
     }
 
     /// What the scope records in a frame.
     pub(super) fn commands(&mut self, frame: &Frame<'_>, scope: &RenderScope) -> Result<ScopeCommands, Error> {
         let plan = frame.plan;
-        let views = self.views.prepare(frame.number, || ScopeViews::new(frame, scope))?;
-        let info = |(planned, views)| attachment(plan, planned, views);
+        let info = |planned: &Attachment| attachment(frame, planned);
+        let color = scope.color.iter().map(info).collect::<Result<Vec<_>, _>>()?;
         let (form, rotation) = (plan.eyes(scope), plan.rotation(scope));
         let [width, height, _] = EyeForm::extent(form, [scope.extent[0], scope.extent[1], 1], rotation);
         let passes = self.passes.iter_mut().zip(&scope.passes).map(|(made, pass)| made.commands(frame, pass));
         Ok(ScopeCommands {
-            color: or_unused(scope.color.iter().zip(&views.color).map(info)),
-            depth: scope.depth.as_ref().zip(views.depth.as_deref()).map(info),
-            stencil: scope.stencil.as_ref().zip(views.stencil.as_deref()).map(info),
+            color: or_unused(color.into_iter()),
+            depth: scope.depth.as_ref().map(info).transpose()?,
+            stencil: scope.stencil.as_ref().map(info).transpose()?,
             area: vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } },
             layers: EyeForm::layers(form, scope.layers),
             view_mask: view_mask(plan, scope),
@@ -106,58 +87,34 @@ impl PreparedScope {
         })
     }
 
-    /// Forgets views and sets.
+    /// Forgets the sets.
     pub(super) fn forget(&mut self) {
-        self.views.forget();
         self.passes.iter_mut().for_each(|pass| pass.sets.forget());
     }
 }
 
-impl ScopeViews {
-    fn new(frame: &Frame<'_>, scope: &RenderScope) -> Result<ScopeViews, Error> {
-        let view = |id: ImageId, range: Subresources| {
-            let image = frame.plan.image(id);
-            // A view for an attachment has all planes.
-            let range = Subresources { aspects: image.format.aspects(), ..part(image, range) };
-            let shape = if range.layers > 1 { ViewShape::Layers } else { ViewShape::Flat };
-            View::new(frame.image(id), range, shape)
-        };
-        let views = |attachment: &Attachment| {
-            let resolve = attachment.resolve.as_ref().map(|resolve| view(resolve.image, resolve.range)).transpose()?;
-            Ok::<_, Error>(AttachmentViews { attachment: view(attachment.image, attachment.range)?, resolve })
-        };
-        let color = scope.color.iter().map(views).collect::<Result<_, _>>()?;
-        let depth = scope.depth.as_ref().map(views).transpose()?.map(Arc::new);
-        let stencil = match (&scope.depth, &scope.stencil, &depth) {
-            (Some(of_depth), Some(of_stencil), Some(of_both)) if shares(of_depth, of_stencil) => Some(of_both.clone()),
-            (_, of_stencil, _) => of_stencil.as_ref().map(views).transpose()?.map(Arc::new),
-        };
-        Ok(ScopeViews { color, depth, stencil })
-    }
-}
-
-/// Whether two attachments are planes of one image, and their resolve targets too.
-fn shares(depth: &Attachment, stencil: &Attachment) -> bool {
-    let target = |it: &Attachment| it.resolve.as_ref().map(|resolve| resolve.image);
-    depth.image == stencil.image && (target(stencil).is_none() || target(depth) == target(stencil))
-}
-
-/// An attachment as Vulkan takes it. The views must live as long as it is used.
-fn attachment(plan: &Plan, planned: &Attachment, views: &AttachmentViews) -> vk::RenderingAttachmentInfo<'static> {
-    let info = vk::RenderingAttachmentInfo::default()
-        .image_view(views.attachment.raw)
+/// An attachment as Vulkan takes it. The images must live as long as it is used.
+fn attachment(frame: &Frame<'_>, planned: &Attachment) -> Result<vk::RenderingAttachmentInfo<'static>, Error> {
+    let view = |id: ImageId, range: Subresources| {
+        let image = frame.plan.image(id);
+        // A view for an attachment has all planes.
+        let range = Subresources { aspects: image.format.aspects(), ..part(image, range) };
+        let shape = if range.layers > 1 { ViewShape::Layers } else { ViewShape::Flat };
+        frame.image(id).view(range, shape)
+    };
+    let mut info = vk::RenderingAttachmentInfo::default()
+        .image_view(view(planned.image, planned.range)?)
         .image_layout(convert::layout(planned.layout))
         .load_op(convert::load(planned.load))
         .store_op(convert::store(planned.store));
-    let info = match (&planned.resolve, &views.resolve) {
-        (Some(resolve), Some(view)) => info
+    if let Some(resolve) = &planned.resolve {
+        info = info
             .resolve_mode(convert::resolve(resolve.mode))
-            .resolve_image_view(view.raw)
-            .resolve_image_layout(convert::layout(resolve.layout)),
-        _ => info,
-    };
-    let format = plan.image(planned.image).format;
-    match planned.clear {
+            .resolve_image_view(view(resolve.image, resolve.range)?)
+            .resolve_image_layout(convert::layout(resolve.layout));
+    }
+    let format = frame.plan.image(planned.image).format;
+    Ok(match planned.clear {
         Some(value) if planned.load == LoadOp::Clear => info.clear_value(match planned.range.aspects {
             Aspects::COLOR => vk::ClearValue { color: convert::clear_color(format, value) },
             Aspects::STENCIL => {
@@ -168,5 +125,5 @@ fn attachment(plan: &Plan, planned: &Attachment, views: &AttachmentViews) -> vk:
             _ => vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: value[0], stencil: 0 } },
         }),
         _ => info,
-    }
+    })
 }

@@ -101,7 +101,7 @@ impl PreparedStep {
         self.commands.forget();
     }
 
-    /// Forgets views, sets and what is recorded.
+    /// Forgets sets and what is recorded.
     pub(super) fn forget(&mut self) {
         self.commands.forget();
         match &mut self.work {

@@ -3,7 +3,7 @@
 use crate::base::Error;
 use crate::commands::record_upload;
 use crate::gpu::{Device, Gpu, SamplerDescriptor};
-use crate::memory::{Image, MemoryUse, RawBuffer, View, ViewShape};
+use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::plan::{Queue, Subresources};
@@ -31,9 +31,11 @@ pub struct Buffer(pub(crate) Arc<RawBuffer>);
 #[derive(Clone)]
 pub struct Texture(pub(crate) Arc<RawTexture>);
 
-/// A texture's parts. Fields are dropped in this order.
+/// A texture's parts.
 pub(crate) struct RawTexture {
-    pub(crate) view: Arc<View>,
+    pub(crate) image: Arc<Image>,
+    /// A view of all of the image.
+    pub(crate) view: vk::ImageView,
     pub(crate) sampler: vk::Sampler,
 }
 
@@ -117,8 +119,8 @@ impl Device {
         };
         let image = Arc::new(Image::with_own_memory(&self.gpu, "texture", &descriptor)?);
         upload(&self.gpu, &image, texels)?;
-        let view = Arc::new(View::new(&image, Subresources::all(format, levels, 1), ViewShape::Flat)?);
-        Ok(Texture(Arc::new(RawTexture { view, sampler: self.gpu.sampler(*sampler)? })))
+        let view = image.view(Subresources::all(format, levels, 1), ViewShape::Flat)?;
+        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.sampler(*sampler)? })))
     }
 
     /// The texels of `texture`, which they share, sampled another way.
@@ -126,8 +128,8 @@ impl Device {
     /// # Errors
     /// If the device has no room for another sampler.
     pub fn sampled(&self, texture: &Texture, sampler: &SamplerDescriptor) -> Result<Texture, Error> {
-        let view = texture.0.view.clone();
-        Ok(Texture(Arc::new(RawTexture { view, sampler: self.gpu.sampler(*sampler)? })))
+        let (image, view) = (texture.0.image.clone(), texture.0.view);
+        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.sampler(*sampler)? })))
     }
 }
 
