@@ -15,4 +15,4 @@ pub(crate) use command::Command;
 pub(crate) use readback::{Readback, first_plane, mip_extent, plane_bytes};
 pub(crate) use submit::{CommandPool, Commands, Timeline, record};
 pub(crate) use transfer::{TransferSide, copy_between, fill};
-pub(crate) use upload::{WRITTEN, image_side, record_upload, write_buffer, write_image};
+pub(crate) use upload::{UNUSED, WRITTEN, image_side, record_upload, staged, write_buffer, write_image};

@@ -3,7 +3,7 @@
 use super::executor::Executor;
 use crate::base::Error;
 use crate::memory::RawBuffer;
-use crate::prepare::{PreparedWork, Refuse, SetTemplate, check};
+use crate::prepare::{PassSets, PreparedWork, Refuse, check};
 use framewright_graph::plan::{Pass, Plan, Work};
 use std::sync::Arc;
 
@@ -44,9 +44,9 @@ impl Executor {
     fn changed_params(&self, plan: &Plan) -> Result<Vec<ChangedParams>, Error> {
         let mut changed = Vec::new();
         for (step, (old, new)) in self.plan.steps.iter().zip(&plan.steps).enumerate() {
-            let mut params = |pass: usize, old: &Pass, new: &Pass, template: &SetTemplate| {
+            let mut params = |pass: usize, old: &Pass, new: &Pass, sets: &PassSets| {
                 if old.params != new.params
-                    && let Some(filled) = template.params_of(&self.gpu, new)?
+                    && let Some(filled) = sets.params_of(&self.gpu, new)?
                 {
                     changed.push(ChangedParams { step, pass, filled });
                 }
@@ -54,12 +54,12 @@ impl Executor {
             };
             match (&old.work, &new.work, &self.prepared.steps[step].work) {
                 (Work::Render(old), Work::Render(new), PreparedWork::Render(made)) => {
-                    for (pass, ((old, new), made)) in old.passes.iter().zip(&new.passes).zip(&made.passes).enumerate() {
-                        params(pass, old, new, &made.template)?;
+                    for (pass, ((old, new), made)) in old.passes.iter().zip(&new.passes).zip(made).enumerate() {
+                        params(pass, old, new, &made.sets)?;
                     }
                 }
                 (Work::Dispatch(old), Work::Dispatch(new), PreparedWork::Dispatch(made)) => {
-                    params(0, old, new, &made.template)?;
+                    params(0, old, new, &made.sets)?;
                     made.groups(&self.gpu, plan, new)?;
                 }
                 _ => {}

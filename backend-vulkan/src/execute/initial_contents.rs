@@ -2,7 +2,7 @@
 
 use crate::base::{Error, convert};
 use crate::commands::{
-    Barriers, TransferSide, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change,
+    Barriers, TransferSide, UNUSED, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change,
 };
 use crate::gpu::{Gpu, QueueFamily};
 use crate::memory::Image;
@@ -11,10 +11,6 @@ use ash::vk;
 use framewright_graph::plan::{self, BufferId, ImageId, Initial, Plan, Queue, Resource, Role, Subresources};
 use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Usage};
 use std::sync::Arc;
-
-/// Not used by anything yet.
-pub(crate) const UNUSED: State =
-    State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
 
 /// Sets everything that outlives the frame and has no contents yet to what the first frame finds: persistent things to their
 /// initial value or the texels in `staged`, others that were not handed in to zero, each in the state that the Plan relies on and with the queue that
@@ -54,7 +50,7 @@ pub(crate) fn initialise(
                 match (initial, staged.iter().find(|it| it.image == image.id)) {
                     (Some(value), _) => set_image(gpu, commands, image, made, before, value),
                     (None, Some(staged)) => {
-                        record_upload(gpu, commands, made, &staged.buffer, convert::layout(before.layout));
+                        record_upload(gpu, commands, made, &staged.buffer, before.layout);
                     }
                     (None, None) => {}
                 }

@@ -14,7 +14,7 @@ mod surface;
 mod validation;
 mod words;
 
-pub use cached::{AddressMode, SamplerDescriptor, TexelFilter};
+pub use cached::SamplerDescriptor;
 pub use device::{Device, DeviceOptions};
 pub use features::minimum_features;
 pub use minimum::MINIMUM_VERSION;

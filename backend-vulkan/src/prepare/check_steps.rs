@@ -58,8 +58,8 @@ fn renderable(gpu: &Gpu, plan: &Plan, scope: &RenderScope) -> Result<(), Error> 
     let draws_so = match (plan.stereo, plan.eyes(scope)) {
         (_, None) => true,
         (Stereo::Multiview, Some(form)) => gpu.max_views >= 2 && form == EyeForm::Layers,
-        (Stereo::Instanced, Some(EyeForm::Layers)) => gpu.vertex_layer,
-        (Stereo::Instanced, Some(EyeForm::Halves)) => gpu.clip_distances,
+        (Stereo::Instanced, Some(EyeForm::Layers)) => gpu.features.vertex_layer(),
+        (Stereo::Instanced, Some(EyeForm::Halves)) => gpu.features.clip_distances(),
         (Stereo::DoubleWide, Some(form)) => form == EyeForm::Halves,
         (Stereo::Off | Stereo::MultiPass, Some(_)) => false,
     };

@@ -4,10 +4,8 @@
 //! acquiring an image from the queue on which the frame before would have released it, somebody has to release it.
 
 use super::descriptions::part;
-use super::uses::ResourceUses;
-use framewright_graph::plan::{
-    ImageBarrier, ImageId, Pass, Plan, Queue, Resource, Role, Side, Step, Subresources, Work,
-};
+use super::uses::{ResourceUses, used};
+use framewright_graph::plan::{ImageBarrier, ImageId, Plan, Queue, Resource, Role, Subresources};
 use framewright_graph::vulkan::{Layout, Sharing};
 use std::collections::HashSet;
 
@@ -60,7 +58,11 @@ pub(crate) fn initial_owners<'p>(plan: &'p Plan, relies: impl Fn(ImageId) -> boo
                 _ => touch(barrier.image, barrier.range, step.queue, None),
             }
         }
-        used(step, &mut |image, range| touch(image, range, step.queue, None));
+        used(&step.work, &mut |resource, range| {
+            if let (Resource::Image(image), Some(range)) = (resource, range) {
+                touch(image, range, step.queue, None);
+            }
+        });
     }
     owners
 }
@@ -81,40 +83,12 @@ pub(crate) fn initial_queue(plan: &Plan, uses: &ResourceUses, resource: Resource
     }
 }
 
-/// Calls `use_part` for each part of an image that the work of a step touches.
-fn used(step: &Step, use_part: &mut impl FnMut(ImageId, Subresources)) {
-    let mut pass = |pass: &Pass| pass.accesses.iter().for_each(|access| use_part(access.image, access.range));
-    match &step.work {
-        Work::Render(scope) => {
-            scope.passes.iter().for_each(&mut pass);
-            for attachment in scope.color.iter().chain(&scope.depth).chain(&scope.stencil) {
-                use_part(attachment.image, attachment.range);
-                if let Some(resolve) = &attachment.resolve {
-                    use_part(resolve.image, resolve.range);
-                }
-            }
-        }
-        Work::Dispatch(of) | Work::Custom(of) => pass(of),
-        Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
-            for side in [&transfer.source, &transfer.target] {
-                if let Side::Image { image, range, .. } = side {
-                    use_part(*image, *range);
-                }
-            }
-        }
-        Work::Fill(fill) => {
-            if let Side::Image { image, range, .. } = &fill.target {
-                use_part(*image, *range);
-            }
-        }
-        Work::Export => {}
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_graph::plan::{Access, Cause, DeviceUsed, Hazard, Image, Initial, StepId, Totals};
+    use framewright_graph::plan::{
+        Access, Cause, DeviceUsed, Hazard, Image, Initial, Pass, Step, StepId, Totals, Work,
+    };
     use framewright_graph::vulkan::Format;
     use framewright_graph::vulkan::Rotation;
     use framewright_graph::vulkan::Shape;

@@ -1,8 +1,7 @@
 //! A pass's pipeline, the template of its descriptor set, and what it records.
 
 use super::frame::Frame;
-use super::history::RingCache;
-use super::pass_set::{PassSet, SetTemplate};
+use super::pass_set::PassSets;
 use super::physical::PhysicalResources;
 use super::variant::{variant, view_mask};
 use crate::base::Error;
@@ -25,8 +24,7 @@ pub(crate) struct PreparedDraw {
     /// What debuggers call it.
     pub(crate) label: CString,
     pub(crate) draw: Draw,
-    pub(crate) template: SetTemplate,
-    pub(crate) sets: RingCache<PassSet>,
+    pub(crate) sets: PassSets,
     /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
     pub(crate) pipeline: Option<vk::Pipeline>,
     /// How the pass sees the scope's colour attachments; `None` where no pass of the scope reads them locally.
@@ -72,8 +70,7 @@ impl PassState {
 
 /// A dispatch's objects.
 pub(crate) struct PreparedDispatch {
-    pub(crate) template: SetTemplate,
-    pub(crate) sets: RingCache<PassSet>,
+    pub(crate) sets: PassSets,
     pub(crate) pipeline: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
     /// Invocations of a workgroup.
@@ -101,7 +98,7 @@ impl PreparedDraw {
     pub(super) fn commands(&mut self, frame: &Frame<'_>, pass: &plan::Pass) -> Result<DrawCommands, Error> {
         let buffer = |id: BufferId| frame.buffer(id).raw;
         Ok(DrawCommands {
-            set: self.sets.prepare(frame.number, || self.template.fill(frame))?.set.raw,
+            set: self.sets.prepare(frame)?,
             parts: parts(frame.plan, pass),
             vertices: self.vertices.iter().copied().map(buffer).collect(),
             offsets: vec![0; self.vertices.len()],
@@ -118,7 +115,7 @@ impl PreparedDispatch {
             WorkgroupCount::Direct(count) => WorkgroupCount::Direct(count),
             WorkgroupCount::Indirect(buffer, offset) => WorkgroupCount::Indirect(frame.buffer(buffer).raw, offset),
         };
-        let set = self.sets.prepare(frame.number, || self.template.fill(frame))?.set.raw;
+        let set = self.sets.prepare(frame)?;
         Ok(DispatchCommands { set, parts: parts(frame.plan, pass), groups })
     }
 
@@ -168,11 +165,10 @@ pub(crate) fn prepare_dispatch(
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     check_workgroup(gpu, size).map_err(mismatch)?;
     groups(gpu, plan, pass, size).map_err(mismatch)?;
-    let template = SetTemplate::new(gpu, plan, pass, &shader.interface.bindings)?;
-    let layout = gpu.pipeline_layout(vec![template.layout])?;
+    let sets = PassSets::new(gpu, plan, physical, pass, &shader.interface.bindings)?;
+    let layout = gpu.pipeline_layout(vec![sets.layout])?;
     let pipeline = gpu.compute_pipeline(&pass.name, shader.compute, layout)?;
-    let sets = RingCache::new(physical.period(template.resources()));
-    Ok(PreparedDispatch { template, sets, pipeline, layout, size })
+    Ok(PreparedDispatch { sets, pipeline, layout, size })
 }
 
 /// How many workgroups of `size` invocations a dispatch takes.
@@ -216,11 +212,10 @@ pub(crate) fn prepare_draw(
         Draw::Indirect => Some(indirect(plan, pass, 0, if indices.is_some() { 20 } else { 16 }).map_err(mismatch)?),
         _ => None,
     };
-    let nothing = |template| PreparedDraw {
+    let nothing = |sets| PreparedDraw {
         label: c_string(&pass.name),
         draw,
-        template,
-        sets: RingCache::new(1),
+        sets,
         pipeline: None,
         local: None,
         state: PassState::default(),
@@ -231,8 +226,7 @@ pub(crate) fn prepare_draw(
     let form = plan.eyes(scope);
     let shader = match shaders.compiled(&pass.shader, draw, &variant(plan, pass, form)?) {
         Err(ShaderProblem::Missing { .. }) if draw == Draw::Custom => {
-            let template = SetTemplate::empty(gpu)?;
-            return Ok(nothing(template));
+            return Ok(nothing(PassSets::empty(gpu)?));
         }
         other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
     };
@@ -253,9 +247,9 @@ pub(crate) fn prepare_draw(
     };
     let vertices = if own_vertices { wanted } else { Vec::new() };
     check_reach(plan, draw, &vertices, &strides, indices).map_err(mismatch)?;
-    let template = SetTemplate::new(gpu, plan, pass, &shader.interface.bindings)?;
+    let sets = PassSets::new(gpu, plan, physical, pass, &shader.interface.bindings)?;
     let supplied = supplied_layouts(gpu, &brought)?;
-    let layout = gpu.pipeline_layout([template.layout].into_iter().chain(supplied.iter().copied()).collect())?;
+    let layout = gpu.pipeline_layout([sets.layout].into_iter().chain(supplied.iter().copied()).collect())?;
     let reads = |set| shader.interface.bindings.iter().any(|it| it.set == set);
     let local = local_read(gpu, scope, pass, &shader, &targets).map_err(mismatch)?;
     let format = |attachment: &plan::Attachment| plan.image(attachment.image).format;
@@ -286,8 +280,7 @@ pub(crate) fn prepare_draw(
     let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
     let usual_vertices = shader.usual_vertices;
     let state = PassState { layout, supplied, vertex_stride: brought_stride, usual_vertices };
-    let sets = RingCache::new(physical.period(template.resources()));
-    Ok(PreparedDraw { sets, pipeline, local, state, vertices, ..nothing(template) })
+    Ok(PreparedDraw { pipeline, local, state, vertices, ..nothing(sets) })
 }
 
 /// The colour attachments of the scope that the pass writes, by the shader's locations.

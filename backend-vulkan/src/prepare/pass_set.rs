@@ -2,6 +2,8 @@
 
 use super::descriptions::part;
 use super::frame::Frame;
+use super::history::RingCache;
+use super::physical::PhysicalResources;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, LayoutBinding};
 use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
@@ -13,11 +15,12 @@ use framewright_graph::shader::{self, Block, PASS_SET};
 use framewright_graph::vulkan::{Accesses, Aspects, Component, Dimension, ImageShape, Sampler, Stages};
 use std::sync::Arc;
 
-/// What a pass's own set is filled with, whatever stands for its images and buffers.
-pub(crate) struct SetTemplate {
+/// A pass's own sets, and what they are filled with, whatever stands for its images and buffers.
+pub(crate) struct PassSets {
     pub(crate) layout: vk::DescriptorSetLayout,
     bindings: Vec<(LayoutBinding, BoundResource)>,
     params: Option<(Block, Arc<RawBuffer>)>,
+    made: RingCache<PassSet>,
 }
 
 /// What is bound to one name.
@@ -28,23 +31,24 @@ enum BoundResource {
 }
 
 /// A pass's own descriptor set with all that it points to. Fields are dropped in this order.
-pub(crate) struct PassSet {
-    pub(crate) set: DescriptorSet,
+struct PassSet {
+    set: DescriptorSet,
     _images: Vec<Arc<Image>>,
     _buffers: Vec<Arc<RawBuffer>>,
 }
 
-impl SetTemplate {
-    /// The set for `pass` and the bindings of its shader.
+impl PassSets {
+    /// The sets for `pass` and the bindings of its shader.
     ///
     /// # Errors
     /// [`Error::Mismatch`] where the Plan and the shader don't name the same things.
     pub(crate) fn new(
         gpu: &Arc<Gpu>,
         plan: &Plan,
+        physical: &PhysicalResources,
         pass: &plan::Pass,
         shader: &[shader::Binding],
-    ) -> Result<SetTemplate, Error> {
+    ) -> Result<PassSets, Error> {
         let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
         let own = || shader.iter().filter(|it| it.set == PASS_SET);
         let images = pass.accesses.iter().filter_map(|it| it.binding.as_ref()).map(|it| &it.name);
@@ -74,47 +78,60 @@ impl SetTemplate {
             bindings.push((LayoutBinding { binding: wanted.binding, ty, stages: stages(wanted.stages) }, bound));
         }
         let layout = gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
-        Ok(SetTemplate { layout, bindings, params })
+        let resources = bindings.iter().filter_map(|(_, bound)| match bound {
+            BoundResource::Params => None,
+            BoundResource::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
+            BoundResource::Image { image, .. } => Some(Resource::Image(*image)),
+        });
+        let made = RingCache::new(physical.period(resources));
+        Ok(PassSets { layout, bindings, params, made })
     }
 
-    /// A set without bindings.
-    pub(crate) fn empty(gpu: &Gpu) -> Result<SetTemplate, Error> {
-        Ok(SetTemplate { layout: gpu.set_layout(Vec::new())?, bindings: Vec::new(), params: None })
+    /// Sets without bindings.
+    pub(crate) fn empty(gpu: &Gpu) -> Result<PassSets, Error> {
+        let (layout, made) = (gpu.set_layout(Vec::new())?, RingCache::new(1));
+        Ok(PassSets { layout, bindings: Vec::new(), params: None, made })
     }
 
-    /// The block `params` with the values that `pass` has now, for [`SetTemplate::take`]; `None`: the shader has none.
+    /// The block `params` with the values that `pass` has now, for [`PassSets::take`]; `None`: the shader has none.
     pub(crate) fn params_of(&self, gpu: &Arc<Gpu>, pass: &plan::Pass) -> Result<Option<Arc<RawBuffer>>, Error> {
         self.params.as_ref().map(|(block, _)| filled(gpu, block, pass)).transpose()
     }
 
-    /// Puts other parameters in place of those that sets were filled with so far.
-    pub(crate) fn take(&mut self, filled: Arc<RawBuffer>) {
+    /// Puts other parameters in place of those that sets were filled with so far, which must not be in use.
+    pub(super) fn take(&mut self, filled: Arc<RawBuffer>) {
         if let Some((_, params)) = &mut self.params {
             *params = filled;
         }
+        self.forget();
     }
 
-    /// What the set's contents depend on.
-    pub(crate) fn resources(&self) -> impl Iterator<Item = Resource> {
-        self.bindings.iter().filter_map(|(_, bound)| match bound {
-            BoundResource::Params => None,
-            BoundResource::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
-            BoundResource::Image { image, .. } => Some(Resource::Image(*image)),
-        })
+    /// Forgets all sets: other images or buffers stand for the Plan's now. None may be in use.
+    pub(super) fn forget(&mut self) {
+        self.made.forget();
     }
 
     /// The set for a frame.
-    pub(crate) fn fill(&self, frame: &Frame<'_>) -> Result<PassSet, Error> {
+    pub(super) fn prepare(&mut self, frame: &Frame<'_>) -> Result<vk::DescriptorSet, Error> {
+        let (bindings, params) = (&self.bindings, self.params.as_ref().map(|(_, params)| params));
+        self.made.prepare(frame.number, || PassSet::new(frame, bindings, params)).map(|made| made.set.raw)
+    }
+}
+
+impl PassSet {
+    fn new(
+        frame: &Frame<'_>,
+        bindings: &[(LayoutBinding, BoundResource)],
+        params: Option<&Arc<RawBuffer>>,
+    ) -> Result<PassSet, Error> {
         let (mut images, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
-        for (binding, bound) in &self.bindings {
+        for (binding, bound) in bindings {
             let target = match bound {
-                BoundResource::Params => match &self.params {
-                    Some((_, params)) => {
-                        buffers.push(params.clone());
-                        DescriptorTarget::Buffer(params.raw)
-                    }
-                    None => continue,
-                },
+                BoundResource::Params => {
+                    let Some(params) = params else { continue };
+                    buffers.push(params.clone());
+                    DescriptorTarget::Buffer(params.raw)
+                }
                 BoundResource::Buffer(buffer) => {
                     let buffer = frame.buffer(*buffer);
                     buffers.push(buffer.clone());
@@ -273,7 +290,9 @@ fn view_shape(
         (Dimension::D2, true) if !deep => Ok(ViewShape::Layers),
         (Dimension::D3, false) if deep => Ok(ViewShape::Volume),
         (Dimension::Cube, false) if cubic && range.layers == 6 => Ok(ViewShape::Cube),
-        (Dimension::Cube, true) if !gpu.cube_arrays => Err(format!("`{name}`: this device has no arrays of cubes")),
+        (Dimension::Cube, true) if !gpu.features.cube_arrays() => {
+            Err(format!("`{name}`: this device has no arrays of cubes"))
+        }
         (Dimension::Cube, true) if cubic && range.layers.is_multiple_of(6) => Ok(ViewShape::Cubes),
         _ => Err(format!("`{name}` has another dimension than its image")),
     }

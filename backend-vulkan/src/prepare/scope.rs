@@ -1,4 +1,4 @@
-//! What a rendering scope records, and the objects that its passes need.
+//! What a rendering scope records.
 
 use super::descriptions::part;
 use super::frame::Frame;
@@ -15,11 +15,6 @@ use framewright_graph::frame::{EyeForm, Stereo};
 use framewright_graph::plan::{Attachment, ImageId, Plan, RenderScope};
 use framewright_graph::vulkan::{Aspects, LoadOp, Rotation, Subresources};
 use std::sync::Arc;
-
-/// A rendering scope's objects.
-pub(crate) struct PreparedScope {
-    pub(crate) passes: Vec<PreparedDraw>,
-}
 
 /// What a rendering scope records.
 pub(crate) struct ScopeCommands {
@@ -43,38 +38,42 @@ pub(crate) struct DrawTarget {
     pub(crate) eyes: Option<(Stereo, EyeForm)>,
 }
 
-impl PreparedScope {
-    /// The objects of `scope`; sets are made by [`PreparedScope::commands`].
-    pub(super) fn new(
-        gpu: &Arc<Gpu>,
-        plan: &Plan,
-        physical: &PhysicalResources,
-        scope: &RenderScope,
-        shaders: &mut ShaderLibrary,
-    ) -> Result<PreparedScope, Error> {
-        let mut passes = Vec::new();
-        for pass in &scope.passes {
-            passes.push(prepare_draw(gpu, plan, physical, scope, pass, shaders)?);
-        }
-        if passes.iter().any(|pass| pass.local.is_some()) {
-            // What a pass says of its attachments holds for the rest of the scope: the others set it back.
-            let straight: Vec<u32> = (0..).take(scope.color.len()).collect();
-            for pass in &mut passes {
-                let back = || LocalRead { locations: straight.clone(), inputs: straight.clone() };
-                pass.local.get_or_insert_with(back);
-            }
-        }
-        Ok(PreparedScope { passes })
+/// The objects of a rendering scope's passes.
+pub(super) fn prepare_scope(
+    gpu: &Arc<Gpu>,
+    plan: &Plan,
+    physical: &PhysicalResources,
+    scope: &RenderScope,
+    shaders: &mut ShaderLibrary,
+) -> Result<Vec<PreparedDraw>, Error> {
+    let mut passes = Vec::new();
+    for pass in &scope.passes {
+        passes.push(prepare_draw(gpu, plan, physical, scope, pass, shaders)?);
     }
+    if passes.iter().any(|pass| pass.local.is_some()) {
+        // What a pass says of its attachments holds for the rest of the scope: the others set it back.
+        let straight: Vec<u32> = (0..).take(scope.color.len()).collect();
+        for pass in &mut passes {
+            let back = || LocalRead { locations: straight.clone(), inputs: straight.clone() };
+            pass.local.get_or_insert_with(back);
+        }
+    }
+    Ok(passes)
+}
 
-    /// What the scope records in a frame.
-    pub(super) fn commands(&mut self, frame: &Frame<'_>, scope: &RenderScope) -> Result<ScopeCommands, Error> {
+impl ScopeCommands {
+    /// What a scope with the passes `made` records in a frame.
+    pub(super) fn new(
+        frame: &Frame<'_>,
+        scope: &RenderScope,
+        made: &mut [PreparedDraw],
+    ) -> Result<ScopeCommands, Error> {
         let plan = frame.plan;
         let info = |planned: &Attachment| attachment(frame, planned);
         let color = scope.color.iter().map(info).collect::<Result<Vec<_>, _>>()?;
         let (form, rotation) = (plan.eyes(scope), plan.rotation(scope));
         let [width, height, _] = EyeForm::extent(form, [scope.extent[0], scope.extent[1], 1], rotation);
-        let passes = self.passes.iter_mut().zip(&scope.passes).map(|(made, pass)| made.commands(frame, pass));
+        let passes = made.iter_mut().zip(&scope.passes).map(|(made, pass)| made.commands(frame, pass));
         Ok(ScopeCommands {
             color: or_unused(color.into_iter()),
             depth: scope.depth.as_ref().map(info).transpose()?,
@@ -85,11 +84,6 @@ impl PreparedScope {
             target: DrawTarget { extent: scope.extent, rotation, eyes: form.map(|form| (plan.stereo, form)) },
             passes: passes.collect::<Result<_, _>>()?,
         })
-    }
-
-    /// Forgets the sets.
-    pub(super) fn forget(&mut self) {
-        self.passes.iter_mut().for_each(|pass| pass.sets.forget());
     }
 }
 

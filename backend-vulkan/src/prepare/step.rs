@@ -3,10 +3,10 @@
 use super::descriptions::name_and_role;
 use super::frame::Frame;
 use super::history::RingCache;
-use super::pass::{DispatchCommands, PreparedDispatch, prepare_dispatch};
+use super::pass::{DispatchCommands, PreparedDispatch, PreparedDraw, prepare_dispatch};
 use super::physical::PhysicalResources;
 use super::poison::poisoned_barriers;
-use super::scope::{PreparedScope, ScopeCommands};
+use super::scope::{ScopeCommands, prepare_scope};
 use super::uses::touched;
 use crate::base::{Error, convert};
 use crate::commands::{Barriers, Command, memory_barrier};
@@ -28,8 +28,8 @@ pub(crate) struct PreparedStep {
 
 /// The objects of a step's work.
 pub(crate) enum PreparedWork {
-    /// Of a rendering scope.
-    Render(PreparedScope),
+    /// Of the passes of a rendering scope.
+    Render(Vec<PreparedDraw>),
     /// Of a dispatch.
     Dispatch(PreparedDispatch),
     /// Of anything else: none.
@@ -64,7 +64,7 @@ impl PreparedStep {
         shaders: &mut ShaderLibrary,
     ) -> Result<PreparedStep, Error> {
         let work = match &step.work {
-            Work::Render(scope) => PreparedWork::Render(PreparedScope::new(gpu, plan, physical, scope, shaders)?),
+            Work::Render(scope) => PreparedWork::Render(prepare_scope(gpu, plan, physical, scope, shaders)?),
             Work::Dispatch(pass) => PreparedWork::Dispatch(prepare_dispatch(gpu, plan, physical, pass, shaders)?),
             _ => PreparedWork::Plain,
         };
@@ -88,24 +88,18 @@ impl PreparedStep {
 
     /// Puts other parameters in place of those of the pass number `pass`. Nothing that was filled with them may be in use.
     pub(crate) fn take_params(&mut self, pass: usize, filled: Arc<RawBuffer>) {
-        let (template, sets) = match &mut self.work {
-            PreparedWork::Render(scope) => {
-                let pass = &mut scope.passes[pass];
-                (&mut pass.template, &mut pass.sets)
-            }
-            PreparedWork::Dispatch(pass) => (&mut pass.template, &mut pass.sets),
-            PreparedWork::Plain => return,
-        };
-        template.take(filled);
-        sets.forget();
-        self.commands.forget();
+        match &mut self.work {
+            PreparedWork::Render(passes) => passes[pass].sets.take(filled),
+            PreparedWork::Dispatch(pass) => pass.sets.take(filled),
+            PreparedWork::Plain => {}
+        }
     }
 
     /// Forgets sets and what is recorded.
     pub(super) fn forget(&mut self) {
         self.commands.forget();
         match &mut self.work {
-            PreparedWork::Render(scope) => scope.forget(),
+            PreparedWork::Render(passes) => passes.iter_mut().for_each(|pass| pass.sets.forget()),
             PreparedWork::Dispatch(pass) => pass.sets.forget(),
             PreparedWork::Plain => {}
         }
@@ -128,7 +122,9 @@ impl StepCommands {
         };
         before.extend(transfer(frame, &step.work));
         let work = match (&step.work, made) {
-            (Work::Render(scope), PreparedWork::Render(made)) => WorkCommands::Render(made.commands(frame, scope)?),
+            (Work::Render(scope), PreparedWork::Render(made)) => {
+                WorkCommands::Render(ScopeCommands::new(frame, scope, made)?)
+            }
             (Work::Dispatch(pass), PreparedWork::Dispatch(made)) => WorkCommands::Dispatch(made.commands(frame, pass)?),
             _ => WorkCommands::Plain,
         };

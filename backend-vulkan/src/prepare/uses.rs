@@ -1,6 +1,6 @@
 //! Where in a frame each image and buffer is used first and last.
 
-use framewright_graph::plan::{BufferId, ImageId, Pass, Plan, Resource, Step, StepId, Work};
+use framewright_graph::plan::{BufferId, ImageId, Pass, Plan, Resource, Side, Step, StepId, Subresources, Work};
 
 /// First and last step that touch an image or buffer, barriers included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,7 +52,7 @@ impl StepSpan {
     }
 }
 
-/// Calls `touch` for everything that a step touches.
+/// Calls `touch` for everything that a step touches, barriers included.
 pub(super) fn touched(step: &Step, touch: &mut impl FnMut(Resource)) {
     for barrier in step.image_barriers.iter().chain(&step.releases) {
         touch(Resource::Image(barrier.image));
@@ -60,27 +60,39 @@ pub(super) fn touched(step: &Step, touch: &mut impl FnMut(Resource)) {
     for hazard in step.memory_barriers.iter().flat_map(|it| &it.buffers) {
         touch(Resource::Buffer(hazard.buffer));
     }
-    match &step.work {
+    used(&step.work, &mut |resource, _| touch(resource));
+}
+
+/// Calls `touch` for everything that a step's work uses, of images with the part.
+pub(super) fn used(work: &Work, touch: &mut impl FnMut(Resource, Option<Subresources>)) {
+    match work {
         Work::Render(scope) => {
+            scope.passes.iter().for_each(|pass| accessed(pass, touch));
             for attachment in scope.color.iter().chain(&scope.depth).chain(&scope.stencil) {
-                touch(Resource::Image(attachment.image));
+                touch(Resource::Image(attachment.image), Some(attachment.range));
                 if let Some(resolve) = &attachment.resolve {
-                    touch(Resource::Image(resolve.image));
+                    touch(Resource::Image(resolve.image), Some(resolve.range));
                 }
             }
-            scope.passes.iter().for_each(|pass| accessed(pass, touch));
         }
         Work::Dispatch(pass) | Work::Custom(pass) => accessed(pass, touch),
         Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
-            touch(transfer.source.resource());
-            touch(transfer.target.resource());
+            transferred(&transfer.source, touch);
+            transferred(&transfer.target, touch);
         }
-        Work::Fill(fill) => touch(fill.target.resource()),
+        Work::Fill(fill) => transferred(&fill.target, touch),
         Work::Export => {}
     }
 }
 
-fn accessed(pass: &Pass, touch: &mut impl FnMut(Resource)) {
-    pass.accesses.iter().for_each(|access| touch(Resource::Image(access.image)));
-    pass.buffers.iter().for_each(|access| touch(Resource::Buffer(access.buffer)));
+fn accessed(pass: &Pass, touch: &mut impl FnMut(Resource, Option<Subresources>)) {
+    pass.accesses.iter().for_each(|access| touch(Resource::Image(access.image), Some(access.range)));
+    pass.buffers.iter().for_each(|access| touch(Resource::Buffer(access.buffer), None));
+}
+
+fn transferred(side: &Side, touch: &mut impl FnMut(Resource, Option<Subresources>)) {
+    match side {
+        Side::Image { image, range, .. } => touch(Resource::Image(*image), Some(*range)),
+        Side::Buffer { buffer, .. } => touch(Resource::Buffer(*buffer), None),
+    }
 }

@@ -5,7 +5,7 @@ use super::step::{Recording, tell_parts};
 use super::timing::Counts;
 use crate::base::Error;
 use crate::gpu::{Gpu, LocalRead};
-use crate::prepare::{DrawCommands, DrawTarget, PreparedDraw, PreparedScope, ScopeCommands};
+use crate::prepare::{DrawCommands, DrawTarget, PreparedDraw, ScopeCommands};
 use ash::vk;
 use framewright_graph::frame::Draw;
 use framewright_graph::plan::{Pass, RenderScope};
@@ -16,7 +16,7 @@ impl Recording<'_> {
         &mut self,
         commands: vk::CommandBuffer,
         plan: &RenderScope,
-        made: &PreparedScope,
+        made: &[PreparedDraw],
         scope: &ScopeCommands,
     ) -> Result<(), Error> {
         let gpu = self.frame.gpu;
@@ -34,7 +34,7 @@ impl Recording<'_> {
         // SAFETY: the command buffer is being recorded outside a scope; views and formats are those that the pipelines
         // were made for.
         unsafe { gpu.raw.cmd_begin_rendering(commands, &rendering) };
-        for ((plan, made), pass) in plan.passes.iter().zip(&made.passes).zip(&scope.passes) {
+        for ((plan, made), pass) in plan.passes.iter().zip(made).zip(&scope.passes) {
             let drawn = gpu.labelled(commands, &made.label, || {
                 if plan.local_barrier {
                     local_barrier(gpu, commands);
