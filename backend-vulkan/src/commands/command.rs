@@ -1,7 +1,7 @@
 //! Commands that were prepared.
 
 use super::barriers::Barriers;
-use super::transfer::{TransferSide, blit, copy_between, fill, resolve};
+use super::transfer::{ImageSide, TransferSide, blit, copy_between, fill, resolve};
 use crate::base::Clear;
 use crate::gpu::Gpu;
 use ash::vk;
@@ -10,8 +10,8 @@ use ash::vk;
 pub(crate) enum Command {
     Barriers(Barriers),
     Copy(TransferSide, TransferSide),
-    Resolve(TransferSide, TransferSide),
-    Blit(TransferSide, TransferSide, vk::Filter),
+    Resolve(ImageSide, ImageSide),
+    Blit(ImageSide, ImageSide, vk::Filter),
     Fill(TransferSide, Clear),
 }
 

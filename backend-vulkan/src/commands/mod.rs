@@ -14,5 +14,5 @@ pub(crate) use barriers::{Barriers, barriers, memory_barrier, memory_change, sta
 pub(crate) use command::Command;
 pub(crate) use readback::{Readback, first_plane, mip_extent, plane_bytes};
 pub(crate) use submit::{CommandPool, Commands, Timeline, record};
-pub(crate) use transfer::{TransferSide, copy_between, fill};
+pub(crate) use transfer::{ImageSide, TransferSide, copy_between, fill};
 pub(crate) use upload::{UNUSED, WRITTEN, image_side, record_upload, staged, write_buffer, write_image};

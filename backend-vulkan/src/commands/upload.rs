@@ -2,7 +2,7 @@
 
 use super::barriers::{barriers, memory_change, state_change};
 use super::readback::mip_extent;
-use super::transfer::{TransferSide, blit, copy_between};
+use super::transfer::{ImageSide, TransferSide, blit, copy_between};
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
 use crate::memory::{Image, MemoryUse, RawBuffer};
@@ -40,13 +40,11 @@ pub(crate) fn record_upload(gpu: &Gpu, commands: vk::CommandBuffer, image: &Imag
     let change = |range, from, to| barriers(gpu, commands, &[], &[state_change(image.raw, range, from, to)]);
     change(whole, UNUSED, MADE);
     let source = TransferSide::Buffer { buffer: staging.raw, bytes: staging.bytes };
-    copy_between(gpu, commands, source, image_side(image, level(0), 0));
+    copy_between(gpu, commands, source, TransferSide::Image(image_side(image, level(0), 0)));
     for smaller in 1..levels {
         change(level(smaller - 1), MADE, BLITTED);
-        let mut larger = image_side(image, level(smaller - 1), smaller - 1);
-        if let TransferSide::Image { layout, .. } = &mut larger {
-            *layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
-        }
+        let larger = image_side(image, level(smaller - 1), smaller - 1);
+        let larger = ImageSide { layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL, ..larger };
         blit(gpu, commands, larger, image_side(image, level(smaller), smaller), vk::Filter::LINEAR);
     }
     if levels > 1 {
@@ -56,8 +54,8 @@ pub(crate) fn record_upload(gpu: &Gpu, commands: vk::CommandBuffer, image: &Imag
 }
 
 /// Where a fill or copy goes in an image that is in the layout for it.
-pub(crate) fn image_side(image: &Image, range: Subresources, mip: u32) -> TransferSide {
-    TransferSide::Image {
+pub(crate) fn image_side(image: &Image, range: Subresources, mip: u32) -> ImageSide {
+    ImageSide {
         image: image.raw,
         range,
         extent: convert::extent(mip_extent(&image.descriptor, mip)),
@@ -80,7 +78,7 @@ pub(crate) fn write_image(
         barriers(gpu, commands, &[], &[state_change(image.raw, whole, state, WRITTEN)]);
         let range = Subresources { aspects: plane, base_mip: mip, mips: 1, ..whole };
         let source = TransferSide::Buffer { buffer: staging.raw, bytes: bytes.len() as u64 };
-        copy_between(gpu, commands, source, image_side(image, range, mip));
+        copy_between(gpu, commands, source, TransferSide::Image(image_side(image, range, mip)));
         barriers(gpu, commands, &[], &[state_change(image.raw, whole, WRITTEN, state)]);
     })
 }

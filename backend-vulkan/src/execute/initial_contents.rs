@@ -83,7 +83,12 @@ fn set_image(
     let mut state = UNUSED;
     if made.descriptor.usage.contains(Usage::TRANSFER_DST) {
         barriers(gpu, commands, &[], &[state_change(made.raw, whole, UNUSED, WRITTEN)]);
-        fill(gpu, commands, image_side(made, whole, 0), convert::clear(Some(image.format), initial));
+        fill(
+            gpu,
+            commands,
+            TransferSide::Image(image_side(made, whole, 0)),
+            convert::clear(Some(image.format), initial),
+        );
         state = WRITTEN;
     }
     barriers(gpu, commands, &[], &[state_change(made.raw, whole, state, before)]);

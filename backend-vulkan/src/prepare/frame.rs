@@ -3,7 +3,7 @@
 use super::descriptions::part;
 use super::physical::PhysicalResources;
 use crate::base::convert;
-use crate::commands::TransferSide;
+use crate::commands::{ImageSide, TransferSide};
 use crate::gpu::Gpu;
 use crate::memory::{Image, RawBuffer};
 use ash::vk;
@@ -59,7 +59,9 @@ impl Frame<'_> {
     /// A side of a transfer.
     pub(super) fn side(&self, side: &Side) -> TransferSide {
         match side {
-            Side::Image { image, range, extent, layout } => self.image_side(*image, *range, *extent, *layout),
+            Side::Image { image, range, extent, layout } => {
+                TransferSide::Image(self.image_side(*image, *range, *extent, *layout))
+            }
             Side::Buffer { buffer, bytes } => TransferSide::Buffer { buffer: self.buffer(*buffer).raw, bytes: *bytes },
         }
     }
@@ -71,9 +73,9 @@ impl Frame<'_> {
         range: Subresources,
         extent: [u32; 3],
         layout: Layout,
-    ) -> TransferSide {
+    ) -> ImageSide {
         let planned = self.plan.image(image);
-        TransferSide::Image {
+        ImageSide {
             image: self.image(image).raw,
             range: part(planned, range),
             extent: convert::extent(EyeForm::extent(planned.eyes, extent, planned.rotation)),

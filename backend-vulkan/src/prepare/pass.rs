@@ -2,7 +2,6 @@
 
 use super::frame::Frame;
 use super::pass_set::PassSets;
-use super::physical::PhysicalResources;
 use super::variant::{variant, view_mask};
 use crate::base::Error;
 use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants, c_string};
@@ -17,7 +16,6 @@ use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
 use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterfaces, ShaderProblem};
 use framewright_graph::vulkan::Accesses;
 use std::ffi::CString;
-use std::sync::Arc;
 
 /// The objects of a pass of a rendering scope.
 pub(crate) struct PreparedDraw {
@@ -148,13 +146,12 @@ fn indirect(plan: &Plan, pass: &plan::Pass, offset: u64, bytes: u64) -> Result<B
 }
 
 /// The objects of a dispatch.
-pub(crate) fn prepare_dispatch(
-    gpu: &Arc<Gpu>,
-    plan: &Plan,
-    physical: &PhysicalResources,
+pub(super) fn prepare_dispatch(
+    frame: &Frame<'_>,
     pass: &plan::Pass,
     shaders: &mut ShaderLibrary,
 ) -> Result<PreparedDispatch, Error> {
+    let (gpu, plan) = (frame.gpu, frame.plan);
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let shader = shaders
         .compute(&pass.shader, &variant(plan, pass, None)?)
@@ -165,7 +162,7 @@ pub(crate) fn prepare_dispatch(
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     check_workgroup(gpu, size).map_err(mismatch)?;
     groups(gpu, plan, pass, size).map_err(mismatch)?;
-    let sets = PassSets::new(gpu, plan, physical, pass, &shader.interface.bindings)?;
+    let sets = PassSets::new(frame, pass, &shader.interface.bindings)?;
     let layout = gpu.pipeline_layout(vec![sets.layout])?;
     let pipeline = gpu.compute_pipeline(&pass.name, shader.compute, layout)?;
     Ok(PreparedDispatch { sets, pipeline, layout, size })
@@ -192,14 +189,13 @@ fn groups(gpu: &Gpu, plan: &Plan, pass: &plan::Pass, size: [u32; 3]) -> Result<W
 }
 
 /// The objects of a pass of a rendering scope.
-pub(crate) fn prepare_draw(
-    gpu: &Arc<Gpu>,
-    plan: &Plan,
-    physical: &PhysicalResources,
+pub(super) fn prepare_draw(
+    frame: &Frame<'_>,
     scope: &RenderScope,
     pass: &plan::Pass,
     shaders: &mut ShaderLibrary,
 ) -> Result<PreparedDraw, Error> {
+    let (gpu, plan) = (frame.gpu, frame.plan);
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let draw = pass.draw.ok_or_else(|| mismatch("a rendering scope holds a dispatch".to_owned()))?;
     let (indices, wanted) = (buffers(pass, BufferRole::Index), buffers(pass, BufferRole::Vertex));
@@ -247,7 +243,7 @@ pub(crate) fn prepare_draw(
     };
     let vertices = if own_vertices { wanted } else { Vec::new() };
     check_reach(plan, draw, &vertices, &strides, indices).map_err(mismatch)?;
-    let sets = PassSets::new(gpu, plan, physical, pass, &shader.interface.bindings)?;
+    let sets = PassSets::new(frame, pass, &shader.interface.bindings)?;
     let supplied = supplied_layouts(gpu, &brought)?;
     let layout = gpu.pipeline_layout([sets.layout].into_iter().chain(supplied.iter().copied()).collect())?;
     let reads = |set| shader.interface.bindings.iter().any(|it| it.set == set);

@@ -3,7 +3,6 @@
 use super::descriptions::part;
 use super::frame::Frame;
 use super::history::RingCache;
-use super::physical::PhysicalResources;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, LayoutBinding};
 use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
@@ -42,13 +41,8 @@ impl PassSets {
     ///
     /// # Errors
     /// [`Error::Mismatch`] where the Plan and the shader don't name the same things.
-    pub(crate) fn new(
-        gpu: &Arc<Gpu>,
-        plan: &Plan,
-        physical: &PhysicalResources,
-        pass: &plan::Pass,
-        shader: &[shader::Binding],
-    ) -> Result<PassSets, Error> {
+    pub(super) fn new(frame: &Frame<'_>, pass: &plan::Pass, shader: &[shader::Binding]) -> Result<PassSets, Error> {
+        let (gpu, plan) = (frame.gpu, frame.plan);
         let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
         let own = || shader.iter().filter(|it| it.set == PASS_SET);
         let images = pass.accesses.iter().filter_map(|it| it.binding.as_ref()).map(|it| &it.name);
@@ -83,7 +77,7 @@ impl PassSets {
             BoundResource::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
             BoundResource::Image { image, .. } => Some(Resource::Image(*image)),
         });
-        let made = RingCache::new(physical.period(resources));
+        let made = RingCache::new(frame.physical.period(resources));
         Ok(PassSets { layout, bindings, params, made })
     }
 

@@ -10,7 +10,7 @@
 
 use super::frame::Frame;
 use crate::base::{Clear, convert};
-use crate::commands::{Barriers, Command, TransferSide, memory_barrier};
+use crate::commands::{Barriers, Command, ImageSide, TransferSide, memory_barrier};
 use ash::vk;
 use framewright_graph::plan::{Buffer, ImageBarrier, Resource, Role, Step, Work};
 use framewright_graph::vulkan::{Aspects, Format, Layout, Numeric};
@@ -52,12 +52,8 @@ pub(super) fn poisoned_barriers(frame: &Frame<'_>, index: usize, step: &Step) ->
     let barriers = |memory, images| Command::Barriers(Barriers::new(frame.gpu, memory, images));
     let mut commands = vec![barriers(memory.collect(), before.collect())];
     commands.extend(images.iter().map(|barrier| {
-        let place = TransferSide::Image {
-            image: frame.image(barrier.image).raw,
-            range: barrier.range,
-            extent: vk::Extent3D::default(),
-            layout: CLEAR_LAYOUT,
-        };
+        let (image, range, extent) = (frame.image(barrier.image).raw, barrier.range, vk::Extent3D::default());
+        let place = TransferSide::Image(ImageSide { image, range, extent, layout: CLEAR_LAYOUT });
         Command::Fill(place, pattern(frame.plan.image(barrier.image).format))
     }));
     let first_uses: Vec<_> = buffers.iter().map(|buffer| first_use(step, buffer)).collect();

@@ -27,10 +27,9 @@ impl PreparedPlan {
         poison: bool,
     ) -> Result<PreparedPlan, Error> {
         let physical = PhysicalResources::new(gpu, plan)?;
-        let mut steps = Vec::new();
-        for step in plan.steps.iter().enumerate() {
-            steps.push(PreparedStep::new(gpu, plan, &physical, step, shaders)?);
-        }
+        let frame = Frame { gpu, plan, physical: &physical, number: 0 };
+        let steps = plan.steps.iter().enumerate().map(|step| PreparedStep::new(&frame, step, shaders));
+        let steps = steps.collect::<Result<_, _>>()?;
         let mut prepared = PreparedPlan { physical, steps, poison };
         prepared.prepare_frame(gpu, plan, 0)?;
         Ok(prepared)

@@ -3,18 +3,16 @@
 use super::descriptions::part;
 use super::frame::Frame;
 use super::pass::{DrawCommands, PreparedDraw, prepare_draw};
-use super::physical::PhysicalResources;
 use super::variant::view_mask;
 use crate::base::{Error, convert};
-use crate::gpu::{Gpu, LocalRead};
+use crate::gpu::LocalRead;
 use crate::memory::ViewShape;
 use crate::pipeline::or_unused;
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::{EyeForm, Stereo};
-use framewright_graph::plan::{Attachment, ImageId, Plan, RenderScope};
+use framewright_graph::plan::{Attachment, ImageId, RenderScope};
 use framewright_graph::vulkan::{Aspects, LoadOp, Rotation, Subresources};
-use std::sync::Arc;
 
 /// What a rendering scope records.
 pub(crate) struct ScopeCommands {
@@ -40,16 +38,12 @@ pub(crate) struct DrawTarget {
 
 /// The objects of a rendering scope's passes.
 pub(super) fn prepare_scope(
-    gpu: &Arc<Gpu>,
-    plan: &Plan,
-    physical: &PhysicalResources,
+    frame: &Frame<'_>,
     scope: &RenderScope,
     shaders: &mut ShaderLibrary,
 ) -> Result<Vec<PreparedDraw>, Error> {
-    let mut passes = Vec::new();
-    for pass in &scope.passes {
-        passes.push(prepare_draw(gpu, plan, physical, scope, pass, shaders)?);
-    }
+    let passes = scope.passes.iter().map(|pass| prepare_draw(frame, scope, pass, shaders));
+    let mut passes = passes.collect::<Result<Vec<_>, _>>()?;
     if passes.iter().any(|pass| pass.local.is_some()) {
         // What a pass says of its attachments holds for the rest of the scope: the others set it back.
         let straight: Vec<u32> = (0..).take(scope.color.len()).collect();

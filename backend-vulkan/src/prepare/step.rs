@@ -4,16 +4,15 @@ use super::descriptions::name_and_role;
 use super::frame::Frame;
 use super::history::RingCache;
 use super::pass::{DispatchCommands, PreparedDispatch, PreparedDraw, prepare_dispatch};
-use super::physical::PhysicalResources;
 use super::poison::poisoned_barriers;
 use super::scope::{ScopeCommands, prepare_scope};
 use super::uses::touched;
 use crate::base::{Error, convert};
-use crate::commands::{Barriers, Command, memory_barrier};
-use crate::gpu::{Gpu, c_string};
+use crate::commands::{Barriers, Command, TransferSide, memory_barrier};
+use crate::gpu::c_string;
 use crate::memory::RawBuffer;
 use crate::shaders::ShaderLibrary;
-use framewright_graph::plan::{Plan, Resource, Step, Work};
+use framewright_graph::plan::{Plan, Resource, Step, Transfer, Work};
 use framewright_graph::vulkan::Filter;
 use std::ffi::CString;
 use std::sync::Arc;
@@ -57,21 +56,19 @@ pub(crate) enum WorkCommands {
 impl PreparedStep {
     /// The objects of the step number `index`, as far as they are the same in all frames.
     pub(super) fn new(
-        gpu: &Arc<Gpu>,
-        plan: &Plan,
-        physical: &PhysicalResources,
+        frame: &Frame<'_>,
         (index, step): (usize, &Step),
         shaders: &mut ShaderLibrary,
     ) -> Result<PreparedStep, Error> {
         let work = match &step.work {
-            Work::Render(scope) => PreparedWork::Render(prepare_scope(gpu, plan, physical, scope, shaders)?),
-            Work::Dispatch(pass) => PreparedWork::Dispatch(prepare_dispatch(gpu, plan, physical, pass, shaders)?),
+            Work::Render(scope) => PreparedWork::Render(prepare_scope(frame, scope, shaders)?),
+            Work::Dispatch(pass) => PreparedWork::Dispatch(prepare_dispatch(frame, pass, shaders)?),
             _ => PreparedWork::Plain,
         };
         let mut resources = Vec::new();
         touched(step, &mut |resource| resources.push(resource));
-        let label = c_string(&format!("step {index}: {}", title(plan, step)));
-        Ok(PreparedStep { label, work, commands: RingCache::new(physical.period(resources)) })
+        let label = c_string(&format!("step {index}: {}", title(frame.plan, step)));
+        Ok(PreparedStep { label, work, commands: RingCache::new(frame.physical.period(resources)) })
     }
 
     /// Makes what the step number `index` records in a frame, unless it is there.
@@ -135,12 +132,16 @@ impl StepCommands {
 
 /// The transfer that a step is, if it is one.
 fn transfer(frame: &Frame<'_>, work: &Work) -> Option<Command> {
+    let images = |it: &Transfer| match (frame.side(&it.source), frame.side(&it.target)) {
+        (TransferSide::Image(source), TransferSide::Image(target)) => Some((source, target)),
+        _ => None,
+    };
     Some(match work {
-        Work::Resolve(it) => Command::Resolve(frame.side(&it.source), frame.side(&it.target)),
+        Work::Resolve(it) => images(it).map(|(source, target)| Command::Resolve(source, target))?,
         Work::Copy(it) => Command::Copy(frame.side(&it.source), frame.side(&it.target)),
         Work::Blit(it) => {
             let filter = convert::filter(it.filter.unwrap_or(Filter::Nearest));
-            Command::Blit(frame.side(&it.source), frame.side(&it.target), filter)
+            images(it).map(|(source, target)| Command::Blit(source, target, filter))?
         }
         Work::Fill(fill) => {
             let format = match fill.target.resource() {

@@ -190,7 +190,8 @@ impl<'f> CustomRecorder<'f> {
     fn side(&self, named: &NamedResource<'_>) -> TransferSide {
         match named {
             NamedResource::Image(access) => {
-                self.frame.image_side(access.image, access.range, self.extent(access), access.layout)
+                let extent = self.extent(access);
+                TransferSide::Image(self.frame.image_side(access.image, access.range, extent, access.layout))
             }
             NamedResource::Buffer(access) => {
                 let bytes = self.frame.plan.buffers[access.buffer.0 as usize].bytes;
