@@ -60,7 +60,7 @@ impl Executor {
                 }
                 (Work::Dispatch(old), Work::Dispatch(new), PreparedWork::Dispatch(made)) => {
                     params(0, old, new, &made.sets)?;
-                    made.groups(&self.gpu, plan, new)?;
+                    made.groups(&self.gpu, new)?;
                 }
                 _ => {}
             }

@@ -1,6 +1,5 @@
 //! Whether a device can do what a step does.
 
-use super::descriptions::part;
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
 use ash::vk;
@@ -37,8 +36,7 @@ pub(crate) fn executable(gpu: &Gpu, plan: &Plan, step: &Step) -> Result<(), Erro
         Work::Render(scope) => renderable(gpu, plan, scope),
         Work::Dispatch(pass) => filtered(gpu, plan, pass),
         Work::Blit(transfer) => blitted(gpu, plan, transfer),
-        Work::Copy(transfer) => sized(plan, &transfer.source, &transfer.target),
-        Work::Custom(_) | Work::Resolve(_) | Work::Fill(_) | Work::Export => Ok(()),
+        Work::Copy(_) | Work::Custom(_) | Work::Resolve(_) | Work::Fill(_) | Work::Export => Ok(()),
     }
 }
 
@@ -141,23 +139,6 @@ fn blitted(gpu: &Gpu, plan: &Plan, transfer: &Transfer) -> Result<(), Error> {
     lacks(gpu, plan, *target, vk::FormatFeatureFlags::BLIT_DST, "blit to")?;
     if transfer.filter == Some(Filter::Linear) {
         lacks(gpu, plan, *source, vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR, "filter")?;
-    }
-    Ok(())
-}
-
-/// Whether a buffer beside an image holds the texels.
-fn sized(plan: &Plan, source: &Side, target: &Side) -> Result<(), Error> {
-    let (image, range, extent, bytes) = match (source, target) {
-        (Side::Image { image, range, extent, .. }, Side::Buffer { bytes, .. })
-        | (Side::Buffer { bytes, .. }, Side::Image { image, range, extent, .. }) => (image, range, extent, bytes),
-        _ => return Ok(()),
-    };
-    let image = plan.image(*image);
-    let layers = part(image, *range).layers;
-    let texels = extent.iter().fold(u64::from(layers), |all, side| all.saturating_mul(u64::from(*side)));
-    let needed = texels.saturating_mul(crate::commands::plane_bytes(image.format, range.aspects));
-    if needed > *bytes {
-        return bad(format!("the texels of `{}` take {needed} bytes, and {bytes} are copied", image.name));
     }
     Ok(())
 }

@@ -86,13 +86,8 @@ pub(crate) fn initial_queue(plan: &Plan, uses: &ResourceUses, resource: Resource
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_graph::plan::{
-        Access, Cause, DeviceUsed, Hazard, Image, Initial, Pass, Step, StepId, Totals, Work,
-    };
-    use framewright_graph::vulkan::Format;
-    use framewright_graph::vulkan::Rotation;
-    use framewright_graph::vulkan::Shape;
-    use framewright_graph::vulkan::{Accesses, FillValue, Stages, State, Usage};
+    use framewright_graph::plan::{Cause, DeviceUsed, Fill, Hazard, Image, Initial, Side, Step, StepId, Totals, Work};
+    use framewright_graph::vulkan::{Accesses, FillValue, Format, Rotation, Shape, Stages, State, Usage};
 
     const FORMAT: Format = Format::R32_UINT;
     const LAYOUT: Layout = Layout::General;
@@ -145,38 +140,12 @@ mod tests {
         Subresources { base_mip: level, mips: 1, ..Subresources::all(FORMAT, 2, 1) }
     }
 
-    /// A dispatch on a queue that touches a mip level, after these barriers.
+    /// A fill on a queue that touches a mip level, after these barriers.
     fn step(queue: Queue, level: u32, image_barriers: Vec<ImageBarrier>) -> Step {
-        let access = Access {
-            image: ImageId(0),
-            range: mip(level),
-            eye: None,
-            stages: Stages::COMPUTE_SHADER,
-            accesses: Accesses::SHADER_STORAGE_READ,
-            layout: LAYOUT,
-            binding: None,
-        };
-        let pass = Pass {
-            name: "p".into(),
-            cause: Cause::Written(None),
-            view: None,
-            draw: None,
-            groups: None,
-            shader: "p".into(),
-            redraws: None,
-            discards: false,
-            alpha_to_coverage: false,
-            blend: Vec::new(),
-            depth: None,
-            stencil: None,
-            params: Vec::new(),
-            accesses: vec![access],
-            buffers: Vec::new(),
-            local_barrier: false,
-            merged: None,
-        };
+        let target = Side::Image { image: ImageId(0), range: mip(level), extent: [1; 3], layout: LAYOUT };
+        let work = Work::Fill(Fill { name: None, cause: Cause::Written(None), target, value: FillValue::Bits([0; 4]) });
         let (waits, memory_barriers, releases) = (Vec::new(), Vec::new(), Vec::new());
-        Step { queue, waits, memory_barriers, image_barriers, work: Work::Dispatch(pass), releases }
+        Step { queue, waits, memory_barriers, image_barriers, work, releases }
     }
 
     fn barrier(level: u32, old_layout: Layout, ownership: Option<[Queue; 2]>) -> ImageBarrier {

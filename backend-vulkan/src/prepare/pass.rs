@@ -109,7 +109,7 @@ impl PreparedDraw {
 impl PreparedDispatch {
     /// What the dispatch records in a frame.
     pub(super) fn commands(&mut self, frame: &Frame<'_>, pass: &plan::Pass) -> Result<DispatchCommands, Error> {
-        let groups = match self.groups(frame.gpu, frame.plan, pass)? {
+        let groups = match self.groups(frame.gpu, pass)? {
             WorkgroupCount::Direct(count) => WorkgroupCount::Direct(count),
             WorkgroupCount::Indirect(buffer, offset) => WorkgroupCount::Indirect(frame.buffer(buffer).raw, offset),
         };
@@ -118,8 +118,24 @@ impl PreparedDispatch {
     }
 
     /// How many workgroups it takes.
-    pub(crate) fn groups(&self, gpu: &Gpu, plan: &Plan, pass: &plan::Pass) -> Result<WorkgroupCount<BufferId>, Error> {
-        groups(gpu, plan, pass, self.size).map_err(|what| Error::Mismatch { pass: pass.name.to_string(), what })
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] if they are too many, or nothing says how many they are.
+    pub(crate) fn groups(&self, gpu: &Gpu, pass: &plan::Pass) -> Result<WorkgroupCount<BufferId>, Error> {
+        let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
+        let count = match pass.groups {
+            None => return Err(mismatch("a dispatch doesn't say how many workgroups".to_owned())),
+            Some(Groups::Count(count)) => count,
+            Some(Groups::Invocations(wanted)) => [0, 1, 2].map(|axis| wanted[axis].div_ceil(self.size[axis].max(1))),
+            Some(Groups::Indirect { offset }) => {
+                return Ok(WorkgroupCount::Indirect(indirect(pass).map_err(mismatch)?, offset));
+            }
+        };
+        let most = gpu.limits.max_compute_work_group_count;
+        if count.iter().zip(most).any(|(count, most)| *count > most) {
+            return Err(mismatch(format!("{count:?} workgroups are more than the {most:?} of this device")));
+        }
+        Ok(WorkgroupCount::Direct(count))
     }
 }
 
@@ -133,16 +149,9 @@ fn buffers(pass: &plan::Pass, role: BufferRole) -> Vec<BufferId> {
     pass.buffers.iter().filter(|it| it.role == Some(role)).map(|it| it.buffer).collect()
 }
 
-/// The one buffer that tells counts, which must hold `bytes` bytes from `offset` on.
-fn indirect(plan: &Plan, pass: &plan::Pass, offset: u64, bytes: u64) -> Result<BufferId, String> {
-    let [buffer] = buffers(pass, BufferRole::Indirect)[..] else {
-        return Err("its counts must stand in one buffer".to_owned());
-    };
-    let held = plan.buffers[buffer.0 as usize].bytes;
-    if !offset.is_multiple_of(4) || offset.checked_add(bytes).is_none_or(|end| end > held) {
-        return Err(format!("its counts must stand at a multiple of 4, and {bytes} bytes from {offset} of {held} on"));
-    }
-    Ok(buffer)
+/// The one buffer that tells counts, of which the checker has found that it holds them.
+fn indirect(pass: &plan::Pass) -> Result<BufferId, String> {
+    buffers(pass, BufferRole::Indirect).first().copied().ok_or_else(|| "no buffer tells its counts".to_owned())
 }
 
 /// The objects of a dispatch.
@@ -161,31 +170,10 @@ pub(super) fn prepare_dispatch(
     check_supplied(&shader.interface, &nothing).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     check_workgroup(gpu, size).map_err(mismatch)?;
-    groups(gpu, plan, pass, size).map_err(mismatch)?;
     let sets = PassSets::new(frame, pass, &shader.interface.bindings)?;
     let layout = gpu.pipeline_layout(vec![sets.layout])?;
     let pipeline = gpu.compute_pipeline(&pass.name, shader.compute, layout)?;
     Ok(PreparedDispatch { sets, pipeline, layout, size })
-}
-
-/// How many workgroups of `size` invocations a dispatch takes.
-///
-/// # Errors
-/// In words: if they are too many, or nothing says how many they are.
-fn groups(gpu: &Gpu, plan: &Plan, pass: &plan::Pass, size: [u32; 3]) -> Result<WorkgroupCount<BufferId>, String> {
-    let count = match pass.groups {
-        None => return Err("a dispatch doesn't say how many workgroups".to_owned()),
-        Some(Groups::Count(count)) => count,
-        Some(Groups::Invocations(wanted)) => [0, 1, 2].map(|axis| wanted[axis].div_ceil(size[axis].max(1))),
-        Some(Groups::Indirect { offset }) => {
-            return Ok(WorkgroupCount::Indirect(indirect(plan, pass, offset, 12)?, offset));
-        }
-    };
-    let most = gpu.limits.max_compute_work_group_count;
-    if count.iter().zip(most).any(|(count, most)| *count > most) {
-        return Err(format!("{count:?} workgroups are more than the {most:?} of this device"));
-    }
-    Ok(WorkgroupCount::Direct(count))
 }
 
 /// The objects of a pass of a rendering scope.
@@ -205,7 +193,7 @@ pub(super) fn prepare_draw(
         _ => return Err(mismatch("it has several index buffers".to_owned())),
     };
     let indirect = match draw {
-        Draw::Indirect => Some(indirect(plan, pass, 0, if indices.is_some() { 20 } else { 16 }).map_err(mismatch)?),
+        Draw::Indirect => Some(indirect(pass).map_err(mismatch)?),
         _ => None,
     };
     let nothing = |sets| PreparedDraw {
@@ -242,7 +230,9 @@ pub(super) fn prepare_draw(
         (attributes, strides)
     };
     let vertices = if own_vertices { wanted } else { Vec::new() };
-    check_reach(plan, draw, &vertices, &strides, indices).map_err(mismatch)?;
+    if indices.is_none() {
+        check_reach(plan, draw, &vertices, &strides).map_err(mismatch)?;
+    }
     let sets = PassSets::new(frame, pass, &shader.interface.bindings)?;
     let supplied = supplied_layouts(gpu, &brought)?;
     let layout = gpu.pipeline_layout([sets.layout].into_iter().chain(supplied.iter().copied()).collect())?;
@@ -346,25 +336,15 @@ fn fill_gaps(numbers: &mut [u32]) {
     }
 }
 
-/// A draw's vertices and indices must lie within its buffers.
-fn check_reach(
-    plan: &Plan,
-    draw: Draw,
-    vertices: &[BufferId],
-    strides: &[u32],
-    indices: Option<BufferId>,
-) -> Result<(), String> {
+/// A draw's vertices must lie within its buffers. Of indices the checker says so; what they point to is known to the device
+/// alone, which keeps within the buffers.
+fn check_reach(plan: &Plan, draw: Draw, vertices: &[BufferId], strides: &[u32]) -> Result<(), String> {
     let Draw::Vertices { count, .. } = draw else { return Ok(()) };
-    let reaches = |buffer: BufferId, each: u32| {
+    vertices.iter().zip(strides).try_for_each(|(buffer, stride)| {
         let buffer = &plan.buffers[buffer.0 as usize];
-        if u64::from(count) * u64::from(each) <= buffer.bytes {
+        if u64::from(count) * u64::from(*stride) <= buffer.bytes {
             return Ok(());
         }
-        Err(format!("{count} of {each} bytes each are more than `{}` holds: {} bytes", buffer.name, buffer.bytes))
-    };
-    match indices {
-        // What indices point to is known to the device alone, which keeps within the buffers.
-        Some(indices) => reaches(indices, 4),
-        None => vertices.iter().zip(strides).try_for_each(|(buffer, stride)| reaches(*buffer, *stride)),
-    }
+        Err(format!("{count} of {stride} bytes each are more than `{}` holds: {} bytes", buffer.name, buffer.bytes))
+    })
 }

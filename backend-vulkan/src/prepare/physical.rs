@@ -116,9 +116,6 @@ fn heaps(gpu: &Arc<Gpu>, plan: &Plan) -> Result<Vec<Arc<MemoryBlock>>, Error> {
             memory_type_bits: heap.type_bits & lazy,
         };
         let of_buffers = plan.buffers.iter().any(|buffer| placed(index, &buffer.role));
-        if of_buffers && plan.images.iter().any(|image| placed(index, &image.role)) {
-            return Err(Error::BadPlan { what: format!("heap {index} holds images and buffers") });
-        }
         let kind = if of_buffers { MemoryUse::Buffers } else { MemoryUse::Images };
         let memory = MemoryBlock::new(gpu, &format!("heap {index}"), requirements, kind);
         heaps.push(Arc::new(memory.map_err(|error| with_parts(error, plan, index))?));

@@ -93,11 +93,16 @@ impl<'f> CustomRecorder<'f> {
     }
 
     fn named(&self, accesses: Accesses) -> impl Iterator<Item = &str> {
-        let images = self.pass.accesses.iter().filter(move |it| it.accesses.contains(accesses));
-        let buffers = self.pass.buffers.iter().filter(move |it| it.accesses.contains(accesses));
-        let plan = self.frame.plan;
-        let images = images.map(|it| &*plan.image(it.image).name);
-        images.chain(buffers.map(|it| &*plan.buffers[it.buffer.0 as usize].name))
+        self.resources().filter(move |(_, it, _)| it.contains(accesses)).map(|(name, ..)| name)
+    }
+
+    /// The images, then the buffers of the pass, by the Plan's names, with what it may do with each.
+    fn resources(&self) -> impl Iterator<Item = (&'f str, Accesses, NamedResource<'f>)> + use<'f> {
+        let (plan, pass) = (self.frame.plan, self.pass);
+        let image = |it: &'f Access| (&*plan.image(it.image).name, it.accesses, NamedResource::Image(it));
+        let buffer =
+            |it: &'f BufferAccess| (&*plan.buffers[it.buffer.0 as usize].name, it.accesses, NamedResource::Buffer(it));
+        pass.accesses.iter().map(image).chain(pass.buffers.iter().map(buffer))
     }
 
     /// Sets all that the pass may write of an image or buffer to a value.
@@ -168,12 +173,7 @@ impl<'f> CustomRecorder<'f> {
         if self.misuse.is_some() {
             return None;
         }
-        let (plan, pass) = (self.frame.plan, self.pass);
-        let image = |it: &&Access| *plan.image(it.image).name == *name && it.accesses.contains(accesses);
-        let buffer =
-            |it: &&BufferAccess| *plan.buffers[it.buffer.0 as usize].name == *name && it.accesses.contains(accesses);
-        let image = pass.accesses.iter().find(image).map(NamedResource::Image);
-        let found = image.or_else(|| pass.buffers.iter().find(buffer).map(NamedResource::Buffer));
+        let found = self.resources().find(|(known, it, _)| *known == name && it.contains(accesses)).map(|it| it.2);
         if found.is_none() {
             let verb = if accesses == Accesses::TRANSFER_READ { "reads" } else { "writes" };
             self.misused(|| format!("the pass {verb} no `{name}` by transfer"));
@@ -232,17 +232,8 @@ impl<'f> CustomRecorder<'f> {
     /// How many commands were recorded, or the first misuse. To record nothing is one where the pass writes: those who read
     /// that would read what the memory held before.
     pub(crate) fn finish(self) -> Result<u32, String> {
-        let unwritten = self.written().filter(|_| self.recorded == 0);
-        let unwritten = unwritten.map(|name| format!("nothing was recorded, and the pass writes `{name}`"));
+        let unwritten = self.resources().find(|(_, it, _)| self.recorded == 0 && !it.writes().is_empty());
+        let unwritten = unwritten.map(|(name, ..)| format!("nothing was recorded, and the pass writes `{name}`"));
         self.misuse.or(unwritten).map_or(Ok(self.recorded), Err)
-    }
-
-    /// The first image or buffer that the pass writes.
-    fn written(&self) -> Option<&str> {
-        let (plan, pass) = (self.frame.plan, self.pass);
-        let image = pass.accesses.iter().find(|it| !it.accesses.writes().is_empty());
-        let buffer = pass.buffers.iter().find(|it| !it.accesses.writes().is_empty());
-        let image = image.map(|it| &*plan.image(it.image).name);
-        image.or_else(|| buffer.map(|it| &*plan.buffers[it.buffer.0 as usize].name))
     }
 }
