@@ -48,7 +48,7 @@ mod record;
 mod resources;
 pub mod shaders;
 
-/// Vulkan's own types, for programs that record commands of their own or hand in images and buffers.
+/// Vulkan's own types, for programs that record commands of their own or import images and buffers.
 pub use ash;
 pub use base::{Blame, Error, INSTALL, end_process};
 pub use commands::Texels;

@@ -26,13 +26,13 @@ pub struct ExecutorOptions {
     /// How many frames may be on their way before [`Executor::submit`] waits for the oldest; 0 counts as 1.
     pub frames_in_flight: u32,
     /// Whether each frame copies its outputs to the host (colour or depth of the first mip level), for
-    /// [`Executor::kept_image`] and [`Executor::kept_buffer`].
-    pub keep_outputs: bool,
+    /// [`Executor::read_back_image`] and [`Executor::read_back_buffer`].
+    pub readback: bool,
 }
 
 impl Default for ExecutorOptions {
     fn default() -> Self {
-        ExecutorOptions { poison: false, timeout: Duration::from_secs(120), frames_in_flight: 1, keep_outputs: false }
+        ExecutorOptions { poison: false, timeout: Duration::from_secs(120), frames_in_flight: 1, readback: false }
     }
 }
 
@@ -116,7 +116,7 @@ impl Executor {
         let imports = Import::all(plan, &uses);
         Ok(Executor {
             gpu: gpu.clone(),
-            readbacks: if options.keep_outputs { OutputReadback::all(plan, &uses)? } else { Vec::new() },
+            readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options.frames_in_flight, options.timeout)?,
             prepared: PreparedPlan::new(gpu, plan, shaders, options.poison)?,
             plan: plan.clone(),

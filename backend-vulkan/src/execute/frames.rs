@@ -220,7 +220,7 @@ impl Frames {
     }
 
     /// What was kept of an output of a frame that was waited for.
-    pub(crate) fn kept(&self, frame: u64, output: usize) -> Option<&Readback> {
+    pub(crate) fn readback(&self, frame: u64, output: usize) -> Option<&Readback> {
         let slot = &self.slots[self.slot_of(frame)];
         if slot.frame == Some(frame) { slot.outputs.get(output) } else { None }
     }

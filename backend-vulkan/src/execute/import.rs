@@ -45,7 +45,7 @@ impl Import {
     }
 
     /// Records it before the first step that touches it. Nothing is to be done in the first frame, for what the program
-    /// hands in itself, and where the Plan's own barrier waits for all that the frame before left open.
+    /// imports itself, and where the Plan's own barrier waits for all that the frame before left open.
     pub(crate) fn record(&self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
         let Import { before, after, .. } = *self;
         if frame.number == 0 || !self.is_own(frame.physical) || before == after {

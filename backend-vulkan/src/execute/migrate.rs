@@ -27,7 +27,7 @@ impl Executor {
     /// # Errors
     /// [`Error::BadResource`] if this executor has begun already, or is of another device; [`Error::DeviceLost`],
     /// [`Error::Timeout`].
-    pub fn carry_over(&mut self, mut before: Executor) -> Result<Vec<String>, Error> {
+    pub fn migrate_from(&mut self, mut before: Executor) -> Result<Vec<String>, Error> {
         let bad = |what: &str| Err(Error::BadResource { what: format!("nothing can be carried over: {what}") });
         if self.frames.next() > 0 || self.initialised {
             return bad("the executor has begun already");

@@ -42,7 +42,7 @@ impl PreparedPlan {
         steps.try_for_each(|(step, made)| made.prepare(&frame, step, self.poison))
     }
 
-    /// Forgets all sets and what is recorded, since another image or buffer was handed in. Nothing may be in flight.
+    /// Forgets all sets and what is recorded, since another image or buffer was imported. Nothing may be in flight.
     pub(crate) fn forget(&mut self) {
         self.steps.iter_mut().for_each(PreparedStep::forget);
     }

@@ -57,7 +57,7 @@ fn frame_after_frame_takes_no_more_memory() {
         assert_eq!((nothing.allocations, nothing.bytes), (0, 0));
         let plan = planned(device, &busy(), &Options { poison: true, ..Options::default() });
         let options =
-            ExecutorOptions { poison: true, frames_in_flight: 2, keep_outputs: true, ..ExecutorOptions::default() };
+            ExecutorOptions { poison: true, frames_in_flight: 2, readback: true, ..ExecutorOptions::default() };
         let mut executor = executor(device, &plan, &options);
         let mut run = |frames: u32| -> MemoryInUse {
             for _ in 0..frames {
