@@ -4,6 +4,7 @@
 //! allocators of their own, which nobody counts.
 
 use crate::frames::{Small, Uses, copy, dispatch, draw, on_each_driver, planned, transfer};
+use crate::testing::{OVER_ALL, WHITE};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, DrawList, Frame, Groups, Image, Lifetime, Resource, Work};
 use framewright_graph::plan;
@@ -19,23 +20,14 @@ const FORMAT: Format = Format::R8G8B8A8_UNORM;
 const FRAMES: u64 = 6;
 
 const SHADERS: &[(&str, &str)] = &[
-    (
-        "full_screen.vert",
-        "#version 460
-        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
-    ),
+    ("full_screen.vert", OVER_ALL),
     (
         "objects.vert",
         "#version 460
         layout(set = 1, binding = 0) uniform View { vec4 shift; } view;
         void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) + view.shift.xy, 0.0, 1.0); }",
     ),
-    (
-        "white.frag",
-        "#version 460
-        layout(location = 0) out vec4 color;
-        void main() { color = vec4(1.0); }",
-    ),
+    ("white.frag", WHITE),
     (
         "blend.frag",
         "#version 460

@@ -1,6 +1,7 @@
 //! Memory over time: what a frame takes the next one takes again, and everything is given back.
 
-use crate::frames::{Nothing, Small, Uses, copy, dispatch, draw, frame, library, on_each_driver, planned, words};
+use crate::frames::{Small, Uses, copy, dispatch, draw, frame, library, on_each_driver, planned, words};
+use crate::testing::Nothing;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime, Resource};
 use framewright_graph::plan::{Plan, Role, Work};

@@ -1,9 +1,10 @@
 //! What outlives the frame: history, what persists, several frames on their way, and another size.
 
 use crate::frames::{
-    Nothing, Small, Uses, copy, dispatch, draw, everywhere, frame, library, on_each_driver, planned, texels, to_bytes,
-    to_words, words,
+    Small, Uses, copy, dispatch, draw, everywhere, frame, library, on_each_driver, planned, texels, to_bytes, to_words,
+    words,
 };
+use crate::testing::Nothing;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{BufferIndex, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Resource};
 use framewright_graph::vulkan::{FillValue, Format, Subresources};
