@@ -256,7 +256,7 @@ impl Executor {
     /// The queue that has it between frames; `None` while it is handed over, and if no step touches it the first.
     pub(crate) fn owner(&self, resource: Resource) -> Option<Queue> {
         let Some(span) = self.uses.of(resource) else { return Some(Queue::Graphics) };
-        let step = &self.plan.steps[span.last];
+        let step = &self.plan.steps[span.last.0 as usize];
         let released = step.releases.iter().any(|barrier| Resource::Image(barrier.image) == resource);
         (!released).then_some(step.queue)
     }

@@ -278,9 +278,8 @@ impl FrameSlot {
                         import.record(frame, commands);
                     }
                     recording.step(commands, &frame.plan.steps[step], &steps[step])?;
-                    for (readback, into) in
-                        extras.readbacks.iter().zip(&self.outputs).filter(|(it, _)| it.after == step)
-                    {
+                    let readbacks = extras.readbacks.iter().zip(&self.outputs);
+                    for (readback, into) in readbacks.filter(|(it, _)| it.after.0 as usize == step) {
                         readback.record(frame, commands, into);
                     }
                 }

@@ -27,11 +27,11 @@ impl Import {
         let import = |(resource, role): (Resource, &Role)| {
             let Role::External { before, after } = role else { return None };
             let span = uses.of(resource)?;
-            let queue = |step: usize| plan.steps[step].queue;
+            let queue = |step: StepId| plan.steps[step.0 as usize].queue;
             let stages = Stages::ALL_COMMANDS;
             let other = queue(span.first) != queue(span.last);
-            let wait = other.then(|| Wait { step: span.last_id(), frames_ago: 1, stages });
-            Some(Import { resource, before: *before, after: *after, first: span.first_id(), wait })
+            let wait = other.then(|| Wait { step: span.last, frames_ago: 1, stages });
+            Some(Import { resource, before: *before, after: *after, first: span.first, wait })
         };
         images.chain(buffers).filter_map(import).collect()
     }

@@ -4,7 +4,7 @@ use crate::base::Error;
 use crate::commands::{Readback, first_plane};
 use crate::prepare::{Frame, ResourceUses, name_and_role};
 use ash::vk;
-use framewright_graph::plan::{Output, Plan, Resource, Role};
+use framewright_graph::plan::{Output, Plan, Resource, Role, StepId};
 use framewright_graph::vulkan::State;
 
 /// The readback of one output.
@@ -13,7 +13,7 @@ pub(crate) struct OutputReadback {
     resource: Resource,
     state: State,
     /// The step after which it is as the frame leaves it.
-    pub(crate) after: usize,
+    pub(crate) after: StepId,
 }
 
 impl OutputReadback {

@@ -7,7 +7,7 @@ use framewright_graph::frame::{Blend, EyeForm, Stereo};
 use framewright_graph::plan::{
     Attachment, BindingKind, ImageId, Pass, Plan, RenderScope, Resource, Side, Step, Transfer, Work,
 };
-use framewright_graph::vulkan::{Aspects, Filter, Layout, Shape};
+use framewright_graph::vulkan::{Aspects, Filter, Layout};
 
 /// A Plan that can't be executed.
 pub(super) fn bad(what: String) -> Result<(), Error> {
@@ -66,9 +66,6 @@ fn renderable(gpu: &Gpu, plan: &Plan, scope: &RenderScope) -> Result<(), Error> 
     }
     for attachment in scope.color.iter().chain(&scope.depth).chain(&scope.stencil) {
         let image = plan.image(attachment.image);
-        if image.shape == Shape::D3 {
-            return bad(format!("`{}` is three-dimensional and can't be an attachment", image.name));
-        }
         if attachment.layout == Layout::RenderingLocalReadKhr && gpu.local_read.is_none() {
             return bad(format!("`{}` is read locally, and {} has no local reads", image.name, gpu.summary.name));
         }

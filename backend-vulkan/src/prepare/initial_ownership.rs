@@ -78,7 +78,7 @@ pub(crate) fn initial_queue(plan: &Plan, uses: &ResourceUses, resource: Resource
         }
         Resource::Buffer(_) => {
             let first = uses.of(resource);
-            Some(first.map_or(Queue::Graphics, |span| plan.steps[span.first].queue))
+            Some(first.map_or(Queue::Graphics, |span| plan.steps[span.first.0 as usize].queue))
         }
     }
 }

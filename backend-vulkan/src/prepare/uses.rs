@@ -5,8 +5,8 @@ use framewright_graph::plan::{BufferId, ImageId, Pass, Plan, Resource, Side, Ste
 /// First and last step that touch an image or buffer, barriers included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct StepSpan {
-    pub(crate) first: usize,
-    pub(crate) last: usize,
+    pub(crate) first: StepId,
+    pub(crate) last: StepId,
 }
 
 /// The first and last uses of a Plan.
@@ -19,13 +19,13 @@ impl ResourceUses {
     /// Those of `plan`.
     pub(crate) fn new(plan: &Plan) -> ResourceUses {
         let mut uses = ResourceUses { images: vec![None; plan.images.len()], buffers: vec![None; plan.buffers.len()] };
-        for (index, step) in plan.steps.iter().enumerate() {
+        for (id, step) in (0..).map(StepId).zip(&plan.steps) {
             touched(step, &mut |resource| {
                 let span = match resource {
                     Resource::Image(ImageId(id)) => &mut uses.images[id as usize],
                     Resource::Buffer(BufferId(id)) => &mut uses.buffers[id as usize],
                 };
-                span.get_or_insert(StepSpan { first: index, last: index }).last = index;
+                span.get_or_insert(StepSpan { first: id, last: id }).last = id;
             });
         }
         uses
@@ -37,18 +37,6 @@ impl ResourceUses {
             Resource::Image(image) => self.images[image.0 as usize],
             Resource::Buffer(buffer) => self.buffers[buffer.0 as usize],
         }
-    }
-}
-
-impl StepSpan {
-    /// The last step, as the Plan counts.
-    pub(crate) fn last_id(self) -> StepId {
-        StepId(u32::try_from(self.last).unwrap_or(u32::MAX))
-    }
-
-    /// The first step, as the Plan counts.
-    pub(crate) fn first_id(self) -> StepId {
-        StepId(u32::try_from(self.first).unwrap_or(u32::MAX))
     }
 }
 

@@ -2,7 +2,6 @@
 
 mod custom;
 mod draw_source;
-mod recorded;
 mod recorder;
 mod scope;
 mod step;
@@ -13,6 +12,5 @@ pub use draw_source::DrawSource;
 pub use recorder::{CullMode, FrontFace, IndexType, Recorder};
 pub use timing::{FrameReport, PassReport, StepReport};
 
-pub(crate) use recorded::Recorded;
-pub(crate) use step::Recording;
+pub(crate) use step::{Recorded, Recording};
 pub(crate) use timing::Timing;

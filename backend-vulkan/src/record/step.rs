@@ -2,7 +2,7 @@
 
 use super::custom::CustomRecorder;
 use super::draw_source::DrawSource;
-use super::recorded::Recorded;
+use super::recorder::HeldResources;
 use super::timing::{Counts, Timing};
 use crate::base::Error;
 use crate::gpu::Gpu;
@@ -12,6 +12,7 @@ use crate::prepare::{
 };
 use ash::vk;
 use framewright_graph::plan::{Pass, Step, Work};
+use std::time::Duration;
 
 /// The recording of a frame.
 pub(crate) struct Recording<'r> {
@@ -19,6 +20,24 @@ pub(crate) struct Recording<'r> {
     pub(crate) source: &'r mut dyn DrawSource,
     pub(crate) timing: &'r mut Timing,
     pub(crate) recorded: &'r mut Recorded,
+}
+
+/// A recorded frame.
+#[derive(Default)]
+pub(crate) struct Recorded {
+    /// By pass.
+    pub(crate) counts: Vec<Counts>,
+    pub(super) kept: HeldResources,
+    /// How long that took.
+    pub(crate) took: Duration,
+}
+
+impl Recorded {
+    /// Makes it empty for the next frame, which finds the memory of this one. The device must be done with the frame.
+    pub(crate) fn clear(&mut self) {
+        self.counts.clear();
+        self.kept.clear();
+    }
 }
 
 impl Recording<'_> {
