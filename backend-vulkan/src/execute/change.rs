@@ -3,8 +3,8 @@
 use super::executor::Executor;
 use crate::base::Error;
 use crate::memory::RawBuffer;
-use crate::prepare::{PassSets, PreparedWork, Refuse, check};
-use framewright_graph::plan::{Pass, Plan, Work};
+use crate::prepare::{PreparedWork, Refuse, check, passes};
+use framewright_graph::plan::{Plan, Work};
 use std::sync::Arc;
 
 /// A block of parameters with other values, and the pass that gets it: the number of its step, and its own in there.
@@ -33,7 +33,7 @@ impl Executor {
             self.frames.wait_for_all()?;
         }
         for ChangedParams { step, pass, filled } in changed {
-            self.prepared.steps[step].take_params(pass, filled);
+            self.prepared.steps[step].sets()[pass].take(filled);
         }
         self.prepared.forget_commands();
         self.plan.clone_from(plan);
@@ -41,28 +41,17 @@ impl Executor {
     }
 
     /// The blocks of parameters that have other values in `plan`, whose counts of workgroups are checked.
-    fn changed_params(&self, plan: &Plan) -> Result<Vec<ChangedParams>, Error> {
+    fn changed_params(&mut self, plan: &Plan) -> Result<Vec<ChangedParams>, Error> {
         let mut changed = Vec::new();
         for (step, (old, new)) in self.plan.steps.iter().zip(&plan.steps).enumerate() {
-            let mut params = |pass: usize, old: &Pass, new: &Pass, sets: &PassSets| {
-                if old.params != new.params
-                    && let Some(filled) = sets.params_of(&self.gpu, new)?
-                {
-                    changed.push(ChangedParams { step, pass, filled });
-                }
-                Ok::<_, Error>(())
-            };
-            match (&old.work, &new.work, &self.prepared.steps[step].work) {
-                (Work::Render(old), Work::Render(new), PreparedWork::Render(made)) => {
-                    for (pass, ((old, new), made)) in old.passes.iter().zip(&new.passes).zip(made).enumerate() {
-                        params(pass, old, new, &made.sets)?;
-                    }
-                }
-                (Work::Dispatch(old), Work::Dispatch(new), PreparedWork::Dispatch(made)) => {
-                    params(0, old, new, &made.sets)?;
-                    made.groups(&self.gpu, new)?;
-                }
-                _ => {}
+            let made = &mut self.prepared.steps[step];
+            if let (Work::Dispatch(new), PreparedWork::Dispatch(made)) = (&new.work, &made.work) {
+                made.groups(&self.gpu, new)?;
+            }
+            let passes = passes(&old.work).iter().zip(passes(&new.work)).zip(made.sets()).enumerate();
+            for (pass, ((_, new), sets)) in passes.filter(|(_, ((old, new), _))| old.params != new.params) {
+                let filled = sets.params_of(&self.gpu, new)?;
+                changed.extend(filled.map(|filled| ChangedParams { step, pass, filled }));
             }
         }
         Ok(changed)

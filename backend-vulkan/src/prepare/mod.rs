@@ -25,11 +25,10 @@ pub(crate) use descriptions::{buffer_descriptor, cycle, descriptor, name_and_rol
 pub(crate) use frame::Frame;
 pub(crate) use initial_ownership::{InitialOwner, initial_owners, initial_queue};
 pub(crate) use pass::{DispatchCommands, DrawCommands, PassState, PreparedDispatch, PreparedDraw, WorkgroupCount};
-pub(crate) use pass_set::PassSets;
 pub(crate) use physical::PhysicalResources;
 pub(crate) use prepared::PreparedPlan;
 pub(crate) use scope::{DrawTarget, ScopeCommands};
 pub(crate) use step::{PreparedStep, PreparedWork, WorkCommands};
 pub(crate) use textures::{StagedTexture, stage_textures};
-pub(crate) use uses::ResourceUses;
+pub(crate) use uses::{ResourceUses, passes};
 pub(crate) use variant::view_mask;

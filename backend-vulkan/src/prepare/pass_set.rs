@@ -93,7 +93,7 @@ impl PassSets {
     }
 
     /// Puts other parameters in place of those that sets were filled with so far, which must not be in use.
-    pub(super) fn take(&mut self, filled: Arc<RawBuffer>) {
+    pub(crate) fn take(&mut self, filled: Arc<RawBuffer>) {
         if let Some((_, params)) = &mut self.params {
             *params = filled;
         }

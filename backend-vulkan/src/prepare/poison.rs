@@ -9,6 +9,7 @@
 //! hands.
 
 use super::frame::Frame;
+use super::uses::passes;
 use crate::base::{Clear, convert};
 use crate::commands::{Barriers, Command, ImageSide, TransferSide, memory_barrier};
 use ash::vk;
@@ -83,16 +84,15 @@ type SyncScope = (vk::PipelineStageFlags2, vk::AccessFlags2);
 
 /// What the first step of a buffer's lifetime does with it.
 fn first_use(step: &Step, buffer: &Buffer) -> SyncScope {
-    let passes = match &step.work {
-        Work::Render(scope) => &scope.passes[..],
-        Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
+    match &step.work {
+        Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) => {}
         Work::Fill(_) => return (CLEAR_STAGE, CLEAR_ACCESS),
         // Nothing but copies names buffers.
         Work::Copy(_) | Work::Blit(_) | Work::Resolve(_) | Work::Export => {
             return (vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ | vk::AccessFlags2::TRANSFER_WRITE);
         }
-    };
-    let uses = passes.iter().flat_map(|pass| &pass.buffers).filter(|access| access.buffer == buffer.id);
+    }
+    let uses = passes(&step.work).iter().flat_map(|pass| &pass.buffers).filter(|access| access.buffer == buffer.id);
     uses.fold((vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE), |(stages, accesses), it| {
         (stages | convert::stages(it.stages), accesses | convert::accesses(it.accesses))
     })

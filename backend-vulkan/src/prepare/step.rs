@@ -4,18 +4,17 @@ use super::descriptions::name_and_role;
 use super::frame::Frame;
 use super::history::RingCache;
 use super::pass::{DispatchCommands, PreparedDispatch, PreparedDraw, prepare_dispatch};
+use super::pass_set::PassSets;
 use super::poison::poisoned_barriers;
 use super::scope::{ScopeCommands, prepare_scope};
 use super::uses::touched;
 use crate::base::{Error, convert};
 use crate::commands::{Barriers, Command, TransferSide, memory_barrier};
 use crate::gpu::c_string;
-use crate::memory::RawBuffer;
 use crate::shaders::ShaderLibrary;
 use framewright_graph::plan::{Plan, Resource, Step, Transfer, Work};
 use framewright_graph::vulkan::Filter;
 use std::ffi::CString;
-use std::sync::Arc;
 
 /// A step, with its objects.
 pub(crate) struct PreparedStep {
@@ -83,23 +82,19 @@ impl PreparedStep {
         commands.prepare(frame.number, make).map(drop)
     }
 
-    /// Puts other parameters in place of those of the pass number `pass`. Nothing that was filled with them may be in use.
-    pub(crate) fn take_params(&mut self, pass: usize, filled: Arc<RawBuffer>) {
+    /// The sets of its passes.
+    pub(crate) fn sets(&mut self) -> Vec<&mut PassSets> {
         match &mut self.work {
-            PreparedWork::Render(passes) => passes[pass].sets.take(filled),
-            PreparedWork::Dispatch(pass) => pass.sets.take(filled),
-            PreparedWork::Plain => {}
+            PreparedWork::Render(passes) => passes.iter_mut().map(|pass| &mut pass.sets).collect(),
+            PreparedWork::Dispatch(pass) => vec![&mut pass.sets],
+            PreparedWork::Plain => Vec::new(),
         }
     }
 
     /// Forgets sets and what is recorded.
     pub(super) fn forget(&mut self) {
         self.commands.forget();
-        match &mut self.work {
-            PreparedWork::Render(passes) => passes.iter_mut().for_each(|pass| pass.sets.forget()),
-            PreparedWork::Dispatch(pass) => pass.sets.forget(),
-            PreparedWork::Plain => {}
-        }
+        self.sets().into_iter().for_each(PassSets::forget);
     }
 }
 

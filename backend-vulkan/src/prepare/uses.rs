@@ -51,11 +51,23 @@ pub(super) fn touched(step: &Step, touch: &mut impl FnMut(Resource)) {
     used(&step.work, &mut |resource, _| touch(resource));
 }
 
+/// The passes of a step.
+pub(crate) fn passes(work: &Work) -> &[Pass] {
+    match work {
+        Work::Render(scope) => &scope.passes,
+        Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
+        Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => &[],
+    }
+}
+
 /// Calls `touch` for everything that a step's work uses, of images with the part.
 pub(super) fn used(work: &Work, touch: &mut impl FnMut(Resource, Option<Subresources>)) {
+    for pass in passes(work) {
+        pass.accesses.iter().for_each(|access| touch(Resource::Image(access.image), Some(access.range)));
+        pass.buffers.iter().for_each(|access| touch(Resource::Buffer(access.buffer), None));
+    }
     match work {
         Work::Render(scope) => {
-            scope.passes.iter().for_each(|pass| accessed(pass, touch));
             for attachment in scope.color.iter().chain(&scope.depth).chain(&scope.stencil) {
                 touch(Resource::Image(attachment.image), Some(attachment.range));
                 if let Some(resolve) = &attachment.resolve {
@@ -63,19 +75,13 @@ pub(super) fn used(work: &Work, touch: &mut impl FnMut(Resource, Option<Subresou
                 }
             }
         }
-        Work::Dispatch(pass) | Work::Custom(pass) => accessed(pass, touch),
         Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
             transferred(&transfer.source, touch);
             transferred(&transfer.target, touch);
         }
         Work::Fill(fill) => transferred(&fill.target, touch),
-        Work::Export => {}
+        Work::Dispatch(_) | Work::Custom(_) | Work::Export => {}
     }
-}
-
-fn accessed(pass: &Pass, touch: &mut impl FnMut(Resource, Option<Subresources>)) {
-    pass.accesses.iter().for_each(|access| touch(Resource::Image(access.image), Some(access.range)));
-    pass.buffers.iter().for_each(|access| touch(Resource::Buffer(access.buffer), None));
 }
 
 fn transferred(side: &Side, touch: &mut impl FnMut(Resource, Option<Subresources>)) {
