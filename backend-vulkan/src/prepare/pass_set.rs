@@ -26,7 +26,7 @@ pub(crate) struct PassSets {
 enum BoundResource {
     Params,
     Buffer(BufferId),
-    Image { image: ImageId, range: Subresources, shape: ViewShape, layout: vk::ImageLayout, sampler: vk::Sampler },
+    Image { image: ImageId, range: Subresources, shape: ViewShape, layout: vk::ImageLayout, sampler: Option<Sampler> },
 }
 
 /// A pass's own descriptor set with all that it points to. Fields are dropped in this order.
@@ -62,12 +62,7 @@ impl PassSets {
                 shader::BindingKind::UniformBlock(_) | shader::BindingKind::StorageBlock { .. } => {
                     block(plan, pass, wanted).map_err(mismatch)?
                 }
-                _ => {
-                    let (ty, image) = image(gpu, plan, pass, wanted).map_err(mismatch)?;
-                    let sampler = image.sampler.map(|it| gpu.sampler(it.into())).transpose()?;
-                    let BoundImage { image, range, shape, layout, .. } = image;
-                    (ty, BoundResource::Image { image, range, shape, layout, sampler: sampler.unwrap_or_default() })
-                }
+                _ => image(gpu, plan, pass, wanted).map_err(mismatch)?,
             };
             bindings.push((LayoutBinding { binding: wanted.binding, ty, stages: stages(wanted.stages) }, bound));
         }
@@ -134,7 +129,8 @@ impl PassSet {
                 BoundResource::Image { image, range, shape, layout, sampler } => {
                     let image = frame.image(*image);
                     images.push(image.clone());
-                    DescriptorTarget::Image(image.view(*range, *shape)?, *layout, *sampler)
+                    let sampler = sampler.map(|it| frame.gpu.sampler(it.into())).transpose()?;
+                    DescriptorTarget::Image(image.view(*range, *shape)?, *layout, sampler.unwrap_or_default())
                 }
             };
             targets.push((*binding, target));
@@ -194,22 +190,13 @@ fn only_read(name: &str, writable: bool, accesses: Accesses) -> Result<(), Strin
     Ok(())
 }
 
-/// An image as it is bound.
-struct BoundImage {
-    image: ImageId,
-    range: Subresources,
-    shape: ViewShape,
-    layout: vk::ImageLayout,
-    sampler: Option<Sampler>,
-}
-
 /// The part of an image that is bound, in the shape that the shader declares.
 fn image(
     gpu: &Gpu,
     plan: &Plan,
     pass: &plan::Pass,
     wanted: &shader::Binding,
-) -> Result<(vk::DescriptorType, BoundImage), String> {
+) -> Result<(vk::DescriptorType, BoundResource), String> {
     let name = &wanted.name;
     let bound = pass.accesses.iter().find_map(|it| {
         let binding = it.binding.as_ref().filter(|binding| *binding.name == **name)?;
@@ -239,7 +226,7 @@ fn image(
         Err(format!("`{name}` has {} samples and another kind of sampler", image.samples))
     };
     let layout = convert::layout(access.layout);
-    let whole = |shape, sampler| BoundImage { image: access.image, range, shape, layout, sampler };
+    let whole = |shape, sampler| BoundResource::Image { image: access.image, range, shape, layout, sampler };
     match (&wanted.kind, kind) {
         (shader::BindingKind::SampledImage(shape), BindingKind::Sampled(sampler)) => {
             samples(shape.multisampled)?;
