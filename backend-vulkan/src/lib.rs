@@ -48,14 +48,14 @@ mod record;
 mod resources;
 pub mod shaders;
 
-/// Vulkan's own types, for programs that record commands of their own or hand in images and buffers.
+/// Vulkan's own types, for programs that record commands of their own or import images and buffers.
 pub use ash;
 pub use base::{Blame, Error, INSTALL, end_process};
 pub use commands::Texels;
 pub use execute::{Executor, ExecutorOptions};
 pub use gpu::{
-    AddressMode, Device, DeviceChoice, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message, MessageKind, Messages,
-    SamplerDescriptor, Severity, TexelFilter, layer, minimum_features, rotation_of_surface,
+    Device, DeviceChoice, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message, MessageKind, Messages,
+    SamplerDescriptor, Severity, layer, minimum_features, rotation_of_surface,
 };
 pub use helper::Helper;
 pub use memory::{LiveMemory, MemoryInUse};

@@ -10,30 +10,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use testing::plans::resolve_then_sample;
+use testing::{OVER_ALL, WHITE};
 
 const SHADERS: &[(&str, &str)] = &[
-    (
-        "full_screen.vert",
-        "#version 460
-        void main() {
-            vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0;
-            gl_Position = vec4(corner, 0.0, 1.0);
-        }",
-    ),
-    (
-        "objects.vert",
-        "#version 460
-        void main() {
-            vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0;
-            gl_Position = vec4(corner, 0.0, 1.0);
-        }",
-    ),
-    (
-        "white.frag",
-        "#version 460
-        layout(location = 0) out vec4 color;
-        void main() { color = vec4(1.0); }",
-    ),
+    ("full_screen.vert", OVER_ALL),
+    ("objects.vert", OVER_ALL),
+    ("white.frag", WHITE),
     (
         "show.frag",
         "#version 460

@@ -146,6 +146,7 @@ pub(crate) fn clear_color(format: Format, value: [f32; 4]) -> vk::ClearColorValu
 }
 
 /// What a clear by transfer writes.
+#[derive(Clone, Copy)]
 pub(crate) enum Clear {
     /// Into an image of colours.
     Color(vk::ClearColorValue),
@@ -158,20 +159,16 @@ pub(crate) enum Clear {
 /// What `value` is to an image of `format`, or (`None`) to a buffer. A value of another kind than the format counts by its
 /// components: the checker has refused it before.
 pub(crate) fn clear(format: Option<Format>, value: FillValue) -> Clear {
-    let depth_stencil = |depth: f32, stencil: u8| {
-        Clear::DepthStencil(vk::ClearDepthStencilValue { depth, stencil: u32::from(stencil) })
-    };
     match (format, value) {
         (None, FillValue::Bits([word, ..])) => Clear::Word(word),
         (None, FillValue::Color([value, ..]) | FillValue::Depth(value, _)) => Clear::Word(value.to_bits()),
-        (Some(format), FillValue::Depth(depth, stencil)) if !format.aspects().contains(Aspects::COLOR) => {
-            depth_stencil(depth, stencil)
-        }
-        (Some(format), FillValue::Color([depth, ..])) if !format.aspects().contains(Aspects::COLOR) => {
-            depth_stencil(depth, 0)
-        }
-        (Some(format), FillValue::Bits([_, stencil, ..])) if !format.aspects().contains(Aspects::COLOR) => {
-            depth_stencil(0.0, u8::try_from(stencil).unwrap_or(u8::MAX))
+        (Some(format), value) if !format.aspects().contains(Aspects::COLOR) => {
+            let (depth, stencil) = match value {
+                FillValue::Depth(depth, stencil) => (depth, stencil.into()),
+                FillValue::Color([depth, ..]) => (depth, 0),
+                FillValue::Bits([_, stencil, ..]) => (0.0, stencil.min(u8::MAX.into())),
+            };
+            Clear::DepthStencil(vk::ClearDepthStencilValue { depth, stencil })
         }
         (Some(_), FillValue::Bits(uint32)) => Clear::Color(vk::ClearColorValue { uint32 }),
         (Some(format), FillValue::Color(color)) => Clear::Color(clear_color(format, color)),

@@ -6,27 +6,49 @@ use ash::vk;
 use framewright_graph::plan::{MemoryBarrier, Subresources};
 use framewright_graph::vulkan::State;
 
-/// The memory barriers of a step.
-pub(crate) fn memory_barriers(barriers: &[MemoryBarrier]) -> Vec<vk::MemoryBarrier2<'static>> {
-    barriers
-        .iter()
-        .map(|it| {
-            vk::MemoryBarrier2::default()
-                .src_stage_mask(convert::stages(it.src_stages))
-                .src_access_mask(convert::accesses(it.src_accesses))
-                .dst_stage_mask(convert::stages(it.dst_stages))
-                .dst_access_mask(convert::accesses(it.dst_accesses))
-        })
-        .collect()
+/// Barriers as Vulkan takes them, ready to be recorded as often as needed.
+pub(crate) struct Barriers {
+    memory: Vec<vk::MemoryBarrier2<'static>>,
+    images: Vec<vk::ImageMemoryBarrier2<'static>>,
+    /// The stages of the image barriers, where the validation layer needs them.
+    stages: Vec<vk::MemoryBarrier2<'static>>,
+}
+
+impl Barriers {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        memory: Vec<vk::MemoryBarrier2<'static>>,
+        images: Vec<vk::ImageMemoryBarrier2<'static>>,
+    ) -> Barriers {
+        let validated = gpu.instance.validation.is_some();
+        let stages = images.iter().filter(|_| validated).map(stages_of).collect();
+        Barriers { memory, images, stages }
+    }
+
+    /// Records them as [`barriers`] does.
+    pub(crate) fn record(&self, gpu: &Gpu, commands: vk::CommandBuffer) {
+        record(gpu, commands, &self.memory, &self.images, &self.stages);
+    }
 }
 
 /// Records memory barriers in one call, then image barriers in another: a layout change comes after what its own barrier
 /// and those of earlier calls make available. Nothing if there are none.
-pub(crate) fn barriers(
+pub(crate) fn barriers<const N: usize>(
+    gpu: &Gpu,
+    commands: vk::CommandBuffer,
+    memory: &[vk::MemoryBarrier2<'_>],
+    images: &[vk::ImageMemoryBarrier2<'_>; N],
+) {
+    let stages = images.each_ref().map(stages_of);
+    record(gpu, commands, memory, images, if gpu.instance.validation.is_some() { &stages } else { &[] });
+}
+
+fn record(
     gpu: &Gpu,
     commands: vk::CommandBuffer,
     memory: &[vk::MemoryBarrier2<'_>],
     images: &[vk::ImageMemoryBarrier2<'_>],
+    stages: &[vk::MemoryBarrier2<'_>],
 ) {
     let record = |info: vk::DependencyInfo<'_>| {
         // SAFETY: the command buffer is being recorded outside a scope, and the images live.
@@ -36,21 +58,28 @@ pub(crate) fn barriers(
         record(vk::DependencyInfo::default().memory_barriers(memory));
     }
     if !images.is_empty() {
-        let stages = if gpu.instance.validation.is_some() { stages_of(images) } else { Vec::new() };
-        record(vk::DependencyInfo::default().memory_barriers(&stages).image_memory_barriers(images));
+        record(vk::DependencyInfo::default().memory_barriers(stages).image_memory_barriers(images));
     }
 }
 
-/// The stages of image barriers once more, as memory barriers without accesses. They order nothing that the image barriers
-/// don't order. Validation layers before 1.4.326 believe that an image barrier orders only what uses its own image, and report
+/// The stages of an image barrier once more, as a memory barrier without accesses. It orders nothing that the image barrier
+/// doesn't order. Validation layers before 1.4.326 believe that an image barrier orders only what uses its own image, and report
 /// hazards where a chain of barriers leads through another image.
-fn stages_of(images: &[vk::ImageMemoryBarrier2<'_>]) -> Vec<vk::MemoryBarrier2<'static>> {
-    // A change of owner orders one half on each queue.
-    let keeps_its_owner = |it: &&vk::ImageMemoryBarrier2<'_>| it.src_queue_family_index == it.dst_queue_family_index;
-    let stages = |it: &vk::ImageMemoryBarrier2<'_>| {
-        vk::MemoryBarrier2::default().src_stage_mask(it.src_stage_mask).dst_stage_mask(it.dst_stage_mask)
-    };
-    images.iter().filter(keeps_its_owner).map(stages).collect()
+fn stages_of(barrier: &vk::ImageMemoryBarrier2<'_>) -> vk::MemoryBarrier2<'static> {
+    if barrier.src_queue_family_index != barrier.dst_queue_family_index {
+        // A change of owner orders one half on each queue.
+        return vk::MemoryBarrier2::default();
+    }
+    vk::MemoryBarrier2::default().src_stage_mask(barrier.src_stage_mask).dst_stage_mask(barrier.dst_stage_mask)
+}
+
+/// A memory barrier of a Plan.
+pub(crate) fn memory_barrier(barrier: &MemoryBarrier) -> vk::MemoryBarrier2<'static> {
+    vk::MemoryBarrier2::default()
+        .src_stage_mask(convert::stages(barrier.src_stages))
+        .src_access_mask(convert::accesses(barrier.src_accesses))
+        .dst_stage_mask(convert::stages(barrier.dst_stages))
+        .dst_access_mask(convert::accesses(barrier.dst_accesses))
 }
 
 /// A barrier from one state of an image to another; from the layout `UNDEFINED` nothing is kept.

@@ -2,7 +2,7 @@
 
 use super::barriers::{barriers, memory_change, state_change};
 use super::rotate_texels;
-use super::transfer::{TransferSide, copy_between};
+use super::transfer::{ImageSide, TransferSide, copy_between};
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
 use crate::memory::{Image, MemoryUse, RawBuffer};
@@ -68,12 +68,9 @@ impl Readback {
         let whole = Subresources::all(descriptor.format, descriptor.mips, descriptor.layers);
         barriers(gpu, commands, &[], &[state_change(image.raw, whole, state, COPIED)]);
         let range = Subresources { aspects: self.plane, base_mip: self.mip, mips: 1, ..whole };
-        let source = TransferSide::Image {
-            image: image.raw,
-            range,
-            extent: convert::extent(mip_extent(&descriptor, self.mip)),
-            layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
-        };
+        let extent = convert::extent(mip_extent(&descriptor, self.mip));
+        let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
+        let source = TransferSide::Image(ImageSide { image: image.raw, range, extent, layout });
         copy_between(gpu, commands, source, self.place());
         barriers(gpu, commands, &[to_host()], &[state_change(image.raw, whole, COPIED, state)]);
     }

@@ -40,7 +40,7 @@ impl Drop for Timeline {
 impl Gpu {
     /// Waits until all semaphores have reached their values. After a wait that fails the device is given up: nothing is
     /// freed any more.
-    pub(crate) fn wait_for(&self, doing: &'static str, work: PendingWork, timeout: Duration) -> Result<(), Error> {
+    pub(crate) fn wait_for(&self, doing: &'static str, work: &PendingWork, timeout: Duration) -> Result<(), Error> {
         let info = vk::SemaphoreWaitInfo::default().semaphores(&work.semaphores).values(&work.values);
         let begun = Instant::now();
         let error = loop {
@@ -122,12 +122,12 @@ impl Commands {
         if let Err(result) = submitted {
             if result == vk::Result::ERROR_DEVICE_LOST {
                 // Then, and only then, the commands count as submitted all the same.
-                self.gpu.abandon(work);
+                self.gpu.abandon(&work);
             }
             return Err(Error::vulkan(doing)(result));
         }
         self.submitted = value;
-        self.gpu.wait_for(doing, work, timeout)
+        self.gpu.wait_for(doing, &work, timeout)
     }
 }
 

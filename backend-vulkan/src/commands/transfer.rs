@@ -1,4 +1,4 @@
-//! Copies and fills, whatever asks for them.
+//! Copies, resolves, blits and fills, whatever asks for them.
 
 use crate::base::convert::{self, Clear};
 use crate::gpu::Gpu;
@@ -6,11 +6,20 @@ use ash::vk;
 use framewright_graph::plan::Subresources;
 use framewright_graph::vulkan::Aspects;
 
+/// A part of an image, on the device.
+#[derive(Clone, Copy)]
+pub(crate) struct ImageSide {
+    pub(crate) image: vk::Image,
+    pub(crate) range: Subresources,
+    pub(crate) extent: vk::Extent3D,
+    pub(crate) layout: vk::ImageLayout,
+}
+
 /// One side of a transfer, on the device.
 #[derive(Clone, Copy)]
 pub(crate) enum TransferSide {
     /// A part of an image.
-    Image { image: vk::Image, range: Subresources, extent: vk::Extent3D, layout: vk::ImageLayout },
+    Image(ImageSide),
     /// The beginning of a buffer.
     Buffer { buffer: vk::Buffer, bytes: u64 },
 }
@@ -19,39 +28,36 @@ pub(crate) enum TransferSide {
 pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: TransferSide, target: TransferSide) {
     let device = &gpu.raw;
     match (source, target) {
-        (
-            TransferSide::Image { image, range, extent, layout },
-            TransferSide::Image { image: to, range: to_range, layout: to_layout, .. },
-        ) => {
+        (TransferSide::Image(from), TransferSide::Image(to)) => {
             let regions = [vk::ImageCopy2::default()
-                .src_subresource(convert::layers(range))
-                .dst_subresource(convert::layers(to_range))
-                .extent(extent)];
+                .src_subresource(convert::layers(from.range))
+                .dst_subresource(convert::layers(to.range))
+                .extent(from.extent)];
             let info = vk::CopyImageInfo2::default()
-                .src_image(image)
-                .src_image_layout(layout)
-                .dst_image(to)
-                .dst_image_layout(to_layout)
+                .src_image(from.image)
+                .src_image_layout(from.layout)
+                .dst_image(to.image)
+                .dst_image_layout(to.layout)
                 .regions(&regions);
             // SAFETY: recording outside a scope; both parts exist and are in these layouts.
             unsafe { device.cmd_copy_image2(commands, &info) };
         }
-        (TransferSide::Image { image, range, extent, layout }, TransferSide::Buffer { buffer, .. }) => {
-            let regions = [rows(range, extent)];
+        (TransferSide::Image(from), TransferSide::Buffer { buffer, .. }) => {
+            let regions = [rows(from)];
             let info = vk::CopyImageToBufferInfo2::default()
-                .src_image(image)
-                .src_image_layout(layout)
+                .src_image(from.image)
+                .src_image_layout(from.layout)
                 .dst_buffer(buffer)
                 .regions(&regions);
             // SAFETY: recording outside a scope; the part is in this layout, and the buffer holds its texels.
             unsafe { device.cmd_copy_image_to_buffer2(commands, &info) };
         }
-        (TransferSide::Buffer { buffer, .. }, TransferSide::Image { image, range, extent, layout }) => {
-            let regions = [rows(range, extent)];
+        (TransferSide::Buffer { buffer, .. }, TransferSide::Image(to)) => {
+            let regions = [rows(to)];
             let info = vk::CopyBufferToImageInfo2::default()
                 .src_buffer(buffer)
-                .dst_image(image)
-                .dst_image_layout(layout)
+                .dst_image(to.image)
+                .dst_image_layout(to.layout)
                 .regions(&regions);
             // SAFETY: recording outside a scope; the part is in this layout, and the buffer holds its texels.
             unsafe { device.cmd_copy_buffer_to_image2(commands, &info) };
@@ -65,8 +71,47 @@ pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: Trans
     }
 }
 
+/// Resolves one image into another.
+pub(super) fn resolve(gpu: &Gpu, commands: vk::CommandBuffer, from: ImageSide, to: ImageSide) {
+    let regions = [vk::ImageResolve2::default()
+        .src_subresource(convert::layers(from.range))
+        .dst_subresource(convert::layers(to.range))
+        .extent(from.extent)];
+    let info = vk::ResolveImageInfo2::default()
+        .src_image(from.image)
+        .src_image_layout(from.layout)
+        .dst_image(to.image)
+        .dst_image_layout(to.layout)
+        .regions(&regions);
+    // SAFETY: recording outside a scope; both parts exist and are in these layouts.
+    unsafe { gpu.raw.cmd_resolve_image2(commands, &info) };
+}
+
+/// Copies one image to another, and scales it.
+pub(super) fn blit(gpu: &Gpu, commands: vk::CommandBuffer, from: ImageSide, to: ImageSide, filter: vk::Filter) {
+    let regions = [vk::ImageBlit2::default()
+        .src_subresource(convert::layers(from.range))
+        .src_offsets([vk::Offset3D::default(), corner(from.extent)])
+        .dst_subresource(convert::layers(to.range))
+        .dst_offsets([vk::Offset3D::default(), corner(to.extent)])];
+    let info = vk::BlitImageInfo2::default()
+        .src_image(from.image)
+        .src_image_layout(from.layout)
+        .dst_image(to.image)
+        .dst_image_layout(to.layout)
+        .regions(&regions)
+        .filter(filter);
+    // SAFETY: recording outside a scope; both parts exist and are in these layouts.
+    unsafe { gpu.raw.cmd_blit_image2(commands, &info) };
+}
+
+fn corner(extent: vk::Extent3D) -> vk::Offset3D {
+    let at = |texels: u32| i32::try_from(texels).unwrap_or(i32::MAX);
+    vk::Offset3D { x: at(extent.width), y: at(extent.height), z: at(extent.depth) }
+}
+
 /// A part of an image beside a buffer; of depth and stencil one plane, depth before stencil.
-fn rows(range: Subresources, extent: vk::Extent3D) -> vk::BufferImageCopy2<'static> {
+fn rows(ImageSide { range, extent, .. }: ImageSide) -> vk::BufferImageCopy2<'static> {
     let plane = [Aspects::COLOR, Aspects::DEPTH, Aspects::STENCIL].into_iter().find(|it| range.aspects.contains(*it));
     let range = Subresources { aspects: plane.unwrap_or(range.aspects), ..range };
     vk::BufferImageCopy2::default().image_subresource(convert::layers(range)).image_extent(extent)
@@ -76,12 +121,12 @@ fn rows(range: Subresources, extent: vk::Extent3D) -> vk::BufferImageCopy2<'stat
 pub(crate) fn fill(gpu: &Gpu, commands: vk::CommandBuffer, target: TransferSide, value: Clear) {
     let device = &gpu.raw;
     match (target, value) {
-        (TransferSide::Image { image, range, layout, .. }, Clear::Color(color)) => {
+        (TransferSide::Image(ImageSide { image, range, layout, .. }), Clear::Color(color)) => {
             let ranges = [convert::range(range)];
             // SAFETY: recording outside a scope; the part of this colour image exists and is in this layout.
             unsafe { device.cmd_clear_color_image(commands, image, layout, &color, &ranges) };
         }
-        (TransferSide::Image { image, range, layout, .. }, Clear::DepthStencil(value)) => {
+        (TransferSide::Image(ImageSide { image, range, layout, .. }), Clear::DepthStencil(value)) => {
             let ranges = [convert::range(range)];
             // SAFETY: recording outside a scope; the part of this depth image exists and is in this layout.
             unsafe { device.cmd_clear_depth_stencil_image(commands, image, layout, &value, &ranges) };
@@ -92,7 +137,7 @@ pub(crate) fn fill(gpu: &Gpu, commands: vk::CommandBuffer, target: TransferSide,
             unsafe { device.cmd_fill_buffer(commands, buffer, 0, bytes, word) };
         }
         // A format's clear is of its own kind.
-        (TransferSide::Image { .. }, Clear::Word(_))
+        (TransferSide::Image(_), Clear::Word(_))
         | (TransferSide::Buffer { .. }, Clear::Color(_) | Clear::DepthStencil(_)) => {}
     }
 }

@@ -2,24 +2,22 @@
 
 use super::executor::Executor;
 use crate::base::Error;
-use crate::gpu::Gpu;
 use crate::memory::RawBuffer;
-use crate::prepare::{
-    PassSet, PreparedPlan, PreparedStep, Refuse, RingCache, SetTemplate, WorkgroupCount, check, groups,
-};
-use framewright_graph::plan::{Pass, Plan, Work};
+use crate::prepare::{PreparedWork, Refuse, check, passes};
+use framewright_graph::plan::{Plan, Work};
 use std::sync::Arc;
 
-/// What a pass gets anew.
-enum ChangedValue {
-    Params(Arc<RawBuffer>),
-    Groups(WorkgroupCount),
+/// A block of parameters with other values, and the pass that gets it: the number of its step, and its own in there.
+struct ChangedParams {
+    step: usize,
+    pass: usize,
+    filled: Arc<RawBuffer>,
 }
 
 impl Executor {
     /// Executes `plan` from the next frame on, which may differ from the one before in values alone: see
-    /// [`Plan::differs_beyond_values`]. Nothing is made anew but the blocks of parameters that have other values; for those,
-    /// frames in flight are waited for. Whichever part of an image is in use, no memory is allocated for it.
+    /// [`Plan::differs_beyond_values`]. Nothing is made anew on the device but the blocks of parameters that have other values;
+    /// for those, frames in flight are waited for. Whichever part of an image is in use, no device memory is allocated for it.
     ///
     /// # Errors
     /// [`Error::BadPlan`] if the Plan differs in more, and what is to be made anew; [`Error::Violations`] and
@@ -30,70 +28,32 @@ impl Executor {
             return Err(Error::BadPlan { what: format!("an executor must be made anew for it: {what}") });
         }
         check(&self.gpu, plan, Refuse::Violations, self.poisons())?;
-        let renewed = renewed(&self.gpu, &self.prepared, &self.plan, plan)?;
-        if renewed.iter().any(|(_, renewed)| matches!(renewed, ChangedValue::Params(_))) {
+        let changed = self.changed_params(plan)?;
+        if !changed.is_empty() {
             self.frames.wait_for_all()?;
         }
-        for (at, renewed) in renewed {
-            take(&mut self.prepared, at, renewed);
+        for ChangedParams { step, pass, filled } in changed {
+            self.prepared.steps[step].sets()[pass].take(filled);
         }
+        self.prepared.forget_commands();
         self.plan.clone_from(plan);
         Ok(())
     }
-}
 
-/// Step and pass of what has other values now, and what it gets.
-fn renewed(
-    gpu: &Arc<Gpu>,
-    prepared: &PreparedPlan,
-    before: &Plan,
-    after: &Plan,
-) -> Result<Vec<([usize; 2], ChangedValue)>, Error> {
-    let mut renewed = Vec::new();
-    for (step, (old, new)) in before.steps.iter().zip(&after.steps).enumerate() {
-        let mut params = |number: usize, old: &Pass, new: &Pass, template: &SetTemplate| {
-            if old.params != new.params
-                && let Some(filled) = template.params_of(gpu, new)?
-            {
-                renewed.push(([step, number], ChangedValue::Params(filled)));
+    /// The blocks of parameters that have other values in `plan`, whose counts of workgroups are checked.
+    fn changed_params(&mut self, plan: &Plan) -> Result<Vec<ChangedParams>, Error> {
+        let mut changed = Vec::new();
+        for (step, (old, new)) in self.plan.steps.iter().zip(&plan.steps).enumerate() {
+            let made = &mut self.prepared.steps[step];
+            if let (Work::Dispatch(new), PreparedWork::Dispatch(made)) = (&new.work, &made.work) {
+                made.groups(&self.gpu, new)?;
             }
-            Ok::<_, Error>(())
-        };
-        match (&old.work, &new.work, &prepared.steps[step]) {
-            (Work::Render(old), Work::Render(new), PreparedStep::Render(made)) => {
-                for (number, ((old, new), made)) in old.passes.iter().zip(&new.passes).zip(&made.passes).enumerate() {
-                    params(number, old, new, &made.template)?;
-                }
+            let passes = passes(&old.work).iter().zip(passes(&new.work)).zip(made.sets()).enumerate();
+            for (pass, ((_, new), sets)) in passes.filter(|(_, ((old, new), _))| old.params != new.params) {
+                let filled = sets.params_of(&self.gpu, new)?;
+                changed.extend(filled.map(|filled| ChangedParams { step, pass, filled }));
             }
-            (Work::Dispatch(old), Work::Dispatch(new), PreparedStep::Dispatch(made)) => {
-                params(0, old, new, &made.template)?;
-                if old.groups != new.groups {
-                    let mismatch = |what| Error::Mismatch { pass: new.name.to_string(), what };
-                    let count = groups(gpu, after, new, made.size).map_err(mismatch)?;
-                    renewed.push(([step, 0], ChangedValue::Groups(count)));
-                }
-            }
-            _ => {}
         }
-    }
-    Ok(renewed)
-}
-
-/// Gives it to a pass. Nothing that was filled with other parameters may be in use.
-fn take(prepared: &mut PreparedPlan, [step, pass]: [usize; 2], renewed: ChangedValue) {
-    let put_in = |template: &mut SetTemplate, sets: &mut RingCache<PassSet>, params| {
-        template.take(params);
-        sets.forget();
-    };
-    match (&mut prepared.steps[step], renewed) {
-        (PreparedStep::Render(scope), ChangedValue::Params(params)) => {
-            let pass = &mut scope.passes[pass];
-            put_in(&mut pass.template, &mut pass.sets, params);
-        }
-        (PreparedStep::Dispatch(made), ChangedValue::Params(params)) => {
-            put_in(&mut made.template, &mut made.sets, params)
-        }
-        (PreparedStep::Dispatch(made), ChangedValue::Groups(count)) => made.groups = count,
-        _ => {}
+        Ok(changed)
     }
 }

@@ -1,4 +1,4 @@
-//! What goes in and out between frames: reading and writing what outlives them, and handing in what is the program's own.
+//! What goes in and out between frames: reading and writing what outlives them, and importing what is the program's own.
 
 use super::executor::Executor;
 use crate::base::Error;
@@ -64,11 +64,11 @@ impl Executor {
     }
 
     /// What frame `frame` left in the output number `output`, an image. The frame must have been waited for, no later one
-    /// may have taken its place, and [`crate::ExecutorOptions::keep_outputs`] must be set.
+    /// may have taken its place, and [`crate::ExecutorOptions::readback`] must be set.
     ///
     /// # Errors
     /// [`Error::BadResource`] if one of these isn't so.
-    pub fn kept_image(&mut self, frame: u64, output: usize) -> Result<Texels, Error> {
+    pub fn read_back_image(&mut self, frame: u64, output: usize) -> Result<Texels, Error> {
         let bad = || Error::BadResource { what: format!("output {output} of frame {frame} is no image that was kept") };
         let Some(Resource::Image(image)) = self.plan.outputs.get(output).map(|it| it.resource) else {
             return Err(bad());
@@ -76,19 +76,19 @@ impl Executor {
         self.frames.wait(frame)?;
         let descriptor = self.prepared.physical.image(image, frame).descriptor;
         let rotation = self.plan.image(image).rotation;
-        self.frames.kept(frame, output).ok_or_else(bad)?.texels(&descriptor, rotation)
+        self.frames.readback(frame, output).ok_or_else(bad)?.texels(&descriptor, rotation)
     }
 
     /// The same of an output that is a buffer.
     ///
     /// # Errors
-    /// Those of [`Executor::kept_image`].
-    pub fn kept_buffer(&mut self, frame: u64, output: usize) -> Result<Vec<u8>, Error> {
+    /// Those of [`Executor::read_back_image`].
+    pub fn read_back_buffer(&mut self, frame: u64, output: usize) -> Result<Vec<u8>, Error> {
         let bad =
             || Error::BadResource { what: format!("output {output} of frame {frame} is no buffer that was kept") };
         let Some(Resource::Buffer(_)) = self.plan.outputs.get(output).map(|it| it.resource) else { return Err(bad()) };
         self.frames.wait(frame)?;
-        self.frames.kept(frame, output).ok_or_else(bad)?.bytes()
+        self.frames.readback(frame, output).ok_or_else(bad)?.bytes()
     }
 
     /// Sets one plane of a mip level of the image `name`, which outlives the frame, for the next frame to find: layer after
@@ -149,11 +149,11 @@ impl Executor {
     ///
     /// # Safety
     /// The image must have been made by this executor's device as the Plan describes it, its usage included, live as long
-    /// as the executor or until another one is handed in, and be in the Plan's state `before` whenever a frame begins:
+    /// as the executor or until another one is imported, and be in the Plan's state `before` whenever a frame begins:
     /// synchronised with the queue of the first step that touches it, and after each frame brought from the state `after`.
-    pub unsafe fn hand_in_image(&mut self, name: &str, image: vk::Image) -> Result<(), Error> {
+    pub unsafe fn import_image(&mut self, name: &str, image: vk::Image) -> Result<(), Error> {
         let id = self.image_named(name)?;
-        self.may_hand_in(&self.plan.image(id).role, name)?;
+        self.may_import(&self.plan.image(id).role, name)?;
         self.frames.wait_for_all()?;
         // SAFETY: the caller's promise.
         let image = unsafe { Image::foreign(&self.gpu, &descriptor(self.plan.image(id)), image) };
@@ -166,14 +166,14 @@ impl Executor {
     /// for.
     ///
     /// # Errors
-    /// Those of [`Executor::hand_in_image`].
+    /// Those of [`Executor::import_image`].
     ///
     /// # Safety
-    /// That of [`Executor::hand_in_image`].
-    pub unsafe fn hand_in_buffer(&mut self, name: &str, buffer: vk::Buffer) -> Result<(), Error> {
+    /// That of [`Executor::import_image`].
+    pub unsafe fn import_buffer(&mut self, name: &str, buffer: vk::Buffer) -> Result<(), Error> {
         let id = self.buffer_named(name)?;
         let plan = &self.plan.buffers[id.0 as usize];
-        self.may_hand_in(&plan.role, name)?;
+        self.may_import(&plan.role, name)?;
         self.frames.wait_for_all()?;
         // SAFETY: the caller's promise.
         let buffer = unsafe { RawBuffer::foreign(&self.gpu, &buffer_descriptor(plan), buffer) };
@@ -190,7 +190,7 @@ impl Executor {
         Some(self.prepared.physical.image(id, self.frames.next().saturating_sub(1)).raw)
     }
 
-    fn may_hand_in(&self, role: &Role, name: &str) -> Result<(), Error> {
+    fn may_import(&self, role: &Role, name: &str) -> Result<(), Error> {
         match role {
             Role::External { .. } => Ok(()),
             Role::Transient(_) | Role::Persistent { .. } => {
@@ -256,7 +256,7 @@ impl Executor {
     /// The queue that has it between frames; `None` while it is handed over, and if no step touches it the first.
     pub(crate) fn owner(&self, resource: Resource) -> Option<Queue> {
         let Some(span) = self.uses.of(resource) else { return Some(Queue::Graphics) };
-        let step = &self.plan.steps[span.last];
+        let step = &self.plan.steps[span.last.0 as usize];
         let released = step.releases.iter().any(|barrier| Resource::Image(barrier.image) == resource);
         (!released).then_some(step.queue)
     }

@@ -6,8 +6,8 @@ use super::initial_contents::initialise;
 use super::output_readback::OutputReadback;
 use crate::base::Error;
 use crate::gpu::{Device, Gpu};
-use crate::prepare::{PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
-use crate::record::{DrawSource, Frame, FrameReport};
+use crate::prepare::{Frame, PreparedPlan, Refuse, ResourceUses, StagedTexture, check, stage_textures};
+use crate::record::{DrawSource, FrameReport};
 use crate::shaders::ShaderLibrary;
 use framewright_graph::frame::{NoTextures, Textures};
 use framewright_graph::plan::Plan;
@@ -26,13 +26,13 @@ pub struct ExecutorOptions {
     /// How many frames may be on their way before [`Executor::submit`] waits for the oldest; 0 counts as 1.
     pub frames_in_flight: u32,
     /// Whether each frame copies its outputs to the host (colour or depth of the first mip level), for
-    /// [`Executor::kept_image`] and [`Executor::kept_buffer`].
-    pub keep_outputs: bool,
+    /// [`Executor::read_back_image`] and [`Executor::read_back_buffer`].
+    pub readback: bool,
 }
 
 impl Default for ExecutorOptions {
     fn default() -> Self {
-        ExecutorOptions { poison: false, timeout: Duration::from_secs(120), frames_in_flight: 1, keep_outputs: false }
+        ExecutorOptions { poison: false, timeout: Duration::from_secs(120), frames_in_flight: 1, readback: false }
     }
 }
 
@@ -116,9 +116,9 @@ impl Executor {
         let imports = Import::all(plan, &uses);
         Ok(Executor {
             gpu: gpu.clone(),
-            readbacks: if options.keep_outputs { OutputReadback::all(plan, &uses)? } else { Vec::new() },
+            readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options.frames_in_flight, options.timeout)?,
-            prepared: PreparedPlan::new(gpu, plan, shaders)?,
+            prepared: PreparedPlan::new(gpu, plan, shaders, options.poison)?,
             plan: plan.clone(),
             options: options.clone(),
             imports,
@@ -148,10 +148,9 @@ impl Executor {
         self.ready()?;
         let number = self.frames.next();
         self.prepared.prepare_frame(&self.gpu, &self.plan, number)?;
-        let frame =
-            Frame { gpu: &self.gpu, plan: &self.plan, prepared: &self.prepared, number, poison: self.options.poison };
+        let frame = Frame { gpu: &self.gpu, plan: &self.plan, physical: &self.prepared.physical, number };
         let extras = FrameExtras { imports: &self.imports, readbacks: &self.readbacks };
-        self.frames.submit(&frame, source, &extras)?;
+        self.frames.submit(&frame, &self.prepared.steps, source, &extras)?;
         Ok(number)
     }
 

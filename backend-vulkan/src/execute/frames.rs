@@ -5,8 +5,8 @@ use super::output_readback::OutputReadback;
 use crate::base::Error;
 use crate::commands::{CommandPool, Readback, Timeline, record};
 use crate::gpu::{Gpu, PendingWork};
-use crate::prepare::{Batch, batches};
-use crate::record::{DrawSource, Frame, FrameReport, Recorded, Timing};
+use crate::prepare::{Batch, Frame, PreparedStep, batches};
+use crate::record::{DrawSource, FrameReport, Recorded, Recording, Timing};
 use ash::vk;
 use framewright_graph::plan::{Plan, Queue};
 use std::sync::Arc;
@@ -26,6 +26,10 @@ pub(crate) struct Frames {
     values_per_frame: u64,
     slots: Vec<FrameSlot>,
     submitted: u64,
+    /// Memory for the waits of a batch.
+    waits: Vec<vk::SemaphoreSubmitInfo<'static>>,
+    /// What is waited for: every timeline, with the values of [`Frames::expect`].
+    pending: PendingWork,
 }
 
 /// What one frame in flight has to itself.
@@ -62,6 +66,8 @@ impl Frames {
         for queue in batches.iter().filter(|batch| batch.last).map(|batch| batch.queue) {
             timelines.push((queue, Timeline::new(gpu)?));
         }
+        let semaphores: Vec<_> = timelines.iter().map(|(_, timeline)| timeline.raw).collect();
+        let pending = PendingWork { values: vec![0; semaphores.len()], semaphores };
         let slots = (0..in_flight.max(1)).map(|_| FrameSlot::new(gpu, plan, &batches));
         Ok(Frames {
             gpu: gpu.clone(),
@@ -71,6 +77,8 @@ impl Frames {
             slots: slots.collect::<Result<_, _>>()?,
             batches,
             submitted: 0,
+            waits: Vec::new(),
+            pending,
         })
     }
 
@@ -92,22 +100,25 @@ impl Frames {
     pub(crate) fn submit(
         &mut self,
         frame: &Frame<'_>,
+        steps: &[PreparedStep],
         source: &mut dyn DrawSource,
         extras: &FrameExtras<'_>,
     ) -> Result<(), Error> {
         let at = self.slot_of(frame.number);
         let slot = &mut self.slots[at];
         // What the frame before the last recorded is no longer in use.
-        (slot.recorded, slot.frame) = (Recorded::default(), None);
+        slot.recorded.clear();
+        slot.frame = None;
         if slot.outputs.is_empty() {
-            slot.outputs = extras.readbacks.iter().map(|it| it.make(&self.gpu, frame)).collect::<Result<_, _>>()?;
+            slot.outputs = extras.readbacks.iter().map(|it| it.make(frame)).collect::<Result<_, _>>()?;
         }
-        slot.record(&self.batches, frame, source, extras)?;
+        slot.record(&self.batches, frame, steps, source, extras)?;
         for number in 0..self.batches.len() {
             if let Err((result, submitted)) = self.submit_batch(at, number, frame.number) {
                 if number > 0 || submitted {
                     // Part of the frame is on its way and the rest will never come.
-                    self.gpu.abandon(self.reached_by(number, frame.number));
+                    self.expect(number, frame.number);
+                    self.gpu.abandon(&self.pending);
                 }
                 return Err(Error::vulkan(DRAWING)(result));
             }
@@ -119,9 +130,10 @@ impl Frames {
     }
 
     /// Submits one batch. Where that fails: whether it counts as submitted all the same.
-    fn submit_batch(&self, slot: usize, number: usize, frame: u64) -> Result<(), (vk::Result, bool)> {
+    fn submit_batch(&mut self, slot: usize, number: usize, frame: u64) -> Result<(), (vk::Result, bool)> {
         let batch = &self.batches[number];
-        let mut waits = Vec::new();
+        let mut waits = std::mem::take(&mut self.waits);
+        waits.clear();
         for wait in &batch.waits {
             // Before the first frame nothing is waited for.
             let Some(of) = frame.checked_sub(u64::from(wait.frames_ago)) else { continue };
@@ -130,22 +142,23 @@ impl Frames {
             let value = self.step_value(of, wait.step.0.into());
             waits.push(self.point(awaited.queue, value).stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS));
         }
-        let mut signals = Vec::new();
-        if let Some(value) = self.signalled(batch, frame) {
-            signals.push(self.point(batch.queue, value).stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS));
-        }
+        let signal = self
+            .signalled(batch, frame)
+            .map(|value| self.point(batch.queue, value).stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS));
         let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(self.slots[slot].commands[number].1)];
         let submits = [vk::SubmitInfo2::default()
             .wait_semaphore_infos(&waits)
             .command_buffer_infos(&buffers)
-            .signal_semaphore_infos(&signals)];
+            .signal_semaphore_infos(signal.as_slice())];
         let queues = self.gpu.queues.lock();
         let queue =
             queues.of(self.gpu.queues.families.family(batch.queue)).map_err(|_| (vk::Result::ERROR_UNKNOWN, false))?;
         // SAFETY: the commands are recorded, and what they use is kept until the frame was waited for; after a wait that
         // fails nothing is freed any more.
-        unsafe { self.gpu.raw.queue_submit2(queue, &submits, vk::Fence::null()) }
-            .map_err(|result| (result, result == vk::Result::ERROR_DEVICE_LOST))
+        let submitted = unsafe { self.gpu.raw.queue_submit2(queue, &submits, vk::Fence::null()) };
+        drop(queues);
+        self.waits = waits;
+        submitted.map_err(|result| (result, result == vk::Result::ERROR_DEVICE_LOST))
     }
 
     /// A point on a queue's timeline.
@@ -167,16 +180,14 @@ impl Frames {
         batch.awaited.then(|| self.step_value(frame, batch.steps.end as u64 - 1))
     }
 
-    /// What the timelines reach when the first `batches` batches of `frame` are done.
-    fn reached_by(&self, batches: usize, frame: u64) -> PendingWork {
-        let mut unfinished = PendingWork::default();
-        for (queue, timeline) in &self.timelines {
-            let own = self.batches[..batches].iter().filter(|batch| batch.queue == *queue);
+    /// Notes as pending what the timelines reach when the first `batches` batches of `frame` are done.
+    fn expect(&mut self, batches: usize, frame: u64) {
+        for number in 0..self.timelines.len() {
+            let queue = self.timelines[number].0;
+            let own = self.batches[..batches].iter().filter(|batch| batch.queue == queue);
             let value = own.filter_map(|batch| self.signalled(batch, frame)).max();
-            unfinished.semaphores.push(timeline.raw);
-            unfinished.values.push(value.unwrap_or(frame * self.values_per_frame));
+            self.pending.values[number] = value.unwrap_or(frame * self.values_per_frame);
         }
-        unfinished
     }
 
     /// Waits until a frame that was submitted is done.
@@ -189,7 +200,8 @@ impl Frames {
         if self.gpu.is_abandoned() {
             return Err(Error::DeviceLost { doing: DRAWING });
         }
-        self.gpu.wait_for(DRAWING, self.reached_by(self.batches.len(), frame), self.timeout)?;
+        self.expect(self.batches.len(), frame);
+        self.gpu.wait_for(DRAWING, &self.pending, self.timeout)?;
         self.slots[slot].finished = true;
         Ok(())
     }
@@ -208,7 +220,7 @@ impl Frames {
     }
 
     /// What was kept of an output of a frame that was waited for.
-    pub(crate) fn kept(&self, frame: u64, output: usize) -> Option<&Readback> {
+    pub(crate) fn readback(&self, frame: u64, output: usize) -> Option<&Readback> {
         let slot = &self.slots[self.slot_of(frame)];
         if slot.frame == Some(frame) { slot.outputs.get(output) } else { None }
     }
@@ -247,6 +259,7 @@ impl FrameSlot {
         &mut self,
         batches: &[Batch],
         frame: &Frame<'_>,
+        steps: &[PreparedStep],
         source: &mut dyn DrawSource,
         extras: &FrameExtras<'_>,
     ) -> Result<(), Error> {
@@ -255,17 +268,18 @@ impl FrameSlot {
             pool.reset()?;
         }
         self.timing.begin_frame();
+        let (timing, recorded) = (&mut self.timing, &mut self.recorded);
+        let mut recording = Recording { frame, source, timing, recorded };
         for (batch, (_, buffer)) in batches.iter().zip(&self.commands) {
             record(frame.gpu, *buffer, |commands| {
-                self.timing.begin_batch(commands, batch.queue);
+                recording.timing.begin_batch(commands, batch.queue);
                 for step in batch.steps.clone() {
                     for import in extras.imports.iter().filter(|it| it.first.0 as usize == step) {
                         import.record(frame, commands);
                     }
-                    frame.step(commands, step, source, &mut self.timing, &mut self.recorded)?;
-                    for (readback, into) in
-                        extras.readbacks.iter().zip(&self.outputs).filter(|(it, _)| it.after == step)
-                    {
+                    recording.step(commands, &frame.plan.steps[step], &steps[step])?;
+                    let readbacks = extras.readbacks.iter().zip(&self.outputs);
+                    for (readback, into) in readbacks.filter(|(it, _)| it.after.0 as usize == step) {
                         readback.record(frame, commands, into);
                     }
                 }

@@ -2,8 +2,7 @@
 //! on. For those that the executor made itself, it does so: before each frame, from the state that the last frame left.
 
 use crate::commands::{barriers, memory_change, state_change};
-use crate::prepare::{PhysicalResources, ResourceUses};
-use crate::record::Frame;
+use crate::prepare::{Frame, PhysicalResources, ResourceUses};
 use ash::vk;
 use framewright_graph::plan::{Plan, Resource, Role, StepId, Subresources, Wait};
 use framewright_graph::vulkan::{Layout, Stages, State};
@@ -28,11 +27,11 @@ impl Import {
         let import = |(resource, role): (Resource, &Role)| {
             let Role::External { before, after } = role else { return None };
             let span = uses.of(resource)?;
-            let queue = |step: usize| plan.steps[step].queue;
+            let queue = |step: StepId| plan.steps[step.0 as usize].queue;
             let stages = Stages::ALL_COMMANDS;
             let other = queue(span.first) != queue(span.last);
-            let wait = other.then(|| Wait { step: span.last_id(), frames_ago: 1, stages });
-            Some(Import { resource, before: *before, after: *after, first: span.first_id(), wait })
+            let wait = other.then(|| Wait { step: span.last, frames_ago: 1, stages });
+            Some(Import { resource, before: *before, after: *after, first: span.first, wait })
         };
         images.chain(buffers).filter_map(import).collect()
     }
@@ -46,17 +45,17 @@ impl Import {
     }
 
     /// Records it before the first step that touches it. Nothing is to be done in the first frame, for what the program
-    /// hands in itself, and where the Plan's own barrier waits for all that the frame before left open.
+    /// imports itself, and where the Plan's own barrier waits for all that the frame before left open.
     pub(crate) fn record(&self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
         let Import { before, after, .. } = *self;
-        if frame.number == 0 || !self.is_own(&frame.prepared.physical) || before == after {
+        if frame.number == 0 || !self.is_own(frame.physical) || before == after {
             return;
         }
         match self.resource {
             Resource::Image(id) if before.layout != Layout::Undefined => {
                 let image = frame.plan.image(id);
                 let whole = Subresources::all(image.format, image.mips, image.made_layers());
-                let raw = frame.prepared.physical.image(id, frame.number).raw;
+                let raw = frame.image(id).raw;
                 barriers(frame.gpu, commands, &[], &[state_change(raw, whole, after, before)]);
             }
             _ if before.stages.contains(after.stages) && after.accesses.writes().is_empty() => {}

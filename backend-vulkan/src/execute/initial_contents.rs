@@ -1,7 +1,9 @@
 //! Contents from outside: what persists begins with its initial value, and the host may write what outlives the frame.
 
 use crate::base::{Error, convert};
-use crate::commands::{TransferSide, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change};
+use crate::commands::{
+    Barriers, TransferSide, UNUSED, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change,
+};
 use crate::gpu::{Gpu, QueueFamily};
 use crate::memory::Image;
 use crate::prepare::{InitialOwner, PhysicalResources, ResourceUses, StagedTexture, initial_owners, initial_queue};
@@ -10,12 +12,8 @@ use framewright_graph::plan::{self, BufferId, ImageId, Initial, Plan, Queue, Res
 use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Usage};
 use std::sync::Arc;
 
-/// Not used by anything yet.
-pub(crate) const UNUSED: State =
-    State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
-
 /// Sets everything that outlives the frame and has no contents yet to what the first frame finds: persistent things to their
-/// initial value or the texels in `staged`, others that were not handed in to zero, each in the state that the Plan relies on and with the queue that
+/// initial value or the texels in `staged`, others that were not imported to zero, each in the state that the Plan relies on and with the queue that
 /// uses it first.
 pub(crate) fn initialise(
     gpu: &Arc<Gpu>,
@@ -52,7 +50,7 @@ pub(crate) fn initialise(
                 match (initial, staged.iter().find(|it| it.image == image.id)) {
                     (Some(value), _) => set_image(gpu, commands, image, made, before, value),
                     (None, Some(staged)) => {
-                        record_upload(gpu, commands, made, &staged.buffer, convert::layout(before.layout));
+                        record_upload(gpu, commands, made, &staged.buffer, before.layout);
                     }
                     (None, None) => {}
                 }
@@ -85,7 +83,12 @@ fn set_image(
     let mut state = UNUSED;
     if made.descriptor.usage.contains(Usage::TRANSFER_DST) {
         barriers(gpu, commands, &[], &[state_change(made.raw, whole, UNUSED, WRITTEN)]);
-        fill(gpu, commands, image_side(made, whole, 0), convert::clear(Some(image.format), initial));
+        fill(
+            gpu,
+            commands,
+            TransferSide::Image(image_side(made, whole, 0)),
+            convert::clear(Some(image.format), initial),
+        );
         state = WRITTEN;
     }
     barriers(gpu, commands, &[], &[state_change(made.raw, whole, state, before)]);
@@ -103,24 +106,24 @@ impl OwnershipTransfers<'_> {
     fn record(&self, commands: vk::CommandBuffer, here: QueueFamily) {
         let families = &self.gpu.queues.families;
         let graphics = families.graphics;
-        let mut recorded = Vec::new();
+        let (mut released, mut acquired) = (Vec::new(), Vec::new());
         for it in self.owners {
             let owner = families.family(it.owner);
             if owner != graphics && (here == graphics || here == owner) {
                 // Released by the one, acquired by the other.
-                recorded.push(self.transfer(it, [graphics, owner], [None; 2]));
+                released.push(self.transfer(it, [graphics, owner], [None; 2]));
             }
         }
-        barriers(self.gpu, commands, &[], &recorded);
-        recorded.clear();
         for it in self.owners.iter().filter(|it| families.family(it.owner) == here) {
             let Some((barrier, [from, to])) = it.acquired.and_then(|it| Some((it, it.ownership?))) else { continue };
             let pair = [families.family(from), families.family(to)];
             if pair[0] != pair[1] {
-                recorded.push(self.transfer(it, pair, [Some(barrier.old_layout), Some(barrier.new_layout)]));
+                acquired.push(self.transfer(it, pair, [Some(barrier.old_layout), Some(barrier.new_layout)]));
             }
         }
-        barriers(self.gpu, commands, &[], &recorded);
+        for images in [released, acquired] {
+            Barriers::new(self.gpu, Vec::new(), images).record(self.gpu, commands);
+        }
     }
 
     /// One half of an ownership transfer; without layouts the image stays in its own.

@@ -27,7 +27,7 @@ impl Executor {
     /// # Errors
     /// [`Error::BadResource`] if this executor has begun already, or is of another device; [`Error::DeviceLost`],
     /// [`Error::Timeout`].
-    pub fn carry_over(&mut self, mut before: Executor) -> Result<Vec<String>, Error> {
+    pub fn migrate_from(&mut self, mut before: Executor) -> Result<Vec<String>, Error> {
         let bad = |what: &str| Err(Error::BadResource { what: format!("nothing can be carried over: {what}") });
         if self.frames.next() > 0 || self.initialised {
             return bad("the executor has begun already");
@@ -66,11 +66,9 @@ impl Executor {
     /// What goes on, cycle by cycle.
     fn migrations_from(&self, before: &Executor) -> Vec<Migration> {
         let mut migrated = Vec::new();
-        let mut seen = vec![false; self.plan.images.len() + self.plan.buffers.len()];
         for first in persistent(&self.plan) {
             let members: Vec<Resource> = members(&self.plan, first);
-            if !seen[number(&self.plan, first)] {
-                members.iter().for_each(|it| seen[number(&self.plan, *it)] = true);
+            if members.iter().min() == Some(&first) {
                 let goes_on: Option<Vec<_>> = members.iter().map(|it| self.goes_on(before, *it)).collect();
                 migrated.extend(goes_on.into_iter().flatten());
             }
@@ -144,13 +142,5 @@ fn members(plan: &Plan, first: Resource) -> Vec<Resource> {
         Resource::Buffer(BufferId(id)) => {
             cycle(id, |id| &plan.buffers[id as usize].role).map(|id| Resource::Buffer(BufferId(id))).collect()
         }
-    }
-}
-
-/// Images and buffers in one row.
-fn number(plan: &Plan, resource: Resource) -> usize {
-    match resource {
-        Resource::Image(id) => id.0 as usize,
-        Resource::Buffer(id) => plan.images.len() + id.0 as usize,
     }
 }

@@ -2,13 +2,10 @@
 
 use crate::base::Error;
 use crate::commands::{Readback, first_plane};
-use crate::gpu::Gpu;
-use crate::prepare::{ResourceUses, name_and_role};
-use crate::record::Frame;
+use crate::prepare::{Frame, ResourceUses, name_and_role};
 use ash::vk;
-use framewright_graph::plan::{Output, Plan, Resource, Role};
+use framewright_graph::plan::{Output, Plan, Resource, Role, StepId};
 use framewright_graph::vulkan::State;
-use std::sync::Arc;
 
 /// The readback of one output.
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +13,7 @@ pub(crate) struct OutputReadback {
     resource: Resource,
     state: State,
     /// The step after which it is as the frame leaves it.
-    pub(crate) after: usize,
+    pub(crate) after: StepId,
 }
 
 impl OutputReadback {
@@ -39,27 +36,21 @@ impl OutputReadback {
     }
 
     /// Room for it.
-    pub(crate) fn make(&self, gpu: &Arc<Gpu>, frame: &Frame<'_>) -> Result<Readback, Error> {
-        let physical = &frame.prepared.physical;
+    pub(crate) fn make(&self, frame: &Frame<'_>) -> Result<Readback, Error> {
         match self.resource {
             Resource::Image(image) => {
-                let descriptor = physical.image(image, frame.number).descriptor;
-                Readback::of_image(gpu, &descriptor, first_plane(descriptor.format), 0)
+                let descriptor = frame.image(image).descriptor;
+                Readback::of_image(frame.gpu, &descriptor, first_plane(descriptor.format), 0)
             }
-            Resource::Buffer(buffer) => Readback::of_buffer(gpu, physical.buffer(buffer, frame.number).bytes),
+            Resource::Buffer(buffer) => Readback::of_buffer(frame.gpu, frame.buffer(buffer).bytes),
         }
     }
 
     /// Records the copy.
     pub(crate) fn record(&self, frame: &Frame<'_>, commands: vk::CommandBuffer, to: &Readback) {
-        let physical = &frame.prepared.physical;
         match self.resource {
-            Resource::Image(image) => {
-                to.record_image(frame.gpu, commands, physical.image(image, frame.number), self.state);
-            }
-            Resource::Buffer(buffer) => {
-                to.record_buffer(frame.gpu, commands, physical.buffer(buffer, frame.number), self.state);
-            }
+            Resource::Image(image) => to.record_image(frame.gpu, commands, frame.image(image), self.state),
+            Resource::Buffer(buffer) => to.record_buffer(frame.gpu, commands, frame.buffer(buffer), self.state),
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::shaders::Spirv;
 use ash::vk;
 use framewright_graph::frame::{Blend, StencilState};
 use framewright_graph::plan::DepthState;
-use framewright_graph::vulkan::{Format, Rotation};
+use framewright_graph::vulkan::{AddressMode, Filter, Format, Rotation};
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::{Mutex, PoisonError};
@@ -64,38 +64,24 @@ impl Caches {
 }
 
 /// How a texture is sampled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct SamplerDescriptor {
     /// Filter where the texture is shown enlarged.
-    pub magnify: TexelFilter,
+    pub magnify: Filter,
     /// Filter where it is shown reduced.
-    pub minify: TexelFilter,
+    pub minify: Filter,
     /// Filter between mip levels.
-    pub mip: TexelFilter,
+    pub mip: Filter,
     /// What lies beyond the edges, horizontally, vertically and in depth.
     pub address: [AddressMode; 3],
 }
 
-/// How a value between texels is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum TexelFilter {
-    /// The nearest texel.
-    Nearest,
-    /// Weighted mean of the neighbours.
-    #[default]
-    Linear,
-}
-
-/// What lies beyond a texture's edge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum AddressMode {
-    /// The texture again.
-    #[default]
-    Repeat,
-    /// The texture mirrored.
-    MirroredRepeat,
-    /// The edge's texels.
-    ClampToEdge,
+impl Default for SamplerDescriptor {
+    /// Linear filters, and the texture again beyond its edges.
+    fn default() -> SamplerDescriptor {
+        let [magnify, minify, mip] = [Filter::Linear; 3];
+        SamplerDescriptor { magnify, minify, mip, address: [AddressMode::Repeat; 3] }
+    }
 }
 
 /// One binding of a set layout.

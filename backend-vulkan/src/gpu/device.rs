@@ -91,12 +91,6 @@ impl Device {
         (&self.gpu.instance.raw, self.gpu.physical)
     }
 
-    /// The validation layer that watches, in words.
-    #[must_use]
-    pub fn validation_layer(&self) -> Option<&str> {
-        self.gpu.instance.validation.as_ref().map(|it| it.layer.shown.as_str())
-    }
-
     /// Has every wait for this device end with [`Error::Cancelled`] soon after `asked` becomes true.
     /// It is asked about 20 times a second. Only the first call for a device counts.
     ///

@@ -24,14 +24,10 @@ pub(crate) struct Gpu {
     pub(crate) labels: Option<ext::debug_utils::Device>,
     /// The commands of `VK_KHR_dynamic_rendering_local_read`, where the device has it.
     pub(crate) local_read: Option<khr::dynamic_rendering_local_read::Device>,
-    /// Whether shaders can see several cubes at once.
-    pub(crate) cube_arrays: bool,
+    /// Those that are switched on.
+    pub(crate) features: Features,
     /// How many views a rendering scope can draw at once, as it says.
     pub(crate) max_views: u32,
-    /// Whether vertex shaders can choose their layer.
-    pub(crate) vertex_layer: bool,
-    /// Whether shaders have clip distances.
-    pub(crate) clip_distances: bool,
     /// Whether images can be in the layout `PRESENT_SRC_KHR`.
     pub(crate) presents: bool,
     pub(crate) queues: Queues,
@@ -56,11 +52,9 @@ impl Gpu {
     pub(super) fn open(instance: Instance, physical: vk::PhysicalDevice, summary: DeviceSummary) -> Result<Gpu, Error> {
         let families = QueueFamilies::of(&instance.raw, physical).ok_or(Error::NoDevice)?;
         let has_local_read = minimum::has_local_read(&instance.raw, physical);
-        let mut features = Features::used(&Features::of(&instance.raw, physical, false), has_local_read);
-        let cube_arrays = features.cube_arrays();
+        let has = Features::of(&instance.raw, physical, false);
+        let [features, mut chained] = [(); 2].map(|()| Features::used(&has, has_local_read));
         let max_views = minimum::max_views(&instance.raw, physical, &features);
-        let vertex_layer = features.vertex_layer();
-        let clip_distances = features.clip_distances();
         let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
         let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();
         // Without swapchains there is no layout PRESENT_SRC_KHR.
@@ -71,7 +65,7 @@ impl Gpu {
                 .filter_map(|(there, name)| there.then_some(name.as_ptr()))
                 .collect();
         let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&extensions);
-        let info = features.chain(info);
+        let info = chained.chain(info);
         // SAFETY: `physical` belongs to the instance and has these features, extensions and queue families.
         let raw = unsafe { instance.raw.create_device(physical, &info, None) }
             .map_err(Error::vulkan("opening the device"))?;
@@ -105,10 +99,8 @@ impl Gpu {
             limits: properties.limits,
             labels,
             local_read,
-            cube_arrays,
+            features,
             max_views,
-            vertex_layer,
-            clip_distances,
             presents,
             queues: Queues::new(&raw, families),
             summary,
@@ -128,8 +120,8 @@ impl Gpu {
 
     /// Notes that the device didn't finish its work in time. It may still be using anything, so nothing is freed from now
     /// on.
-    pub(crate) fn abandon(&self, unfinished: PendingWork) {
-        self.abandoned.get_or_init(|| unfinished);
+    pub(crate) fn abandon(&self, unfinished: &PendingWork) {
+        self.abandoned.get_or_init(|| unfinished.clone());
     }
 
     /// Whether things may still be in use although nobody waits for them.

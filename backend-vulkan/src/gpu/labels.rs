@@ -2,7 +2,7 @@
 
 use super::handle::Gpu;
 use ash::vk;
-use std::ffi::CString;
+use std::ffi::{CStr, CString};
 
 impl Gpu {
     /// Names an object.
@@ -16,10 +16,9 @@ impl Gpu {
     }
 
     /// Records `work` under a label.
-    pub(crate) fn labelled<T>(&self, commands: vk::CommandBuffer, name: &str, work: impl FnOnce() -> T) -> T {
+    pub(crate) fn labelled<T>(&self, commands: vk::CommandBuffer, name: &CStr, work: impl FnOnce() -> T) -> T {
         let Some(labels) = &self.labels else { return work() };
-        let name = c_string(name);
-        let label = vk::DebugUtilsLabelEXT::default().label_name(&name);
+        let label = vk::DebugUtilsLabelEXT::default().label_name(name);
         // SAFETY: the command buffer is being recorded.
         unsafe { labels.cmd_begin_debug_utils_label(commands, &label) };
         let result = work();
@@ -29,7 +28,7 @@ impl Gpu {
     }
 }
 
-/// Names come from files: a zero byte would end them early.
-fn c_string(name: &str) -> CString {
+/// A name as Vulkan takes it. Names come from files: a zero byte would end them early.
+pub(crate) fn c_string(name: &str) -> CString {
     CString::new(name.replace('\0', "\u{fffd}")).unwrap_or_default()
 }

@@ -14,7 +14,7 @@ mod surface;
 mod validation;
 mod words;
 
-pub use cached::{AddressMode, SamplerDescriptor, TexelFilter};
+pub use cached::SamplerDescriptor;
 pub use device::{Device, DeviceOptions};
 pub use features::minimum_features;
 pub use minimum::MINIMUM_VERSION;
@@ -25,4 +25,5 @@ pub use validation::{Message, MessageKind, Messages, Severity};
 pub(crate) use cached::{LayoutBinding, LocalRead, PipelineDescriptor, RotationConstants, VertexAttribute};
 pub(crate) use device::TestedDevice;
 pub(crate) use handle::{Gpu, PendingWork};
+pub(crate) use labels::c_string;
 pub(crate) use queues::QueueFamily;

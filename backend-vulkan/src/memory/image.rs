@@ -1,12 +1,13 @@
-//! Images and their views.
+//! Images and their memory.
 
 use super::block::{MemoryBlock, MemoryUse};
+use super::view::Views;
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::vulkan::{Shape, Sharing};
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 /// How an image of this description is created: the one place that knows, so that memory needs are those of the image.
 /// `families` are all that may use a shared image.
@@ -39,6 +40,7 @@ pub(crate) struct Image {
     pub(crate) descriptor: ImageDescriptor,
     /// `None`: it belongs to somebody else.
     memory: Option<Arc<MemoryBlock>>,
+    pub(super) views: Views,
 }
 
 impl Image {
@@ -54,7 +56,8 @@ impl Image {
         // SAFETY: the device lives; formats, extents and usages were checked against the device when the Plan was made.
         let raw = unsafe { gpu.raw.create_image(&info, None) }.map_err(Error::vulkan("creating an image"))?;
         let (block, begin) = memory.place();
-        let image = Image { gpu: gpu.clone(), raw, descriptor: *descriptor, memory: Some(memory) };
+        let image =
+            Image { gpu: gpu.clone(), raw, descriptor: *descriptor, memory: Some(memory), views: Views::default() };
         // SAFETY: the image is new; size, alignment and type of the memory were checked when the image was placed.
         unsafe { gpu.raw.bind_image_memory(raw, block, begin + offset) }
             .map_err(Error::vulkan("binding an image to memory"))?;
@@ -76,7 +79,12 @@ impl Image {
     /// # Safety
     /// It must have been made by the same device and live as long as this.
     pub(crate) unsafe fn foreign(gpu: &Arc<Gpu>, descriptor: &ImageDescriptor, raw: vk::Image) -> Image {
-        Image { gpu: gpu.clone(), raw, descriptor: *descriptor, memory: None }
+        Image { gpu: gpu.clone(), raw, descriptor: *descriptor, memory: None, views: Views::default() }
+    }
+
+    /// Whether this device made it.
+    pub(crate) fn is_of(&self, gpu: &Gpu) -> bool {
+        std::ptr::eq(Arc::as_ptr(&self.gpu), gpu)
     }
 
     /// Whether it belongs to somebody else.
@@ -87,8 +95,15 @@ impl Image {
 
 impl Drop for Image {
     fn drop(&mut self) {
-        if self.memory.is_some() && !self.gpu.is_abandoned() {
+        if self.gpu.is_abandoned() {
+            return;
+        }
+        for (.., view) in self.views.get_mut().unwrap_or_else(PoisonError::into_inner) {
             // SAFETY: the owner of the image waits for the device before dropping it.
+            unsafe { self.gpu.raw.destroy_image_view(*view, None) };
+        }
+        if self.memory.is_some() {
+            // SAFETY: as above, and its views are gone.
             unsafe { self.gpu.raw.destroy_image(self.raw, None) };
         }
     }

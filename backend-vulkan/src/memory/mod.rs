@@ -11,4 +11,4 @@ pub use needs::{LiveMemory, MemoryInUse};
 pub(crate) use block::{MemoryBlock, MemoryUse};
 pub(crate) use buffer::RawBuffer;
 pub(crate) use image::Image;
-pub(crate) use view::{View, ViewShape};
+pub(crate) use view::ViewShape;

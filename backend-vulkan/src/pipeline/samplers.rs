@@ -1,17 +1,13 @@
 //! Samplers, one for each description.
 
-use crate::base::Error;
-use crate::gpu::{AddressMode, Gpu, SamplerDescriptor, TexelFilter};
+use crate::base::{Error, convert};
+use crate::gpu::{Gpu, SamplerDescriptor};
 use ash::vk;
-use framewright_graph::vulkan::{self, Filter, Sampler};
+use framewright_graph::vulkan::{AddressMode, Filter, Sampler};
 
 impl Gpu {
     /// The sampler of this description.
     pub(crate) fn sampler(&self, descriptor: SamplerDescriptor) -> Result<vk::Sampler, Error> {
-        let filter = |filter| match filter {
-            TexelFilter::Nearest => vk::Filter::NEAREST,
-            TexelFilter::Linear => vk::Filter::LINEAR,
-        };
         let address = |mode| match mode {
             AddressMode::Repeat => vk::SamplerAddressMode::REPEAT,
             AddressMode::MirroredRepeat => vk::SamplerAddressMode::MIRRORED_REPEAT,
@@ -19,11 +15,11 @@ impl Gpu {
         };
         self.caches.samplers.get(descriptor, |it| {
             let info = vk::SamplerCreateInfo::default()
-                .mag_filter(filter(it.magnify))
-                .min_filter(filter(it.minify))
+                .mag_filter(convert::filter(it.magnify))
+                .min_filter(convert::filter(it.minify))
                 .mipmap_mode(match it.mip {
-                    TexelFilter::Nearest => vk::SamplerMipmapMode::NEAREST,
-                    TexelFilter::Linear => vk::SamplerMipmapMode::LINEAR,
+                    Filter::Nearest => vk::SamplerMipmapMode::NEAREST,
+                    Filter::Linear => vk::SamplerMipmapMode::LINEAR,
                 })
                 .address_mode_u(address(it.address[0]))
                 .address_mode_v(address(it.address[1]))
@@ -36,17 +32,7 @@ impl Gpu {
 }
 
 impl From<Sampler> for SamplerDescriptor {
-    fn from(sampler: Sampler) -> SamplerDescriptor {
-        let texel_filter = |filter| match filter {
-            Filter::Nearest => TexelFilter::Nearest,
-            Filter::Linear => TexelFilter::Linear,
-        };
-        let address = match sampler.address {
-            vulkan::AddressMode::ClampToEdge => AddressMode::ClampToEdge,
-            vulkan::AddressMode::Repeat => AddressMode::Repeat,
-            vulkan::AddressMode::MirroredRepeat => AddressMode::MirroredRepeat,
-        };
-        let filter = texel_filter(sampler.filter);
-        SamplerDescriptor { magnify: filter, minify: filter, mip: texel_filter(sampler.mips), address: [address; 3] }
+    fn from(Sampler { filter, mips, address }: Sampler) -> SamplerDescriptor {
+        SamplerDescriptor { magnify: filter, minify: filter, mip: mips, address: [address; 3] }
     }
 }

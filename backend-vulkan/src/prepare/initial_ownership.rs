@@ -4,10 +4,8 @@
 //! acquiring an image from the queue on which the frame before would have released it, somebody has to release it.
 
 use super::descriptions::part;
-use super::uses::ResourceUses;
-use framewright_graph::plan::{
-    ImageBarrier, ImageId, Pass, Plan, Queue, Resource, Role, Side, Step, Subresources, Work,
-};
+use super::uses::{ResourceUses, used};
+use framewright_graph::plan::{ImageBarrier, ImageId, Plan, Queue, Resource, Role, Subresources};
 use framewright_graph::vulkan::{Layout, Sharing};
 use std::collections::HashSet;
 
@@ -60,7 +58,11 @@ pub(crate) fn initial_owners<'p>(plan: &'p Plan, relies: impl Fn(ImageId) -> boo
                 _ => touch(barrier.image, barrier.range, step.queue, None),
             }
         }
-        used(step, &mut |image, range| touch(image, range, step.queue, None));
+        used(&step.work, &mut |resource, range| {
+            if let (Resource::Image(image), Some(range)) = (resource, range) {
+                touch(image, range, step.queue, None);
+            }
+        });
     }
     owners
 }
@@ -76,49 +78,16 @@ pub(crate) fn initial_queue(plan: &Plan, uses: &ResourceUses, resource: Resource
         }
         Resource::Buffer(_) => {
             let first = uses.of(resource);
-            Some(first.map_or(Queue::Graphics, |span| plan.steps[span.first].queue))
+            Some(first.map_or(Queue::Graphics, |span| plan.steps[span.first.0 as usize].queue))
         }
-    }
-}
-
-/// Calls `use_part` for each part of an image that the work of a step touches.
-fn used(step: &Step, use_part: &mut impl FnMut(ImageId, Subresources)) {
-    let mut pass = |pass: &Pass| pass.accesses.iter().for_each(|access| use_part(access.image, access.range));
-    match &step.work {
-        Work::Render(scope) => {
-            scope.passes.iter().for_each(&mut pass);
-            for attachment in scope.color.iter().chain(&scope.depth).chain(&scope.stencil) {
-                use_part(attachment.image, attachment.range);
-                if let Some(resolve) = &attachment.resolve {
-                    use_part(resolve.image, resolve.range);
-                }
-            }
-        }
-        Work::Dispatch(of) | Work::Custom(of) => pass(of),
-        Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => {
-            for side in [&transfer.source, &transfer.target] {
-                if let Side::Image { image, range, .. } = side {
-                    use_part(*image, *range);
-                }
-            }
-        }
-        Work::Fill(fill) => {
-            if let Side::Image { image, range, .. } = &fill.target {
-                use_part(*image, *range);
-            }
-        }
-        Work::Export => {}
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_graph::plan::{Access, Cause, DeviceUsed, Hazard, Image, Initial, StepId, Totals};
-    use framewright_graph::vulkan::Format;
-    use framewright_graph::vulkan::Rotation;
-    use framewright_graph::vulkan::Shape;
-    use framewright_graph::vulkan::{Accesses, FillValue, Stages, State, Usage};
+    use framewright_graph::plan::{Cause, DeviceUsed, Fill, Hazard, Image, Initial, Side, Step, StepId, Totals, Work};
+    use framewright_graph::vulkan::{Accesses, FillValue, Format, Rotation, Shape, Stages, State, Usage};
 
     const FORMAT: Format = Format::R32_UINT;
     const LAYOUT: Layout = Layout::General;
@@ -171,38 +140,12 @@ mod tests {
         Subresources { base_mip: level, mips: 1, ..Subresources::all(FORMAT, 2, 1) }
     }
 
-    /// A dispatch on a queue that touches a mip level, after these barriers.
+    /// A fill on a queue that touches a mip level, after these barriers.
     fn step(queue: Queue, level: u32, image_barriers: Vec<ImageBarrier>) -> Step {
-        let access = Access {
-            image: ImageId(0),
-            range: mip(level),
-            eye: None,
-            stages: Stages::COMPUTE_SHADER,
-            accesses: Accesses::SHADER_STORAGE_READ,
-            layout: LAYOUT,
-            binding: None,
-        };
-        let pass = Pass {
-            name: "p".into(),
-            cause: Cause::Written(None),
-            view: None,
-            draw: None,
-            groups: None,
-            shader: "p".into(),
-            redraws: None,
-            discards: false,
-            alpha_to_coverage: false,
-            blend: Vec::new(),
-            depth: None,
-            stencil: None,
-            params: Vec::new(),
-            accesses: vec![access],
-            buffers: Vec::new(),
-            local_barrier: false,
-            merged: None,
-        };
+        let target = Side::Image { image: ImageId(0), range: mip(level), extent: [1; 3], layout: LAYOUT };
+        let work = Work::Fill(Fill { name: None, cause: Cause::Written(None), target, value: FillValue::Bits([0; 4]) });
         let (waits, memory_barriers, releases) = (Vec::new(), Vec::new(), Vec::new());
-        Step { queue, waits, memory_barriers, image_barriers, work: Work::Dispatch(pass), releases }
+        Step { queue, waits, memory_barriers, image_barriers, work, releases }
     }
 
     fn barrier(level: u32, old_layout: Layout, ownership: Option<[Queue; 2]>) -> ImageBarrier {

@@ -1,15 +1,20 @@
-//! A Plan turned into what recording walks: images and buffers, views, descriptor sets, pipelines.
+//! A Plan turned into what recording walks: images and buffers, views, descriptor sets, pipelines, and Vulkan's own structures for
+//! every command.
 
 mod batches;
 mod check;
 mod check_steps;
 mod descriptions;
+mod frame;
 mod history;
 mod initial_ownership;
 mod pass;
 mod pass_set;
 mod physical;
+mod poison;
 mod prepared;
+mod scope;
+mod step;
 mod textures;
 mod uses;
 mod variant;
@@ -17,12 +22,13 @@ mod variant;
 pub(crate) use batches::{Batch, batches};
 pub(crate) use check::{Refuse, check};
 pub(crate) use descriptions::{buffer_descriptor, cycle, descriptor, name_and_role, part};
-pub(crate) use history::RingCache;
+pub(crate) use frame::Frame;
 pub(crate) use initial_ownership::{InitialOwner, initial_owners, initial_queue};
-pub(crate) use pass::{PassState, PreparedDispatch, PreparedDraw, WorkgroupCount, groups};
-pub(crate) use pass_set::{PassSet, SetTemplate};
+pub(crate) use pass::{DispatchCommands, DrawCommands, PassState, PreparedDispatch, PreparedDraw, WorkgroupCount};
 pub(crate) use physical::PhysicalResources;
-pub(crate) use prepared::{AttachmentViews, PreparedPlan, PreparedScope, PreparedStep};
+pub(crate) use prepared::PreparedPlan;
+pub(crate) use scope::{DrawTarget, ScopeCommands};
+pub(crate) use step::{PreparedStep, PreparedWork, WorkCommands};
 pub(crate) use textures::{StagedTexture, stage_textures};
-pub(crate) use uses::ResourceUses;
+pub(crate) use uses::{ResourceUses, passes};
 pub(crate) use variant::view_mask;

@@ -1,11 +1,10 @@
-//! A pass's pipeline, and the template of its descriptor set.
+//! A pass's pipeline, the template of its descriptor set, and what it records.
 
-use super::history::RingCache;
-use super::pass_set::{PassSet, SetTemplate};
-use super::physical::PhysicalResources;
+use super::frame::Frame;
+use super::pass_set::PassSets;
 use super::variant::{variant, view_mask};
 use crate::base::Error;
-use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants};
+use crate::gpu::{Gpu, LocalRead, PipelineDescriptor, RotationConstants, c_string};
 use crate::pipeline::{
     brought_attributes, check_brought, check_limits, check_outputs, check_supplied, check_workgroup, own_attributes,
 };
@@ -16,21 +15,36 @@ use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
 use framewright_graph::plan::{self, BindingKind, BufferId, Plan, RenderScope};
 use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterfaces, ShaderProblem};
 use framewright_graph::vulkan::Accesses;
-use std::sync::Arc;
+use std::ffi::CString;
 
 /// The objects of a pass of a rendering scope.
 pub(crate) struct PreparedDraw {
+    /// What debuggers call it.
+    pub(crate) label: CString,
     pub(crate) draw: Draw,
-    pub(crate) template: SetTemplate,
-    pub(crate) sets: RingCache<PassSet>,
+    pub(crate) sets: PassSets,
     /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
     pub(crate) pipeline: Option<vk::Pipeline>,
+    /// How the pass sees the scope's colour attachments; `None` where no pass of the scope reads them locally.
     pub(crate) local: Option<LocalRead>,
     pub(crate) state: PassState,
     /// The pass's own vertex buffers.
-    pub(crate) vertices: Vec<BufferId>,
-    pub(crate) indices: Option<BufferId>,
-    pub(crate) indirect: Option<BufferId>,
+    vertices: Vec<BufferId>,
+    indices: Option<BufferId>,
+    indirect: Option<BufferId>,
+}
+
+/// What a pass of a rendering scope records in a frame.
+pub(crate) struct DrawCommands {
+    pub(crate) set: vk::DescriptorSet,
+    /// Push constants: which parts of images are in use.
+    pub(crate) parts: Vec<u8>,
+    /// The pass's own vertex buffers, and where each begins.
+    pub(crate) vertices: Vec<vk::Buffer>,
+    pub(crate) offsets: Vec<vk::DeviceSize>,
+    pub(crate) indices: Option<vk::Buffer>,
+    /// Holds the counts of an indirect draw.
+    pub(crate) counts: Option<vk::Buffer>,
 }
 
 /// What a recorder must know of the pass's pipeline.
@@ -54,21 +68,80 @@ impl PassState {
 
 /// A dispatch's objects.
 pub(crate) struct PreparedDispatch {
-    pub(crate) template: SetTemplate,
-    pub(crate) sets: RingCache<PassSet>,
+    pub(crate) sets: PassSets,
     pub(crate) pipeline: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
-    pub(crate) groups: WorkgroupCount,
     /// Invocations of a workgroup.
-    pub(crate) size: [u32; 3],
+    size: [u32; 3],
+}
+
+/// What a dispatch records in a frame.
+pub(crate) struct DispatchCommands {
+    pub(crate) set: vk::DescriptorSet,
+    /// As in [`DrawCommands`].
+    pub(crate) parts: Vec<u8>,
+    pub(crate) groups: WorkgroupCount<vk::Buffer>,
 }
 
 /// How many workgroups.
-pub(crate) enum WorkgroupCount {
+pub(crate) enum WorkgroupCount<B> {
     /// So many.
     Direct([u32; 3]),
     /// As many as that buffer says at that offset.
-    Indirect(BufferId, u64),
+    Indirect(B, u64),
+}
+
+impl PreparedDraw {
+    /// What the pass records in a frame.
+    pub(super) fn commands(&mut self, frame: &Frame<'_>, pass: &plan::Pass) -> Result<DrawCommands, Error> {
+        let buffer = |id: BufferId| frame.buffer(id).raw;
+        Ok(DrawCommands {
+            set: self.sets.prepare(frame)?,
+            parts: parts(frame.plan, pass),
+            vertices: self.vertices.iter().copied().map(buffer).collect(),
+            offsets: vec![0; self.vertices.len()],
+            indices: self.indices.map(buffer),
+            counts: self.indirect.map(buffer),
+        })
+    }
+}
+
+impl PreparedDispatch {
+    /// What the dispatch records in a frame.
+    pub(super) fn commands(&mut self, frame: &Frame<'_>, pass: &plan::Pass) -> Result<DispatchCommands, Error> {
+        let groups = match self.groups(frame.gpu, pass)? {
+            WorkgroupCount::Direct(count) => WorkgroupCount::Direct(count),
+            WorkgroupCount::Indirect(buffer, offset) => WorkgroupCount::Indirect(frame.buffer(buffer).raw, offset),
+        };
+        let set = self.sets.prepare(frame)?;
+        Ok(DispatchCommands { set, parts: parts(frame.plan, pass), groups })
+    }
+
+    /// How many workgroups it takes.
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] if they are too many, or nothing says how many they are.
+    pub(crate) fn groups(&self, gpu: &Gpu, pass: &plan::Pass) -> Result<WorkgroupCount<BufferId>, Error> {
+        let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
+        let count = match pass.groups {
+            None => return Err(mismatch("a dispatch doesn't say how many workgroups".to_owned())),
+            Some(Groups::Count(count)) => count,
+            Some(Groups::Invocations(wanted)) => [0, 1, 2].map(|axis| wanted[axis].div_ceil(self.size[axis].max(1))),
+            Some(Groups::Indirect { offset }) => {
+                return Ok(WorkgroupCount::Indirect(indirect(pass).map_err(mismatch)?, offset));
+            }
+        };
+        let most = gpu.limits.max_compute_work_group_count;
+        if count.iter().zip(most).any(|(count, most)| *count > most) {
+            return Err(mismatch(format!("{count:?} workgroups are more than the {most:?} of this device")));
+        }
+        Ok(WorkgroupCount::Direct(count))
+    }
+}
+
+/// What the pass's shaders are told of the parts of images that are in use.
+fn parts(plan: &Plan, pass: &plan::Pass) -> Vec<u8> {
+    plan.parts(pass).flat_map(|(_, part)| part.map(f32::to_ne_bytes)).flatten().collect()
 }
 
 /// The buffers of a pass that have this role.
@@ -76,26 +149,18 @@ fn buffers(pass: &plan::Pass, role: BufferRole) -> Vec<BufferId> {
     pass.buffers.iter().filter(|it| it.role == Some(role)).map(|it| it.buffer).collect()
 }
 
-/// The one buffer that tells counts, which must hold `bytes` bytes from `offset` on.
-fn indirect(plan: &Plan, pass: &plan::Pass, offset: u64, bytes: u64) -> Result<BufferId, String> {
-    let [buffer] = buffers(pass, BufferRole::Indirect)[..] else {
-        return Err("its counts must stand in one buffer".to_owned());
-    };
-    let held = plan.buffers[buffer.0 as usize].bytes;
-    if !offset.is_multiple_of(4) || offset.checked_add(bytes).is_none_or(|end| end > held) {
-        return Err(format!("its counts must stand at a multiple of 4, and {bytes} bytes from {offset} of {held} on"));
-    }
-    Ok(buffer)
+/// The one buffer that tells counts, of which the checker has found that it holds them.
+fn indirect(pass: &plan::Pass) -> Result<BufferId, String> {
+    buffers(pass, BufferRole::Indirect).first().copied().ok_or_else(|| "no buffer tells its counts".to_owned())
 }
 
 /// The objects of a dispatch.
-pub(crate) fn prepare_dispatch(
-    gpu: &Arc<Gpu>,
-    plan: &Plan,
-    physical: &PhysicalResources,
+pub(super) fn prepare_dispatch(
+    frame: &Frame<'_>,
     pass: &plan::Pass,
     shaders: &mut ShaderLibrary,
 ) -> Result<PreparedDispatch, Error> {
+    let (gpu, plan) = (frame.gpu, frame.plan);
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let shader = shaders
         .compute(&pass.shader, &variant(plan, pass, None)?)
@@ -105,43 +170,20 @@ pub(crate) fn prepare_dispatch(
     check_supplied(&shader.interface, &nothing).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     check_workgroup(gpu, size).map_err(mismatch)?;
-    let groups = groups(gpu, plan, pass, size).map_err(mismatch)?;
-    let template = SetTemplate::new(gpu, plan, pass, &shader.interface.bindings)?;
-    let layout = gpu.pipeline_layout(vec![template.layout])?;
+    let sets = PassSets::new(frame, pass, &shader.interface.bindings)?;
+    let layout = gpu.pipeline_layout(vec![sets.layout])?;
     let pipeline = gpu.compute_pipeline(&pass.name, shader.compute, layout)?;
-    let sets = RingCache::new(physical.period(template.resources()));
-    Ok(PreparedDispatch { template, sets, pipeline, layout, groups, size })
-}
-
-/// How many workgroups of `size` invocations a dispatch takes.
-///
-/// # Errors
-/// In words: if they are too many, or nothing says how many they are.
-pub(crate) fn groups(gpu: &Gpu, plan: &Plan, pass: &plan::Pass, size: [u32; 3]) -> Result<WorkgroupCount, String> {
-    let count = match pass.groups {
-        None => return Err("a dispatch doesn't say how many workgroups".to_owned()),
-        Some(Groups::Count(count)) => count,
-        Some(Groups::Invocations(wanted)) => [0, 1, 2].map(|axis| wanted[axis].div_ceil(size[axis].max(1))),
-        Some(Groups::Indirect { offset }) => {
-            return Ok(WorkgroupCount::Indirect(indirect(plan, pass, offset, 12)?, offset));
-        }
-    };
-    let most = gpu.limits.max_compute_work_group_count;
-    if count.iter().zip(most).any(|(count, most)| *count > most) {
-        return Err(format!("{count:?} workgroups are more than the {most:?} of this device"));
-    }
-    Ok(WorkgroupCount::Direct(count))
+    Ok(PreparedDispatch { sets, pipeline, layout, size })
 }
 
 /// The objects of a pass of a rendering scope.
-pub(crate) fn prepare_draw(
-    gpu: &Arc<Gpu>,
-    plan: &Plan,
-    physical: &PhysicalResources,
+pub(super) fn prepare_draw(
+    frame: &Frame<'_>,
     scope: &RenderScope,
     pass: &plan::Pass,
     shaders: &mut ShaderLibrary,
 ) -> Result<PreparedDraw, Error> {
+    let (gpu, plan) = (frame.gpu, frame.plan);
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let draw = pass.draw.ok_or_else(|| mismatch("a rendering scope holds a dispatch".to_owned()))?;
     let (indices, wanted) = (buffers(pass, BufferRole::Index), buffers(pass, BufferRole::Vertex));
@@ -151,13 +193,13 @@ pub(crate) fn prepare_draw(
         _ => return Err(mismatch("it has several index buffers".to_owned())),
     };
     let indirect = match draw {
-        Draw::Indirect => Some(indirect(plan, pass, 0, if indices.is_some() { 20 } else { 16 }).map_err(mismatch)?),
+        Draw::Indirect => Some(indirect(pass).map_err(mismatch)?),
         _ => None,
     };
-    let nothing = |template| PreparedDraw {
+    let nothing = |sets| PreparedDraw {
+        label: c_string(&pass.name),
         draw,
-        template,
-        sets: RingCache::new(1),
+        sets,
         pipeline: None,
         local: None,
         state: PassState::default(),
@@ -168,8 +210,7 @@ pub(crate) fn prepare_draw(
     let form = plan.eyes(scope);
     let shader = match shaders.compiled(&pass.shader, draw, &variant(plan, pass, form)?) {
         Err(ShaderProblem::Missing { .. }) if draw == Draw::Custom => {
-            let template = SetTemplate::empty(gpu)?;
-            return Ok(nothing(template));
+            return Ok(nothing(PassSets::empty(gpu)?));
         }
         other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
     };
@@ -189,10 +230,12 @@ pub(crate) fn prepare_draw(
         (attributes, strides)
     };
     let vertices = if own_vertices { wanted } else { Vec::new() };
-    check_reach(plan, draw, &vertices, &strides, indices).map_err(mismatch)?;
-    let template = SetTemplate::new(gpu, plan, pass, &shader.interface.bindings)?;
+    if indices.is_none() {
+        check_reach(plan, draw, &vertices, &strides).map_err(mismatch)?;
+    }
+    let sets = PassSets::new(frame, pass, &shader.interface.bindings)?;
     let supplied = supplied_layouts(gpu, &brought)?;
-    let layout = gpu.pipeline_layout([template.layout].into_iter().chain(supplied.iter().copied()).collect())?;
+    let layout = gpu.pipeline_layout([sets.layout].into_iter().chain(supplied.iter().copied()).collect())?;
     let reads = |set| shader.interface.bindings.iter().any(|it| it.set == set);
     let local = local_read(gpu, scope, pass, &shader, &targets).map_err(mismatch)?;
     let format = |attachment: &plan::Attachment| plan.image(attachment.image).format;
@@ -223,8 +266,7 @@ pub(crate) fn prepare_draw(
     let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
     let usual_vertices = shader.usual_vertices;
     let state = PassState { layout, supplied, vertex_stride: brought_stride, usual_vertices };
-    let sets = RingCache::new(physical.period(template.resources()));
-    Ok(PreparedDraw { sets, pipeline, local, state, vertices, ..nothing(template) })
+    Ok(PreparedDraw { pipeline, local, state, vertices, ..nothing(sets) })
 }
 
 /// The colour attachments of the scope that the pass writes, by the shader's locations.
@@ -294,25 +336,15 @@ fn fill_gaps(numbers: &mut [u32]) {
     }
 }
 
-/// A draw's vertices and indices must lie within its buffers.
-fn check_reach(
-    plan: &Plan,
-    draw: Draw,
-    vertices: &[BufferId],
-    strides: &[u32],
-    indices: Option<BufferId>,
-) -> Result<(), String> {
+/// A draw's vertices must lie within its buffers. Of indices the checker says so; what they point to is known to the device
+/// alone, which keeps within the buffers.
+fn check_reach(plan: &Plan, draw: Draw, vertices: &[BufferId], strides: &[u32]) -> Result<(), String> {
     let Draw::Vertices { count, .. } = draw else { return Ok(()) };
-    let reaches = |buffer: BufferId, each: u32| {
+    vertices.iter().zip(strides).try_for_each(|(buffer, stride)| {
         let buffer = &plan.buffers[buffer.0 as usize];
-        if u64::from(count) * u64::from(each) <= buffer.bytes {
+        if u64::from(count) * u64::from(*stride) <= buffer.bytes {
             return Ok(());
         }
-        Err(format!("{count} of {each} bytes each are more than `{}` holds: {} bytes", buffer.name, buffer.bytes))
-    };
-    match indices {
-        // What indices point to is known to the device alone, which keeps within the buffers.
-        Some(indices) => reaches(indices, 4),
-        None => vertices.iter().zip(strides).try_for_each(|(buffer, stride)| reaches(*buffer, *stride)),
-    }
+        Err(format!("{count} of {stride} bytes each are more than `{}` holds: {} bytes", buffer.name, buffer.bytes))
+    })
 }

@@ -1,10 +1,11 @@
 //! The set that belongs to a pass: its images and buffers by the shader's names, and the block `params`.
 
 use super::descriptions::part;
-use super::physical::PhysicalResources;
+use super::frame::Frame;
+use super::history::RingCache;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, LayoutBinding};
-use crate::memory::{MemoryUse, RawBuffer, View, ViewShape};
+use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
 use crate::pipeline::{DescriptorSet, DescriptorTarget, PARAMS, parameters};
 use ash::vk;
 use framewright_graph::frame::EyeForm;
@@ -13,38 +14,35 @@ use framewright_graph::shader::{self, Block, PASS_SET};
 use framewright_graph::vulkan::{Accesses, Aspects, Component, Dimension, ImageShape, Sampler, Stages};
 use std::sync::Arc;
 
-/// What a pass's own set is filled with, whatever stands for its images and buffers.
-pub(crate) struct SetTemplate {
+/// A pass's own sets, and what they are filled with, whatever stands for its images and buffers.
+pub(crate) struct PassSets {
     pub(crate) layout: vk::DescriptorSetLayout,
     bindings: Vec<(LayoutBinding, BoundResource)>,
     params: Option<(Block, Arc<RawBuffer>)>,
+    made: RingCache<PassSet>,
 }
 
 /// What is bound to one name.
 enum BoundResource {
     Params,
     Buffer(BufferId),
-    Image { image: ImageId, range: Subresources, shape: ViewShape, layout: vk::ImageLayout, sampler: vk::Sampler },
+    Image { image: ImageId, range: Subresources, shape: ViewShape, layout: vk::ImageLayout, sampler: Option<Sampler> },
 }
 
 /// A pass's own descriptor set with all that it points to. Fields are dropped in this order.
-pub(crate) struct PassSet {
-    pub(crate) set: DescriptorSet,
-    _views: Vec<View>,
+struct PassSet {
+    set: DescriptorSet,
+    _images: Vec<Arc<Image>>,
     _buffers: Vec<Arc<RawBuffer>>,
 }
 
-impl SetTemplate {
-    /// The set for `pass` and the bindings of its shader.
+impl PassSets {
+    /// The sets for `pass` and the bindings of its shader.
     ///
     /// # Errors
     /// [`Error::Mismatch`] where the Plan and the shader don't name the same things.
-    pub(crate) fn new(
-        gpu: &Arc<Gpu>,
-        plan: &Plan,
-        pass: &plan::Pass,
-        shader: &[shader::Binding],
-    ) -> Result<SetTemplate, Error> {
+    pub(super) fn new(frame: &Frame<'_>, pass: &plan::Pass, shader: &[shader::Binding]) -> Result<PassSets, Error> {
+        let (gpu, plan) = (frame.gpu, frame.plan);
         let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
         let own = || shader.iter().filter(|it| it.set == PASS_SET);
         let images = pass.accesses.iter().filter_map(|it| it.binding.as_ref()).map(|it| &it.name);
@@ -64,73 +62,81 @@ impl SetTemplate {
                 shader::BindingKind::UniformBlock(_) | shader::BindingKind::StorageBlock { .. } => {
                     block(plan, pass, wanted).map_err(mismatch)?
                 }
-                _ => {
-                    let (ty, image) = image(gpu, plan, pass, wanted).map_err(mismatch)?;
-                    let sampler = image.sampler.map(|it| gpu.sampler(it.into())).transpose()?;
-                    let BoundImage { image, range, shape, layout, .. } = image;
-                    (ty, BoundResource::Image { image, range, shape, layout, sampler: sampler.unwrap_or_default() })
-                }
+                _ => image(gpu, plan, pass, wanted).map_err(mismatch)?,
             };
             bindings.push((LayoutBinding { binding: wanted.binding, ty, stages: stages(wanted.stages) }, bound));
         }
         let layout = gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
-        Ok(SetTemplate { layout, bindings, params })
+        let resources = bindings.iter().filter_map(|(_, bound)| match bound {
+            BoundResource::Params => None,
+            BoundResource::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
+            BoundResource::Image { image, .. } => Some(Resource::Image(*image)),
+        });
+        let made = RingCache::new(frame.physical.period(resources));
+        Ok(PassSets { layout, bindings, params, made })
     }
 
-    /// A set without bindings.
-    pub(crate) fn empty(gpu: &Gpu) -> Result<SetTemplate, Error> {
-        Ok(SetTemplate { layout: gpu.set_layout(Vec::new())?, bindings: Vec::new(), params: None })
+    /// Sets without bindings.
+    pub(crate) fn empty(gpu: &Gpu) -> Result<PassSets, Error> {
+        let (layout, made) = (gpu.set_layout(Vec::new())?, RingCache::new(1));
+        Ok(PassSets { layout, bindings: Vec::new(), params: None, made })
     }
 
-    /// The block `params` with the values that `pass` has now, for [`SetTemplate::take`]; `None`: the shader has none.
+    /// The block `params` with the values that `pass` has now, for [`PassSets::take`]; `None`: the shader has none.
     pub(crate) fn params_of(&self, gpu: &Arc<Gpu>, pass: &plan::Pass) -> Result<Option<Arc<RawBuffer>>, Error> {
         self.params.as_ref().map(|(block, _)| filled(gpu, block, pass)).transpose()
     }
 
-    /// Puts other parameters in place of those that sets were filled with so far.
+    /// Puts other parameters in place of those that sets were filled with so far, which must not be in use.
     pub(crate) fn take(&mut self, filled: Arc<RawBuffer>) {
         if let Some((_, params)) = &mut self.params {
             *params = filled;
         }
+        self.forget();
     }
 
-    /// What the set's contents depend on.
-    pub(crate) fn resources(&self) -> impl Iterator<Item = Resource> {
-        self.bindings.iter().filter_map(|(_, bound)| match bound {
-            BoundResource::Params => None,
-            BoundResource::Buffer(buffer) => Some(Resource::Buffer(*buffer)),
-            BoundResource::Image { image, .. } => Some(Resource::Image(*image)),
-        })
+    /// Forgets all sets: other images or buffers stand for the Plan's now. None may be in use.
+    pub(super) fn forget(&mut self) {
+        self.made.forget();
     }
 
-    /// The set for frame `frame`.
-    pub(crate) fn fill(&self, gpu: &Arc<Gpu>, physical: &PhysicalResources, frame: u64) -> Result<PassSet, Error> {
-        let (mut views, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
-        for (binding, bound) in &self.bindings {
+    /// The set for a frame.
+    pub(super) fn prepare(&mut self, frame: &Frame<'_>) -> Result<vk::DescriptorSet, Error> {
+        let (bindings, params) = (&self.bindings, self.params.as_ref().map(|(_, params)| params));
+        self.made.prepare(frame.number, || PassSet::new(frame, bindings, params)).map(|made| made.set.raw)
+    }
+}
+
+impl PassSet {
+    fn new(
+        frame: &Frame<'_>,
+        bindings: &[(LayoutBinding, BoundResource)],
+        params: Option<&Arc<RawBuffer>>,
+    ) -> Result<PassSet, Error> {
+        let (mut images, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
+        for (binding, bound) in bindings {
             let target = match bound {
-                BoundResource::Params => match &self.params {
-                    Some((_, params)) => {
-                        buffers.push(params.clone());
-                        DescriptorTarget::Buffer(params.raw)
-                    }
-                    None => continue,
-                },
+                BoundResource::Params => {
+                    let Some(params) = params else { continue };
+                    buffers.push(params.clone());
+                    DescriptorTarget::Buffer(params.raw)
+                }
                 BoundResource::Buffer(buffer) => {
-                    let buffer = physical.buffer(*buffer, frame);
+                    let buffer = frame.buffer(*buffer);
                     buffers.push(buffer.clone());
                     DescriptorTarget::Buffer(buffer.raw)
                 }
                 BoundResource::Image { image, range, shape, layout, sampler } => {
-                    let view = View::new(physical.image(*image, frame), *range, *shape)?;
-                    let target = DescriptorTarget::Image(view.raw, *layout, *sampler);
-                    views.push(view);
-                    target
+                    let image = frame.image(*image);
+                    images.push(image.clone());
+                    let sampler = sampler.map(|it| frame.gpu.sampler(it.into())).transpose()?;
+                    DescriptorTarget::Image(image.view(*range, *shape)?, *layout, sampler.unwrap_or_default())
                 }
             };
             targets.push((*binding, target));
         }
-        let set = DescriptorSet::new(gpu, &targets)?;
-        Ok(PassSet { set, _views: views, _buffers: buffers })
+        let set = DescriptorSet::new(frame.gpu, &targets)?;
+        Ok(PassSet { set, _images: images, _buffers: buffers })
     }
 }
 
@@ -184,22 +190,13 @@ fn only_read(name: &str, writable: bool, accesses: Accesses) -> Result<(), Strin
     Ok(())
 }
 
-/// An image as it is bound.
-struct BoundImage {
-    image: ImageId,
-    range: Subresources,
-    shape: ViewShape,
-    layout: vk::ImageLayout,
-    sampler: Option<Sampler>,
-}
-
 /// The part of an image that is bound, in the shape that the shader declares.
 fn image(
     gpu: &Gpu,
     plan: &Plan,
     pass: &plan::Pass,
     wanted: &shader::Binding,
-) -> Result<(vk::DescriptorType, BoundImage), String> {
+) -> Result<(vk::DescriptorType, BoundResource), String> {
     let name = &wanted.name;
     let bound = pass.accesses.iter().find_map(|it| {
         let binding = it.binding.as_ref().filter(|binding| *binding.name == **name)?;
@@ -229,7 +226,7 @@ fn image(
         Err(format!("`{name}` has {} samples and another kind of sampler", image.samples))
     };
     let layout = convert::layout(access.layout);
-    let whole = |shape, sampler| BoundImage { image: access.image, range, shape, layout, sampler };
+    let whole = |shape, sampler| BoundResource::Image { image: access.image, range, shape, layout, sampler };
     match (&wanted.kind, kind) {
         (shader::BindingKind::SampledImage(shape), BindingKind::Sampled(sampler)) => {
             samples(shape.multisampled)?;
@@ -274,7 +271,9 @@ fn view_shape(
         (Dimension::D2, true) if !deep => Ok(ViewShape::Layers),
         (Dimension::D3, false) if deep => Ok(ViewShape::Volume),
         (Dimension::Cube, false) if cubic && range.layers == 6 => Ok(ViewShape::Cube),
-        (Dimension::Cube, true) if !gpu.cube_arrays => Err(format!("`{name}`: this device has no arrays of cubes")),
+        (Dimension::Cube, true) if !gpu.features.cube_arrays() => {
+            Err(format!("`{name}`: this device has no arrays of cubes"))
+        }
         (Dimension::Cube, true) if cubic && range.layers.is_multiple_of(6) => Ok(ViewShape::Cubes),
         _ => Err(format!("`{name}` has another dimension than its image")),
     }

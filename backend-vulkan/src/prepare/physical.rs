@@ -1,6 +1,6 @@
 //! A Plan's images and buffers on a device.
 
-use super::descriptions::{buffer_descriptor, cycle, descriptor};
+use super::descriptions::{buffer_descriptor, descriptor};
 use super::history::HistoryRings;
 use crate::base::Error;
 use crate::gpu::Gpu;
@@ -24,15 +24,11 @@ pub(crate) struct PhysicalResources {
 impl PhysicalResources {
     /// Makes the heaps with what is placed in them, and all else with memory of its own.
     pub(crate) fn new(gpu: &Arc<Gpu>, plan: &Plan) -> Result<PhysicalResources, Error> {
-        let rings = HistoryRings::new(plan)?;
+        let rings = HistoryRings::new(plan);
         let heaps = heaps(gpu, plan)?;
         let heap = |place: &Placement| heaps[place.heap as usize].clone();
         let images = plan.images.iter().map(|image| {
-            let mut descriptor = descriptor(image);
-            // What changes round is used in every place of its cycle.
-            for id in cycle(image.id.0, |id| &plan.images[id as usize].role) {
-                descriptor.usage |= plan.images[id as usize].usage;
-            }
+            let descriptor = descriptor(image);
             let made = match &image.role {
                 Role::Transient(place) => Image::new(gpu, &image.name, &descriptor, heap(place), place.offset),
                 Role::Persistent { .. } | Role::External { .. } => {
@@ -44,10 +40,7 @@ impl PhysicalResources {
         });
         let images = images.collect::<Result<_, _>>()?;
         let buffers = plan.buffers.iter().map(|buffer| {
-            let mut descriptor = buffer_descriptor(buffer);
-            for id in cycle(buffer.id.0, |id| &plan.buffers[id as usize].role) {
-                descriptor.usage |= plan.buffers[id as usize].usage;
-            }
+            let descriptor = buffer_descriptor(buffer);
             let made = match &buffer.role {
                 Role::Transient(place) => RawBuffer::placed(gpu, &buffer.name, &descriptor, heap(place), place.offset),
                 Role::Persistent { .. } | Role::External { .. } => {
@@ -123,9 +116,6 @@ fn heaps(gpu: &Arc<Gpu>, plan: &Plan) -> Result<Vec<Arc<MemoryBlock>>, Error> {
             memory_type_bits: heap.type_bits & lazy,
         };
         let of_buffers = plan.buffers.iter().any(|buffer| placed(index, &buffer.role));
-        if of_buffers && plan.images.iter().any(|image| placed(index, &image.role)) {
-            return Err(Error::BadPlan { what: format!("heap {index} holds images and buffers") });
-        }
         let kind = if of_buffers { MemoryUse::Buffers } else { MemoryUse::Images };
         let memory = MemoryBlock::new(gpu, &format!("heap {index}"), requirements, kind);
         heaps.push(Arc::new(memory.map_err(|error| with_parts(error, plan, index))?));

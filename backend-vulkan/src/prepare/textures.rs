@@ -1,9 +1,9 @@
 //! The images of a Plan whose contents are a file's: their texels are read once, and uploaded before the first frame.
 
 use crate::base::Error;
+use crate::commands::staged;
 use crate::gpu::Gpu;
-use crate::memory::{MemoryUse, RawBuffer};
-use ash::vk;
+use crate::memory::RawBuffer;
 use framewright_graph::frame::{TextureFile, Textures};
 use framewright_graph::plan::{Image, ImageId, Initial, Plan, Role};
 use std::sync::Arc;
@@ -43,10 +43,7 @@ pub(crate) fn stage_textures(
                     format!("the texels of `{}` take {expected} bytes, and {} were provided", image.name, texels.len());
                 return Err(Error::BadResource { what });
             }
-            let usage = vk::BufferUsageFlags::TRANSFER_SRC;
-            let mut buffer = RawBuffer::new(gpu, &image.name, expected, usage, MemoryUse::Upload)?;
-            buffer.fill(&texels)?;
-            Ok(StagedTexture { image: image.id, buffer })
+            Ok(StagedTexture { image: image.id, buffer: staged(gpu, &image.name, &texels)? })
         })
         .collect()
 }

@@ -6,12 +6,11 @@
 use crate::base::{Error, convert};
 use crate::commands::Commands;
 use crate::gpu::{Device, Gpu, Message, MessageKind, Severity};
-use crate::memory::{Image, View, ViewShape};
+use crate::memory::{Image, ViewShape};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::plan::{Queue, Subresources};
 use framewright_graph::vulkan::{Format, Shape, Sharing, Usage};
-use std::sync::Arc;
 
 /// What the layer proved that it sees.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,9 +45,9 @@ impl Device {
             usage: Usage::TRANSFER_DST | Usage::COLOR_ATTACHMENT,
             sharing: Sharing::Exclusive,
         };
-        let image = Arc::new(Image::with_own_memory(&self.gpu, "canary", &descriptor)?);
+        let image = Image::with_own_memory(&self.gpu, "canary", &descriptor)?;
         let range = Subresources::all(descriptor.format, 1, 1);
-        let view = View::new(&image, range, ViewShape::Flat)?;
+        let view = image.view(range, ViewShape::Flat)?;
         let mut commands = Commands::new(&self.gpu, Queue::Graphics)?;
         let mut plant = |hazard: &dyn Fn(vk::CommandBuffer)| {
             let (recorded, messages) = validation.messages.apart(|| {
@@ -61,7 +60,7 @@ impl Device {
             recorded.map(|()| messages)
         };
         let clears = plant(&|buffer| clear(&self.gpu, buffer, &image))?;
-        let attachment = plant(&|buffer| render(&self.gpu, buffer, &view))?;
+        let attachment = plant(&|buffer| render(&self.gpu, buffer, view))?;
         let layer = validation.layer.shown.clone();
         let blind = |planted| Err(Error::LayerIsBlind { layer: layer.clone(), planted });
         if !clears.iter().any(is_hazard) {
@@ -88,9 +87,9 @@ fn clear(gpu: &Gpu, commands: vk::CommandBuffer, image: &Image) {
     unsafe { gpu.raw.cmd_clear_color_image(commands, image.raw, layout, &vk::ClearColorValue::default(), &[range]) };
 }
 
-fn render(gpu: &Gpu, commands: vk::CommandBuffer, view: &View) {
+fn render(gpu: &Gpu, commands: vk::CommandBuffer, view: vk::ImageView) {
     let attachment = [vk::RenderingAttachmentInfo::default()
-        .image_view(view.raw)
+        .image_view(view)
         .image_layout(vk::ImageLayout::GENERAL)
         .load_op(vk::AttachmentLoadOp::LOAD)
         .store_op(vk::AttachmentStoreOp::STORE)];

@@ -1,8 +1,8 @@
 //! How custom passes are recorded.
 
-use super::frame::Frame;
 use crate::base::convert;
 use crate::commands::{TransferSide, copy_between, fill};
+use crate::prepare::{Frame, part};
 use ash::vk;
 use framewright_graph::frame::ParamValue;
 use framewright_graph::plan::{self, Access, BufferAccess, Subresources};
@@ -93,11 +93,16 @@ impl<'f> CustomRecorder<'f> {
     }
 
     fn named(&self, accesses: Accesses) -> impl Iterator<Item = &str> {
-        let images = self.pass.accesses.iter().filter(move |it| it.accesses.contains(accesses));
-        let buffers = self.pass.buffers.iter().filter(move |it| it.accesses.contains(accesses));
-        let plan = self.frame.plan;
-        let images = images.map(|it| &*plan.image(it.image).name);
-        images.chain(buffers.map(|it| &*plan.buffers[it.buffer.0 as usize].name))
+        self.resources().filter(move |(_, it, _)| it.contains(accesses)).map(|(name, ..)| name)
+    }
+
+    /// The images, then the buffers of the pass, by the Plan's names, with what it may do with each.
+    fn resources(&self) -> impl Iterator<Item = (&'f str, Accesses, NamedResource<'f>)> + use<'f> {
+        let (plan, pass) = (self.frame.plan, self.pass);
+        let image = |it: &'f Access| (&*plan.image(it.image).name, it.accesses, NamedResource::Image(it));
+        let buffer =
+            |it: &'f BufferAccess| (&*plan.buffers[it.buffer.0 as usize].name, it.accesses, NamedResource::Buffer(it));
+        pass.accesses.iter().map(image).chain(pass.buffers.iter().map(buffer))
     }
 
     /// Sets all that the pass may write of an image or buffer to a value.
@@ -136,8 +141,8 @@ impl<'f> CustomRecorder<'f> {
         };
         let access = self.pass.accesses.iter().find(is_named)?;
         Some(CustomImage {
-            raw: self.frame.prepared.physical.image(access.image, self.frame.number).raw,
-            range: crate::prepare::part(plan.image(access.image), access.range),
+            raw: self.frame.image(access.image).raw,
+            range: part(plan.image(access.image), access.range),
             extent: self.extent(access),
             rotation: plan.image(access.image).rotation,
             layout: convert::layout(access.layout),
@@ -152,7 +157,7 @@ impl<'f> CustomRecorder<'f> {
             *self.frame.plan.buffers[it.buffer.0 as usize].name == *name || it.binding.as_deref() == Some(name)
         };
         let access = self.pass.buffers.iter().find(is_named)?;
-        Some(self.frame.prepared.physical.buffer(access.buffer, self.frame.number).raw)
+        Some(self.frame.buffer(access.buffer).raw)
     }
 
     /// The command buffer, recording outside of rendering scopes, for commands of the program's own. To record is unsafe:
@@ -168,12 +173,7 @@ impl<'f> CustomRecorder<'f> {
         if self.misuse.is_some() {
             return None;
         }
-        let (plan, pass) = (self.frame.plan, self.pass);
-        let image = |it: &&Access| *plan.image(it.image).name == *name && it.accesses.contains(accesses);
-        let buffer =
-            |it: &&BufferAccess| *plan.buffers[it.buffer.0 as usize].name == *name && it.accesses.contains(accesses);
-        let image = pass.accesses.iter().find(image).map(NamedResource::Image);
-        let found = image.or_else(|| pass.buffers.iter().find(buffer).map(NamedResource::Buffer));
+        let found = self.resources().find(|(known, it, _)| *known == name && it.contains(accesses)).map(|it| it.2);
         if found.is_none() {
             let verb = if accesses == Accesses::TRANSFER_READ { "reads" } else { "writes" };
             self.misused(|| format!("the pass {verb} no `{name}` by transfer"));
@@ -190,14 +190,12 @@ impl<'f> CustomRecorder<'f> {
     fn side(&self, named: &NamedResource<'_>) -> TransferSide {
         match named {
             NamedResource::Image(access) => {
-                self.frame.image_side(access.image, access.range, self.extent(access), access.layout)
+                let extent = self.extent(access);
+                TransferSide::Image(self.frame.image_side(access.image, access.range, extent, access.layout))
             }
             NamedResource::Buffer(access) => {
                 let bytes = self.frame.plan.buffers[access.buffer.0 as usize].bytes;
-                TransferSide::Buffer {
-                    buffer: self.frame.prepared.physical.buffer(access.buffer, self.frame.number).raw,
-                    bytes,
-                }
+                TransferSide::Buffer { buffer: self.frame.buffer(access.buffer).raw, bytes }
             }
         }
     }
@@ -207,7 +205,7 @@ impl<'f> CustomRecorder<'f> {
         let plan = self.frame.plan;
         let texels = |access: &Access| {
             let image = plan.image(access.image);
-            let range = crate::prepare::part(image, access.range);
+            let range = part(image, access.range);
             (image.format, image.samples, self.extent(access), range.layers, range.aspects)
         };
         let rotation = |access: &Access| plan.image(access.image).rotation;
@@ -234,17 +232,8 @@ impl<'f> CustomRecorder<'f> {
     /// How many commands were recorded, or the first misuse. To record nothing is one where the pass writes: those who read
     /// that would read what the memory held before.
     pub(crate) fn finish(self) -> Result<u32, String> {
-        let unwritten = self.written().filter(|_| self.recorded == 0);
-        let unwritten = unwritten.map(|name| format!("nothing was recorded, and the pass writes `{name}`"));
+        let unwritten = self.resources().find(|(_, it, _)| self.recorded == 0 && !it.writes().is_empty());
+        let unwritten = unwritten.map(|(name, ..)| format!("nothing was recorded, and the pass writes `{name}`"));
         self.misuse.or(unwritten).map_or(Ok(self.recorded), Err)
-    }
-
-    /// The first image or buffer that the pass writes.
-    fn written(&self) -> Option<&str> {
-        let (plan, pass) = (self.frame.plan, self.pass);
-        let image = pass.accesses.iter().find(|it| !it.accesses.writes().is_empty());
-        let buffer = pass.buffers.iter().find(|it| !it.accesses.writes().is_empty());
-        let image = image.map(|it| &*plan.image(it.image).name);
-        image.or_else(|| buffer.map(|it| &*plan.buffers[it.buffer.0 as usize].name))
     }
 }

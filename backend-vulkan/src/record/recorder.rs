@@ -3,10 +3,9 @@
 mod area;
 
 use crate::gpu::Gpu;
-use crate::prepare::{PassState, PreparedDraw};
+use crate::prepare::{DrawTarget, PassState, PreparedDraw};
 use crate::resources::{BindGroup, Buffer};
 use ash::vk;
-use framewright_graph::frame::{EyeForm, Stereo};
 use framewright_graph::plan;
 use framewright_graph::vulkan::Rotation;
 use std::ops::Range;
@@ -52,7 +51,7 @@ pub struct Recorder<'f> {
     has_pipeline: bool,
     plan: &'f plan::Pass,
     target: DrawTarget,
-    bound: Vec<bool>,
+    frame: u64,
     vertices: Option<u64>,
     indices: Option<u64>,
     culled: u32,
@@ -62,23 +61,21 @@ pub struct Recorder<'f> {
     misuse: Option<String>,
 }
 
-/// What a pass draws into.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct DrawTarget {
-    /// Width and height, those of the turned picture; of two eyes one's.
-    pub(crate) extent: [u32; 2],
-    pub(crate) rotation: Rotation,
-    /// How both eyes are drawn for at once, and into what, if they are.
-    pub(crate) eyes: Option<(Stereo, EyeForm)>,
-    /// The number of the frame.
-    pub(crate) frame: u64,
-}
-
 /// What a frame's commands use: it is kept until the device is done with them, whatever the draw source drops.
 #[derive(Default)]
 pub(crate) struct HeldResources {
     groups: Vec<BindGroup>,
     buffers: Vec<Buffer>,
+    /// By set from 1 on: whether the pass that is being recorded has all that it reads of it.
+    bound: Vec<bool>,
+}
+
+impl HeldResources {
+    /// Lets go of everything, and keeps the memory of the lists.
+    pub(super) fn clear(&mut self) {
+        self.groups.clear();
+        self.buffers.clear();
+    }
 }
 
 impl<'f> Recorder<'f> {
@@ -89,9 +86,11 @@ impl<'f> Recorder<'f> {
         drawn: &'f PreparedDraw,
         plan: &'f plan::Pass,
         target: DrawTarget,
+        frame: u64,
     ) -> Recorder<'f> {
         let (pass, has_pipeline) = (&drawn.state, drawn.pipeline.is_some());
-        let bound = pass.supplied.iter().map(|(_, needed)| !needed).collect();
+        kept.bound.clear();
+        kept.bound.extend(pass.supplied.iter().map(|(_, needed)| !needed));
         let (vertices, indices, misuse) = (None, None, None);
         Recorder {
             gpu,
@@ -101,7 +100,7 @@ impl<'f> Recorder<'f> {
             has_pipeline,
             plan,
             target,
-            bound,
+            frame,
             vertices,
             indices,
             culled: 0,
@@ -174,7 +173,7 @@ impl<'f> Recorder<'f> {
     /// The number of the frame, from 0: what moves and what is shifted from frame to frame goes by it.
     #[must_use]
     pub fn frame(&self) -> u64 {
-        self.target.frame
+        self.frame
     }
 
     /// Binds a group to the set number `set`, from 1 on.
@@ -191,7 +190,7 @@ impl<'f> Recorder<'f> {
                 });
             }
             Some(_) => {
-                self.bound[index] = true;
+                self.kept.bound[index] = true;
                 self.kept.groups.push(group.clone());
                 let sets = [group.0.set.raw];
                 // SAFETY: the set has the layout that the pipeline's layout has at this number.
@@ -326,7 +325,7 @@ impl<'f> Recorder<'f> {
 
     /// Whether everything that the pipeline reads is bound.
     fn may_draw(&mut self) -> bool {
-        if let Some(missing) = self.bound.iter().position(|bound| !bound) {
+        if let Some(missing) = self.kept.bound.iter().position(|bound| !bound) {
             self.misused(|| format!("a draw without a bind group for set {}", missing + 1));
         }
         if !self.has_pipeline {

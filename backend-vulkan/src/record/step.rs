@@ -1,78 +1,107 @@
-//! A Plan's steps as commands.
+//! A Plan's steps as commands: what was prepared for each is walked, and nothing is allocated.
 
 use super::custom::CustomRecorder;
 use super::draw_source::DrawSource;
-use super::frame::{Frame, Recorded};
-use super::poison;
+use super::recorder::HeldResources;
 use super::timing::{Counts, Timing};
 use crate::base::Error;
-use crate::commands::{barriers, memory_barriers};
-use crate::prepare::{PreparedStep, name_and_role};
+use crate::gpu::Gpu;
+use crate::pipeline::PARTS_STAGES;
+use crate::prepare::{
+    DispatchCommands, Frame, PreparedDispatch, PreparedStep, PreparedWork, WorkCommands, WorkgroupCount,
+};
 use ash::vk;
-use framewright_graph::plan::{Plan, Resource, Step, Work};
+use framewright_graph::plan::{Pass, Step, Work};
+use std::time::Duration;
 
-impl Frame<'_> {
-    /// Records the step number `index`.
-    pub(crate) fn step(
-        &self,
-        commands: vk::CommandBuffer,
-        index: usize,
-        source: &mut dyn DrawSource,
-        timing: &mut Timing,
-        recorded: &mut Recorded,
-    ) -> Result<(), Error> {
-        let (Some(step), Some(made)) = (self.plan.steps.get(index), self.prepared.steps.get(index)) else {
-            return Ok(());
-        };
-        let label = format!("step {index}: {}", title(self.plan, step));
-        self.gpu.labelled(commands, &label, || {
-            if self.poison {
-                poison::record(self, commands, index, step);
-            } else {
-                let images = step.image_barriers.iter().map(|it| self.image_barrier(it)).collect::<Vec<_>>();
-                barriers(self.gpu, commands, &memory_barriers(&step.memory_barriers), &images);
-            }
-            match (&step.work, made) {
-                (Work::Render(plan), PreparedStep::Render(scope)) => {
-                    self.render(commands, plan, scope, source, timing, recorded)?;
-                }
-                (Work::Dispatch(plan), PreparedStep::Dispatch(pass)) => {
-                    self.dispatch(commands, plan, pass)?;
-                    recorded.counts.push(Counts { draws: 1, culled: 0 });
-                    timing.stamp(commands);
-                }
-                (Work::Custom(pass), _) => {
-                    let mut recorder = CustomRecorder::new(self, commands, pass);
-                    source.custom(&pass.shader, &mut recorder)?;
-                    let recorded_commands = recorder.finish();
-                    let wrong = |what| Error::Recording { pass: pass.name.to_string(), what };
-                    recorded.counts.push(Counts { draws: recorded_commands.map_err(wrong)?, culled: 0 });
-                    timing.stamp(commands);
-                }
-                (Work::Resolve(transfer), _) => self.resolve(commands, transfer),
-                (Work::Copy(transfer), _) => self.copy(commands, transfer),
-                (Work::Blit(transfer), _) => self.blit(commands, transfer),
-                (Work::Fill(fill), _) => self.fill(commands, fill),
-                (Work::Render(_) | Work::Dispatch(_) | Work::Export, _) => {}
-            }
-            let releases: Vec<_> = step.releases.iter().map(|it| self.image_barrier(it)).collect();
-            barriers(self.gpu, commands, &[], &releases);
-            timing.stamp(commands);
-            Ok(())
-        })
+/// The recording of a frame.
+pub(crate) struct Recording<'r> {
+    pub(crate) frame: &'r Frame<'r>,
+    pub(crate) source: &'r mut dyn DrawSource,
+    pub(crate) timing: &'r mut Timing,
+    pub(crate) recorded: &'r mut Recorded,
+}
+
+/// A recorded frame.
+#[derive(Default)]
+pub(crate) struct Recorded {
+    /// By pass.
+    pub(crate) counts: Vec<Counts>,
+    pub(super) kept: HeldResources,
+    /// How long that took.
+    pub(crate) took: Duration,
+}
+
+impl Recorded {
+    /// Makes it empty for the next frame, which finds the memory of this one. The device must be done with the frame.
+    pub(crate) fn clear(&mut self) {
+        self.counts.clear();
+        self.kept.clear();
     }
 }
 
-/// What a debugger shows for a step.
-fn title(plan: &Plan, step: &Step) -> String {
-    let name = |resource: Resource| name_and_role(plan, resource).0;
-    match &step.work {
-        Work::Render(scope) => scope.passes.iter().map(|pass| &*pass.name).collect::<Vec<_>>().join(", "),
-        Work::Dispatch(pass) | Work::Custom(pass) => pass.name.to_string(),
-        Work::Resolve(transfer) => format!("resolve {}", name(transfer.source.resource())),
-        Work::Copy(transfer) => format!("copy {}", name(transfer.source.resource())),
-        Work::Blit(transfer) => format!("blit {}", name(transfer.source.resource())),
-        Work::Fill(fill) => format!("fill {}", name(fill.target.resource())),
-        Work::Export => "export".to_owned(),
+impl Recording<'_> {
+    /// Records a step.
+    pub(crate) fn step(&mut self, commands: vk::CommandBuffer, step: &Step, made: &PreparedStep) -> Result<(), Error> {
+        let gpu = self.frame.gpu;
+        let unprepared = || Error::BadPlan { what: "nothing was prepared for this frame".to_owned() };
+        let prepared = made.commands.at(self.frame.number).ok_or_else(unprepared)?;
+        gpu.labelled(commands, &made.label, || {
+            prepared.before.iter().for_each(|it| it.record(gpu, commands));
+            match (&step.work, &made.work, &prepared.work) {
+                (Work::Render(plan), PreparedWork::Render(made), WorkCommands::Render(scope)) => {
+                    self.render(commands, plan, made, scope)?;
+                }
+                (Work::Dispatch(_), PreparedWork::Dispatch(made), WorkCommands::Dispatch(pass)) => {
+                    dispatch(gpu, commands, made, pass);
+                    self.end_pass(commands, Counts { draws: 1, culled: 0 });
+                }
+                (Work::Custom(pass), ..) => {
+                    let draws = self.custom(commands, pass)?;
+                    self.end_pass(commands, Counts { draws, culled: 0 });
+                }
+                _ => {}
+            }
+            prepared.releases.record(gpu, commands);
+            self.timing.stamp(commands);
+            Ok(())
+        })
+    }
+
+    /// Notes what was recorded for a pass, and when it ends.
+    fn end_pass(&mut self, commands: vk::CommandBuffer, counts: Counts) {
+        self.recorded.counts.push(counts);
+        self.timing.stamp(commands);
+    }
+
+    fn custom(&mut self, commands: vk::CommandBuffer, pass: &Pass) -> Result<u32, Error> {
+        let mut recorder = CustomRecorder::new(self.frame, commands, pass);
+        self.source.custom(&pass.shader, &mut recorder)?;
+        recorder.finish().map_err(|what| Error::Recording { pass: pass.name.to_string(), what })
+    }
+}
+
+fn dispatch(gpu: &Gpu, commands: vk::CommandBuffer, made: &PreparedDispatch, pass: &DispatchCommands) {
+    tell_parts(gpu, commands, made.layout, &pass.parts);
+    let device = &gpu.raw;
+    // SAFETY: the command buffer is being recorded outside a scope, the set has the layout's only set layout, and counts
+    // and the buffer behind them were checked.
+    unsafe {
+        let compute = vk::PipelineBindPoint::COMPUTE;
+        device.cmd_bind_pipeline(commands, compute, made.pipeline);
+        device.cmd_bind_descriptor_sets(commands, compute, made.layout, 0, &[pass.set], &[]);
+        match pass.groups {
+            WorkgroupCount::Direct([x, y, z]) => device.cmd_dispatch(commands, x, y, z),
+            WorkgroupCount::Indirect(buffer, offset) => device.cmd_dispatch_indirect(commands, buffer, offset),
+        }
+    }
+}
+
+/// Tells a pass's shaders which parts of images are in use.
+pub(super) fn tell_parts(gpu: &Gpu, commands: vk::CommandBuffer, layout: vk::PipelineLayout, parts: &[u8]) {
+    if !parts.is_empty() {
+        // SAFETY: the command buffer is being recorded, every layout has this range, and no more parts than fit were let
+        // through.
+        unsafe { gpu.raw.cmd_push_constants(commands, layout, PARTS_STAGES, 0, parts) };
     }
 }

@@ -2,9 +2,9 @@
 
 use crate::base::Error;
 use crate::gpu::Gpu;
-use crate::prepare::{Batch, view_mask};
+use crate::prepare::{Batch, passes, view_mask};
 use ash::vk;
-use framewright_graph::plan::{Pass, Plan, Queue, Work};
+use framewright_graph::plan::{Plan, Queue, Work};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -231,15 +231,6 @@ impl Drop for Timing {
             // SAFETY: every frame was waited for.
             unsafe { self.gpu.raw.destroy_query_pool(self.pool, None) };
         }
-    }
-}
-
-/// The passes of a step.
-fn passes(work: &Work) -> &[Pass] {
-    match work {
-        Work::Render(scope) => &scope.passes,
-        Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
-        _ => &[],
     }
 }
 

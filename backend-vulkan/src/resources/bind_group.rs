@@ -52,7 +52,7 @@ impl Device {
         }
         let is_own = |resource: &Resource<'_>| match resource {
             Resource::Buffer(buffer) => buffer.0.is_of(&self.gpu),
-            Resource::Texture(texture) => texture.0.view.is_of(&self.gpu),
+            Resource::Texture(texture) => texture.0.image.is_of(&self.gpu),
         };
         if !resources.iter().all(|(_, resource)| is_own(resource)) {
             return Err(bad("a resource belongs to another device".to_owned()));
@@ -74,7 +74,7 @@ impl Device {
                 }
                 (SuppliedKind::SampledImage, [Resource::Texture(it)]) => {
                     textures.push((*it).clone());
-                    DescriptorTarget::Image(it.0.view.raw, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL, it.0.sampler)
+                    DescriptorTarget::Image(it.0.view, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL, it.0.sampler)
                 }
                 (kind, [_]) => return Err(bad(format!("`{name}` is a {kind:?}, and something else was given"))),
                 (_, given) => return Err(bad(format!("`{name}` is needed once and was given {} times", given.len()))),

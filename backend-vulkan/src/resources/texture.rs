@@ -1,13 +1,13 @@
 //! What the draw source provides: buffers and textures.
 
 use crate::base::Error;
-use crate::commands::record_upload;
-use crate::gpu::{Device, Gpu, SamplerDescriptor};
-use crate::memory::{Image, MemoryUse, RawBuffer, View, ViewShape};
+use crate::commands::{record_upload, staged};
+use crate::gpu::{Device, SamplerDescriptor};
+use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
 use framewright_graph::plan::{Queue, Subresources};
-use framewright_graph::vulkan::{Format, Shape, Sharing, Usage};
+use framewright_graph::vulkan::{Format, Layout, Shape, Sharing, Usage};
 use std::sync::Arc;
 
 /// What a buffer is for.
@@ -31,9 +31,11 @@ pub struct Buffer(pub(crate) Arc<RawBuffer>);
 #[derive(Clone)]
 pub struct Texture(pub(crate) Arc<RawTexture>);
 
-/// A texture's parts. Fields are dropped in this order.
+/// A texture's parts.
 pub(crate) struct RawTexture {
-    pub(crate) view: Arc<View>,
+    pub(crate) image: Arc<Image>,
+    /// A view of all of the image.
+    pub(crate) view: vk::ImageView,
     pub(crate) sampler: vk::Sampler,
 }
 
@@ -116,9 +118,12 @@ impl Device {
             sharing: Sharing::Exclusive,
         };
         let image = Arc::new(Image::with_own_memory(&self.gpu, "texture", &descriptor)?);
-        upload(&self.gpu, &image, texels)?;
-        let view = Arc::new(View::new(&image, Subresources::all(format, levels, 1), ViewShape::Flat)?);
-        Ok(Texture(Arc::new(RawTexture { view, sampler: self.gpu.sampler(*sampler)? })))
+        let staging = staged(&self.gpu, "texture upload", texels)?;
+        self.gpu.submit_once("uploading a texture", Queue::Graphics, |commands| {
+            record_upload(&self.gpu, commands, &image, &staging, Layout::ShaderReadOnlyOptimal);
+        })?;
+        let view = image.view(Subresources::all(format, levels, 1), ViewShape::Flat)?;
+        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.sampler(*sampler)? })))
     }
 
     /// The texels of `texture`, which they share, sampled another way.
@@ -126,17 +131,7 @@ impl Device {
     /// # Errors
     /// If the device has no room for another sampler.
     pub fn sampled(&self, texture: &Texture, sampler: &SamplerDescriptor) -> Result<Texture, Error> {
-        let view = texture.0.view.clone();
-        Ok(Texture(Arc::new(RawTexture { view, sampler: self.gpu.sampler(*sampler)? })))
+        let (image, view) = (texture.0.image.clone(), texture.0.view);
+        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.sampler(*sampler)? })))
     }
-}
-
-/// Fills the first level of `image`, makes the others, and leaves all of them ready to be sampled.
-fn upload(gpu: &Arc<Gpu>, image: &Image, texels: &[u8]) -> Result<(), Error> {
-    let usage = vk::BufferUsageFlags::TRANSFER_SRC;
-    let mut staging = RawBuffer::new(gpu, "texture upload", texels.len() as u64, usage, MemoryUse::Upload)?;
-    staging.fill(texels)?;
-    gpu.submit_once("uploading a texture", Queue::Graphics, |commands| {
-        record_upload(gpu, commands, image, &staging, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
-    })
 }

@@ -1,6 +1,6 @@
 //! Frames in few words, and their execution on each driver.
 
-use crate::testing::{find_layer, findings, skip};
+use crate::testing::{Nothing, OVER_ALL, find_layer, findings, skip};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::frame::{
@@ -23,11 +23,7 @@ pub(crate) type Shaders = &'static [(&'static str, &'static str)];
 
 /// A triangle over the whole target, and `x + 10 y` for each of its texels.
 const COMMON: Shaders = &[
-    (
-        "full_screen.vert",
-        "#version 460
-        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
-    ),
+    ("full_screen.vert", OVER_ALL),
     (
         "number.frag",
         "#version 460
@@ -313,15 +309,6 @@ pub(crate) fn in_each_way(device: &Device, frame: &Frame, shaders: Shaders, test
 /// The same on each driver.
 pub(crate) fn everywhere(frame: &Frame, shaders: Shaders, test: impl Fn(&mut Executor)) {
     on_each_driver(|device| in_each_way(device, frame, shaders, &test));
-}
-
-/// Draws nothing, and knows no custom passes.
-pub(crate) struct Nothing;
-
-impl DrawSource for Nothing {
-    fn record(&mut self, _: Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {
-        Ok(0)
-    }
 }
 
 /// Records custom passes with a function.

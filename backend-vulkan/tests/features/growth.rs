@@ -1,6 +1,7 @@
 //! Memory over time: what a frame takes the next one takes again, and everything is given back.
 
-use crate::frames::{Nothing, Small, Uses, copy, dispatch, draw, frame, library, on_each_driver, planned, words};
+use crate::frames::{Small, Uses, copy, dispatch, draw, frame, library, on_each_driver, planned, words};
+use crate::testing::Nothing;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime, Resource};
 use framewright_graph::plan::{Plan, Role, Work};
@@ -57,7 +58,7 @@ fn frame_after_frame_takes_no_more_memory() {
         assert_eq!((nothing.allocations, nothing.bytes), (0, 0));
         let plan = planned(device, &busy(), &Options { poison: true, ..Options::default() });
         let options =
-            ExecutorOptions { poison: true, frames_in_flight: 2, keep_outputs: true, ..ExecutorOptions::default() };
+            ExecutorOptions { poison: true, frames_in_flight: 2, readback: true, ..ExecutorOptions::default() };
         let mut executor = executor(device, &plan, &options);
         let mut run = |frames: u32| -> MemoryInUse {
             for _ in 0..frames {

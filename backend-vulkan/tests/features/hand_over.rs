@@ -1,6 +1,7 @@
 //! Memory that changes hands.
 
-use crate::frames::{Nothing, Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels};
+use crate::frames::{Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels};
+use crate::testing::Nothing;
 use framewright_graph::compile::{Options, Order};
 use framewright_graph::frame::{Draw, Groups};
 use framewright_graph::plan::{MemoryBarrier, Plan, Role};

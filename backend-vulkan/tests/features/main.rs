@@ -5,13 +5,14 @@ mod frames;
 #[path = "../testing/mod.rs"]
 mod testing;
 
+mod allocations;
 mod blending;
 mod compute;
 mod depth;
 mod geometry;
 mod growth;
-mod hand_in;
 mod hand_over;
+mod imports;
 mod local_reads;
 mod outlasting;
 mod queues;

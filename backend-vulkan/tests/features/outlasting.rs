@@ -1,9 +1,10 @@
 //! What outlives the frame: history, what persists, several frames on their way, and another size.
 
 use crate::frames::{
-    Nothing, Small, Uses, copy, dispatch, draw, everywhere, frame, library, on_each_driver, planned, texels, to_bytes,
-    to_words, words,
+    Small, Uses, copy, dispatch, draw, everywhere, frame, library, on_each_driver, planned, texels, to_bytes, to_words,
+    words,
 };
+use crate::testing::Nothing;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{BufferIndex, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Resource};
 use framewright_graph::vulkan::{FillValue, Format, Subresources};
@@ -178,8 +179,7 @@ fn executor(device: &Device, frame: &Frame, options: &ExecutorOptions) -> Execut
 fn several_frames_on_their_way_leave_what_one_after_the_other_leaves() {
     on_each_driver(|device| {
         for poison in [false, true] {
-            let options =
-                ExecutorOptions { poison, frames_in_flight: 3, keep_outputs: true, ..ExecutorOptions::default() };
+            let options = ExecutorOptions { poison, frames_in_flight: 3, readback: true, ..ExecutorOptions::default() };
             let mut images = executor(device, &image_history(), &options);
             let mut buffers = executor(device, &buffer_history().0.frame, &options);
             let mut counts = executor(device, &counters([1, 1]).0.frame, &options);
@@ -190,14 +190,18 @@ fn several_frames_on_their_way_leave_what_one_after_the_other_leaves() {
             }
             // The last three are still kept.
             for (number, value) in (0_u64..7).zip(sequence(1)).skip(4) {
-                let kept = images.kept_image(number, 0).expect("texels").bytes;
+                let kept = images.read_back_image(number, 0).expect("texels").bytes;
                 assert_eq!(to_words(&kept), [value; 2], "frame {number}");
-                assert_eq!(to_words(&buffers.kept_buffer(number, 0).expect("bytes")), [value; 2], "frame {number}");
+                assert_eq!(
+                    to_words(&buffers.read_back_buffer(number, 0).expect("bytes")),
+                    [value; 2],
+                    "frame {number}"
+                );
                 let frames = u32::try_from(number).expect("few") + 1;
-                assert_eq!(to_words(&counts.kept_image(number, 0).expect("texels").bytes), [40 + frames]);
-                assert_eq!(to_words(&counts.kept_buffer(number, 1).expect("bytes")), [7 + 2 * frames; 2]);
+                assert_eq!(to_words(&counts.read_back_image(number, 0).expect("texels").bytes), [40 + frames]);
+                assert_eq!(to_words(&counts.read_back_buffer(number, 1).expect("bytes")), [7 + 2 * frames; 2]);
             }
-            images.kept_image(3, 0).expect_err("its place was taken");
+            images.read_back_image(3, 0).expect_err("its place was taken");
         }
     });
 }
@@ -212,11 +216,11 @@ fn what_persists_goes_on_when_the_size_changes() {
         for _ in 0..3 {
             frame(&mut small);
         }
-        assert_eq!(large.carry_over(small).expect("they are of one device"), ["count", "words"]);
+        assert_eq!(large.migrate_from(small).expect("they are of one device"), ["count", "words"]);
         frame(&mut large);
         assert_eq!(texels(&mut large, "shown", 0), [44; 6]);
         assert_eq!(words(&mut large, "words"), [15; 2]);
-        large.carry_over(fresh).expect_err("it has begun");
+        large.migrate_from(fresh).expect_err("it has begun");
     });
 }
 
@@ -229,7 +233,7 @@ fn history_goes_on_as_a_whole_or_not_at_all() {
             frame(&mut first);
         }
         let mut next = executor(device, &image_history(), &options);
-        let carried = next.carry_over(first).expect("they are of one device");
+        let carried = next.migrate_from(first).expect("they are of one device");
         assert_eq!(carried, ["kept", "kept (1 frame ago)", "kept (2 frames ago)"]);
         for value in sequence(1).take(7).skip(4) {
             frame(&mut next);
@@ -238,7 +242,7 @@ fn history_goes_on_as_a_whole_or_not_at_all() {
         let mut larger = image_history();
         larger.images.iter_mut().for_each(|image| image.extent = [4, 1, 1]);
         let mut larger = executor(device, &larger, &options);
-        assert_eq!(larger.carry_over(next).expect("they are of one device"), [""; 0]);
+        assert_eq!(larger.migrate_from(next).expect("they are of one device"), [""; 0]);
         for value in sequence(1).take(3) {
             frame(&mut larger);
             assert_eq!(texels(&mut larger, "shown", 0), [value; 4], "it begins anew");

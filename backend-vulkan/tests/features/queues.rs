@@ -1,6 +1,7 @@
 //! Plans for several queues on devices that have one.
 
-use crate::frames::{Nothing, Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels, words};
+use crate::frames::{Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels, words};
+use crate::testing::Nothing;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Profile, Queues};
 use framewright_graph::frame::{Draw, Frame, Groups};

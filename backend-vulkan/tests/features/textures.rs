@@ -146,7 +146,7 @@ fn a_plan_that_goes_on_reads_its_textures_anew() {
         let mut before = of(7);
         self::frame(&mut before);
         let mut after = of(9);
-        assert_eq!(after.carry_over(before).expect("the same device"), Vec::<String>::new());
+        assert_eq!(after.migrate_from(before).expect("the same device"), Vec::<String>::new());
         self::frame(&mut after);
         assert_eq!(texels(&mut after, "words", 0), [9; 16]);
     });

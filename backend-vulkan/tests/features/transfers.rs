@@ -191,7 +191,7 @@ fn a_custom_pass_touches_nothing_but_what_it_says() {
         let mut source = Custom(|recorder: &mut CustomRecorder<'_>| recorder.copy("b", "squares"));
         let refused = executor.frame(&mut source).expect_err("a misuse").to_string();
         assert_eq!(refused, "pass `by hand`, while recording: the pass reads no `b` by transfer");
-        let unknown = executor.frame(&mut crate::frames::Nothing);
+        let unknown = executor.frame(&mut crate::testing::Nothing);
         unknown.expect_err("nobody records it");
     });
 }

@@ -1,7 +1,7 @@
 //! Plans written by hand, executed under the validation layer.
 
-use crate::testing;
 use crate::testing::plans::{EXTENT, RESOLVED, add_up, resolve_then_sample};
+use crate::testing::{self, Nothing, OVER_ALL, WHITE};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::plan::{ImageBarrier, Plan, Role, Work};
 use framewright_graph::shader::{Attribute, DrawInterface, Supplied, SuppliedKind};
@@ -11,14 +11,7 @@ use framewright_vulkan::{
 };
 
 const SHADERS: &[(&str, &str)] = &[
-    (
-        "full_screen.vert",
-        "#version 460
-        void main() {
-            vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0;
-            gl_Position = vec4(corner, 0.0, 1.0);
-        }",
-    ),
+    ("full_screen.vert", OVER_ALL),
     (
         "objects.vert",
         "#version 460
@@ -35,12 +28,7 @@ const SHADERS: &[(&str, &str)] = &[
             color = vec4(vec3(gl_SampleID == 0 ? 1.0 : 0.0), 1.0);
         }",
     ),
-    (
-        "white.frag",
-        "#version 460
-        layout(location = 0) out vec4 color;
-        void main() { color = vec4(1.0); }",
-    ),
+    ("white.frag", WHITE),
     (
         "show.frag",
         "#version 460
@@ -71,15 +59,6 @@ fn library() -> ShaderLibrary {
 
 fn plan(device: &Device) -> Plan {
     resolve_then_sample(device, ("one_sample", Draw::FullScreen), "show")
-}
-
-/// Draws nothing.
-struct Nothing;
-
-impl DrawSource for Nothing {
-    fn record(&mut self, _: Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {
-        Ok(0)
-    }
 }
 
 /// Runs a frame with any source.

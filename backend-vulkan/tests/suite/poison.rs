@@ -1,24 +1,17 @@
 //! Memory that changes hands: nobody may see what its last owner left, or what the poison put there.
 
-use crate::testing;
+use crate::testing::{self, Nothing, OVER_ALL};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::frame::{self, Blend, ColorTarget, Draw, Face, Frame, ImageIndex, Pass, Sampled, Work};
 use framewright_graph::plan::{Plan, Role};
 use framewright_graph::shader::DrawInterface;
 use framewright_graph::vulkan::{Filter, Format, Sampler, Stages, Subresources};
-use framewright_vulkan::{Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, ShaderLibrary};
+use framewright_vulkan::{Device, Error, Executor, ExecutorOptions, ShaderLibrary};
 
 /// Each image holds the one before, and a little more; `sum` adds two.
 const SHADERS: &[(&str, &str)] = &[
-    (
-        "full_screen.vert",
-        "#version 460
-        void main() {
-            vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0;
-            gl_Position = vec4(corner, 0.0, 1.0);
-        }",
-    ),
+    ("full_screen.vert", OVER_ALL),
     (
         "begin.frag",
         "#version 460
@@ -94,14 +87,6 @@ fn chain(long: bool) -> Frame {
 fn planned(device: &Device, frame: &Frame, alias: bool, poison: bool) -> Plan {
     let options = Options { alias, poison, ..Options::default() };
     compile(frame, &device.profile(), &mut device.memory(), &options).expect("the frame compiles")
-}
-
-struct Nothing;
-
-impl DrawSource for Nothing {
-    fn record(&mut self, _: Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {
-        Ok(0)
-    }
 }
 
 fn library() -> ShaderLibrary {

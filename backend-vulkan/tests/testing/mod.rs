@@ -4,7 +4,10 @@
 
 pub(crate) mod plans;
 
-use framewright_vulkan::{Blame, Device, DeviceChoice, DeviceOptions, Error, Message, Messages, layer};
+use framewright_graph::frame::Draw;
+use framewright_vulkan::{
+    Blame, Device, DeviceChoice, DeviceOptions, DrawSource, Error, Message, Messages, Recorder, layer,
+};
 use std::sync::OnceLock;
 
 /// The device that the tests of this binary share, under the best validation layer that is installed. `None`, with a
@@ -50,4 +53,22 @@ pub(crate) fn skip(error: &Error) {
 /// The messages that say that something is wrong.
 pub(crate) fn findings(messages: &Messages) -> Vec<Message> {
     messages.list().into_iter().filter(Message::is_finding).collect()
+}
+
+/// The vertex shader of a triangle over the whole target.
+pub(crate) const OVER_ALL: &str = "#version 460
+    void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }";
+
+/// The fragment shader of white.
+pub(crate) const WHITE: &str = "#version 460
+    layout(location = 0) out vec4 color;
+    void main() { color = vec4(1.0); }";
+
+/// Draws nothing, and knows no custom passes.
+pub(crate) struct Nothing;
+
+impl DrawSource for Nothing {
+    fn record(&mut self, _: Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {
+        Ok(0)
+    }
 }

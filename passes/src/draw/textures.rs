@@ -3,10 +3,8 @@
 use super::interface::{BASE_COLOR_TEXTURE_BINDING, MATERIAL_SET};
 use crate::scene::{Sampler, Texture, Wrap};
 use framewright_graph::shader::DrawInterface;
-use framewright_graph::vulkan::{Filter, Format};
-use framewright_vulkan::{
-    AddressMode, BindGroup, Device, Error, Resource, SamplerDescriptor, TexelFilter, Texture as Uploaded,
-};
+use framewright_graph::vulkan::{AddressMode, Filter, Format};
+use framewright_vulkan::{BindGroup, Device, Error, Resource, SamplerDescriptor, Texture as Uploaded};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -48,19 +46,15 @@ impl Textures {
 }
 
 fn sampler(sampler: Sampler) -> SamplerDescriptor {
-    let filter = |filter| match filter {
-        Filter::Nearest => TexelFilter::Nearest,
-        Filter::Linear => TexelFilter::Linear,
-    };
     let address = |wrap| match wrap {
         Wrap::Repeat => AddressMode::Repeat,
         Wrap::MirroredRepeat => AddressMode::MirroredRepeat,
         Wrap::ClampToEdge => AddressMode::ClampToEdge,
     };
     SamplerDescriptor {
-        magnify: filter(sampler.magnify),
-        minify: filter(sampler.minify),
-        mip: filter(sampler.mip.unwrap_or(Filter::Nearest)),
+        magnify: sampler.magnify,
+        minify: sampler.minify,
+        mip: sampler.mip.unwrap_or(Filter::Nearest),
         address: [address(sampler.wrap_u), address(sampler.wrap_v), AddressMode::ClampToEdge],
     }
 }

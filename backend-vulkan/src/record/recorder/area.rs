@@ -76,16 +76,21 @@ impl Recorder<'_> {
         [if self.halves() { 2.0 * width } else { width }, height]
     }
 
-    /// Sets the viewport so that a rectangle of an eye's picture is seen.
-    fn see(&mut self, [x, y, width, height]: [f64; 4], eye: u32) {
+    /// Where a rectangle of an eye's upright picture lies in the turned one.
+    fn turned(&self, [x, y, width, height]: [f64; 4], eye: u32) -> [f64; 4] {
         let half = f64::from(self.extent()[0]);
         let rectangle = match self.target.eyes {
             // Vertices are put in one half of clip space.
             Some((Stereo::Instanced, EyeForm::Halves)) => [x, y, 2.0 * width, height],
             _ => [x + f64::from(eye) * half, y, width, height],
         };
+        self.target.rotation.rectangle(self.all(), rectangle)
+    }
+
+    /// Sets the viewport so that a rectangle of an eye's picture is seen.
+    fn see(&mut self, rectangle: [f64; 4], eye: u32) {
         #[allow(clippy::cast_possible_truncation, reason = "viewports are 32-bit floats")]
-        let [x, y, width, height] = self.target.rotation.rectangle(self.all(), rectangle).map(|side| side as f32);
+        let [x, y, width, height] = self.turned(rectangle, eye).map(|side| side as f32);
         let [least, most] = self.gpu.limits.viewport_bounds_range;
         let [widest, highest] = self.gpu.limits.max_viewport_dimensions.map(f64::from);
         let inside = x >= least && y >= least && x + width <= most && y + height <= most;
@@ -98,15 +103,9 @@ impl Recorder<'_> {
     }
 
     /// Sets the scissor to a rectangle of an eye's picture; where instances draw into both eyes' halves it is all of both.
-    fn cut(&mut self, [x, y, width, height]: [f64; 4], eye: u32) {
-        let half = f64::from(self.extent()[0]);
-        let rectangle = match self.target.eyes {
-            Some((Stereo::Instanced, EyeForm::Halves)) => [x, y, 2.0 * width, height],
-            _ => [x + f64::from(eye) * half, y, width, height],
-        };
-        let turned = self.target.rotation.rectangle(self.all(), rectangle);
+    fn cut(&mut self, rectangle: [f64; 4], eye: u32) {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers within the picture")]
-        let [x, y, width, height] = turned.map(|side| side as u32);
+        let [x, y, width, height] = self.turned(rectangle, eye).map(|side| side as u32);
         let offset = vk::Offset2D { x: x.cast_signed(), y: y.cast_signed() };
         let scissor = vk::Rect2D { offset, extent: vk::Extent2D { width, height } };
         // SAFETY: the command buffer is being recorded, the state is dynamic in every pipeline, and it lies within the target.

@@ -172,7 +172,7 @@ fn frames_on_their_way_are_drawn_from_what_was_then() -> Result<(), Box<dyn Erro
     let yard = yard();
     let set = [("jitter", "5")];
     let setup = Setup { pipeline: "tests/pipelines/motion.ron", set: &set, scene: &yard, extent: EXTENT };
-    let how = |frames_in_flight| ExecutorOptions { frames_in_flight, keep_outputs: true, ..ExecutorOptions::default() };
+    let how = |frames_in_flight| ExecutorOptions { frames_in_flight, readback: true, ..ExecutorOptions::default() };
     let all = |in_flight: u32| -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
         let (_, mut executor, mut source) = ready(device, &setup, &Options::default(), &how(in_flight))?;
         let mut kept = Vec::new();
@@ -181,7 +181,7 @@ fn frames_on_their_way_are_drawn_from_what_was_then() -> Result<(), Box<dyn Erro
             let frames: Vec<u64> = (0..in_flight).map(|_| executor.submit(&mut source)).collect::<Result<_, _>>()?;
             for frame in frames {
                 executor.wait(frame)?;
-                kept.push(executor.kept_image(frame, 2)?.bytes);
+                kept.push(executor.read_back_image(frame, 2)?.bytes);
             }
         }
         Ok(kept)

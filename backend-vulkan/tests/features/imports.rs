@@ -1,4 +1,4 @@
-//! What belongs to the embedding program: handed in before the frame, found after it, in the states that the frame says.
+//! What belongs to the embedding program: imported before the frame, found after it, in the states that the frame says.
 
 use crate::frames::{
     Small, Uses, dispatch, draw, everywhere, frame, library, on_each_driver, planned, texels, to_bytes, words,
@@ -176,8 +176,8 @@ fn the_program_s_own_image_goes_from_one_plan_to_another() {
         let [mut first, mut second] = [drawn_into(), sampled_from()].map(|frame| executor(device, &frame));
         // SAFETY: it is made as the Plans say, outlives the executors, and the first leaves it as the second finds it.
         unsafe {
-            first.hand_in_image("shared", image).expect("it is external");
-            second.hand_in_image("shared", image).expect("it is external");
+            first.import_image("shared", image).expect("it is external");
+            second.import_image("shared", image).expect("it is external");
         }
         for _ in 0..2 {
             frame(&mut first);
@@ -219,7 +219,7 @@ fn the_program_s_own_buffer_is_changed_in_place() {
         };
         let mut executor = executor(device, &small.frame);
         // SAFETY: it is made as the Plan says and outlives the executor; nothing else touches it.
-        unsafe { executor.hand_in_buffer("own", buffer) }.expect("it is external");
+        unsafe { executor.import_buffer("own", buffer) }.expect("it is external");
         executor.write_buffer("own", &to_bytes(&[1, 10, 100])).expect("it fits");
         for frames in 1..4 {
             frame(&mut executor);
@@ -239,7 +239,7 @@ fn what_is_not_the_program_s_own_can_not_be_handed_in() {
     on_each_driver(|device| {
         let mut executor = executor(device, &sampled_from());
         // SAFETY: it is refused before the image is looked at.
-        let refused = unsafe { executor.hand_in_image("shade", vk::Image::null()) }.expect_err("no such image");
+        let refused = unsafe { executor.import_image("shade", vk::Image::null()) }.expect_err("no such image");
         assert_eq!(refused.to_string(), "the Plan has no image `shade`");
     });
 }

@@ -1,16 +1,19 @@
 //! What the shaders of both eyes are made of: nothing of it is left where there is one eye (ST-6), each look-up of what both eyes
 //! have in layers is given its layer, and all that is made so is valid SPIR-V.
 
+mod layers;
+mod spirv;
+
 use framewright_graph::base::Root;
 use framewright_graph::frame::{Draw, Eye, EyeForm};
 use framewright_graph::shader::{DrawInterface, EyeSource, ShaderProblem, Variant};
 use framewright_graph::vulkan::ImageShape;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::ShaderLibrary;
-use rspirv::dr::{Instruction, Module, Operand};
+use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Capability, Op, StorageClass};
+use spirv::{capabilities, disassembled, module, optimised, tool, valid};
 use std::fs;
-use std::process::{Command, Stdio};
 
 /// Ways to draw for both eyes at once.
 const WAYS: [(EyeSource, EyeForm); 4] = [
@@ -108,127 +111,6 @@ fn locations_between_stages_have_one_limit_in_every_way_to_draw_for_both_eyes() 
     }
 }
 
-/// Gives a tool SPIR-V, and returns what it writes, if it is there.
-fn tool(name: &str, arguments: &[&str], spirv: &[u32]) -> Option<Vec<u8>> {
-    let bytes: Vec<u8> = spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = |name: &str| folder.path().join(name);
-    fs::write(path("in.spv"), bytes).expect("written");
-    let mut command = Command::new(name);
-    command.args(arguments).arg(path("in.spv")).stdin(Stdio::null());
-    if name == "spirv-opt" {
-        command.arg("-o").arg(path("out.spv"));
-    }
-    let Ok(output) = command.output() else {
-        assert!(std::env::var_os("CI").is_none(), "`{name}` of spirv-tools isn't there");
-        println!("skipped: `{name}` of spirv-tools isn't there");
-        return None;
-    };
-    let said = String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success(), "{name}: {said}\n{}", disassembled(spirv));
-    Some(if name == "spirv-opt" { fs::read(path("out.spv")).expect("it is written") } else { Vec::new() })
-}
-
-fn valid(spirv: &[u32]) {
-    tool("spirv-val", &["--target-env", "vulkan1.3"], spirv);
-}
-
-fn module(spirv: &[u32]) -> Module {
-    rspirv::dr::load_words(spirv).expect("it is SPIR-V")
-}
-
-fn disassembled(spirv: &[u32]) -> String {
-    use rspirv::binary::Disassemble;
-    module(spirv).disassemble()
-}
-
-/// The instructions of all functions.
-fn code(module: &Module) -> impl Iterator<Item = &Instruction> + Clone {
-    module.functions.iter().flat_map(|it| &it.blocks).flat_map(|it| &it.instructions)
-}
-
-fn number(operand: Option<&Operand>) -> u32 {
-    match operand {
-        Some(Operand::LiteralBit32(number)) => *number,
-        other => panic!("{other:?}"),
-    }
-}
-
-/// Image variables by name, with whether they are arrays.
-fn images(module: &Module) -> Vec<(String, bool)> {
-    let global = |id: u32| module.types_global_values.iter().find(|it| it.result_id == Some(id)).expect("declared");
-    let operand = |it: &Instruction, at: usize| it.operands[at].id_ref_any().expect("an id");
-    let name = |id: u32| {
-        let named = |it: &&Instruction| it.class.opcode == Op::Name && it.operands[0] == Operand::IdRef(id);
-        match module.debug_names.iter().find(named).map(|it| &it.operands[1]) {
-            Some(Operand::LiteralString(name)) => name.clone(),
-            other => panic!("{other:?}"),
-        }
-    };
-    let variables = module.types_global_values.iter().filter(|it| {
-        it.class.opcode == Op::Variable && it.operands[0] == Operand::StorageClass(StorageClass::UniformConstant)
-    });
-    let of = |variable: &Instruction| {
-        let pointer = global(variable.result_type.expect("a pointer"));
-        let image = global(operand(global(operand(pointer, 1)), 0));
-        (name(variable.result_id.expect("an id")), number(image.operands.get(3)) == 1)
-    };
-    let mut found: Vec<_> = variables.map(of).collect();
-    found.sort();
-    found
-}
-
-/// How many coordinates each look-up has, in order: a number of components of their type.
-fn coordinates(module: &Module) -> Vec<(Op, u32)> {
-    let looks_up = |it: &&Instruction| {
-        let op = it.class.opcode;
-        format!("{op:?}").starts_with("ImageSample") || matches!(op, Op::ImageFetch | Op::ImageGather)
-    };
-    let components = |value: u32| {
-        let all = module.types_global_values.iter().chain(code(module));
-        let all = all.chain(module.functions.iter().flat_map(|it| &it.parameters));
-        let ty = all.clone().find(|it| it.result_id == Some(value)).and_then(|it| it.result_type).expect("a type");
-        let ty = all.clone().find(|it| it.result_id == Some(ty)).expect("declared");
-        if ty.class.opcode == Op::TypeVector { number(ty.operands.get(1)) } else { 1 }
-    };
-    let used = reachable(module);
-    let functions = module.functions.iter().filter(|it| used.contains(&it.def.as_ref().and_then(|it| it.result_id)));
-    let code = functions.flat_map(|it| &it.blocks).flat_map(|it| &it.instructions);
-    code.filter(looks_up).map(|it| (it.class.opcode, components(it.operands[1].id_ref_any().expect("an id")))).collect()
-}
-
-/// Functions that are called, by their ids.
-fn reachable(module: &Module) -> Vec<Option<u32>> {
-    let mut found = vec![module.entry_points[0].operands[1].id_ref_any()];
-    let mut at = 0;
-    while at < found.len() {
-        let function = module.functions.iter().find(|it| it.def.as_ref().and_then(|it| it.result_id) == found[at]);
-        let code = function.expect("declared").blocks.iter().flat_map(|it| &it.instructions);
-        let called = code.filter(|it| it.class.opcode == Op::FunctionCall).map(|it| it.operands[0].id_ref_any());
-        let new: Vec<_> = called.filter(|it| !found.contains(it)).collect();
-        found.extend(new);
-        at += 1;
-    }
-    found
-}
-
-fn capabilities(module: &Module) -> Vec<Capability> {
-    let of = |it: &Instruction| match it.operands[0] {
-        Operand::Capability(capability) => capability,
-        _ => panic!("{it:?}"),
-    };
-    module.capabilities.iter().map(of).collect()
-}
-
-/// The instructions that are left of a stage's functions once it is optimised, by name, sorted.
-fn optimised(spirv: &[u32]) -> Option<Vec<String>> {
-    let bytes = tool("spirv-opt", &["-O", "--strip-debug", "--compact-ids"], spirv)?;
-    let words: Vec<u32> = bytes.chunks(4).map(|it| u32::from_le_bytes([it[0], it[1], it[2], it[3]])).collect();
-    let mut left: Vec<String> = code(&module(&words)).map(|it| format!("{:?}", it.class.opcode)).collect();
-    left.sort();
-    Some(left)
-}
-
 const DECLARED: &str = "layout(set = 0, binding = 0) uniform sampler2D source;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 color;
@@ -313,151 +195,6 @@ fn each_way_takes_of_a_device_what_it_needs_and_no_more() {
         });
         assert_eq!(found, [vertex, pixel], "{way:?}");
     }
-}
-
-const TWO: &str = "layout(set = 0, binding = 0) uniform sampler2D own;
-layout(set = 0, binding = 1) uniform sampler2D shared_one;
-layout(location = 0) in vec2 uv;
-layout(location = 0) out vec4 color;
-";
-
-const LAYERS: [(EyeSource, EyeForm); 2] = [WAYS[0], WAYS[1]];
-
-#[test]
-fn only_what_each_eye_has_of_its_own_is_in_layers() {
-    let text = format!("{TWO}void main() {{ color = texture(own, uv) + texture(shared_one, uv); }}");
-    for way in LAYERS {
-        let spirv = fragment(&text, &both(way, &["own"]));
-        let module = module(&spirv);
-        assert_eq!(images(&module), [("own".to_owned(), true), ("shared_one".to_owned(), false)]);
-        let op = Op::ImageSampleImplicitLod;
-        assert_eq!(coordinates(&module), [(op, 3), (op, 2)], "{}", disassembled(&spirv));
-        // Neither where one eye's is named, or where there is one.
-        let one = Variant { eyes: vec![("own".into(), EyeForm::Layers, Some(Eye::Right))], ..both(way, &[]) };
-        for variant in [one, both(way, &[]), Variant::default()] {
-            assert!(images(&self::module(&fragment(&text, &variant))).iter().all(|(_, arrayed)| !arrayed));
-        }
-    }
-}
-
-#[test]
-fn functions_that_get_both_kinds_of_images_are_there_for_both() {
-    let text = format!(
-        "{TWO}
-        vec4 inner(sampler2D image, vec2 at) {{ return texture(image, at) + texelFetch(image, ivec2(at), 0); }}
-        vec4 outer(sampler2D one, sampler2D other) {{
-            vec4 sum = vec4(0.0);
-            for (int i = 0; i < 3; ++i) {{ sum += inner(one, uv * float(i)) - inner(other, uv); }}
-            return sum + vec4(textureSize(one, 0), textureSize(other, 0));
-        }}
-        void main() {{
-            color = outer(own, shared_one) + outer(shared_one, own) + outer(own, own) + outer(shared_one, shared_one);
-            if (uv.x > 0.5) {{ color += inner(own, uv); }}
-        }}"
-    );
-    for way in LAYERS {
-        let spirv = fragment(&text, &both(way, &["own"]));
-        let module = module(&spirv);
-        assert_eq!(images(&module), [("own".to_owned(), true), ("shared_one".to_owned(), false)]);
-        let mut found = coordinates(&module);
-        found.sort_by_key(|(op, components)| (format!("{op:?}"), *components));
-        let expected = [
-            (Op::ImageFetch, 2),
-            (Op::ImageFetch, 3),
-            (Op::ImageSampleImplicitLod, 2),
-            (Op::ImageSampleImplicitLod, 3),
-        ];
-        assert_eq!(found, expected, "{}", disassembled(&spirv));
-    }
-}
-
-#[test]
-fn every_kind_of_flat_image_and_look_up_has_its_layer() {
-    let shape = |multisampled, component| ImageShape {
-        dimension: framewright_graph::vulkan::Dimension::D2,
-        arrayed: false,
-        multisampled,
-        component,
-    };
-    use framewright_graph::vulkan::Component;
-    let text = "
-        layout(set = 0, binding = 0) uniform sampler2DMS samples;
-        layout(set = 0, binding = 1) uniform usampler2D counts;
-        layout(set = 0, binding = 2) uniform isampler2D signs;
-        layout(set = 0, binding = 3) uniform TEXTURE_any any;
-        layout(set = 0, binding = 4) uniform sampler2DArray already;
-        layout(set = 0, binding = 5) uniform sampler2D own;
-        layout(location = 0) in vec2 uv;
-        layout(location = 0) out vec4 color;
-        void main() {
-            const ivec2 at = ivec2(gl_FragCoord.xy);
-            color = texelFetch(samples, at, 2) + vec4(texelFetch(counts, at, 0)) + vec4(texelFetch(signs, at, 0));
-            color += texel_in(any, any_st, at, 0, 1) + texture(already, vec3(uv, 1.0));
-            color += textureGrad(own, uv, uv.xy, uv.yx) + textureLod(own, uv, 1.5) + texture(own, uv, 0.5);
-            color += textureOffset(own, uv, ivec2(1, -1)) + texelFetchOffset(own, at, 0, ivec2(1));
-            color += textureLodOffset(own, uv, 0.0, ivec2(2)) + textureGradOffset(own, uv, uv, uv, ivec2(1));
-            color += textureGather(own, uv) + textureGather(own, uv, 2) + textureGatherOffset(own, uv, ivec2(1, 1), 1);
-            color.xy += vec2(textureSize(samples) + textureSize(counts, 0) + textureSize(any) + textureSize(own, 1));
-            color.z += float(textureQueryLevels(own) + textureSamples(samples));
-            color.xy += textureQueryLod(own, uv);
-            color += vec4(texelFetch(counts, ivec2(1, 2), 0)) + texture(own, vec2(0.25, 0.75));
-        }";
-    for way in LAYERS {
-        let textures = vec![("any".into(), shape(true, Component::Float))];
-        let own = ["samples", "counts", "signs", "any", "own"];
-        let spirv = fragment(text, &Variant { textures, ..both(way, &own) });
-        let module = module(&spirv);
-        assert!(images(&module).iter().all(|(_, arrayed)| *arrayed), "{:?}", images(&module));
-        let found = coordinates(&module);
-        assert!(found.iter().all(|(_, components)| *components == 3), "{found:?}\n{}", disassembled(&spirv));
-        assert_eq!(found.len(), 4 + 1 + 3 + 2 + 2 + 3 + 2, "{found:?}");
-        // A size is that of one layer.
-        assert!(code(&module).filter(|it| it.class.opcode == Op::VectorShuffle).count() >= 4);
-    }
-}
-
-#[test]
-fn a_vertex_shader_samples_its_eyes_layer() {
-    let vertex = format!(
-        "{HEAD}layout(set = 0, binding = 0) uniform sampler2D own;
-        layout(location = 0) out vec2 uv;
-        void main() {{
-            uv = textureLod(own, vec2(0.5), 0.0).xy;
-            gl_Position = vec4(uv, float(gl_InstanceIndex), 1.0);
-        }}"
-    );
-    let pixel = format!("{HEAD}{DECLARED}void main() {{ color = vec4(uv, texture(source, uv).xy); }}");
-    let pixel = pixel.replace("binding = 0) uniform sampler2D source", "binding = 1) uniform sampler2D source");
-    let files = Files::of(&[("test.vert", &vertex), ("test.frag", &pixel)]);
-    for way in LAYERS {
-        let [vertex, pixel] = files.compiled(&both(way, &["own"])).expect("it compiles");
-        assert_eq!(coordinates(&module(&vertex)), [(Op::ImageSampleExplicitLod, 3)]);
-        assert_eq!(images(&module(&pixel)), [("source".to_owned(), false)]);
-    }
-}
-
-#[test]
-fn look_ups_that_can_not_be_given_a_layer_are_refused_in_words() {
-    for (look_up, expected) in [
-        (
-            "textureProj(own, vec3(uv, 1.0))",
-            "OpImageSampleProjImplicitLod of an image that both eyes have of their own",
-        ),
-        ("textureProjLod(own, vec3(uv, 1.0), 0.0)", "OpImageSampleProjExplicitLod of an image that both eyes"),
-    ] {
-        let text = format!("{TWO}void main() {{ color = {look_up} + texture(shared_one, uv); }}");
-        for way in LAYERS {
-            let said = refused(&text, &both(way, &["own"]));
-            assert!(said.contains("test.frag: ") && said.contains(expected), "{said}");
-            // Of what both share, or in halves, there is nothing against it.
-            fragment(&text, &both(way, &["shared_one"]));
-        }
-        fragment(&text, &both(WAYS[2], &["own"]));
-    }
-    let deep = "layout(set = 0, binding = 0) uniform sampler3D own; layout(location = 0) out vec4 color;
-        void main() { color = texture(own, vec3(0.5)); }";
-    let said = refused(deep, &both(WAYS[0], &["own"]));
-    assert!(said.ends_with("`own` isn't declared flat"), "{said}");
 }
 
 #[test]

@@ -9,8 +9,9 @@
 //! hands.
 
 use super::frame::Frame;
+use super::uses::passes;
 use crate::base::{Clear, convert};
-use crate::commands::{TransferSide, barriers, fill, memory_barriers};
+use crate::commands::{Barriers, Command, ImageSide, TransferSide, memory_barrier};
 use ash::vk;
 use framewright_graph::plan::{Buffer, ImageBarrier, Resource, Role, Step, Work};
 use framewright_graph::vulkan::{Aspects, Format, Layout, Numeric};
@@ -22,19 +23,21 @@ const CLEAR_LAYOUT: vk::ImageLayout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
 /// What a buffer is filled with.
 const WORD: u32 = 0xDEAD_BEEF;
 
-/// Records the barriers of the step number `index` with the poison between their scopes.
-pub(crate) fn record(frame: &Frame<'_>, commands: vk::CommandBuffer, index: usize, step: &Step) {
+/// The barriers of the step number `index` with the poison between their scopes.
+pub(super) fn poisoned_barriers(frame: &Frame<'_>, index: usize, step: &Step) -> Vec<Command> {
     let images: Vec<_> = step.image_barriers.iter().filter(|barrier| takes_into_use(frame, barrier)).collect();
     let buffers: Vec<_> = frame.plan.buffers.iter().filter(|buffer| begins(buffer, index)).collect();
-    let mut memory = memory_barriers(&step.memory_barriers);
-    for (recorded, barrier) in memory.iter_mut().zip(&step.memory_barriers) {
+    let memory = step.memory_barriers.iter().map(|barrier| {
+        let recorded = memory_barrier(barrier);
         // Memory that changes hands is poisoned right after.
         let is_poisoned = |next: &Resource| images.iter().any(|it| Resource::Image(it.image) == *next);
         if barrier.hand_overs.iter().any(|[_, next]| is_poisoned(next)) {
-            recorded.dst_stage_mask |= CLEAR_STAGE;
-            recorded.dst_access_mask |= CLEAR_ACCESS;
+            let (stages, accesses) = (recorded.dst_stage_mask, recorded.dst_access_mask);
+            recorded.dst_stage_mask(stages | CLEAR_STAGE).dst_access_mask(accesses | CLEAR_ACCESS)
+        } else {
+            recorded
         }
-    }
+    });
     let before = step.image_barriers.iter().map(|barrier| {
         let recorded = frame.image_barrier(barrier);
         if takes_into_use(frame, barrier) {
@@ -47,27 +50,22 @@ pub(crate) fn record(frame: &Frame<'_>, commands: vk::CommandBuffer, index: usiz
         let recorded = frame.image_barrier(barrier);
         recorded.src_stage_mask(CLEAR_STAGE).src_access_mask(CLEAR_ACCESS).old_layout(CLEAR_LAYOUT)
     });
-    barriers(frame.gpu, commands, &memory, &before.collect::<Vec<_>>());
-    for barrier in &images {
-        let image = frame.plan.image(barrier.image);
-        let place = TransferSide::Image {
-            image: frame.prepared.physical.image(barrier.image, frame.number).raw,
-            range: barrier.range,
-            extent: vk::Extent3D::default(),
-            layout: CLEAR_LAYOUT,
-        };
-        fill(frame.gpu, commands, place, pattern(image.format));
-    }
+    let barriers = |memory, images| Command::Barriers(Barriers::new(frame.gpu, memory, images));
+    let mut commands = vec![barriers(memory.collect(), before.collect())];
+    commands.extend(images.iter().map(|barrier| {
+        let (image, range, extent) = (frame.image(barrier.image).raw, barrier.range, vk::Extent3D::default());
+        let place = TransferSide::Image(ImageSide { image, range, extent, layout: CLEAR_LAYOUT });
+        Command::Fill(place, pattern(frame.plan.image(barrier.image).format))
+    }));
     let first_uses: Vec<_> = buffers.iter().map(|buffer| first_use(step, buffer)).collect();
     // A barrier of its own call, so that it goes on from where the Plan's barriers lead.
-    let from: Vec<_> = first_uses.iter().map(until_filled).collect();
-    barriers(frame.gpu, commands, &from, &[]);
-    for buffer in &buffers {
-        let raw = frame.prepared.physical.buffer(buffer.id, frame.number).raw;
-        fill(frame.gpu, commands, TransferSide::Buffer { buffer: raw, bytes: buffer.bytes }, Clear::Word(WORD));
-    }
-    let until: Vec<_> = first_uses.iter().map(until_used).collect();
-    barriers(frame.gpu, commands, &until, &after.collect::<Vec<_>>());
+    commands.push(barriers(first_uses.iter().map(until_filled).collect(), Vec::new()));
+    commands.extend(buffers.iter().map(|buffer| {
+        let place = TransferSide::Buffer { buffer: frame.buffer(buffer.id).raw, bytes: buffer.bytes };
+        Command::Fill(place, Clear::Word(WORD))
+    }));
+    commands.push(barriers(first_uses.iter().map(until_used).collect(), after.collect()));
+    commands
 }
 
 /// Whether the barrier begins an image's life in the frame.
@@ -86,16 +84,15 @@ type SyncScope = (vk::PipelineStageFlags2, vk::AccessFlags2);
 
 /// What the first step of a buffer's lifetime does with it.
 fn first_use(step: &Step, buffer: &Buffer) -> SyncScope {
-    let passes = match &step.work {
-        Work::Render(scope) => &scope.passes[..],
-        Work::Dispatch(pass) | Work::Custom(pass) => std::slice::from_ref(pass),
+    match &step.work {
+        Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) => {}
         Work::Fill(_) => return (CLEAR_STAGE, CLEAR_ACCESS),
         // Nothing but copies names buffers.
         Work::Copy(_) | Work::Blit(_) | Work::Resolve(_) | Work::Export => {
             return (vk::PipelineStageFlags2::COPY, vk::AccessFlags2::TRANSFER_READ | vk::AccessFlags2::TRANSFER_WRITE);
         }
-    };
-    let uses = passes.iter().flat_map(|pass| &pass.buffers).filter(|access| access.buffer == buffer.id);
+    }
+    let uses = passes(&step.work).iter().flat_map(|pass| &pass.buffers).filter(|access| access.buffer == buffer.id);
     uses.fold((vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE), |(stages, accesses), it| {
         (stages | convert::stages(it.stages), accesses | convert::accesses(it.accesses))
     })

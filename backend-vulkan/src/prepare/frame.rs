@@ -1,0 +1,85 @@
+//! A Plan in one frame: the images and buffers that stand for its own, in Vulkan's words.
+
+use super::descriptions::part;
+use super::physical::PhysicalResources;
+use crate::base::convert;
+use crate::commands::{ImageSide, TransferSide};
+use crate::gpu::Gpu;
+use crate::memory::{Image, RawBuffer};
+use ash::vk;
+use framewright_graph::frame::EyeForm;
+use framewright_graph::plan::{BufferId, ImageBarrier, ImageId, Plan, Side, Subresources};
+use framewright_graph::vulkan::Layout;
+use std::sync::Arc;
+
+/// A Plan, and what stands for its images and buffers in one frame.
+pub(crate) struct Frame<'f> {
+    pub(crate) gpu: &'f Arc<Gpu>,
+    pub(crate) plan: &'f Plan,
+    pub(crate) physical: &'f PhysicalResources,
+    /// Which frame it is, from 0.
+    pub(crate) number: u64,
+}
+
+impl Frame<'_> {
+    /// What stands for an image.
+    pub(crate) fn image(&self, image: ImageId) -> &Arc<Image> {
+        self.physical.image(image, self.number)
+    }
+
+    /// What stands for a buffer.
+    pub(crate) fn buffer(&self, buffer: BufferId) -> &Arc<RawBuffer> {
+        self.physical.buffer(buffer, self.number)
+    }
+
+    /// A barrier of the Plan.
+    pub(super) fn image_barrier(&self, barrier: &ImageBarrier) -> vk::ImageMemoryBarrier2<'static> {
+        let recorded = vk::ImageMemoryBarrier2::default()
+            .src_stage_mask(convert::stages(barrier.src_stages))
+            .src_access_mask(convert::accesses(barrier.src_accesses))
+            .dst_stage_mask(convert::stages(barrier.dst_stages))
+            .dst_access_mask(convert::accesses(barrier.dst_accesses))
+            .old_layout(convert::layout(barrier.old_layout))
+            .new_layout(convert::layout(barrier.new_layout))
+            .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .image(self.image(barrier.image).raw)
+            .subresource_range(convert::range(part(self.plan.image(barrier.image), barrier.range)));
+        match barrier.ownership {
+            None => recorded,
+            Some([from, to]) => {
+                let families = &self.gpu.queues.families;
+                recorded
+                    .src_queue_family_index(families.family(from).index)
+                    .dst_queue_family_index(families.family(to).index)
+            }
+        }
+    }
+
+    /// A side of a transfer.
+    pub(super) fn side(&self, side: &Side) -> TransferSide {
+        match side {
+            Side::Image { image, range, extent, layout } => {
+                TransferSide::Image(self.image_side(*image, *range, *extent, *layout))
+            }
+            Side::Buffer { buffer, bytes } => TransferSide::Buffer { buffer: self.buffer(*buffer).raw, bytes: *bytes },
+        }
+    }
+
+    /// A part of an image as a side of a transfer.
+    pub(crate) fn image_side(
+        &self,
+        image: ImageId,
+        range: Subresources,
+        extent: [u32; 3],
+        layout: Layout,
+    ) -> ImageSide {
+        let planned = self.plan.image(image);
+        ImageSide {
+            image: self.image(image).raw,
+            range: part(planned, range),
+            extent: convert::extent(EyeForm::extent(planned.eyes, extent, planned.rotation)),
+            layout: convert::layout(layout),
+        }
+    }
+}

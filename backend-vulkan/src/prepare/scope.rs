@@ -1,0 +1,117 @@
+//! What a rendering scope records.
+
+use super::descriptions::part;
+use super::frame::Frame;
+use super::pass::{DrawCommands, PreparedDraw, prepare_draw};
+use super::variant::view_mask;
+use crate::base::{Error, convert};
+use crate::gpu::LocalRead;
+use crate::memory::ViewShape;
+use crate::pipeline::or_unused;
+use crate::shaders::ShaderLibrary;
+use ash::vk;
+use framewright_graph::frame::{EyeForm, Stereo};
+use framewright_graph::plan::{Attachment, ImageId, RenderScope};
+use framewright_graph::vulkan::{Aspects, LoadOp, Rotation, Subresources};
+
+/// What a rendering scope records.
+pub(crate) struct ScopeCommands {
+    pub(crate) color: Vec<vk::RenderingAttachmentInfo<'static>>,
+    pub(crate) depth: Option<vk::RenderingAttachmentInfo<'static>>,
+    pub(crate) stencil: Option<vk::RenderingAttachmentInfo<'static>>,
+    pub(crate) area: vk::Rect2D,
+    pub(crate) layers: u32,
+    pub(crate) view_mask: u32,
+    pub(crate) target: DrawTarget,
+    pub(crate) passes: Vec<DrawCommands>,
+}
+
+/// What a pass draws into.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DrawTarget {
+    /// Width and height, those of the turned picture; of two eyes one's.
+    pub(crate) extent: [u32; 2],
+    pub(crate) rotation: Rotation,
+    /// How both eyes are drawn for at once, and into what, if they are.
+    pub(crate) eyes: Option<(Stereo, EyeForm)>,
+}
+
+/// The objects of a rendering scope's passes.
+pub(super) fn prepare_scope(
+    frame: &Frame<'_>,
+    scope: &RenderScope,
+    shaders: &mut ShaderLibrary,
+) -> Result<Vec<PreparedDraw>, Error> {
+    let passes = scope.passes.iter().map(|pass| prepare_draw(frame, scope, pass, shaders));
+    let mut passes = passes.collect::<Result<Vec<_>, _>>()?;
+    if passes.iter().any(|pass| pass.local.is_some()) {
+        // What a pass says of its attachments holds for the rest of the scope: the others set it back.
+        let straight: Vec<u32> = (0..).take(scope.color.len()).collect();
+        for pass in &mut passes {
+            let back = || LocalRead { locations: straight.clone(), inputs: straight.clone() };
+            pass.local.get_or_insert_with(back);
+        }
+    }
+    Ok(passes)
+}
+
+impl ScopeCommands {
+    /// What a scope with the passes `made` records in a frame.
+    pub(super) fn new(
+        frame: &Frame<'_>,
+        scope: &RenderScope,
+        made: &mut [PreparedDraw],
+    ) -> Result<ScopeCommands, Error> {
+        let plan = frame.plan;
+        let info = |planned: &Attachment| attachment(frame, planned);
+        let color = scope.color.iter().map(info).collect::<Result<Vec<_>, _>>()?;
+        let (form, rotation) = (plan.eyes(scope), plan.rotation(scope));
+        let [width, height, _] = EyeForm::extent(form, [scope.extent[0], scope.extent[1], 1], rotation);
+        let passes = made.iter_mut().zip(&scope.passes).map(|(made, pass)| made.commands(frame, pass));
+        Ok(ScopeCommands {
+            color: or_unused(color.into_iter()),
+            depth: scope.depth.as_ref().map(info).transpose()?,
+            stencil: scope.stencil.as_ref().map(info).transpose()?,
+            area: vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } },
+            layers: EyeForm::layers(form, scope.layers),
+            view_mask: view_mask(plan, scope),
+            target: DrawTarget { extent: scope.extent, rotation, eyes: form.map(|form| (plan.stereo, form)) },
+            passes: passes.collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+/// An attachment as Vulkan takes it. The images must live as long as it is used.
+fn attachment(frame: &Frame<'_>, planned: &Attachment) -> Result<vk::RenderingAttachmentInfo<'static>, Error> {
+    let view = |id: ImageId, range: Subresources| {
+        let image = frame.plan.image(id);
+        // A view for an attachment has all planes.
+        let range = Subresources { aspects: image.format.aspects(), ..part(image, range) };
+        let shape = if range.layers > 1 { ViewShape::Layers } else { ViewShape::Flat };
+        frame.image(id).view(range, shape)
+    };
+    let mut info = vk::RenderingAttachmentInfo::default()
+        .image_view(view(planned.image, planned.range)?)
+        .image_layout(convert::layout(planned.layout))
+        .load_op(convert::load(planned.load))
+        .store_op(convert::store(planned.store));
+    if let Some(resolve) = &planned.resolve {
+        info = info
+            .resolve_mode(convert::resolve(resolve.mode))
+            .resolve_image_view(view(resolve.image, resolve.range)?)
+            .resolve_image_layout(convert::layout(resolve.layout));
+    }
+    let format = frame.plan.image(planned.image).format;
+    Ok(match planned.clear {
+        Some(value) if planned.load == LoadOp::Clear => info.clear_value(match planned.range.aspects {
+            Aspects::COLOR => vk::ClearValue { color: convert::clear_color(format, value) },
+            Aspects::STENCIL => {
+                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+                let stencil = u32::from(value[0] as u8);
+                vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil } }
+            }
+            _ => vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: value[0], stencil: 0 } },
+        }),
+        _ => info,
+    })
+}

@@ -1,0 +1,99 @@
+//! Where shaders and what they include are looked for, and how mistakes are placed.
+
+use super::*;
+
+#[test]
+fn a_mistake_has_the_shaders_own_file_and_line() {
+    let fragment = "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() {\n    color = colour;\n}\n";
+    let messages = messages(&[("test.frag", fragment)]);
+    assert_eq!(messages[0], "test.frag:4: error: 'colour' : undeclared identifier");
+}
+
+#[test]
+fn a_mistake_in_an_included_file_has_that_files_name() {
+    let included = "float half_of(float x) {\n    return x * missing;\n}\n";
+    let fragment = "#version 460\n#include \"part.glsl\"\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(half_of(1.0)); }\n";
+    let messages = messages(&[("part.glsl", included), ("test.frag", fragment)]);
+    assert_eq!(messages[0], "part.glsl:2: error: 'missing' : undeclared identifier");
+}
+
+#[test]
+fn includes_come_from_the_folders_and_then_from_what_is_shipped() {
+    let body = "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(HALF); }\n";
+    let fragment = format!("#version 460\n#include \"light/half.glsl\"\n{body}");
+    assert!(drawn(Draw::FullScreen, &[("test.frag", &fragment)]).is_ok(), "shipped");
+    let fragment = format!("#version 460\n#include \"own.glsl\"\n{body}");
+    let own = "#include \"light/half.glsl\"\n";
+    assert!(drawn(Draw::FullScreen, &[("test.frag", &fragment), ("own.glsl", own)]).is_ok(), "own, then shipped");
+}
+
+#[test]
+fn an_include_can_not_leave_its_folder() {
+    let outer = tempfile::tempdir().expect("a folder");
+    let folder = outer.path().join("shaders");
+    fs::create_dir(&folder).expect("a folder");
+    fs::write(outer.path().join("secret.glsl"), "").expect("a file");
+    fs::write(outer.path().join("secret.frag"), "").expect("a file");
+    let absolute = outer.path().join("secret.glsl").display().to_string();
+    for name in ["../secret.glsl", "./../secret.glsl", &absolute, "..\\secret.glsl"] {
+        fs::write(folder.join("test.frag"), format!("#version 460\n#include \"{name}\"\n{WHITE} }}")).expect("a file");
+        match library(&folder).draw_shader("test", Draw::FullScreen, &Variant::default()) {
+            Err(ShaderProblem::DoesNotCompile { messages }) => {
+                let refused = ["leads out of", "is no path of a file"];
+                assert!(refused.iter().any(|words| messages[0].text.contains(words)), "{messages:?}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+    match library(&folder).draw_shader("../secret", Draw::FullScreen, &Variant::default()) {
+        Err(ShaderProblem::Unsupported { what }) => assert!(what.contains("leads out of"), "{what}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_file_that_includes_itself_is_an_error() {
+    let fragment = format!("#version 460\n#include \"circle.glsl\"\n{WHITE} }}");
+    let messages = messages(&[("test.frag", &fragment), ("circle.glsl", "#include \"circle.glsl\"\n")]);
+    assert!(messages.iter().any(|message| message.contains("a circle?")), "{messages:?}");
+}
+
+#[test]
+fn a_missing_shader_says_where_it_was_looked_for_and_what_there_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("own.frag"), "").expect("a file");
+    let problem = library(folder.path()).draw_shader("wanted", Draw::FullScreen, &Variant::default());
+    let looked_in = vec![folder.path().display().to_string(), "the shipped shaders".to_owned()];
+    let known = vec!["own".to_owned(), "plain".to_owned()];
+    assert_eq!(problem, Err(ShaderProblem::Missing { looked_in, known }));
+    let no_vertex_shader = library(folder.path()).draw_shader("plain", Draw::Sky, &Variant::default());
+    let what = "no vertex shader: neither `plain.vert` nor `sky.vert` was found".to_owned();
+    assert_eq!(no_vertex_shader, Err(ShaderProblem::Unsupported { what }));
+}
+
+#[test]
+fn a_shader_on_disk_comes_before_a_shipped_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("plain.frag"), "no GLSL").expect("a file");
+    let problem = library(folder.path()).draw_shader("plain", Draw::FullScreen, &Variant::default());
+    assert!(matches!(problem, Err(ShaderProblem::DoesNotCompile { .. })), "{problem:?}");
+}
+
+#[test]
+fn files_that_are_no_text_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("binary.frag"), [0xFF, 0xFE, 0x00]).expect("a file");
+    fs::write(path("zero.frag"), "#version 460\0").expect("a file");
+    fs::write(path("huge.frag"), vec![b'\n'; (1 << 20) + 1]).expect("a file");
+    fs::create_dir(path("folder.frag")).expect("a folder");
+    let mut library = library(folder.path());
+    let mut what = |name: &str| match library.draw_shader(name, Draw::FullScreen, &Variant::default()) {
+        Err(ShaderProblem::Unsupported { what }) => what.rsplit('/').next().unwrap_or("").to_owned(),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(what("binary"), "binary.frag is not UTF-8 text");
+    assert_eq!(what("zero"), "zero.frag contains a zero byte");
+    assert_eq!(what("huge"), "huge.frag has 1048577 bytes, more than the 1048576 of a shader");
+    assert_eq!(what("folder"), "folder.frag is not a regular file");
+}
