@@ -174,9 +174,14 @@ impl Adapted {
     }
 
     /// What a physical image is made as.
+    #[inline]
     pub(super) fn made(&self, store: StoreIndex, image: &ImageDescriptor) -> ImageDescriptor {
+        // Few frames have any.
+        if self.rooms.is_empty() && self.eyes.is_empty() {
+            return *image;
+        }
         let extent = with_room(image.extent, self.room(store));
-        let Some((form, rotation)) = self.eyes.get(&store).filter(|_| !self.eyes.is_empty()).copied() else {
+        let Some((form, rotation)) = self.eyes.get(&store).copied() else {
             return ImageDescriptor { extent, ..*image };
         };
         let (extent, layers) =

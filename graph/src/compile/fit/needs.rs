@@ -13,7 +13,10 @@ pub(super) struct Supports<'d> {
 
 impl<'d> Supports<'d> {
     pub(super) fn new(device: &'d Profile) -> Supports<'d> {
-        Supports { device, of: Format::ALL.iter().map(|format| device.format(*format)).collect() }
+        let mut of = vec![None; Format::ALL.len()];
+        // Of several entries the first counts.
+        device.formats.iter().rev().for_each(|support| of[support.format as usize] = Some(support));
+        Supports { device, of }
     }
 
     pub(super) fn of(&self, format: Format) -> Option<&'d FormatSupport> {

@@ -140,7 +140,7 @@ impl Queues {
     }
 
     /// The waits of a step.
-    #[inline]
+    #[inline(always)]
     pub(in crate::compile) fn waits(&self, step: u32) -> Vec<Wait> {
         if self.is_one() { Vec::new() } else { self.clocks.waits(step) }
     }

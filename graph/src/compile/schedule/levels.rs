@@ -7,36 +7,45 @@ use super::weighed::{Sums, Weighed, Weight};
 use crate::compile::model::Adapted;
 use crate::vulkan::Layout;
 
-/// The runs level by level; `None` if there is no level with more than one. Decisions that sizes made go into
-/// `weighed`, if they are to be kept.
+/// The least level of each run.
+pub(super) struct Levels {
+    least: Vec<u32>,
+    top: u32,
+}
+
+/// The least level of each run; `None` if there is no level with more than one.
+pub(super) fn levels(accesses: &Accesses, runs: &Runs) -> Option<Levels> {
+    let mut upwards = Walk::new(accesses, runs);
+    let mut least: Vec<u32> = Vec::with_capacity(runs.len() as usize);
+    for run in 0..runs.len() {
+        let level = upwards.least(run);
+        runs.run(run).iter().for_each(|op| upwards.put(*op, level));
+        least.push(level);
+    }
+    let top = least.iter().copied().max()?;
+    (top + 1 != runs.len()).then_some(Levels { least, top })
+}
+
+/// The runs level by level. Decisions that sizes made go into `weighed`, if they are to be kept.
 pub(super) fn by_level(
     adapted: &Adapted,
     accesses: &Accesses,
     runs: &Runs,
+    Levels { least: mut keys, top }: Levels,
     memory: &Memory,
     mut weighed: Option<&mut Weighed>,
-) -> Option<Vec<u32>> {
-    let mut upwards = Walk::new(accesses, runs);
-    let mut levels: Vec<u32> = Vec::with_capacity(runs.len() as usize);
+) -> Vec<u32> {
     // For each store the first run that uses it.
     let mut begins = vec![u32::MAX; adapted.stores.len()];
     for run in 0..runs.len() {
-        let level = upwards.least(run);
-        runs.run(run).iter().for_each(|op| upwards.put(*op, level));
-        levels.push(level);
         runs.for_each_use(adapted, run, |used| {
             let first = &mut begins[used.store as usize];
             *first = run.min(*first);
         });
     }
-    let top = levels.iter().copied().max()?;
-    if top + 1 == runs.len() {
-        return None;
-    }
     let mut downwards = Walk::new(accesses, runs);
     // For each store one more than the level of its last use, as far as that is known.
     let mut ends = vec![0_u32; adapted.stores.len()];
-    let mut keys = levels;
     for run in (0..runs.len()).rev() {
         let (lowest, highest) = (keys[run as usize], top - downwards.least(run));
         let mut sums = Sums::default();
@@ -62,7 +71,7 @@ pub(super) fn by_level(
         // In a level first what ends more than it begins: what comes next then finds its memory free.
         keys[run as usize] = 3 * level + (decision.begins as i8 + 1) as u32;
     }
-    Some(counting_sort(&keys, 3 * top + 3))
+    counting_sort(&keys, 3 * top + 3)
 }
 
 /// The numbers of `keys`, all below `bound`, in the order of the keys; equal ones as they are.

@@ -50,8 +50,10 @@ pub(super) fn schedule(grids: &Grids, adapted: &Adapted, order: Order, keeps: bo
         Order::Default => {
             let accesses = accesses();
             let runs = Runs::gather(grids, adapted, &accesses);
-            let keep = keeps.then_some(&mut weighed);
-            runs.operations(&scored(adapted, &accesses, &runs, &Memory::of(adapted), keep))
+            match scored(adapted, &accesses, &runs, keeps.then_some(&mut weighed)) {
+                Some(order) => runs.operations(&order),
+                None => runs.into_operations(),
+            }
         }
         Order::LowMemory => {
             let accesses = accesses();
@@ -75,27 +77,24 @@ impl Scheduled {
     }
 }
 
-/// The runs in the order that scores best.
-fn scored(
-    adapted: &Adapted,
-    accesses: &Accesses,
-    runs: &Runs,
-    memory: &Memory,
-    mut keep: Option<&mut Weighed>,
-) -> Vec<u32> {
+/// The runs in the order that scores best; `None`: as they are.
+fn scored(adapted: &Adapted, accesses: &Accesses, runs: &Runs, mut keep: Option<&mut Weighed>) -> Option<Vec<u32>> {
+    let levels = levels::levels(accesses, runs)?;
+    let memory = Memory::of(adapted);
+    let order = levels::by_level(adapted, accesses, runs, levels, &memory, keep.as_deref_mut());
     let file: Vec<u32> = (0..runs.len()).collect();
-    let Some(order) = levels::by_level(adapted, accesses, runs, memory, keep.as_deref_mut()) else { return file };
     let [in_file, in_levels] = [&file, &order].map(|order| Lifetimes::of(adapted, runs, order));
-    let takes_levels = weighed::takes_levels(memory, &in_file, &in_levels);
+    let takes_levels = weighed::takes_levels(&memory, &in_file, &in_levels);
     if let Some(weighed) = keep {
         weighed.took(in_file, in_levels, takes_levels);
     }
-    if takes_levels { order } else { file }
+    takes_levels.then_some(order)
 }
 
 /// The runs in that of several orders in which the least memory is alive at one time.
 fn small(adapted: &Adapted, accesses: &Accesses, runs: &Runs) -> Vec<u32> {
+    let file: Vec<u32> = (0..runs.len()).collect();
+    let scored = scored(adapted, accesses, runs, None).unwrap_or_else(|| file.clone());
     let memory = Memory::of(adapted);
-    let others = vec![(0..runs.len()).collect(), scored(adapted, accesses, runs, &memory, None)];
-    Greedy::new(adapted, runs, &memory, Dependencies::between(accesses, runs)).best(others)
+    Greedy::new(adapted, runs, &memory, Dependencies::between(accesses, runs)).best(vec![file, scored])
 }

@@ -67,6 +67,11 @@ impl Runs {
         }
     }
 
+    /// The operations of all runs.
+    pub(super) fn into_operations(self) -> Vec<u32> {
+        self.ops
+    }
+
     /// The operations of all runs, in the given order of runs.
     pub(super) fn operations(&self, order: &[u32]) -> Vec<u32> {
         let mut ops = Vec::with_capacity(self.ops.len());

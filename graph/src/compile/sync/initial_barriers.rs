@@ -114,22 +114,24 @@ impl Completing<'_> {
 
     /// Completes those of a resource that takes over memory, from the last accesses of the memory's previous owner.
     fn take_over(&mut self, edge: &AliasEdge) {
-        let AliasEdge { store, from, this_frame } = *edge;
-        // A resource that had its memory in the frame before too waits cell by cell.
-        let again = store == from;
-        let mut accesses = LastAccesses::default();
-        if !again {
-            self.add_last_accesses(from, self.cells(from), &mut accesses);
+        let cells = self.cells(edge.store);
+        if edge.store == edge.from {
+            // A resource that had its memory in the frame before too waits cell by cell.
+            cells.for_each(|cell| self.follow(edge, cell..cell + 1, cell..cell + 1));
+        } else {
+            self.follow(edge, self.cells(edge.from), cells);
         }
+    }
+
+    /// Lets the initial barriers of `cells` wait for the last accesses to the cells `before` of the memory's previous owner.
+    fn follow(&mut self, edge: &AliasEdge, before: Range<CellIndex>, cells: Range<CellIndex>) {
+        let AliasEdge { store, from, this_frame } = *edge;
+        let Completing { adapted, timeline, initial: Initial { barriers, queues, aliased }, .. } = self;
+        let accesses = last_accesses(timeline, from, before);
         // A buffer's barrier covers all memory, an image's only the image.
-        let covers = again || self.adapted.stores[store as usize].image().is_none();
-        for cell in self.cells(store) {
-            if again {
-                accesses.clear();
-                self.add_last_accesses(store, cell..cell + 1, &mut accesses);
-            }
-            let number = self.timeline.cells[cell as usize].first_barrier;
-            let Initial { barriers, queues, aliased } = &mut self.initial;
+        let covers = store == from || adapted.stores[store as usize].image().is_none();
+        for cell in &timeline.cells[cells.start as usize..cells.end as usize] {
+            let number = cell.first_barrier;
             let Some(barrier) = barriers.get_mut(number as usize) else { continue };
             let queue = queues.at(barrier.step);
             for LastAccess { queue: other, stages, writes, last } in accesses.iter().copied() {
@@ -152,23 +154,23 @@ impl Completing<'_> {
             }
         }
     }
+}
 
-    /// Adds the last accesses to some cells of a resource.
-    #[inline]
-    fn add_last_accesses(&self, store: StoreIndex, cells: Range<CellIndex>, accesses: &mut LastAccesses) {
-        let queues = &self.timeline.queues;
-        let is_crossed = queues.is_crossed(store);
-        for cell in cells {
-            let known = &self.timeline.cells[cell as usize];
-            if is_crossed {
-                for (queue, used) in queues.uses(cell).by.iter().enumerate().filter(|(_, used)| used.until > 0) {
-                    accesses.add(queue, used.stages, used.accesses, used.until - 1);
-                }
-            } else if known.is_touched() {
-                accesses.add(queues.at(known.last), known.stages, known.accesses, known.last);
+/// The last accesses to some cells of a resource.
+fn last_accesses(timeline: &Timeline, store: StoreIndex, cells: Range<CellIndex>) -> LastAccesses {
+    let queues = &timeline.queues;
+    let is_crossed = queues.is_crossed(store);
+    let mut accesses = LastAccesses::default();
+    for (known, cell) in timeline.cells[cells.start as usize..cells.end as usize].iter().zip(cells.start..) {
+        if is_crossed {
+            for (queue, used) in queues.uses(cell).by.iter().enumerate().filter(|(_, used)| used.until > 0) {
+                accesses.add(queue, used.stages, used.accesses, used.until - 1);
             }
+        } else if known.is_touched() {
+            accesses.add(queues.at(known.last), known.stages, known.accesses, known.last);
         }
     }
+    accesses
 }
 
 /// Completes the barrier before the first access to what outlives frames. `is_last`: there is no other barrier.

@@ -26,22 +26,16 @@ impl LastAccesses {
     #[inline]
     pub(super) fn add(&mut self, queue: usize, stages: Stages, accesses: Accesses, step: u32) {
         let writes = accesses.writes();
+        let new = LastAccess { queue, stages, writes, last: step };
+        let Some(first) = &mut self.first else {
+            self.first = Some(new);
+            return;
+        };
         let same = |it: &&mut LastAccess| (it.queue, it.stages, it.writes) == (queue, stages, writes);
-        match self.first.iter_mut().chain(&mut self.others).find(same) {
+        match std::iter::once(first).chain(&mut self.others).find(same) {
             Some(same) => same.last = same.last.max(step),
-            None => {
-                let new = LastAccess { queue, stages, writes, last: step };
-                match self.first {
-                    None => self.first = Some(new),
-                    Some(_) => self.others.push(new),
-                }
-            }
+            None => self.others.push(new),
         }
-    }
-
-    pub(super) fn clear(&mut self) {
-        self.first = None;
-        self.others.clear();
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = &LastAccess> {

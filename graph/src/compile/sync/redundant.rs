@@ -21,9 +21,8 @@ pub(super) fn take_out(adapted: &Adapted, timeline: &Timeline, initial: &mut Ini
     let mut at = 0;
     while let Some(it) = batched.get(at).copied() {
         let barrier = &initial.barriers[it.barrier as usize];
-        let of_buffer = adapted.stores[barrier.store as usize].image().is_none();
-        let is_redundant = of_buffer
-            && waits_for_reads(barrier)
+        let is_redundant = waits_for_reads(barrier)
+            && adapted.stores[barrier.store as usize].image().is_none()
             && !initial.queues.is_crossed(barrier.store)
             && Calls { adapted, timeline, initial, batched }.make_redundant(it);
         if is_redundant {

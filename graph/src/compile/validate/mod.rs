@@ -35,6 +35,7 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         return Err(errors);
     }
     views(frame, &mut errors);
+    let has_eyes = frame.images.iter().any(|image| image.eyes.is_some());
     let has_files = frame.images.iter().any(|image| matches!(image.lifetime, Lifetime::File(_)));
     for pass in &frame.passes {
         let mut check = Check { frame, pass, errors: &mut errors };
@@ -44,7 +45,9 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
             if has_files {
                 check.files();
             }
-            eyes::pass(frame, pass, &mut errors);
+            if has_eyes {
+                eyes::pass(frame, pass, &mut errors);
+            }
         }
     }
     outputs(frame, &mut errors);
