@@ -33,7 +33,7 @@ pub(super) fn complete(
     aliasing: &[AliasEdge],
 ) -> Initial {
     let initial = Initial { barriers, queues: timeline.queues.clone(), aliased: Vec::new() };
-    let mut completing = Completing { grids, adapted, timeline, initial };
+    let mut completing = Completing { grids, adapted, timeline, initial, accesses: LastAccesses::default() };
     for (at, states) in (0..).zip(&timeline.states) {
         match states {
             Some(states) if timeline.queues.is_crossed(at) => completing.find_crossed(at, states),
@@ -55,6 +55,8 @@ struct Completing<'c> {
     adapted: &'c Adapted,
     timeline: &'c Timeline,
     initial: Initial,
+    /// The last accesses of the previous owner of memory.
+    accesses: LastAccesses,
 }
 
 impl Completing<'_> {
@@ -126,8 +128,8 @@ impl Completing<'_> {
     /// Lets the initial barriers of `cells` wait for the last accesses to the cells `before` of the memory's previous owner.
     fn follow(&mut self, edge: &AliasEdge, before: Range<CellIndex>, cells: Range<CellIndex>) {
         let AliasEdge { store, from, this_frame } = *edge;
-        let Completing { adapted, timeline, initial: Initial { barriers, queues, aliased }, .. } = self;
-        let accesses = last_accesses(timeline, from, before);
+        let Completing { adapted, timeline, initial: Initial { barriers, queues, aliased }, accesses, .. } = self;
+        find_last_accesses(timeline, from, before, accesses);
         // A buffer's barrier covers all memory, an image's only the image.
         let covers = store == from || adapted.stores[store as usize].image().is_none();
         for cell in &timeline.cells[cells.start as usize..cells.end as usize] {
@@ -156,11 +158,11 @@ impl Completing<'_> {
     }
 }
 
-/// The last accesses to some cells of a resource.
-fn last_accesses(timeline: &Timeline, store: StoreIndex, cells: Range<CellIndex>) -> LastAccesses {
+/// Puts the last accesses to some cells of a resource into `accesses`.
+fn find_last_accesses(timeline: &Timeline, store: StoreIndex, cells: Range<CellIndex>, accesses: &mut LastAccesses) {
     let queues = &timeline.queues;
     let is_crossed = queues.is_crossed(store);
-    let mut accesses = LastAccesses::default();
+    accesses.clear();
     for (known, cell) in timeline.cells[cells.start as usize..cells.end as usize].iter().zip(cells.start..) {
         if is_crossed {
             for (queue, used) in queues.uses(cell).by.iter().enumerate().filter(|(_, used)| used.until > 0) {
@@ -170,7 +172,6 @@ fn last_accesses(timeline: &Timeline, store: StoreIndex, cells: Range<CellIndex>
             accesses.add(queues.at(known.last), known.stages, known.accesses, known.last);
         }
     }
-    accesses
 }
 
 /// Completes the barrier before the first access to what outlives frames. `is_last`: there is no other barrier.

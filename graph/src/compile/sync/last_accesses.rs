@@ -14,11 +14,10 @@ pub(super) struct LastAccess {
     pub(super) last: u32,
 }
 
-/// The last accesses to some cells: most often they are all alike.
+/// The last accesses to some cells.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LastAccesses {
-    first: Option<LastAccess>,
-    others: Vec<LastAccess>,
+    list: Vec<LastAccess>,
 }
 
 impl LastAccesses {
@@ -26,20 +25,19 @@ impl LastAccesses {
     #[inline]
     pub(super) fn add(&mut self, queue: usize, stages: Stages, accesses: Accesses, step: u32) {
         let writes = accesses.writes();
-        let new = LastAccess { queue, stages, writes, last: step };
-        let Some(first) = &mut self.first else {
-            self.first = Some(new);
-            return;
-        };
         let same = |it: &&mut LastAccess| (it.queue, it.stages, it.writes) == (queue, stages, writes);
-        match std::iter::once(first).chain(&mut self.others).find(same) {
+        match self.list.iter_mut().find(same) {
             Some(same) => same.last = same.last.max(step),
-            None => self.others.push(new),
+            None => self.list.push(LastAccess { queue, stages, writes, last: step }),
         }
     }
 
+    pub(super) fn clear(&mut self) {
+        self.list.clear();
+    }
+
     pub(super) fn iter(&self) -> impl Iterator<Item = &LastAccess> {
-        self.first.iter().chain(&self.others)
+        self.list.iter()
     }
 }
 
