@@ -3,8 +3,8 @@
 use crate::base::convert;
 use crate::gpu::Gpu;
 use ash::vk;
-use framewright_graph::plan::{MemoryBarrier, Subresources};
-use framewright_graph::vulkan::State;
+use framewright_graph::plan::MemoryBarrier;
+use framewright_graph::vulkan::{State, Subresources};
 
 /// The memory barriers of a step.
 pub(crate) fn memory_barriers(barriers: &[MemoryBarrier]) -> Vec<vk::MemoryBarrier2<'static>> {

@@ -5,10 +5,8 @@
 
 use super::descriptions::part;
 use super::uses::ResourceUses;
-use framewright_graph::plan::{
-    ImageBarrier, ImageId, Pass, Plan, Queue, Resource, Role, Side, Step, Subresources, Work,
-};
-use framewright_graph::vulkan::{Layout, Sharing};
+use framewright_graph::plan::{ImageBarrier, ImageId, Pass, Plan, Queue, Resource, Role, Side, Step, Work};
+use framewright_graph::vulkan::{Layout, Sharing, Subresources};
 use std::collections::HashSet;
 
 /// A part of an image that one queue at a time may use.
@@ -140,7 +138,7 @@ mod tests {
             chosen: None,
             shape: Shape::D2,
             extent: [2, 2, 1],
-            room: None,
+            allocated: None,
             rotation: Rotation::Identity,
             eyes: None,
             mips: 2,

@@ -8,7 +8,8 @@ use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::memory::{View, ViewShape};
 use crate::shaders::ShaderLibrary;
-use framewright_graph::plan::{self, ImageId, Plan, RenderScope, Resource, Subresources, Work};
+use framewright_graph::plan::{self, ImageId, Plan, RenderScope, Resource, Work};
+use framewright_graph::vulkan::Subresources;
 use std::sync::Arc;
 
 /// Everything that a Plan needs on a device.

@@ -9,8 +9,8 @@ use crate::pipeline::PARTS_STAGES;
 use crate::prepare::{PreparedPlan, part};
 use ash::vk;
 use framewright_graph::frame::EyeForm;
-use framewright_graph::plan::{self, ImageBarrier, ImageId, Plan, Side, Subresources};
-use framewright_graph::vulkan::Layout;
+use framewright_graph::plan::{self, ImageBarrier, ImageId, Plan, Side};
+use framewright_graph::vulkan::{Layout, Subresources};
 use std::time::Duration;
 
 /// What a frame is recorded from.

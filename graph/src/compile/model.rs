@@ -2,11 +2,11 @@
 
 use super::parts::{Grid, Grids};
 use crate::device::{BufferDescriptor, ImageDescriptor};
-use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, with_room};
-use crate::plan::{Inserted, Note, Subresources};
+use crate::frame::{EyeForm, Frame, ImageIndex, Resource, ViewIndex, allocated_extent};
+use crate::plan::{Inserted, Note};
 use crate::vulkan::{
     Accesses, Aspects, BufferUsage, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Sharing, Stages, State,
-    Usage,
+    Subresources, Usage,
 };
 use std::collections::HashMap;
 use std::ops::Range;
@@ -145,8 +145,8 @@ pub(super) struct Adapted {
     /// The frame's outputs, in its order.
     pub(super) outputs: Vec<StoreIndex>,
     pub(super) notes: Vec<Note>,
-    /// Width and height that images are made with whose size may change.
-    pub(super) rooms: HashMap<StoreIndex, [u32; 2]>,
+    /// The allocated width and height of images whose size may change.
+    pub(super) allocated: HashMap<StoreIndex, [u32; 2]>,
     /// How images hold both eyes' parts, and how they are turned.
     pub(super) eyes: HashMap<StoreIndex, (EyeForm, Rotation)>,
 }
@@ -155,17 +155,17 @@ impl Adapted {
     /// Takes the sizes that the frame says now.
     pub(super) fn resize(&mut self, frame: &Frame) {
         self.stores.iter_mut().for_each(|store| store.resize(frame));
-        for (store, room) in &mut self.rooms {
+        for (store, allocated) in &mut self.allocated {
             if let Resource::Image(of) = self.stores[*store as usize].of {
-                *room = frame.images[of.0 as usize].room.unwrap_or(*room);
+                *allocated = frame.images[of.0 as usize].allocated.unwrap_or(*allocated);
             }
         }
     }
 
-    /// Width and height that a physical image is made with, if its size may change.
-    pub(super) fn room(&self, store: StoreIndex) -> Option<[u32; 2]> {
+    /// The allocated width and height of a physical image, if its size may change.
+    pub(super) fn allocated(&self, store: StoreIndex) -> Option<[u32; 2]> {
         // Few frames have any.
-        if self.rooms.is_empty() { None } else { self.rooms.get(&store).copied() }
+        if self.allocated.is_empty() { None } else { self.allocated.get(&store).copied() }
     }
 
     /// How a physical image holds both eyes' parts, if it does.
@@ -177,10 +177,10 @@ impl Adapted {
     #[inline]
     pub(super) fn made(&self, store: StoreIndex, image: &ImageDescriptor) -> ImageDescriptor {
         // Few frames have any.
-        if self.rooms.is_empty() && self.eyes.is_empty() {
+        if self.allocated.is_empty() && self.eyes.is_empty() {
             return *image;
         }
-        let extent = with_room(image.extent, self.room(store));
+        let extent = allocated_extent(image.extent, self.allocated(store));
         let Some((form, rotation)) = self.eyes.get(&store).copied() else {
             return ImageDescriptor { extent, ..*image };
         };

@@ -30,7 +30,6 @@ use crate::base::Place;
 use crate::frame::change::Action;
 use crate::frame::{EyeForm, Stereo};
 use crate::vulkan::Rotation;
-pub use crate::vulkan::Subresources;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

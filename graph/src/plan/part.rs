@@ -1,14 +1,14 @@
 //! Which part of an image a frame uses.
 
 use super::{BindingKind, Image, Pass, Plan};
-use crate::frame::{EyeForm, with_room};
+use crate::frame::{EyeForm, allocated_extent};
 use std::sync::Arc;
 
 impl Image {
     /// Width, height and depth that it is made with.
     #[must_use]
     pub fn made(&self) -> [u32; 3] {
-        EyeForm::extent(self.eyes, with_room(self.extent, self.room), self.rotation)
+        EyeForm::extent(self.eyes, allocated_extent(self.extent, self.allocated), self.rotation)
     }
 
     /// Array layers that it is made with.
@@ -35,7 +35,7 @@ impl Plan {
         pass.accesses.iter().filter_map(|access| {
             let binding = access.binding.as_ref().filter(|it| matches!(it.kind, BindingKind::Sampled(_)))?;
             let image = self.image(access.image);
-            image.room.map(|_| (&binding.name, image.part()))
+            image.allocated.map(|_| (&binding.name, image.part()))
         })
     }
 }

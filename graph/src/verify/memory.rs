@@ -207,7 +207,7 @@ impl<const Q: usize> Walk<'_, '_, Q> {
         }
     }
 
-    fn first_range(&self, resource: u32) -> Option<crate::plan::Subresources> {
+    fn first_range(&self, resource: u32) -> Option<crate::vulkan::Subresources> {
         let mut part = self.parts.whole(resource);
         self.parts.next(&mut part).and_then(|index| self.range(resource, index))
     }

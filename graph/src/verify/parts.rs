@@ -4,8 +4,8 @@
 //! chain that is built level by level has one a level. So the work grows with what the Plan tells apart, not with the
 //! number of subresources. Images and buffers are numbered in one row, buffers after images; a buffer is one cell.
 
-use crate::plan::{Image, Plan, Role, Subresources};
-use crate::vulkan::Aspects;
+use crate::plan::{Image, Plan, Role};
+use crate::vulkan::{Aspects, Subresources};
 use std::collections::BTreeMap;
 
 /// A range of an image that steps name; the whole of an image or buffer is the range 0.

@@ -9,8 +9,8 @@ use super::parts::{RangeId, Ranges, fits};
 use super::scopes::{PairSet, StageSet};
 use super::touches::{self, BufferTouch, ImageTouch, Kind};
 use super::violation::{Rule, StepName};
-use crate::plan::{ImageBarrier, ImageId, Plan, Queue, Role, Step, StepId, Subresources};
-use crate::vulkan::{Layout, Sharing, name_of};
+use crate::plan::{ImageBarrier, ImageId, Plan, Queue, Role, Step, StepId};
+use crate::vulkan::{Layout, Sharing, Subresources, name_of};
 
 /// The steps of a Plan.
 #[derive(Debug, Default)]

@@ -12,10 +12,10 @@ use super::parts::overlap;
 use super::program::Builder;
 use super::scopes::{PairSet, StageSet};
 use crate::frame::{Blend, Draw};
-use crate::plan::{
-    Access, Attachment, BufferAccess, BufferId, ImageId, Pass, RenderScope, Side, Subresources, Transfer, Work,
+use crate::plan::{Access, Attachment, BufferAccess, BufferId, ImageId, Pass, RenderScope, Side, Transfer, Work};
+use crate::vulkan::{
+    Accesses, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Subresources, Usage,
 };
-use crate::vulkan::{Accesses, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Usage};
 
 /// How an access is kept apart from others of its step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! What the checker reports: data first, a sentence where it is shown.
 
 use crate::plan::names::Shown;
-use crate::plan::{Plan, Queue, StepId, Subresources};
-use crate::vulkan::{Accesses, Layout, Stages, name_of};
+use crate::plan::{Plan, Queue, StepId};
+use crate::vulkan::{Accesses, Layout, Stages, Subresources, name_of};
 use std::fmt;
 use std::fmt::{Display, Formatter};
 use std::sync::Arc;

@@ -11,8 +11,8 @@ use super::program::{Barrier, Program, Span, Touch};
 use super::scopes::{PairSet, StageSet};
 use super::touches::Kind;
 use super::violation::{Rule, StepName};
-use crate::plan::{Plan, Role, StepId, Subresources};
-use crate::vulkan::Layout;
+use crate::plan::{Plan, Role, StepId};
+use crate::vulkan::{Layout, Subresources};
 
 /// All that is known between two steps.
 pub(super) struct Walk<'w, 'p, const Q: usize> {

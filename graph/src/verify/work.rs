@@ -12,10 +12,9 @@ use super::violation::{Rule, StepName, Touched};
 use crate::frame::Draw;
 use crate::plan::names::Shown;
 use crate::plan::{
-    Access, Attachment, AttachmentResolve, Image, ImageId, Pass, Plan, Queue, RenderScope, Step, StepId, Subresources,
-    Work,
+    Access, Attachment, AttachmentResolve, Image, ImageId, Pass, Plan, Queue, RenderScope, Step, StepId, Work,
 };
-use crate::vulkan::{Accesses, Aspects, Layout, LoadOp, ResolveMode, Stages, StoreOp, name_of};
+use crate::vulkan::{Accesses, Aspects, Layout, LoadOp, ResolveMode, Stages, StoreOp, Subresources, name_of};
 use std::collections::HashSet;
 
 /// Reports what is malformed in the steps; the steps in dense form, if they can be followed.

@@ -24,7 +24,7 @@ impl Adapter<'_> {
         if moved && !target_image.lifetime.outlives_frame() {
             wanted = count;
         }
-        let size = |image: &Image| (image.extent, image.room, image.rotation, image.eyes);
+        let size = |image: &Image| (image.extent, image.allocated, image.rotation, image.eyes);
         let alike = (source_image.format, size(source_image)) == (target_image.format, size(target_image));
         let alike = alike && count == wanted;
         let resolves = count > 1 && !alike;
@@ -46,7 +46,7 @@ impl Adapter<'_> {
         };
         let same = self.adapted.stores[source as usize].image().is_some_and(|held| {
             let ImageDescriptor { format, shape, extent, mips, layers, samples, .. } = *held;
-            let held = (extent, self.adapted.room(source), self.rotation(source), self.adapted.eyes(source));
+            let held = (extent, self.adapted.allocated(source), self.rotation(source), self.adapted.eyes(source));
             (format, shape, held) == (target_image.format, target_image.shape, size(target_image))
                 && (mips, layers, samples) == (target_image.mips, target_image.layers, wanted)
         });
@@ -108,7 +108,7 @@ impl Adapter<'_> {
         let rotation = self.rotation(source);
         let upright = |extent: [u32; 3], rotation: Rotation| rotation.extent([extent[0], extent[1]]);
         let same_size = upright(held.extent, rotation) == upright(target_image.extent, target_image.rotation)
-            && self.adapted.room(source) == target_image.room;
+            && self.adapted.allocated(source) == target_image.allocated;
         let filtered = !same_size && self.input.device.format(held.format).is_some_and(|support| support.linear_filter);
         let filter = if filtered { Filter::Linear } else { Filter::Nearest };
         let differ = match (held.format == target_image.format, same_size) {

@@ -177,7 +177,7 @@ impl Adapter<'_> {
         self.images += 1;
         let store = self.add(Resource::Image(image), self.images - 1, Kind::Image(descriptor), cells);
         self.adapted.stores[store as usize].usual = declared.chosen.as_ref().map(|chosen| chosen.usual);
-        self.adapted.rooms.extend(declared.room.map(|room| (store, room)));
+        self.adapted.allocated.extend(declared.allocated.map(|allocated| (store, allocated)));
         self.adapted.eyes.extend(declared.eyes.map(|form| (store, (form, declared.rotation))));
         store
     }

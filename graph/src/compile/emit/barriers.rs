@@ -4,8 +4,8 @@ use super::parts::{Parts, resource};
 use crate::compile::parts::join;
 use crate::compile::steps::NEVER;
 use crate::compile::sync::{Batched, CellBarrier};
-use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId, Subresources};
-use crate::vulkan::Accesses;
+use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId};
+use crate::vulkan::{Accesses, Subresources};
 
 /// Hands out the barriers step by step.
 pub(super) struct StepBarriers<'p, 'a> {

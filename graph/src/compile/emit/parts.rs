@@ -10,7 +10,8 @@ use crate::compile::structure::{Settled, Structure};
 use crate::compile::sync::Barriers;
 use crate::device::Profile;
 use crate::frame::{Frame, Work};
-use crate::plan::{BufferId, Cause, ImageId, Resource, Subresources};
+use crate::plan::{BufferId, Cause, ImageId, Resource};
+use crate::vulkan::Subresources;
 use std::sync::Arc;
 
 /// The results of all stages.

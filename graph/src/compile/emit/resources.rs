@@ -39,7 +39,7 @@ pub(in crate::compile) fn resources(frame: &Frame, structure: &Structure, settle
                 chosen: chosen.next_if(|(of, _)| *of == at).and_then(|(_, more)| chosen_format(frame, store, *more)),
                 shape: image.shape,
                 extent: image.extent,
-                room: adapted.room(at),
+                allocated: adapted.allocated(at),
                 rotation,
                 eyes,
                 mips: image.mips,

@@ -60,7 +60,7 @@ pub(in crate::compile) fn sizes(parts: &Parts<'_>, plan: &mut Plan) {
         let role = match &store.kind {
             Kind::Image(image) => {
                 let planned = &mut images[store.id as usize];
-                (planned.extent, planned.room) = (image.extent, parts.adapted.room(index));
+                (planned.extent, planned.allocated) = (image.extent, parts.adapted.allocated(index));
                 &mut planned.role
             }
             Kind::Buffer(buffer) => {

@@ -95,7 +95,7 @@ impl Needs {
 fn is_drawn(frame: &Frame, from: ImageIndex, to: ImageIndex) -> bool {
     let shape = |image: ImageIndex| {
         let image = &frame.images[image.0 as usize];
-        (image.format, image.extent, image.room, image.eyes)
+        (image.format, image.extent, image.allocated, image.eyes)
     };
     shape(from) != shape(to)
 }

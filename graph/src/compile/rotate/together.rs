@@ -20,7 +20,7 @@ pub(super) fn becomes(from: &Image, to: &Image, rotation: Rotation) -> bool {
     let upright = |extent: [u32; 2]| if to.rotation.turns() { rotation.extent(extent) } else { extent };
     (from.format, from.shape, from.layers, from.mips) == (to.format, to.shape, to.layers, to.mips)
         && [from.extent[0], from.extent[1]] == upright([to.extent[0], to.extent[1]])
-        && from.room == to.room.map(upright)
+        && from.allocated == to.allocated.map(upright)
         && (to.samples == 1 || to.samples == from.samples)
 }
 

@@ -134,9 +134,9 @@ impl Scope {
 /// What the attachments of one scope have in common, as the device makes them.
 fn shape(adapted: &Adapted, target: Target) -> Option<TargetShape> {
     let image = adapted.stores[target.store as usize].image()?;
-    let (room, eyes) = (adapted.room(target.store), adapted.eyes(target.store));
+    let (allocated, eyes) = (adapted.allocated(target.store), adapted.eyes(target.store));
     let (extent, layers) = (image.extent_at(target.range.base_mip), target.range.layers);
-    Some(TargetShape { extent, room, eyes, layers, samples: image.samples })
+    Some(TargetShape { extent, allocated, eyes, layers, samples: image.samples })
 }
 
 /// For each draw that may meet the scope of a draw before it, in the given order, whether they have the same area: all that

@@ -2,7 +2,7 @@
 
 use crate::compile::model::{Adapted, OpKind, Role, StoreIndex, Use};
 use crate::frame::{Frame, Resource};
-use crate::plan::Subresources;
+use crate::vulkan::Subresources;
 use std::sync::Arc;
 
 /// One step.

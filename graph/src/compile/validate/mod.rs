@@ -123,7 +123,7 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
         }
         if let Resource::Image(image) = output.resource
             && let image = &frame.images[image.0 as usize]
-            && image.room.is_some()
+            && image.allocated.is_some()
         {
             // Of what is dumped no file says that it is an output.
             let span = if output.span == Span::NONE { image.span } else { output.span };
@@ -162,8 +162,8 @@ fn image_problem(image: &Image) -> Option<String> {
     let [width, height, depth] = image.extent;
     let largest = width.max(height).max(depth);
     let levels = largest.checked_ilog2().map_or(0, |log| log + 1);
-    let short = image.room.is_some_and(|[wide, high]| wide < width || high < height);
-    let changes = image.room.is_some();
+    let short = image.allocated.is_some_and(|[wide, high]| wide < width || high < height);
+    let changes = image.allocated.is_some();
     if image.extent.contains(&0) {
         Some(format!("is {width}×{height}×{depth}; each side has at least 1 texel"))
     } else if !(1..=levels).contains(&image.mips) {

@@ -153,7 +153,7 @@ impl Check<'_> {
             if image.samples > 1 {
                 self.wrong(storage.span, &format!("accesses `{}` as storage, which has several samples", image.name));
             }
-            if image.room.is_some() {
+            if image.allocated.is_some() {
                 let what =
                     format!("accesses `{}` as storage, which changes its size: it can be drawn into", image.name);
                 self.wrong(storage.span, &what);

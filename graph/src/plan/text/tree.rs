@@ -8,9 +8,9 @@ use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, ParamValu
 use crate::plan::names::Shown;
 use crate::plan::{
     Access, Attachment, BindingKind, BufferAccess, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue,
-    RenderScope, Resource, Side, Step, StepId, Subresources, Transfer, Wait, Work,
+    RenderScope, Resource, Side, Step, StepId, Transfer, Wait, Work,
 };
-use crate::vulkan::name_of;
+use crate::vulkan::{Subresources, name_of};
 
 /// How many objects of a scene are in a draw list.
 type Objects<'p> = &'p dyn Fn(DrawList) -> usize;

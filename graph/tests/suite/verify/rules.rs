@@ -3,9 +3,9 @@
 use crate::testing::hand_written_plans::build::{
     self, State, UNDEFINED, barrier, between, dispatch, step, storage, transient,
 };
-use framewright_graph::plan::{Hazard, Image, ImageBarrier, MemoryBarrier, Plan, Role, Step, Subresources, Work};
+use framewright_graph::plan::{Hazard, Image, ImageBarrier, MemoryBarrier, Plan, Role, Step, Work};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vulkan::{Accesses, Format, Layout, Stages, Usage};
+use framewright_graph::vulkan::{Accesses, Format, Layout, Stages, Subresources, Usage};
 
 const CS: Stages = Stages::COMPUTE_SHADER;
 const NONE: Accesses = Accesses::empty();

@@ -3,11 +3,10 @@
 use framewright_graph::frame::{Groups, Stereo};
 use framewright_graph::plan::{
     Access, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION, Hazard, Heap, Image, ImageBarrier, ImageId,
-    Initial, MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Step, StepId, Subresources, Totals, Wait,
-    Work,
+    Initial, MemoryBarrier, Pass, Placement, Plan, Queue, Resource, Role, Step, StepId, Totals, Wait, Work,
 };
 use framewright_graph::vulkan::{
-    Accesses, FillValue, Filter, Format, Layout, Rotation, Sampler, Shape, Sharing, Stages, State, Usage,
+    Accesses, FillValue, Filter, Format, Layout, Rotation, Sampler, Shape, Sharing, Stages, State, Subresources, Usage,
 };
 
 pub(crate) const R: Accesses = Accesses::SHADER_SAMPLED_READ;
@@ -46,7 +45,7 @@ fn image(plan: &mut Plan, name: &str, role: Role) -> ImageId {
         chosen: None,
         shape: Shape::D2,
         extent: [16, 16, 1],
-        room: None,
+        allocated: None,
         rotation: Rotation::Identity,
         eyes: None,
         mips: 1,
