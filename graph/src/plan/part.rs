@@ -18,7 +18,8 @@ impl Image {
     }
 
     /// Where the part in use, of two eyes the left one's, lies among all of the upright image: its width and height as shares,
-    /// and where it begins; the right eye's begins where it ends. That of a place in the part, 0 to 1 from its upper left corner, is `place * [0..2] + [2..4]` in the image.
+    /// and where it begins; the right eye's begins where it ends. A place in the part, 0 to 1 from its upper left corner, is
+    /// `place * [0..2] + [2..4]` in the image.
     #[must_use]
     pub fn part(&self) -> [f32; 4] {
         #[allow(clippy::cast_possible_truncation, reason = "shaders calculate with as many bits")]

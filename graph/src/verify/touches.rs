@@ -11,6 +11,7 @@
 use super::parts::overlap;
 use super::program::Builder;
 use super::scopes::{PairSet, StageSet};
+use super::work::mip_extent;
 use crate::frame::{Blend, Draw};
 use crate::plan::{Access, Attachment, BufferAccess, BufferId, ImageId, Pass, RenderScope, Side, Transfer, Work};
 use crate::vulkan::{
@@ -104,9 +105,7 @@ fn both(transfer: &Transfer, stages: Stages, to: &mut Builder) {
 /// The target of a transfer: what doesn't reach all of it leaves the rest as it was.
 fn written(target: &Side, stages: Stages, to: &mut Builder) {
     let whole = match *target {
-        Side::Image { image, range, extent, .. } => {
-            extent == to.plan.image(image).extent.map(|texels| texels.checked_shr(range.base_mip).unwrap_or(0).max(1))
-        }
+        Side::Image { image, range, extent, .. } => extent == mip_extent(to.plan.image(image), range.base_mip),
         Side::Buffer { buffer, bytes } => bytes == to.plan.buffers[buffer.0 as usize].bytes,
     };
     let contents = if whole { does::FILL } else { does::ADD };

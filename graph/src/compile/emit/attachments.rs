@@ -68,8 +68,8 @@ pub(super) fn shape(parts: &Parts<'_>, scope: &Scope) -> ([u32; 2], u32, u32) {
     let first = scope.targets().next();
     let shape = first.and_then(|target| Some((stores[target.store as usize].image()?, target.range)));
     shape.map_or(([1, 1], 1, 1), |(image, range)| {
-        let side = |at: usize| (image.extent[at] >> range.base_mip.min(31)).max(1);
-        ([side(0), side(1)], range.layers, image.samples)
+        let [width, height, _] = image.extent_at(range.base_mip);
+        ([width, height], range.layers, image.samples)
     })
 }
 

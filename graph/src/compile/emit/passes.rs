@@ -85,8 +85,8 @@ fn side(parts: &Parts<'_>, used: &Use) -> Side {
     match &store.kind {
         Kind::Image(image) => {
             let range = parts.adapted.range(used);
-            let extent = image.extent.map(|side| (side >> range.base_mip.min(31)).max(1));
-            Side::Image { image: ImageId(store.id), range, extent, layout: used.layout }
+            let (image, extent) = (ImageId(store.id), image.extent_at(range.base_mip));
+            Side::Image { image, range, extent, layout: used.layout }
         }
         Kind::Buffer(buffer) => Side::Buffer { buffer: BufferId(store.id), bytes: buffer.bytes },
     }

@@ -2,6 +2,7 @@
 
 use super::number::QUEUES;
 use super::state::Queues;
+use super::step_uses::uses_of;
 use crate::compile::model::{Adapted, StoreIndex};
 use crate::compile::scope::Scoped;
 use crate::compile::steps::NEVER;
@@ -26,10 +27,7 @@ impl Queues {
         let mut on: [Vec<u32>; QUEUES] = Default::default();
         (0..count).for_each(|step| on[self.at(step)].push(step));
         let mut beside = vec![false; spans.len()];
-        let used = |step: u32| {
-            let ops = scoped.steps[step as usize].ops().iter();
-            ops.flat_map(|op| adapted.uses(*op)).map(|used| used.store)
-        };
+        let used = |step: u32| uses_of(adapted, &scoped.steps[step as usize]).map(|used| used.store);
         for step in on[1..].iter().flatten() {
             used(*step).for_each(|store: StoreIndex| beside[store as usize] = true);
         }

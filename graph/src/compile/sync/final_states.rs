@@ -6,32 +6,16 @@
 
 use super::cell::CellState;
 use super::timeline::{States, Timeline};
-use super::walk;
 use crate::compile::history_ring::last_of_ring;
 use crate::compile::model::{Adapted, MemorySource, Store, StoreIndex};
 use crate::compile::parts::Grids;
-use crate::compile::queues::Queues;
-use crate::compile::retain::Retained;
-use crate::compile::scope::Scoped;
 use crate::compile::steps::NEVER;
 use crate::vulkan::{Accesses, Layout, Stages, State};
 use std::ops::Range;
 
-/// `timeline`: the accesses of all steps with the barriers between them, and those that final states take, before a step
-/// behind all others.
-pub(in crate::compile) fn timeline(
-    grids: &Grids,
-    adapted: &Adapted,
-    scoped: &Scoped,
-    retained: &Retained,
-    queues: Queues,
-) -> Timeline {
-    let mut timeline = walk::walk(grids, adapted, scoped, retained, queues);
-    timeline.states = states(grids, adapted, &mut timeline, scoped.steps.len() as u32);
-    timeline
-}
-
-fn states(grids: &Grids, adapted: &Adapted, timeline: &mut Timeline, export: u32) -> Vec<Option<States>> {
+/// The states around the frame of each physical resource, `None` if it lives within the frame. The accesses that final
+/// states take are added to the timeline, in the step behind all others.
+pub(super) fn states(grids: &Grids, adapted: &Adapted, timeline: &mut Timeline, export: u32) -> Vec<Option<States>> {
     let mut states: Vec<Option<States>> = vec![None; adapted.stores.len()];
     if adapted.stores.iter().all(Store::is_transient) {
         return states;

@@ -23,5 +23,5 @@ mod walk;
 pub(super) use barriers::{Barriers, barriers};
 pub(super) use batches::Batched;
 pub(super) use cell::CellBarrier;
-pub(super) use final_states::timeline;
 pub(super) use timeline::{States, Timeline};
+pub(super) use walk::timeline;

@@ -1,6 +1,7 @@
 //! The walk through the steps: what each does to each cell.
 
 use super::cell::{CellAccess, CellState};
+use super::final_states;
 use super::timeline::Timeline;
 use crate::compile::model::{Adapted, CellIndex, Role, Use};
 use crate::compile::parts::Grids;
@@ -10,8 +11,15 @@ use crate::compile::scope::{Scoped, Step, Target};
 use crate::compile::steps::NEVER;
 use crate::vulkan::{Accesses, BufferUsage, Layout, LoadOp, Stages};
 
-/// The accesses of all steps, and the barriers between them.
-pub(super) fn walk(grids: &Grids, adapted: &Adapted, scoped: &Scoped, retained: &Retained, queues: Queues) -> Timeline {
+/// `timeline`: the accesses of all steps with the barriers between them, and those that final states take, before a step
+/// behind all others.
+pub(in crate::compile) fn timeline(
+    grids: &Grids,
+    adapted: &Adapted,
+    scoped: &Scoped,
+    retained: &Retained,
+    queues: Queues,
+) -> Timeline {
     let mut walk = Walk {
         grids,
         adapted,
@@ -29,7 +37,9 @@ pub(super) fn walk(grids: &Grids, adapted: &Adapted, scoped: &Scoped, retained: 
     for (step, number) in scoped.steps.iter().zip(0_u32..) {
         walk.step(step, number, retained);
     }
-    walk.timeline
+    let Walk { mut timeline, .. } = walk;
+    timeline.states = final_states::states(grids, adapted, &mut timeline, scoped.steps.len() as u32);
+    timeline
 }
 
 struct Walk<'w> {

@@ -6,7 +6,7 @@ mod pass;
 mod transfers;
 
 use crate::base::{Diagnostic, Span};
-use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resolve, Resource, SAMPLE_COUNTS, Work};
+use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resolve, Resource, SAMPLE_COUNTS, View, Work};
 use crate::vulkan::Shape;
 use crate::vulkan::states::{Subject, When};
 use pass::{Check, clears_are_finite};
@@ -54,10 +54,10 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
     if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
-/// Whether a frame is legal that differs from a legal one in nothing but sizes and values.
+/// Whether a frame is valid that differs from a valid one in nothing but sizes and values.
 pub(super) fn still_holds(frame: &Frame) -> bool {
     let sizes = frame.images.iter().all(|image| image_problem(image).is_none());
-    if !sizes || frame.buffers.iter().any(|buffer| buffer.bytes == 0) {
+    if !sizes || frame.views.iter().any(has_no_texels) || frame.buffers.iter().any(|buffer| buffer.bytes == 0) {
         return false;
     }
     let mut errors = Vec::new();
@@ -71,10 +71,14 @@ pub(super) fn still_holds(frame: &Frame) -> bool {
     errors.is_empty()
 }
 
+fn has_no_texels(view: &View) -> bool {
+    view.extent.contains(&0)
+}
+
 /// Each view has a name of its own and a size, and each pass one of them.
 fn views(frame: &Frame, errors: &mut Vec<Diagnostic>) {
     for (number, view) in frame.views.iter().enumerate() {
-        if view.extent.contains(&0) {
+        if has_no_texels(view) {
             let [width, height] = view.extent;
             let message = format!("view `{}` is {width}×{height}; each side has at least 1 texel", view.name);
             errors.push(Diagnostic::new(view.span, message));
