@@ -38,9 +38,9 @@ fn steps(parts: &Parts<'_>) -> Vec<Step> {
         let work = match parts.scoped.steps.get(number as usize) {
             Some(Grouped::Scope(scope)) => Work::Render(Box::new(attachments::scope(parts, scope, number))),
             Some(Grouped::Single(op)) => passes::single(parts, *op),
-            Some(Grouped::Export) | None => Work::Export,
+            Some(Grouped::BarriersOnly) | None => Work::Export,
         };
-        let (queue, waits, releases) = (queues.of(number), queues.waits(number), Vec::new());
+        let (queue, waits, releases) = (queues.queue(number), queues.waits(number), Vec::new());
         Step { queue, waits, memory_barriers, image_barriers, work, releases }
     };
     let mut steps: Vec<Step> = (0..*count).map(step).collect();

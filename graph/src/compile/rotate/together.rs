@@ -14,8 +14,8 @@ pub(super) enum Hindrance {
     Wrong(Box<Diagnostic>),
 }
 
-/// Whether an image that is still upright is forwarded to another by nothing but a resolve, once both are turned: a draw would
-/// read it.
+/// Whether an image that is still upright is forwarded to another by nothing but a resolve, once both are turned: a draw
+/// would read it.
 pub(super) fn becomes(from: &Image, to: &Image, rotation: Rotation) -> bool {
     let upright = |extent: [u32; 2]| if to.rotation.turns() { rotation.extent(extent) } else { extent };
     (from.format, from.shape, from.layers, from.mips) == (to.format, to.shape, to.layers, to.mips)

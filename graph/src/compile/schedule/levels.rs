@@ -35,24 +35,24 @@ pub(super) fn by_level(
     memory: &Memory,
     mut weighed: Option<&mut Weighed>,
 ) -> Vec<u32> {
-    // For each store the first run that uses it.
-    let mut begins = vec![u32::MAX; adapted.stores.len()];
+    // For each resource the first run that uses it.
+    let mut begins = vec![u32::MAX; adapted.resources.len()];
     for run in 0..runs.len() {
         runs.for_each_use(adapted, run, |used| {
-            let first = &mut begins[used.store as usize];
+            let first = &mut begins[used.resource as usize];
             *first = run.min(*first);
         });
     }
     let mut downwards = Walk::new(accesses, runs);
-    // For each store one more than the level of its last use, as far as that is known.
-    let mut ends = vec![0_u32; adapted.stores.len()];
+    // For each resource one more than the level of its last use, as far as that is known.
+    let mut ends = vec![0_u32; adapted.resources.len()];
     for run in (0..runs.len()).rev() {
         let (lowest, highest) = (keys[run as usize], top - downwards.least(run));
         let mut sums = Sums::default();
         runs.for_each_use(adapted, run, |used| {
-            let (store, begun) = (used.store as usize, begins[used.store as usize] == run);
-            let (ended, held) = (ends[store] <= lowest + 1, ends[store] <= highest && !begun);
-            let weight = Weight { store: used.store, begun, ended, held };
+            let (resource, begun) = (used.resource as usize, begins[used.resource as usize] == run);
+            let (ended, held) = (ends[resource] <= lowest + 1, ends[resource] <= highest && !begun);
+            let weight = Weight { resource: used.resource, begun, ended, held };
             sums.add(weight, memory);
             if let Some(weighed) = &mut weighed {
                 weighed.weigh(weight);
@@ -65,7 +65,7 @@ pub(super) fn by_level(
         let level = if decision.rises { highest } else { lowest };
         runs.run(run).iter().rev().for_each(|op| downwards.put(*op, top - level));
         runs.for_each_use(adapted, run, |used| {
-            let end = &mut ends[used.store as usize];
+            let end = &mut ends[used.resource as usize];
             *end = (level + 1).max(*end);
         });
         // In a level first what ends more than it begins: what comes next then finds its memory free.
@@ -94,13 +94,13 @@ fn counting_sort(keys: &[u32], bound: u32) -> Vec<u32> {
 struct Walk<'a> {
     accesses: &'a Accesses,
     runs: &'a Runs,
-    cells: Vec<Cell>,
+    subresources: Vec<SubresourceState>,
 }
 
-/// One more than the highest level of what was done to a cell, 0 if nothing was: as in `runs`, reads in one layout don't
-/// depend on each other.
+/// One more than the highest level of what was done to a subresource, 0 if nothing was: as in `runs`, reads in one layout
+/// don't depend on each other.
 #[derive(Debug, Clone, Copy)]
-struct Cell {
+struct SubresourceState {
     before: u32,
     readers: u32,
     layout: Layout,
@@ -108,8 +108,8 @@ struct Cell {
 
 impl<'a> Walk<'a> {
     fn new(accesses: &'a Accesses, runs: &'a Runs) -> Walk<'a> {
-        let cell = Cell { before: 0, readers: 0, layout: Layout::Undefined };
-        Walk { accesses, runs, cells: vec![cell; accesses.cells] }
+        let subresource = SubresourceState { before: 0, readers: 0, layout: Layout::Undefined };
+        Walk { accesses, runs, subresources: vec![subresource; accesses.subresources] }
     }
 
     /// The least level of a run behind all that it depends on.
@@ -117,9 +117,9 @@ impl<'a> Walk<'a> {
         let mut least = 0;
         for op in self.runs.run(run) {
             for access in self.accesses.op(*op) {
-                let cell = &self.cells[access.cell as usize];
-                let joins = !access.writes && cell.layout == access.layout;
-                least = least.max(if joins { cell.before } else { cell.before.max(cell.readers) });
+                let subresource = &self.subresources[access.subresource as usize];
+                let joins = !access.writes && subresource.layout == access.layout;
+                least = least.max(if joins { subresource.before } else { subresource.before.max(subresource.readers) });
             }
         }
         least
@@ -128,14 +128,15 @@ impl<'a> Walk<'a> {
     /// Notes the level of an operation.
     fn put(&mut self, op: u32, level: u32) {
         let behind = level + 1;
-        for Access { cell, writes, layout } in self.accesses.op(op).iter().copied() {
-            let cell = &mut self.cells[cell as usize];
+        for Access { subresource, writes, layout } in self.accesses.op(op).iter().copied() {
+            let subresource = &mut self.subresources[subresource as usize];
             if writes {
-                *cell = Cell { before: behind, readers: 0, layout };
-            } else if cell.readers != 0 && cell.layout == layout {
-                cell.readers = cell.readers.max(behind);
+                *subresource = SubresourceState { before: behind, readers: 0, layout };
+            } else if subresource.readers != 0 && subresource.layout == layout {
+                subresource.readers = subresource.readers.max(behind);
             } else {
-                *cell = Cell { before: cell.before.max(cell.readers), readers: behind, layout };
+                *subresource =
+                    SubresourceState { before: subresource.before.max(subresource.readers), readers: behind, layout };
             }
         }
     }

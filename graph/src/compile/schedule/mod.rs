@@ -1,13 +1,13 @@
 //! `schedule`: the order in which operations run.
 //!
-//! An operation depends on an earlier one if both use a cell and at least one of them writes it, or if both have effects
-//! that nothing shows. Each order that keeps every operation behind those that it depends on is legal, and gives the same
-//! picture. The default order is scored by, from what counts most:
+//! An operation depends on an earlier one if both use a subresource and at least one of them writes it, or if both have
+//! effects that nothing shows. Each order that keeps every operation behind those that it depends on is valid, and gives the
+//! same picture. The default order is scored by, from what counts most:
 //!
-//! 1. *Merging* (`runs`): draws into the same attachments stand next to each other wherever that is legal. Sharing a
+//! 1. *Merging* (`runs`): draws into the same attachments stand next to each other wherever that is valid. Sharing a
 //!    rendering scope saves a store and a load of each attachment, which is more than any barrier costs.
 //! 2. *Batching and overlap* (`levels`): an operation is one level above the highest that it depends on, and levels follow
-//!    each other. All barriers between two levels fit into one call, no legal order has fewer such calls, and what follows
+//!    each other. All barriers between two levels fit into one call, no valid order has fewer such calls, and what follows
 //!    a barrier depends on nothing in its own level, so the device overlaps it.
 //! 3. *Memory*: what begins more bytes than it ends moves up to the last level that leaves the number of levels as it is,
 //!    and stands in its level behind what ends bytes. If the most that is alive at one time is still more than a fiftieth

@@ -14,14 +14,14 @@ pub(super) struct LastAccess {
     pub(super) last: u32,
 }
 
-/// The last accesses to some cells.
+/// The last accesses to some subresources.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LastAccesses {
     list: Vec<LastAccess>,
 }
 
 impl LastAccesses {
-    /// Adds the last accesses to a cell, in `step` on queue number `queue`.
+    /// Adds the last accesses to a subresource, in `step` on queue number `queue`.
     #[inline]
     pub(super) fn add(&mut self, queue: usize, stages: Stages, accesses: Accesses, step: u32) {
         let writes = accesses.writes();
