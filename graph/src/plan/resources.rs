@@ -136,7 +136,7 @@ pub struct Placement {
     pub alignment: u64,
     /// Memory types that will do, one bit each.
     pub type_bits: u32,
-    /// First and last step whose work touches it. Between them the memory is its own. Barriers for its first use may
+    /// First and last step whose work accesses it. Between them the memory is its own. Barriers for its first use may
     /// stand before an earlier step, if the previous user of the memory is done by then.
     pub lifetime: [StepId; 2],
 }

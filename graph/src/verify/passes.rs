@@ -1,8 +1,8 @@
 //! Whether each pass is well formed: what it draws or dispatches, and what it accesses.
 
+use super::accesses::{ATTACHMENT, attachments};
 use super::barriers::{check_scope, planes, possible};
 use super::structure::is_of_file;
-use super::touches::{ATTACHMENT, attachments};
 use super::work::{Check, is_read_only, is_written};
 use crate::frame::{Blend, BufferRole, Draw, Groups};
 use crate::plan::names::Shown;

@@ -1,6 +1,6 @@
 //! Groups operations, in execution order, into steps.
 
-use super::can_join::{Meeting, Refusal};
+use super::can_join::Refusal;
 use super::gain::Gain;
 use super::local;
 use super::step::{Scope, Step, colors_of, op_name, plane_of, resource_name};
@@ -92,7 +92,7 @@ impl<'a> Builder<'a> {
         let reads_locally = |scope: &Scope, used: &Use| {
             wishes && self.device.local_read && local::possible(self.frame, adapted, op, used, &scope.color)
         };
-        let neighbour = match self.steps.last() {
+        let joins = match self.steps.last() {
             Some(Step::Scope(scope)) => {
                 let most = self.device.max_color_attachments as usize;
                 let clashes = |used: &Use| {
@@ -103,12 +103,12 @@ impl<'a> Builder<'a> {
                     });
                     clashes
                 };
-                Some(scope.compare(adapted, uses, most, |used| reads_locally(scope, used), clashes))
+                scope.can_join(adapted, uses, most, |used| reads_locally(scope, used), clashes)
             }
-            _ => None,
+            _ => Err(None),
         };
-        match neighbour {
-            Some(Meeting::Merge) => {
+        match joins {
+            Ok(()) => {
                 let first = adapted.ops[op as usize].uses.start;
                 let Some(Step::Scope(scope)) = self.steps.last() else { return };
                 let local: Vec<(u32, &Use)> =
@@ -135,16 +135,10 @@ impl<'a> Builder<'a> {
                     self.explain(op);
                 }
             }
-            Some(Meeting::Apart(why)) => {
+            Err(why) => {
                 if let Some(why) = why {
                     self.refuse(op, why);
                 }
-                if wishes {
-                    self.explain(op);
-                }
-                self.open(op);
-            }
-            None => {
                 if wishes {
                     self.explain(op);
                 }

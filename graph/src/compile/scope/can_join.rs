@@ -5,13 +5,7 @@ use crate::compile::model::{Adapted, InitialContents, OpKind, PhysicalIndex, Rol
 use crate::device::Profile;
 use crate::frame::TargetShape;
 
-/// Whether a pass joins the scope before it.
-pub(super) enum Meeting {
-    Merge,
-    Apart(Option<Refusal>),
-}
-
-/// Why it doesn't.
+/// Why a pass can't join the scope before it.
 pub(super) enum Refusal {
     OtherAttachments,
     Clears(PhysicalIndex),
@@ -29,18 +23,19 @@ impl Refusal {
 }
 
 impl Scope {
-    pub(super) fn compare(
+    /// Whether a pass with these uses can join; if not, why, unless it has nothing in common with the scope.
+    pub(super) fn can_join(
         &self,
         adapted: &Adapted,
         uses: &[Use],
         most_colors: usize,
         local: impl Fn(&Use) -> bool,
         clashes: impl Fn(&Use) -> bool,
-    ) -> Meeting {
+    ) -> Result<(), Option<Refusal>> {
         let attached = |used: &Use| self.attaches(adapted, used);
         let reads_locally = uses.iter().any(&local);
         let shares = reads_locally || uses.iter().any(|used| used.role.is_attachment() && attached(used));
-        let refuse = |why| Meeting::Apart(Some(why));
+        let refuse = |why| Err(Some(why));
         let from_memory = |used: &&Use| !used.role.is_attachment() && !local(used);
         if let Some(used) = uses.iter().filter(from_memory).find(|used| self.overlaps(adapted, used)) {
             return refuse(Refusal::needing(used));
@@ -51,7 +46,7 @@ impl Scope {
             return refuse(Refusal::needing(used));
         }
         if !shares {
-            return Meeting::Apart(None);
+            return Err(None);
         }
         let same = |ours: Option<Target>, role| match (ours, plane_of(adapted, uses, role)) {
             (Some(a), Some(b)) => a == b,
@@ -87,7 +82,7 @@ impl Scope {
         }
         match self.folded_resolves().next() {
             Some(op) => refuse(Refusal::Resolved(adapted.uses(op)[0].resource)),
-            None => Meeting::Merge,
+            None => Ok(()),
         }
     }
 
