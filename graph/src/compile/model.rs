@@ -76,6 +76,15 @@ impl PhysicalResource {
         self.first_subresource..self.first_subresource + self.grid(grids).map_or(1, |grid| grid.len())
     }
 
+    /// Calls `visit` with its subresources in `range`.
+    #[inline]
+    pub(super) fn for_each_in(&self, grids: &Grids, range: Subresources, mut visit: impl FnMut(SubresourceIndex)) {
+        match self.grid(grids) {
+            None => visit(self.first_subresource),
+            Some(grid) => grid.cover(range).for_each(|part| visit(self.first_subresource + part)),
+        }
+    }
+
     /// The layout of all its planes, one of which is in `layout`.
     pub(super) fn layout_of_all_planes(&self, layout: Layout) -> Layout {
         let both = self.image().is_some_and(|image| image.format.aspects().contains(Aspects::STENCIL));
@@ -209,11 +218,7 @@ impl Adapted {
         if used.subresource != Use::SEVERAL {
             return visit(used.subresource);
         }
-        let resource = &self.resources[used.resource as usize];
-        match resource.grid(grids) {
-            None => visit(resource.first_subresource),
-            Some(grid) => grid.cover(self.range(used)).for_each(|part| visit(resource.first_subresource + part)),
-        }
+        self.resources[used.resource as usize].for_each_in(grids, self.range(used), visit);
     }
 }
 

@@ -182,11 +182,8 @@ impl Walk<'_> {
     }
 
     fn each(&mut self, target: Target, mut visit: impl FnMut(&mut Self, u32)) {
-        let resource = &self.adapted.resources[target.resource as usize];
-        match resource.grid(self.grids) {
-            None => visit(self, resource.first_subresource),
-            Some(grid) => grid.cover(target.range).for_each(|part| visit(self, resource.first_subresource + part)),
-        }
+        let (adapted, grids) = (self.adapted, self.grids);
+        adapted.resources[target.resource as usize].for_each_in(grids, target.range, |at| visit(self, at));
     }
 
     fn access(&mut self, op: u32, used: &Use) {

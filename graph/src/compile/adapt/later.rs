@@ -15,15 +15,11 @@ impl Later {
         let mut later = Later { access: vec![None; frame.images.len()], write: vec![None; frame.images.len()] };
         for number in &live.passes {
             let pass = &frame.passes[*number as usize];
-            let mut note = |image: ImageIndex, writes: bool| {
-                later.access[image.0 as usize] = Some(*number);
-                if writes {
-                    later.write[image.0 as usize] = Some(*number);
-                }
-            };
             pass.accesses().for_each(|access| {
-                if let Some(index) = access.image_index() {
-                    note(index, access.writes(pass, Some(&frame.images[index.0 as usize])));
+                let Some(ImageIndex(image)) = access.image_index() else { return };
+                later.access[image as usize] = Some(*number);
+                if access.writes(pass, Some(&frame.images[image as usize])) {
+                    later.write[image as usize] = Some(*number);
                 }
             });
         }

@@ -39,23 +39,19 @@ impl<'a> Parts<'a> {
         structure: &'a Structure,
         settled: &'a Settled,
     ) -> Parts<'a> {
-        let Structure { grids, adapted, scoped, load_store, .. } = structure;
-        let Settled { placed, barriers: sync, exact_memory, .. } = settled;
-        let subjects = Subject::of(adapted, grids);
-        let (exact_memory, nothing) = (*exact_memory, Arc::default());
         Parts {
             frame,
             device,
             structure,
-            grids,
-            adapted,
-            scoped,
-            load_store,
-            placed,
-            sync,
-            exact_memory,
-            subjects,
-            nothing,
+            grids: &structure.grids,
+            adapted: &structure.adapted,
+            scoped: &structure.scoped,
+            load_store: &structure.load_store,
+            placed: &settled.placed,
+            sync: &settled.barriers,
+            exact_memory: settled.exact_memory,
+            subjects: Subject::of(&structure.adapted, &structure.grids),
+            nothing: Arc::default(),
         }
     }
 }

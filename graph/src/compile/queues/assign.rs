@@ -8,7 +8,7 @@
 use super::crossing::Crossing;
 use super::eligible::{Bound, Eligible};
 use super::layout_changes;
-use super::number::{QUEUES, number};
+use super::number::QUEUES;
 use super::state::Queues;
 use super::step_uses::uses_of;
 use super::windows::Steps;
@@ -98,7 +98,7 @@ fn one_queue(scoped: Scoped, notes: Vec<Note>) -> Assigned {
 /// The queue that each step would leave graphics for. A transfer of what dispatches use goes to the compute queue: that
 /// saves waits.
 fn wanted(frame: &Frame, adapted: &Adapted, scoped: &Scoped, bound: &[Result<[bool; QUEUES], Bound>]) -> Vec<Queue> {
-    let [compute, transfer] = [Queue::Compute, Queue::Transfer].map(number);
+    let [compute, transfer] = [Queue::Compute, Queue::Transfer].map(|queue| queue as usize);
     let mut dispatched = vec![false; adapted.resources.len()];
     for (step, able) in scoped.steps.iter().zip(bound) {
         if able.is_ok_and(|able| able[compute]) && is_dispatch(frame, adapted, step) {
@@ -212,7 +212,7 @@ fn share(
     for (step, queue) in scoped.steps.iter().zip(of) {
         for (resource, writes, layout) in uses(adapted, step) {
             let resource = resource as usize;
-            users[resource][number(*queue)] = true;
+            users[resource][*queue as usize] = true;
             // Between frames all planes have one layout.
             let stays = adapted.resources[resource].layout_of_all_planes(layout) == layout;
             let same = layouts[resource].replace(layout).is_none_or(|other| other == layout);

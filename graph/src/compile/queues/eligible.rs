@@ -3,7 +3,7 @@
 //! Drawing, blits and resolves need a graphics queue; so do copies and fills of depth, stencil and multisampled images.
 //! A transfer queue copies, and fills buffers. Filling an image needs a compute queue at least.
 
-use super::number::{QUEUES, number};
+use super::number::QUEUES;
 use crate::compile::model::{Adapted, MemorySource, OpKind, Use};
 use crate::compile::options::Options;
 use crate::compile::scope::Step;
@@ -93,7 +93,7 @@ impl Eligible<'_> {
         let queues = [(Queue::Compute, self.device.queues.compute), (Queue::Transfer, self.device.queues.transfer)];
         for (queue, has) in queues {
             let has_stages = uses.iter().all(|used| stages(queue).contains(used.stages) && self.is_found(used, queue));
-            eligible[number(queue)] = has && has_stages && !(queue == Queue::Transfer && fills_images);
+            eligible[queue as usize] = has && has_stages && !(queue == Queue::Transfer && fills_images);
         }
         if eligible.contains(&true) { Ok(eligible) } else { Err(Bound::NoQueue) }
     }

@@ -4,7 +4,7 @@
 //! own, directly behind the write and on the queue of the write, changes the layout, and no reader waits for another one.
 
 use super::crossing::{Crossing, LayoutChange};
-use super::number::{QUEUES, number};
+use super::number::QUEUES;
 use super::step_uses::uses_of;
 use crate::compile::model::{Adapted, PhysicalIndex, SubresourceIndex};
 use crate::compile::parts::Grids;
@@ -78,7 +78,7 @@ fn candidates(
                     (subresource.layout, subresource.change) = (used.layout, behind.map(|_| next));
                 }
                 if let Some(candidate) = subresource.change.and_then(|change| candidates.get_mut(change as usize)) {
-                    candidate.readers[number(*queue)] = true;
+                    candidate.readers[*queue as usize] = true;
                 }
             });
         }

@@ -2,7 +2,7 @@
 
 use super::clocks::{Clocks, EarlierStep};
 use super::crossing::{Crossing, LayoutChange, OwnershipTransfer, QueueUses};
-use super::number::{Steps, number};
+use super::number::Steps;
 use crate::compile::model::{PhysicalIndex, SubresourceIndex};
 use crate::compile::steps::of_step;
 use crate::plan::{Queue, Wait};
@@ -57,7 +57,7 @@ impl Queues {
 
     /// The number of the queue of a step.
     pub(in crate::compile) fn queue_number(&self, step: u32) -> usize {
-        number(self.queue(step))
+        self.queue(step) as usize
     }
 
     /// How several queues share a physical resource; `None` if only one uses it.

@@ -1,6 +1,6 @@
 //! Windows: the graphics steps that can run beside each step that may leave the graphics queue.
 
-use super::number::{QUEUES, number};
+use super::number::QUEUES;
 use super::step_uses::uses_of;
 use crate::compile::model::{Adapted, Use};
 use crate::compile::parts::Grids;
@@ -43,7 +43,7 @@ impl Steps<'_> {
         // Steps of one queue follow each other.
         let mut latest = [0; QUEUES];
         for (window, queue) in windows.iter_mut().zip(self.queues) {
-            let latest = &mut latest[number(*queue)];
+            let latest = &mut latest[*queue as usize];
             *latest = window[0].max(*latest);
             window[0] = *latest;
         }

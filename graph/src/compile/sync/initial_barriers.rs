@@ -5,7 +5,7 @@
 //! (`aliasing_barriers`). Frames follow each other, so the first owner of memory comes after the last one.
 
 use super::aliasing_barriers::{AliasedWrite, Source};
-use super::last_accesses::{LastAccess, LastAccesses};
+use super::last_accesses::LastAccess;
 use super::subresource::SubresourceBarrier;
 use super::timeline::{AccessTimeline, States};
 use crate::compile::history_ring;
@@ -33,7 +33,7 @@ pub(super) fn complete(
     aliasing: &[AliasEdge],
 ) -> Initial {
     let initial = Initial { barriers, queues: timeline.queues.clone(), aliased: Vec::new() };
-    let mut completing = Completing { grids, adapted, timeline, initial, accesses: LastAccesses::default() };
+    let mut completing = Completing { grids, adapted, timeline, initial, accesses: Vec::new() };
     for (at, states) in (0..).zip(&timeline.states) {
         match states {
             Some(states) if timeline.queues.is_crossed(at) => completing.find_crossed(at, states),
@@ -56,7 +56,7 @@ struct Completing<'c> {
     timeline: &'c AccessTimeline,
     initial: Initial,
     /// The last accesses of the previous owner of memory.
-    accesses: LastAccesses,
+    accesses: Vec<LastAccess>,
 }
 
 impl Completing<'_> {
@@ -169,7 +169,7 @@ fn find_last_accesses(
     timeline: &AccessTimeline,
     resource: PhysicalIndex,
     subresources: Range<SubresourceIndex>,
-    accesses: &mut LastAccesses,
+    accesses: &mut Vec<LastAccess>,
 ) {
     let queues = &timeline.queues;
     let is_crossed = queues.is_crossed(resource);
@@ -179,10 +179,12 @@ fn find_last_accesses(
     {
         if is_crossed {
             for (queue, used) in queues.uses(subresource).by.iter().enumerate().filter(|(_, used)| used.until > 0) {
-                accesses.add(queue, used.stages, used.accesses, used.until - 1);
+                LastAccess { queue, stages: used.stages, writes: used.accesses.writes(), last: used.until - 1 }
+                    .add_to(accesses);
             }
         } else if known.is_used() {
-            accesses.add(queues.queue_number(known.last), known.stages, known.accesses, known.last);
+            let (queue, writes) = (queues.queue_number(known.last), known.accesses.writes());
+            LastAccess { queue, stages: known.stages, writes, last: known.last }.add_to(accesses);
         }
     }
 }

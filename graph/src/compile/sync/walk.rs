@@ -3,7 +3,7 @@
 use super::final_states;
 use super::subresource::{SubresourceAccess, SubresourceState};
 use super::timeline::AccessTimeline;
-use crate::compile::model::{Adapted, Role, SubresourceIndex, Use};
+use crate::compile::model::{Adapted, Role, Use};
 use crate::compile::parts::Grids;
 use crate::compile::queues::Queues;
 use crate::compile::retain::{AttachmentOps, LoadStoreOps};
@@ -128,19 +128,14 @@ impl Walk<'_> {
 
     /// Adds the accesses of load and store operations to those of the passes.
     fn also(&mut self, target: Target, stages: Stages, accesses: Accesses) {
-        let resource = &self.adapted.resources[target.resource as usize];
-        let Walk { timeline, accesses: known, .. } = self;
-        let mut add = |subresource: SubresourceIndex| {
+        let Walk { grids, adapted, timeline, accesses: known, .. } = self;
+        adapted.resources[target.resource as usize].for_each_in(grids, target.range, |subresource| {
             let at = timeline.subresources[subresource as usize].access as usize;
             if let Some(access) = known.get_mut(at).filter(|access| access.subresource == subresource) {
                 access.stages |= stages;
                 access.accesses |= accesses;
             }
-        };
-        match resource.grid(self.grids) {
-            None => add(resource.first_subresource),
-            Some(grid) => grid.cover(target.range).for_each(|part| add(resource.first_subresource + part)),
-        }
+        });
     }
 
     /// Joins the accesses of one step to one subresource. The first one says whether contents are kept.
